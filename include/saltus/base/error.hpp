@@ -1,0 +1,110 @@
+// Errors, and the small text helper their messages are built with.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <concepts>
+#include <cstddef>
+#include <limits>
+#include <memory>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace saltus {
+
+struct Results;  // simulation/results.hpp
+
+/// Base of everything Saltus throws on its own account. What a user's function throws comes out as it was.
+class Error : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// The model, the context or an option is wrong: found before the run starts.
+class ModelError : public Error {
+ public:
+  using Error::Error;
+};
+
+/// The run could not go on. Carries the time reached, the block path and the partial results.
+class SimulationError : public Error {
+ public:
+  SimulationError(const std::string& message, double time, std::string block = {})
+      : Error(message), time_(time), block_(std::move(block)) {}
+
+  double time() const noexcept { return time_; }                   ///< [s] where the run stood
+  const std::string& block() const noexcept { return block_; }     ///< path of the block at fault, or empty
+  const std::shared_ptr<const Results>& results() const noexcept { return results_; }  ///< what was computed
+  void attach(std::shared_ptr<const Results> results) { results_ = std::move(results); }
+
+ private:
+  double time_;
+  std::string block_;
+  std::shared_ptr<const Results> results_;
+};
+
+namespace detail {
+
+inline void append(std::string& out, std::string_view piece) { out += piece; }
+template <std::same_as<bool> Truth>  // a template, or string literals would come here
+void append(std::string& out, Truth piece) {
+  out += piece ? "true" : "false";
+}
+
+template <class Number>
+  requires((std::integral<Number> && !std::same_as<Number, bool>) || std::floating_point<Number>)
+void append(std::string& out, Number piece) {
+  std::array<char, 32> buffer{};
+  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), piece).ptr;
+  out.append(buffer.data(), end);
+}
+
+/// Levenshtein distance, for "did you mean".
+inline std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = std::exchange(row[0], i);
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0U : 1U);
+      diagonal = std::exchange(row[j], std::min({replaced, row[j] + 1, row[j - 1] + 1}));
+    }
+  }
+  return row.back();
+}
+
+}  // namespace detail
+
+/// Concatenates its arguments; numbers in their shortest exact form. (g++ 12 has no <format>.)
+template <class... Pieces>
+std::string text(const Pieces&... pieces) {
+  std::string out;
+  (detail::append(out, pieces), ...);
+  return out;
+}
+
+/// "'a', 'b', 'c'", cut after twelve names.
+inline std::string quoted_list(const std::vector<std::string>& names) {
+  std::string out;
+  for (std::size_t i = 0; i < names.size() && i < 12; ++i) {
+    out += text(i == 0 ? "'" : ", '", names[i], "'");
+  }
+  return names.size() > 12 ? out + ", ..." : out;
+}
+
+/// The end of a message about an unknown name: "; did you mean 'gain'? Known: 'gain', 'floor'".
+inline std::string known_names(std::string_view wrong, const std::vector<std::string>& names) {
+  if (names.empty()) return "; there are none";
+  const auto nearest = std::ranges::min_element(
+      names, {}, [&](const std::string& name) { return detail::edit_distance(wrong, name); });
+  const bool close = detail::edit_distance(wrong, *nearest) <= 1 + wrong.size() / 3;
+  return text(close ? text("; did you mean '", *nearest, "'?") : std::string(";"), " Known: ", quoted_list(names));
+}
+
+}  // namespace saltus

@@ -1,0 +1,116 @@
+// What a callback sees (At) and what a reset map or update may set (Next): maps over the machine's flat memory.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <initializer_list>
+#include <string>
+
+#include <Eigen/Core>
+
+#include "saltus/base/error.hpp"
+#include "saltus/base/ids.hpp"
+
+namespace saltus {
+
+class LeafSystem;
+
+using VectorView = Eigen::Map<const Eigen::VectorXd>;  ///< read-only column over somebody's memory
+using VectorRef = Eigen::Map<Eigen::VectorXd>;         ///< writable column over somebody's memory
+using MatrixRef = Eigen::Map<Eigen::MatrixXd>;         ///< writable matrix, column major
+
+/// Which of the machine's arrays a signal lives in. State outputs are views, never copies.
+enum class Space : int { x, z, p, y };
+
+/// Where one signal lives.
+struct Place {
+  Space space = Space::y;
+  Index offset = 0;
+  Index size = 0;
+};
+
+/// The machine's arrays at the moment of a call; `x` moves from call to call, the others do not.
+using Bases = std::array<const double*, 4>;
+
+/// The inputs of a leaf. `u[i]` is input i as a vector, `u(i)` its first entry, for scalars.
+class Inputs {
+ public:
+  Inputs(const Place* places, int count, const Bases* bases) : places_(places), count_(count), bases_(bases) {}
+
+  VectorView operator[](int i) const { return {data(i), places_[i].size}; }
+  double operator()(int i) const { return *data(i); }
+  int size() const noexcept { return count_; }
+
+ private:
+  const double* data(int i) const {
+    return (*bases_)[static_cast<std::size_t>(places_[i].space)] + places_[i].offset;
+  }
+  const Place* places_;
+  int count_;
+  const Bases* bases_;
+};
+
+/// What a leaf's callback sees of the world at one time: all of it read-only, none of it copied.
+class At {
+ public:
+  At(double t, VectorView state, VectorView discrete, VectorView parameters, int m, Inputs inputs,
+     const double* const* relations)
+      : time(t), x(state), z(discrete), p(parameters), u(inputs), mode(m), relations_(relations) {}
+
+  double time;   ///< [s]
+  VectorView x;  ///< continuous state of this leaf
+  VectorView z;  ///< discrete state of this leaf
+  VectorView p;  ///< parameters of this leaf, one after the other
+  Inputs u;      ///< inputs of this leaf
+  int mode;      ///< mode of this leaf
+
+  /// A vector parameter.
+  VectorView parameter(ParameterIndex k) const { return {p.data() + k.offset, k.size}; }
+
+  /// The truth of entry i of a relation: held between instants where it reaches a derivative, else as of now.
+  bool relation(RelationIndex r, Index i = 0) const { return relations_[r.value][i] != 0.0; }
+
+ private:
+  const double* const* relations_;
+};
+
+/// What a reset map or update says. It starts as the present state; writing is saying "I wrote this", even if
+/// the value is the one that was there.
+class Next {
+ public:
+  Next(VectorRef x, VectorRef z, int& mode, const std::string& path) : x_(x), z_(z), mode_(&mode), path_(&path) {}
+
+  void set_continuous_state(const Eigen::Ref<const Eigen::VectorXd>& x) { set(x_, x.data(), x.size(), "continuous", wrote_x_); }
+  void set_continuous_state(std::initializer_list<double> x) {
+    set(x_, x.begin(), static_cast<Index>(x.size()), "continuous", wrote_x_);
+  }
+  void set_discrete_state(const Eigen::Ref<const Eigen::VectorXd>& z) { set(z_, z.data(), z.size(), "discrete", wrote_z_); }
+  void set_discrete_state(std::initializer_list<double> z) {
+    set(z_, z.begin(), static_cast<Index>(z.size()), "discrete", wrote_z_);
+  }
+  void set_mode(int mode) {
+    *mode_ = mode;
+    wrote_mode_ = true;
+  }
+
+  bool wrote_continuous_state() const noexcept { return wrote_x_; }
+  bool wrote_discrete_state() const noexcept { return wrote_z_; }
+  bool wrote_mode() const noexcept { return wrote_mode_; }
+
+ private:
+  void set(VectorRef& target, const double* values, Index size, const char* what, bool& wrote) const {
+    if (size != target.size()) {
+      throw ModelError(text("block '", *path_, "': expected ", target.size(), " values for the ", what,
+                            " state, found ", size, "; set all of it at once"));
+    }
+    std::copy_n(values, size, target.data());
+    wrote = true;
+  }
+
+  VectorRef x_, z_;
+  int* mode_;
+  const std::string* path_;
+  bool wrote_x_ = false, wrote_z_ = false, wrote_mode_ = false;
+};
+
+}  // namespace saltus

@@ -1,0 +1,24 @@
+// y = f(u), elementwise: any C++ callable from a number to a number or a bool.
+// in: any width. out: the same; boolean if f returns bool, and then opaque as in a ReduceBlock.
+#pragma once
+
+#include "saltus/library/callable.hpp"
+
+namespace saltus {
+
+class FunctionBlock final : public LeafSystem {
+ public:
+  template <std::invocable<double> Function>
+  FunctionBlock(std::string name, Function function) : LeafSystem(std::move(name)) {
+    using Result = std::invoke_result_t<const Function&, double>;
+    declare_input_port({.name = "in"});
+    const auto map = [function = std::move(function)](const At& at, VectorRef out) {
+      const VectorView u = at.u[0];
+      for (Index i = 0; i < out.size(); ++i) out[i] = static_cast<double>(function(u[i]));
+    };
+    declare_output_port({.name = "out", .calc = map, .shape = {}, .shape_rule = elementwise, .reads = Reads::inputs,
+                         .boolean = detail::Truth<Result>});
+  }
+};
+
+}  // namespace saltus

@@ -1,0 +1,34 @@
+// y = (u_0; u_1; ...): the inputs one after the other.
+// in_0, in_1, ...: any widths. out: a vector of their total width.
+#pragma once
+
+#include "saltus/library/arguments.hpp"
+
+namespace saltus {
+
+class Multiplexer final : public LeafSystem {
+ public:
+  Multiplexer(std::string name, int n_inputs) : LeafSystem(std::move(name)) {
+    detail::require_count(this->name(), "input", n_inputs, 1);
+    for (int k = 0; k < n_inputs; ++k) declare_input_port();
+    declare_output_port({.name = "out", .calc = &Multiplexer::join, .shape = {}, .shape_rule = &Multiplexer::total,
+                         .reads = Reads::inputs});
+  }
+
+ private:
+  static Shape total(std::span<const Shape> inputs) {
+    Index size = 0;
+    for (const Shape& shape : inputs) size += shape.size;
+    return Shape::of(size);
+  }
+  void join(const At& at, VectorRef out) const {
+    Index offset = 0;
+    for (int k = 0; k < at.u.size(); ++k) {
+      const VectorView u = at.u[k];
+      out.segment(offset, u.size()) = u;
+      offset += u.size();
+    }
+  }
+};
+
+}  // namespace saltus

@@ -1,0 +1,183 @@
+// Context: all values of a system at one time, as one regular value.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "saltus/base/error.hpp"
+#include "saltus/base/ids.hpp"
+
+namespace saltus {
+
+/// Where the values of each leaf stand in a context. Shared by all contexts of one system.
+struct Layout {
+  struct Parameter {
+    std::string name;
+    Index offset = 0;  // within the leaf
+    Index size = 1;
+  };
+  struct Leaf {
+    std::string path;
+    Index x = 0, nx = 0, z = 0, nz = 0, p = 0, np = 0;
+    std::vector<Parameter> parameters;
+  };
+  struct Range {  // the leaves of one system: [first, last)
+    SystemId id;
+    std::string path;
+    std::size_t first = 0, last = 0;
+  };
+  std::vector<Leaf> leaves;
+  std::vector<Range> systems;
+};
+
+/// Time t [s], continuous state x, discrete state z, a mode per leaf, parameters p. A value: every `with_*`
+/// returns a new context and leaves the old one, and the system, unchanged.
+/// Throws ModelError for a wrong size, a value that is not finite, an unknown parameter or an unknown system.
+class Context {
+ public:
+  Context() = default;
+  explicit Context(std::shared_ptr<const Layout> layout) : layout_(std::move(layout)) {}
+
+  double time() const noexcept { return time_; }
+  const Eigen::VectorXd& continuous_state() const noexcept { return x_; }
+  const Eigen::VectorXd& discrete_state() const noexcept { return z_; }
+  const Eigen::VectorXd& parameters() const noexcept { return p_; }
+  const std::vector<int>& modes() const noexcept { return modes_; }
+  int mode() const;  ///< of a context of one leaf
+  const Layout& layout() const { return *layout_; }
+
+  /// True where the events at exactly `time()` have happened already: a run that ended here.
+  bool settled() const noexcept { return settled_; }
+
+  Context with_time(double t) const;
+  Context with_continuous_state(const Eigen::VectorXd& x) const;
+  Context with_discrete_state(const Eigen::VectorXd& z) const;
+  Context with_mode(int mode) const;
+  /// A parameter by name, in a diagram by path: "ball.g". A scalar for a vector parameter fills it.
+  Context with_parameter(std::string_view name, const Eigen::VectorXd& value) const;
+  Context with_parameter(std::string_view name, double value) const;
+  Eigen::VectorXd parameter(std::string_view name) const;
+
+  /// The context of one system inside this one, leaf or diagram.
+  Context operator[](SystemId id) const;
+  /// This context with the values of one system replaced.
+  Context with_subcontext(SystemId id, const Context& part) const;
+
+ private:
+  friend class LeafSystem;
+  friend class System;
+  friend class Machine;
+
+  const Layout::Range& range(SystemId id) const;
+  std::pair<const Layout::Leaf*, const Layout::Parameter*> find_parameter(std::string_view name) const;
+  static void replace(Eigen::VectorXd& values, const Eigen::VectorXd& with, std::string_view what);
+
+  std::shared_ptr<const Layout> layout_;
+  double time_ = 0.0;
+  Eigen::VectorXd x_, z_, p_;
+  std::vector<int> modes_;
+  bool settled_ = false;
+};
+
+namespace detail {
+
+inline void require_finite(const Eigen::VectorXd& values, std::string_view what) {
+  for (Index i = 0; i < values.size(); ++i) {
+    if (!std::isfinite(values[i])) {
+      throw ModelError(text(what, ": entry ", i, " is ", values[i], "; give a finite value"));
+    }
+  }
+}
+
+}  // namespace detail
+
+inline void Context::replace(Eigen::VectorXd& values, const Eigen::VectorXd& with, std::string_view what) {
+  if (values.size() != with.size()) {
+    throw ModelError(text(what, ": expected ", values.size(), " values, found ", with.size()));
+  }
+  detail::require_finite(with, what);
+  values = with;
+}
+
+inline int Context::mode() const {
+  if (modes_.size() != 1) throw ModelError("mode(): this is the context of several blocks; take context[id] first");
+  return modes_.front();
+}
+
+inline Context Context::with_time(double t) const {
+  if (!std::isfinite(t)) throw ModelError(text("time: ", t, " is not finite"));
+  Context next = *this;
+  next.time_ = t;
+  next.settled_ = false;
+  return next;
+}
+
+inline Context Context::with_continuous_state(const Eigen::VectorXd& x) const {
+  Context next = *this;
+  replace(next.x_, x, "continuous state");
+  return next;
+}
+
+inline Context Context::with_discrete_state(const Eigen::VectorXd& z) const {
+  Context next = *this;
+  replace(next.z_, z, "discrete state");
+  return next;
+}
+
+inline Context Context::with_mode(int mode) const {
+  if (modes_.size() != 1) throw ModelError("with_mode: this is the context of several blocks; take context[id] first");
+  Context next = *this;
+  next.modes_.front() = mode;
+  return next;
+}
+
+inline std::pair<const Layout::Leaf*, const Layout::Parameter*> Context::find_parameter(std::string_view name) const {
+  std::vector<std::string> known;
+  for (const auto& leaf : layout_->leaves) {
+    for (const auto& parameter : leaf.parameters) {
+      const std::string full = layout_->leaves.size() == 1 ? parameter.name : leaf.path + "." + parameter.name;
+      if (full == name) return {&leaf, &parameter};
+      known.push_back(full);
+    }
+  }
+  throw ModelError(text("unknown parameter '", name, "'", known_names(name, known)));
+}
+
+inline Context Context::with_parameter(std::string_view name, const Eigen::VectorXd& value) const {
+  const auto [leaf, parameter] = find_parameter(name);
+  detail::require_finite(value, text("parameter '", name, "'"));
+  if (value.size() != 1 && value.size() != parameter->size) {
+    throw ModelError(text("parameter '", name, "': expected ", parameter->size, " values, found ", value.size()));
+  }
+  Context next = *this;
+  for (Index i = 0; i < parameter->size; ++i) {
+    next.p_[leaf->p + parameter->offset + i] = value[value.size() == 1 ? 0 : i];
+  }
+  return next;
+}
+
+inline Context Context::with_parameter(std::string_view name, double value) const {
+  return with_parameter(name, Eigen::VectorXd::Constant(1, value));
+}
+
+inline Eigen::VectorXd Context::parameter(std::string_view name) const {
+  const auto [leaf, parameter] = find_parameter(name);
+  return p_.segment(leaf->p + parameter->offset, parameter->size);
+}
+
+inline const Layout::Range& Context::range(SystemId id) const {
+  std::vector<std::string> known;
+  for (const auto& system : layout_->systems) {
+    if (system.id == id) return system;
+    known.push_back(text(system.path, " (", system.id.value, ")"));
+  }
+  throw ModelError(text("no system with id ", id.value, " in this context. Known: ", quoted_list(known)));
+}
+
+}  // namespace saltus
+
+#include "saltus/model/subcontext.hpp"

@@ -1,0 +1,159 @@
+// What the declare_* methods of LeafSystem do and refuse, and how a context is made from declarations.
+#pragma once
+
+#include <cmath>
+
+#include "saltus/model/leaf_system.hpp"
+
+namespace saltus {
+
+namespace detail {
+
+template <class List>
+std::vector<std::string> names_of(const List& list) {
+  std::vector<std::string> names;
+  for (const auto& item : list) names.push_back(item.name);
+  return names;
+}
+
+/// Gives a nameless declaration a name, and refuses a second one of the same name.
+template <class List>
+void name_it(std::string& name, const List& others, std::string_view prefix, const std::string& block) {
+  if (name.empty()) name = text(prefix, others.size());
+  for (const auto& other : others) {
+    if (other.name == name) throw ModelError(text("block '", block, "': the name '", name, "' is declared twice"));
+  }
+}
+
+}  // namespace detail
+
+inline std::vector<std::string> LeafSystem::input_names() const { return detail::names_of(declared_.inputs); }
+inline std::vector<std::string> LeafSystem::output_names() const { return detail::names_of(declared_.outputs); }
+
+inline void LeafSystem::collect(Structure& out, const std::string& path) const {
+  const std::string known_as = path.empty() ? name() : path;
+  out.systems.push_back({system_id(), known_as, out.leaves.size(), out.leaves.size() + 1});
+  out.leaves.push_back({this, known_as});
+}
+
+inline void LeafSystem::declare_continuous_state(ContinuousState state) {
+  if (declared_.continuous.initial.size() > 0) {
+    throw ModelError(text("block '", name(), "': the continuous state is declared twice; declare it once, as one vector"));
+  }
+  detail::require_finite(state.initial, text("block '", name(), "': initial continuous state"));
+  if (!state.jacobian) state.jacobian = declared_.continuous.jacobian;
+  declared_.continuous = std::move(state);
+}
+
+inline void LeafSystem::declare_discrete_state(const Eigen::VectorXd& initial) {
+  if (declared_.discrete.size() > 0) {
+    throw ModelError(text("block '", name(), "': the discrete state is declared twice; declare it once, as one vector"));
+  }
+  detail::require_finite(initial, text("block '", name(), "': initial discrete state"));
+  declared_.discrete = initial;
+}
+
+inline void LeafSystem::declare_default_mode(int mode) {
+  declared_.mode = mode;
+  declared_.has_modes = true;
+}
+
+inline ParameterIndex LeafSystem::declare_dynamic_parameter(std::string parameter, const Eigen::VectorXd& value) {
+  detail::name_it(parameter, declared_.parameters, "parameter_", name());
+  detail::require_finite(value, text("block '", name(), "': parameter '", parameter, "'"));
+  const ParameterIndex index{declared_.parameter_values.size(), value.size()};
+  declared_.parameters.push_back({std::move(parameter), index.offset, index.size});
+  declared_.parameter_values.conservativeResize(index.offset + index.size);
+  declared_.parameter_values.tail(index.size) = value;
+  return index;
+}
+
+inline int LeafSystem::declare_input_port(InputDeclaration input) {
+  detail::name_it(input.name, declared_.inputs, "in_", name());
+  declared_.inputs.push_back(std::move(input));
+  return static_cast<int>(declared_.inputs.size()) - 1;
+}
+
+inline int LeafSystem::declare_output_port(OutputDeclaration output) {
+  detail::name_it(output.name, declared_.outputs, "out_", name());
+  if (!output.calc && !output.view) {
+    throw ModelError(text("block '", name(), "': output '", output.name, "' has no function that computes it"));
+  }
+  declared_.outputs.push_back(std::move(output));
+  return static_cast<int>(declared_.outputs.size()) - 1;
+}
+
+inline int LeafSystem::declare_continuous_state_output(std::string port) {
+  const Index n = declared_.continuous.initial.size();
+  return declare_output_port({.name = std::move(port), .shape = Shape::of(n), .reads = Reads::continuous_state,
+                              .view = Place{Space::x, 0, n}});
+}
+
+inline int LeafSystem::declare_discrete_state_output(std::string port) {
+  const Index n = declared_.discrete.size();
+  return declare_output_port({.name = std::move(port), .shape = Shape::of(n), .reads = Reads::discrete_state,
+                              .view = Place{Space::z, 0, n}});
+}
+
+inline int LeafSystem::declare_mode_output(std::string port) {
+  return declare_output_port(
+      {.name = std::move(port), .calc = [](const At& at) { return at.mode; }, .reads = Reads::mode});
+}
+
+inline int LeafSystem::declare_zero_crossing(ZeroCrossing crossing) {
+  detail::name_it(crossing.name, declared_.zero_crossings, "zero_crossing_", name());
+  if (!crossing.guard) throw ModelError(text("block '", name(), "': zero crossing '", crossing.name, "' has no guard"));
+  if (crossing.zeno_tolerance && !(*crossing.zeno_tolerance >= 0.0)) {
+    throw ModelError(text("block '", name(), "': zero crossing '", crossing.name, "': zeno_tolerance ",
+                          *crossing.zeno_tolerance, " is not a time >= 0 s"));
+  }
+  declared_.zero_crossings.push_back(std::move(crossing));
+  return static_cast<int>(declared_.zero_crossings.size()) - 1;
+}
+
+inline RelationIndex LeafSystem::declare_relation(Relation relation) {
+  detail::name_it(relation.name, declared_.relations, "relation_", name());
+  declared_.relations.push_back(std::move(relation));
+  return {static_cast<int>(declared_.relations.size()) - 1};
+}
+
+inline void LeafSystem::declare_periodic_update(ResetMap update, double period, double offset, std::string event) {
+  detail::name_it(event, declared_.time_events, "periodic_", name());
+  if (!(period > 0.0) || !std::isfinite(offset)) {
+    throw ModelError(text("block '", name(), "': periodic update '", event, "': period ", period, " s, offset ", offset,
+                          " s; expected period > 0 and a finite offset"));
+  }
+  declared_.time_events.push_back({.name = std::move(event), .update = std::move(update), .period = period, .offset = offset});
+}
+
+inline void LeafSystem::declare_one_shot(double time, ResetMap update, std::string event) {
+  detail::name_it(event, declared_.time_events, "one_shot_", name());
+  if (!std::isfinite(time)) throw ModelError(text("block '", name(), "': time event '", event, "' at ", time, " s"));
+  declared_.time_events.push_back({.name = std::move(event), .update = std::move(update), .offset = time});
+}
+
+inline Context System::create_context(double t) const {
+  const Structure structure = structure_of(*this);
+  auto layout = std::make_shared<Layout>();
+  layout->systems = structure.systems;
+  Index nx = 0, nz = 0, np = 0;
+  for (const auto& [leaf, path] : structure.leaves) {
+    const Declarations& d = leaf->declarations();
+    layout->leaves.push_back({path, nx, d.continuous.initial.size(), nz, d.discrete.size(), np,
+                              d.parameter_values.size(), d.parameters});
+    nx += d.continuous.initial.size(), nz += d.discrete.size(), np += d.parameter_values.size();
+  }
+  Context context(layout);
+  context.x_.resize(nx), context.z_.resize(nz), context.p_.resize(np);
+  for (std::size_t i = 0; i < structure.leaves.size(); ++i) {
+    const Declarations& d = structure.leaves[i].system->declarations();
+    const Layout::Leaf& where = layout->leaves[i];
+    context.x_.segment(where.x, where.nx) = d.continuous.initial;
+    context.z_.segment(where.z, where.nz) = d.discrete;
+    context.p_.segment(where.p, where.np) = d.parameter_values;
+    context.modes_.push_back(d.mode);
+  }
+  return context.with_time(t);
+}
+
+}  // namespace saltus

@@ -1,0 +1,84 @@
+// Ports: a place to connect, with a shape and what the value behind it reads.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "saltus/base/callback.hpp"
+#include "saltus/base/view.hpp"
+
+namespace saltus {
+
+class System;
+
+/// Size of a signal; a scalar stays a scalar in the results, a vector of one entry stays a vector.
+struct Shape {
+  Index size = 1;
+  bool vector = false;
+  bool operator==(const Shape&) const = default;
+
+  static constexpr Shape scalar() { return {1, false}; }
+  static constexpr Shape of(Index n) { return {n, true}; }
+};
+
+/// Shape of an output from the shapes of all inputs, where it is not fixed.
+using ShapeRule = std::function<Shape(std::span<const Shape>)>;
+
+/// Element by element, a scalar stretched to the width of the others: Gain, Adder, Abs.
+inline Shape elementwise(std::span<const Shape> inputs) {
+  Shape result = Shape::scalar();
+  for (const Shape& shape : inputs) {
+    if (shape.vector && (!result.vector || result.size == 1)) result = shape;
+  }
+  return result;
+}
+
+/// What a value depends on. It decides how often it is computed: see `Rate`.
+enum class Reads : unsigned {
+  parameters = 0,          ///< nothing that changes during a run
+  time = 1,
+  continuous_state = 2,
+  discrete_state = 4,
+  mode = 8,
+  inputs = 16,
+  relations = 32,
+  schedule = 64,           ///< the time, but changing at the leaf's own time events only
+  everything = 63,
+};
+constexpr Reads operator|(Reads a, Reads b) {
+  return static_cast<Reads>(static_cast<unsigned>(a) | static_cast<unsigned>(b));
+}
+constexpr bool has(Reads set, Reads one) { return (static_cast<unsigned>(set) & static_cast<unsigned>(one)) != 0; }
+
+struct InputDeclaration {
+  std::string name = {};
+  std::optional<Shape> shape = {};  ///< empty: takes whatever is connected
+};
+
+struct OutputDeclaration {
+  std::string name = {};
+  VectorFunction calc = {};                     ///< empty for a view of a state or of parameters
+  std::optional<Shape> shape = Shape::scalar();
+  ShapeRule shape_rule = {};                    ///< used where `shape` is empty
+  Reads reads = Reads::everything;
+  std::optional<std::vector<int>> inputs = {};  ///< feedthrough: the inputs it reads; all if not said
+  bool boolean = false;                         ///< 0 or 1; held by bisection where it reaches a derivative
+  std::optional<Place> view = {};               ///< a state or parameter shown as it is, never copied
+};
+
+/// An output port of a system, to connect or to record.
+struct OutputPort {
+  const System* system = nullptr;
+  int index = 0;
+};
+
+/// An input port of a system.
+struct InputPort {
+  const System* system = nullptr;
+  int index = 0;
+};
+
+}  // namespace saltus

@@ -1,0 +1,76 @@
+// context[id] and with_subcontext: cutting one system's values out of a context and splicing them back.
+#pragma once
+
+#include "saltus/model/context.hpp"
+
+namespace saltus {
+
+namespace detail {
+
+/// First entry and number of entries of the leaves [first, last) in one of the flat arrays.
+template <class Offset, class Size>
+std::pair<Index, Index> extent(const Layout& layout, const Layout::Range& range, Offset offset, Size size) {
+  if (range.first == range.last) return {0, 0};
+  Index count = 0;
+  for (std::size_t i = range.first; i < range.last; ++i) count += layout.leaves[i].*size;
+  return {layout.leaves[range.first].*offset, count};
+}
+
+/// The layout of a part: the same leaves with offsets that start at zero.
+inline std::shared_ptr<const Layout> part_layout(const Layout& whole, const Layout::Range& range) {
+  auto part = std::make_shared<Layout>();
+  const Layout::Leaf origin = range.first < range.last ? whole.leaves[range.first] : Layout::Leaf{};
+  const std::string prefix = range.last - range.first == 1 && origin.path == range.path ? "" : range.path + ".";
+  for (std::size_t i = range.first; i < range.last; ++i) {
+    Layout::Leaf leaf = whole.leaves[i];
+    leaf.x -= origin.x, leaf.z -= origin.z, leaf.p -= origin.p;
+    if (!prefix.empty() && leaf.path.starts_with(prefix)) leaf.path.erase(0, prefix.size());
+    part->leaves.push_back(std::move(leaf));
+  }
+  for (Layout::Range inner : whole.systems) {
+    if (inner.first < range.first || inner.last > range.last) continue;
+    inner.first -= range.first, inner.last -= range.first;
+    part->systems.push_back(std::move(inner));
+  }
+  return part;
+}
+
+}  // namespace detail
+
+inline Context Context::operator[](SystemId id) const {
+  const Layout::Range& where = range(id);
+  using Leaf = Layout::Leaf;
+  const auto [x, nx] = detail::extent(*layout_, where, &Leaf::x, &Leaf::nx);
+  const auto [z, nz] = detail::extent(*layout_, where, &Leaf::z, &Leaf::nz);
+  const auto [p, np] = detail::extent(*layout_, where, &Leaf::p, &Leaf::np);
+  Context part(detail::part_layout(*layout_, where));
+  part.time_ = time_;
+  part.settled_ = settled_;
+  part.x_ = x_.segment(x, nx);
+  part.z_ = z_.segment(z, nz);
+  part.p_ = p_.segment(p, np);
+  part.modes_.assign(modes_.begin() + static_cast<std::ptrdiff_t>(where.first),
+                     modes_.begin() + static_cast<std::ptrdiff_t>(where.last));
+  return part;
+}
+
+inline Context Context::with_subcontext(SystemId id, const Context& part) const {
+  const Layout::Range& where = range(id);
+  using Leaf = Layout::Leaf;
+  const auto [x, nx] = detail::extent(*layout_, where, &Leaf::x, &Leaf::nx);
+  const auto [z, nz] = detail::extent(*layout_, where, &Leaf::z, &Leaf::nz);
+  const auto [p, np] = detail::extent(*layout_, where, &Leaf::p, &Leaf::np);
+  if (part.x_.size() != nx || part.z_.size() != nz || part.p_.size() != np) {
+    throw ModelError(text("with_subcontext: the context given is not one of '", where.path, "': expected ", nx,
+                          " continuous and ", nz, " discrete states and ", np, " parameters, found ", part.x_.size(),
+                          ", ", part.z_.size(), " and ", part.p_.size()));
+  }
+  Context next = *this;
+  next.x_.segment(x, nx) = part.x_;
+  next.z_.segment(z, nz) = part.z_;
+  next.p_.segment(p, np) = part.p_;
+  std::copy(part.modes_.begin(), part.modes_.end(), next.modes_.begin() + static_cast<std::ptrdiff_t>(where.first));
+  return next;
+}
+
+}  // namespace saltus

@@ -1,0 +1,149 @@
+// Machine: the flat memory of one run, and the walks over the plan's lists.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "saltus/plan/compile.hpp"
+
+namespace saltus {
+
+/// x, z, p, modes and signals of one run. Threads share a plan; each has a machine of its own.
+/// Nothing here allocates after construction.
+class Machine {
+ public:
+  explicit Machine(std::shared_ptr<const Plan> plan);
+
+  /// Copies a context in and computes the constant outputs.
+  void load(const Context& context);
+  /// The values of now, as a context of the same layout.
+  Context save(const Context& like, double t) const;
+
+  /// xdot(t, x), everything else held as it is.
+  void derivative(double t, const double* state, double* xdot) {
+    ++rhs_calls;
+    bases_[0] = state;
+    run(derivative_calls_, t);
+    for (const OdeCall& ode : odes_) ode_of(ode, t, xdot);
+  }
+
+  /// All guards that can fire now, into their slots of g.
+  void guards(double t, const double* state, double* g) {
+    ++guard_calls;
+    bases_[0] = state;
+    run(guard_calls_list_, t);
+    for (int i : active_) guard(groups_[static_cast<std::size_t>(i)], t, g);
+  }
+
+  /// Computes the held outputs and what resets, updates and edges read, at (t, x) of the machine.
+  void evaluate_instant(double t) {
+    at_home();
+    run(instant_calls_, t);
+  }
+  /// Computes what the recorded rows show, at (t, x).
+  void evaluate_taps(double t, const double* state) {
+    bases_[0] = state;
+    run(tap_calls_, t);
+  }
+
+  /// What leaf i sees at time t; its continuous state from the last (t, x) asked for.
+  At at(std::size_t leaf, double t) const { return at(frames_[leaf], t); }
+  /// Makes `at` see the machine's own x again.
+  void at_home() { bases_[0] = x.data(); }
+
+  /// Block-diagonal Jacobian d(xdot)/d(x) from the leaves' own, where the plan allows it.
+  bool has_jacobian() const noexcept { return has_jacobian_; }
+  void jacobian(double t, const double* state, MatrixRef out);
+
+  /// Chooses the guards that can fire in the present modes.
+  void select_guards();
+  const std::vector<int>& active_guards() const noexcept { return active_; }
+
+  const double* value(const Place& place) const { return bases_[static_cast<std::size_t>(place.space)] + place.offset; }
+  double* signal(int node) { return y.data() + plan_->node(node).place.offset; }
+  bool truth(int node) const { return *value(plan_->node(node).place) != 0.0; }
+  const Plan& plan() const noexcept { return *plan_; }
+
+  /// The first block whose output or derivative is not finite at (t, x); empty if all are.
+  std::string not_finite(double t, const double* state);
+
+  Eigen::VectorXd x, z, p, y;
+  std::vector<int> modes;
+  std::vector<char> held;  ///< leaves on Zeno hold: zero derivative
+  std::int64_t rhs_calls = 0, guard_calls = 0, jacobian_calls = 0;
+
+ private:
+  struct Frame {  // what `at` needs to know of a leaf
+    Index x, nx, z, nz, p, np;
+    const Place* inputs;
+    int input_count;
+    std::size_t leaf, relations;
+  };
+  struct Call {
+    const VectorFunction* function;
+    const LeafSystem* system;
+    std::size_t leaf;
+    Index offset, size;
+    bool relation, true_at_zero;
+  };
+  struct OdeCall {
+    const VectorFunction* function;
+    const LeafSystem* system;
+    std::size_t leaf;
+  };
+  struct GroupCall {
+    const VectorFunction* function;
+    const LeafSystem* system;
+    std::size_t leaf;
+    Index slot, size;
+    bool opaque;
+  };
+
+  At at(const Frame& f, double t) const {
+    return {t, {bases_[0] + f.x, f.nx}, {bases_[1] + f.z, f.nz}, {bases_[2] + f.p, f.np}, modes[f.leaf],
+            {f.inputs, f.input_count, &bases_}, relation_values_.data() + f.relations};
+  }
+  void run(const std::vector<Call>& calls, double t) {
+    for (const Call& call : calls) {
+      const VectorRef out(y.data() + call.offset, call.size);
+      (*call.function)(*call.system, at(frames_[call.leaf], t), out);
+      if (call.relation) make_truth(out, call.true_at_zero);
+    }
+  }
+  static void make_truth(VectorRef values, bool at_zero) {
+    for (double& value : values) value = value > 0.0 || (at_zero && value == 0.0) ? 1.0 : 0.0;
+  }
+  void ode_of(const OdeCall& ode, double t, double* xdot) {
+    const Frame& frame = frames_[ode.leaf];
+    const VectorRef out(xdot + frame.x, frame.nx);
+    if (held[ode.leaf] || !*ode.function) {
+      VectorRef(out).setZero();
+    } else {
+      (*ode.function)(*ode.system, at(frame, t), out);
+    }
+  }
+  void guard(const GroupCall& group, double t, double* g) {
+    const VectorRef out(g + group.slot, group.size);
+    (*group.function)(*group.system, at(frames_[group.leaf], t), out);
+    if (!group.opaque) return;
+    for (double& value : VectorRef(out)) value = value != 0.0 ? 1.0 : -1.0;
+  }
+  std::vector<Call> calls_of(const std::vector<int>& nodes) const;
+  void find_jacobian();
+
+  std::shared_ptr<const Plan> plan_;
+  Bases bases_{};
+  std::vector<Frame> frames_;
+  std::vector<const double*> relation_values_;
+  std::vector<Call> constant_calls_, instant_calls_, derivative_calls_, guard_calls_list_, tap_calls_;
+  std::vector<OdeCall> odes_;
+  std::vector<GroupCall> groups_;
+  std::vector<int> active_;
+  bool has_jacobian_ = false;
+};
+
+}  // namespace saltus
+
+#include "saltus/plan/machine_setup.hpp"

@@ -1,0 +1,136 @@
+// Machine: construction, loading and saving a context, the Jacobian, and the search for what is not finite.
+#pragma once
+
+#include "saltus/plan/machine.hpp"
+
+namespace saltus {
+
+inline std::vector<Machine::Call> Machine::calls_of(const std::vector<int>& nodes) const {
+  std::vector<Call> calls;
+  for (int i : nodes) {
+    const Node& node = plan_->node(i);
+    const VectorFunction& function = node.relation ? plan_->relation_of(node).guard : plan_->output_of(node).calc;
+    calls.push_back({&function, plan_->leaf_of(node).system, static_cast<std::size_t>(node.leaf), node.place.offset,
+                     node.place.size, node.relation, node.relation && plan_->relation_of(node).true_at_zero});
+  }
+  return calls;
+}
+
+inline Machine::Machine(std::shared_ptr<const Plan> plan) : plan_(std::move(plan)) {
+  x.setZero(plan_->nx), z.setZero(plan_->nz), p.setZero(plan_->np), y.setZero(plan_->ny);
+  modes.assign(plan_->leaves.size(), 0);
+  held.assign(plan_->leaves.size(), 0);
+  bases_ = {x.data(), z.data(), p.data(), y.data()};
+  for (std::size_t i = 0; i < plan_->leaves.size(); ++i) {
+    const PlanLeaf& leaf = plan_->leaves[i];
+    frames_.push_back({leaf.x, leaf.nx, leaf.z, leaf.nz, leaf.p, leaf.np, leaf.input_places.data(),
+                       static_cast<int>(leaf.input_places.size()), i, relation_values_.size()});
+    for (int node : leaf.relations) relation_values_.push_back(signal(node));
+  }
+  constant_calls_ = calls_of(plan_->constants);
+  instant_calls_ = calls_of(plan_->instants);
+  derivative_calls_ = calls_of(plan_->derivatives);
+  guard_calls_list_ = calls_of(plan_->guard_needs);
+  tap_calls_ = calls_of(plan_->tap_needs);
+  for (int leaf : plan_->odes) {
+    const PlanLeaf& of = plan_->leaves[static_cast<std::size_t>(leaf)];
+    odes_.push_back({&of.declared().continuous.ode, of.system, static_cast<std::size_t>(leaf)});
+  }
+  for (const GuardGroup& group : plan_->guards) {
+    const PlanLeaf& leaf = plan_->leaves[static_cast<std::size_t>(group.leaf)];
+    const bool crossing = group.kind == GuardGroup::Kind::crossing;
+    const VectorFunction& function =
+        crossing ? leaf.declared().zero_crossings[static_cast<std::size_t>(group.index)].guard
+        : group.kind == GuardGroup::Kind::relation ? plan_->relation_of(plan_->node(group.index)).guard
+                                                   : plan_->output_of(plan_->node(group.index)).calc;
+    groups_.push_back({&function, leaf.system, static_cast<std::size_t>(group.leaf), group.slot, group.size,
+                       group.kind == GuardGroup::Kind::opaque});
+  }
+  find_jacobian();
+  select_guards();
+}
+
+inline void Machine::load(const Context& context) {
+  if (context.continuous_state().size() != plan_->nx || context.discrete_state().size() != plan_->nz ||
+      context.parameters().size() != plan_->np || context.modes().size() != plan_->leaves.size()) {
+    throw ModelError(text("the context is not one of this system: expected ", plan_->nx, " continuous and ", plan_->nz,
+                          " discrete states and ", plan_->np, " parameters, found ", context.continuous_state().size(),
+                          ", ", context.discrete_state().size(), " and ", context.parameters().size()));
+  }
+  x = context.continuous_state();
+  z = context.discrete_state();
+  p = context.parameters();
+  modes = context.modes();
+  std::ranges::fill(held, 0);
+  y.setZero();
+  rhs_calls = guard_calls = jacobian_calls = 0;
+  at_home();
+  run(constant_calls_, context.time());
+  select_guards();
+}
+
+inline Context Machine::save(const Context& like, double t) const {
+  Context context = like;
+  context.x_ = x;
+  context.z_ = z;
+  context.modes_ = modes;
+  context.time_ = t;
+  context.settled_ = true;
+  return context;
+}
+
+inline void Machine::select_guards() {
+  active_.clear();
+  for (std::size_t i = 0; i < plan_->guards.size(); ++i) {
+    const GuardGroup& group = plan_->guards[i];
+    const auto leaf = static_cast<std::size_t>(group.leaf);
+    if (group.kind == GuardGroup::Kind::crossing) {
+      const auto& crossing = plan_->leaves[leaf].declared().zero_crossings[static_cast<std::size_t>(group.index)];
+      if (crossing.start_mode && *crossing.start_mode != modes[leaf]) continue;
+    }
+    active_.push_back(static_cast<int>(i));
+  }
+}
+
+/// The leaves' Jacobians make up the whole one if no derivative depends on another leaf's continuous state.
+inline void Machine::find_jacobian() {
+  has_jacobian_ = !plan_->odes.empty() && plan_->derivatives.empty();
+  for (int leaf : plan_->odes) {
+    const PlanLeaf& of = plan_->leaves[static_cast<std::size_t>(leaf)];
+    has_jacobian_ = has_jacobian_ && static_cast<bool>(of.declared().continuous.jacobian);
+    for (int input : detail::read_inputs(of.declared().continuous.inputs, of)) {
+      has_jacobian_ = has_jacobian_ && plan_->node(input).rate != Rate::continuous;
+    }
+  }
+}
+
+inline void Machine::jacobian(double t, const double* state, MatrixRef out) {
+  ++jacobian_calls;
+  bases_[0] = state;
+  out.setZero();
+  Eigen::MatrixXd block;
+  for (const OdeCall& ode : odes_) {
+    if (held[ode.leaf]) continue;
+    const Frame& frame = frames_[ode.leaf];
+    block.setZero(frame.nx, frame.nx);
+    plan_->leaves[ode.leaf].declared().continuous.jacobian(*ode.system, at(frame, t), {block.data(), frame.nx, frame.nx});
+    out.block(frame.x, frame.x, frame.nx, frame.nx) = block;
+  }
+}
+
+inline std::string Machine::not_finite(double t, const double* state) {
+  bases_[0] = state;
+  for (const Call& call : derivative_calls_) {
+    const VectorRef out(y.data() + call.offset, call.size);
+    (*call.function)(*call.system, at(frames_[call.leaf], t), out);
+    if (!out.allFinite()) return plan_->leaves[call.leaf].path;
+  }
+  Eigen::VectorXd xdot(plan_->nx);
+  for (const OdeCall& ode : odes_) {
+    ode_of(ode, t, xdot.data());
+    if (!xdot.segment(frames_[ode.leaf].x, frames_[ode.leaf].nx).allFinite()) return plan_->leaves[ode.leaf].path;
+  }
+  return {};
+}
+
+}  // namespace saltus

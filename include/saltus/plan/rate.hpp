@@ -1,0 +1,31 @@
+// How often a value is computed: the fastest of what it reads itself and of what it is fed.
+#pragma once
+
+#include <algorithm>
+
+#include "saltus/model/port.hpp"
+
+namespace saltus {
+
+enum class Rate {
+  constant,    ///< once, at run start
+  held,        ///< at instants
+  continuous,  ///< in the right-hand side, the guards or the taps that need it
+};
+
+/// The rate of a value by what it reads apart from inputs and relations.
+constexpr Rate own_rate(Reads reads, bool has_x, bool has_z, bool has_modes) {
+  if (has(reads, Reads::time)) return Rate::continuous;
+  if (has_x && has(reads, Reads::continuous_state)) return Rate::continuous;
+  const bool stepwise = (has_z && has(reads, Reads::discrete_state)) || (has_modes && has(reads, Reads::mode)) ||
+                        has(reads, Reads::schedule);
+  return stepwise ? Rate::held : Rate::constant;
+}
+
+constexpr Rate faster(Rate a, Rate b) { return std::max(a, b); }
+
+constexpr const char* to_string(Rate rate) {
+  return rate == Rate::constant ? "constant" : rate == Rate::held ? "held" : "continuous";
+}
+
+}  // namespace saltus

@@ -1,0 +1,86 @@
+// Event log: every event of a run, as data.
+#pragma once
+
+#include <limits>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "saltus/plan/plan.hpp"
+
+namespace saltus {
+
+enum class EventKind { zero_crossing, time, zeno_enter, zeno_release, terminal };
+
+inline std::string_view to_string(EventKind kind) {
+  constexpr std::string_view names[] = {"zero_crossing", "time", "zeno_enter", "zeno_release", "terminal"};
+  return names[static_cast<std::size_t>(kind)];
+}
+
+/// One event. `before` and `after` are the continuous state of its block at x- and x+.
+struct Event {
+  double time = 0.0;   ///< [s]
+  int jump = 0;        ///< passes that had changed something when it was over
+  EventKind kind = EventKind::zero_crossing;
+  int direction = 0;   ///< +1: its guard was rising, -1: falling, 0: no guard
+  std::string_view block;
+  std::string_view name;
+  double predicted = std::numeric_limits<double>::quiet_NaN();  ///< [s] accumulation time, of zeno_enter
+  std::span<const double> before, after;
+};
+
+/// Rows of numbers behind Event; grows by whole rows, keeps its memory from run to run.
+class EventLog {
+ public:
+  std::size_t size() const noexcept { return rows_.size(); }
+  bool empty() const noexcept { return rows_.empty(); }
+
+  Event operator[](std::size_t i) const {
+    const Row& row = rows_[i];
+    const auto [block, name] = split(names_[static_cast<std::size_t>(row.source)]);
+    return {row.time, row.jump, row.kind, row.direction, block, name, row.predicted,
+            std::span(states_).subspan(row.states, row.width), std::span(states_).subspan(row.states + row.width, row.width)};
+  }
+
+  /// The times of the events of one name ("bounce" or "ball.bounce") and kind.
+  std::vector<double> times(std::string_view name, EventKind kind = EventKind::zero_crossing) const {
+    std::vector<double> found;
+    for (const Row& row : rows_) {
+      const std::string& full = names_[static_cast<std::size_t>(row.source)];
+      if (row.kind == kind && (full == name || split(full).second == name)) found.push_back(row.time);
+    }
+    return found;
+  }
+
+  // --- for the engine -------------------------------------------------------------------------------------------
+  struct Row {
+    double time;
+    int jump, direction;
+    EventKind kind;
+    int source;
+    double predicted;
+    std::size_t states, width;
+  };
+
+  void begin(std::vector<std::string> names) { names_ = std::move(names), clear(); }
+  void clear() { rows_.clear(), states_.clear(); }
+  void add(Row row, const double* before, const double* after) {
+    row.states = states_.size();
+    states_.insert(states_.end(), before, before + row.width);
+    states_.insert(states_.end(), after, after + row.width);
+    rows_.push_back(row);
+  }
+
+ private:
+  static std::pair<std::string_view, std::string_view> split(std::string_view full) {
+    const auto dot = full.rfind('.');
+    return dot == std::string_view::npos ? std::pair{full, std::string_view()} : std::pair{full.substr(0, dot), full.substr(dot + 1)};
+  }
+
+  std::vector<Row> rows_;
+  std::vector<double> states_;
+  std::vector<std::string> names_;
+};
+
+}  // namespace saltus

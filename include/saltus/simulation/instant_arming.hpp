@@ -1,0 +1,240 @@
+// Arming: on which side every guard stands when integration goes on; holds and releases.
+#pragma once
+
+#include "saltus/simulation/instant.hpp"
+
+namespace saltus {
+
+inline Instant::Instant(Machine& machine, Watch& watch, const SimulatorOptions& options, Results& results)
+    : machine_(&machine), watch_(&watch), options_(&options), results_(&results), departure_(machine, options) {
+  const auto slots = static_cast<std::size_t>(plan().guard_slots);
+  watch.slots.resize(slots), watch.g.assign(slots, 1.0), g_.assign(slots, 1.0), g_minus_.assign(slots, 0.0);
+  watch.scan_points = options.event_scan_points;
+  for (auto* marks : {&fired_, &fired_now_, &frozen_}) marks->assign(slots, 0);
+  group_of_slot_.resize(slots), from_.assign(slots, 0);
+  slot_monitors_.resize(slots);
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < plan().guards.size(); ++i) {
+    const GuardGroup& group = plan().guards[i];
+    names.push_back(group.name);
+    for (Index s = 0; s < group.size; ++s) {
+      const auto k = static_cast<std::size_t>(group.slot + s);
+      group_of_slot_[k] = static_cast<int>(i);
+      watch.slots[k].direction = group.direction;
+      watch.slots[k].monitor = group.monitor;
+      watch.slots[k].jumps = group.kind == GuardGroup::Kind::opaque;
+    }
+    if (group.kind == GuardGroup::Kind::crossing && crossing_of(group).reset_map) {
+      slot_monitors_[static_cast<std::size_t>(group.slot)] =
+          ZenoMonitor(crossing_of(group).zeno_tolerance.value_or(options.zeno_tolerance));
+    }
+  }
+  for (const EdgeWatch& edge : plan().edges) {
+    names.push_back(edge.name);
+    edge_monitors_.emplace_back(reset_of(edge).zeno_tolerance.value_or(options.zeno_tolerance));
+  }
+  for (const ScheduledEvent& event : plan().schedule) names.push_back(event.name);
+  edge_values_.assign(plan().edges.size(), 0);
+  results.events.begin(std::move(names));
+}
+
+inline void Instant::begin(double t, Recorder* recorder) {
+  t_ = t, jump_ = 0, recorder_ = recorder;
+  wrote_x_ = flowed_ = false;
+  std::ranges::fill(fired_, 0), std::ranges::fill(frozen_, 0);
+  for (auto* monitors : {&slot_monitors_, &edge_monitors_}) {
+    for (ZenoMonitor& monitor : *monitors) monitor.forget();
+  }
+  watch_->fired.clear(), watch_->monitors.clear(), results_->events.clear();
+  for (std::size_t k = 0; k < watch_->slots.size(); ++k) {
+    GuardSlot& slot = watch_->slots[k];
+    slot.direction = plan().guards[static_cast<std::size_t>(group_of_slot_[k])].direction;
+    slot.side = 0, slot.fresh = false, slot.band = 0.0, slot.active = false;
+  }
+  select_guards();
+  // Relations may read each other: once round for each of them is enough, or they chase each other.
+  for (std::size_t round = 0; round <= plan().guards.size(); ++round) {
+    bool changed = false;
+    machine_->evaluate_instant(t);
+    if (!plan().guards.empty()) machine_->guards(t, machine_->x.data(), g_.data());
+    for (const GuardGroup& group : plan().guards) {
+      if (group.kind == GuardGroup::Kind::crossing) continue;
+      const Node& node = plan().node(group.index);
+      const bool at_zero = node.relation && plan().relation_of(node).true_at_zero;
+      for (Index s = 0; s < group.size; ++s) {
+        const double g = g_[static_cast<std::size_t>(group.slot + s)];
+        const bool truth = g > 0.0 || (g == 0.0 && at_zero);
+        double& value = machine_->signal(group.index)[s];
+        changed = changed || (value != 0.0) != truth;
+        value = truth ? 1.0 : 0.0;
+        watch_->slots[static_cast<std::size_t>(group.slot + s)].side = truth ? 1 : -1;
+      }
+    }
+    if (!changed) break;
+  }
+  for (std::size_t k = 0; k < watch_->slots.size(); ++k) {
+    if (plan().guards[static_cast<std::size_t>(group_of_slot_[k])].kind == GuardGroup::Kind::crossing) watch_->follow(k, g_[k]);
+    else watch_->g[k] = g_[k];
+  }
+  for (std::size_t e = 0; e < plan().edges.size(); ++e) edge_values_[e] = machine_->truth(plan().edges[e].node);
+}
+
+inline void Instant::select_guards() {
+  machine_->select_guards();
+  std::vector<char> active(watch_->slots.size(), 0);
+  for (int i : machine_->active_guards()) {
+    const GuardGroup& group = plan().guards[static_cast<std::size_t>(i)];
+    for (Index s = 0; s < group.size; ++s) active[static_cast<std::size_t>(group.slot + s)] = 1;
+  }
+  watch_->any = false;
+  for (std::size_t k = 0; k < active.size(); ++k) {
+    GuardSlot& slot = watch_->slots[k];
+    if (active[k] && !slot.active) slot.side = 0, slot.fresh = false;  // a mode just entered: no side yet
+    slot.active = active[k] != 0;
+    watch_->any = watch_->any || slot.active;
+  }
+}
+
+/// `hair`: how far the location left the guard from zero; nothing within it counts as off zero.
+inline Departure::Side Instant::side_of(const GuardGroup& group, Index slot, double hair) {
+  if (!flowed_) departure_.from(t_, machine_->x, longest_);
+  flowed_ = true;
+  return departure_.of(group, slot, hair);
+}
+
+/// Sides for the solver. A guard that stands at zero, or just fired, takes the side the flow takes it to.
+inline void Instant::arm(bool at_start) {
+  if (plan().guards.empty()) return;
+  for (int i : machine_->active_guards()) {
+    const GuardGroup& group = plan().guards[static_cast<std::size_t>(i)];
+    for (Index s = 0; s < group.size; ++s) {
+      const auto k = static_cast<std::size_t>(group.slot + s);
+      watch_->g[k] = watch_->slots[k].base = g_[k];
+      if (group.kind != GuardGroup::Kind::crossing) arm_relation(group, k);
+      else if (slot_monitors_[k].holding) arm_held(group, k);
+      else if (fired_[k] || g_[k] == 0.0) arm_crossing(group, k, at_start);
+    }
+  }
+}
+
+inline void Instant::arm_crossing(const GuardGroup& group, std::size_t k, bool at_start) {
+  GuardSlot& slot = watch_->slots[k];
+  if (slot.fresh && !fired_[k]) return;  // dormant since before
+  const Departure::Side flow = side_of(group, group.slot, fired_[k] ? 4.0 * std::abs(g_minus_[k]) : 0.0);
+  slot.band = flow.rounding;
+  const ZeroCrossing& crossing = crossing_of(group);
+  const int falls = group.direction == Direction::negative_then_non_negative ? 1 : -1;  // side it fires on reaching
+  const bool has_effect = crossing.reset_map || crossing.end_mode;
+  if (!fired_[k]) {
+    // At zero without having fired. At the start of a run a guard with a reset map that the flow takes to its firing
+    // side is in contact: it fires at once. All others wait until they have been clearly off zero.
+    const bool contact = at_start && has_effect && group.direction != Direction::edge_detection && flow.side == falls &&
+                         (group.direction != Direction::crosses_zero || flow.slope == 0.0);
+    if (contact) firings_.push_back({static_cast<int>(k), -falls});
+    slot.side = static_cast<signed char>(flow.side);
+    slot.fresh = false;
+    return;
+  }
+  const int from = group.direction == Direction::crosses_zero ? (slot.side != 0 ? slot.side : -falls) : -falls;
+  ZenoMonitor& monitor = slot_monitors_[k];
+  if (flow.side != 0 && flow.side != from && crossing.reset_map && rests(group, group.slot, flow, from)) {
+    if (monitor.on()) {
+      hold(group.leaf, monitor, source_of(Cause::crossing, group_of_slot_[k]), t_);
+      arm_held(group, k);
+      return;
+    }
+    slot.side = static_cast<signed char>(from), slot.fresh = true;  // no monitor: it fires again as soon as it can
+    return;
+  }
+  slot.side = static_cast<signed char>(flow.side != 0 ? flow.side : from);
+  slot.fresh = flow.side == 0 || flow.side == from;
+}
+
+/// A relation near its zero may only leave it, not cross it, until it has been clearly off.
+inline void Instant::arm_relation(const GuardGroup& group, std::size_t k) {
+  GuardSlot& slot = watch_->slots[k];
+  const int now = (g_[k] > 0.0) - (g_[k] < 0.0);
+  if (group.kind == GuardGroup::Kind::opaque) {
+    slot.side = static_cast<signed char>(machine_->signal(group.index)[static_cast<Index>(k) - group.slot] != 0.0 ? 1 : -1);
+    slot.fresh = now != slot.side;  // at rest: the side of contact is kept until the value changes
+    return;
+  }
+  if (now == slot.side && !fired_[k]) return;
+  if (frozen_[k]) {
+    slot.fresh = true;
+    slot.band = std::abs(g_[k]);
+    return;
+  }
+  const Departure::Side flow = side_of(group, static_cast<Index>(k), fired_[k] ? 4.0 * std::abs(g_minus_[k]) : 0.0);
+  slot.fresh = true;
+  slot.band = flow.rounding;
+  if (flow.side != 0 && flow.side != slot.side) firings_.push_back({static_cast<int>(k), slot.side});
+}
+
+/// On hold the guard is watched the other way round: off to its armed side it lets go.
+inline void Instant::arm_held(const GuardGroup& group, std::size_t k) {
+  GuardSlot& slot = watch_->slots[k];
+  const int falls = group.direction == Direction::negative_then_non_negative ? 1 : -1;
+  const Departure::Side flow = side_of(group, group.slot, 0.0);
+  slot.side = static_cast<signed char>(falls);
+  slot.direction = falls > 0 ? Direction::positive_then_non_positive : Direction::negative_then_non_negative;
+  slot.fresh = true;
+  slot.band = std::max({slot.band, flow.rounding, std::abs(g_[k])});
+}
+
+/// After a reset, the flow leads straight back across the guard: nothing can move until something else does. Not so
+/// where the guard was merely passed through: there the flow before the reset went the same way.
+inline bool Instant::rests(const GuardGroup& group, Index slot, const Departure::Side& after, int from) {
+  if (!wrote_x_) return false;
+  const double onward = -from * after.slope;
+  if (!(onward > 0.0)) return true;
+  departure_.from(t_, x_minus_, longest_);
+  flowed_ = false;
+  return !(onward > 1e-9 * std::abs(departure_.slope(group, slot)));
+}
+
+inline void Instant::hold(int leaf_index, ZenoMonitor& monitor, int source, double predicted) {
+  monitor.holding = true;
+  machine_->held[static_cast<std::size_t>(leaf_index)] = 1;
+  outcome_.restart = true;
+  flowed_ = false;
+  log(EventKind::zeno_enter, source, leaf_index, 0, predicted);
+}
+
+/// A relation at rest holds the blocks whose resets it set off in this instant.
+inline void Instant::hold_edges_of(int node) {
+  for (int e : edges_fired_) {
+    const EdgeWatch& edge = plan().edges[static_cast<std::size_t>(e)];
+    ZenoMonitor& monitor = edge_monitors_[static_cast<std::size_t>(e)];
+    if (!monitor.on() || monitor.holding || std::ranges::find(edge.relations, node) == edge.relations.end()) continue;
+    hold(edge.leaf, monitor, source_of(Cause::edge, e), t_);
+  }
+}
+
+inline void Instant::release(int leaf_index, ZenoMonitor& monitor, int source) {
+  monitor.forget();
+  machine_->held[static_cast<std::size_t>(leaf_index)] = 0;
+  outcome_.restart = true;
+  flowed_ = false;
+  log(EventKind::zeno_release, source, leaf_index, 0);
+}
+
+inline void Instant::log(EventKind kind, int source, int leaf_index, int direction, double predicted) {
+  ++results_->statistics.events;
+  if (!options_->record_events) return;
+  const PlanLeaf& of = leaf(leaf_index);
+  const double* after = x_next_.size() > 0 ? x_next_.data() + of.x : nullptr;
+  results_->events.add({t_, jump_ + 1, direction, kind, source, predicted, 0, static_cast<std::size_t>(of.nx)},
+                       machine_->x.data() + of.x, after);
+}
+
+inline void Instant::log_monitor(const MonitorHit& hit, const double* x) {
+  if (!options_->record_events) return;
+  const int group = group_of_slot_[static_cast<std::size_t>(hit.firing.slot)];
+  const PlanLeaf& of = leaf(plan().guards[static_cast<std::size_t>(group)].leaf);
+  results_->events.add({hit.t, jump_, -hit.firing.from, EventKind::zero_crossing, group,
+                        std::numeric_limits<double>::quiet_NaN(), 0, static_cast<std::size_t>(of.nx)},
+                       x + of.x, x + of.x);
+}
+
+}  // namespace saltus

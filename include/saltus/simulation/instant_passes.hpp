@@ -1,0 +1,312 @@
+// The passes of an instant.
+#pragma once
+
+#include <algorithm>
+#include <new>
+
+#include "saltus/simulation/instant.hpp"
+
+namespace saltus {
+
+inline Instant::Outcome Instant::run(double t, const std::vector<int>& due, double longest, bool at_start) {
+  t_ = t, longest_ = longest;
+  outcome_ = {};
+  std::ranges::fill(fired_, 0), std::ranges::fill(frozen_, 0);
+  edges_fired_.clear(), actions_.clear(), chain_.clear();
+  wrote_x_ = flowed_ = false;
+  firings_ = watch_->fired;
+  watch_->fired.clear();
+  x_minus_ = x_next_ = machine_->x, y_before_ = machine_->y, g_minus_ = watch_->g;
+  for (int event : due) {
+    const ScheduledEvent& scheduled = plan().schedule[static_cast<std::size_t>(event)];
+    actions_.push_back({scheduled.leaf, Cause::time, event, -1, 0, false});
+  }
+  bool armed = !at_start;
+  for (int pass = 0;; ++pass) {
+    if (pass >= options_->max_passes) throw_no_end();
+    const bool flipped = flip_relations();
+    machine_->evaluate_instant(t);
+    const bool released = collect_edges();
+    add_crossings();
+    if (flipped || released || !actions_.empty() || (pass == 0 && held_outputs_changed())) {
+      run_pass();
+      armed = false;
+      if (outcome_.terminal) break;
+    } else if (!armed) {
+      arm(at_start);
+      armed = true;
+      if (firings_.empty()) break;
+    } else {
+      break;
+    }
+  }
+  for (int node : plan().restarting) {
+    const Place& place = plan().node(node).place;
+    if (place.space == Space::y && !std::equal(y_before_.data() + place.offset, y_before_.data() + place.offset + place.size,
+                                               machine_->y.data() + place.offset)) {
+      outcome_.restart = true;
+    }
+  }
+  return outcome_;
+}
+
+inline bool Instant::held_outputs_changed() const {
+  return std::ranges::any_of(plan().instants, [&](int i) {
+    const Node& node = plan().node(i);
+    return node.rate == Rate::held && !std::equal(y_before_.data() + node.place.offset,
+                                                  y_before_.data() + node.place.offset + node.place.size,
+                                                  machine_->y.data() + node.place.offset);
+  });
+}
+
+/// Relations whose root was found take the side the crossing says: the value there may be exactly zero.
+inline bool Instant::flip_relations() {
+  bool flipped = false;
+  std::ranges::fill(fired_now_, 0);
+  for (const Firing& firing : firings_) {
+    const auto slot = static_cast<std::size_t>(firing.slot);
+    const GuardGroup& group = plan().guards[static_cast<std::size_t>(group_of_slot_[slot])];
+    fired_[slot] = fired_now_[slot] = 1;
+    from_[slot] = static_cast<signed char>(firing.from);
+    if (group.kind == GuardGroup::Kind::crossing) continue;
+    machine_->signal(group.index)[firing.slot - group.slot] = firing.from < 0 ? 1.0 : 0.0;
+    watch_->slots[slot].side = static_cast<signed char>(firing.from < 0 ? 1 : -1);
+    log(EventKind::zero_crossing, source_of(Cause::crossing, group_of_slot_[slot]), group.leaf, -firing.from);
+    flipped = true;
+  }
+  return flipped;
+}
+
+/// The edges of watched signals; true if a falling one ended a hold.
+inline bool Instant::collect_edges() {
+  bool released = false;
+  for (std::size_t e = 0; e < plan().edges.size(); ++e) {
+    const EdgeWatch& edge = plan().edges[e];
+    const bool now = machine_->truth(edge.node), before = edge_values_[e] != 0;
+    edge_values_[e] = now;
+    ZenoMonitor& monitor = edge_monitors_[e];
+    const auto index = static_cast<int>(e);
+    if (monitor.holding) {
+      if (!now) release(edge.leaf, monitor, source_of(Cause::edge, index)), released = true;
+      else collect_carried(index);
+      continue;
+    }
+    const Edge wanted = reset_of(edge).edge;
+    const bool fires_now = now != before && (wanted == Edge::either || (wanted == Edge::rising) == now);
+    if (!fires_now) continue;
+    actions_.push_back({edge.leaf, Cause::edge, index, -1, now ? -1 : 1, false});
+    edges_fired_.push_back(index);
+  }
+  return released;
+}
+
+/// A leaf on hold whose reset value moved: a floor that rises carries the ball.
+inline void Instant::collect_carried(int index) {
+  const EdgeWatch& edge = plan().edges[static_cast<std::size_t>(index)];
+  const EdgeReset& reset = reset_of(edge);
+  for (int input : detail::read_inputs(reset.inputs, leaf(edge.leaf))) {
+    const Node& node = plan().node(input);
+    const Place& place = node.place;
+    if (input == edge.node || node.rate != Rate::held || place.space != Space::y) continue;
+    if (!std::equal(y_before_.data() + place.offset, y_before_.data() + place.offset + place.size,
+                    machine_->y.data() + place.offset)) {
+      actions_.push_back({edge.leaf, Cause::edge, index, -1, -1, true});
+      return;
+    }
+  }
+}
+
+/// The zero crossings that fire in this pass; leaf by leaf, in declaration order.
+inline void Instant::add_crossings() {
+  for (const Firing& firing : firings_) {
+    const int group = group_of_slot_[static_cast<std::size_t>(firing.slot)];
+    const GuardGroup& of = plan().guards[static_cast<std::size_t>(group)];
+    if (of.kind != GuardGroup::Kind::crossing) continue;
+    ZenoMonitor& monitor = slot_monitors_[static_cast<std::size_t>(firing.slot)];
+    if (monitor.holding && firing.from == watch_->slots[static_cast<std::size_t>(firing.slot)].side) continue;
+    actions_.push_back({of.leaf, Cause::crossing, group, firing.slot, firing.from, monitor.holding});
+  }
+  firings_.clear();
+  std::ranges::stable_sort(actions_, [](const Action& a, const Action& b) {
+    return a.leaf != b.leaf ? a.leaf < b.leaf : a.cause < b.cause;
+  });
+}
+
+inline void Instant::run_pass() {
+  x_next_ = machine_->x, z_next_ = machine_->z, modes_next_ = machine_->modes;
+  for (const Action& action : actions_) run_action(action);
+  actions_.clear();
+  commit();
+  read_again();
+  find_next();
+  outcome_.changed = true;
+  ++jump_;
+  if (recorder_ != nullptr) recorder_->record(t_, jump_, machine_->x.data());
+}
+
+inline void Instant::run_action(const Action& action) {
+  const int source = source_of(action.cause, action.index);
+  const PlanLeaf& of = leaf(action.leaf);
+  auto state = x_next_.segment(of.x, of.nx);
+  if (chain_.size() < 400) {
+    chain_.push_back(action.cause == Cause::crossing ? plan().guards[static_cast<std::size_t>(action.index)].name
+                     : action.cause == Cause::edge   ? plan().edges[static_cast<std::size_t>(action.index)].name
+                                                     : plan().schedule[static_cast<std::size_t>(action.index)].name);
+  }
+  if (action.cause == Cause::time) {
+    const auto& event = of.declared().time_events[static_cast<std::size_t>(plan().schedule[static_cast<std::size_t>(action.index)].index)];
+    if (event.update) run_reset(action, event.update);
+    log(EventKind::time, source, action.leaf, 0);
+    return;
+  }
+  const bool by_guard = action.cause == Cause::crossing;
+  ZenoMonitor& monitor = by_guard ? slot_monitors_[static_cast<std::size_t>(action.slot)]
+                                  : edge_monitors_[static_cast<std::size_t>(action.index)];
+  const GuardGroup* group = by_guard ? &plan().guards[static_cast<std::size_t>(action.index)] : nullptr;
+  const ResetMap& map = by_guard ? crossing_of(*group).reset_map : reset_of(plan().edges[static_cast<std::size_t>(action.index)]).reset_map;
+  bool wrote = false;
+  if (map) {
+    if (!action.carry) monitor.fired(t_);
+    wrote = run_reset(action, map);
+  }
+  if (by_guard && crossing_of(*group).end_mode) modes_next_[static_cast<std::size_t>(action.leaf)] = *crossing_of(*group).end_mode;
+  const bool terminal = by_guard && crossing_of(*group).terminal;
+  outcome_.terminal = outcome_.terminal || terminal;
+  log(terminal ? EventKind::terminal : EventKind::zero_crossing, source, action.leaf, -action.from);
+  if (!wrote || action.carry) return;
+  if (monitor.on() && monitor.accumulates()) {
+    monitor.accumulate(state);
+    hold(action.leaf, monitor, source, monitor.accumulation_time());
+    if (!by_guard) {
+      for (int node : plan().edges[static_cast<std::size_t>(action.index)].relations) {
+        for (const GuardGroup& relation : plan().guards) {
+          if (relation.kind == GuardGroup::Kind::crossing || relation.index != node) continue;
+          for (Index s = 0; s < relation.size; ++s) frozen_[static_cast<std::size_t>(relation.slot + s)] = 1;
+        }
+      }
+    }
+  } else {
+    monitor.remember(state);
+    if (std::isfinite(monitor.gap())) outcome_.horizon = std::min(outcome_.horizon, 1.2 * monitor.gap());
+  }
+}
+
+/// Within one leaf each reset map sees what the one before left; updates and other leaves' values are those of x-.
+/// Returns whether continuous state was written.
+inline bool Instant::run_reset(const Action& action, const ResetMap& map) {
+  const PlanLeaf& of = leaf(action.leaf);
+  const auto number = static_cast<std::size_t>(action.leaf);
+  At at = machine_->at(number, t_);
+  if (action.cause != Cause::time) {
+    new (&at.x) VectorView(x_next_.data() + of.x, of.nx);
+    new (&at.z) VectorView(z_next_.data() + of.z, of.nz);
+    at.mode = modes_next_[number];
+  }
+  Next next({x_next_.data() + of.x, of.nx}, {z_next_.data() + of.z, of.nz}, modes_next_[number], of.path);
+  map(*of.system, at, next);
+  if (!x_next_.segment(of.x, of.nx).allFinite() || !z_next_.segment(of.z, of.nz).allFinite()) {
+    throw SimulationError(text("t = ", t_, " s: '", chain_.empty() ? of.path : chain_.back(),
+                               "' set a state that is not finite (NaN or Inf)"), t_, of.path);
+  }
+  if (next.wrote_continuous_state()) wrote_x_ = outcome_.restart = true;
+  if (next.wrote_discrete_state() && of.nx > 0 && has(of.declared().continuous.reads, Reads::discrete_state)) {
+    outcome_.restart = true;
+  }
+  return next.wrote_continuous_state();
+}
+
+inline void Instant::commit() {
+  machine_->x = x_next_;
+  machine_->z = z_next_;
+  if (modes_next_ != machine_->modes) {
+    machine_->modes = modes_next_;
+    outcome_.restart = true;
+    select_guards();
+  }
+  flowed_ = false;
+}
+
+/// Held outputs and relations after a commit.
+inline void Instant::read_again() {
+  machine_->evaluate_instant(t_);
+  if (plan().guards.empty()) return;
+  for (int round = 0; round < options_->max_passes; ++round) {
+    bool flipped = false;
+    machine_->guards(t_, machine_->x.data(), g_.data());
+    for (int i : machine_->active_guards()) {
+      const GuardGroup& group = plan().guards[static_cast<std::size_t>(i)];
+      if (group.kind == GuardGroup::Kind::crossing) continue;
+      for (Index s = 0; s < group.size; ++s) flipped = read_relation(group, group.slot + s) || flipped;
+    }
+    if (!flipped) return;
+    machine_->evaluate_instant(t_);
+  }
+}
+
+/// The side of a relation now; true if that is a new one. At its own zero it takes the side the flow takes it to,
+/// and keeps the one it has where there is none.
+inline bool Instant::read_relation(const GuardGroup& group, Index slot) {
+  const auto k = static_cast<std::size_t>(slot);
+  GuardSlot& watched = watch_->slots[k];
+  if (frozen_[k]) return false;
+  const int crossed_to = fired_[k] ? -from_[k] : watched.side;
+  int side = (g_[k] > 0.0) - (g_[k] < 0.0);
+  if (fired_[k] && !wrote_x_) side = crossed_to;  // nothing it reads was written: its value is rounding
+  const bool opaque = group.kind == GuardGroup::Kind::opaque;
+  const bool unsure = wrote_x_ && fired_[k] && (!opaque || side != crossed_to);
+  if (unsure || (g_[k] == 0.0 && !fired_[k])) {
+    const Departure::Side flow = side_of(group, slot, fired_[k] && !opaque ? 4.0 * std::abs(g_minus_[k]) : 0.0);
+    side = flow.side != 0 ? flow.side : crossed_to;
+    const bool back = fired_[k] && side == crossed_to && flow.side != 0;
+    if (back && (opaque || rests(group, slot, flow, -crossed_to))) hold_edges_of(group.index), frozen_[k] = 1;
+  }
+  if (side == 0 || side == watched.side) return false;
+  watched.side = static_cast<signed char>(side);
+  machine_->signal(group.index)[slot - group.slot] = side > 0 ? 1.0 : 0.0;
+  return true;
+}
+
+/// Zero crossings that the commit moved across zero in their direction fire in the next pass.
+inline void Instant::find_next() {
+  for (int i : machine_->active_guards()) {
+    const GuardGroup& group = plan().guards[static_cast<std::size_t>(i)];
+    if (group.kind != GuardGroup::Kind::crossing) continue;
+    const auto k = static_cast<std::size_t>(group.slot);
+    if (slot_monitors_[k].holding) {
+      look_at_held(group, k);
+    } else if (fired_now_[k]) {
+      watch_->slots[k].side = static_cast<signed char>((g_[k] > 0.0) - (g_[k] < 0.0));
+      watch_->slots[k].base = g_[k];
+    } else if (!group.monitor && watch_->crossed(k, g_[k])) {
+      firings_.push_back({static_cast<int>(k), watch_->slots[k].side});
+    } else {
+      watch_->follow(k, g_[k]);
+    }
+  }
+}
+
+/// The guard of a leaf on hold: off to its armed side it lets go, beyond zero the reset map is applied again.
+inline void Instant::look_at_held(const GuardGroup& group, std::size_t k) {
+  GuardSlot& slot = watch_->slots[k];
+  const int now = watch_->sign(k, g_[k]);
+  if (now == 0) return;
+  if (now != slot.side) {
+    release(group.leaf, slot_monitors_[k], source_of(Cause::crossing, group_of_slot_[k]));
+    slot.side = static_cast<signed char>(now);
+    slot.direction = group.direction;
+  } else if (!fired_now_[k] && std::abs(g_[k]) > 1e3 * slot.band) {
+    firings_.push_back({static_cast<int>(k), -slot.side});
+  }
+}
+
+[[noreturn]] inline void Instant::throw_no_end() const {
+  std::string causes;
+  const std::size_t first = chain_.size() > 6 ? chain_.size() - 6 : 0;
+  for (std::size_t i = first; i < chain_.size(); ++i) causes += text(i == first ? "'" : " -> '", chain_[i], "'");
+  throw SimulationError(text("t = ", t_, " s: this instant does not come to an end: more than ", options_->max_passes,
+                             " passes; the events set each other off: ... ", causes,
+                             " ...; break the loop, or raise max_passes"),
+                        t_, chain_.empty() ? std::string() : chain_.back().substr(0, chain_.back().rfind('.')));
+}
+
+}  // namespace saltus

@@ -1,0 +1,83 @@
+// SimulatorOptions: how a run is done.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "saltus/plan/plan.hpp"
+
+namespace saltus {
+
+struct SimulatorOptions {
+  /// Relative and absolute tolerance of a minor step: the root mean square over the states of
+  /// error / (atol + rtol |x|) stays below 1.
+  double rtol = 1e-6;
+  double atol = 1e-8;
+
+  /// "auto" (dopri5; BDF takes over where the scene looks stiff), "dopri5", "adams", "bdf".
+  /// Synonyms: "rk45" and "non-stiff" for dopri5, "stiff" for bdf.
+  std::string ode_solver_method = "auto";
+
+  /// Instants a run may have; more end it with the status step_limit. Not said: no limit.
+  std::optional<std::int64_t> max_major_steps = {};
+  /// [s] longest time from one instant to the next.
+  double max_major_step_length = std::numeric_limits<double>::infinity();
+  /// [s] bounds of a solver step. Rarely of use: the tolerance chooses the step.
+  double min_minor_step_size = 0.0;
+  double max_minor_step_size = std::numeric_limits<double>::infinity();
+
+  /// [s] A guard whose firings follow each other this closely, with shrinking gaps, comes to rest: a Zeno hold.
+  /// 0 switches the monitor off. Flights lower than atol cannot be seen, whatever stands here.
+  double zeno_tolerance = 1e-6;
+  /// Interior points of a step at which guards are looked at, for two crossings in one step; 0 turns that off.
+  int event_scan_points = 3;
+  /// Passes an instant may have before it counts as a loop without end.
+  int max_passes = 100;
+
+  /// What is recorded, by name; nothing recorded costs nothing.
+  RecordedSignals recorded_signals = {};
+  /// [s] Times to record at, increasing. If any are given, solver steps are recorded only with save_steps = true.
+  std::vector<double> save_at = {};
+  std::optional<bool> save_steps = {};
+  /// The event log; switching it off changes nothing else.
+  bool record_events = true;
+
+  /// Raise SimulationError when a run does not end well; else return the results with the status.
+  bool throw_errors = true;
+  /// Asked about every 20 ms; true ends the run with the status interrupted.
+  std::function<bool()> interrupt = {};
+};
+
+namespace detail {
+
+inline void require(bool right, std::string_view option, double found, std::string_view expected) {
+  if (!right) throw ModelError(text("option ", option, ": expected ", expected, ", found ", found));
+}
+
+/// Throws ModelError for the first option that makes no sense.
+inline void check(const SimulatorOptions& o) {
+  require(o.rtol > 0.0 && std::isfinite(o.rtol), "rtol", o.rtol, "a positive number");
+  require(o.atol > 0.0 && std::isfinite(o.atol), "atol", o.atol, "a positive number");
+  require(o.rtol >= 1e-15, "rtol", o.rtol, "at least 1e-15: a double has no more digits");
+  require(!o.max_major_steps || *o.max_major_steps > 0, "max_major_steps",
+          static_cast<double>(o.max_major_steps.value_or(1)), "a positive number, or none");
+  require(o.max_major_step_length > 0.0, "max_major_step_length", o.max_major_step_length, "a time > 0 s");
+  require(o.min_minor_step_size >= 0.0, "min_minor_step_size", o.min_minor_step_size, "a time >= 0 s");
+  require(o.max_minor_step_size > o.min_minor_step_size, "max_minor_step_size", o.max_minor_step_size,
+          "more than min_minor_step_size");
+  require(o.zeno_tolerance >= 0.0, "zeno_tolerance", o.zeno_tolerance, "a time >= 0 s");
+  require(o.event_scan_points >= 0, "event_scan_points", o.event_scan_points, "0 or more");
+  require(o.max_passes > 0, "max_passes", o.max_passes, "1 or more");
+  for (std::size_t i = 1; i < o.save_at.size(); ++i) {
+    require(o.save_at[i] > o.save_at[i - 1], "save_at", o.save_at[i], "increasing times");
+  }
+}
+
+}  // namespace detail
+
+}  // namespace saltus

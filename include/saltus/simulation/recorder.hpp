@@ -1,0 +1,49 @@
+// Recorder: grows columns. It exists only where something is recorded, and changes no bit of the run.
+#pragma once
+
+#include "saltus/plan/machine.hpp"
+#include "saltus/simulation/results.hpp"
+
+namespace saltus {
+
+class Recorder {
+ public:
+  Recorder(Machine& machine, Results& results) : machine_(&machine), results_(&results) {
+    results.signals.clear();
+    for (const Tap& tap : machine.plan().taps) {
+      results.signals.push_back({tap.name, machine.plan().node(tap.node).shape, {}});
+    }
+  }
+
+  /// A row at (t, j) of the state x.
+  void record(double t, int jump, const double* x) {
+    machine_->evaluate_taps(t, x);
+    results_->time.push_back(t);
+    results_->jump.push_back(jump);
+    const auto& taps = machine_->plan().taps;
+    for (std::size_t i = 0; i < taps.size(); ++i) {
+      const Place& place = machine_->plan().node(taps[i].node).place;
+      const double* value = machine_->value(place);
+      results_->signals[i].values.insert(results_->signals[i].values.end(), value, value + place.size);
+    }
+  }
+
+  /// Takes the last row back.
+  void drop() {
+    results_->time.pop_back();
+    results_->jump.pop_back();
+    for (auto& signal : results_->signals) {
+      signal.values.resize(signal.values.size() - static_cast<std::size_t>(signal.shape.size));
+    }
+  }
+
+  bool has_row(double t, int jump) const {
+    return !results_->time.empty() && results_->time.back() == t && results_->jump.back() == jump;
+  }
+
+ private:
+  Machine* machine_;
+  Results* results_;
+};
+
+}  // namespace saltus

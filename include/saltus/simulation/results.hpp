@@ -1,0 +1,72 @@
+// Results: what a run gives back.
+#pragma once
+
+#include <cstdint>
+#include <exception>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "saltus/simulation/event_log.hpp"
+#include "saltus/solver/solver.hpp"
+
+namespace saltus {
+
+enum class Status { reached_end, terminal, zeno_stop, step_limit, chattering, interrupted, failed };
+
+inline std::string_view to_string(Status status) {
+  constexpr std::string_view names[] = {"reached_end", "terminal",    "zeno_stop", "step_limit",
+                                        "chattering",  "interrupted", "failed"};
+  return names[static_cast<std::size_t>(status)];
+}
+/// The three ways a run ends well.
+constexpr bool ended_well(Status status) { return status <= Status::zeno_stop; }
+
+/// Counts, summed over the whole run.
+struct Statistics : SolverStatistics {
+  std::int64_t right_hand_side_calls = 0;
+  std::int64_t guard_calls = 0;     ///< of all guards at once
+  std::int64_t jacobian_calls = 0;
+  std::int64_t events = 0;          ///< resets, updates and mode changes
+  std::int64_t instants = 0;        ///< major steps
+  std::vector<std::pair<std::string, std::int64_t>> events_by_name = {};
+  double wall_time = 0.0;           ///< [s]
+  std::string method = {};
+};
+
+/// One recorded signal: a row per time, row major.
+struct RecordedSignal {
+  std::string name;
+  Shape shape;
+  std::vector<double> values;
+
+  using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  Eigen::Map<const Matrix> matrix() const {
+    return {values.data(), shape.size > 0 ? static_cast<Index>(values.size()) / shape.size : 0, shape.size};
+  }
+};
+
+struct Results {
+  std::vector<double> time;  ///< [s] never decreases
+  std::vector<int> jump;     ///< j of each row: rows of equal time are told apart by it
+  std::vector<RecordedSignal> signals;
+  EventLog events;
+  Context context;           ///< the values at the end; a run can go on from here
+  Status status = Status::reached_end;
+  std::string message;       ///< why, where the status is none of the good ones
+  std::exception_ptr cause;  ///< what was thrown, where the status is failed
+  Statistics statistics;
+
+  /// A recorded signal by name, rows by width; a ModelError lists the names there are.
+  Eigen::Map<const RecordedSignal::Matrix> output(std::string_view name) const {
+    std::vector<std::string> known;
+    for (const RecordedSignal& signal : signals) {
+      if (signal.name == name) return signal.matrix();
+      known.push_back(signal.name);
+    }
+    throw ModelError(text("nothing was recorded under '", name, "'", known_names(name, known)));
+  }
+};
+
+}  // namespace saltus

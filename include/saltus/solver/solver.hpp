@@ -1,0 +1,64 @@
+// The seam: what the engine asks of a method that advances xdot = f(t, x) between instants.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "saltus/plan/machine.hpp"
+#include "saltus/solver/watch.hpp"
+
+namespace saltus {
+
+enum class StopReason {
+  step,       ///< one accepted minor step, nothing else
+  stop_time,  ///< exactly the time that was asked for
+  root        ///< a guard fired: see Watch::fired
+};
+
+/// Counts, summed across restarts.
+struct SolverStatistics {
+  std::int64_t steps = 0;      ///< accepted
+  std::int64_t rejected = 0;
+  std::int64_t restarts = 0;
+  std::int64_t linear_setups = 0;
+};
+
+/// What a solver needs to know beyond the scene.
+struct SolverOptions {
+  double rtol = 1e-6;
+  double atol = 1e-8;
+  double min_step = 0.0;                                     ///< [s]
+  double max_step = std::numeric_limits<double>::infinity(); ///< [s]
+};
+
+/// How a stretch begins.
+struct Start {
+  double horizon = std::numeric_limits<double>::infinity();  ///< [s] within which an event may follow: resolve it
+  bool first = false;                                         ///< a new run: step size and counts are forgotten too
+};
+
+/// Advances the continuous state of a machine. Between two calls of `restart` the machine's discrete values do
+/// not change, so f and the guards are smooth. Throws SimulationError where no step can be taken, and whatever a
+/// user's function threw, as it was thrown.
+class Solver {
+ public:
+  virtual ~Solver() = default;
+
+  /// Forgets the history and begins at (t, x).
+  virtual void restart(double t, const Eigen::VectorXd& x, const Start& start) = 0;
+  /// One minor step, not past t_stop, or to the first root in it.
+  virtual StopReason advance(double t_stop) = 0;
+  /// The state at a time within the last step.
+  virtual void interpolate(double t, double* x) = 0;
+  /// The guards that fired, after StopReason::root.
+  virtual const std::vector<Firing>& roots() const = 0;
+  virtual const SolverStatistics& statistics() const = 0;
+
+  virtual double time() const = 0;
+  virtual const Eigen::VectorXd& state() const = 0;
+  /// Method in use now, for the statistics.
+  virtual std::string method() const = 0;
+};
+
+}  // namespace saltus

@@ -1,0 +1,108 @@
+// Step sizes of the one-step methods: the first one, the next one, the stiffness test, and what to say when none is
+// small enough.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "saltus/solver/solver.hpp"
+
+namespace saltus {
+
+/// Proportional-integral control of the step size (K. Gustafsson; Hairer, Wanner II, p. 28, (2.43c), with the
+/// constants of the code DOPRI5: beta 0.04, safety 0.9, factors within [0.2, 10]).
+class StepController {
+ public:
+  explicit StepController(double order) : exponent_(1.0 / order - 0.75 * beta), plain_(1.0 / order) {}
+
+  double accept(double error, double h, bool after_rejection) {
+    const double e = std::max(error, 1e-12);
+    const double factor = std::clamp(safety * std::pow(e, -exponent_) * std::pow(before_, beta), 0.2, 10.0);
+    before_ = std::max(error, 1e-4);
+    return h * (after_rejection ? std::min(factor, 1.0) : factor);
+  }
+  double reject(double error, double h) const {
+    return h * (std::isfinite(error) ? std::clamp(safety * std::pow(error, -plain_), 0.1, 0.9) : 0.1);
+  }
+
+ private:
+  static constexpr double beta = 0.04, safety = 0.9;
+  double exponent_, plain_, before_ = 1e-4;
+};
+
+/// Stiffness by comparing h with the stability region: h |k7 - k6| / |x1 - X6| estimates h |lambda|, which lies
+/// beyond 3.25 when stability bounds the step (L. F. Shampine; Hairer, Wanner II, p. 21, (2.33)). Fifteen such
+/// steps, with no more than five other ones in a row between, are called stiff.
+class StiffnessTest {
+ public:
+  bool detected() const noexcept { return stiff_ >= 15; }
+  void forget() noexcept { stiff_ = calm_ = 0; }
+
+  template <class Stepper>
+  void look(Stepper& s, double h, double error) {
+    if (error > 1.0) return;
+    const double* k6 = s.stage(s.last - 1);
+    const double* k7 = s.stage(s.last);
+    double numerator = 0.0, denominator = 0.0;
+    for (Index i = 0; i < s.n_; ++i) {
+      const double f = k7[i] - k6[i], x = s.x1_[i] - s.scratch_[i];  // scratch holds the argument of stage 6
+      numerator += f * f, denominator += x * x;
+    }
+    // Compared without division or root: h^2 f^2 > 3.25^2 x^2.
+    if (denominator > 0.0 && h * h * numerator > 3.25 * 3.25 * denominator) {
+      ++stiff_, calm_ = 0;
+    } else if (++calm_ == 6) {
+      stiff_ = 0;
+    }
+  }
+
+ private:
+  int stiff_ = 0, calm_ = 0;
+};
+
+/// First step by the size of x, f and f' (Hairer, Norsett, Wanner I, p. 169, "Starting step size").
+inline double first_step(Machine& machine, double t, const Eigen::VectorXd& x, const double* f, Eigen::VectorXd& scratch,
+                         double* f1, const SolverOptions& options, double order, double t_stop) {
+  const Index n = x.size();
+  const auto norm = [&](auto value) {
+    double sum = 0.0;
+    for (Index i = 0; i < n; ++i) {
+      const double e = value(i) / (options.atol + options.rtol * std::abs(x[i]));
+      sum += e * e;
+    }
+    return n > 0 ? std::sqrt(sum / static_cast<double>(n)) : 0.0;
+  };
+  const double limit = std::min(t_stop - t, options.max_step);
+  const double d0 = norm([&](Index i) { return x[i]; }), d1 = norm([&](Index i) { return f[i]; });
+  const double h0 = std::min(d0 < 1e-5 || d1 < 1e-5 ? 1e-6 : 0.01 * d0 / d1, limit);
+  for (Index i = 0; i < n; ++i) scratch[i] = x[i] + h0 * f[i];
+  machine.derivative(t + h0, scratch.data(), f1);
+  const double d2 = norm([&](Index i) { return f1[i] - f[i]; }) / h0;
+  const double largest = std::max(d1, d2);
+  const double h1 = largest <= 1e-15 ? std::max(1e-6, h0 * 1e-3) : std::pow(0.01 / largest, 1.0 / order);
+  const double h = std::min({100.0 * h0, h1, limit});
+  return std::isfinite(h) && h > 0.0 ? h : h0;
+}
+
+[[noreturn]] inline void throw_not_finite(Machine& machine, double t, const double* x) {
+  const std::string block = machine.not_finite(t, x);
+  throw SimulationError(text("t = ", t, " s: the derivative of block '", block,
+                             "' is not finite (NaN or Inf); check its equation and parameters at this state"),
+                        t, block);
+}
+
+[[noreturn]] inline void throw_step_too_small(Machine& machine, double t, double h, const double* x,
+                                              const SolverOptions& options) {
+  const std::string block = machine.not_finite(t, x);
+  if (!block.empty()) throw_not_finite(machine, t, x);
+  if (h <= options.min_step) {
+    throw SimulationError(text("t = ", t, " s: the tolerance needs a step of ", h, " s, below min_minor_step_size = ",
+                               options.min_step, " s; lower that, or loosen rtol and atol"), t);
+  }
+  throw SimulationError(text("t = ", t, " s: the step size underflows (", h,
+                             " s): the solution blows up in finite time, has a jump that no guard announces, or the "
+                             "tolerance cannot be met; rtol = ", options.rtol, ", atol = ", options.atol), t);
+}
+
+}  // namespace saltus

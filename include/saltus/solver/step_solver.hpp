@@ -1,0 +1,84 @@
+// What all methods share: a step is taken whole, then delivered up to the first root in it.
+#pragma once
+
+#include "saltus/solver/locate.hpp"
+#include "saltus/solver/solver.hpp"
+
+namespace saltus {
+
+/// A method says how to begin and how to take one step; the rest, roots included, stands here. After a root that
+/// changes nothing continuous, the rest of the same step is delivered: the trajectory stays what it was.
+class StepSolver : public Solver {
+ public:
+  StepSolver(Machine& machine, Watch& watch, const SolverOptions& options)
+      : machine_(&machine), watch_(&watch), options_(options), n_(machine.plan().nx), x1_(n_), locator_(machine, watch),
+        state_(n_) {}
+
+  void restart(double t, const Eigen::VectorXd& x, const Start& start) final {
+    if (start.first) statistics_ = {};
+    else ++statistics_.restarts;
+    t0_ = t1_ = time_ = t;
+    x1_ = state_ = x;
+    delivered_ = true;
+    begin(start);
+  }
+
+  StopReason advance(double t_stop) final {
+    watch_->monitors.clear();
+    if (delivered_) take_step(t_stop);
+    const auto inside = [this](double u, double* x) { inside_step(u, x); };
+    if (watch_->any && locator_.find(t0_, offset_, length_, x1_.data(), inside)) {
+      offset_ = locator_.offset();
+      delivered_ = offset_ >= length_;
+      time_ = delivered_ ? t1_ : t0_ + offset_;
+      if (delivered_) state_ = x1_;
+      else inside_step(offset_, state_.data());
+      return StopReason::root;
+    }
+    delivered_ = true;
+    time_ = t1_;
+    state_ = x1_;
+    return t1_ >= t_stop ? StopReason::stop_time : StopReason::step;
+  }
+
+  void interpolate(double t, double* x) final {
+    if (t >= t1_) std::copy_n(x1_.data(), n_, x);
+    else inside_step(t - t0_, x);
+  }
+
+  const std::vector<Firing>& roots() const final { return watch_->fired; }
+  const SolverStatistics& statistics() const override { return statistics_; }
+  double time() const final { return time_; }
+  const Eigen::VectorXd& state() const final { return state_; }
+
+ protected:
+  /// Starts at (t1, x1).
+  virtual void begin(const Start& start) = 0;
+  /// From t1 to a new t1 <= t_stop; x1 becomes the state there, `length_` the size of the step.
+  virtual void step(double t_stop) = 0;
+  /// The state at offset u from the beginning of the step, 0 <= u <= length_.
+  virtual void inside_step(double u, double* x) = 0;
+
+  Machine* machine_;
+  Watch* watch_;
+  SolverOptions options_;
+  Index n_;
+  double t0_ = 0.0, t1_ = 0.0, length_ = 0.0;  // [s] of the last step
+  Eigen::VectorXd x1_;
+  SolverStatistics statistics_;
+
+ private:
+  void take_step(double t_stop) {
+    t0_ = t1_;
+    step(t_stop);
+    offset_ = 0.0;
+    delivered_ = false;
+  }
+
+  Locator locator_;
+  double time_ = 0.0, offset_ = 0.0;
+  bool delivered_ = true;  // the last step, to its end
+  Eigen::VectorXd state_;
+};
+
+}  // namespace saltus

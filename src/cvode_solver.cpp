@@ -1,0 +1,255 @@
+// CVODE behind the seam: Adams with fixed-point iteration, BDF with Newton and a dense Jacobian.
+#include "saltus/solver/cvode.hpp"
+
+#include <exception>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "saltus/solver/step_size.hpp"
+#include "saltus/solver/step_solver.hpp"
+#include "sundials_compat.hpp"
+
+namespace saltus {
+
+namespace {
+
+class CvodeSolver final : public StepSolver {
+ public:
+  CvodeSolver(Machine& machine, Watch& watch, const SolverOptions& options, CvodeMethod method)
+      : StepSolver(machine, watch, options), method_(method), context_(sun::make_context()),
+        y_(N_VNew_Serial(static_cast<sunindextype>(n_), context_.get())), dky_(N_VClone(y_.get())),
+        cvode_(CVodeCreate(method == CvodeMethod::adams ? CV_ADAMS : CV_BDF, context_.get())) {
+    if (!cvode_ || !y_ || !dky_) throw Error("SUNDIALS: out of memory");
+    hook_ = {[](const char* message, void* self) { static_cast<CvodeSolver*>(self)->note(message); }, this};
+    sun::hook_errors(context_.get(), cvode_.get(), &hook_);
+  }
+
+  const SolverStatistics& statistics() const override {
+    sum_ = statistics_;
+    add_counts(sum_);
+    return sum_;
+  }
+
+  std::string method() const override { return method_ == CvodeMethod::adams ? "adams" : "bdf"; }
+
+ private:
+  void begin(const Start& how) override {
+    if (how.first) first_step_ = 0.0;
+    std::copy_n(x1_.data(), n_, N_VGetArrayPointer(y_.get()));
+    begun_at_ = t1_;
+    steps_ = 0;
+    // A multistep method begins with order 1: a flight much shorter than its first step would be drawn as a line
+    // that falls from the start. Where an event may follow soon, the first two steps are kept well below that.
+    short_flight_ = how.horizon < 2000.0 * first_step_ ? how.horizon : 0.0;
+    start(short_flight_ / 1000.0, how.first);
+  }
+
+  void start(double first_step, bool first = false) {
+    if (!started_) {
+      create();
+    } else {
+      if (!first) add_counts(statistics_);
+      if (CVodeReInit(cvode_.get(), t1_, y_.get()) < 0) fail(t1_);
+    }
+    begin_x_ = x1_;
+    CVodeSetInitStep(cvode_.get(), first_step);
+  }
+
+  void create() {
+    void* cvode = cvode_.get();
+    if (CVodeInit(cvode, right_hand_side, t1_, y_.get()) < 0) fail(t1_);
+    CVodeSetUserData(cvode, this);
+    CVodeSStolerances(cvode, options_.rtol, options_.atol);
+    CVodeSetMaxHnilWarns(cvode, -1);
+    CVodeSetMaxConvFails(cvode, 20);
+    if (options_.min_step > 0.0) CVodeSetMinStep(cvode, options_.min_step);
+    if (method_ == CvodeMethod::adams) {
+      nonlinear_.reset(SUNNonlinSol_FixedPoint(y_.get(), 0, context_.get()));
+      CVodeSetNonlinearSolver(cvode, nonlinear_.get());
+    } else {
+      const auto n = static_cast<sunindextype>(n_);
+      matrix_.reset(SUNDenseMatrix(n, n, context_.get()));
+      linear_.reset(SUNLinSol_Dense(y_.get(), matrix_.get(), context_.get()));
+      CVodeSetLinearSolver(cvode, linear_.get(), matrix_.get());
+      if (machine_->has_jacobian()) CVodeSetJacFn(cvode, jacobian);
+    }
+    watch_guards();
+    started_ = true;
+  }
+
+  /// Only a scene with guards that stop the solver has root-finding.
+  void watch_guards() {
+    std::vector<int> directions;
+    bool stops = false;
+    for (const GuardSlot& slot : watch_->slots) {
+      stops = stops || !slot.monitor;
+      directions.push_back(slot.direction == Direction::positive_then_non_positive   ? -1
+                           : slot.direction == Direction::negative_then_non_negative ? 1
+                                                                                     : 0);
+    }
+    if (!stops) return;
+    CVodeRootInit(cvode_.get(), static_cast<int>(directions.size()), root_functions);
+    CVodeSetRootDirection(cvode_.get(), directions.data());
+    CVodeSetNoInactiveRootWarn(cvode_.get());
+  }
+
+  void inside_step(double u, double* x) override {
+    if (CVodeGetDky(cvode_.get(), t0_ + u, 0, dky_.get()) < 0) fail(t0_ + u);
+    std::copy_n(N_VGetArrayPointer(dky_.get()), n_, x);
+  }
+
+  void step(double t_stop) override {
+    for (int tries = 0;; ++tries) {
+      bound_step();
+      if (CVodeSetStopTime(cvode_.get(), t_stop) < 0) fail(t0_);
+      double t = t0_;
+      const int flag = CVode(cvode_.get(), t_stop, y_.get(), &t, CV_ONE_STEP);
+      if (error_) std::rethrow_exception(std::exchange(error_, nullptr));
+      if (flag < 0) fail(t);
+      if (steps_ == 0) CVodeGetActualInitStep(cvode_.get(), &first_step_);
+      if (flag == CV_ROOT_RETURN && too_coarse(t) && tries < 12) {
+        start_finer();
+        continue;
+      }
+      ++steps_;
+      t1_ = flag == CV_TSTOP_RETURN ? t_stop : t;
+      length_ = t1_ - t0_;
+      break;
+    }
+    std::copy_n(N_VGetArrayPointer(y_.get()), n_, x1_.data());
+  }
+
+  void bound_step() {
+    double bound = options_.max_step;
+    if (short_flight_ > 0.0) bound = std::min(bound, steps_ < 2 ? short_flight_ / 1000.0 : short_flight_ / 8.0);
+    CVodeSetMaxStep(cvode_.get(), std::isfinite(bound) ? bound : 0.0);
+  }
+
+  /// A guard that was at zero when the run began here, found at zero again within the steps of order 1: the
+  /// straight line of that order may have invented it.
+  bool too_coarse(double t) const {
+    if (steps_ > 1) return false;
+    double h = 0.0;
+    CVodeGetLastStep(cvode_.get(), &h);
+    if (h <= 64.0 * std::numeric_limits<double>::epsilon() * std::abs(t)) return false;
+    for (const GuardSlot& slot : watch_->slots) {
+      if (slot.active && slot.fresh && !slot.monitor) return true;
+    }
+    return false;
+  }
+
+  void start_finer() {
+    double h = 0.0;
+    CVodeGetLastStep(cvode_.get(), &h);
+    t1_ = t0_ = begun_at_;
+    x1_ = begin_x_;
+    std::copy_n(x1_.data(), n_, N_VGetArrayPointer(y_.get()));
+    short_flight_ = 10.0 * h;
+    steps_ = 0;
+    start(h / 100.0);
+  }
+
+  void add_counts(SolverStatistics& to) const {
+    if (!started_) return;
+    long steps = 0, rejected = 0, setups = 0;
+    CVodeGetNumSteps(cvode_.get(), &steps);
+    CVodeGetNumErrTestFails(cvode_.get(), &rejected);
+    CVodeGetNumLinSolvSetups(cvode_.get(), &setups);
+    to.steps += steps, to.rejected += rejected, to.linear_setups += setups;
+  }
+
+  // --- what CVODE calls; nothing may be thrown through it -----------------------------------------------------
+
+  /// Keeps the first exception of a callback: CVODE tries ten times more before it gives up.
+  template <class Call>
+  int guarded(Call call) {
+    if (error_) return -1;
+    try {
+      return call();
+    } catch (...) {
+      error_ = std::current_exception();
+      return -1;
+    }
+  }
+
+  static int right_hand_side(double t, N_Vector x, N_Vector xdot, void* user) {
+    auto* self = static_cast<CvodeSolver*>(user);
+    return self->guarded([&] {
+      double* out = N_VGetArrayPointer(xdot);
+      self->machine_->derivative(t, N_VGetArrayPointer(x), out);
+      return VectorView(out, self->n_).allFinite() ? 0 : 1;  // 1: try a shorter step
+    });
+  }
+
+  static int jacobian(double t, N_Vector x, N_Vector, SUNMatrix out, void* user, N_Vector, N_Vector, N_Vector) {
+    auto* self = static_cast<CvodeSolver*>(user);
+    return self->guarded([&] {
+      self->machine_->jacobian(t, N_VGetArrayPointer(x), {SUNDenseMatrix_Data(out), self->n_, self->n_});
+      return 0;
+    });
+  }
+
+  /// CVODE only wakes us; the locator judges. So it never sees an exact zero at the start of a stretch, which would
+  /// switch the guard off, nor a monitor.
+  static int root_functions(double t, N_Vector x, double* g, void* user) {
+    auto* self = static_cast<CvodeSolver*>(user);
+    return self->guarded([&] {
+      self->machine_->guards(t, N_VGetArrayPointer(x), g);
+      for (std::size_t k = 0; k < self->watch_->slots.size(); ++k) g[k] = self->shown(k, t, g[k]);
+      return 0;
+    });
+  }
+
+  double shown(std::size_t k, double t, double value) const {
+    const GuardSlot& slot = watch_->slots[k];
+    constexpr double tiny = std::numeric_limits<double>::min();
+    if (!slot.active || slot.monitor) return 1.0;
+    if (slot.direction == Direction::edge_detection) return value == slot.base ? 1.0 : -1.0;
+    const double side = slot.side < 0 ? -tiny : tiny;
+    if (slot.fresh && t == begun_at_) return side;
+    if (std::abs(value) > slot.band) return value;
+    return slot.fresh || slot.side == 0 ? side : -side;
+  }
+
+  void note(const char* message) {
+    if (last_message_.empty()) last_message_ = message;
+  }
+
+  [[noreturn]] void fail(double t) {
+    if (error_) std::rethrow_exception(std::exchange(error_, nullptr));
+    double h = 0.0;
+    CVodeGetCurrentTime(cvode_.get(), &t);
+    CVodeGetCurrentStep(cvode_.get(), &h);
+    const std::string block = machine_->not_finite(t, x1_.data());
+    if (!block.empty()) throw_not_finite(*machine_, t, x1_.data());
+    throw SimulationError(text("t = ", t, " s: CVODE (", method(), ") cannot go on, step ", h, " s: ", last_message_,
+                               "; the solution blows up in finite time, has a jump that no guard announces, or the "
+                               "tolerance cannot be met; rtol = ", options_.rtol, ", atol = ", options_.atol),
+                          t);
+  }
+
+  CvodeMethod method_;
+  sun::ErrorHook hook_;
+  std::string last_message_;
+  std::exception_ptr error_;
+  sun::Context context_;
+  sun::Vector y_, dky_;
+  sun::Nonlinear nonlinear_;
+  sun::Matrix matrix_;
+  sun::Linear linear_;
+  sun::Cvode cvode_;
+  bool started_ = false;
+  double begun_at_ = 0.0, first_step_ = 0.0, short_flight_ = 0.0;
+  int steps_ = 0;  // since the last restart
+  Eigen::VectorXd begin_x_;
+  mutable SolverStatistics sum_;
+};
+
+}  // namespace
+
+std::unique_ptr<Solver> make_cvode(Machine& machine, Watch& watch, const SolverOptions& options, CvodeMethod method) {
+  return std::make_unique<CvodeSolver>(machine, watch, options, method);
+}
+
+}  // namespace saltus
