@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "saltus/solver/dopri5.hpp"
+#include "saltus/solver/runge_kutta.hpp"
 #include "saltus/solver/step_size.hpp"
 #include "saltus/solver/step_solver.hpp"
 #include "sundials_compat.hpp"
@@ -19,10 +21,17 @@ class CvodeSolver final : public StepSolver {
   CvodeSolver(Machine& machine, Watch& watch, const SolverOptions& options, CvodeMethod method)
       : StepSolver(machine, watch, options), method_(method), context_(sun::make_context()),
         y_(N_VNew_Serial(static_cast<sunindextype>(n_), context_.get())), dky_(N_VClone(y_.get())),
-        cvode_(CVodeCreate(method == CvodeMethod::adams ? CV_ADAMS : CV_BDF, context_.get())) {
+        cvode_(CVodeCreate(method == CvodeMethod::adams ? CV_ADAMS : CV_BDF, context_.get())),
+        starter_(machine, watch, options) {
     if (!cvode_ || !y_ || !dky_) throw Error("SUNDIALS: out of memory");
     hook_ = {[](const char* message, void* self) { static_cast<CvodeSolver*>(self)->note(message); }, this};
     sun::hook_errors(context_.get(), cvode_.get(), &hook_);
+  }
+
+  void inside_step(double u, double* x) override {
+    if (starting_) return starter_.inside_step(u, x);
+    if (CVodeGetDky(cvode_.get(), t0_ + u, 0, dky_.get()) < 0) fail(t0_ + u);
+    std::copy_n(N_VGetArrayPointer(dky_.get()), n_, x);
   }
 
   const SolverStatistics& statistics() const override {
@@ -36,24 +45,32 @@ class CvodeSolver final : public StepSolver {
  private:
   void begin(const Start& how) override {
     if (how.first) first_step_ = 0.0;
-    std::copy_n(x1_.data(), n_, N_VGetArrayPointer(y_.get()));
     begun_at_ = t1_;
-    steps_ = 0;
-    // A multistep method begins with order 1: a flight much shorter than its first step would be drawn as a line
-    // that falls from the start. Where an event may follow soon, the first two steps are kept well below that.
-    short_flight_ = how.horizon < 2000.0 * first_step_ ? how.horizon : 0.0;
-    start(short_flight_ / 1000.0, how.first);
+    // A multistep method begins with order 1 and steps that keep that within the tolerance. A flight hardly longer
+    // than those is drawn as a line that falls from the start: the ball would fall through. So a one-step method
+    // starts where an event may follow that soon (C. W. Gear, "Runge-Kutta starters for multistep methods", ACM
+    // TOMS 6 (1980) 263), and CVODE takes over once the flight has proved longer.
+    starting_ = how.horizon < 2e4 * first_step_;
+    if (starting_) start_with_one_step(t1_, x1_, how.horizon);
+    else start_cvode(how.first);
   }
 
-  void start(double first_step, bool first = false) {
+  void start_with_one_step(double t, const Eigen::VectorXd& x, double horizon) {
+    starting_ = true;
+    starter_until_ = t + 4.0 * horizon;
+    starter_.begin_at(t, x, {.horizon = horizon, .first = true});
+  }
+
+  void start_cvode(bool first = false) {
+    starting_ = false;
+    steps_ = 0;
+    std::copy_n(x1_.data(), n_, N_VGetArrayPointer(y_.get()));
     if (!started_) {
       create();
     } else {
       if (!first) add_counts(statistics_);
       if (CVodeReInit(cvode_.get(), t1_, y_.get()) < 0) fail(t1_);
     }
-    begin_x_ = x1_;
-    CVodeSetInitStep(cvode_.get(), first_step);
   }
 
   void create() {
@@ -64,6 +81,7 @@ class CvodeSolver final : public StepSolver {
     CVodeSetMaxHnilWarns(cvode, -1);
     CVodeSetMaxConvFails(cvode, 20);
     if (options_.min_step > 0.0) CVodeSetMinStep(cvode, options_.min_step);
+    if (std::isfinite(options_.max_step)) CVodeSetMaxStep(cvode, options_.max_step);
     if (method_ == CvodeMethod::adams) {
       nonlinear_.reset(SUNNonlinSol_FixedPoint(y_.get(), 0, context_.get()));
       CVodeSetNonlinearSolver(cvode, nonlinear_.get());
@@ -94,60 +112,37 @@ class CvodeSolver final : public StepSolver {
     CVodeSetNoInactiveRootWarn(cvode_.get());
   }
 
-  void inside_step(double u, double* x) override {
-    if (CVodeGetDky(cvode_.get(), t0_ + u, 0, dky_.get()) < 0) fail(t0_ + u);
-    std::copy_n(N_VGetArrayPointer(dky_.get()), n_, x);
+  void step(double t_stop) override {
+    if (starting_ && t1_ >= starter_until_) start_cvode();
+    if (!starting_) cvode_step(t_stop);
+    if (!starting_) return;
+    starter_.bare_step(t_stop);
+    ++statistics_.steps;
+    t1_ = starter_.step_end(), length_ = starter_.step_length(), x1_ = starter_.step_state();
   }
 
-  void step(double t_stop) override {
-    for (int tries = 0;; ++tries) {
-      bound_step();
-      if (CVodeSetStopTime(cvode_.get(), t_stop) < 0) fail(t0_);
-      double t = t0_;
-      const int flag = CVode(cvode_.get(), t_stop, y_.get(), &t, CV_ONE_STEP);
-      if (error_) std::rethrow_exception(std::exchange(error_, nullptr));
-      if (flag < 0) fail(t);
-      if (steps_ == 0) CVodeGetActualInitStep(cvode_.get(), &first_step_);
-      if (flag == CV_ROOT_RETURN && too_coarse(t) && tries < 12) {
-        start_finer();
-        continue;
-      }
-      ++steps_;
-      t1_ = flag == CV_TSTOP_RETURN ? t_stop : t;
-      length_ = t1_ - t0_;
-      break;
+  void cvode_step(double t_stop) {
+    if (CVodeSetStopTime(cvode_.get(), t_stop) < 0) fail(t0_);
+    double t = t0_;
+    const int flag = CVode(cvode_.get(), t_stop, y_.get(), &t, CV_ONE_STEP);
+    if (error_) std::rethrow_exception(std::exchange(error_, nullptr));
+    if (flag < 0) fail(t);
+    if (steps_ == 0) CVodeGetActualInitStep(cvode_.get(), &first_step_);
+    if (flag == CV_ROOT_RETURN && too_coarse()) {
+      start_with_one_step(t0_, x1_, first_step_);
+      return;
     }
+    ++steps_;
+    t1_ = flag == CV_TSTOP_RETURN ? t_stop : t;
+    length_ = t1_ - t0_;
     std::copy_n(N_VGetArrayPointer(y_.get()), n_, x1_.data());
   }
 
-  void bound_step() {
-    double bound = options_.max_step;
-    if (short_flight_ > 0.0) bound = std::min(bound, steps_ < 2 ? short_flight_ / 1000.0 : short_flight_ / 8.0);
-    CVodeSetMaxStep(cvode_.get(), std::isfinite(bound) ? bound : 0.0);
-  }
-
-  /// A guard that was at zero when the run began here, found at zero again within the steps of order 1: the
-  /// straight line of that order may have invented it.
-  bool too_coarse(double t) const {
-    if (steps_ > 1) return false;
-    double h = 0.0;
-    CVodeGetLastStep(cvode_.get(), &h);
-    if (h <= 64.0 * std::numeric_limits<double>::epsilon() * std::abs(t)) return false;
-    for (const GuardSlot& slot : watch_->slots) {
-      if (slot.active && slot.fresh && !slot.monitor) return true;
-    }
-    return false;
-  }
-
-  void start_finer() {
-    double h = 0.0;
-    CVodeGetLastStep(cvode_.get(), &h);
-    t1_ = t0_ = begun_at_;
-    x1_ = begin_x_;
-    std::copy_n(x1_.data(), n_, N_VGetArrayPointer(y_.get()));
-    short_flight_ = 10.0 * h;
-    steps_ = 0;
-    start(h / 100.0);
+  /// A guard that was at zero when this stretch began, found at zero again within the two steps of order 1.
+  bool too_coarse() const {
+    return steps_ < 2 && std::ranges::any_of(watch_->slots, [](const GuardSlot& slot) {
+      return slot.active && slot.fresh && !slot.monitor;
+    });
   }
 
   void add_counts(SolverStatistics& to) const {
@@ -239,10 +234,10 @@ class CvodeSolver final : public StepSolver {
   sun::Matrix matrix_;
   sun::Linear linear_;
   sun::Cvode cvode_;
-  bool started_ = false;
-  double begun_at_ = 0.0, first_step_ = 0.0, short_flight_ = 0.0;
-  int steps_ = 0;  // since the last restart
-  Eigen::VectorXd begin_x_;
+  RungeKutta<Dopri5> starter_;
+  bool started_ = false, starting_ = false;
+  double begun_at_ = 0.0, first_step_ = 0.0, starter_until_ = 0.0;
+  int steps_ = 0;  // of CVODE since it was started
   mutable SolverStatistics sum_;
 };
 

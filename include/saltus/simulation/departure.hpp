@@ -42,20 +42,24 @@ class Departure {
     machine_->guards(t, x.data(), g0_.data());
   }
 
-  /// `hair`: a guard within it is at zero too.
+  /// `hair`: a guard within it is at zero too, and is followed until it has left that as well.
   Side of(const GuardGroup& group, Index slot, double hair) {
     Side result;
+    const bool opaque = group.kind == GuardGroup::Kind::opaque;
     double d = first_time(group);
-    result.slope = (guard_after(d, slot) - g0_[slot]) / d;
     // Not much further than the tolerance sees: what lies behind is the solver's to find.
-    for (const double furthest = std::min(longest_, 3e5 * d); d <= furthest; d *= 8.0) {
+    double furthest = std::min(longest_, 3e5 * d);
+    result.slope = (guard_after(d, slot) - g0_[slot]) / d;
+    for (; d <= furthest; d *= 8.0) {
       const double g = guard_after(d, slot);
-      result.rounding = group.kind == GuardGroup::Kind::opaque ? 0.0 : std::max(hair, rounding_after(d, slot, g));
-      if (group.kind == GuardGroup::Kind::opaque && !has_moved(group)) continue;
+      const double rounding = opaque ? 0.0 : rounding_after(d, slot, g);
+      result.rounding = std::max(hair, rounding);
+      if (opaque && !has_moved(group)) continue;
       if (std::abs(g) > result.rounding) {
         result.side = g > 0.0 ? 1 : -1;
         break;
       }
+      if (std::abs(g) > rounding) furthest = longest_;
     }
     return result;
   }

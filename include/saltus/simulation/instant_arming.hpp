@@ -179,7 +179,7 @@ inline void Instant::arm_held(const GuardGroup& group, std::size_t k) {
   slot.side = static_cast<signed char>(falls);
   slot.direction = falls > 0 ? Direction::positive_then_non_positive : Direction::negative_then_non_negative;
   slot.fresh = true;
-  slot.band = std::max({slot.band, flow.rounding, std::abs(g_[k])});
+  slot.band = std::max({flow.rounding, std::abs(g_[k]), fired_[k] ? 4.0 * std::abs(g_minus_[k]) : slot.band});
 }
 
 /// After a reset, the flow leads straight back across the guard: nothing can move until something else does. Not so
@@ -195,6 +195,7 @@ inline bool Instant::rests(const GuardGroup& group, Index slot, const Departure:
 
 inline void Instant::hold(int leaf_index, ZenoMonitor& monitor, int source, double predicted) {
   monitor.holding = true;
+  outcome_.horizon = std::numeric_limits<double>::infinity();
   machine_->held[static_cast<std::size_t>(leaf_index)] = 1;
   outcome_.restart = true;
   flowed_ = false;

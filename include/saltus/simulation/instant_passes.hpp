@@ -273,7 +273,7 @@ inline void Instant::find_next() {
     if (group.kind != GuardGroup::Kind::crossing) continue;
     const auto k = static_cast<std::size_t>(group.slot);
     if (slot_monitors_[k].holding) {
-      look_at_held(group, k);
+      if (!fired_now_[k]) look_at_held(group, k);  // else it has only just come to rest
     } else if (fired_now_[k]) {
       watch_->slots[k].side = static_cast<signed char>((g_[k] > 0.0) - (g_[k] < 0.0));
       watch_->slots[k].base = g_[k];
@@ -294,7 +294,7 @@ inline void Instant::look_at_held(const GuardGroup& group, std::size_t k) {
     release(group.leaf, slot_monitors_[k], source_of(Cause::crossing, group_of_slot_[k]));
     slot.side = static_cast<signed char>(now);
     slot.direction = group.direction;
-  } else if (!fired_now_[k] && std::abs(g_[k]) > 1e3 * slot.band) {
+  } else if (std::abs(g_[k]) > 1e3 * slot.band) {
     firings_.push_back({static_cast<int>(k), -slot.side});
   }
 }

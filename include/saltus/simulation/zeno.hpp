@@ -44,7 +44,7 @@ class ZenoMonitor {
 
   /// q / (1 - q), by which the last gap, and the last change of state, is multiplied.
   double remainder() const {
-    const double q = std::sqrt(gap_[0] / gap_[2]);
+    const double q = gap_[0] / gap_[1];
     return q / (1.0 - q);
   }
   double accumulation_time() const { return last_ + gap_[0] * remainder(); }

@@ -20,6 +20,14 @@ class RungeKutta final : public StepSolver {
       : StepSolver(machine, watch, options), x0_(n_), scratch_(n_),
         k_(Eigen::MatrixXd::Zero(n_, static_cast<Index>(Method::stages))), dense_(n_, 4) {}
 
+  void inside_step(double u, double* x) override {
+    if (!dense_ready_) prepare_dense();
+    const double s = u / length_, r = 1.0 - s;
+    for (Index i = 0; i < n_; ++i) {
+      x[i] = x0_[i] + s * (dense_(i, 0) + r * (dense_(i, 1) + s * (dense_(i, 2) + r * dense_(i, 3))));
+    }
+  }
+
   std::string method() const override { return Method::name; }
 
   /// Whether the last steps were bounded by stability rather than by accuracy.
@@ -110,14 +118,6 @@ class RungeKutta final : public StepSolver {
     }
     const double error = n_ > 0 ? std::sqrt(sum / static_cast<double>(n_)) : 0.0;
     return std::isfinite(error) ? error : std::numeric_limits<double>::infinity();
-  }
-
-  void inside_step(double u, double* x) override {
-    if (!dense_ready_) prepare_dense();
-    const double s = u / length_, r = 1.0 - s;
-    for (Index i = 0; i < n_; ++i) {
-      x[i] = x0_[i] + s * (dense_(i, 0) + r * (dense_(i, 1) + s * (dense_(i, 2) + r * dense_(i, 3))));
-    }
   }
 
   void prepare_dense() {

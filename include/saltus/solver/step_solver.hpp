@@ -51,13 +51,26 @@ class StepSolver : public Solver {
   double time() const final { return time_; }
   const Eigen::VectorXd& state() const final { return state_; }
 
+  // --- one step without a look at the guards, for a method that lets another one start for it --------------------
+  void begin_at(double t, const Eigen::VectorXd& x, const Start& start) {
+    t0_ = t1_ = t, x1_ = x;
+    begin(start);
+  }
+  void bare_step(double t_stop) {
+    t0_ = t1_;
+    step(t_stop);
+  }
+  double step_end() const noexcept { return t1_; }
+  double step_length() const noexcept { return length_; }
+  const Eigen::VectorXd& step_state() const noexcept { return x1_; }
+  /// The state at offset u from the beginning of the step, 0 <= u <= step_length().
+  virtual void inside_step(double u, double* x) = 0;
+
  protected:
   /// Starts at (t1, x1).
   virtual void begin(const Start& start) = 0;
   /// From t1 to a new t1 <= t_stop; x1 becomes the state there, `length_` the size of the step.
   virtual void step(double t_stop) = 0;
-  /// The state at offset u from the beginning of the step, 0 <= u <= length_.
-  virtual void inside_step(double u, double* x) = 0;
 
   Machine* machine_;
   Watch* watch_;
