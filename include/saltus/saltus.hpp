@@ -2,4 +2,5 @@
 #pragma once
 
 #include "saltus/library/library.hpp"
+#include "saltus/model/diagram_builder.hpp"
 #include "saltus/simulation/simulate.hpp"

@@ -24,18 +24,30 @@ inline void add_taps(Plan& plan, const RecordedSignals& signals) {
   }
 }
 
-/// The blocks whose continuous state moves a guard that reads `nodes` and its own block.
-inline std::vector<int> moving_leaves(const Plan& plan, int own, const std::vector<int>& nodes) {
+/// The blocks whose continuous state shows in `nodes`, as it is or through feedthrough.
+inline std::vector<int> leaves_behind(const Plan& plan, const std::vector<int>& nodes) {
   Marks reached(plan.nodes.size());
   spread(plan, nodes, reached, [](const Node& node) { return node.rate != Rate::continuous; });
-  std::vector<int> leaves{own};
+  std::vector<int> leaves;
   for (std::size_t i = 0; i < reached.size(); ++i) {
-    if (reached[i] && plan.nodes[i].rate == Rate::continuous) leaves.push_back(plan.nodes[i].leaf);
+    const int leaf = plan.nodes[i].leaf;
+    if (reached[i] && plan.nodes[i].rate == Rate::continuous && plan.leaves[static_cast<std::size_t>(leaf)].nx > 0) {
+      leaves.push_back(leaf);
+    }
   }
-  std::ranges::sort(leaves);
-  const auto repeated = std::ranges::unique(leaves);
-  leaves.erase(repeated.begin(), repeated.end());
-  std::erase_if(leaves, [&](int leaf) { return plan.leaves[static_cast<std::size_t>(leaf)].nx == 0; });
+  return leaves;
+}
+
+/// The blocks whose continuous state moves a guard, at once or through the derivative of one that does.
+inline std::vector<int> moving_leaves(const Plan& plan, int own, const std::vector<int>& nodes) {
+  std::vector<int> leaves = leaves_behind(plan, nodes);
+  if (plan.leaves[static_cast<std::size_t>(own)].nx > 0) leaves.push_back(own);
+  for (std::size_t i = 0; i < leaves.size(); ++i) {
+    const PlanLeaf& leaf = plan.leaves[static_cast<std::size_t>(leaves[i])];
+    for (int more : leaves_behind(plan, read_inputs(leaf.declared().continuous.inputs, leaf))) {
+      if (std::ranges::find(leaves, more) == leaves.end()) leaves.push_back(more);
+    }
+  }
   return leaves;
 }
 

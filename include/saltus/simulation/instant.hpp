@@ -60,6 +60,7 @@ class Instant {
   void commit();
   void read_again();
   bool read_relation(const GuardGroup& group, Index slot);
+  bool reads_changed(int node) const;
   void find_next();
   void look_at_held(const GuardGroup& group, std::size_t slot);
   [[noreturn]] void throw_no_end() const;
@@ -101,14 +102,15 @@ class Instant {
 
   std::vector<int> group_of_slot_;
   std::vector<ZenoMonitor> slot_monitors_, edge_monitors_;
-  std::vector<char> edge_values_;
+  std::vector<char> edge_values_, carried_;
 
   double t_ = 0.0, longest_ = 0.0;
-  int jump_ = 0;
+  int jump_ = 0, pass_ = 0;
   Outcome outcome_;
   std::vector<Firing> firings_;            // for the pass to come
   std::vector<Action> actions_;
-  std::vector<char> fired_, fired_now_, frozen_;  // slots: in this instant, in this pass, keeping their side
+  std::vector<char> fired_, fired_now_;  // slots: in this instant, in this pass
+  std::vector<char> frozen_, resting_;   // slots of relations: their side is kept in this instant, through the hold
   std::vector<signed char> from_;          // slots: the side the last crossing came from
   std::vector<int> edges_fired_;           // in this instant
   bool wrote_x_ = false;                   // some pass of this instant did

@@ -10,7 +10,7 @@ inline Instant::Instant(Machine& machine, Watch& watch, const SimulatorOptions& 
   const auto slots = static_cast<std::size_t>(plan().guard_slots);
   watch.slots.resize(slots), watch.g.assign(slots, 1.0), g_.assign(slots, 1.0), g_minus_.assign(slots, 0.0);
   watch.scan_points = options.event_scan_points;
-  for (auto* marks : {&fired_, &fired_now_, &frozen_}) marks->assign(slots, 0);
+  for (auto* marks : {&fired_, &fired_now_, &frozen_, &resting_}) marks->assign(slots, 0);
   group_of_slot_.resize(slots), from_.assign(slots, 0);
   slot_monitors_.resize(slots);
   std::vector<std::string> names;
@@ -34,14 +34,14 @@ inline Instant::Instant(Machine& machine, Watch& watch, const SimulatorOptions& 
     edge_monitors_.emplace_back(reset_of(edge).zeno_tolerance.value_or(options.zeno_tolerance));
   }
   for (const ScheduledEvent& event : plan().schedule) names.push_back(event.name);
-  edge_values_.assign(plan().edges.size(), 0);
+  edge_values_.assign(plan().edges.size(), 0), carried_.assign(plan().edges.size(), 0);
   results.events.begin(std::move(names));
 }
 
 inline void Instant::begin(double t, Recorder* recorder) {
   t_ = t, jump_ = 0, recorder_ = recorder;
   wrote_x_ = flowed_ = false;
-  std::ranges::fill(fired_, 0), std::ranges::fill(frozen_, 0);
+  std::ranges::fill(fired_, 0), std::ranges::fill(frozen_, 0), std::ranges::fill(resting_, 0);
   for (auto* monitors : {&slot_monitors_, &edge_monitors_}) {
     for (ZenoMonitor& monitor : *monitors) monitor.forget();
   }
@@ -155,8 +155,8 @@ inline void Instant::arm_relation(const GuardGroup& group, std::size_t k) {
   GuardSlot& slot = watch_->slots[k];
   const int now = (g_[k] > 0.0) - (g_[k] < 0.0);
   if (group.kind == GuardGroup::Kind::opaque) {
-    slot.side = static_cast<signed char>(machine_->signal(group.index)[static_cast<Index>(k) - group.slot] != 0.0 ? 1 : -1);
-    slot.fresh = now != slot.side;  // at rest: the side of contact is kept until the value changes
+    const bool truth = machine_->signal(group.index)[static_cast<Index>(k) - group.slot] != 0.0;
+    slot.side = static_cast<signed char>(resting_[k] ? 0 : truth ? 1 : -1);  // at rest its value says nothing
     return;
   }
   if (now == slot.side && !fired_[k]) return;

@@ -22,13 +22,14 @@ inline Instant::Outcome Instant::run(double t, const std::vector<int>& due, doub
     actions_.push_back({scheduled.leaf, Cause::time, event, -1, 0, false});
   }
   bool armed = !at_start;
-  for (int pass = 0;; ++pass) {
-    if (pass >= options_->max_passes) throw_no_end();
+  std::ranges::fill(carried_, 0);
+  for (pass_ = 0;; ++pass_) {
+    if (pass_ >= options_->max_passes) throw_no_end();
     const bool flipped = flip_relations();
     machine_->evaluate_instant(t);
     const bool released = collect_edges();
     add_crossings();
-    if (flipped || released || !actions_.empty() || (pass == 0 && held_outputs_changed())) {
+    if (flipped || released || !actions_.empty() || (pass_ == 0 && held_outputs_changed())) {
       run_pass();
       armed = false;
       if (outcome_.terminal) break;
@@ -100,8 +101,10 @@ inline bool Instant::collect_edges() {
   return released;
 }
 
-/// A leaf on hold whose reset value moved: a floor that rises carries the ball.
+/// A leaf on hold whose reset value moved while its trigger stayed: a floor that rises carries the ball. Not before
+/// the relations have been read again, for a floor that falls moves the reset value too.
 inline void Instant::collect_carried(int index) {
+  if (pass_ == 0 || carried_[static_cast<std::size_t>(index)]) return;
   const EdgeWatch& edge = plan().edges[static_cast<std::size_t>(index)];
   const EdgeReset& reset = reset_of(edge);
   for (int input : detail::read_inputs(reset.inputs, leaf(edge.leaf))) {
@@ -111,6 +114,7 @@ inline void Instant::collect_carried(int index) {
     if (!std::equal(y_before_.data() + place.offset, y_before_.data() + place.offset + place.size,
                     machine_->y.data() + place.offset)) {
       actions_.push_back({edge.leaf, Cause::edge, index, -1, -1, true});
+      carried_[static_cast<std::size_t>(index)] = 1;
       return;
     }
   }
@@ -181,7 +185,7 @@ inline void Instant::run_action(const Action& action) {
       for (int node : plan().edges[static_cast<std::size_t>(action.index)].relations) {
         for (const GuardGroup& relation : plan().guards) {
           if (relation.kind == GuardGroup::Kind::crossing || relation.index != node) continue;
-          for (Index s = 0; s < relation.size; ++s) frozen_[static_cast<std::size_t>(relation.slot + s)] = 1;
+          for (auto k = static_cast<std::size_t>(relation.slot), s = k; s < k + static_cast<std::size_t>(relation.size); ++s) frozen_[s] = resting_[s] = 1;
         }
       }
     }
@@ -248,8 +252,9 @@ inline void Instant::read_again() {
 inline bool Instant::read_relation(const GuardGroup& group, Index slot) {
   const auto k = static_cast<std::size_t>(slot);
   GuardSlot& watched = watch_->slots[k];
-  if (frozen_[k]) return false;
-  const int crossed_to = fired_[k] ? -from_[k] : watched.side;
+  if (frozen_[k] || (resting_[k] && !reads_changed(group.index))) return false;
+  const bool truth = machine_->signal(group.index)[slot - group.slot] != 0.0;
+  const int crossed_to = fired_[k] ? -from_[k] : truth ? 1 : -1;
   int side = (g_[k] > 0.0) - (g_[k] < 0.0);
   if (fired_[k] && !wrote_x_) side = crossed_to;  // nothing it reads was written: its value is rounding
   const bool opaque = group.kind == GuardGroup::Kind::opaque;
@@ -258,12 +263,27 @@ inline bool Instant::read_relation(const GuardGroup& group, Index slot) {
     const Departure::Side flow = side_of(group, slot, fired_[k] && !opaque ? 4.0 * std::abs(g_minus_[k]) : 0.0);
     side = flow.side != 0 ? flow.side : crossed_to;
     const bool back = fired_[k] && side == crossed_to && flow.side != 0;
-    if (back && (opaque || rests(group, slot, flow, -crossed_to))) hold_edges_of(group.index), frozen_[k] = 1;
+    if (back && (opaque || rests(group, slot, flow, -crossed_to))) hold_edges_of(group.index), frozen_[k] = resting_[k] = 1;
   }
-  if (side == 0 || side == watched.side) return false;
+  if (side == 0) return false;
   watched.side = static_cast<signed char>(side);
+  if ((side > 0) == truth) return false;
+  resting_[k] = 0;
   machine_->signal(group.index)[slot - group.slot] = side > 0 ? 1.0 : 0.0;
   return true;
+}
+
+/// Whether something that a relation reads was written in this instant. At rest its own value is rounding.
+inline bool Instant::reads_changed(int node) const {
+  return std::ranges::any_of(plan().node(node).needs, [&](int need) {
+    const Node& read = plan().node(need);
+    const Place& place = read.place;
+    if (place.space == Space::x) {
+      return x_minus_.segment(place.offset, place.size) != machine_->x.segment(place.offset, place.size);
+    }
+    if (place.space != Space::y || read.rate == Rate::continuous) return wrote_x_;
+    return y_before_.segment(place.offset, place.size) != machine_->y.segment(place.offset, place.size);
+  });
 }
 
 /// Zero crossings that the commit moved across zero in their direction fire in the next pass.

@@ -44,7 +44,8 @@ class ZenoMonitor {
 
   /// q / (1 - q), by which the last gap, and the last change of state, is multiplied.
   double remainder() const {
-    const double q = gap_[0] / gap_[1];
+    // A slow series amplifies the rounding of event times by 1 / (1 - q)^2: there the ratio of two gaps further apart.
+    const double last = gap_[0] / gap_[1], q = last > 0.9 ? std::sqrt(gap_[0] / gap_[2]) : last;
     return q / (1.0 - q);
   }
   double accumulation_time() const { return last_ + gap_[0] * remainder(); }
