@@ -74,7 +74,10 @@ TEST_CASE("a ball placed at rest on the floor rests there", "[physics][ball][zen
     const auto results = simulate(*scene.system, scene.context(floor, 0.0), {0.0, 3.0}, {.ode_solver_method = method});
     CHECK(count(results.events, EventKind::zeno_enter) == scene.monitors);
     CHECK(results.context.continuous_state()[0] == floor);
-    CHECK(results.context.continuous_state()[1] == 0.0);
+    // An opaque boolean is seen to change when the height does: one rounding of the floor below it, or atol = 1e-8 m.
+    const bool opaque = scene.form == "ReduceBlock" || scene.form == "FunctionBlock";
+    const double seen = opaque ? std::sqrt(2.0 * g * 2.0 * eps * std::abs(floor)) + 1e-8 : 0.0;
+    CHECK_THAT(results.context.continuous_state()[1], WithinAbs(0.0, seen));
   }
 }
 

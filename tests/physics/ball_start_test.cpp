@@ -71,8 +71,8 @@ TEST_CASE("a run from t = -5 s is the run from 0, moved", "[physics][ball][start
   const auto* method = GENERATE(from_range(methods));
   const Scene scene = leaf({.g = g, .e = 0.7});
   const SimulatorOptions options{.rtol = 1e-10, .atol = 1e-12, .ode_solver_method = method};
-  const auto moved = simulate(*scene.system, scene.context(5.0, 0.0, -5.0), {-5.0, 1.0}, options);
-  const auto still = simulate(*scene.system, scene.context(5.0, 0.0), {0.0, 6.0}, options);
+  const auto moved = simulate(*scene.system, scene.context(5.0, 0.0, -5.0), {-5.0, 0.0}, options);
+  const auto still = simulate(*scene.system, scene.context(5.0, 0.0), {0.0, 5.0}, options);
   REQUIRE(moved.events.size() == still.events.size());
   for (std::size_t i = 0; i < moved.events.size(); ++i) {
     CHECK_THAT(moved.events[i].time + 5.0, WithinAbs(still.events[i].time, 1e-7));

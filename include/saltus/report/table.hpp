@@ -2,10 +2,14 @@
 #pragma once
 
 #include <array>
+#include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <iomanip>
 #include <ostream>
 #include <string>
+#include <string_view>
+#include <variant>
 #include <vector>
 
 #include "saltus/report/work_precision.hpp"
@@ -31,39 +35,46 @@ inline std::string short_time(double seconds) {
   return buffer.data();
 }
 
-inline std::string quoted(std::string_view words) {
-  std::string out = "\"";
-  for (const char c : words) {
-    if (c == '"' || c == '\\') out += '\\';
-    if (static_cast<unsigned char>(c) >= 0x20) out += c;
-  }
-  return out + "\"";
+/// What stands in one column, for programs.
+struct Cell {
+  std::string_view name;
+  std::variant<double, std::int64_t, std::string> value;
+};
+
+inline std::vector<Cell> cells_of(const WorkRow& row) {
+  const Statistics& s = row.statistics;
+  return {{"method", row.method},
+          {"rtol", row.rtol},
+          {"atol", row.atol},
+          {"error", row.achieved.error},
+          {"scaled_error", row.achieved.scaled},
+          {"event_error", row.achieved.event_error},
+          {"event_mismatch", row.achieved.event_mismatch},
+          {"accumulation_error", row.achieved.accumulation_error},
+          {"release_error", row.achieved.release_error},
+          {"seconds", row.seconds},
+          {"steps", s.steps},
+          {"rejected", s.rejected},
+          {"restarts", s.restarts},
+          {"right_hand_side_calls", s.right_hand_side_calls},
+          {"guard_calls", s.guard_calls},
+          {"jacobian_calls", s.jacobian_calls},
+          {"status", std::string(to_string(row.status))},
+          {"message", row.message}};
 }
 
-/// A cell: the name of its column, and its value as a JSON literal.
-using Cells = std::vector<std::pair<std::string, std::string>>;
-
-inline std::string literal(double value) { return std::isfinite(value) ? text(value) : "null"; }
-
-inline Cells cells_of(const WorkRow& row) {
-  return {{"method", quoted(row.method)},
-          {"rtol", literal(row.rtol)},
-          {"atol", literal(row.atol)},
-          {"error", literal(row.achieved.error)},
-          {"scaled_error", literal(row.achieved.scaled)},
-          {"event_error", literal(row.achieved.event_error)},
-          {"event_mismatch", text(row.achieved.event_mismatch)},
-          {"accumulation_error", literal(row.achieved.accumulation_error)},
-          {"release_error", literal(row.achieved.release_error)},
-          {"seconds", literal(row.seconds)},
-          {"steps", text(row.statistics.steps)},
-          {"rejected", text(row.statistics.rejected)},
-          {"restarts", text(row.statistics.restarts)},
-          {"right_hand_side_calls", text(row.statistics.right_hand_side_calls)},
-          {"guard_calls", text(row.statistics.guard_calls)},
-          {"jacobian_calls", text(row.statistics.jacobian_calls)},
-          {"status", quoted(to_string(row.status))},
-          {"message", quoted(row.message)}};
+/// The value as CSV or JSON has it: `escape` stands before a quote within quotes, `unknown` for a number nobody knows.
+inline std::string written(const Cell& cell, char escape, std::string_view unknown) {
+  if (const auto* number = std::get_if<double>(&cell.value)) {
+    return std::isfinite(*number) ? text(*number) : std::string(unknown);
+  }
+  if (const auto* count = std::get_if<std::int64_t>(&cell.value)) return text(*count);
+  std::string out = "\"";
+  for (const char c : std::get<std::string>(cell.value)) {
+    if (c == '"' || c == escape) out += escape;
+    out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+  }
+  return out + "\"";
 }
 
 }  // namespace detail
@@ -90,15 +101,12 @@ inline void write_text(std::ostream& out, const std::vector<WorkRow>& rows) {
 
 /// One line of names, then one line for each row; unknown values are empty.
 inline void write_csv(std::ostream& out, const std::vector<WorkRow>& rows) {
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const detail::Cells cells = detail::cells_of(rows[i]);
-    if (i == 0) {
-      for (std::size_t k = 0; k < cells.size(); ++k) out << (k == 0 ? "" : ",") << cells[k].first;
-      out << "\n";
-    }
-    for (std::size_t k = 0; k < cells.size(); ++k) {
-      out << (k == 0 ? "" : ",") << (cells[k].second == "null" ? "" : cells[k].second);
-    }
+  const auto names = detail::cells_of(WorkRow());
+  for (std::size_t k = 0; k < names.size(); ++k) out << (k == 0 ? "" : ",") << names[k].name;
+  out << "\n";
+  for (const WorkRow& row : rows) {
+    const auto cells = detail::cells_of(row);
+    for (std::size_t k = 0; k < cells.size(); ++k) out << (k == 0 ? "" : ",") << detail::written(cells[k], '"', "");
     out << "\n";
   }
 }
@@ -108,9 +116,9 @@ inline void write_json(std::ostream& out, const std::vector<WorkRow>& rows) {
   out << "[";
   for (std::size_t i = 0; i < rows.size(); ++i) {
     out << (i == 0 ? "\n  {" : ",\n  {");
-    const detail::Cells cells = detail::cells_of(rows[i]);
+    const auto cells = detail::cells_of(rows[i]);
     for (std::size_t k = 0; k < cells.size(); ++k) {
-      out << (k == 0 ? "" : ", ") << detail::quoted(cells[k].first) << ": " << cells[k].second;
+      out << (k == 0 ? "\"" : ", \"") << cells[k].name << "\": " << detail::written(cells[k], '\\', "null");
     }
     out << "}";
   }

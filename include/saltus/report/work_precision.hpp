@@ -12,13 +12,13 @@ namespace saltus {
 
 /// One method at one tolerance.
 struct WorkRow {
-  std::string method;
+  std::string method = {};
   double rtol = 0.0, atol = 0.0;
-  Achieved achieved;
+  Achieved achieved = {};
   double seconds = std::numeric_limits<double>::quiet_NaN();  ///< [s] median of a warm run that records no signals
-  Statistics statistics;
+  Statistics statistics = {};
   Status status = Status::reached_end;
-  std::string message;  ///< why, where the status is none of the good ones
+  std::string message = {};  ///< why, where the status is none of the good ones
 };
 
 struct WorkOptions {
@@ -79,7 +79,9 @@ inline WorkRow measure(const Scene& scene, const SimulatorOptions& options, cons
   row.achieved = achieved(scene, results, options);
   row.statistics = results.statistics;
   row.status = results.status;
-  row.message = results.message;
+  row.message = results.status == Status::interrupted
+                    ? text("stopped at t = ", results.context.time(), " s, after ", work.time_limit, " s of run time")
+                    : results.message;
   if (ended_well(row.status)) row.seconds = detail::time_of_run(scene, options, work);
   return row;
 }

@@ -36,38 +36,38 @@ class Departure {
   void from(double t, const Eigen::VectorXd& x, double longest) {
     t_ = t, x_ = &x, longest_ = longest;
     machine_->derivative(t, x.data(), f_.data());
-    trial_ = x;
-    disturb(trial_);
-    machine_->derivative(t, trial_.data(), f_disturbed_.data());
+    disturbed_ = false;
     machine_->guards(t, x.data(), g0_.data());
   }
 
   /// `hair`: a guard within it is at zero too, and is followed until it has left that as well.
-  Side of(const GuardGroup& group, Index slot, double hair) {
-    Side result;
+  /// `expected`: a side that makes no difference to being at zero, so that its rounding need not be asked for.
+  Side of(const GuardGroup& group, Index slot, double hair, int expected) {
+    Side result{.rounding = hair};
     const bool opaque = group.kind == GuardGroup::Kind::opaque;
     double d = first_time(group);
+    double g = guard_after(d, slot);
+    result.slope = (g - g0_[slot]) / d;
     // Not much further than the tolerance sees: what lies behind is the solver's to find.
-    double furthest = std::min(longest_, 3e5 * d);
-    result.slope = (guard_after(d, slot) - g0_[slot]) / d;
-    for (; d <= furthest; d *= 8.0) {
-      const double g = guard_after(d, slot);
+    for (double furthest = std::min(longest_, 3e5 * d);; g = guard_after(d, slot)) {
+      const int side = (g > 0.0) - (g < 0.0);
+      if (side != 0 && side == expected && std::abs(g) > hair) return result.side = side, result;
       const double rounding = opaque ? 0.0 : rounding_after(d, slot, g);
       result.rounding = std::max(hair, rounding);
-      if (opaque && !has_moved(group)) continue;
-      if (std::abs(g) > result.rounding) {
-        result.side = g > 0.0 ? 1 : -1;
-        break;
-      }
-      if (std::abs(g) > rounding) furthest = longest_;
+      if (std::abs(g) > result.rounding && (!opaque || has_moved(group))) return result.side = side, result;
+      if (std::abs(g) > rounding && !opaque) furthest = longest_;
+      d *= 8.0;
+      if (d > furthest) return result;
     }
-    return result;
   }
 
-  /// d g / d t along the flow at (t, x), by a forward difference over the same time that `of` starts with.
+  /// d g / d t along the flow at (t, x), by two forward differences over the time that `of` starts with. Extrapolated,
+  /// so that the curvature of a ball at rest is no speed: what is left of it by rounding counts as zero.
   double slope(const GuardGroup& group, Index slot) {
     const double d = first_time(group);
-    return (guard_after(d, slot) - g0_[slot]) / d;
+    const double far = (guard_after(d, slot) - g0_[slot]) / d, near = (guard_after(0.5 * d, slot) - g0_[slot]) / (0.5 * d);
+    const double extrapolated = 2.0 * near - far;
+    return std::abs(extrapolated) > 1e-6 * std::abs(far - near) ? extrapolated : 0.0;
   }
 
  private:
@@ -84,16 +84,17 @@ class Departure {
     }
   }
 
-  /// The time in which the fastest state the guard depends on moves by its tolerance.
+  /// The time in which the fastest state the guard depends on moves by its tolerance. A state that hardly does so
+  /// within the run says nothing: what moves the guard is the time, or another block.
   double first_time(const GuardGroup& group) const {
     double d = 1e-9 * longest_;  // for a guard that no state moves
     bool moved = false;
     for (int leaf : group.leaves) {
       const PlanLeaf& of = machine_->plan().leaves[static_cast<std::size_t>(leaf)];
       for (Index i = of.x; i < of.x + of.nx; ++i) {
-        if (f_[i] == 0.0) continue;
         const double time = (rtol_ * std::abs((*x_)[i]) + atol_) / std::abs(f_[i]);
-        d = moved ? std::min(d, time) : std::min(longest_, time);
+        if (!(time <= 1e-3 * longest_)) continue;
+        d = moved ? std::min(d, time) : time;
         moved = true;
       }
     }
@@ -111,6 +112,12 @@ class Departure {
 
   /// Sixteen units of rounding in x and in f, carried through the guard.
   double rounding_after(double d, Index slot, double g) {
+    if (!disturbed_) {
+      trial_ = *x_;
+      disturb(trial_);
+      machine_->derivative(t_, trial_.data(), f_disturbed_.data());
+      disturbed_ = true;
+    }
     trial_ = x1_;
     disturb(trial_);
     machine_->guards(t_ + d, trial_.data(), g_disturbed_.data());
@@ -135,6 +142,7 @@ class Departure {
   double rtol_, atol_;
   double t_ = 0.0, longest_ = 0.0;
   const Eigen::VectorXd* x_ = nullptr;
+  bool disturbed_ = false;  // f_disturbed_ is that of x_
   Eigen::VectorXd f_, f_disturbed_, f1_, x1_, move_, trial_, g_, g0_, g_disturbed_;
 };
 

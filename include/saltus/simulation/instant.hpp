@@ -64,13 +64,14 @@ class Instant {
   void find_next();
   void look_at_held(const GuardGroup& group, std::size_t slot);
   [[noreturn]] void throw_no_end() const;
+  const std::string& name_of(int source) const;
 
   // instant_arming.hpp
   void arm(bool at_start);
   void arm_crossing(const GuardGroup& group, std::size_t slot, bool at_start);
   void arm_relation(const GuardGroup& group, std::size_t slot);
   void arm_held(const GuardGroup& group, std::size_t slot);
-  Departure::Side side_of(const GuardGroup& group, Index slot, double hair);
+  Departure::Side side_of(const GuardGroup& group, Index slot, double hair, int expected);
   bool rests(const GuardGroup& group, Index slot, const Departure::Side& after, int from);
   void hold(int leaf, ZenoMonitor& monitor, int source, double predicted);
   void hold_edges_of(int node);
@@ -118,7 +119,7 @@ class Instant {
   Eigen::VectorXd x_minus_, x_next_, z_next_, x_log_, y_before_;
   std::vector<int> modes_next_;
   std::vector<double> g_, g_minus_;  // guards now, and before the instant
-  std::vector<std::string> chain_;
+  std::vector<int> chain_;  // sources of what happened in this instant
 };
 
 }  // namespace saltus

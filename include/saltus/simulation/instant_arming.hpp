@@ -96,10 +96,10 @@ inline void Instant::select_guards() {
 }
 
 /// `hair`: how far the location left the guard from zero; nothing within it counts as off zero.
-inline Departure::Side Instant::side_of(const GuardGroup& group, Index slot, double hair) {
+inline Departure::Side Instant::side_of(const GuardGroup& group, Index slot, double hair, int expected) {
   if (!flowed_) departure_.from(t_, machine_->x, longest_);
   flowed_ = true;
-  return departure_.of(group, slot, hair);
+  return departure_.of(group, slot, hair, expected);
 }
 
 /// Sides for the solver. A guard that stands at zero, or just fired, takes the side the flow takes it to.
@@ -120,10 +120,11 @@ inline void Instant::arm(bool at_start) {
 inline void Instant::arm_crossing(const GuardGroup& group, std::size_t k, bool at_start) {
   GuardSlot& slot = watch_->slots[k];
   if (slot.fresh && !fired_[k]) return;  // dormant since before
-  const Departure::Side flow = side_of(group, group.slot, fired_[k] ? 4.0 * std::abs(g_minus_[k]) : 0.0);
-  slot.band = flow.rounding;
   const ZeroCrossing& crossing = crossing_of(group);
   const int falls = group.direction == Direction::negative_then_non_negative ? 1 : -1;  // side it fires on reaching
+  const int from = group.direction != Direction::crosses_zero ? -falls : slot.side != 0 ? slot.side : -falls;
+  const Departure::Side flow = side_of(group, group.slot, fired_[k] ? 4.0 * std::abs(g_minus_[k]) : 0.0, fired_[k] ? from : 0);
+  slot.band = flow.rounding;
   const bool has_effect = crossing.reset_map || crossing.end_mode;
   if (!fired_[k]) {
     // At zero without having fired. At the start of a run a guard with a reset map that the flow takes to its firing
@@ -135,7 +136,6 @@ inline void Instant::arm_crossing(const GuardGroup& group, std::size_t k, bool a
     slot.fresh = false;
     return;
   }
-  const int from = group.direction == Direction::crosses_zero ? (slot.side != 0 ? slot.side : -falls) : -falls;
   ZenoMonitor& monitor = slot_monitors_[k];
   if (flow.side != 0 && flow.side != from && crossing.reset_map && rests(group, group.slot, flow, from)) {
     if (monitor.on()) {
@@ -165,7 +165,7 @@ inline void Instant::arm_relation(const GuardGroup& group, std::size_t k) {
     slot.band = std::abs(g_[k]);
     return;
   }
-  const Departure::Side flow = side_of(group, static_cast<Index>(k), fired_[k] ? 4.0 * std::abs(g_minus_[k]) : 0.0);
+  const Departure::Side flow = side_of(group, static_cast<Index>(k), fired_[k] ? 4.0 * std::abs(g_minus_[k]) : 0.0, 0);
   slot.fresh = true;
   slot.band = flow.rounding;
   if (flow.side != 0 && flow.side != slot.side) firings_.push_back({static_cast<int>(k), slot.side});
@@ -175,7 +175,7 @@ inline void Instant::arm_relation(const GuardGroup& group, std::size_t k) {
 inline void Instant::arm_held(const GuardGroup& group, std::size_t k) {
   GuardSlot& slot = watch_->slots[k];
   const int falls = group.direction == Direction::negative_then_non_negative ? 1 : -1;
-  const Departure::Side flow = side_of(group, group.slot, 0.0);
+  const Departure::Side flow = side_of(group, group.slot, 0.0, 0);
   slot.side = static_cast<signed char>(falls);
   slot.direction = falls > 0 ? Direction::positive_then_non_positive : Direction::negative_then_non_negative;
   slot.fresh = true;

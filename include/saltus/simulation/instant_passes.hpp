@@ -131,6 +131,7 @@ inline void Instant::add_crossings() {
     actions_.push_back({of.leaf, Cause::crossing, group, firing.slot, firing.from, monitor.holding});
   }
   firings_.clear();
+  if (actions_.size() < 2) return;
   std::ranges::stable_sort(actions_, [](const Action& a, const Action& b) {
     return a.leaf != b.leaf ? a.leaf < b.leaf : a.cause < b.cause;
   });
@@ -152,11 +153,7 @@ inline void Instant::run_action(const Action& action) {
   const int source = source_of(action.cause, action.index);
   const PlanLeaf& of = leaf(action.leaf);
   auto state = x_next_.segment(of.x, of.nx);
-  if (chain_.size() < 400) {
-    chain_.push_back(action.cause == Cause::crossing ? plan().guards[static_cast<std::size_t>(action.index)].name
-                     : action.cause == Cause::edge   ? plan().edges[static_cast<std::size_t>(action.index)].name
-                                                     : plan().schedule[static_cast<std::size_t>(action.index)].name);
-  }
+  if (chain_.size() < 400) chain_.push_back(source);
   if (action.cause == Cause::time) {
     const auto& event = of.declared().time_events[static_cast<std::size_t>(plan().schedule[static_cast<std::size_t>(action.index)].index)];
     if (event.update) run_reset(action, event.update);
@@ -209,7 +206,7 @@ inline bool Instant::run_reset(const Action& action, const ResetMap& map) {
   Next next({x_next_.data() + of.x, of.nx}, {z_next_.data() + of.z, of.nz}, modes_next_[number], of.path);
   map(*of.system, at, next);
   if (!x_next_.segment(of.x, of.nx).allFinite() || !z_next_.segment(of.z, of.nz).allFinite()) {
-    throw SimulationError(text("t = ", t_, " s: '", chain_.empty() ? of.path : chain_.back(),
+    throw SimulationError(text("t = ", t_, " s: '", name_of(source_of(action.cause, action.index)),
                                "' set a state that is not finite (NaN or Inf)"), t_, of.path);
   }
   if (next.wrote_continuous_state()) wrote_x_ = outcome_.restart = true;
@@ -260,7 +257,7 @@ inline bool Instant::read_relation(const GuardGroup& group, Index slot) {
   const bool opaque = group.kind == GuardGroup::Kind::opaque;
   const bool unsure = wrote_x_ && fired_[k] && (!opaque || side != crossed_to);
   if (unsure || (g_[k] == 0.0 && !fired_[k])) {
-    const Departure::Side flow = side_of(group, slot, fired_[k] && !opaque ? 4.0 * std::abs(g_minus_[k]) : 0.0);
+    const Departure::Side flow = side_of(group, slot, fired_[k] && !opaque ? 4.0 * std::abs(g_minus_[k]) : 0.0, 0);
     side = flow.side != 0 ? flow.side : crossed_to;
     const bool back = fired_[k] && side == crossed_to && flow.side != 0;
     if (back && (opaque || rests(group, slot, flow, -crossed_to))) hold_edges_of(group.index), frozen_[k] = resting_[k] = 1;
@@ -322,11 +319,20 @@ inline void Instant::look_at_held(const GuardGroup& group, std::size_t k) {
 [[noreturn]] inline void Instant::throw_no_end() const {
   std::string causes;
   const std::size_t first = chain_.size() > 6 ? chain_.size() - 6 : 0;
-  for (std::size_t i = first; i < chain_.size(); ++i) causes += text(i == first ? "'" : " -> '", chain_[i], "'");
+  for (std::size_t i = first; i < chain_.size(); ++i) causes += text(i == first ? "'" : " -> '", name_of(chain_[i]), "'");
+  const std::string last = chain_.empty() ? std::string() : name_of(chain_.back());
   throw SimulationError(text("t = ", t_, " s: this instant does not come to an end: more than ", options_->max_passes,
                              " passes; the events set each other off: ... ", causes,
                              " ...; break the loop, or raise max_passes"),
-                        t_, chain_.empty() ? std::string() : chain_.back().substr(0, chain_.back().rfind('.')));
+                        t_, last.substr(0, last.rfind('.')));
+}
+
+/// "block.event" of a source.
+inline const std::string& Instant::name_of(int source) const {
+  const auto groups = static_cast<int>(plan().guards.size()), edges = static_cast<int>(plan().edges.size());
+  if (source < groups) return plan().guards[static_cast<std::size_t>(source)].name;
+  if (source < groups + edges) return plan().edges[static_cast<std::size_t>(source - groups)].name;
+  return plan().schedule[static_cast<std::size_t>(source - groups - edges)].name;
 }
 
 }  // namespace saltus

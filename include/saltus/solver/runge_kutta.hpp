@@ -18,14 +18,13 @@ class RungeKutta final : public StepSolver {
  public:
   RungeKutta(Machine& machine, Watch& watch, const SolverOptions& options)
       : StepSolver(machine, watch, options), x0_(n_), scratch_(n_),
-        k_(Eigen::MatrixXd::Zero(n_, static_cast<Index>(Method::stages))), dense_(n_, 4) {}
+        k_(Eigen::MatrixXd::Zero(n_, static_cast<Index>(Method::stages))), dense_(4, n_) {}
 
   void inside_step(double u, double* x) override {
     if (!dense_ready_) prepare_dense();
     const double s = u / length_, r = 1.0 - s;
-    for (Index i = 0; i < n_; ++i) {
-      x[i] = x0_[i] + s * (dense_(i, 0) + r * (dense_(i, 1) + s * (dense_(i, 2) + r * dense_(i, 3))));
-    }
+    const double *x0 = x0_.data(), *c = dense_.data();
+    for (Index i = 0, n = n_; i < n; ++i, c += 4) x[i] = x0[i] + s * (c[0] + r * (c[1] + s * (c[2] + r * c[3])));
   }
 
   std::string method() const override { return Method::name; }
@@ -95,9 +94,9 @@ class RungeKutta final : public StepSolver {
   /// x0 + h sum_j a[I][j] k_j
   template <std::size_t I>
   void combine(double h, double* out) const {
-    const double* k = k_.data();
-    for (Index i = 0; i < n_; ++i) {
-      out[i] = x0_[i] + h * dot<[] { return Method::a[I]; }>(k + i, std::make_index_sequence<I>{});
+    const double *k = k_.data(), *x0 = x0_.data();
+    for (Index i = 0, n = n_; i < n; ++i) {
+      out[i] = x0[i] + h * dot<[] { return Method::a[I]; }>(k + i, std::make_index_sequence<I>{});
     }
   }
   /// sum_j row[j] k_j, without the terms that are zero.
@@ -125,10 +124,11 @@ class RungeKutta final : public StepSolver {
     for (Index i = 0; i < n_; ++i) {
       const double* k = k_.data() + i;
       const double rise = x1_[i] - x0_[i], bend = h * k[0] - rise;
-      dense_(i, 0) = rise;
-      dense_(i, 1) = bend;
-      dense_(i, 2) = rise - h * k[static_cast<Index>(last) * n_] - bend;
-      dense_(i, 3) = h * dot<[] { return Method::d; }>(k, std::make_index_sequence<Method::stages>{});
+      double* c = dense_.data() + 4 * i;
+      c[0] = rise;
+      c[1] = bend;
+      c[2] = rise - h * k[static_cast<Index>(last) * n_] - bend;
+      c[3] = h * dot<[] { return Method::d; }>(k, std::make_index_sequence<Method::stages>{});
     }
     dense_ready_ = true;
   }

@@ -17,8 +17,8 @@ class StepController {
   explicit StepController(double order) : exponent_(1.0 / order - 0.75 * beta), plain_(1.0 / order) {}
 
   double accept(double error, double h, bool after_rejection) {
-    const double e = std::max(error, 1e-12);
-    const double factor = std::clamp(safety * std::pow(e, -exponent_) * std::pow(before_, beta), 0.2, 10.0);
+    // Below 1e-8 both powers together exceed 10 for every order up to 8: no need to ask.
+    const double factor = error < 1e-8 ? 10.0 : std::clamp(safety * std::pow(error, -exponent_) * std::pow(before_, beta), 0.2, 10.0);
     before_ = std::max(error, 1e-4);
     return h * (after_rejection ? std::min(factor, 1.0) : factor);
   }

@@ -1,0 +1,24 @@
+// What the binding files share. They carry the C++ names; defaults and docstrings stand in python/saltus/*.py.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+namespace saltus::python {
+
+namespace py = pybind11;
+
+void bind_errors(py::module_& module);
+void bind_context(py::module_& module);
+void bind_system(py::module_& module);
+void bind_leaf_system(py::module_& module);
+void bind_sources(py::module_& module);
+void bind_arithmetic(py::module_& module);
+void bind_logic(py::module_& module);
+void bind_state(py::module_& module);
+void bind_results(py::module_& module);
+void bind_simulation(py::module_& module);
+
+/// A class of python/saltus/errors.py.
+py::object error_class(const char* name);
+
+}  // namespace saltus::python

@@ -1,0 +1,84 @@
+// The four scenes of the tutorial "Bouncing Ball": with the tutorial's own tolerances and step bounds, and then error
+// against run time without the bounds.
+#include <saltus/models/models.hpp>
+
+#include "runner.hpp"
+
+namespace {
+
+using namespace saltus;
+
+Scene with_options(std::string name, Scene scene, SimulatorOptions options) {
+  options.recorded_signals = scene.options.recorded_signals;
+  scene.options = std::move(options);
+  scene.name = std::move(name);
+  return scene;
+}
+
+std::vector<Scene> tutorial() {
+  const double g = 9.81, t1 = std::sqrt(2.0 * 10.0 / g);
+  const SimulatorOptions leaf{.rtol = 1e-10, .atol = 1e-12, .max_minor_step_size = 1e-3};
+  const SimulatorOptions blocks{.rtol = 1e-6, .atol = 1e-8, .max_major_step_length = 0.1, .max_minor_step_size = 1e-3};
+  return {with_options("scene 1: a leaf, e = 1", models::bouncing_ball({.g = g, .e = 1.0, .y0 = 10.0, .t_end = 6.0 * t1}), leaf),
+          with_options("scene 2: a leaf, e = 0.9", models::bouncing_ball({.g = g, .e = 0.9, .y0 = 10.0, .t_end = 12.0}), leaf),
+          with_options("scene 3: blocks, e = 0.8, the floor drops from under the ball at rest",
+                       models::bouncing_ball_diagram({.g = g, .e = 0.8, .y0 = 1e-3, .floor = 0.0, .dropped = -1e-3,
+                                                      .drop_time = 1.0, .t_end = 1.1}), blocks),
+          with_options("scene 4: blocks, e = 0.9, the floor drops in flight",
+                       models::bouncing_ball_diagram({.g = g, .e = 0.9, .y0 = 10.0, .floor = 5.0, .dropped = 0.0,
+                                                      .drop_time = 10.0, .t_end = 40.0}), blocks)};
+}
+
+/// Each rest of the ball: when it began, how far that is from the closed form, and when it ended.
+void print_rests(const Scene& scene, const Results& results) {
+  const EventTimes& exact = scene.exact.events.front();
+  const auto found = observed_series(results.events, exact.guard);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    if (!std::isfinite(found[i].accumulation)) continue;
+    std::cout << "  Zeno: at rest from t = " << std::setprecision(12) << found[i].accumulation << " s";
+    if (i < exact.series.size()) {
+      std::cout << ", error " << detail::short_number(std::abs(found[i].accumulation - exact.series[i].accumulation)) << " s";
+    }
+    if (std::isfinite(found[i].release)) std::cout << "; released at t = " << found[i].release << " s";
+    std::cout << "\n";
+  }
+}
+
+void show(const Scene& scene) {
+  const Results results = simulate(scene);
+  const Achieved a = achieved(scene, results);
+  std::size_t bounces = 0;
+  for (const EventSeries& series : observed_series(results.events, scene.exact.events.front().guard)) {
+    bounces += series.times.size();
+  }
+  std::cout << scene.name << "\n  " << to_string(results.status) << ", " << bounces << " bounces, " << results.time.size()
+            << " rows; worst event time " << detail::short_number(a.event_error) << " s, worst height or velocity "
+            << detail::short_number(a.error) << ", events off " << a.event_mismatch << "\n";
+  print_rests(scene, results);
+}
+
+/// The scene as it is, then without the bounds of steps, which no method needs.
+void compare(Scene scene, const WorkOptions& work) {
+  std::vector<WorkRow> rows{measure(scene, scene.options, work)};
+  rows.front().method += " *";
+  scene.options.max_minor_step_size = scene.options.max_major_step_length = std::numeric_limits<double>::infinity();
+  for (const WorkRow& row : work_precision(scene, work)) rows.push_back(row);
+  write_text(std::cout, rows);
+  std::cout << "  * with the tutorial's tolerances and bounds of steps\n\n";
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("The four scenes of the tutorial: events, errors against the closed form, error against run time.", "tutorial");
+  WorkOptions work{.methods = {"dopri5", "adams"}, .rtols = {1e-4, 1e-8, 1e-12}, .time_limit = 1.0};
+  app.add_option("--methods", work.methods, "methods to compare")->capture_default_str();
+  app.add_option("--rtols", work.rtols, "relative tolerances to compare at")->capture_default_str();
+  return examples::guarded(app, argc, argv, [&] {
+    for (const std::string& method : work.methods) method_from(method);
+    for (const Scene& scene : tutorial()) {
+      show(scene);
+      compare(scene, work);
+    }
+  });
+}
