@@ -43,7 +43,7 @@ void bind_system(py::module_& module) {
 
   // The name that the system made next gets if it is not given one: Gain_7.
   module.def("next_name", [](const std::string& kind) {
-    return text(kind, "_", Diagram(DiagramBuilder().probe()).system_id().value + 1);
+    return text(kind, "_", LeafSystem().system_id().value + 1);
   });
 }
 

@@ -22,7 +22,7 @@ struct Settings {
 };
 
 inline void add_settings(CLI::App& app, Settings& settings, double& t_end) {
-  app.add_option("--t-end", t_end, "end of the run [s]")->capture_default_str()->check(CLI::NonNegativeNumber);
+  app.add_option("--t-end", t_end, "end of the run [s]")->capture_default_str();
   app.add_option("--rtol", settings.rtol, "relative tolerance")->capture_default_str();
   app.add_option("--atol", settings.atol, "absolute tolerance")->capture_default_str();
   app.add_option("--method", settings.method, "auto, dopri5, adams, bdf")->capture_default_str();
@@ -177,6 +177,9 @@ int run(int argc, char** argv, const std::string& name, const std::string& about
   add_settings(app, settings, parameters.t_end);
   return guarded(app, argc, argv, [&] {
     saltus::method_from(settings.method);  // before any work
+    if (!(parameters.t_end >= 0.0)) {
+      throw saltus::ModelError(saltus::text("--t-end: expected a time >= 0 s, found ", parameters.t_end));
+    }
     saltus::Scene scene = make(parameters);
     scene.options.rtol = settings.rtol;
     scene.options.atol = settings.atol;

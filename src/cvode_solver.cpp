@@ -16,7 +16,7 @@ namespace saltus {
 
 namespace {
 
-class CvodeSolver final : public StepSolver {
+class CvodeSolver final : public StepSolver<CvodeSolver> {
  public:
   CvodeSolver(Machine& machine, Watch& watch, const SolverOptions& options, CvodeMethod method)
       : StepSolver(machine, watch, options), method_(method), context_(sun::make_context()),
@@ -28,7 +28,7 @@ class CvodeSolver final : public StepSolver {
     sun::hook_errors(context_.get(), cvode_.get(), &hook_);
   }
 
-  void inside_step(double u, double* x) override {
+  void inside_step(double u, double* x) {
     if (starting_) return starter_.inside_step(u, x);
     if (CVodeGetDky(cvode_.get(), t0_ + u, 0, dky_.get()) < 0) fail(t0_ + u);
     std::copy_n(N_VGetArrayPointer(dky_.get()), n_, x);
@@ -43,7 +43,9 @@ class CvodeSolver final : public StepSolver {
   std::string method() const override { return method_ == CvodeMethod::adams ? "adams" : "bdf"; }
 
  private:
-  void begin(const Start& how) override {
+  friend StepSolver<CvodeSolver>;
+
+  void begin(const Start& how) {
     if (how.first) first_step_ = 0.0;
     begun_at_ = t1_;
     // A multistep method begins with order 1 and steps that keep that within the tolerance. A flight hardly longer
@@ -112,7 +114,7 @@ class CvodeSolver final : public StepSolver {
     CVodeSetNoInactiveRootWarn(cvode_.get());
   }
 
-  void step(double t_stop) override {
+  void step(double t_stop) {
     if (starting_ && t1_ >= starter_until_) start_cvode();
     if (!starting_) cvode_step(t_stop);
     if (!starting_) return;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <new>
 #include <vector>
 
 #include "saltus/plan/compile.hpp"
@@ -15,6 +16,8 @@ namespace saltus {
 class Machine {
  public:
   explicit Machine(std::shared_ptr<const Plan> plan);
+  Machine(const Machine&) = delete;  // views_ point into it
+  Machine& operator=(const Machine&) = delete;
 
   /// Copies a context in and computes the constant outputs.
   void load(const Context& context);
@@ -49,7 +52,7 @@ class Machine {
   }
 
   /// What leaf i sees at time t; its continuous state from the last (t, x) asked for.
-  At at(std::size_t leaf, double t) const { return at(frames_[leaf], t); }
+  At at(std::size_t leaf, double t) { return view(leaf, t); }
   /// Makes `at` see the machine's own x again.
   void at_home() { bases_[0] = x.data(); }
 
@@ -75,12 +78,6 @@ class Machine {
   std::int64_t rhs_calls = 0, guard_calls = 0, jacobian_calls = 0;
 
  private:
-  struct Frame {  // what `at` needs to know of a leaf
-    Index x, nx, z, nz, p, np;
-    const Place* inputs;
-    int input_count;
-    std::size_t leaf, relations;
-  };
   struct Call {
     const VectorFunction* function;
     const LeafSystem* system;
@@ -101,14 +98,18 @@ class Machine {
     bool opaque;
   };
 
-  At at(const Frame& f, double t) const {
-    return {t, {bases_[0] + f.x, f.nx}, {bases_[1] + f.z, f.nz}, {bases_[2] + f.p, f.np}, modes[f.leaf],
-            {f.inputs, f.input_count, &bases_}, relation_values_.data() + f.relations};
+  /// What leaf i sees now. Only what moves from call to call is set anew.
+  const At& view(std::size_t leaf, double t) {
+    At& at = views_[leaf];
+    at.time = t;
+    new (&at.x) VectorView(bases_[0] + x_offsets_[leaf], at.x.size());
+    at.mode = modes[leaf];
+    return at;
   }
   void run(const std::vector<Call>& calls, double t) {
     for (const Call& call : calls) {
       const VectorRef out(y.data() + call.offset, call.size);
-      (*call.function)(*call.system, at(frames_[call.leaf], t), out);
+      (*call.function)(*call.system, view(call.leaf, t), out);
       if (call.relation) make_truth(out, call.true_at_zero);
     }
   }
@@ -116,17 +117,16 @@ class Machine {
     for (double& value : values) value = value > 0.0 || (at_zero && value == 0.0) ? 1.0 : 0.0;
   }
   void ode_of(const OdeCall& ode, double t, double* xdot) {
-    const Frame& frame = frames_[ode.leaf];
-    const VectorRef out(xdot + frame.x, frame.nx);
+    const VectorRef out(xdot + x_offsets_[ode.leaf], views_[ode.leaf].x.size());
     if (held[ode.leaf] || !*ode.function) {
       VectorRef(out).setZero();
     } else {
-      (*ode.function)(*ode.system, at(frame, t), out);
+      (*ode.function)(*ode.system, view(ode.leaf, t), out);
     }
   }
   void guard(const GroupCall& group, double t, double* g) {
     const VectorRef out(g + group.slot, group.size);
-    (*group.function)(*group.system, at(frames_[group.leaf], t), out);
+    (*group.function)(*group.system, view(group.leaf, t), out);
     if (!group.opaque) return;
     for (double& value : VectorRef(out)) value = value != 0.0 ? 1.0 : -1.0;
   }
@@ -135,7 +135,8 @@ class Machine {
 
   std::shared_ptr<const Plan> plan_;
   Bases bases_{};
-  std::vector<Frame> frames_;
+  std::vector<At> views_;          // one for each leaf
+  std::vector<Index> x_offsets_;
   std::vector<const double*> relation_values_;
   std::vector<Call> constant_calls_, instant_calls_, derivative_calls_, guard_calls_list_, tap_calls_;
   std::vector<OdeCall> odes_;

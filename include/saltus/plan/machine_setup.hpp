@@ -21,11 +21,16 @@ inline Machine::Machine(std::shared_ptr<const Plan> plan) : plan_(std::move(plan
   modes.assign(plan_->leaves.size(), 0);
   held.assign(plan_->leaves.size(), 0);
   bases_ = {x.data(), z.data(), p.data(), y.data()};
-  for (std::size_t i = 0; i < plan_->leaves.size(); ++i) {
-    const PlanLeaf& leaf = plan_->leaves[i];
-    frames_.push_back({leaf.x, leaf.nx, leaf.z, leaf.nz, leaf.p, leaf.np, leaf.input_places.data(),
-                       static_cast<int>(leaf.input_places.size()), i, relation_values_.size()});
+  for (const PlanLeaf& leaf : plan_->leaves) {
     for (int node : leaf.relations) relation_values_.push_back(signal(node));
+  }
+  const double* const* relations = relation_values_.data();
+  for (const PlanLeaf& leaf : plan_->leaves) {
+    const Inputs inputs(leaf.input_places.data(), static_cast<int>(leaf.input_places.size()), &bases_);
+    views_.push_back(At(0.0, {x.data() + leaf.x, leaf.nx}, {z.data() + leaf.z, leaf.nz}, {p.data() + leaf.p, leaf.np}, 0,
+                        inputs, relations));
+    x_offsets_.push_back(leaf.x);
+    relations += leaf.relations.size();
   }
   constant_calls_ = calls_of(plan_->constants);
   instant_calls_ = calls_of(plan_->instants);
@@ -111,10 +116,10 @@ inline void Machine::jacobian(double t, const double* state, MatrixRef out) {
   Eigen::MatrixXd block;
   for (const OdeCall& ode : odes_) {
     if (held[ode.leaf]) continue;
-    const Frame& frame = frames_[ode.leaf];
-    block.setZero(frame.nx, frame.nx);
-    plan_->leaves[ode.leaf].declared().continuous.jacobian(*ode.system, at(frame, t), {block.data(), frame.nx, frame.nx});
-    out.block(frame.x, frame.x, frame.nx, frame.nx) = block;
+    const Index at_x = x_offsets_[ode.leaf], n = views_[ode.leaf].x.size();
+    block.setZero(n, n);
+    plan_->leaves[ode.leaf].declared().continuous.jacobian(*ode.system, view(ode.leaf, t), {block.data(), n, n});
+    out.block(at_x, at_x, n, n) = block;
   }
 }
 
@@ -122,13 +127,13 @@ inline std::string Machine::not_finite(double t, const double* state) {
   bases_[0] = state;
   for (const Call& call : derivative_calls_) {
     const VectorRef out(y.data() + call.offset, call.size);
-    (*call.function)(*call.system, at(frames_[call.leaf], t), out);
+    (*call.function)(*call.system, view(call.leaf, t), out);
     if (!out.allFinite()) return plan_->leaves[call.leaf].path;
   }
   Eigen::VectorXd xdot(plan_->nx);
   for (const OdeCall& ode : odes_) {
     ode_of(ode, t, xdot.data());
-    if (!xdot.segment(frames_[ode.leaf].x, frames_[ode.leaf].nx).allFinite()) return plan_->leaves[ode.leaf].path;
+    if (!xdot.segment(x_offsets_[ode.leaf], views_[ode.leaf].x.size()).allFinite()) return plan_->leaves[ode.leaf].path;
   }
   return {};
 }

@@ -25,10 +25,9 @@ class Departure {
     for (auto* v : {&g_, &g0_, &g_disturbed_}) v->setOnes(slots);
   }
 
-  /// What the flow does to one guard: the side it takes (0: none), its slope, and the rounding it was told from.
+  /// What the flow does to one guard: the side it takes (0: none), and the rounding it was told from.
   struct Side {
     int side = 0;
-    double slope = 0.0;
     double rounding = 0.0;
   };
 
@@ -47,7 +46,6 @@ class Departure {
     const bool opaque = group.kind == GuardGroup::Kind::opaque;
     double d = first_time(group);
     double g = guard_after(d, slot);
-    result.slope = (g - g0_[slot]) / d;
     // Not much further than the tolerance sees: what lies behind is the solver's to find.
     for (double furthest = std::min(longest_, 3e5 * d);; g = guard_after(d, slot)) {
       const int side = (g > 0.0) - (g < 0.0);

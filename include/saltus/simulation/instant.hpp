@@ -72,7 +72,7 @@ class Instant {
   void arm_relation(const GuardGroup& group, std::size_t slot);
   void arm_held(const GuardGroup& group, std::size_t slot);
   Departure::Side side_of(const GuardGroup& group, Index slot, double hair, int expected);
-  bool rests(const GuardGroup& group, Index slot, const Departure::Side& after, int from);
+  bool rests(const GuardGroup& group, Index slot, int from);
   void hold(int leaf, ZenoMonitor& monitor, int source, double predicted);
   void hold_edges_of(int node);
   void release(int leaf, ZenoMonitor& monitor, int source);

@@ -81,17 +81,17 @@ inline void Instant::begin(double t, Recorder* recorder) {
 
 inline void Instant::select_guards() {
   machine_->select_guards();
-  std::vector<char> active(watch_->slots.size(), 0);
+  watch_->active.clear();
   for (int i : machine_->active_guards()) {
     const GuardGroup& group = plan().guards[static_cast<std::size_t>(i)];
-    for (Index s = 0; s < group.size; ++s) active[static_cast<std::size_t>(group.slot + s)] = 1;
+    for (Index s = 0; s < group.size; ++s) watch_->active.push_back(static_cast<std::size_t>(group.slot + s));
   }
-  watch_->any = false;
-  for (std::size_t k = 0; k < active.size(); ++k) {
+  std::vector<char> was(watch_->slots.size(), 0);
+  for (std::size_t k = 0; k < was.size(); ++k) was[k] = std::exchange(watch_->slots[k].active, false);
+  for (std::size_t k : watch_->active) {
     GuardSlot& slot = watch_->slots[k];
-    if (active[k] && !slot.active) slot.side = 0, slot.fresh = false;  // a mode just entered: no side yet
-    slot.active = active[k] != 0;
-    watch_->any = watch_->any || slot.active;
+    slot.active = true;
+    if (!was[k]) slot.side = 0, slot.fresh = false;  // a mode just entered: no side yet
   }
 }
 
@@ -130,14 +130,14 @@ inline void Instant::arm_crossing(const GuardGroup& group, std::size_t k, bool a
     // At zero without having fired. At the start of a run a guard with a reset map that the flow takes to its firing
     // side is in contact: it fires at once. All others wait until they have been clearly off zero.
     const bool contact = at_start && has_effect && group.direction != Direction::edge_detection && flow.side == falls &&
-                         (group.direction != Direction::crosses_zero || flow.slope == 0.0);
+                         (group.direction != Direction::crosses_zero || departure_.slope(group, group.slot) == 0.0);
     if (contact) firings_.push_back({static_cast<int>(k), -falls});
     slot.side = static_cast<signed char>(flow.side);
     slot.fresh = false;
     return;
   }
   ZenoMonitor& monitor = slot_monitors_[k];
-  if (flow.side != 0 && flow.side != from && crossing.reset_map && rests(group, group.slot, flow, from)) {
+  if (flow.side != 0 && flow.side != from && crossing.reset_map && rests(group, group.slot, from)) {
     if (monitor.on()) {
       hold(group.leaf, monitor, source_of(Cause::crossing, group_of_slot_[k]), t_);
       arm_held(group, k);
@@ -184,9 +184,9 @@ inline void Instant::arm_held(const GuardGroup& group, std::size_t k) {
 
 /// After a reset, the flow leads straight back across the guard: nothing can move until something else does. Not so
 /// where the guard was merely passed through: there the flow before the reset went the same way.
-inline bool Instant::rests(const GuardGroup& group, Index slot, const Departure::Side& after, int from) {
+inline bool Instant::rests(const GuardGroup& group, Index slot, int from) {
   if (!wrote_x_) return false;
-  const double onward = -from * after.slope;
+  const double onward = -from * departure_.slope(group, slot);
   if (!(onward > 0.0)) return true;
   departure_.from(t_, x_minus_, longest_);
   flowed_ = false;

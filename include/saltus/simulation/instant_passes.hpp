@@ -260,7 +260,7 @@ inline bool Instant::read_relation(const GuardGroup& group, Index slot) {
     const Departure::Side flow = side_of(group, slot, fired_[k] && !opaque ? 4.0 * std::abs(g_minus_[k]) : 0.0, 0);
     side = flow.side != 0 ? flow.side : crossed_to;
     const bool back = fired_[k] && side == crossed_to && flow.side != 0;
-    if (back && (opaque || rests(group, slot, flow, -crossed_to))) hold_edges_of(group.index), frozen_[k] = resting_[k] = 1;
+    if (back && (opaque || rests(group, slot, -crossed_to))) hold_edges_of(group.index), frozen_[k] = resting_[k] = 1;
   }
   if (side == 0) return false;
   watched.side = static_cast<signed char>(side);

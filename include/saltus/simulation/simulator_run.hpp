@@ -95,7 +95,7 @@ inline Status Simulator::step(double t_end) {
 /// Lets the solver move, where something moves.
 inline void Simulator::move_to(double t_stop, StopReason& reason) {
   watch_.monitors.clear();
-  if (plan().nx == 0 && !watch_.any) {
+  if (plan().nx == 0 && !watch_.any()) {
     time_ = t_stop;
     return;
   }

@@ -23,27 +23,24 @@ class Locator {
       : machine_(&machine), watch_(&watch), x_(static_cast<std::size_t>(machine.plan().nx)) {
     const auto slots = static_cast<std::size_t>(machine.plan().guard_slots);
     for (auto* values : {&low_, &high_, &middle_}) values->assign(slots, 1.0);
+    crossed_.reserve(slots);
   }
 
   /// The first offset in (from, to] at which a guard that is no monitor fires; false if there is none.
   /// The step begins at `t0`; `interpolate(u, x)` gives the state inside it, `end` is the state at `to` exactly.
   template <class Interpolate>
-  bool find(double t0, double from, double to, const double* end, Interpolate&& interpolate) {
+  bool find(double t0, double from, double to, const double* end, const Interpolate& interpolate) {
     t0_ = t0;
     const int pieces = watch_->scan_points + 1;
-    const double start = from;
+    const double piece_length = (to - from) / pieces;
     for (int piece = 1; piece <= pieces; ++piece) {
       const bool last = piece == pieces;
-      double next = last ? to : start + (to - start) * piece / pieces;
-      if (next <= from) continue;
-      while (look(next, last ? end : nullptr, interpolate, high_), watch_->any_crossed(high_)) {
-        const double root = narrow(from, next, interpolate);
-        if (take(root)) return true;
-        from = root;  // only monitors: go on behind them
-        if (root >= next) break;
+      const double next = last ? to : std::min(to, from + piece_length);
+      if (!find_in(from, next, last ? end : nullptr, interpolate)) {
+        from = next;
+        continue;
       }
-      if (from < next) accept(high_);
-      from = next;
+      return true;
     }
     return false;
   }
@@ -51,25 +48,44 @@ class Locator {
   double offset() const noexcept { return root_; }
 
  private:
+  /// The same without points in between; monitors are noted and passed.
+  template <class Interpolate>
+  bool find_in(double from, double to, const double* end, const Interpolate& interpolate) {
+    while (from < to) {
+      look(to, end, interpolate, high_);
+      if (!note_crossed(high_)) {
+        for (std::size_t k : watch_->active) watch_->follow(k, high_[k]);
+        return false;
+      }
+      from = narrow(from, to, interpolate);
+      if (take(from)) return true;
+    }
+    return false;
+  }
+
   /// All guards at offset u.
   template <class Interpolate>
-  void look(double u, const double* known, Interpolate& interpolate, std::vector<double>& values) {
+  void look(double u, const double* known, const Interpolate& interpolate, std::vector<double>& values) {
     if (known == nullptr) interpolate(u, x_.data());
     machine_->guards(t0_ + u, known == nullptr ? x_.data() : known, values.data());
   }
 
-  void accept(const std::vector<double>& values) {
-    for (std::size_t k = 0; k < values.size(); ++k) {
-      if (watch_->slots[k].active) watch_->follow(k, values[k]);
-    }
+  /// Whether some guard has crossed at these values; if so, crossed_ says which.
+  bool note_crossed(const std::vector<double>& values) {
+    const auto fired = [&](std::size_t k) { return watch_->slots[k].crossed(values[k]); };
+    const auto first = std::ranges::find_if(watch_->active, fired);
+    if (first == watch_->active.end()) return false;
+    crossed_.clear();
+    std::copy_if(first, watch_->active.end(), std::back_inserter(crossed_), fired);
+    return true;
   }
 
   /// Narrows [low, high], where no guard has fired at low and `high_` shows that one has at high.
-  /// On return `high_` holds the guards at the time returned.
+  /// On return `high_` and crossed_ are those of the offset returned.
   template <class Interpolate>
-  double narrow(double low, double high, Interpolate& interpolate) {
+  double narrow(double low, double high, const Interpolate& interpolate) {
     low_ = watch_->g;
-    int kept = 0;  // how often the same end was kept, with its sign: Illinois halves its value
+    int kept = 0;  // how often in a row the low (> 0) or high (< 0) end was kept: Illinois halves its value
     double weight = 1.0;
     for (int count = 0; count < 200; ++count) {
       const double resolution = 2.0 * std::numeric_limits<double>::epsilon() * high;
@@ -77,7 +93,7 @@ class Locator {
       const double u = next_point(low, high, weight, resolution, count);
       if (!(u > low && u < high)) break;
       look(u, nullptr, interpolate, middle_);
-      if (watch_->any_crossed(middle_)) {
+      if (note_crossed(middle_)) {
         high = u, high_.swap(middle_);
         kept = kept > 0 ? kept + 1 : 1;
       } else {
@@ -92,32 +108,27 @@ class Locator {
 
   /// A fresh guard seen on its armed side is an ordinary one from there on.
   void leave_zero() {
-    for (std::size_t k = 0; k < low_.size(); ++k) {
+    for (std::size_t k : crossed_) {
       GuardSlot& slot = watch_->slots[k];
-      if (slot.fresh && watch_->sign(k, low_[k]) == slot.side) slot.fresh = false, slot.band = 0.0;
+      if (slot.fresh && slot.sign(low_[k]) == slot.side) slot.fresh = false, slot.band = 0.0;
     }
   }
 
   bool only_exact_zeros() const {
-    for (std::size_t k = 0; k < high_.size(); ++k) {
-      if (watch_->crossed(k, high_[k]) && high_[k] != 0.0) return false;
-    }
-    return true;
+    return std::ranges::all_of(crossed_, [&](std::size_t k) { return high_[k] == 0.0; });
   }
 
   /// The secant point of the guard that seems to cross first, kept one resolution off the ends; the middle where
   /// the secant says nothing: guards that jump, or that are at zero at the low end.
   double next_point(double low, double high, double weight, double resolution, int count) const {
+    if (high - low <= 3.0 * resolution || count > 60) return low + 0.5 * (high - low);
     double fraction = 2.0;  // of the interval, from low
-    for (std::size_t k = 0; k < high_.size(); ++k) {
-      if (!watch_->crossed(k, high_[k])) continue;
+    for (std::size_t k : crossed_) {
       const GuardSlot& slot = watch_->slots[k];
       const double a = std::abs(low_[k]) * weight, b = std::abs(high_[k]);
       const bool blind = slot.jumps || slot.fresh || !(a > 0.0) || !(a + b < std::numeric_limits<double>::infinity());
       fraction = std::min(fraction, blind ? 0.5 : a / (a + b));
     }
-    if (count > 60) fraction = 0.5;
-    if (high - low <= 3.0 * resolution) return low + 0.5 * (high - low);
     return std::clamp(low + fraction * (high - low), low + resolution, high - resolution);
   }
 
@@ -125,34 +136,24 @@ class Locator {
   bool take(double u) {
     root_ = u;
     watch_->fired.clear();
-    bool stops = false;
-    for (std::size_t k = 0; k < high_.size(); ++k) {
-      if (watch_->crossed(k, high_[k])) {
-        const Firing firing{static_cast<int>(k), watch_->slots[k].side};
-        if (watch_->slots[k].monitor) {
-          watch_->monitors.push_back({t0_ + u, firing});
-        } else {
-          watch_->fired.push_back(firing);
-          stops = true;
-        }
-      }
+    for (std::size_t k : crossed_) {
+      const GuardSlot& slot = watch_->slots[k];
+      const Firing firing{static_cast<int>(k), slot.side};
+      if (slot.monitor) watch_->monitors.push_back({t0_ + u, firing});
+      else watch_->fired.push_back(firing);
     }
-    for (std::size_t k = 0; k < high_.size(); ++k) {
-      if (watch_->slots[k].active) watch_->follow(k, high_[k]);
-      if (watch_->crossed(k, high_[k])) disarm(k);
+    for (std::size_t k : watch_->active) watch_->follow(k, high_[k]);
+    // A guard exactly on zero after firing takes the side it leaves to.
+    for (std::size_t k : crossed_) {
+      if (watch_->slots[k].crossed(high_[k])) watch_->slots[k].side = 0;
     }
-    return stops;
-  }
-
-  /// A guard exactly on zero after firing takes the side it leaves to.
-  void disarm(std::size_t k) {
-    watch_->slots[k].side = 0;
-    watch_->g[k] = high_[k];
+    return !watch_->fired.empty();
   }
 
   Machine* machine_;
   Watch* watch_;
   std::vector<double> x_, low_, high_, middle_;
+  std::vector<std::size_t> crossed_;
   double t0_ = 0.0, root_ = 0.0;
 };
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "saltus/solver/each.hpp"
 #include "saltus/solver/step_size.hpp"
 #include "saltus/solver/step_solver.hpp"
 #include "saltus/solver/tableau.hpp"
@@ -14,17 +15,18 @@
 namespace saltus {
 
 template <Tableau Method>
-class RungeKutta final : public StepSolver {
+class RungeKutta final : public StepSolver<RungeKutta<Method>> {
  public:
   RungeKutta(Machine& machine, Watch& watch, const SolverOptions& options)
-      : StepSolver(machine, watch, options), x0_(n_), scratch_(n_),
-        k_(Eigen::MatrixXd::Zero(n_, static_cast<Index>(Method::stages))), dense_(4, n_) {}
+      : Base(machine, watch, options), x0_(n_), scratch_(n_),
+        k_(Eigen::MatrixXd::Zero(n_, static_cast<Index>(Method::stages))), dense_(n_, 4) {}
 
-  void inside_step(double u, double* x) override {
+  void inside_step(double u, double* x) {
     if (!dense_ready_) prepare_dense();
     const double s = u / length_, r = 1.0 - s;
     const double *x0 = x0_.data(), *c = dense_.data();
-    for (Index i = 0, n = n_; i < n; ++i, c += 4) x[i] = x0[i] + s * (c[0] + r * (c[1] + s * (c[2] + r * c[3])));
+    const Index n = n_;
+    detail::each(n, [=](Index i) { x[i] = x0[i] + s * (c[i] + r * (c[n + i] + s * (c[2 * n + i] + r * c[3 * n + i]))); });
   }
 
   std::string method() const override { return Method::name; }
@@ -33,12 +35,15 @@ class RungeKutta final : public StepSolver {
   bool looks_stiff() const noexcept { return stiff_.detected(); }
 
  private:
+  using Base = StepSolver<RungeKutta<Method>>;
+  friend Base;
+  using Base::machine_, Base::options_, Base::n_, Base::t0_, Base::t1_, Base::length_, Base::x1_, Base::statistics_;
   static constexpr std::size_t last = Method::stages - 1;
   static constexpr double infinite = std::numeric_limits<double>::infinity();
 
   double* stage(std::size_t i) { return k_.data() + static_cast<Index>(i) * n_; }
 
-  void begin(const Start& start) override {
+  void begin(const Start& start) {
     if (start.first) h_ = 0.0, controller_ = StepController(Method::error_order);
     machine_->derivative(t1_, x1_.data(), stage(last));
     dense_ready_ = false;
@@ -47,7 +52,7 @@ class RungeKutta final : public StepSolver {
   }
 
   /// Tries steps until one is accepted.
-  void step(double t_stop) override {
+  void step(double t_stop) {
     x0_.swap(x1_);
     std::copy_n(stage(last), n_, stage(0));
     dense_ready_ = false;
@@ -95,48 +100,50 @@ class RungeKutta final : public StepSolver {
   template <std::size_t I>
   void combine(double h, double* out) const {
     const double *k = k_.data(), *x0 = x0_.data();
-    for (Index i = 0, n = n_; i < n; ++i) {
-      out[i] = x0[i] + h * dot<[] { return Method::a[I]; }>(k + i, std::make_index_sequence<I>{});
-    }
+    detail::each(n_, [=, n = n_](Index i) {
+      out[i] = x0[i] + h * dot<[] { return Method::a[I]; }>(k + i, n, std::make_index_sequence<I>{});
+    });
   }
   /// sum_j row[j] k_j, without the terms that are zero.
   template <auto Row, std::size_t... J>
-  double dot(const double* k, std::index_sequence<J...>) const {
+  static double dot(const double* k, Index n, std::index_sequence<J...>) {
     double sum = 0.0;
-    ((Row()[J] != 0.0 ? void(sum += Row()[J] * k[static_cast<Index>(J) * n_]) : void()), ...);
+    ((Row()[J] != 0.0 ? void(sum += Row()[J] * k[static_cast<Index>(J) * n]) : void()), ...);
     return sum;
   }
 
   /// Root mean square of error / (atol + rtol max(|x0|, |x1|)).
   double scaled_error(double h) const {
+    const double *k = k_.data(), *x0 = x0_.data(), *x1 = x1_.data();
+    const double rtol = options_.rtol, atol = options_.atol;
     double sum = 0.0;
-    for (Index i = 0; i < n_; ++i) {
-      const double scale = options_.atol + options_.rtol * std::max(std::abs(x0_[i]), std::abs(x1_[i]));
-      const double e = h * dot<[] { return Method::e; }>(k_.data() + i, std::make_index_sequence<Method::stages>{}) / scale;
+    detail::each(n_, [=, n = n_, &sum](Index i) {
+      const double scale = atol + rtol * std::max(std::abs(x0[i]), std::abs(x1[i]));
+      const double e = h * dot<[] { return Method::e; }>(k + i, n, std::make_index_sequence<Method::stages>{}) / scale;
       sum += e * e;
-    }
+    });
     const double error = n_ > 0 ? std::sqrt(sum / static_cast<double>(n_)) : 0.0;
-    return std::isfinite(error) ? error : std::numeric_limits<double>::infinity();
+    return std::isfinite(error) ? error : infinite;
   }
 
   void prepare_dense() {
-    const double h = length_;
-    for (Index i = 0; i < n_; ++i) {
-      const double* k = k_.data() + i;
-      const double rise = x1_[i] - x0_[i], bend = h * k[0] - rise;
-      double* c = dense_.data() + 4 * i;
-      c[0] = rise;
-      c[1] = bend;
-      c[2] = rise - h * k[static_cast<Index>(last) * n_] - bend;
-      c[3] = h * dot<[] { return Method::d; }>(k, std::make_index_sequence<Method::stages>{});
-    }
+    const double *k = k_.data(), *x0 = x0_.data(), *x1 = x1_.data();
+    double* c = dense_.data();
+    detail::each(n_, [=, n = n_, h = length_](Index i) {
+      const double rise = x1[i] - x0[i], bend = h * k[i] - rise;
+      c[i] = rise;
+      c[n + i] = bend;
+      c[2 * n + i] = rise - h * k[static_cast<Index>(last) * n + i] - bend;
+      c[3 * n + i] = h * dot<[] { return Method::d; }>(k + i, n, std::make_index_sequence<Method::stages>{});
+    });
     dense_ready_ = true;
   }
 
   void require_finite_start() {
-    for (Index i = 0; i < n_; ++i) {
-      if (!std::isfinite(stage(0)[i])) throw_not_finite(*machine_, t0_, x0_.data());
-    }
+    // A sum is finite if all of its terms are, short of overflow: then the terms are asked one by one.
+    double sum = 0.0;
+    detail::each(n_, [k = stage(0), &sum](Index i) { sum += k[i]; });
+    if (!std::isfinite(sum) && !VectorView(stage(0), n_).allFinite()) throw_not_finite(*machine_, t0_, x0_.data());
   }
   void require_room(double h) {
     const double smallest = std::max(options_.min_step, 16.0 * std::numeric_limits<double>::epsilon() * std::abs(t0_));

@@ -6,8 +6,13 @@
 
 namespace saltus {
 
-/// A method says how to begin and how to take one step; the rest, roots included, stands here. After a root that
-/// changes nothing continuous, the rest of the same step is delivered: the trajectory stays what it was.
+/// A method derives from it and says
+///   begin(start)       start at (t1_, x1_)
+///   step(t_stop)       go from t1_ to a new t1_ <= t_stop; x1_ becomes the state there, length_ the size of the step
+///   inside_step(u, x)  the state at offset u from the beginning of the step, 0 <= u <= length_
+/// The rest, roots included, stands here. After a root that changes nothing continuous, the rest of the same step is
+/// delivered: the trajectory stays what it was.
+template <class Method>
 class StepSolver : public Solver {
  public:
   StepSolver(Machine& machine, Watch& watch, const SolverOptions& options)
@@ -20,19 +25,19 @@ class StepSolver : public Solver {
     t0_ = t1_ = time_ = t;
     x1_ = state_ = x;
     delivered_ = true;
-    begin(start);
+    self().begin(start);
   }
 
   StopReason advance(double t_stop) final {
     watch_->monitors.clear();
     if (delivered_) take_step(t_stop);
-    const auto inside = [this](double u, double* x) { inside_step(u, x); };
-    if (watch_->any && locator_.find(t0_, offset_, length_, x1_.data(), inside)) {
+    const auto inside = [this](double u, double* x) { self().inside_step(u, x); };
+    if (watch_->any() && locator_.find(t0_, offset_, length_, x1_.data(), inside)) {
       offset_ = locator_.offset();
       delivered_ = offset_ >= length_;
       time_ = delivered_ ? t1_ : t0_ + offset_;
       if (delivered_) state_ = x1_;
-      else inside_step(offset_, state_.data());
+      else self().inside_step(offset_, state_.data());
       return StopReason::root;
     }
     delivered_ = true;
@@ -43,7 +48,7 @@ class StepSolver : public Solver {
 
   void interpolate(double t, double* x) final {
     if (t >= t1_) std::copy_n(x1_.data(), n_, x);
-    else inside_step(t - t0_, x);
+    else self().inside_step(t - t0_, x);
   }
 
   const std::vector<Firing>& roots() const final { return watch_->fired; }
@@ -54,24 +59,17 @@ class StepSolver : public Solver {
   // --- one step without a look at the guards, for a method that lets another one start for it --------------------
   void begin_at(double t, const Eigen::VectorXd& x, const Start& start) {
     t0_ = t1_ = t, x1_ = x;
-    begin(start);
+    self().begin(start);
   }
   void bare_step(double t_stop) {
     t0_ = t1_;
-    step(t_stop);
+    self().step(t_stop);
   }
   double step_end() const noexcept { return t1_; }
   double step_length() const noexcept { return length_; }
   const Eigen::VectorXd& step_state() const noexcept { return x1_; }
-  /// The state at offset u from the beginning of the step, 0 <= u <= step_length().
-  virtual void inside_step(double u, double* x) = 0;
 
  protected:
-  /// Starts at (t1, x1).
-  virtual void begin(const Start& start) = 0;
-  /// From t1 to a new t1 <= t_stop; x1 becomes the state there, `length_` the size of the step.
-  virtual void step(double t_stop) = 0;
-
   Machine* machine_;
   Watch* watch_;
   SolverOptions options_;
@@ -81,9 +79,11 @@ class StepSolver : public Solver {
   SolverStatistics statistics_;
 
  private:
+  Method& self() { return static_cast<Method&>(*this); }
+
   void take_step(double t_stop) {
     t0_ = t1_;
-    step(t_stop);
+    self().step(t_stop);
     offset_ = 0.0;
     delivered_ = false;
   }

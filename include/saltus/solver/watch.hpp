@@ -18,6 +18,29 @@ struct GuardSlot {
   bool jumps = false;     ///< takes only two values: located by bisection
   double band = 0.0;      ///< a fresh guard within it is still at zero
   double base = 0.0;      ///< edge_detection: the value it had
+
+  int sign(double value) const {
+    if (std::abs(value) <= band) return 0;
+    return (value > 0.0) - (value < 0.0);
+  }
+
+  /// Whether it has fired when its guard has this value.
+  bool crossed(double value) const {
+    if (direction == Direction::edge_detection) return value != base;
+    const int now = sign(value);
+    // A fresh guard at zero has not left it: only the strict far side counts.
+    return side != 0 && (now != 0 || !fresh) && fires(direction, side, now);
+  }
+
+  /// Takes over the side after a look at which it did not fire.
+  void follow(double value) {
+    base = value;
+    if (const int now = sign(value); now != 0) {
+      side = static_cast<signed char>(now);
+      fresh = false;
+      band = 0.0;
+    }
+  }
 };
 
 /// A guard that fired, and the side it came from.
@@ -35,45 +58,18 @@ struct MonitorHit {
 /// All guards of a run.
 struct Watch {
   std::vector<GuardSlot> slots;
+  std::vector<std::size_t> active;  ///< slots that can fire in the present modes
   std::vector<double> g;            ///< values at the last time looked at
   std::vector<Firing> fired;        ///< what crossed at the last root
   std::vector<MonitorHit> monitors; ///< hits in the last advance
   int scan_points = 3;              ///< interior points of a step at which guards are looked at
-  bool any = false;                 ///< some slot is active
 
-  int sign(std::size_t k, double value) const {
-    if (std::abs(value) <= slots[k].band) return 0;
-    return (value > 0.0) - (value < 0.0);
-  }
-
-  /// Whether slot k has fired when its guard has this value.
-  bool crossed(std::size_t k, double value) const {
-    const GuardSlot& slot = slots[k];
-    if (!slot.active) return false;
-    if (slot.direction == Direction::edge_detection) return value != slot.base;
-    if (slot.side == 0) return false;
-    const int now = sign(k, value);
-    // A fresh guard at zero has not left it: only the strict far side counts.
-    return (now != 0 || !slot.fresh) && fires(slot.direction, slot.side, now);
-  }
-
-  bool any_crossed(const std::vector<double>& values) const {
-    for (std::size_t k = 0; k < slots.size(); ++k) {
-      if (crossed(k, values[k])) return true;
-    }
-    return false;
-  }
-
-  /// Takes over sides after a look at which slot k did not fire.
+  bool any() const noexcept { return !active.empty(); }
+  int sign(std::size_t k, double value) const { return slots[k].sign(value); }
+  bool crossed(std::size_t k, double value) const { return slots[k].active && slots[k].crossed(value); }
   void follow(std::size_t k, double value) {
-    GuardSlot& slot = slots[k];
     g[k] = value;
-    slot.base = value;
-    if (const int now = sign(k, value); now != 0) {
-      slot.side = static_cast<signed char>(now);
-      slot.fresh = false;
-      slot.band = 0.0;
-    }
+    slots[k].follow(value);
   }
 };
 

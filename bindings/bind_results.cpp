@@ -1,0 +1,97 @@
+// Results: columns as numpy arrays over the C++ memory, which lives as long as one of them.
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+
+#include "python_results.hpp"
+
+namespace saltus::python {
+
+namespace {
+
+using SharedResults = std::shared_ptr<Results>;
+
+template <class Number>
+py::array column(const SharedResults& results, std::vector<Number>& values, std::vector<py::ssize_t> dimensions) {
+  const py::capsule owner(new SharedResults(results), [](void* shared) { delete static_cast<SharedResults*>(shared); });
+  return py::array_t<Number>(std::move(dimensions), values.data(), owner);
+}
+
+py::ssize_t rows(const SharedResults& results) { return static_cast<py::ssize_t>(results->time.size()); }
+
+py::dict outputs(const SharedResults& results) {
+  py::dict all;
+  for (RecordedSignal& signal : results->signals) {
+    std::vector<py::ssize_t> dimensions{rows(results)};
+    if (signal.shape.vector) dimensions.push_back(signal.shape.size);
+    all[py::str(signal.name)] = column(results, signal.values, std::move(dimensions));
+  }
+  return all;
+}
+
+py::array copy_of(std::span<const double> values) {
+  return py::array_t<double>(static_cast<py::ssize_t>(values.size()), values.data());
+}
+
+/// In the order of the fields of saltus.results.Event.
+py::tuple event(const Results& results, std::size_t i) {
+  if (i >= results.events.size()) throw py::index_error(text("event ", i, " of ", results.events.size()));
+  const Event e = results.events[i];
+  return py::make_tuple(e.time, e.jump, to_string(e.kind), e.direction, e.block, e.name, e.predicted, copy_of(e.before), copy_of(e.after));
+}
+
+py::array event_times(const Results& results, std::string_view name, std::string_view kind) {
+  std::vector<std::string> known;
+  for (int i = 0; i <= static_cast<int>(EventKind::terminal); ++i) {
+    const auto one = static_cast<EventKind>(i);
+    if (to_string(one) == kind) return copy_of(results.events.times(name, one));
+    known.emplace_back(to_string(one));
+  }
+  throw ModelError(text("unknown kind of event '", kind, "'", known_names(kind, known)));
+}
+
+/// By the names of the fields of saltus.results.Statistics.
+py::dict statistics(const Results& results) {
+  const Statistics& s = results.statistics;
+  py::dict by_name;
+  for (const auto& [name, count] : s.events_by_name) by_name[py::str(name)] = count;
+  using py::literals::operator""_a;
+  return py::dict("method"_a = s.method, "steps"_a = s.steps, "rejected"_a = s.rejected, "restarts"_a = s.restarts,
+                  "right_hand_side_calls"_a = s.right_hand_side_calls, "guard_calls"_a = s.guard_calls,
+                  "jacobian_calls"_a = s.jacobian_calls, "linear_setups"_a = s.linear_setups, "instants"_a = s.instants,
+                  "events"_a = s.events, "events_by_name"_a = by_name, "wall_time"_a = s.wall_time);
+}
+
+}  // namespace
+
+py::object cause_of(const Results& results) {
+  if (!results.cause) return py::none();
+  try {
+    std::rethrow_exception(results.cause);
+  } catch (const py::error_already_set& error) {
+    if (error.trace()) PyException_SetTraceback(error.value().ptr(), error.trace().ptr());
+    return error.value();
+  } catch (const SimulationError& error) {
+    return error_class("SimulationError")(error.what(), error.time(), error.block());
+  } catch (const ModelError& error) {
+    return error_class("ModelError")(error.what());
+  } catch (const std::exception& error) {
+    return error_class("Error")(error.what());
+  }
+}
+
+void bind_results(py::module_& module) {
+  py::class_<Results, SharedResults>(module, "Results")
+      .def_property_readonly("time", [](const SharedResults& r) { return column(r, r->time, {rows(r)}); })
+      .def_property_readonly("jump", [](const SharedResults& r) { return column(r, r->jump, {rows(r)}); })
+      .def_property_readonly("outputs", &outputs)
+      .def_readonly("context", &Results::context)
+      .def_property_readonly("status", [](const Results& r) { return to_string(r.status); })
+      .def_readonly("message", &Results::message)
+      .def_property_readonly("cause", &cause_of)
+      .def_property_readonly("statistics", &statistics)
+      .def_property_readonly("event_count", [](const Results& r) { return r.events.size(); })
+      .def("event", &event)
+      .def("event_times", &event_times);
+}
+
+}  // namespace saltus::python

@@ -1,0 +1,110 @@
+// Simulator and its options. The lock of the interpreter is given back for a whole run.
+#include <pybind11/functional.h>
+#include <pybind11/stl.h>
+
+#include "python_results.hpp"
+#include "saltus/simulation/simulator.hpp"
+
+namespace saltus::python {
+
+namespace {
+
+using NamedPort = std::tuple<std::string, const System*, int>;
+
+/// A Simulator that heeds signals such as Ctrl-C and leaves it to Python to raise.
+class PythonSimulator {
+ public:
+  PythonSimulator(const System& system, SimulatorOptions options) : simulator_(system, prepared(std::move(options))) {}
+  PythonSimulator(const PythonSimulator&) = delete;
+  PythonSimulator& operator=(const PythonSimulator&) = delete;
+
+  void initialize(const Context& context) {
+    signalled_ = py::none();
+    simulator_.initialize(context);
+  }
+
+  void advance_to(double t_end) {
+    const py::gil_scoped_release unlock;
+    simulator_.advance_to(t_end);
+  }
+
+  /// Everything since initialize(); moved out, or copied so that the run can go on.
+  std::shared_ptr<Results> results(bool take) {
+    auto results = take ? std::make_shared<Results>(simulator_.take_results()) : std::make_shared<Results>(simulator_.results());
+    note_interrupt(*results);
+    return results;
+  }
+
+  /// What a signal raised, if that ended the run; else None.
+  py::object signalled() const { return signalled_; }
+  const Simulator& simulator() const { return simulator_; }
+
+ private:
+  SimulatorOptions prepared(SimulatorOptions options) {
+    options.throw_errors = false;
+    options.interrupt = [this, asked = std::move(options.interrupt)] { return signal_arrived() || (asked && asked()); };
+    return options;
+  }
+
+  /// Ctrl-C ends the run well; what else a signal handler raises is an exception like one of the model.
+  bool signal_arrived() {
+    const py::gil_scoped_acquire lock;
+    if (PyErr_CheckSignals() == 0) return false;
+    py::error_already_set error;
+    if (!error.matches(PyExc_KeyboardInterrupt)) throw error;
+    signalled_ = error.value();
+    return true;
+  }
+
+  /// Ctrl-C in the middle of a Python function of the model.
+  void note_interrupt(Results& results) {
+    const py::object cause = cause_of(results);
+    if (!PyErr_GivenExceptionMatches(cause.ptr(), PyExc_KeyboardInterrupt)) return;
+    signalled_ = cause;
+    results.cause = nullptr;
+    results.status = Status::interrupted;
+    results.message = text("t = ", results.context.time(), " s: interrupted");
+  }
+
+  py::object signalled_ = py::none();
+  Simulator simulator_;
+};
+
+void set_recorded_signals(SimulatorOptions& options, const std::vector<NamedPort>& signals) {
+  options.recorded_signals.clear();
+  for (const auto& [name, system, index] : signals) options.recorded_signals.push_back({name, {system, index}});
+}
+
+}  // namespace
+
+void bind_simulation(py::module_& module) {
+  py::class_<SimulatorOptions>(module, "SimulatorOptions")
+      .def(py::init<>())
+      .def_readwrite("rtol", &SimulatorOptions::rtol)
+      .def_readwrite("atol", &SimulatorOptions::atol)
+      .def_readwrite("ode_solver_method", &SimulatorOptions::ode_solver_method)
+      .def_readwrite("max_major_steps", &SimulatorOptions::max_major_steps)
+      .def_readwrite("max_major_step_length", &SimulatorOptions::max_major_step_length)
+      .def_readwrite("min_minor_step_size", &SimulatorOptions::min_minor_step_size)
+      .def_readwrite("max_minor_step_size", &SimulatorOptions::max_minor_step_size)
+      .def_readwrite("zeno_tolerance", &SimulatorOptions::zeno_tolerance)
+      .def_readwrite("event_scan_points", &SimulatorOptions::event_scan_points)
+      .def_readwrite("max_passes", &SimulatorOptions::max_passes)
+      .def_readwrite("save_at", &SimulatorOptions::save_at)
+      .def_readwrite("save_steps", &SimulatorOptions::save_steps)
+      .def_readwrite("record_events", &SimulatorOptions::record_events)
+      .def_readwrite("interrupt", &SimulatorOptions::interrupt)
+      .def("set_recorded_signals", &set_recorded_signals);
+
+  py::class_<PythonSimulator>(module, "Simulator")
+      .def(py::init<const System&, SimulatorOptions>())
+      .def("initialize", &PythonSimulator::initialize)
+      .def("advance_to", &PythonSimulator::advance_to)
+      .def("results", &PythonSimulator::results)
+      .def_property_readonly("signalled", &PythonSimulator::signalled)
+      .def_property_readonly("time", [](const PythonSimulator& s) { return s.simulator().time(); })
+      .def_property_readonly("context", [](const PythonSimulator& s) { return s.simulator().context(); })
+      .def("describe", [](const PythonSimulator& s) { return s.simulator().describe(); });
+}
+
+}  // namespace saltus::python

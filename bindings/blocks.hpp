@@ -1,0 +1,24 @@
+// What the bindings of blocks share.
+#pragma once
+
+#include <pybind11/stl.h>
+
+#include "numbers.hpp"
+
+namespace saltus::python {
+
+/// Turns the arguments of one block into numbers; messages name the block and the argument.
+class Arguments {
+ public:
+  explicit Arguments(std::string block) : block_(std::move(block)) {}
+  Value value(py::handle numbers, std::string_view name) const { return to_value(numbers, what(name)); }
+  std::optional<Value> optional(py::handle numbers, std::string_view name) const {
+    return to_optional_value(numbers, what(name));
+  }
+
+ private:
+  std::string what(std::string_view name) const { return text("block '", block_, "': ", name); }
+  std::string block_;
+};
+
+}  // namespace saltus::python

@@ -1,0 +1,96 @@
+// What a Python output is, found by calling it once: its shape, and whether it is a boolean.
+#include <array>
+#include <numeric>
+
+#include "python_leaf.hpp"
+
+namespace saltus::python {
+
+int PythonLeaf::add_output(std::string port, int function, std::optional<Shape> shape, std::optional<bool> boolean, Reads reads) {
+  const InputList& inputs = inputs_of(function);
+  const int output = declare_output_port(
+      {.name = std::move(port), .calc = vector_function(function), .shape = shape,
+       .shape_rule = [this, function](std::span<const Shape> shapes) { return shape_of(function, shapes); },
+       .reads = reads, .inputs = inputs, .boolean = boolean.value_or(false)});
+  if (!shape || !boolean) unfinished_.push_back({output, function, shape.has_value(), boolean.has_value()});
+  return output;
+}
+
+/// Calls function k at the values the block starts with, every input filled with `value`.
+py::object PythonLeaf::call_with(int k, const std::vector<Shape>& shapes, double value) const {
+  const Declarations& d = declarations();
+  std::vector<Place> places;
+  Index width = 0;
+  for (const Shape& shape : shapes) {
+    places.push_back({Space::y, width, shape.size});
+    width += shape.size;
+  }
+  const Eigen::VectorXd u = Eigen::VectorXd::Constant(std::max<Index>(width, 1), value);
+  const Bases bases{d.continuous.initial.data(), d.discrete.data(), d.parameter_values.data(), u.data()};
+  const auto view = [](const Eigen::VectorXd& values) { return VectorView(values.data(), values.size()); };
+  return call(k, At(0.0, view(d.continuous.initial), view(d.discrete), view(d.parameter_values), d.mode,
+                    Inputs(places.data(), static_cast<int>(places.size()), &bases), nullptr));
+}
+
+/// The result of the first call that goes well: zeros may be divided by, and inputs of unknown width may be indexed.
+std::optional<py::array> PythonLeaf::sample(int k, std::vector<Shape> shapes, std::span<const Index> widths) const {
+  const py::object quiet = py::module_::import("numpy").attr("errstate")(py::arg("all") = "ignore");
+  std::vector<Shape> tried = shapes;
+  for (const Index width : widths) {
+    for (std::size_t i = 0; i < shapes.size(); ++i) {
+      if (shapes[i].size == 0) tried[i] = width == 0 ? Shape::scalar() : Shape::of(width);
+    }
+    for (const double value : {0.0, 1.0}) {
+      try {
+        quiet.attr("__enter__")();
+        py::object result;
+        try {
+          result = call_with(k, tried, value);
+        } catch (...) {
+          quiet.attr("__exit__")(py::none(), py::none(), py::none());
+          throw;
+        }
+        quiet.attr("__exit__")(py::none(), py::none(), py::none());
+        if (py::array array = py::array::ensure(result); array && !result.is_none()) return array;
+        PyErr_Clear();
+      } catch (py::error_already_set& error) {
+        if (!error.matches(PyExc_Exception)) throw;  // Ctrl-C
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+Shape PythonLeaf::shape_of(int k, std::span<const Shape> inputs) const {
+  const py::gil_scoped_acquire lock;
+  constexpr std::array<Index, 1> known{0};
+  const auto found = sample(k, {inputs.begin(), inputs.end()}, known);
+  return !found || found->ndim() == 0 ? Shape::scalar() : Shape::of(found->size());
+}
+
+/// Before anybody sees the declarations of this block, and once: outputs are what they will be.
+void PythonLeaf::finish_outputs() {
+  const py::gil_scoped_acquire lock;
+  constexpr std::array<Index, 7> guesses{0, 1, 2, 3, 4, 6, 12};
+  const std::vector<Unfinished> now = std::exchange(unfinished_, {});
+  // The declarations are this object's own; only the interface that the engine sees is const.
+  auto& declared = const_cast<Declarations&>(declarations());
+  for (const Unfinished& entry : now) {
+    OutputDeclaration& output = declared.outputs[static_cast<std::size_t>(entry.output)];
+    std::vector<Shape> shapes;
+    for (const InputDeclaration& port : declared.inputs) shapes.push_back(port.shape.value_or(Shape{0, false}));
+    const bool reads_inputs = has(output.reads, Reads::inputs) && !(output.inputs && output.inputs->empty()) && !shapes.empty();
+    const auto found = sample(entry.function, shapes, reads_inputs ? std::span<const Index>(guesses) : std::span(guesses).first(1));
+    if (!entry.boolean) output.boolean = found && found->dtype().kind() == 'b';
+    if (!entry.shape && !reads_inputs) {
+      output.shape = !found || found->ndim() == 0 ? Shape::scalar() : Shape::of(found->size());
+    }
+  }
+}
+
+void PythonLeaf::collect(Structure& out, const std::string& path) const {
+  if (!unfinished_.empty()) const_cast<PythonLeaf*>(this)->finish_outputs();
+  LeafSystem::collect(out, path);
+}
+
+}  // namespace saltus::python

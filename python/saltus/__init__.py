@@ -1,0 +1,37 @@
+"""Hybrid ODEs: continuous flow, guards, reset maps, modes and Zeno holds.
+
+A model is a `LeafSystem` of your own or a `Diagram` of blocks from `saltus.library`; `simulate` runs it.
+"""
+
+from saltus import library, simulation
+from saltus._core import Context, State, __version__
+from saltus.diagram import Diagram, DiagramBuilder
+from saltus.errors import Error, ModelError, SimulationError
+from saltus.leaf_system import LeafSystem
+from saltus.results import Event, EventLog, Results, Statistics
+from saltus.simulation import Simulator, SimulatorOptions, simulate
+from saltus.system import InputPort, OutputPort, System
+
+__all__ = [
+    "Context",
+    "Diagram",
+    "DiagramBuilder",
+    "Error",
+    "Event",
+    "EventLog",
+    "InputPort",
+    "LeafSystem",
+    "ModelError",
+    "OutputPort",
+    "Results",
+    "SimulationError",
+    "Simulator",
+    "SimulatorOptions",
+    "State",
+    "Statistics",
+    "System",
+    "__version__",
+    "library",
+    "simulate",
+    "simulation",
+]

@@ -1,0 +1,52 @@
+"""Names that are refused: unknown ones with the nearest, those of similar tools with what to do instead."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+from saltus._core import known_names
+from saltus.errors import ModelError
+
+OPTIONS = {
+    "math_backend": "there is one backend, compiled; leave it out",
+    "enable_tracing": "nothing is traced; leave it out",
+    "enable_autodiff": "Saltus computes no gradients; leave it out",
+    "max_checkpoints": "Saltus computes no gradients; leave it out",
+    "buffer_length": "the recorder grows as needed; leave it out",
+    "save_time_series": "give recorded_signals, or leave them out to record nothing",
+    "return_context": "results.context is always there; leave it out",
+    "zc_bisection_loop_count": "events are located to the last digits of a double; leave it out",
+    "int_time_scale": "time is a double and ticks are counted by integers; leave it out",
+    "major_step_callback": "use a Simulator and call advance_to as often as you want to look",
+    "results_options": "say save_at=[...] for rows at chosen times",
+    "max_results_interval": "say max_minor_step_size=..., or save_at=[...] for rows at chosen times",
+    "fixed_results_interval": "say save_at=[...] for rows at chosen times",
+    "postprocess": "call the function on what simulate returns",
+    "throw_errors": "the option is called throw in Python",
+}
+
+DECLARATIONS = {
+    "enable_tracing": "nothing is traced; leave it out",
+    "dtype": "every value is a double; leave it out",
+    "as_array": "every value is an array; leave it out",
+    "mass_matrix": "divide by it in the ode",
+    "prerequisites_of_calc": "say which inputs are read with requires_inputs",
+    "grad_guard": "Saltus computes no gradients; leave it out",
+}
+
+
+def refuse(where: str, given: Iterable[str], known: Iterable[str], hints: Mapping[str, str] = DECLARATIONS) -> None:
+    """Raises ModelError for the first of `given` that is not one of `known`."""
+    known = list(known)
+    for name in given:
+        if name in known:
+            continue
+        if name in hints:
+            raise ModelError(f"{where}: no option '{name}': {hints[name]}")
+        raise ModelError(f"{where}: unknown option '{name}'{known_names(name, known)}")
+
+
+def refuse_all(where: str, unknown: Mapping[str, Any], known: str) -> None:
+    """The same for what fell into `**unknown` of a function that takes the names in `known`."""
+    refuse(where, unknown, known.split())

@@ -1,0 +1,72 @@
+"""What a block and a diagram share: a name, ports, contexts."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from saltus import _core
+
+__all__ = ["InputPort", "OutputPort", "System"]
+
+
+@dataclass(frozen=True)
+class OutputPort:
+    """An output of a system, to connect or to record. It keeps its system alive."""
+
+    system: System
+    index: int
+
+    @property
+    def name(self) -> str:
+        return self.system.output_names[self.index]
+
+    def __repr__(self) -> str:
+        return f"<output '{self.name}' of '{self.system.name}'>"
+
+
+@dataclass(frozen=True)
+class InputPort:
+    """An input of a system, to connect. It keeps its system alive."""
+
+    system: System
+    index: int
+
+    @property
+    def name(self) -> str:
+        return self.system.input_names[self.index]
+
+    def __repr__(self) -> str:
+        return f"<input '{self.name}' of '{self.system.name}'>"
+
+
+class System(_core.System):
+    """A block or a diagram: structure, which a run never changes. The values are in a `Context`.
+
+    `name` is how messages and `diagram[...]` know it, `system_id` how a context does; `input_names` and
+    `output_names` list its ports.
+    """
+
+    @property
+    def input_ports(self) -> tuple[InputPort, ...]:
+        """All inputs, in order."""
+        return tuple(InputPort(self, i) for i in range(len(self.input_names)))
+
+    @property
+    def output_ports(self) -> tuple[OutputPort, ...]:
+        """All outputs, in order."""
+        return tuple(OutputPort(self, i) for i in range(len(self.output_names)))
+
+    def input(self, port: int | str = 0) -> InputPort:
+        """One input, by position or by name. ModelError lists the names there are."""
+        return InputPort(self, self.find_input(port))
+
+    def output(self, port: int | str = 0) -> OutputPort:
+        """One output, by position or by name. ModelError lists the names there are."""
+        return OutputPort(self, self.find_output(port))
+
+    def create_context(self, time: float = 0.0) -> _core.Context:
+        """The values every block starts with, at `time` [s]. What you change in it changes no system."""
+        return super().create_context(time)
+
+    def __repr__(self) -> str:
+        return f"<{type(self).__name__} '{self.name}'>"
