@@ -17,7 +17,7 @@ void let_collect(PyHeapTypeObject* heap_type) {
   type.tp_traverse = [](PyObject* self, visitproc visit, void* arg) {
     Py_VISIT(Py_TYPE(self));
     if (!py::detail::is_holder_constructed(self)) return 0;
-    return py::cast<const PythonLeaf&>(py::handle(self)).visit(visit, arg);
+    return py::cast<const PythonLeaf&>(py::handle(self)).traverse(visit, arg);
   };
   type.tp_clear = [](PyObject* self) {
     if (py::detail::is_holder_constructed(self)) py::cast<PythonLeaf&>(py::handle(self)).clear();

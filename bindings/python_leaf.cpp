@@ -142,7 +142,7 @@ py::object PythonLeaf::call(int k, const At& at) const {
   return result;
 }
 
-int PythonLeaf::visit(visitproc visit, void* arg) const {
+int PythonLeaf::traverse(visitproc visit, void* arg) const {
   for (const Function& function : functions_) Py_VISIT(function.callable.ptr());
   return 0;
 }

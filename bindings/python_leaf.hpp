@@ -57,7 +57,8 @@ class PythonLeaf final : public LeafSystem {
 
   void collect(Structure& out, const std::string& path) const override;
 
-  int visit(visitproc visit, void* argument) const;
+  /// For the garbage collector.
+  int traverse(visitproc visit, void* argument) const;
   void clear() { functions_.clear(); }
 
  private:

@@ -10,6 +10,7 @@
 #include "saltus/solver/runge_kutta.hpp"
 #include "saltus/solver/step_size.hpp"
 #include "saltus/solver/step_solver.hpp"
+#include "small_vector.hpp"
 #include "sundials_compat.hpp"
 
 namespace saltus {
@@ -20,7 +21,7 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
  public:
   CvodeSolver(Machine& machine, Watch& watch, const SolverOptions& options, CvodeMethod method)
       : StepSolver(machine, watch, options), method_(method), context_(sun::make_context()),
-        y_(N_VNew_Serial(static_cast<sunindextype>(n_), context_.get())), dky_(N_VClone(y_.get())),
+        y_(make_vector(n_, context_.get())), dky_(N_VClone(y_.get())),
         cvode_(CVodeCreate(method == CvodeMethod::adams ? CV_ADAMS : CV_BDF, context_.get())),
         starter_(machine, watch, options) {
     if (!cvode_ || !y_ || !dky_) throw Error("SUNDIALS: out of memory");
@@ -55,6 +56,13 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
     starting_ = how.horizon < 2e4 * first_step_;
     if (starting_) start_with_one_step(t1_, x1_, how.horizon);
     else start_cvode(how.first);
+  }
+
+  static N_Vector make_vector(Index n, SUNContext context) {
+    N_Vector vector = N_VNew_Serial(static_cast<sunindextype>(n), context);
+    if (vector == nullptr) throw Error("SUNDIALS: out of memory");
+    sun::use_small_operations(vector);
+    return vector;
   }
 
   void start_with_one_step(double t, const Eigen::VectorXd& x, double horizon) {

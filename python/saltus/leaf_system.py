@@ -195,3 +195,13 @@ class LeafSystem(System, _core.LeafSystem):
     ) -> None:
         """The same once, at `time` [s]. None for a callback is an exact stop where held outputs are read again."""
         super().declare_one_shot(callback, time, name or "")
+
+    def _declare_function(
+        self,
+        function: Callable[..., ArrayLike],
+        shape: int | tuple[int, ...] | None,
+        boolean: bool | None,
+        convention: _core.Convention,
+    ) -> None:
+        """The one output of a block that is a function of its inputs and nothing else."""
+        super().declare_output_port(function, "out", None, _shape(shape), boolean, ["inputs"], convention)

@@ -39,12 +39,15 @@ class InputPort:
         return f"<input '{self.name}' of '{self.system.name}'>"
 
 
-class System(_core.System):
-    """A block or a diagram: structure, which a run never changes. The values are in a `Context`.
+class System:
+    """A block or a diagram: structure, which a run never changes. The values are in a `Context`."""
 
-    `name` is how messages and `diagram[...]` know it, `system_id` how a context does; `input_names` and
-    `output_names` list its ports.
-    """
+    name: str
+    """how messages and `diagram[...]` know it"""
+    system_id: int
+    """how a context knows it"""
+    input_names: list[str]
+    output_names: list[str]
 
     @property
     def input_ports(self) -> tuple[InputPort, ...]:
@@ -58,15 +61,15 @@ class System(_core.System):
 
     def input(self, port: int | str = 0) -> InputPort:
         """One input, by position or by name. ModelError lists the names there are."""
-        return InputPort(self, self.find_input(port))
+        return InputPort(self, _core.System.find_input(self, port))
 
     def output(self, port: int | str = 0) -> OutputPort:
         """One output, by position or by name. ModelError lists the names there are."""
-        return OutputPort(self, self.find_output(port))
+        return OutputPort(self, _core.System.find_output(self, port))
 
     def create_context(self, time: float = 0.0) -> _core.Context:
         """The values every block starts with, at `time` [s]. What you change in it changes no system."""
-        return super().create_context(time)
+        return _core.System.create_context(self, time)
 
     def __repr__(self) -> str:
         return f"<{type(self).__name__} '{self.name}'>"

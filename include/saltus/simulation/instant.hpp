@@ -93,6 +93,7 @@ class Instant {
   void log(EventKind kind, int source, int leaf_index, int direction, double predicted = std::numeric_limits<double>::quiet_NaN());
   void select_guards();
   bool held_outputs_changed() const;
+  bool changed(const Place& place) const;
 
   Machine* machine_;
   Watch* watch_;
@@ -116,7 +117,7 @@ class Instant {
   std::vector<int> edges_fired_;           // in this instant
   bool wrote_x_ = false;                   // some pass of this instant did
   bool flowed_ = false;                    // departure_ stands at the present (t, x)
-  Eigen::VectorXd x_minus_, x_next_, z_next_, x_log_, y_before_;
+  Eigen::VectorXd x_minus_, z_minus_, x_next_, z_next_, x_log_, y_before_;
   std::vector<int> modes_next_;
   std::vector<double> g_, g_minus_;  // guards now, and before the instant
   std::vector<int> chain_;  // sources of what happened in this instant

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <new>
+#include <tuple>
 
 #include "saltus/simulation/instant.hpp"
 
@@ -16,7 +17,7 @@ inline Instant::Outcome Instant::run(double t, const std::vector<int>& due, doub
   wrote_x_ = flowed_ = false;
   firings_ = watch_->fired;
   watch_->fired.clear();
-  x_minus_ = x_next_ = machine_->x, y_before_ = machine_->y, g_minus_ = watch_->g;
+  x_minus_ = x_next_ = machine_->x, z_minus_ = machine_->z, y_before_ = machine_->y, g_minus_ = watch_->g;
   for (int event : due) {
     const ScheduledEvent& scheduled = plan().schedule[static_cast<std::size_t>(event)];
     actions_.push_back({scheduled.leaf, Cause::time, event, -1, 0, false});
@@ -42,21 +43,24 @@ inline Instant::Outcome Instant::run(double t, const std::vector<int>& due, doub
     }
   }
   for (int node : plan().restarting) {
-    const Place& place = plan().node(node).place;
-    if (place.space == Space::y && !std::equal(y_before_.data() + place.offset, y_before_.data() + place.offset + place.size,
-                                               machine_->y.data() + place.offset)) {
-      outcome_.restart = true;
-    }
+    if (changed(plan().node(node).place)) outcome_.restart = true;
   }
   return outcome_;
+}
+
+/// Whether what stands there is another value than before the instant.
+inline bool Instant::changed(const Place& place) const {
+  if (place.space == Space::p) return false;
+  const auto& [before, now] = place.space == Space::x   ? std::tie(x_minus_, machine_->x)
+                              : place.space == Space::z ? std::tie(z_minus_, machine_->z)
+                                                        : std::tie(y_before_, machine_->y);
+  return before.segment(place.offset, place.size) != now.segment(place.offset, place.size);
 }
 
 inline bool Instant::held_outputs_changed() const {
   return std::ranges::any_of(plan().instants, [&](int i) {
     const Node& node = plan().node(i);
-    return node.rate == Rate::held && !std::equal(y_before_.data() + node.place.offset,
-                                                  y_before_.data() + node.place.offset + node.place.size,
-                                                  machine_->y.data() + node.place.offset);
+    return node.rate == Rate::held && changed(node.place);
   });
 }
 
@@ -109,10 +113,7 @@ inline void Instant::collect_carried(int index) {
   const EdgeReset& reset = reset_of(edge);
   for (int input : detail::read_inputs(reset.inputs, leaf(edge.leaf))) {
     const Node& node = plan().node(input);
-    const Place& place = node.place;
-    if (input == edge.node || node.rate != Rate::held || place.space != Space::y) continue;
-    if (!std::equal(y_before_.data() + place.offset, y_before_.data() + place.offset + place.size,
-                    machine_->y.data() + place.offset)) {
+    if (input != edge.node && node.rate == Rate::held && changed(node.place)) {
       actions_.push_back({edge.leaf, Cause::edge, index, -1, -1, true});
       carried_[static_cast<std::size_t>(index)] = 1;
       return;
@@ -244,8 +245,8 @@ inline void Instant::read_again() {
   }
 }
 
-/// The side of a relation now; true if that is a new one. At its own zero it takes the side the flow takes it to,
-/// and keeps the one it has where there is none.
+/// The side of a relation now; true if that is a new one. At its own zero it keeps the one it has, until `arm` asks
+/// where the flow goes; after it fired and a reset wrote, it takes the side the flow takes it to.
 inline bool Instant::read_relation(const GuardGroup& group, Index slot) {
   const auto k = static_cast<std::size_t>(slot);
   GuardSlot& watched = watch_->slots[k];
@@ -256,10 +257,10 @@ inline bool Instant::read_relation(const GuardGroup& group, Index slot) {
   if (fired_[k] && !wrote_x_) side = crossed_to;  // nothing it reads was written: its value is rounding
   const bool opaque = group.kind == GuardGroup::Kind::opaque;
   const bool unsure = wrote_x_ && fired_[k] && (!opaque || side != crossed_to);
-  if (unsure || (g_[k] == 0.0 && !fired_[k])) {
-    const Departure::Side flow = side_of(group, slot, fired_[k] && !opaque ? 4.0 * std::abs(g_minus_[k]) : 0.0, 0);
+  if (unsure) {
+    const Departure::Side flow = side_of(group, slot, !opaque ? 4.0 * std::abs(g_minus_[k]) : 0.0, 0);
     side = flow.side != 0 ? flow.side : crossed_to;
-    const bool back = fired_[k] && side == crossed_to && flow.side != 0;
+    const bool back = side == crossed_to && flow.side != 0;
     if (back && (opaque || rests(group, slot, -crossed_to))) hold_edges_of(group.index), frozen_[k] = resting_[k] = 1;
   }
   if (side == 0) return false;
@@ -274,12 +275,8 @@ inline bool Instant::read_relation(const GuardGroup& group, Index slot) {
 inline bool Instant::reads_changed(int node) const {
   return std::ranges::any_of(plan().node(node).needs, [&](int need) {
     const Node& read = plan().node(need);
-    const Place& place = read.place;
-    if (place.space == Space::x) {
-      return x_minus_.segment(place.offset, place.size) != machine_->x.segment(place.offset, place.size);
-    }
-    if (place.space != Space::y || read.rate == Rate::continuous) return wrote_x_;
-    return y_before_.segment(place.offset, place.size) != machine_->y.segment(place.offset, place.size);
+    if (read.rate != Rate::continuous || read.view) return changed(read.place);
+    return wrote_x_ || reads_changed(need);
   });
 }
 

@@ -1,0 +1,186 @@
+"""`simulate`, and `Simulator` for a run in pieces."""
+
+from __future__ import annotations
+
+import functools
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, fields, replace
+from typing import Any
+
+from saltus import _core
+from saltus.errors import ModelError, SimulationError
+from saltus.porting import OPTIONS, refuse
+from saltus.results import Results
+from saltus.system import OutputPort, System
+
+__all__ = ["Results", "Simulator", "SimulatorOptions", "simulate"]
+
+
+def _refuse_unknown(cls):
+    """Unknown names get the nearest one, or a hint, in place of a TypeError."""
+    generated = cls.__init__
+
+    @functools.wraps(generated)
+    def __init__(self, **options):
+        refuse(cls.__name__, options, (field.name for field in fields(cls)), OPTIONS)
+        generated(self, **options)
+
+    cls.__init__ = __init__
+    return cls
+
+
+@_refuse_unknown
+@dataclass(frozen=True, kw_only=True)
+class SimulatorOptions:
+    """How a run is done. `dataclasses.replace(options, rtol=1e-9)` makes a changed copy."""
+
+    rtol: float = 1e-6
+    """relative tolerance of a minor step: the root mean square over the states of error / (atol + rtol |x|) stays below 1"""
+    atol: float = 1e-8
+    """absolute tolerance, in the unit of the states"""
+    ode_solver_method: str = "auto"
+    """'auto' (dopri5; BDF takes over where the scene looks stiff), 'dopri5', 'adams', 'bdf'; also 'rk45', 'non-stiff', 'stiff'"""
+    max_major_steps: int | None = None
+    """instants a run may have; more end it with the status 'step_limit'"""
+    max_major_step_length: float | None = math.inf
+    """[s] longest time from one instant to the next"""
+    min_minor_step_size: float | None = 0.0
+    """[s] bounds of a solver step. Rarely of use: the tolerance chooses the step"""
+    max_minor_step_size: float | None = math.inf
+    zeno_tolerance: float = 1e-6
+    """[s] A guard whose firings follow each other this closely, with shrinking gaps, comes to rest: a Zeno hold.
+    0 switches the monitor off"""
+    event_scan_points: int = 3
+    """interior points of a step at which guards are looked at, for two crossings in one step; 0 turns that off"""
+    max_passes: int = 100
+    """passes an instant may have before it counts as a loop without end"""
+    recorded_signals: Mapping[str, OutputPort] | None = None
+    """what is recorded, by name; nothing recorded costs nothing"""
+    save_at: Sequence[float] = ()
+    """[s] increasing times to record at. If there are any, solver steps are recorded only with save_steps=True"""
+    save_steps: bool | None = None
+    record_events: bool = True
+    """the event log; switching it off changes nothing else"""
+    throw: bool = True
+    """raise when a run does not end well; else return the results with the status"""
+    interrupt: Callable[[], bool] | None = None
+    """asked about every 20 ms; True ends the run with the status 'interrupted'. Ctrl-C does so anyway"""
+
+
+_UNBOUNDED = {"max_major_step_length": math.inf, "min_minor_step_size": 0.0, "max_minor_step_size": math.inf}
+
+
+def _ports(signals: Mapping[str, OutputPort] | None) -> list[tuple[str, System, int]]:
+    for name, port in (signals or {}).items():
+        if not isinstance(port, OutputPort):
+            raise ModelError(f"recorded signal '{name}': expected an output port, such as block.output_ports[0], found {port!r}")
+    return [(name, port.system, port.index) for name, port in (signals or {}).items()]
+
+
+def _core_options(options: SimulatorOptions) -> _core.SimulatorOptions:
+    core = _core.SimulatorOptions()
+    for field in fields(options):
+        value = getattr(options, field.name)
+        if field.name in ("recorded_signals", "throw"):
+            continue
+        try:
+            setattr(core, field.name, _UNBOUNDED[field.name] if value is None and field.name in _UNBOUNDED else value)
+        except TypeError:
+            raise ModelError(f"option {field.name}: expected {field.type}, found {value!r}") from None
+    core.set_recorded_signals(_ports(options.recorded_signals))
+    return core
+
+
+class Simulator:
+    """A run that can be continued: `initialize(context)`, then `advance_to(t)` as often as you like.
+
+    In pieces or at once, the events are the same. One simulator serves one thread at a time; it can be initialized
+    again.
+    """
+
+    def __init__(self, system: System, options: SimulatorOptions | None = None, **overrides: Any):
+        if not isinstance(system, System):
+            raise ModelError(f"expected a system, found {system!r}")
+        options = options or SimulatorOptions()
+        if not isinstance(options, SimulatorOptions):
+            raise ModelError(f"expected SimulatorOptions, found {options!r}")
+        refuse(type(self).__name__, overrides, (field.name for field in fields(options)), OPTIONS)
+        self.options = replace(options, **overrides)
+        self.system = system  # the engine refers to it
+        self._core = _core.Simulator(system, _core_options(self.options))
+
+    def initialize(self, context: _core.Context) -> None:
+        """Begins a run with these values, at their time."""
+        self._core.initialize(context)
+
+    def advance_to(self, time: float) -> str:
+        """Goes on to `time` [s], or to where the run ends before; returns the status.
+
+        Raises SimulationError with the partial results, what a callback raised, as it was raised, or KeyboardInterrupt
+        with the partial results as its attribute `results`, unless the option `throw` is off.
+        """
+        return self._advance(time, take=False).status
+
+    def _advance(self, time: float, take: bool) -> Results:
+        self._core.advance_to(time)
+        results = Results(self._core.results(take))
+        if self.options.throw and results.status not in ("reached_end", "terminal", "zeno_stop"):
+            self._raise(results)
+        return results
+
+    def _raise(self, results: Results) -> None:
+        error = self._core.signalled or results.cause
+        if error is None:
+            error = SimulationError(results.message, results.context.time)
+        if isinstance(error, (SimulationError, KeyboardInterrupt)):
+            error.results = results
+        results.cause = None  # or the two would hold each other
+        try:
+            raise error
+        finally:
+            del error
+
+    @property
+    def time(self) -> float:
+        """[s] where the run stands."""
+        return self._core.time
+
+    @property
+    def context(self) -> _core.Context:
+        """The values of now."""
+        return self._core.context
+
+    @property
+    def results(self) -> Results:
+        """All since `initialize`, as a copy of its own."""
+        return Results(self._core.results(False))
+
+    def describe(self) -> str:
+        """What of the system is computed when, what is never computed, and why."""
+        return self._core.describe()
+
+
+def simulate(
+    system: System,
+    context: _core.Context,
+    time_span: tuple[float, float],
+    options: SimulatorOptions | None = None,
+    recorded_signals: Mapping[str, OutputPort] | None = None,
+    **option_overrides: Any,
+) -> Results:
+    """Runs `system` from the values of `context` over `time_span`, (begin, end) in seconds.
+
+    `recorded_signals` names the outputs to record; any option can also be given here by name. Raises ModelError before
+    the run for bad input; for what ends it badly see `Simulator.advance_to`.
+
+    >>> results = saltus.simulate(ball, context, (0.0, 12.0), recorded_signals={"y": ball.output_ports[0]}, rtol=1e-9)
+    """
+    begin, end = time_span
+    if not end >= begin:
+        raise ModelError(f"simulate: expected a span with begin <= end, found {begin} s to {end} s")
+    if recorded_signals is not None:
+        option_overrides["recorded_signals"] = recorded_signals
+    simulator = Simulator(system, options, **option_overrides)
+    simulator.initialize(context if context.time == begin else context.with_time(begin))
+    return simulator._advance(end, take=True)
