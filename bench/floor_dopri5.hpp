@@ -22,7 +22,7 @@ class FloorDopri5 {
     while (t_ < ball_.t_end) {
       step();
       ++out_.guard_calls;
-      if (x_[0] > 0.0 && x1_[0] <= 0.0) {
+      if (x1_[0] <= 0.0 && (x_[0] > 0.0 || x_[1] > 0.0)) {
         bounce();
       } else {
         t_ = t1_, x_ = x1_, k_[0] = k_[6];
@@ -112,35 +112,32 @@ class FloorDopri5 {
     return x_[i] + s * (dense_[i][0] + r * (dense_[i][1] + s * (dense_[i][2] + r * dense_[i][3])));
   }
 
-  /// Offset of the crossing, by the Illinois method; the end that is kept is on the floor or below it.
+  /// Offset of the crossing, by the Illinois method with steps of at least one resolution, so that both ends of the
+  /// bracket come to it. The end that is kept is on the floor or below it.
   double locate() {
     double low = 0.0, high = length_, a = x_[0], b = x1_[0];
-    int kept = 0;
-    while (high - low > 2.0 * std::numeric_limits<double>::epsilon() * high && b != 0.0) {
+    if (x_[1] > 0.0) {  // it flies up, perhaps from the floor: begin where it is clearly above
+      for (a = 0.0, low = length_; a <= 0.0;) low *= 0.5, a = height(low);
+    }
+    for (int kept = 0;;) {
+      const double resolution = 2.0 * std::numeric_limits<double>::epsilon() * high;
+      if (high - low <= resolution || b == 0.0) return high;
       double u = low + (high - low) * a / (a - b);
-      if (!(u > low && u < high)) u = low + 0.5 * (high - low);
-      if (!(u > low && u < high)) break;
-      const double y = dense(0, u);
-      ++out_.guard_calls;
+      u = high - low > 3.0 * resolution ? std::clamp(u, low + resolution, high - resolution) : low + 0.5 * (high - low);
+      if (!(u > low && u < high)) return high;
+      const double y = height(u);
       if (y <= 0.0) {
         high = u, b = y;
-        if (kept == 1) a *= 0.5;
-        kept = 1;
+        a *= kept == 1 ? 0.5 : 1.0, kept = 1;
       } else {
         low = u, a = y;
-        if (kept == 2) b *= 0.5;
-        kept = 2;
-      }
-      // Newton's correction of a bracket that has one end on the crossing: step over it.
-      const double over = 2.0 * std::numeric_limits<double>::epsilon() * high;
-      if (high - low > 3.0 * over) {
-        const double probe = kept == 1 ? high - over : low + over, value = dense(0, probe);
-        ++out_.guard_calls;
-        if (kept == 1 && value > 0.0) return high;
-        if (kept == 2 && value <= 0.0) return probe;
+        b *= kept == 2 ? 0.5 : 1.0, kept = 2;
       }
     }
-    return high;
+  }
+  double height(double u) {
+    ++out_.guard_calls;
+    return dense(0, u);
   }
 
   void bounce() {

@@ -22,16 +22,20 @@ struct MethodOf<R (C::*)(A...) const> : std::true_type {
 
 /// Calls `f(at, out)`, or stores the number that `f(at)` returns: a scalar output, guard or derivative.
 template <class F>
-void call(const F& f, const At& at, VectorRef out) {
+void call(const F& f, const At& at, const VectorRef& out) {
   if constexpr (std::is_invocable_v<const F&, const At&, VectorRef>) {
     f(at, out);
   } else {
-    out[0] = static_cast<double>(f(at));
+    *const_cast<double*>(out.data()) = static_cast<double>(f(at));  // a const view of memory that is not
   }
 }
-template <class F, class Last>
-void call(const F& f, const At& at, Last&& last) {
-  f(at, std::forward<Last>(last));
+template <class F>
+void call(const F& f, const At& at, const MatrixRef& out) {
+  f(at, out);
+}
+template <class F>
+void call(const F& f, const At& at, Next& next) {
+  f(at, next);
 }
 
 }  // namespace detail
@@ -43,6 +47,8 @@ class Callback;
 /// The leaf is passed at each call, so a leaf may be moved after its callbacks were declared.
 template <class Out>
 class Callback<void(const At&, Out)> {
+  using Passed = std::add_lvalue_reference_t<const Out>;  // views go by value to users, by reference on the way
+
  public:
   Callback() = default;
 
@@ -60,11 +66,11 @@ class Callback<void(const At&, Out)> {
   }
 
   explicit operator bool() const noexcept { return call_ != nullptr; }
-  void operator()(const LeafSystem& leaf, const At& at, Out out) const { call_(*this, leaf, at, out); }
+  void operator()(const LeafSystem& leaf, const At& at, Passed out) const { call_(*this, leaf, at, out); }
 
  private:
   template <class F>
-  static void call_method(const Callback& self, const LeafSystem& leaf, const At& at, Out out) {
+  static void call_method(const Callback& self, const LeafSystem& leaf, const At& at, Passed out) {
     F method;
     std::memcpy(&method, self.method_, sizeof(F));
     const auto& block = static_cast<const typename detail::MethodOf<F>::Class&>(leaf);
@@ -76,11 +82,11 @@ class Callback<void(const At&, Out)> {
   }
 
   template <class F>
-  static void call_function(const Callback& self, const LeafSystem&, const At& at, Out out) {
+  static void call_function(const Callback& self, const LeafSystem&, const At& at, Passed out) {
     detail::call<F>(*static_cast<const F*>(self.callable_.get()), at, out);
   }
 
-  void (*call_)(const Callback&, const LeafSystem&, const At&, Out) = nullptr;
+  void (*call_)(const Callback&, const LeafSystem&, const At&, Passed) = nullptr;
   alignas(void*) unsigned char method_[2 * sizeof(void*)] = {};
   std::shared_ptr<const void> callable_;
 };

@@ -28,7 +28,7 @@ class Machine {
   void derivative(double t, const double* state, double* xdot) {
     ++rhs_calls;
     bases_[0] = state;
-    run(derivative_calls_, t);
+    if (!derivative_calls_.empty()) run(derivative_calls_, t);
     for (const OdeCall& ode : odes_) ode_of(ode, t, xdot);
   }
 
@@ -36,7 +36,7 @@ class Machine {
   void guards(double t, const double* state, double* g) {
     ++guard_calls;
     bases_[0] = state;
-    run(guard_calls_list_, t);
+    if (!guard_calls_list_.empty()) run(guard_calls_list_, t);
     for (int i : active_) guard(groups_[static_cast<std::size_t>(i)], t, g);
   }
 
