@@ -1,33 +1,12 @@
 // The four scenes of the tutorial "Bouncing Ball": with the tutorial's own tolerances and step bounds, and then error
 // against run time without the bounds.
-#include <saltus/models/models.hpp>
+#include <saltus/models/tutorial.hpp>
 
 #include "runner.hpp"
 
 namespace {
 
 using namespace saltus;
-
-Scene with_options(std::string name, Scene scene, SimulatorOptions options) {
-  options.recorded_signals = scene.options.recorded_signals;
-  scene.options = std::move(options);
-  scene.name = std::move(name);
-  return scene;
-}
-
-std::vector<Scene> tutorial() {
-  const double g = 9.81, t1 = std::sqrt(2.0 * 10.0 / g);
-  const SimulatorOptions leaf{.rtol = 1e-10, .atol = 1e-12, .max_minor_step_size = 1e-3};
-  const SimulatorOptions blocks{.rtol = 1e-6, .atol = 1e-8, .max_major_step_length = 0.1, .max_minor_step_size = 1e-3};
-  return {with_options("scene 1: a leaf, e = 1", models::bouncing_ball({.g = g, .e = 1.0, .y0 = 10.0, .t_end = 6.0 * t1}), leaf),
-          with_options("scene 2: a leaf, e = 0.9", models::bouncing_ball({.g = g, .e = 0.9, .y0 = 10.0, .t_end = 12.0}), leaf),
-          with_options("scene 3: blocks, e = 0.8, the floor drops from under the ball at rest",
-                       models::bouncing_ball_diagram({.g = g, .e = 0.8, .y0 = 1e-3, .floor = 0.0, .dropped = -1e-3,
-                                                      .drop_time = 1.0, .t_end = 1.1}), blocks),
-          with_options("scene 4: blocks, e = 0.9, the floor drops in flight",
-                       models::bouncing_ball_diagram({.g = g, .e = 0.9, .y0 = 10.0, .floor = 5.0, .dropped = 0.0,
-                                                      .drop_time = 10.0, .t_end = 40.0}), blocks)};
-}
 
 /// Each rest of the ball: when it began, how far that is from the closed form, and when it ended.
 void print_rests(const Scene& scene, const Results& results) {
@@ -76,7 +55,7 @@ int main(int argc, char** argv) {
   app.add_option("--rtols", work.rtols, "relative tolerances to compare at")->capture_default_str();
   return examples::guarded(app, argc, argv, [&] {
     for (const std::string& method : work.methods) method_from(method);
-    for (const Scene& scene : tutorial()) {
+    for (const Scene& scene : models::tutorial()) {
       show(scene);
       compare(scene, work);
     }

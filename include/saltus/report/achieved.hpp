@@ -15,7 +15,7 @@ struct Achieved {
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
   double error = unknown;         ///< max over rows and components of |x - exact|
-  double scaled = unknown;        ///< the same over atol + rtol |exact|: 1 is what was asked of a single step
+  double scaled = unknown;        ///< the same over atol + rtol |exact|; large where a component passes zero
   double event_error = unknown;   ///< [s] over events, matched by index
   std::int64_t event_mismatch = 0;  ///< events too many or too few; holds not entered or not released count as one
   double accumulation_error = unknown;  ///< [s] of the predicted Zeno times

@@ -35,6 +35,9 @@ class Calendar {
     return t;
   }
 
+  /// Whether one is due at t, within rounding: a run that ends at 0.3 has had the tick at 3 * 0.1.
+  bool due(double t) const { return next() <= t + slack(t); }
+
   /// Takes the events due at t.
   void take(double t, std::vector<int>& due) {
     due.clear();

@@ -65,6 +65,11 @@ class EventLog {
 
   void begin(std::vector<std::string> names) { names_ = std::move(names), clear(); }
   void clear() { rows_.clear(), states_.clear(); }
+  EventLog emptied() const {
+    EventLog log;
+    log.names_ = names_;
+    return log;
+  }
   void add(Row row, const double* before, const double* after) {
     row.states = states_.size();
     states_.insert(states_.end(), before, before + row.width);

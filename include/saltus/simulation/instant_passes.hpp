@@ -211,9 +211,11 @@ inline bool Instant::run_reset(const Action& action, const ResetMap& map) {
                                "' set a state that is not finite (NaN or Inf)"), t_, of.path);
   }
   if (next.wrote_continuous_state()) wrote_x_ = outcome_.restart = true;
-  if (next.wrote_discrete_state() && of.nx > 0 && has(of.declared().continuous.reads, Reads::discrete_state)) {
-    outcome_.restart = true;
-  }
+  const auto shows_z = [&](int i) {  // a held output that shows it is found by its value, one that also reads x or t is not
+    return plan().node(i).leaf == action.leaf && !plan().node(i).relation && has(plan().output_of(plan().node(i)).reads, Reads::discrete_state);
+  };
+  const bool ode_reads_z = of.nx > 0 && has(of.declared().continuous.reads, Reads::discrete_state);
+  if (next.wrote_discrete_state() && (ode_reads_z || std::ranges::any_of(plan().derivatives, shows_z))) outcome_.restart = true;
   return next.wrote_continuous_state();
 }
 

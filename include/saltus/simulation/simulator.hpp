@@ -30,7 +30,12 @@ class Simulator {
   Context context() const { return machine_.save(begin_, time_); }
   /// All since initialize(); complete after each advance_to.
   const Results& results() const noexcept { return results_; }
-  Results take_results() { return std::move(results_); }
+  Results take_results() {
+    EventLog next = results_.events.emptied();
+    Results taken = std::move(results_);
+    results_.events = std::move(next);
+    return taken;
+  }
 
   const Plan& plan() const noexcept { return machine_.plan(); }
   /// What was kept, folded and dropped, and the method with the reason.

@@ -68,6 +68,7 @@ inline Status Simulator::run_to(double t_end) {
                                           " major steps before t = ", t_end, " s; raise max_major_steps"));
     }
     if (const Status status = step(t_end); over_) return status;
+    if ((++ticks_ & 15) == 0 && interrupted()) return end(Status::interrupted, text("t = ", time_, " s: interrupted"));
   }
   return Status::reached_end;
 }
@@ -83,12 +84,7 @@ inline Status Simulator::step(double t_end) {
     instant_.log_monitor(hit, machine_.x.data());
   }
   record_step(from);
-  if (reason == StopReason::step) {
-    if ((++ticks_ & 15) == 0 && interrupted()) {
-      return end(Status::interrupted, text("t = ", time_, " s: interrupted"));
-    }
-    return Status::reached_end;
-  }
+  if (reason == StopReason::step) return Status::reached_end;
   return settle(reason, t_end, false);
 }
 
@@ -118,7 +114,7 @@ inline Status Simulator::settle(StopReason reason, double t_end, bool at_start) 
   machine_.at_home();
   ++results_.statistics.instants;
   due_.clear();
-  if (calendar_.next() <= time_ || at_start) calendar_.take(time_, due_);
+  if (calendar_.due(time_) || at_start) calendar_.take(time_, due_);
   if (reason != StopReason::root && due_.empty() && !at_start) return Status::reached_end;  // a major step's end only
   if (recorder_ && !recorder_->has_row(time_, instant_.jump())) recorder_->record(time_, instant_.jump(), machine_.x.data());
   const Instant::Outcome outcome = instant_.run(time_, due_, t_end - time_, at_start);

@@ -1,0 +1,18 @@
+// How often memory was asked for: by new, by Eigen, by SUNDIALS. All of them come to malloc.
+#pragma once
+
+namespace support {
+
+/// Calls of malloc, calloc and realloc since the program began; -1 where they cannot be counted (sanitizers, other
+/// C libraries than glibc).
+long allocations();
+
+/// What `act` asked for.
+template <class Act>
+long allocations_of(Act act) {
+  const long before = allocations();
+  act();
+  return before < 0 ? -1 : allocations() - before;
+}
+
+}  // namespace support
