@@ -1,5 +1,7 @@
 // C++ errors become those of python/saltus/errors.py. What a Python function threw never comes here: pybind11 gives
 // it back as it was.
+#include <pybind11/stl.h>
+
 #include "bindings.hpp"
 #include "saltus/base/error.hpp"
 

@@ -61,6 +61,8 @@ class Instant {
   void read_again();
   bool read_relation(const GuardGroup& group, Index slot);
   bool reads_changed(int node) const;
+  /// [s] shorter flights drown in the rounding of the time.
+  double least_time() const { return 64.0 * std::numeric_limits<double>::epsilon() * std::abs(t_); }
   void find_next();
   void look_at_held(const GuardGroup& group, std::size_t slot);
   [[noreturn]] void throw_no_end() const;
@@ -74,7 +76,7 @@ class Instant {
   Departure::Side side_of(const GuardGroup& group, Index slot, double hair, int expected);
   bool rests(const GuardGroup& group, Index slot, int from);
   void hold(int leaf, ZenoMonitor& monitor, int source, double predicted);
-  void hold_edges_of(int node);
+  bool hold_edges_of(int node);
   void release(int leaf, ZenoMonitor& monitor, int source);
 
   // shared
@@ -112,6 +114,7 @@ class Instant {
   std::vector<Firing> firings_;            // for the pass to come
   std::vector<Action> actions_;
   std::vector<char> fired_, fired_now_;  // slots: in this instant, in this pass
+  std::vector<char> was_active_;         // slots: for select_guards
   std::vector<char> frozen_, resting_;   // slots of relations: their side is kept in this instant, through the hold
   std::vector<signed char> from_;          // slots: the side the last crossing came from
   std::vector<int> edges_fired_;           // in this instant

@@ -10,7 +10,7 @@ inline Instant::Instant(Machine& machine, Watch& watch, const SimulatorOptions& 
   const auto slots = static_cast<std::size_t>(plan().guard_slots);
   watch.slots.resize(slots), watch.g.assign(slots, 1.0), g_.assign(slots, 1.0), g_minus_.assign(slots, 0.0);
   watch.scan_points = options.event_scan_points;
-  for (auto* marks : {&fired_, &fired_now_, &frozen_, &resting_}) marks->assign(slots, 0);
+  for (auto* marks : {&fired_, &fired_now_, &frozen_, &resting_, &was_active_}) marks->assign(slots, 0);
   group_of_slot_.resize(slots), from_.assign(slots, 0);
   slot_monitors_.resize(slots);
   std::vector<std::string> names;
@@ -86,12 +86,11 @@ inline void Instant::select_guards() {
     const GuardGroup& group = plan().guards[static_cast<std::size_t>(i)];
     for (Index s = 0; s < group.size; ++s) watch_->active.push_back(static_cast<std::size_t>(group.slot + s));
   }
-  std::vector<char> was(watch_->slots.size(), 0);
-  for (std::size_t k = 0; k < was.size(); ++k) was[k] = std::exchange(watch_->slots[k].active, false);
+  for (std::size_t k = 0; k < was_active_.size(); ++k) was_active_[k] = std::exchange(watch_->slots[k].active, false);
   for (std::size_t k : watch_->active) {
     GuardSlot& slot = watch_->slots[k];
     slot.active = true;
-    if (!was[k]) slot.side = 0, slot.fresh = false;  // a mode just entered: no side yet
+    if (!was_active_[k]) slot.side = 0, slot.fresh = false;  // a mode just entered: no side yet
   }
 }
 
@@ -202,14 +201,17 @@ inline void Instant::hold(int leaf_index, ZenoMonitor& monitor, int source, doub
   log(EventKind::zeno_enter, source, leaf_index, 0, predicted);
 }
 
-/// A relation at rest holds the blocks whose resets it set off in this instant.
-inline void Instant::hold_edges_of(int node) {
+/// A relation at rest holds the blocks whose resets it set off in this instant; false if one of them has no monitor.
+inline bool Instant::hold_edges_of(int node) {
+  bool all = true;
   for (int e : edges_fired_) {
     const EdgeWatch& edge = plan().edges[static_cast<std::size_t>(e)];
     ZenoMonitor& monitor = edge_monitors_[static_cast<std::size_t>(e)];
-    if (!monitor.on() || monitor.holding || std::ranges::find(edge.relations, node) == edge.relations.end()) continue;
-    hold(edge.leaf, monitor, source_of(Cause::edge, e), t_);
+    if (monitor.holding || std::ranges::find(edge.relations, node) == edge.relations.end()) continue;
+    if (monitor.on()) hold(edge.leaf, monitor, source_of(Cause::edge, e), t_);
+    else all = false;
   }
+  return all;
 }
 
 inline void Instant::release(int leaf_index, ZenoMonitor& monitor, int source) {

@@ -133,9 +133,10 @@ inline void Instant::add_crossings() {
   }
   firings_.clear();
   if (actions_.size() < 2) return;
-  std::ranges::stable_sort(actions_, [](const Action& a, const Action& b) {
-    return a.leaf != b.leaf ? a.leaf < b.leaf : a.cause < b.cause;
-  });
+  const auto before = [](const Action& a, const Action& b) { return a.leaf != b.leaf ? a.leaf < b.leaf : a.cause < b.cause; };
+  for (auto a = actions_.begin(); a != actions_.end(); ++a) {  // stable, and allocates nothing
+    std::rotate(std::upper_bound(actions_.begin(), a, *a, before), a, a + 1);
+  }
 }
 
 inline void Instant::run_pass() {
@@ -189,7 +190,7 @@ inline void Instant::run_action(const Action& action) {
     }
   } else {
     monitor.remember(state);
-    if (std::isfinite(monitor.gap())) outcome_.horizon = std::min(outcome_.horizon, 1.2 * monitor.gap());
+    if (std::isfinite(monitor.gap())) outcome_.horizon = std::min(outcome_.horizon, std::max(1.2 * monitor.gap(), least_time()));
   }
 }
 
@@ -263,7 +264,11 @@ inline bool Instant::read_relation(const GuardGroup& group, Index slot) {
     const Departure::Side flow = side_of(group, slot, !opaque ? 4.0 * std::abs(g_minus_[k]) : 0.0, 0);
     side = flow.side != 0 ? flow.side : crossed_to;
     const bool back = side == crossed_to && flow.side != 0;
-    if (back && (opaque || rests(group, slot, -crossed_to))) hold_edges_of(group.index), frozen_[k] = resting_[k] = 1;
+    if (back && (opaque || rests(group, slot, -crossed_to))) {
+      frozen_[k] = 1;
+      if (hold_edges_of(group.index)) resting_[k] = 1;
+      else side = -crossed_to;  // no monitor: it fires again as soon as it can
+    }
   }
   if (side == 0) return false;
   watched.side = static_cast<signed char>(side);

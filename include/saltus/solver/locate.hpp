@@ -23,7 +23,7 @@ class Locator {
       : machine_(&machine), watch_(&watch), x_(static_cast<std::size_t>(machine.plan().nx)) {
     const auto slots = static_cast<std::size_t>(machine.plan().guard_slots);
     for (auto* values : {&low_, &high_, &middle_}) values->assign(slots, 1.0);
-    crossed_.reserve(slots);
+    crossed_.reserve(slots), limits_.reserve(slots);
   }
 
   /// The first offset in (from, to] at which a guard that is no monitor fires; false if there is none.
@@ -31,6 +31,8 @@ class Locator {
   template <class Interpolate>
   bool find(double t0, double from, double to, const double* end, const Interpolate& interpolate) {
     t0_ = t0;
+    limits_.clear();
+    for (std::size_t k : watch_->active) limits_.push_back(watch_->slots[k].limits());
     const int pieces = watch_->scan_points + 1;
     const double piece_length = (to - from) / pieces;
     for (int piece = 1; piece <= pieces; ++piece) {
@@ -54,7 +56,7 @@ class Locator {
     while (from < to) {
       look(to, end, interpolate, high_);
       if (!note_crossed(high_)) {
-        for (std::size_t k : watch_->active) watch_->follow(k, high_[k]);
+        follow();
         return false;
       }
       from = narrow(from, to, interpolate);
@@ -70,14 +72,35 @@ class Locator {
     machine_->guards(t0_ + u, known == nullptr ? x_.data() : known, values.data());
   }
 
+  bool fired(std::size_t i, const std::vector<double>& values) const {
+    const double value = values[watch_->active[i]];
+    return value <= limits_[i].first || value >= limits_[i].second;
+  }
+
   /// Whether some guard has crossed at these values; if so, crossed_ says which.
   bool note_crossed(const std::vector<double>& values) {
-    const auto fired = [&](std::size_t k) { return watch_->slots[k].crossed(values[k]); };
-    const auto first = std::ranges::find_if(watch_->active, fired);
-    if (first == watch_->active.end()) return false;
+    const std::size_t count = limits_.size();
+    std::size_t i = 0;
+    while (i < count && !fired(i, values)) ++i;
+    if (i == count) return false;
     crossed_.clear();
-    std::copy_if(first, watch_->active.end(), std::back_inserter(crossed_), fired);
+    for (; i < count; ++i) {
+      if (fired(i, values)) crossed_.push_back(watch_->active[i]);
+    }
     return true;
+  }
+
+  /// Takes over the sides at high_, where nothing fired.
+  void follow() {
+    for (std::size_t i = 0; i < limits_.size(); ++i) {
+      const std::size_t k = watch_->active[i];
+      GuardSlot& slot = watch_->slots[k];
+      const bool stays = !slot.fresh && (slot.side > 0 ? high_[k] > 0.0 : slot.side < 0 && high_[k] < 0.0);
+      watch_->g[k] = high_[k];
+      if (stays) continue;
+      slot.follow(high_[k]);
+      limits_[i] = slot.limits();
+    }
   }
 
   /// Narrows [low, high], where no guard has fired at low and `high_` shows that one has at high.
@@ -108,9 +131,11 @@ class Locator {
 
   /// A fresh guard seen on its armed side is an ordinary one from there on.
   void leave_zero() {
-    for (std::size_t k : crossed_) {
-      GuardSlot& slot = watch_->slots[k];
-      if (slot.fresh && slot.sign(low_[k]) == slot.side) slot.fresh = false, slot.band = 0.0;
+    for (std::size_t i = 0; i < limits_.size(); ++i) {
+      GuardSlot& slot = watch_->slots[watch_->active[i]];
+      if (!slot.fresh || slot.sign(low_[watch_->active[i]]) != slot.side) continue;
+      slot.fresh = false, slot.band = 0.0;
+      limits_[i] = slot.limits();
     }
   }
 
@@ -142,10 +167,12 @@ class Locator {
       if (slot.monitor) watch_->monitors.push_back({t0_ + u, firing});
       else watch_->fired.push_back(firing);
     }
-    for (std::size_t k : watch_->active) watch_->follow(k, high_[k]);
-    // A guard exactly on zero after firing takes the side it leaves to.
-    for (std::size_t k : crossed_) {
-      if (watch_->slots[k].crossed(high_[k])) watch_->slots[k].side = 0;
+    for (std::size_t i = 0; i < limits_.size(); ++i) {
+      const std::size_t k = watch_->active[i];
+      GuardSlot& slot = watch_->slots[k];
+      watch_->follow(k, high_[k]);
+      if (slot.crossed(high_[k])) slot.side = 0;  // exactly on zero: it takes the side it leaves to
+      limits_[i] = slot.limits();
     }
     return !watch_->fired.empty();
   }
@@ -154,6 +181,7 @@ class Locator {
   Watch* watch_;
   std::vector<double> x_, low_, high_, middle_;
   std::vector<std::size_t> crossed_;
+  std::vector<std::pair<double, double>> limits_;  // of the active slots
   double t0_ = 0.0, root_ = 0.0;
 };
 

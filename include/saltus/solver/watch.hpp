@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
+#include <utility>
 #include <vector>
 
 #include "saltus/model/event.hpp"
@@ -30,6 +32,15 @@ struct GuardSlot {
     const int now = sign(value);
     // A fresh guard at zero has not left it: only the strict far side counts.
     return side != 0 && (now != 0 || !fresh) && fires(direction, side, now);
+  }
+
+  /// Where it fires: at values <= first or >= second. The same as crossed(), for many values.
+  std::pair<double, double> limits() const {
+    constexpr double never = std::numeric_limits<double>::infinity();
+    if (direction == Direction::edge_detection) return {std::nextafter(base, -never), std::nextafter(base, never)};
+    const double reach = fresh ? std::nextafter(band, never) : band;
+    const bool falls = side > 0 && fires(direction, 1, -1), rises = side < 0 && fires(direction, -1, 1);
+    return {falls ? (fresh ? -reach : reach) : -never, rises ? (fresh ? reach : -reach) : never};
   }
 
   /// Takes over the side after a look at which it did not fire.
