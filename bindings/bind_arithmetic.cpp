@@ -20,15 +20,17 @@ void bind_arithmetic(py::module_& module) {
     return std::make_unique<Gain>(name, Arguments(name).value(gain, "gain"));
   }));
   py::class_<Multiplexer, System>(module, "Multiplexer").def(py::init<std::string, int>());
-  py::class_<Offset, System>(module, "Offset").def(py::init([](const std::string& name, Handle offset) {
-    return std::make_unique<Offset>(name, Arguments(name).value(offset, "offset"));
-  }));
+  py::class_<Offset, System>(module, "Offset")
+      .def(py::init([](const std::string& name, Handle offset) {
+        return std::make_unique<Offset>(name, Arguments(name).value(offset, "offset"));
+      }));
   py::class_<Product, System>(module, "Product").def(py::init<std::string, std::string_view>());
   py::class_<Saturate, System>(module, "Saturate")
       .def(py::init([](const std::string& name, Handle lower_limit, Handle upper_limit) {
         const Arguments of(name);
-        return std::make_unique<Saturate>(
-            name, SaturateOptions{of.optional(lower_limit, "lower_limit"), of.optional(upper_limit, "upper_limit")});
+        return std::make_unique<Saturate>(name,
+                                          SaturateOptions{of.optional(lower_limit, "lower_limit"),
+                                                          of.optional(upper_limit, "upper_limit")});
       }));
 }
 

@@ -9,18 +9,22 @@ namespace saltus::python {
 namespace {
 
 /// An array over a copy: a context is a value, and so is what it shows.
-py::array shown(const Eigen::VectorXd& values) { return read_only_array({values.size()}, values.data()); }
+py::array shown(const Eigen::VectorXd& values) {
+  return read_only_array({values.size()}, values.data());
+}
 
 SystemId id_of(py::handle system) {
   if (py::isinstance<System>(system)) return system.cast<const System&>().system_id();
   try {
     return SystemId{system.cast<int>()};
   } catch (const py::cast_error&) {
-    throw ModelError(text("expected a system or its system_id, found ", std::string(py::repr(system))));
+    throw ModelError(
+        text("expected a system or its system_id, found ", std::string(py::repr(system))));
   }
 }
 
-std::string full_name(const Layout& layout, const Layout::Leaf& leaf, const Layout::Parameter& parameter) {
+std::string full_name(const Layout& layout, const Layout::Leaf& leaf,
+                      const Layout::Parameter& parameter) {
   return layout.leaves.size() == 1 ? parameter.name : leaf.path + "." + parameter.name;
 }
 
@@ -30,8 +34,10 @@ py::dict parameters(const Context& context) {
     for (const auto& parameter : leaf.parameters) {
       const auto values = context.parameters().segment(leaf.p + parameter.offset, parameter.size);
       const auto name = full_name(context.layout(), leaf, parameter);
-      if (parameter.size == 1) all[name.c_str()] = values[0];
-      else all[name.c_str()] = shown(values);
+      if (parameter.size == 1)
+        all[name.c_str()] = values[0];
+      else
+        all[name.c_str()] = shown(values);
     }
   }
   return all;
@@ -47,20 +53,24 @@ bool equal(const Context& a, const Context& b) {
     for (const auto& leaf : context.layout().leaves) all.push_back(leaf.path);
     return all;
   };
-  return a.time() == b.time() && a.modes() == b.modes() && a.continuous_state() == b.continuous_state() &&
-         a.discrete_state() == b.discrete_state() && a.parameters() == b.parameters() && paths(a) == paths(b);
+  return a.time() == b.time() && a.modes() == b.modes() &&
+         a.continuous_state() == b.continuous_state() && a.discrete_state() == b.discrete_state() &&
+         a.parameters() == b.parameters() && paths(a) == paths(b);
 }
 
 std::string list(const Eigen::VectorXd& values) {
   std::string out;
-  for (Index i = 0; i < std::min<Index>(values.size(), 6); ++i) out += text(i == 0 ? "" : ", ", values[i]);
+  for (Index i = 0; i < std::min<Index>(values.size(), 6); ++i)
+    out += text(i == 0 ? "" : ", ", values[i]);
   return text("[", out, values.size() > 6 ? ", ..." : "", "]");
 }
 
 std::string repr(const Context& context) {
   std::string out = text("Context(time=", context.time());
-  if (context.continuous_state().size() > 0) out += text(", continuous_state=", list(context.continuous_state()));
-  if (context.discrete_state().size() > 0) out += text(", discrete_state=", list(context.discrete_state()));
+  if (context.continuous_state().size() > 0)
+    out += text(", continuous_state=", list(context.continuous_state()));
+  if (context.discrete_state().size() > 0)
+    out += text(", discrete_state=", list(context.discrete_state()));
   if (context.modes().size() == 1) out += text(", mode=", context.mode());
   const std::size_t blocks = context.layout().leaves.size();
   return out + (blocks == 1 ? ")" : text(", ", blocks, " blocks)"));
@@ -69,42 +79,65 @@ std::string repr(const Context& context) {
 }  // namespace
 
 void bind_context(py::module_& module) {
-  py::class_<Context>(module, "Context", R"(All values of a system at one time. Made by `system.create_context()`.
+  py::class_<Context>(module, "Context",
+                      R"(All values of a system at one time. Made by `system.create_context()`.
 
 A context is a value: each `with_*` returns a new one, the old one and the system stay as they are. The states of a
 diagram are one vector, block after block in the order of `add`; `context[block.system_id]` is the context of one block.
 Wrong sizes, values that are not finite and unknown names are refused with a ModelError.)")
       .def_property_readonly("time", &Context::time, "[s]")
-      .def_property_readonly("continuous_state", [](const Context& c) { return shown(c.continuous_state()); },
-                             "All continuous states, as one read-only vector.")
-      .def_property_readonly("discrete_state", [](const Context& c) { return shown(c.discrete_state()); },
-                             "All discrete states, as one read-only vector.")
+      .def_property_readonly(
+          "continuous_state", [](const Context& c) { return shown(c.continuous_state()); },
+          "All continuous states, as one read-only vector.")
+      .def_property_readonly(
+          "discrete_state", [](const Context& c) { return shown(c.discrete_state()); },
+          "All discrete states, as one read-only vector.")
       .def_property_readonly("mode", &Context::mode, "The mode, of a context of one block.")
-      .def_property_readonly("modes", &Context::modes, "The mode of each block, in the order of `add`.")
-      .def_property_readonly("parameters", &parameters,
-                             "Every parameter by name, a number or a read-only vector; in a diagram by 'block.name'.")
+      .def_property_readonly("modes", &Context::modes,
+                             "The mode of each block, in the order of `add`.")
+      .def_property_readonly(
+          "parameters", &parameters,
+          "Every parameter by name, a number or a read-only vector; in a diagram by 'block.name'.")
       .def("with_time", &Context::with_time, py::arg("time"), "This context at another time [s].")
-      .def("with_continuous_state",
-           [](const Context& c, py::handle x) { return c.with_continuous_state(to_vector(x, "continuous state")); },
-           py::arg("continuous_state"), "All continuous states replaced: a vector, or a number where there is one state.")
-      .def("with_discrete_state",
-           [](const Context& c, py::handle z) { return c.with_discrete_state(to_vector(z, "discrete state")); },
-           py::arg("discrete_state"), "All discrete states replaced.")
-      .def("with_mode", &Context::with_mode, py::arg("mode"), "Another mode, of a context of one block.")
+      .def(
+          "with_continuous_state",
+          [](const Context& c, py::handle x) {
+            return c.with_continuous_state(to_vector(x, "continuous state"));
+          },
+          py::arg("continuous_state"),
+          "All continuous states replaced: a vector, or a number where there is one state.")
+      .def(
+          "with_discrete_state",
+          [](const Context& c, py::handle z) {
+            return c.with_discrete_state(to_vector(z, "discrete state"));
+          },
+          py::arg("discrete_state"), "All discrete states replaced.")
+      .def("with_mode", &Context::with_mode, py::arg("mode"),
+           "Another mode, of a context of one block.")
       .def("with_parameter", &with_parameter, py::arg("name"), py::arg("value"),
            "One parameter replaced; a number for a vector parameter fills it.")
-      .def("with_parameters",
-           [](Context context, const py::dict& values) {
-             for (const auto& [name, value] : values) context = with_parameter(context, name.cast<std::string>(), value);
-             return context;
-           },
-           py::arg("values"), "Several parameters replaced, from a dict of names and values.")
-      .def("__getitem__", [](const Context& c, py::handle system) { return c[id_of(system)]; }, py::arg("system"),
-           "The context of one block or inner diagram, given it or its `system_id`.")
-      .def("with_subcontext",
-           [](const Context& c, py::handle system, const Context& part) { return c.with_subcontext(id_of(system), part); },
-           py::arg("system"), py::arg("context"), "The values of one block or inner diagram replaced.")
-      .def("__eq__", [](const Context& a, const Context& b) { return equal(a, b); }, py::is_operator())
+      .def(
+          "with_parameters",
+          [](Context context, const py::dict& values) {
+            for (const auto& [name, value] : values)
+              context = with_parameter(context, name.cast<std::string>(), value);
+            return context;
+          },
+          py::arg("values"), "Several parameters replaced, from a dict of names and values.")
+      .def(
+          "__getitem__", [](const Context& c, py::handle system) { return c[id_of(system)]; },
+          py::arg("system"),
+          "The context of one block or inner diagram, given it or its `system_id`.")
+      .def(
+          "with_subcontext",
+          [](const Context& c, py::handle system, const Context& part) {
+            return c.with_subcontext(id_of(system), part);
+          },
+          py::arg("system"), py::arg("context"),
+          "The values of one block or inner diagram replaced.")
+      .def(
+          "__eq__", [](const Context& a, const Context& b) { return equal(a, b); },
+          py::is_operator())
       .def("__copy__", [](const Context& c) { return c; })
       .def("__deepcopy__", [](const Context& c, const py::dict&) { return c; })
       .def("__repr__", &repr);

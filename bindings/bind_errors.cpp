@@ -1,5 +1,5 @@
-// C++ errors become those of python/saltus/errors.py. What a Python function threw never comes here: pybind11 gives
-// it back as it was.
+// C++ errors become those of python/saltus/errors.py. What a Python function threw never comes
+// here: pybind11 gives it back as it was.
 #include <pybind11/stl.h>
 
 #include "bindings.hpp"
@@ -14,7 +14,8 @@ void bind_errors(py::module_& module) {
     try {
       if (thrown) std::rethrow_exception(thrown);
     } catch (const SimulationError& error) {
-      const py::object python = error_class("SimulationError")(error.what(), error.time(), error.block());
+      const py::object python =
+          error_class("SimulationError")(error.what(), error.time(), error.block());
       py::set_error(py::type::of(python), python);
     } catch (const ModelError& error) {
       py::set_error(error_class("ModelError"), error.what());

@@ -10,7 +10,8 @@ namespace {
 using OptionalNumber = std::optional<double>;
 using OptionalMode = std::optional<int>;
 
-/// Functions held by a block are seen by the garbage collector: a lambda that holds its block is no leak.
+/// Functions held by a block are seen by the garbage collector: a lambda that holds its block is no
+/// leak.
 void let_collect(PyHeapTypeObject* heap_type) {
   PyTypeObject& type = heap_type->ht_type;
   type.tp_flags |= Py_TPFLAGS_HAVE_GC;
@@ -36,37 +37,49 @@ std::optional<Shape> shape_from(const std::optional<Dimensions>& dimensions) {
   return Shape::of(size);
 }
 
-void declare_continuous_state(py::handle self, py::handle initial, py::object ode, const InputList& inputs, py::object jacobian) {
+void declare_continuous_state(py::handle self, py::handle initial, py::object ode,
+                              const InputList& inputs, py::object jacobian) {
   PythonLeaf& leaf = leaf_of(self);
   const Array values = to_array(initial, text("block '", leaf.name(), "': continuous state"));
   ContinuousState state{.initial = as_vector(values), .inputs = inputs};
-  if (!ode.is_none()) state.ode = leaf.vector_function(leaf.add(self, std::move(ode), inputs, "ode", Convention::state));
+  if (!ode.is_none())
+    state.ode =
+        leaf.vector_function(leaf.add(self, std::move(ode), inputs, "ode", Convention::state));
   if (!jacobian.is_none()) {
-    state.jacobian = leaf.matrix_function(leaf.add(self, std::move(jacobian), inputs, "jacobian", Convention::state));
+    state.jacobian = leaf.matrix_function(
+        leaf.add(self, std::move(jacobian), inputs, "jacobian", Convention::state));
   }
   leaf.declare_continuous_state(std::move(state));
   leaf.set_state_dimensions(dimensions_of(values));
 }
 
-int declare_output_port(py::handle self, py::object function, std::string name, const InputList& inputs,
-                        const std::optional<Dimensions>& shape, std::optional<bool> boolean,
-                        const std::vector<std::string>& reads, Convention convention) {
+int declare_output_port(py::handle self, py::object function, std::string name,
+                        const InputList& inputs, const std::optional<Dimensions>& shape,
+                        std::optional<bool> boolean, const std::vector<std::string>& reads,
+                        Convention convention) {
   PythonLeaf& leaf = leaf_of(self);
-  const std::string what = text("output '", name.empty() ? text("out_", leaf.output_names().size()) : name, "'");
+  const std::string what =
+      text("output '", name.empty() ? text("out_", leaf.output_names().size()) : name, "'");
   const std::vector<std::pair<std::string, Reads>> known{
-      {"time", Reads::time}, {"continuous_state", Reads::continuous_state}, {"discrete_state", Reads::discrete_state},
-      {"mode", Reads::mode}, {"inputs", Reads::inputs}};
+      {"time", Reads::time},
+      {"continuous_state", Reads::continuous_state},
+      {"discrete_state", Reads::discrete_state},
+      {"mode", Reads::mode},
+      {"inputs", Reads::inputs}};
   Reads all = Reads::parameters;
   for (const std::string& word : reads) {
     const auto found = std::ranges::find(known, word, &std::pair<std::string, Reads>::first);
     if (found == known.end()) {
       std::vector<std::string> names;
       for (const auto& [one, unused] : known) names.push_back(one);
-      throw ModelError(text("block '", leaf.name(), "': ", what, " reads '", word, "'", known_names(word, names)));
+      throw ModelError(text("block '", leaf.name(), "': ", what, " reads '", word, "'",
+                            known_names(word, names)));
     }
     all = all | found->second;
   }
-  return leaf.add_output(std::move(name), leaf.add(self, std::move(function), inputs, what, convention), shape_from(shape), boolean, all);
+  return leaf.add_output(std::move(name),
+                         leaf.add(self, std::move(function), inputs, what, convention),
+                         shape_from(shape), boolean, all);
 }
 
 /// A state as it is: no copy, no call.
@@ -74,22 +87,33 @@ int declare_view(py::handle self, std::string name, Space space) {
   PythonLeaf& leaf = leaf_of(self);
   const bool x = space == Space::x;
   const Shape shape = *shape_from(x ? leaf.state_dimensions() : leaf.discrete_dimensions());
-  return leaf.declare_output_port({.name = std::move(name), .shape = shape,
+  return leaf.declare_output_port({.name = std::move(name),
+                                   .shape = shape,
                                    .reads = x ? Reads::continuous_state : Reads::discrete_state,
                                    .view = Place{space, 0, shape.size}});
 }
 
-void declare_zero_crossing(py::handle self, py::object guard, py::object reset_map, std::string name, const std::string& direction,
-                           OptionalMode start_mode, OptionalMode end_mode, bool terminal, OptionalNumber zeno_tolerance,
+void declare_zero_crossing(py::handle self, py::object guard, py::object reset_map,
+                           std::string name, const std::string& direction, OptionalMode start_mode,
+                           OptionalMode end_mode, bool terminal, OptionalNumber zeno_tolerance,
                            const InputList& inputs) {
   PythonLeaf& leaf = leaf_of(self);
-  const std::string called = name.empty() ? text("zero_crossing_", leaf.declarations().zero_crossings.size()) : name;
-  const int g = leaf.add(self, std::move(guard), inputs, text("guard of '", called, "'"), Convention::state);
-  ZeroCrossing crossing{.name = std::move(name), .guard = leaf.vector_function(g), .direction = direction_from(direction),
-                        .start_mode = start_mode, .end_mode = end_mode, .terminal = terminal,
-                        .zeno_tolerance = zeno_tolerance, .inputs = inputs};
+  const std::string called =
+      name.empty() ? text("zero_crossing_", leaf.declarations().zero_crossings.size()) : name;
+  const int g =
+      leaf.add(self, std::move(guard), inputs, text("guard of '", called, "'"), Convention::state);
+  ZeroCrossing crossing{.name = std::move(name),
+                        .guard = leaf.vector_function(g),
+                        .direction = direction_from(direction),
+                        .start_mode = start_mode,
+                        .end_mode = end_mode,
+                        .terminal = terminal,
+                        .zeno_tolerance = zeno_tolerance,
+                        .inputs = inputs};
   if (!reset_map.is_none()) {
-    crossing.reset_map = leaf.reset_map(leaf.add(self, std::move(reset_map), inputs, text("reset map of '", called, "'"), Convention::state));
+    crossing.reset_map =
+        leaf.reset_map(leaf.add(self, std::move(reset_map), inputs,
+                                text("reset map of '", called, "'"), Convention::state));
   }
   leaf.declare_zero_crossing(std::move(crossing));
 }
@@ -103,7 +127,9 @@ ResetMap update_of(py::handle self, py::object callback, const char* what) {
 }  // namespace
 
 void bind_leaf_system(py::module_& module) {
-  py::class_<State>(module, "State", R"(What a callback sees of its block, as a value: read-only arrays, and `with_*` that return a new state.
+  py::class_<State>(
+      module, "State",
+      R"(What a callback sees of its block, as a value: read-only arrays, and `with_*` that return a new state.
 
 A reset map or an update returns the state it wants. What counts as written is what a `with_*` was called for, even if
 the value is the one that was there.)")
@@ -114,7 +140,8 @@ the value is the one that was there.)")
       .def("with_discrete_state", &State::with_discrete_state, py::arg("discrete_state"))
       .def("with_mode", &State::with_mode, py::arg("mode"))
       .def("__repr__", [](const State& s) {
-        return py::str("State(continuous_state={}, discrete_state={}, mode={})").format(s.x, s.z, s.mode);
+        return py::str("State(continuous_state={}, discrete_state={}, mode={})")
+            .format(s.x, s.z, s.mode);
       });
 
   py::enum_<Convention>(module, "Convention")
@@ -127,31 +154,44 @@ the value is the one that was there.)")
       .def("declare_continuous_state", &declare_continuous_state)
       .def("declare_discrete_state",
            [](PythonLeaf& leaf, py::handle initial) {
-             const Array values = to_array(initial, text("block '", leaf.name(), "': discrete state"));
+             const Array values =
+                 to_array(initial, text("block '", leaf.name(), "': discrete state"));
              leaf.declare_discrete_state(as_vector(values));
              leaf.set_discrete_dimensions(dimensions_of(values));
            })
       .def("declare_default_mode", &PythonLeaf::declare_default_mode)
       .def("declare_dynamic_parameter",
            [](PythonLeaf& leaf, const std::string& name, py::handle value) {
-             leaf.add_parameter(name, to_array(value, text("block '", leaf.name(), "': parameter '", name, "'")));
+             leaf.add_parameter(
+                 name, to_array(value, text("block '", leaf.name(), "': parameter '", name, "'")));
            })
       .def("declare_input_port",
            [](PythonLeaf& leaf, std::string name, const std::optional<Dimensions>& shape) {
              return leaf.add_input(std::move(name), shape_from(shape));
            })
       .def("declare_output_port", &declare_output_port)
-      .def("declare_continuous_state_output", [](py::handle self, std::string name) { return declare_view(self, std::move(name), Space::x); })
-      .def("declare_discrete_state_output", [](py::handle self, std::string name) { return declare_view(self, std::move(name), Space::z); })
+      .def("declare_continuous_state_output",
+           [](py::handle self, std::string name) {
+             return declare_view(self, std::move(name), Space::x);
+           })
+      .def("declare_discrete_state_output",
+           [](py::handle self, std::string name) {
+             return declare_view(self, std::move(name), Space::z);
+           })
       .def("declare_mode_output", &PythonLeaf::declare_mode_output)
       .def("declare_zero_crossing", &declare_zero_crossing)
-      .def("declare_periodic_update",
-           [](py::handle self, py::object callback, double period, double offset, std::string name) {
-             leaf_of(self).declare_periodic_update(update_of(self, std::move(callback), "periodic update"), period, offset, std::move(name));
-           })
-      .def("declare_one_shot", [](py::handle self, py::object callback, double time, std::string name) {
-        leaf_of(self).declare_one_shot(time, update_of(self, std::move(callback), "one-shot update"), std::move(name));
-      });
+      .def(
+          "declare_periodic_update",
+          [](py::handle self, py::object callback, double period, double offset, std::string name) {
+            leaf_of(self).declare_periodic_update(
+                update_of(self, std::move(callback), "periodic update"), period, offset,
+                std::move(name));
+          })
+      .def("declare_one_shot",
+           [](py::handle self, py::object callback, double time, std::string name) {
+             leaf_of(self).declare_one_shot(
+                 time, update_of(self, std::move(callback), "one-shot update"), std::move(name));
+           });
 }
 
 }  // namespace saltus::python

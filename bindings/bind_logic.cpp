@@ -7,11 +7,14 @@
 namespace saltus::python {
 
 void bind_logic(py::module_& module) {
-  py::class_<Comparator, System>(module, "Comparator").def(py::init<std::string, std::string_view>());
-  py::class_<LogicalOperator, System>(module, "LogicalOperator").def(py::init<std::string, std::string, int>());
-  py::class_<Switch, System>(module, "Switch").def(py::init([](std::string name, std::optional<double> threshold) {
-    return std::make_unique<Switch>(std::move(name), SwitchOptions{threshold});
-  }));
+  py::class_<Comparator, System>(module, "Comparator")
+      .def(py::init<std::string, std::string_view>());
+  py::class_<LogicalOperator, System>(module, "LogicalOperator")
+      .def(py::init<std::string, std::string, int>());
+  py::class_<Switch, System>(module, "Switch")
+      .def(py::init([](std::string name, std::optional<double> threshold) {
+        return std::make_unique<Switch>(std::move(name), SwitchOptions{threshold});
+      }));
 }
 
 }  // namespace saltus::python

@@ -11,12 +11,16 @@ namespace {
 using SharedResults = std::shared_ptr<Results>;
 
 template <class Number>
-py::array column(const SharedResults& results, std::vector<Number>& values, std::vector<py::ssize_t> dimensions) {
-  const py::capsule owner(new SharedResults(results), [](void* shared) { delete static_cast<SharedResults*>(shared); });
+py::array column(const SharedResults& results, std::vector<Number>& values,
+                 std::vector<py::ssize_t> dimensions) {
+  const py::capsule owner(new SharedResults(results),
+                          [](void* shared) { delete static_cast<SharedResults*>(shared); });
   return py::array_t<Number>(std::move(dimensions), values.data(), owner);
 }
 
-py::ssize_t rows(const SharedResults& results) { return static_cast<py::ssize_t>(results->time.size()); }
+py::ssize_t rows(const SharedResults& results) {
+  return static_cast<py::ssize_t>(results->time.size());
+}
 
 py::dict outputs(const SharedResults& results) {
   py::dict all;
@@ -34,9 +38,11 @@ py::array copy_of(std::span<const double> values) {
 
 /// In the order of the fields of saltus.results.Event.
 py::tuple event(const Results& results, std::size_t i) {
-  if (i >= results.events.size()) throw py::index_error(text("event ", i, " of ", results.events.size()));
+  if (i >= results.events.size())
+    throw py::index_error(text("event ", i, " of ", results.events.size()));
   const Event e = results.events[i];
-  return py::make_tuple(e.time, e.jump, to_string(e.kind), e.direction, e.block, e.name, e.predicted, copy_of(e.before), copy_of(e.after));
+  return py::make_tuple(e.time, e.jump, to_string(e.kind), e.direction, e.block, e.name,
+                        e.predicted, copy_of(e.before), copy_of(e.after));
 }
 
 py::array event_times(const Results& results, std::string_view name, std::string_view kind) {
@@ -52,13 +58,12 @@ py::array event_times(const Results& results, std::string_view name, std::string
 /// By the names of the fields of saltus.results.Statistics.
 py::dict statistics(const Results& results) {
   const Statistics& s = results.statistics;
-  py::dict by_name;
-  for (const auto& [name, count] : s.events_by_name) by_name[py::str(name)] = count;
   using py::literals::operator""_a;
-  return py::dict("method"_a = s.method, "steps"_a = s.steps, "rejected"_a = s.rejected, "restarts"_a = s.restarts,
-                  "right_hand_side_calls"_a = s.right_hand_side_calls, "guard_calls"_a = s.guard_calls,
-                  "jacobian_calls"_a = s.jacobian_calls, "linear_setups"_a = s.linear_setups, "instants"_a = s.instants,
-                  "events"_a = s.events, "events_by_name"_a = by_name, "wall_time"_a = s.wall_time);
+  return py::dict("method"_a = s.method, "steps"_a = s.steps, "rejected"_a = s.rejected,
+                  "restarts"_a = s.restarts, "right_hand_side_calls"_a = s.right_hand_side_calls,
+                  "guard_calls"_a = s.guard_calls, "jacobian_calls"_a = s.jacobian_calls,
+                  "linear_setups"_a = s.linear_setups, "instants"_a = s.instants,
+                  "events"_a = s.events, "wall_time"_a = s.wall_time);
 }
 
 }  // namespace
@@ -81,13 +86,14 @@ py::object cause_of(const Results& results) {
 
 void bind_results(py::module_& module) {
   py::class_<Results, SharedResults>(module, "Results")
-      .def_property_readonly("time", [](const SharedResults& r) { return column(r, r->time, {rows(r)}); })
-      .def_property_readonly("jump", [](const SharedResults& r) { return column(r, r->jump, {rows(r)}); })
+      .def_property_readonly("time",
+                             [](const SharedResults& r) { return column(r, r->time, {rows(r)}); })
+      .def_property_readonly("jump",
+                             [](const SharedResults& r) { return column(r, r->jump, {rows(r)}); })
       .def_property_readonly("outputs", &outputs)
       .def_readonly("context", &Results::context)
       .def_property_readonly("status", [](const Results& r) { return to_string(r.status); })
       .def_readonly("message", &Results::message)
-      .def_property_readonly("cause", &cause_of)
       .def_property_readonly("statistics", &statistics)
       .def_property_readonly("event_count", [](const Results& r) { return r.events.size(); })
       .def("event", &event)

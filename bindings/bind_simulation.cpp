@@ -14,39 +14,48 @@ using NamedPort = std::tuple<std::string, const System*, int>;
 /// A Simulator that heeds signals such as Ctrl-C and leaves it to Python to raise.
 class PythonSimulator {
  public:
-  PythonSimulator(const System& system, SimulatorOptions options) : simulator_(system, prepared(std::move(options))) {}
+  PythonSimulator(const System& system, SimulatorOptions options)
+      : simulator_(system, prepared(std::move(options))) {}
   PythonSimulator(const PythonSimulator&) = delete;
   PythonSimulator& operator=(const PythonSimulator&) = delete;
 
-  void initialize(const Context& context) {
-    signalled_ = py::none();
-    simulator_.initialize(context);
-  }
+  void initialize(const Context& context) { simulator_.initialize(context); }
 
   void advance_to(double t_end) {
     const py::gil_scoped_release unlock;
     simulator_.advance_to(t_end);
   }
 
-  /// Everything since initialize(); moved out, or copied so that the run can go on.
-  std::shared_ptr<Results> results(bool take) {
-    auto results = take ? std::make_shared<Results>(simulator_.take_results()) : std::make_shared<Results>(simulator_.results());
-    note_interrupt(*results);
-    return results;
+  /// Everything since initialize(), moved out or copied, and what was raised, or None. An exception
+  /// refers to the frames it went through, and they to this simulator, so no C++ object may keep
+  /// it: they would hold each other.
+  py::tuple results(bool take) {
+    // The engine shows its results read-only, but they are part of this object's own simulator.
+    auto& now = const_cast<Results&>(simulator_.results());
+    const py::object raised = now.cause ? cause_of(now) : std::exchange(signalled_, py::none());
+    now.cause = nullptr;
+    auto results = std::make_shared<Results>(take ? simulator_.take_results() : now);
+    // Ctrl-C, perhaps in a function of the model.
+    if (PyErr_GivenExceptionMatches(raised.ptr(), PyExc_KeyboardInterrupt)) {
+      results->status = Status::interrupted;
+      results->message = text("t = ", results->context.time(), " s: interrupted");
+    }
+    return py::make_tuple(results, raised);
   }
 
-  /// What a signal raised, if that ended the run; else None.
-  py::object signalled() const { return signalled_; }
   const Simulator& simulator() const { return simulator_; }
 
  private:
   SimulatorOptions prepared(SimulatorOptions options) {
     options.throw_errors = false;
-    options.interrupt = [this, asked = std::move(options.interrupt)] { return signal_arrived() || (asked && asked()); };
+    options.interrupt = [this, asked = std::move(options.interrupt)] {
+      return signal_arrived() || (asked && asked());
+    };
     return options;
   }
 
-  /// Ctrl-C ends the run well; what else a signal handler raises is an exception like one of the model.
+  /// Ctrl-C ends the run well; what else a signal handler raises is an exception like one of the
+  /// model.
   bool signal_arrived() {
     const py::gil_scoped_acquire lock;
     if (PyErr_CheckSignals() == 0) return false;
@@ -56,23 +65,14 @@ class PythonSimulator {
     return true;
   }
 
-  /// Ctrl-C in the middle of a Python function of the model.
-  void note_interrupt(Results& results) {
-    const py::object cause = cause_of(results);
-    if (!PyErr_GivenExceptionMatches(cause.ptr(), PyExc_KeyboardInterrupt)) return;
-    signalled_ = cause;
-    results.cause = nullptr;
-    results.status = Status::interrupted;
-    results.message = text("t = ", results.context.time(), " s: interrupted");
-  }
-
   py::object signalled_ = py::none();
   Simulator simulator_;
 };
 
 void set_recorded_signals(SimulatorOptions& options, const std::vector<NamedPort>& signals) {
   options.recorded_signals.clear();
-  for (const auto& [name, system, index] : signals) options.recorded_signals.push_back({name, {system, index}});
+  for (const auto& [name, system, index] : signals)
+    options.recorded_signals.push_back({name, {system, index}});
 }
 
 }  // namespace
@@ -101,9 +101,9 @@ void bind_simulation(py::module_& module) {
       .def("initialize", &PythonSimulator::initialize)
       .def("advance_to", &PythonSimulator::advance_to)
       .def("results", &PythonSimulator::results)
-      .def_property_readonly("signalled", &PythonSimulator::signalled)
       .def_property_readonly("time", [](const PythonSimulator& s) { return s.simulator().time(); })
-      .def_property_readonly("context", [](const PythonSimulator& s) { return s.simulator().context(); })
+      .def_property_readonly("context",
+                             [](const PythonSimulator& s) { return s.simulator().context(); })
       .def("describe", [](const PythonSimulator& s) { return s.simulator().describe(); });
 }
 

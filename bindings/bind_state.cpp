@@ -9,8 +9,9 @@ namespace saltus::python {
 void bind_state(py::module_& module) {
   using Handle = const py::object&;
   py::class_<Integrator, System>(module, "Integrator")
-      .def(py::init([](const std::string& name, Handle initial_state, bool enable_reset, bool enable_external_reset,
-                       std::optional<double> zeno_tolerance, bool enable_limits, Handle lower_limit, Handle upper_limit,
+      .def(py::init([](const std::string& name, Handle initial_state, bool enable_reset,
+                       bool enable_external_reset, std::optional<double> zeno_tolerance,
+                       bool enable_limits, Handle lower_limit, Handle upper_limit,
                        bool enable_hold) {
         const Arguments of(name);
         return std::make_unique<Integrator>(
@@ -25,7 +26,8 @@ void bind_state(py::module_& module) {
       }));
   py::class_<UnitDelay, System>(module, "UnitDelay")
       .def(py::init([](const std::string& name, double dt, Handle initial_state) {
-        return std::make_unique<UnitDelay>(name, dt, UnitDelayOptions{Arguments(name).value(initial_state, "initial_state")});
+        return std::make_unique<UnitDelay>(
+            name, dt, UnitDelayOptions{Arguments(name).value(initial_state, "initial_state")});
       }));
   py::class_<ZeroOrderHold, System>(module, "ZeroOrderHold")
       .def(py::init([](const std::string& name, double dt, Handle initial_state) {

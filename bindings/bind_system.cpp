@@ -1,5 +1,6 @@
-// System, Diagram and DiagramBuilder. The Python object of a block owns it: the shared pointers here own nothing, and
-// the Python diagram keeps the objects of its blocks, where the garbage collector sees them.
+// System, Diagram and DiagramBuilder. The Python object of a block owns it: the shared pointers
+// here own nothing, and the Python diagram keeps the objects of its blocks, where the garbage
+// collector sees them.
 #include <pybind11/stl.h>
 
 #include "bindings.hpp"
@@ -10,13 +11,17 @@ namespace saltus::python {
 void bind_system(py::module_& module) {
   py::class_<System>(module, "System")
       .def_property_readonly("name", &System::name)
-      .def_property_readonly("system_id", [](const System& system) { return system.system_id().value; })
+      .def_property_readonly("system_id",
+                             [](const System& system) { return system.system_id().value; })
       .def_property_readonly("input_names", &System::input_names)
       .def_property_readonly("output_names", &System::output_names)
       .def("find_input", [](const System& system, int index) { return system.input(index).index; })
-      .def("find_input", [](const System& system, std::string_view name) { return system.input(name).index; })
-      .def("find_output", [](const System& system, int index) { return system.output(index).index; })
-      .def("find_output", [](const System& system, std::string_view name) { return system.output(name).index; })
+      .def("find_input",
+           [](const System& system, std::string_view name) { return system.input(name).index; })
+      .def("find_output",
+           [](const System& system, int index) { return system.output(index).index; })
+      .def("find_output",
+           [](const System& system, std::string_view name) { return system.output(name).index; })
       .def("create_context", &System::create_context);
 
   py::class_<DiagramBuilder>(module, "DiagramBuilder")
@@ -25,20 +30,20 @@ void bind_system(py::module_& module) {
            [](DiagramBuilder& builder, const System& system) {
              builder.add(std::shared_ptr<const System>(std::shared_ptr<void>(), &system));
            })
-      .def("connect",
-           [](DiagramBuilder& builder, const System& from, int output, const System& to, int input) {
-             builder.connect({&from, output}, {&to, input});
-           })
+      .def("connect", [](DiagramBuilder& builder, const System& from, int output, const System& to,
+                         int input) { builder.connect({&from, output}, {&to, input}); })
       .def("export_input",
            [](DiagramBuilder& builder, const System& system, int index, std::string name) {
              return builder.export_input({&system, index}, std::move(name));
            })
-      .def("export_output", [](DiagramBuilder& builder, const System& system, int index, std::string name) {
-        return builder.export_output({&system, index}, std::move(name));
-      });
+      .def("export_output",
+           [](DiagramBuilder& builder, const System& system, int index, std::string name) {
+             return builder.export_output({&system, index}, std::move(name));
+           });
 
   py::class_<Diagram, System>(module, "Diagram")
-      .def(py::init([](DiagramBuilder& builder, std::string name) { return builder.build(std::move(name)); }))
+      .def(py::init(
+          [](DiagramBuilder& builder, std::string name) { return builder.build(std::move(name)); }))
       .def("require", [](const Diagram& diagram, std::string_view child) { diagram[child]; });
 
   // The name that the system made next gets if it is not given one: Gain_7.

@@ -1,4 +1,5 @@
-// What the binding files share. They carry the C++ names; defaults and docstrings stand in python/saltus/*.py.
+// What the binding files share. They carry the C++ names; defaults and docstrings stand in
+// python/saltus/*.py.
 #pragma once
 
 #include <pybind11/pybind11.h>

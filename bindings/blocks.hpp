@@ -11,7 +11,9 @@ namespace saltus::python {
 class Arguments {
  public:
   explicit Arguments(std::string block) : block_(std::move(block)) {}
-  Value value(py::handle numbers, std::string_view name) const { return to_value(numbers, what(name)); }
+  Value value(py::handle numbers, std::string_view name) const {
+    return to_value(numbers, what(name));
+  }
   std::optional<Value> optional(py::handle numbers, std::string_view name) const {
     return to_optional_value(numbers, what(name));
   }

@@ -4,7 +4,9 @@ namespace saltus::python {
 
 namespace {
 
-std::string type_name(py::handle object) { return object.is_none() ? "None" : Py_TYPE(object.ptr())->tp_name; }
+std::string type_name(py::handle object) {
+  return object.is_none() ? "None" : Py_TYPE(object.ptr())->tp_name;
+}
 
 [[noreturn]] void throw_no_numbers(py::handle found, const std::string& what) {
   PyErr_Clear();
@@ -17,7 +19,9 @@ double* numbers_of(const py::array& array) {
   return reinterpret_cast<double*>(py::detail::array_proxy(array.ptr())->data);
 }
 
-Dimensions dimensions_of(const py::array& array) { return {array.shape(), array.shape() + array.ndim()}; }
+Dimensions dimensions_of(const py::array& array) {
+  return {array.shape(), array.shape() + array.ndim()};
+}
 
 py::array read_only_array(const Dimensions& dimensions, const double* values) {
   Array array(dimensions);
@@ -41,7 +45,8 @@ Value to_value(py::handle numbers, const std::string& what) {
   const Array array = to_array(numbers, what);
   if (array.ndim() == 0) return *array.data();
   if (array.ndim() == 1) return as_vector(array);
-  throw ModelError(text(what, ": expected a number or a vector, found an array of ", array.ndim(), " dimensions"));
+  throw ModelError(text(what, ": expected a number or a vector, found an array of ", array.ndim(),
+                        " dimensions"));
 }
 
 std::optional<Value> to_optional_value(py::handle numbers, const std::string& what) {
@@ -49,15 +54,19 @@ std::optional<Value> to_optional_value(py::handle numbers, const std::string& wh
 }
 
 void read_numbers(py::handle result, VectorRef out, const std::string& what) {
-  if (out.size() == 1 && PyFloat_Check(result.ptr())) {  // the quick way for what most functions return
+  if (out.size() == 1 &&
+      PyFloat_Check(result.ptr())) {  // the quick way for what most functions return
     out[0] = PyFloat_AS_DOUBLE(result.ptr());
     return;
   }
-  if (result.is_none()) throw ModelError(text(what, " returned None, expected ", out.size(), " numbers; is a `return` missing?"));
+  if (result.is_none())
+    throw ModelError(
+        text(what, " returned None, expected ", out.size(), " numbers; is a `return` missing?"));
   const Array array = Array::ensure(result);
   if (!array) {
     PyErr_Clear();
-    throw ModelError(text(what, " returned a ", type_name(result), ", expected ", out.size(), " numbers"));
+    throw ModelError(
+        text(what, " returned a ", type_name(result), ", expected ", out.size(), " numbers"));
   }
   if (array.size() != out.size()) {
     throw ModelError(text(what, " returned ", array.size(), " numbers, expected ", out.size()));

@@ -15,7 +15,8 @@ namespace saltus::python {
 using Array = py::array_t<double, py::array::c_style>;
 using Dimensions = std::vector<py::ssize_t>;  ///< of an array; {} is a single number
 
-/// Numbers as an array of doubles; a ModelError that begins with `what` for anything else, None among it.
+/// Numbers as an array of doubles; a ModelError that begins with `what` for anything else, None
+/// among it.
 Array to_array(py::handle numbers, const std::string& what);
 /// The same as one vector, whatever the dimensions.
 Eigen::VectorXd to_vector(py::handle numbers, const std::string& what);
@@ -33,6 +34,8 @@ py::array read_only_array(const Dimensions& dimensions, const double* values);
 /// Where an array keeps its numbers, writable or not.
 double* numbers_of(const py::array& array);
 
-inline Eigen::Map<const Eigen::VectorXd> as_vector(const py::array& array) { return {numbers_of(array), array.size()}; }
+inline Eigen::Map<const Eigen::VectorXd> as_vector(const py::array& array) {
+  return {numbers_of(array), array.size()};
+}
 
 }  // namespace saltus::python

@@ -1,16 +1,21 @@
-// How the engine calls a Python function. The lock of the interpreter is taken here and nowhere else in a run.
+// How the engine calls a Python function. The lock of the interpreter is taken here and nowhere
+// else in a run.
 #include "python_leaf.hpp"
 
 namespace saltus::python {
 
-int PythonLeaf::add(py::handle self, py::object function, InputList inputs, std::string what, Convention convention) {
+int PythonLeaf::add(py::handle self, py::object function, InputList inputs, std::string what,
+                    Convention convention) {
   self_ = self.ptr();
   if (PyCallable_Check(function.ptr()) == 0) {
-    throw ModelError(text("block '", name(), "': ", what, ": expected a function, found ", std::string(py::repr(function))));
+    throw ModelError(text("block '", name(), "': ", what, ": expected a function, found ",
+                          std::string(py::repr(function))));
   }
-  const bool method = PyMethod_Check(function.ptr()) && PyMethod_GET_SELF(function.ptr()) == self.ptr();
+  const bool method =
+      PyMethod_Check(function.ptr()) && PyMethod_GET_SELF(function.ptr()) == self.ptr();
   if (method) function = py::reinterpret_borrow<py::object>(PyMethod_GET_FUNCTION(function.ptr()));
-  functions_.push_back({std::move(function), method, convention, std::move(inputs), std::move(what)});
+  functions_.push_back(
+      {std::move(function), method, convention, std::move(inputs), std::move(what)});
   return static_cast<int>(functions_.size()) - 1;
 }
 
@@ -36,8 +41,10 @@ VectorFunction PythonLeaf::vector_function(int k) const {
 MatrixFunction PythonLeaf::matrix_function(int k) const {
   return [this, k](const At& at, MatrixRef out) {
     const py::gil_scoped_acquire lock;
-    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> rows(out.rows(), out.cols());
-    read_numbers(call(k, at), VectorRef(rows.data(), rows.size()), whose(functions_[static_cast<std::size_t>(k)]));
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> rows(out.rows(),
+                                                                                out.cols());
+    read_numbers(call(k, at), VectorRef(rows.data(), rows.size()),
+                 whose(functions_[static_cast<std::size_t>(k)]));
     out = rows;
   };
 }
@@ -63,7 +70,8 @@ ResetMap PythonLeaf::update(int k) const {
       result.cast<const State&>().write_to(next);
     } else {
       const std::string what = whose(functions_[static_cast<std::size_t>(k)]);
-      if (result.is_none()) throw ModelError(text(what, " returned None, expected a state or the new discrete state"));
+      if (result.is_none())
+        throw ModelError(text(what, " returned None, expected a state or the new discrete state"));
       next.set_discrete_state(to_vector(result, what));
     }
   };
@@ -71,7 +79,8 @@ ResetMap PythonLeaf::update(int k) const {
 
 /// A kept array must not change: one that somebody else holds too is left to them.
 void PythonLeaf::fill_state(Frame& frame, const At& at) const {
-  if (!frame.state || frame.state.ref_count() != 1) frame.state = py::cast(State(name(), x_dimensions_, z_dimensions_));
+  if (!frame.state || frame.state.ref_count() != 1)
+    frame.state = py::cast(State(name(), x_dimensions_, z_dimensions_));
   auto& state = *frame.state.cast<State*>();
   if (state.x.ref_count() != 1) state.x = read_only_array(x_dimensions_, nullptr);
   if (state.z.ref_count() != 1) state.z = read_only_array(z_dimensions_, nullptr);
@@ -82,7 +91,8 @@ void PythonLeaf::fill_state(Frame& frame, const At& at) const {
 
 /// The same objects as long as the values are the same, which is for a whole run.
 void PythonLeaf::fill_parameters(Frame& frame, const At& at) const {
-  if (frame.parameters.size() == parameter_dimensions_.size() && frame.parameter_values == at.p) return;
+  if (frame.parameters.size() == parameter_dimensions_.size() && frame.parameter_values == at.p)
+    return;
   frame.parameters.clear();
   frame.parameter_values = at.p;
   const double* value = at.p.data();
@@ -112,8 +122,10 @@ py::object PythonLeaf::call(int k, const At& at) const {
   owned.clear();
   arguments.assign(1, nullptr);  // room that vectorcall may use
   if (function.method) arguments.push_back(self_);
-  const std::size_t count = function.inputs ? function.inputs->size() : static_cast<std::size_t>(at.u.size());
-  for (std::size_t i = 0; i < count; ++i) owned.push_back(input(at, function.inputs ? (*function.inputs)[i] : static_cast<int>(i)));
+  const std::size_t count =
+      function.inputs ? function.inputs->size() : static_cast<std::size_t>(at.u.size());
+  for (std::size_t i = 0; i < count; ++i)
+    owned.push_back(input(at, function.inputs ? (*function.inputs)[i] : static_cast<int>(i)));
   PyObject* keywords = nullptr;
   if (function.convention == Convention::state) {
     fill_state(*frame, at);
@@ -136,7 +148,8 @@ py::object PythonLeaf::call(int k, const At& at) const {
     keywords = keywords_.ptr();
   }
   auto result = py::reinterpret_steal<py::object>(
-      PyObject_Vectorcall(function.callable.ptr(), arguments.data() + 1, positional | PY_VECTORCALL_ARGUMENTS_OFFSET, keywords));
+      PyObject_Vectorcall(function.callable.ptr(), arguments.data() + 1,
+                          positional | PY_VECTORCALL_ARGUMENTS_OFFSET, keywords));
   if (!result) throw py::error_already_set();
   spare_ = std::move(frame);
   return result;

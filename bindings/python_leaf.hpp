@@ -1,4 +1,5 @@
-// PythonLeaf: a block whose callbacks are Python functions, called as (time, state, *inputs, **parameters).
+// PythonLeaf: a block whose callbacks are Python functions, called as (time, state, *inputs,
+// **parameters).
 #pragma once
 
 #include <memory>
@@ -43,12 +44,15 @@ class PythonLeaf final : public LeafSystem {
   void add_parameter(const std::string& name, const py::array& value);
   int add_input(std::string name, std::optional<Shape> shape);
 
-  /// An output whose shape, or whether it is boolean, is found by calling it once with the values the block starts
-  /// with and inputs at zero, where that was not said.
-  int add_output(std::string name, int function, std::optional<Shape> shape, std::optional<bool> boolean, Reads reads);
+  /// An output whose shape, or whether it is boolean, is found by calling it once with the values
+  /// the block starts with and inputs at zero, where that was not said.
+  int add_output(std::string name, int function, std::optional<Shape> shape,
+                 std::optional<bool> boolean, Reads reads);
 
-  /// Takes a function of `self`, the Python object of this block; `what` names it in messages. Returns its number.
-  int add(py::handle self, py::object function, InputList inputs, std::string what, Convention convention);
+  /// Takes a function of `self`, the Python object of this block; `what` names it in messages.
+  /// Returns its number.
+  int add(py::handle self, py::object function, InputList inputs, std::string what,
+          Convention convention);
   VectorFunction vector_function(int k) const;
   MatrixFunction matrix_function(int k) const;
   ResetMap reset_map(int k) const;
@@ -63,15 +67,17 @@ class PythonLeaf final : public LeafSystem {
 
  private:
   struct Function {
-    py::object callable;          // of a method of the block itself the plain function, so that it refers to no block
-    bool method;                  // the block goes before the other arguments
+    py::object callable;  // of a method of the block itself the plain function, so that it refers
+                          // to no block
+    bool method;          // the block goes before the other arguments
     Convention convention;
     InputList inputs;
     std::string what;
   };
-  /// The Python objects of one call, kept for the next one; a callback that keeps some of them gets them for itself.
+  /// The Python objects of one call, kept for the next one; a callback that keeps some of them gets
+  /// them for itself.
   struct Frame {
-    py::object state;             // a State
+    py::object state;  // a State
     std::vector<py::object> owned;
     std::vector<py::object> parameters;
     Eigen::VectorXd parameter_values;
@@ -89,18 +95,21 @@ class PythonLeaf final : public LeafSystem {
   void apply(const State& state, Next& next, const Function& function) const;
 
   py::object call_with(int k, const std::vector<Shape>& shapes, double value) const;
-  std::optional<py::array> sample(int k, std::vector<Shape> shapes, std::span<const Index> widths) const;
+  std::optional<py::array> sample(int k, std::vector<Shape> shapes,
+                                  std::span<const Index> widths) const;
   Shape shape_of(int k, std::span<const Shape> inputs) const;
   void finish_outputs();
-  std::string whose(const Function& function) const { return text("block '", name(), "': ", function.what); }
+  std::string whose(const Function& function) const {
+    return text("block '", name(), "': ", function.what);
+  }
 
-  PyObject* self_ = nullptr;      // the Python object that owns this one
+  PyObject* self_ = nullptr;  // the Python object that owns this one
   std::vector<Function> functions_;
   std::vector<Unfinished> unfinished_;
   Dimensions x_dimensions_{0}, z_dimensions_{0};
   std::vector<Dimensions> parameter_dimensions_;
   std::vector<bool> vector_inputs_;
-  py::tuple keywords_;            // names of the parameters
+  py::tuple keywords_;  // names of the parameters
   mutable std::unique_ptr<Frame> spare_;
 };
 

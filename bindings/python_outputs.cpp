@@ -6,19 +6,32 @@
 
 namespace saltus::python {
 
-int PythonLeaf::add_output(std::string port, int function, std::optional<Shape> shape, std::optional<bool> boolean, Reads reads) {
+int PythonLeaf::add_output(std::string port, int function, std::optional<Shape> shape,
+                           std::optional<bool> boolean, Reads reads) {
   const InputList& inputs = inputs_of(function);
   const int output = declare_output_port(
-      {.name = std::move(port), .calc = vector_function(function), .shape = shape,
-       .shape_rule = [this, function](std::span<const Shape> shapes) { return shape_of(function, shapes); },
-       .reads = reads, .inputs = inputs, .boolean = boolean.value_or(false)});
-  if (!shape || !boolean) unfinished_.push_back({output, function, shape.has_value(), boolean.has_value()});
+      {.name = std::move(port),
+       .calc = vector_function(function),
+       .shape = shape,
+       .shape_rule =
+           [this, function](std::span<const Shape> shapes) { return shape_of(function, shapes); },
+       .reads = reads,
+       .inputs = inputs,
+       .boolean = boolean.value_or(false)});
+  if (!shape || !boolean)
+    unfinished_.push_back({output, function, shape.has_value(), boolean.has_value()});
   return output;
 }
 
 /// Calls function k at the values the block starts with, every input filled with `value`.
 py::object PythonLeaf::call_with(int k, const std::vector<Shape>& shapes, double value) const {
   const Declarations& d = declarations();
+  const Function& function = functions_[static_cast<std::size_t>(k)];
+  for (const int i : function.inputs.value_or(std::vector<int>{})) {
+    if (i >= 0 && i < static_cast<int>(shapes.size())) continue;
+    throw ModelError(text(whose(function), ": requires_inputs names input ", i, ", the block has ",
+                          shapes.size()));
+  }
   std::vector<Place> places;
   Index width = 0;
   for (const Shape& shape : shapes) {
@@ -26,14 +39,20 @@ py::object PythonLeaf::call_with(int k, const std::vector<Shape>& shapes, double
     width += shape.size;
   }
   const Eigen::VectorXd u = Eigen::VectorXd::Constant(std::max<Index>(width, 1), value);
-  const Bases bases{d.continuous.initial.data(), d.discrete.data(), d.parameter_values.data(), u.data()};
-  const auto view = [](const Eigen::VectorXd& values) { return VectorView(values.data(), values.size()); };
-  return call(k, At(0.0, view(d.continuous.initial), view(d.discrete), view(d.parameter_values), d.mode,
-                    Inputs(places.data(), static_cast<int>(places.size()), &bases), nullptr));
+  const Bases bases{d.continuous.initial.data(), d.discrete.data(), d.parameter_values.data(),
+                    u.data()};
+  const auto view = [](const Eigen::VectorXd& values) {
+    return VectorView(values.data(), values.size());
+  };
+  return call(
+      k, At(0.0, view(d.continuous.initial), view(d.discrete), view(d.parameter_values), d.mode,
+            Inputs(places.data(), static_cast<int>(places.size()), &bases), nullptr));
 }
 
-/// The result of the first call that goes well: zeros may be divided by, and inputs of unknown width may be indexed.
-std::optional<py::array> PythonLeaf::sample(int k, std::vector<Shape> shapes, std::span<const Index> widths) const {
+/// The result of the first call that goes well: zeros may be divided by, and inputs of unknown
+/// width may be indexed.
+std::optional<py::array> PythonLeaf::sample(int k, std::vector<Shape> shapes,
+                                            std::span<const Index> widths) const {
   const py::object quiet = py::module_::import("numpy").attr("errstate")(py::arg("all") = "ignore");
   std::vector<Shape> tried = shapes;
   for (const Index width : widths) {
@@ -78,9 +97,13 @@ void PythonLeaf::finish_outputs() {
   for (const Unfinished& entry : now) {
     OutputDeclaration& output = declared.outputs[static_cast<std::size_t>(entry.output)];
     std::vector<Shape> shapes;
-    for (const InputDeclaration& port : declared.inputs) shapes.push_back(port.shape.value_or(Shape{0, false}));
-    const bool reads_inputs = has(output.reads, Reads::inputs) && !(output.inputs && output.inputs->empty()) && !shapes.empty();
-    const auto found = sample(entry.function, shapes, reads_inputs ? std::span<const Index>(guesses) : std::span(guesses).first(1));
+    for (const InputDeclaration& port : declared.inputs)
+      shapes.push_back(port.shape.value_or(Shape{0, false}));
+    const bool reads_inputs = has(output.reads, Reads::inputs) &&
+                              !(output.inputs && output.inputs->empty()) && !shapes.empty();
+    const auto found =
+        sample(entry.function, shapes,
+               reads_inputs ? std::span<const Index>(guesses) : std::span(guesses).first(1));
     if (!entry.boolean) output.boolean = found && found->dtype().kind() == 'b';
     if (!entry.shape && !reads_inputs) {
       output.shape = !found || found->ndim() == 0 ? Shape::scalar() : Shape::of(found->size());

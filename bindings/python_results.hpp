@@ -8,7 +8,8 @@
 
 namespace saltus::python {
 
-/// The Python exception for what ended a run: as it was raised, if Python code raised it. None if nothing was thrown.
+/// The Python exception for what ended a run: as it was raised, if Python code raised it. None if
+/// nothing was thrown.
 py::object cause_of(const Results& results);
 
 }  // namespace saltus::python

@@ -8,7 +8,8 @@ namespace {
 py::array replaced(py::handle values, const py::array& like, const std::string& what) {
   const Array array = to_array(values, what);
   if (array.size() != like.size()) {
-    throw ModelError(text(what, ": expected ", like.size(), " numbers, found ", array.size(), "; set all of it at once"));
+    throw ModelError(text(what, ": expected ", like.size(), " numbers, found ", array.size(),
+                          "; set all of it at once"));
   }
   return read_only_array(dimensions_of(like), array.data());
 }

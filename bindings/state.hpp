@@ -1,4 +1,5 @@
-// What a Python callback sees of its block: `state.continuous_state`, `state.with_continuous_state(x)`.
+// What a Python callback sees of its block: `state.continuous_state`,
+// `state.with_continuous_state(x)`.
 #pragma once
 
 #include <string>
@@ -7,11 +8,13 @@
 
 namespace saltus::python {
 
-/// The state of one block at one time. To Python it is a value: its arrays own their memory and cannot be written to;
-/// each `with_*` returns a new one that knows what was written.
+/// The state of one block at one time. To Python it is a value: its arrays own their memory and
+/// cannot be written to; each `with_*` returns a new one that knows what was written.
 struct State {
   State(std::string block_name, const Dimensions& x_dimensions, const Dimensions& z_dimensions)
-      : block(std::move(block_name)), x(read_only_array(x_dimensions, nullptr)), z(read_only_array(z_dimensions, nullptr)) {}
+      : block(std::move(block_name)),
+        x(read_only_array(x_dimensions, nullptr)),
+        z(read_only_array(z_dimensions, nullptr)) {}
 
   State with_continuous_state(py::handle values) const;
   State with_discrete_state(py::handle values) const;

@@ -145,6 +145,8 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
     ++steps_;
     t1_ = flag == CV_TSTOP_RETURN ? t_stop : t;
     length_ = t1_ - t0_;
+    standing_ = length_ > 16.0 * std::numeric_limits<double>::epsilon() * std::abs(t0_) ? 0 : standing_ + 1;
+    if (standing_ > 100) throw_step_too_small(*machine_, t0_, length_, x1_.data(), options_);  // CVODE itself would go on
     std::copy_n(N_VGetArrayPointer(y_.get()), n_, x1_.data());
   }
 
@@ -226,8 +228,7 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
     double h = 0.0;
     CVodeGetCurrentTime(cvode_.get(), &t);
     CVodeGetCurrentStep(cvode_.get(), &h);
-    const std::string block = machine_->not_finite(t, x1_.data());
-    if (!block.empty()) throw_not_finite(*machine_, t, x1_.data());
+    require_finite_near(*machine_, t, h, x1_.data());
     throw SimulationError(text("t = ", t, " s: CVODE (", method(), ") cannot go on, step ", h, " s: ", last_message_,
                                "; the solution blows up in finite time, has a jump that no guard announces, or the "
                                "tolerance cannot be met; rtol = ", options_.rtol, ", atol = ", options_.atol),
@@ -247,7 +248,8 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
   RungeKutta<Dopri5> starter_;
   bool started_ = false, starting_ = false;
   double begun_at_ = 0.0, first_step_ = 0.0, starter_until_ = 0.0;
-  int steps_ = 0;  // of CVODE since it was started
+  int steps_ = 0;     // of CVODE since it was started
+  int standing_ = 0;  // steps in a row that drown in the rounding of t
   mutable SolverStatistics sum_;
 };
 

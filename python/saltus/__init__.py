@@ -1,6 +1,7 @@
 """Hybrid ODEs: continuous flow, guards, reset maps, modes and Zeno holds.
 
-A model is a `LeafSystem` of your own or a `Diagram` of blocks from `saltus.library`; `simulate` runs it.
+A model is a `LeafSystem` of your own or a `Diagram` of blocks from `saltus.library`; `simulate`
+runs it.
 """
 
 from saltus import library, simulation

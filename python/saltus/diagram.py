@@ -11,16 +11,19 @@ from saltus.system import InputPort, OutputPort, System
 __all__ = ["Diagram", "DiagramBuilder"]
 
 
-def _port(port: object, kind: type) -> tuple[System, int]:
+def _port(port: object, kind: type[OutputPort] | type[InputPort]) -> tuple[System, int]:
     if not isinstance(port, kind):
-        raise ModelError(f"expected an {kind.__name__}, such as block.{kind.__name__[:-4].lower()}_ports[0], found {port!r}")
+        example = "input_ports[0]" if kind is InputPort else "output_ports[0]"
+        raise ModelError(f"expected a port, such as block.{example}, found {port!r}")
     return port.system, port.index
 
 
 class Diagram(System, _core.Diagram):
-    """A system of blocks and wires, made by `DiagramBuilder.build`. `diagram["gain"]` is the block of that name.
+    """A system of blocks and wires, made by `DiagramBuilder.build`. `diagram["gain"]` is the block
+    of that name.
 
-    A diagram is a system like any other: it can be added to another diagram, to any depth. It keeps its blocks alive.
+    A diagram is a system like any other: it can be added to another diagram, to any depth. It keeps
+    its blocks alive.
     """
 
     def __init__(self, builder: _core.DiagramBuilder, name: str, children: dict[str, System]):
@@ -42,8 +45,8 @@ class Diagram(System, _core.Diagram):
 class DiagramBuilder:
     """Collects blocks and wires, and is spent by `build`.
 
-    A name used twice, a port of a block that was not added, an input with two sources and, in `build`, an input with
-    none are a ModelError.
+    A name used twice, a port of a block that was not added, an input with two sources and, in
+    `build`, an input with none are a ModelError.
     """
 
     def __init__(self) -> None:
@@ -54,7 +57,7 @@ class DiagramBuilder:
     def add(self, system: System, /) -> System: ...
     @overload
     def add(self, *systems: System) -> tuple[System, ...]: ...
-    def add(self, *systems):
+    def add(self, *systems: System) -> System | tuple[System, ...]:
         """Adds blocks or diagrams; returns the one given, or all of them as a tuple."""
         for system in systems:
             if not isinstance(system, System):
@@ -68,11 +71,15 @@ class DiagramBuilder:
         self._core.connect(*_port(source, OutputPort), *_port(destination, InputPort))
 
     def export_input(self, port: InputPort, name: str | None = None) -> int:
-        """Makes an input of a block one of the diagram, called 'block_port' if not said; returns its position there."""
+        """Makes an input of a block one of the diagram, called 'block_port' if not said; returns
+        its position there.
+        """
         return self._core.export_input(*_port(port, InputPort), name or "")
 
     def export_output(self, port: OutputPort, name: str | None = None) -> int:
-        """Makes an output of a block one of the diagram, called 'block_port' if not said; returns its position there."""
+        """Makes an output of a block one of the diagram, called 'block_port' if not said; returns
+        its position there.
+        """
         return self._core.export_output(*_port(port, OutputPort), name or "")
 
     def build(self, name: str = "root") -> Diagram:

@@ -1,4 +1,6 @@
-"""What Saltus raises on its own account. What a function of yours raises comes out of a run as it was."""
+"""What Saltus raises on its own account. What a function of yours raises comes out of a run as it
+was.
+"""
 
 from __future__ import annotations
 
@@ -28,11 +30,21 @@ class SimulationError(Error, RuntimeError):
     results: Results | None
     """what was computed until then, with the status"""
 
-    def __init__(self, message: str, time: float = float("nan"), block: str = "", results: Results | None = None):
+    def __init__(
+        self,
+        message: str,
+        time: float = float("nan"),
+        block: str = "",
+        results: Results | None = None,
+    ):
         super().__init__(message)
         self.time = time
         self.block = block
         self.results = results
 
-    def __reduce__(self):  # or a copy, for example one from another process, would lose the fields
+    def __reduce__(
+        self,
+    ) -> tuple[
+        type, tuple[object, ...]
+    ]:  # or a copy, for example one from another process, would lose the fields
         return type(self), (str(self), self.time, self.block, self.results)

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from saltus import _core
 from saltus.errors import ModelError
-from saltus.porting import refuse_all
+from saltus.porting import refusing
 from saltus.system import System
 
 __all__ = ["LeafSystem"]
@@ -29,7 +29,10 @@ def _initial(what: str, shape: Any, default_value: ArrayLike | None) -> ArrayLik
     """A number n or a tuple is a shape, all zeros; anything else is the value itself."""
     if default_value is not None:
         if shape is not None and np.shape(default_value) != np.shape(np.zeros(shape)):
-            raise ModelError(f"{what}: shape {shape} and a default_value of shape {np.shape(default_value)}; give one of them")
+            found = np.shape(default_value)
+            raise ModelError(
+                f"{what}: shape {shape} and a value of shape {found}; give one of them"
+            )
         return default_value
     if shape is None:
         raise ModelError(f"{what}: give a shape, such as 2, or a default_value")
@@ -48,20 +51,23 @@ class LeafSystem(System, _core.LeafSystem):
     Every callback is called as `f(time, state, *inputs, **parameters)`:
 
     - `time` [s] is a float;
-    - `state` has `continuous_state`, `discrete_state` (read-only arrays of the declared shapes) and `mode`, and
-      `with_continuous_state(x)`, `with_discrete_state(z)`, `with_mode(m)`, which return a new state;
-    - inputs come in the order of the ports, a float for one number, else a read-only array. `requires_inputs` says
-      which: True all, False none, a list of positions those. Say it precisely: an input that is not read is neither
-      computed nor part of a loop;
+    - `state` has `continuous_state`, `discrete_state` (read-only arrays of the declared shapes) and
+      `mode`, and `with_continuous_state(x)`, `with_discrete_state(z)`, `with_mode(m)`, which return
+      a new state;
+    - inputs come in the order of the ports, a float for one number, else a read-only array.
+      `requires_inputs` says which: True all, False none, a list of positions those. Say it
+      precisely: an input that is not read is neither computed nor part of a loop;
     - parameters come by keyword, a float for a number, else a read-only array.
 
-    Every array may be kept: it never changes. A callback must not change the world: it is called as often as the
-    engine likes, from whatever thread runs the simulation. What it raises comes out of `simulate` as it was.
+    Every array may be kept: it never changes. A callback must not change the world: it is called as
+    often as the engine likes, from whatever thread runs the simulation. What it raises comes out of
+    `simulate` as it was.
     """
 
     def __init__(self, name: str | None = None):
         super().__init__(name or _core.next_name(type(self).__name__))
 
+    @refusing
     def declare_continuous_state(
         self,
         shape: int | tuple[int, ...] | ArrayLike | None = None,
@@ -69,45 +75,55 @@ class LeafSystem(System, _core.LeafSystem):
         ode: Callable[..., ArrayLike] | None = None,
         requires_inputs: RequiresInputs = True,
         jacobian: Callable[..., ArrayLike] | None = None,
-        **unknown: Any,
     ) -> None:
-        """The continuous state x, with dx/dt = ode(time, state, *inputs, **parameters), in units of x per second.
+        """The continuous state x, with dx/dt = ode(time, state, *inputs, **parameters), in units of
+        x per second.
 
-        `shape` n is a vector of n zeros, () a single number; `default_value` (or an array in place of the shape) says
-        where it starts. Without `ode` it stands still between resets. `jacobian` gives the n by n matrix d(ode)/dx,
-        row by row, for a stiff method; without it differences are used. Once a block.
+        `shape` n is a vector of n zeros, () a single number; `default_value` (or an array in place
+        of the shape) says where it starts. Without `ode` it stands still between resets. `jacobian`
+        gives the n by n matrix d(ode)/dx, row by row, for a stiff method; without it differences
+        are used. Once a block.
         """
-        refuse_all("declare_continuous_state", unknown, "shape default_value ode requires_inputs jacobian")
         initial = _initial(f"block '{self.name}': continuous state", shape, default_value)
         super().declare_continuous_state(initial, ode, _inputs(requires_inputs), jacobian)
 
+    @refusing
     def declare_discrete_state(
-        self, default_value: ArrayLike | None = None, shape: int | tuple[int, ...] | None = None, **unknown: Any
+        self,
+        default_value: ArrayLike | None = None,
+        shape: int | tuple[int, ...] | None = None,
     ) -> None:
         """The discrete state z, numbers that only resets and updates change. Once a block."""
-        refuse_all("declare_discrete_state", unknown, "default_value shape")
-        super().declare_discrete_state(_initial(f"block '{self.name}': discrete state", shape, default_value))
+        super().declare_discrete_state(
+            _initial(f"block '{self.name}': discrete state", shape, default_value)
+        )
 
+    @refusing
     def declare_default_mode(self, mode: int) -> None:
-        """The mode the block starts in: an integer that selects among its zero crossings, see `start_mode` there."""
+        """The mode the block starts in: an integer that selects among its zero crossings, see
+        `start_mode` there.
+        """
         super().declare_default_mode(mode)
 
-    def declare_dynamic_parameter(self, name: str, default_value: ArrayLike, **unknown: Any) -> None:
-        """A number or an array that lives in the context, `context.with_parameter(name, value)`, and that every
-        callback gets by keyword."""
-        refuse_all("declare_dynamic_parameter", unknown, "name default_value")
+    @refusing
+    def declare_dynamic_parameter(self, name: str, default_value: ArrayLike) -> None:
+        """A number or an array that lives in the context, `context.with_parameter(name, value)`,
+        and that every callback gets by keyword.
+        """
         super().declare_dynamic_parameter(name, default_value)
 
+    @refusing
     def declare_input_port(
-        self, name: str | None = None, shape: int | tuple[int, ...] | None = None, **unknown: Any
+        self, name: str | None = None, shape: int | tuple[int, ...] | None = None
     ) -> int:
         """An input, called in_0, in_1, ... if not said; returns its position.
 
-        With a `shape`, another one is refused. An input of one number comes as a float, with shape 1 as an array.
+        With a `shape`, another one is refused. An input of one number comes as a float, with shape
+        1 as an array.
         """
-        refuse_all("declare_input_port", unknown, "name shape")
         return super().declare_input_port(name or "", _shape(shape))
 
+    @refusing
     def declare_output_port(
         self,
         callback: Callable[..., ArrayLike],
@@ -117,37 +133,48 @@ class LeafSystem(System, _core.LeafSystem):
         default_value: ArrayLike | None = None,
         boolean: bool | None = None,
         reads: Iterable[str] = EVERYTHING,
-        **unknown: Any,
     ) -> int:
-        """An output, y = callback(time, state, *inputs, **parameters), called out_0, out_1, ... if not said; returns
-        its position.
+        """An output, y = callback(time, state, *inputs, **parameters), called out_0, out_1, ... if
+        not said; returns its position.
 
-        `shape` (or the shape of `default_value`) is () for a number, n for a vector. Where it is not said, and where
-        `boolean` is not, callback is called once before the run, with inputs at zero, to see. A boolean output that
-        reaches a derivative or a reset is located by bisection and held in between. `reads` says what it depends on,
-        of 'time', 'continuous_state', 'discrete_state', 'mode', 'inputs': what reads neither time nor a continuous
-        state is computed at events only, not at every stage of the solver.
+        `shape` (or the shape of `default_value`) is () for a number, n for a vector. Where it is
+        not said, and where `boolean` is not, callback is called once before the run, with inputs at
+        zero, to see. A boolean output that reaches a derivative or a reset is located by bisection
+        and held in between. `reads` says what it depends on, of 'time', 'continuous_state',
+        'discrete_state', 'mode', 'inputs': what reads neither time nor a continuous state is
+        computed at events only, not at every stage of the solver.
         """
-        if "period" in unknown:
-            raise ModelError("declare_output_port: no option 'period': put a ZeroOrderHold behind the output")
-        refuse_all("declare_output_port", unknown, "callback name requires_inputs shape default_value boolean reads")
         inputs = _inputs(requires_inputs)
         return super().declare_output_port(
-            callback, name or "", inputs, _shape(shape, default_value), boolean, list(reads), _core.Convention.state
+            callback,
+            name or "",
+            inputs,
+            _shape(shape, default_value),
+            boolean,
+            list(reads),
+            _core.Convention.state,
         )
 
+    @refusing
     def declare_continuous_state_output(self, name: str | None = None) -> int:
-        """An output that shows the whole continuous state; it is never copied. Returns its position."""
+        """An output that shows the whole continuous state; it is never copied. Returns its
+        position.
+        """
         return super().declare_continuous_state_output(name or "")
 
+    @refusing
     def declare_discrete_state_output(self, name: str | None = None) -> int:
-        """An output that shows the whole discrete state; it is never copied. Returns its position."""
+        """An output that shows the whole discrete state; it is never copied. Returns its
+        position.
+        """
         return super().declare_discrete_state_output(name or "")
 
+    @refusing
     def declare_mode_output(self, name: str | None = None) -> int:
         """An output that shows the mode. Returns its position."""
         return super().declare_mode_output(name or "")
 
+    @refusing
     def declare_zero_crossing(
         self,
         guard: Callable[..., float],
@@ -159,41 +186,52 @@ class LeafSystem(System, _core.LeafSystem):
         terminal: bool = False,
         zeno_tolerance: float | None = None,
         requires_inputs: RequiresInputs = True,
-        **unknown: Any,
     ) -> None:
-        """An event where guard(time, state, *inputs, **parameters), a smooth number, reaches or crosses zero.
+        """An event where guard(time, state, *inputs, **parameters), a smooth number, reaches or
+        crosses zero.
 
-        `direction` is 'crosses_zero', 'positive_then_non_positive', 'negative_then_non_negative', 'edge_detection'
-        (any change, for values that jump) or 'none'. At the event `reset_map`, called like the guard, returns the
-        state after it. With `start_mode` it is seen in that mode only; `end_mode` is the mode after it; `terminal`
-        ends the run after it. Without any of these it is only logged, and changes nothing. `zeno_tolerance` [s]
-        overrides that of the simulator options.
+        `direction` is 'crosses_zero', 'positive_then_non_positive', 'negative_then_non_negative',
+        'edge_detection' (any change, for values that jump) or 'none'. At the event `reset_map`,
+        called like the guard, returns the state after it. With `start_mode` it is seen in that mode
+        only; `end_mode` is the mode after it; `terminal` ends the run after it. Without any of
+        these it is only logged, and changes nothing. `zeno_tolerance` [s] overrides that of the
+        simulator options.
         """
-        refuse_all(
-            "declare_zero_crossing",
-            unknown,
-            "guard reset_map name direction start_mode end_mode terminal zeno_tolerance requires_inputs",
-        )
         super().declare_zero_crossing(
-            guard, reset_map, name or "", direction, start_mode, end_mode, terminal, zeno_tolerance, _inputs(requires_inputs)
+            guard,
+            reset_map,
+            name or "",
+            direction,
+            start_mode,
+            end_mode,
+            terminal,
+            zeno_tolerance,
+            _inputs(requires_inputs),
         )
 
+    @refusing
     def declare_periodic_update(
         self,
         callback: Callable[..., _core.State | ArrayLike],
         period: float,
         offset: float = 0.0,
         name: str | None = None,
-        **unknown: Any,
     ) -> None:
-        """At offset + k period [s], k = 0, 1, ..., callback returns the new state, or the new discrete state alone."""
-        refuse_all("declare_periodic_update", unknown, "callback period offset name")
+        """At offset + k period [s], k = 0, 1, ..., callback returns the new state, or the new
+        discrete state alone.
+        """
         super().declare_periodic_update(callback, period, offset, name or "")
 
+    @refusing
     def declare_one_shot(
-        self, callback: Callable[..., _core.State | ArrayLike] | None, time: float, name: str | None = None
+        self,
+        callback: Callable[..., _core.State | ArrayLike] | None,
+        time: float,
+        name: str | None = None,
     ) -> None:
-        """The same once, at `time` [s]. None for a callback is an exact stop where held outputs are read again."""
+        """The same once, at `time` [s]. None for a callback is an exact stop where held outputs are
+        read again.
+        """
         super().declare_one_shot(callback, time, name or "")
 
     def _declare_function(
@@ -204,4 +242,6 @@ class LeafSystem(System, _core.LeafSystem):
         convention: _core.Convention,
     ) -> None:
         """The one output of a block that is a function of its inputs and nothing else."""
-        super().declare_output_port(function, "out", None, _shape(shape), boolean, ["inputs"], convention)
+        super().declare_output_port(
+            function, "out", None, _shape(shape), boolean, ["inputs"], convention
+        )

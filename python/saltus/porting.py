@@ -1,12 +1,18 @@
-"""Names that are refused: unknown ones with the nearest, those of similar tools with what to do instead."""
+"""Names that are refused: unknown ones with the nearest, those of similar tools with what to do
+instead.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
-from typing import Any
+import functools
+from collections.abc import Callable, Iterable, Mapping
+from typing import ParamSpec, TypeVar
 
 from saltus._core import known_names
 from saltus.errors import ModelError
+
+P = ParamSpec("P")
+R = TypeVar("R")
 
 OPTIONS = {
     "math_backend": "there is one backend, compiled; leave it out",
@@ -20,7 +26,7 @@ OPTIONS = {
     "int_time_scale": "time is a double and ticks are counted by integers; leave it out",
     "major_step_callback": "use a Simulator and call advance_to as often as you want to look",
     "results_options": "say save_at=[...] for rows at chosen times",
-    "max_results_interval": "say max_minor_step_size=..., or save_at=[...] for rows at chosen times",
+    "max_results_interval": "say save_at=[...] for rows at chosen times",
     "fixed_results_interval": "say save_at=[...] for rows at chosen times",
     "postprocess": "call the function on what simulate returns",
     "throw_errors": "the option is called throw in Python",
@@ -32,11 +38,15 @@ DECLARATIONS = {
     "as_array": "every value is an array; leave it out",
     "mass_matrix": "divide by it in the ode",
     "prerequisites_of_calc": "say which inputs are read with requires_inputs",
+    "period": "put a ZeroOrderHold behind the output",
+    "offset": "put a ZeroOrderHold behind the output",
     "grad_guard": "Saltus computes no gradients; leave it out",
 }
 
 
-def refuse(where: str, given: Iterable[str], known: Iterable[str], hints: Mapping[str, str] = DECLARATIONS) -> None:
+def refuse(
+    where: str, given: Iterable[str], known: Iterable[str], hints: Mapping[str, str] = DECLARATIONS
+) -> None:
     """Raises ModelError for the first of `given` that is not one of `known`."""
     known = list(known)
     for name in given:
@@ -47,6 +57,14 @@ def refuse(where: str, given: Iterable[str], known: Iterable[str], hints: Mappin
         raise ModelError(f"{where}: unknown option '{name}'{known_names(name, known)}")
 
 
-def refuse_all(where: str, unknown: Mapping[str, Any], known: str) -> None:
-    """The same for what fell into `**unknown` of a function that takes the names in `known`."""
-    refuse(where, unknown, known.split())
+def refusing(method: Callable[P, R]) -> Callable[P, R]:
+    """A method of which unknown keywords are refused like that, not with a TypeError."""
+    code = method.__code__
+    known = code.co_varnames[1 : code.co_argcount + code.co_kwonlyargcount]
+
+    @functools.wraps(method)
+    def checked(*arguments: P.args, **options: P.kwargs) -> R:
+        refuse(method.__name__, options, known)
+        return method(*arguments, **options)
+
+    return checked

@@ -4,12 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import NamedTuple, overload
+from typing import TYPE_CHECKING, NamedTuple, overload
 
 import numpy as np
 
 from saltus import _core
 from saltus.errors import ModelError
+
+if TYPE_CHECKING:
+    import pandas  # type: ignore[import-untyped,import-not-found,unused-ignore]
+    import xarray  # type: ignore[import-not-found,unused-ignore]
 
 __all__ = ["Event", "EventLog", "Results", "Statistics"]
 
@@ -35,7 +39,7 @@ class Event(NamedTuple):
     """and after it"""
 
 
-class EventLog(Sequence):
+class EventLog(Sequence[Event]):
     """Every event of a run, in order."""
 
     def __init__(self, core: _core.Results):
@@ -48,7 +52,7 @@ class EventLog(Sequence):
     def __getitem__(self, index: int) -> Event: ...
     @overload
     def __getitem__(self, index: slice) -> list[Event]: ...
-    def __getitem__(self, index):
+    def __getitem__(self, index: int | slice) -> Event | list[Event]:
         if isinstance(index, slice):
             return [self[i] for i in range(*index.indices(len(self)))]
         count = len(self)
@@ -61,7 +65,9 @@ class EventLog(Sequence):
         return self._core.event_times(name, kind)
 
     def __repr__(self) -> str:
-        lines = [f"{e.time:<22.17g} {e.jump:>4}  {e.kind:<13}  {e.block}.{e.name}" for e in self[:20]]
+        lines = [
+            f"{e.time:<22.17g} {e.jump:>4}  {e.kind:<13}  {e.block}.{e.name}" for e in self[:20]
+        ]
         more = [f"... and {len(self) - 20} more"] if len(self) > 20 else []
         return "\n".join([f"{len(self)} events", *lines, *more])
 
@@ -86,16 +92,17 @@ class Statistics:
     """major steps"""
     events: int
     """resets, updates and mode changes"""
-    events_by_name: dict[str, int]
     wall_time: float
     """[s]"""
 
 
-class _Outputs(dict):
+class _Outputs(dict[str, np.ndarray]):
     """Recorded signals by name; an unknown name is answered with the known ones."""
 
-    def __missing__(self, name):
-        raise ModelError(f"nothing was recorded under {name!r}{_core.known_names(str(name), list(self))}")
+    def __missing__(self, name: str) -> np.ndarray:
+        raise ModelError(
+            f"nothing was recorded under {name!r}{_core.known_names(name, list(self))}"
+        )
 
 
 class Results:
@@ -114,14 +121,16 @@ class Results:
     context: _core.Context
     """the values at the end; a run can go on from here"""
     status: str
-    """'reached_end', 'terminal', 'zeno_stop', 'step_limit', 'chattering', 'interrupted' or 'failed'"""
+    """'reached_end', 'terminal', 'zeno_stop', 'step_limit', 'chattering', 'interrupted' or
+    'failed'
+    """
     message: str
     """why, where the status is none of the first three"""
     cause: BaseException | None
     """what was raised, where the status is 'failed'"""
     statistics: Statistics
 
-    def __init__(self, core: _core.Results):
+    def __init__(self, core: _core.Results, raised: BaseException | None = None):
         self.time = core.time
         self.jump = core.jump
         self.outputs = _Outputs(core.outputs)
@@ -129,14 +138,45 @@ class Results:
         self.context = core.context
         self.status = core.status
         self.message = core.message
-        self.cause = core.cause
+        self.cause = raised if core.status == "failed" else None
         self.statistics = Statistics(**core.statistics)
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """A row for each (time, jump), a column for each number: 'y', or 'y[0]', 'y[1]', ... for a
+        vector. Needs pandas.
+        """
+        import pandas
+
+        columns = {}
+        for name, array in self.outputs.items():
+            if array.ndim == 1:
+                columns[name] = array
+            else:
+                columns.update({f"{name}[{i}]": array[:, i] for i in range(array.shape[1])})
+        index = pandas.MultiIndex.from_arrays([self.time, self.jump], names=["time", "jump"])
+        return pandas.DataFrame(columns, index=index)
+
+    def to_xarray(self) -> xarray.Dataset:
+        """A variable for each signal over 'time', with 'jump' beside it; vectors have a second
+        dimension of their own, called after them. Needs xarray.
+        """
+        import xarray
+
+        signals = {
+            name: (("time",) if array.ndim == 1 else ("time", f"{name}_entry"), array)
+            for name, array in self.outputs.items()
+        }
+        coordinates = {"time": ("time", self.time, {"units": "s"}), "jump": ("time", self.jump)}
+        return xarray.Dataset(signals, coordinates, {"status": self.status})
 
     def __repr__(self) -> str:
         span = f", t = {self.time[0]:g} to {self.time[-1]:g} s" if len(self.time) else ""
-        signals = ", ".join(f"{name} {array.shape}" for name, array in self.outputs.items()) or "nothing recorded"
-        why = f"\n  {self.message}" if self.message else ""
-        return (
-            f"<Results: {self.status}, {len(self.time)} rows{span}; {signals}; {len(self.events)} events, "
-            f"{self.statistics.steps} steps of {self.statistics.method}>{why}"
+        signals = (
+            ", ".join(f"{name} {array.shape}" for name, array in self.outputs.items())
+            or "nothing recorded"
         )
+        why = f"\n  {self.message}" if self.message else ""
+        counts = (
+            f"{len(self.events)} events, {self.statistics.steps} steps of {self.statistics.method}"
+        )
+        return f"<Results: {self.status}, {len(self.time)} rows{span}; {signals}; {counts}>{why}"

@@ -17,12 +17,12 @@ from saltus.system import OutputPort, System
 __all__ = ["Results", "Simulator", "SimulatorOptions", "simulate"]
 
 
-def _refuse_unknown(cls):
+def _refuse_unknown(cls: Any) -> Any:
     """Unknown names get the nearest one, or a hint, in place of a TypeError."""
     generated = cls.__init__
 
     @functools.wraps(generated)
-    def __init__(self, **options):
+    def __init__(self: Any, **options: Any) -> None:
         refuse(cls.__name__, options, (field.name for field in fields(cls)), OPTIONS)
         generated(self, **options)
 
@@ -36,11 +36,15 @@ class SimulatorOptions:
     """How a run is done. `dataclasses.replace(options, rtol=1e-9)` makes a changed copy."""
 
     rtol: float = 1e-6
-    """relative tolerance of a minor step: the root mean square over the states of error / (atol + rtol |x|) stays below 1"""
+    """relative tolerance of a minor step: the root mean square over the states of error / (atol +
+    rtol |x|) stays below 1
+    """
     atol: float = 1e-8
     """absolute tolerance, in the unit of the states"""
     ode_solver_method: str = "auto"
-    """'auto' (dopri5; BDF takes over where the scene looks stiff), 'dopri5', 'adams', 'bdf'; also 'rk45', 'non-stiff', 'stiff'"""
+    """'auto' (dopri5; BDF takes over where the scene looks stiff), 'dopri5', 'adams', 'bdf'; also
+    'rk45', 'non-stiff', 'stiff'
+    """
     max_major_steps: int | None = None
     """instants a run may have; more end it with the status 'step_limit'"""
     max_major_step_length: float | None = math.inf
@@ -49,32 +53,48 @@ class SimulatorOptions:
     """[s] bounds of a solver step. Rarely of use: the tolerance chooses the step"""
     max_minor_step_size: float | None = math.inf
     zeno_tolerance: float = 1e-6
-    """[s] A guard whose firings follow each other this closely, with shrinking gaps, comes to rest: a Zeno hold.
-    0 switches the monitor off"""
+    """[s] A guard whose firings follow each other this closely, with shrinking gaps, comes to rest:
+    a Zeno hold. 0 switches the monitor off
+    """
     event_scan_points: int = 3
-    """interior points of a step at which guards are looked at, for two crossings in one step; 0 turns that off"""
+    """interior points of a step at which guards are looked at, for two crossings in one step; 0
+    turns that off
+    """
     max_passes: int = 100
     """passes an instant may have before it counts as a loop without end"""
     recorded_signals: Mapping[str, OutputPort] | None = None
     """what is recorded, by name; nothing recorded costs nothing"""
     save_at: Sequence[float] = ()
-    """[s] increasing times to record at. If there are any, solver steps are recorded only with save_steps=True"""
+    """[s] increasing times to record at. If there are any, solver steps are recorded only with
+    save_steps=True
+    """
     save_steps: bool | None = None
     record_events: bool = True
     """the event log; switching it off changes nothing else"""
     throw: bool = True
     """raise when a run does not end well; else return the results with the status"""
     interrupt: Callable[[], bool] | None = None
-    """asked about every 20 ms; True ends the run with the status 'interrupted'. Ctrl-C does so anyway"""
+    """asked about every 20 ms; True ends the run with the status 'interrupted'. Ctrl-C does so
+    anyway
+    """
 
 
-_UNBOUNDED = {"max_major_step_length": math.inf, "min_minor_step_size": 0.0, "max_minor_step_size": math.inf}
+_UNBOUNDED = {
+    "max_major_step_length": math.inf,
+    "min_minor_step_size": 0.0,
+    "max_minor_step_size": math.inf,
+}
 
 
 def _ports(signals: Mapping[str, OutputPort] | None) -> list[tuple[str, System, int]]:
+    if not isinstance(signals, Mapping | None):
+        raise ModelError(f"recorded_signals: expected a dict of names and ports, found {signals!r}")
     for name, port in (signals or {}).items():
         if not isinstance(port, OutputPort):
-            raise ModelError(f"recorded signal '{name}': expected an output port, such as block.output_ports[0], found {port!r}")
+            raise ModelError(
+                f"recorded signal '{name}': expected a port, such as block.output_ports[0], "
+                f"found {port!r}"
+            )
     return [(name, port.system, port.index) for name, port in (signals or {}).items()]
 
 
@@ -85,18 +105,25 @@ def _core_options(options: SimulatorOptions) -> _core.SimulatorOptions:
         if field.name in ("recorded_signals", "throw"):
             continue
         try:
-            setattr(core, field.name, _UNBOUNDED[field.name] if value is None and field.name in _UNBOUNDED else value)
+            setattr(
+                core,
+                field.name,
+                _UNBOUNDED[field.name] if value is None and field.name in _UNBOUNDED else value,
+            )
         except TypeError:
-            raise ModelError(f"option {field.name}: expected {field.type}, found {value!r}") from None
+            raise ModelError(
+                f"option {field.name}: expected {field.type}, found {value!r}"
+            ) from None
     core.set_recorded_signals(_ports(options.recorded_signals))
     return core
 
 
 class Simulator:
-    """A run that can be continued: `initialize(context)`, then `advance_to(t)` as often as you like.
+    """A run that can be continued: `initialize(context)`, then `advance_to(t)` as often as you
+    like.
 
-    In pieces or at once, the events are the same. One simulator serves one thread at a time; it can be initialized
-    again.
+    In pieces or at once, the events are the same. One simulator serves one thread at a time; it can
+    be initialized again.
     """
 
     def __init__(self, system: System, options: SimulatorOptions | None = None, **overrides: Any):
@@ -109,37 +136,41 @@ class Simulator:
         self.options = replace(options, **overrides)
         self.system = system  # the engine refers to it
         self._core = _core.Simulator(system, _core_options(self.options))
+        self._failed: Results | None = None
 
     def initialize(self, context: _core.Context) -> None:
         """Begins a run with these values, at their time."""
+        self._failed = None
         self._core.initialize(context)
 
     def advance_to(self, time: float) -> str:
         """Goes on to `time` [s], or to where the run ends before; returns the status.
 
-        Raises SimulationError with the partial results, what a callback raised, as it was raised, or KeyboardInterrupt
-        with the partial results as its attribute `results`, unless the option `throw` is off.
+        Raises SimulationError with the partial results, what a callback raised, as it was raised,
+        or KeyboardInterrupt with the partial results as its attribute `results`, unless the option
+        `throw` is off.
         """
         return self._advance(time, take=False).status
 
     def _advance(self, time: float, take: bool) -> Results:
         self._core.advance_to(time)
-        results = Results(self._core.results(take))
+        core, raised = self._core.results(take)
+        results = Results(core, raised)
+        if results.status == "failed":
+            self._failed = results
         if self.options.throw and results.status not in ("reached_end", "terminal", "zeno_stop"):
-            self._raise(results)
+            self._raise(results, raised)
         return results
 
-    def _raise(self, results: Results) -> None:
-        error = self._core.signalled or results.cause
+    def _raise(self, results: Results, error: BaseException | None) -> None:
         if error is None:
             error = SimulationError(results.message, results.context.time)
         if isinstance(error, (SimulationError, KeyboardInterrupt)):
-            error.results = results
-        results.cause = None  # or the two would hold each other
+            error.results = results  # type: ignore[union-attr]
         try:
             raise error
         finally:
-            del error
+            del error  # or it would hold this frame, and this frame it
 
     @property
     def time(self) -> float:
@@ -154,7 +185,7 @@ class Simulator:
     @property
     def results(self) -> Results:
         """All since `initialize`, as a copy of its own."""
-        return Results(self._core.results(False))
+        return self._failed or Results(*self._core.results(False))
 
     def describe(self) -> str:
         """What of the system is computed when, what is never computed, and why."""
@@ -171,10 +202,12 @@ def simulate(
 ) -> Results:
     """Runs `system` from the values of `context` over `time_span`, (begin, end) in seconds.
 
-    `recorded_signals` names the outputs to record; any option can also be given here by name. Raises ModelError before
-    the run for bad input; for what ends it badly see `Simulator.advance_to`.
+    `recorded_signals` names the outputs to record; any option can also be given here by name.
+    Raises ModelError before the run for bad input; for what ends it badly see
+    `Simulator.advance_to`.
 
-    >>> results = saltus.simulate(ball, context, (0.0, 12.0), recorded_signals={"y": ball.output_ports[0]}, rtol=1e-9)
+    >>> recorded = {"y": ball.output_ports[0]}
+    >>> results = saltus.simulate(ball, context, (0.0, 12.0), recorded_signals=recorded, rtol=1e-9)
     """
     begin, end = time_span
     if not end >= begin:

@@ -68,7 +68,9 @@ class System:
         return OutputPort(self, _core.System.find_output(self, port))
 
     def create_context(self, time: float = 0.0) -> _core.Context:
-        """The values every block starts with, at `time` [s]. What you change in it changes no system."""
+        """The values every block starts with, at `time` [s]. What you change in it changes no
+        system.
+        """
         return _core.System.create_context(self, time)
 
     def __repr__(self) -> str:

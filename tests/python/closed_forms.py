@@ -33,7 +33,8 @@ class Rest:
 
 
 class Ball:
-    """Dropped from y0 at t = 0 over a floor; `drops` are times at which the floor falls, with its new height.
+    """Dropped from y0 at t = 0 over a floor; `drops` are times at which the floor falls, with its
+    new height.
 
     A flight shorter than `shortest` [s] is rest on the floor: it is lower than g shortest^2 / 8.
     """

@@ -14,7 +14,11 @@ class Ball(saltus.LeafSystem):
         self.declare_continuous_state_output("state")
         self.declare_dynamic_parameter("g", g)
         self.declare_zero_crossing(
-            self.height, self.bounce, name="bounce", direction="positive_then_non_positive", **crossing
+            self.height,
+            self.bounce,
+            name="bounce",
+            direction="positive_then_non_positive",
+            **crossing,
         )
 
     def ode(self, time, state, *, g):
@@ -37,7 +41,9 @@ class Decay(saltus.LeafSystem):
         self.where = where
         self.declare_continuous_state(default_value=[1.0], ode=self.ode)
         self.declare_continuous_state_output("x")
-        self.declare_zero_crossing(self.guard, self.reset, name="half", direction="positive_then_non_positive")
+        self.declare_zero_crossing(
+            self.guard, self.reset, name="half", direction="positive_then_non_positive"
+        )
 
     def at(self, place, time, state):
         if self.where == place:
@@ -69,7 +75,11 @@ def flow(function, x0, span, **options):
     class Flow(saltus.LeafSystem):
         def __init__(self):
             super().__init__(name="flow")
-            self.declare_continuous_state(default_value=x0, ode=lambda t, s: function(t, s.continuous_state))
+            self.declare_continuous_state(
+                default_value=x0, ode=lambda t, s: function(t, s.continuous_state)
+            )
 
     system = Flow()
-    return np.array(saltus.simulate(system, system.create_context(), span, **options).context.continuous_state)
+    return np.array(
+        saltus.simulate(system, system.create_context(), span, **options).context.continuous_state
+    )

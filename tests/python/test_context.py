@@ -102,11 +102,20 @@ def loop_as(name):
     ("change", "message"),
     [
         (lambda c: c.with_continuous_state([1.0]), "continuous state: expected 2 values, found 1"),
-        (lambda c: c.with_continuous_state([1.0, float("nan")]), "continuous state: entry 1 is nan; give a finite value"),
+        (
+            lambda c: c.with_continuous_state([1.0, float("nan")]),
+            "continuous state: entry 1 is nan; give a finite value",
+        ),
         (lambda c: c.with_continuous_state("up"), "continuous state: expected numbers, found str"),
         (lambda c: c.with_continuous_state(None), "continuous state: expected numbers, found None"),
-        (lambda c: c.with_continuous_state([1j, 0]), "continuous state: expected numbers, found list"),
-        (lambda c: c.with_parameter("G", 1.0), "unknown parameter 'G'; did you mean 'g'? Known: 'g'"),
+        (
+            lambda c: c.with_continuous_state([1j, 0]),
+            "continuous state: expected numbers, found list",
+        ),
+        (
+            lambda c: c.with_parameter("G", 1.0),
+            "unknown parameter 'G'; did you mean 'g'? Known: 'g'",
+        ),
         (lambda c: c.with_parameter("g", [1.0, 2.0]), "parameter 'g': expected 1 values, found 2"),
         (lambda c: c.with_time(float("inf")), "time: inf is not finite"),
         (lambda c: c["ball"], "expected a system or its system_id, found 'ball'"),

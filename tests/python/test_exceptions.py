@@ -7,7 +7,7 @@ import traceback
 import numpy as np
 import pytest
 import saltus
-from saltus.library import Constant, Gain, Integrator, Product, ReduceBlock
+from saltus.library import Constant, Gain, Integrator, ReduceBlock
 from systems import Ball, Decay, run
 
 METHODS = ["dopri5", "adams", "bdf", "auto"]
@@ -27,14 +27,15 @@ def failing(error, after=0.3):
 
 @pytest.mark.parametrize("method", METHODS)
 @pytest.mark.parametrize("where", ["ode", "guard", "reset"])
-@pytest.mark.parametrize("error", [Trouble("mine"), KeyError("k"), SystemExit(3), ZeroDivisionError()], ids=repr)
-def test_the_same_object_comes_out(method, where, error):
+@pytest.mark.parametrize("kind", [Trouble, KeyError, SystemExit, ZeroDivisionError])
+def test_the_same_object_comes_out(method, where, kind):
+    error = kind("mine")
     system = Decay(failing(error), where)
-    with pytest.raises(type(error)) as caught:
+    with pytest.raises(kind) as caught:
         saltus.simulate(system, system.create_context(), (0.0, 2.0), ode_solver_method=method)
     assert caught.value is error
     names = [frame.name for frame in traceback.extract_tb(caught.value.__traceback__)]
-    assert names[-3:] == [where if where != "reset" else "reset", "at", "hook"]
+    assert names[-3:] == [where, "at", "hook"]
 
 
 @pytest.mark.parametrize("method", METHODS)
@@ -46,15 +47,22 @@ def test_a_system_works_again_after_its_callback_failed(method):
             raise Trouble
 
     system = Decay(hook)
-    simulator = saltus.Simulator(system, ode_solver_method=method, recorded_signals={"x": system.output()})
+    simulator = saltus.Simulator(
+        system, ode_solver_method=method, recorded_signals={"x": system.output()}
+    )
     with pytest.raises(Trouble):
         simulator.initialize(system.create_context())
         simulator.advance_to(1.0)
     armed[0] = False
     simulator.initialize(system.create_context())
     assert simulator.advance_to(1.0) == "reached_end"
+    assert simulator.results.events.times("half") == pytest.approx([np.log(2.0)], abs=1e-5)
     again = saltus.simulate(
-        system, system.create_context(), (0.0, 1.0), ode_solver_method=method, recorded_signals={"x": system.output()}
+        system,
+        system.create_context(),
+        (0.0, 1.0),
+        ode_solver_method=method,
+        recorded_signals={"x": system.output()},
     )
     assert np.array_equal(simulator.results.outputs["x"], again.outputs["x"])
 
@@ -87,7 +95,9 @@ def test_simulation_error_says_where_and_keeps_the_results():
     class Blow(saltus.LeafSystem):
         def __init__(self):
             super().__init__(name="blow")
-            self.declare_continuous_state(default_value=[1.0], ode=lambda t, s: s.continuous_state**2)
+            self.declare_continuous_state(
+                default_value=[1.0], ode=lambda t, s: s.continuous_state**2
+            )
             self.declare_continuous_state_output("x")
 
     with np.errstate(over="ignore"), pytest.raises(saltus.SimulationError) as caught:
@@ -104,12 +114,11 @@ def test_nan_names_the_block():
     class Bad(saltus.LeafSystem):
         def __init__(self):
             super().__init__(name="bad")
-            self.declare_continuous_state(1, ode=lambda t, s: [float("nan") if t > 0.5 else 1.0])
+            self.declare_continuous_state(1, ode=lambda t, s: [float("nan")])
 
     builder = saltus.DiagramBuilder()
-    builder.add(Bad(), name_it := Ball())
+    builder.add(Bad(), Ball())
     diagram = builder.build()
-    assert name_it.name == "ball"
     with pytest.raises(saltus.SimulationError, match="bad") as caught:
         saltus.simulate(diagram, diagram.create_context(), (0.0, 1.0))
     assert caught.value.block == "bad"
@@ -136,15 +145,33 @@ def test_errors_can_be_copied_and_pickled():
     ("build", "message"),
     [
         (lambda b: b.build(), "build: the diagram has no block; add one first"),
-        (lambda b: (b.add(Gain(1.0, name="k")), b.build()), "input 'in' of block 'k' is not connected; connect it or export it"),
-        (lambda b: b.add(Gain(1.0, name="k"), Gain(2.0, name="k")), "two blocks are called 'k'; give each block of a diagram its own name"),
+        (
+            lambda b: (b.add(Gain(1.0, name="k")), b.build()),
+            "input 'in' of block 'k' is not connected; connect it or export it",
+        ),
+        (
+            lambda b: b.add(Gain(1.0, name="k"), Gain(2.0, name="k")),
+            "two blocks are called 'k'; give each block of a diagram its own name",
+        ),
         (lambda b: b.add(3), "add: expected a system, found 3"),
-        (lambda b: b.connect(b.add(Constant(1.0, name="c")).output(), Gain(1.0, name="k").input()),
-         "block 'k' was not added to this diagram; its blocks: 'c'"),
-        (lambda b: b.connect(b.add(Constant(1.0, name="c")), b.add(Gain(1.0, name="k")).input()),
-         "expected an OutputPort, such as block.output_ports[0], found <Constant 'c'>"),
-        (lambda b: b.add(Gain(1.0, name="k")).input("into"), "block 'k' has no input 'into'; did you mean 'in'? Known: 'in'"),
-        (lambda b: (b.add(Constant(1.0, name="c")), b.build()["d"]), "diagram 'root' has no block 'd'; did you mean 'c'? Known: 'c'"),
+        (
+            lambda b: b.connect(
+                b.add(Constant(1.0, name="c")).output(), Gain(1.0, name="k").input()
+            ),
+            "block 'k' was not added to this diagram; its blocks: 'c'",
+        ),
+        (
+            lambda b: b.connect(b.add(Constant(1.0, name="c")), b.add(Gain(1.0, name="k")).input()),
+            "expected a port, such as block.output_ports[0], found <Constant 'c'>",
+        ),
+        (
+            lambda b: b.add(Gain(1.0, name="k")).input("into"),
+            "block 'k' has no input 'into'; did you mean 'in'? Known: 'in'",
+        ),
+        (
+            lambda b: (b.add(Constant(1.0, name="c")), b.build()["d"]),
+            "diagram 'root' has no block 'd'; did you mean 'c'? Known: 'c'",
+        ),
     ],
 )
 def test_bad_diagrams(build, message):
@@ -155,10 +182,12 @@ def test_bad_diagrams(build, message):
 
 def test_an_algebraic_loop_is_printed_as_a_path():
     builder = saltus.DiagramBuilder()
-    a, b = builder.add(Gain(1.0, name="a"), Product(1, name="b"))
+    a, b = builder.add(*(ReduceBlock(1, lambda u: u[0], shape=(), name=name) for name in "ab"))
     builder.connect(a.output(), b.input())
     builder.connect(b.output(), a.input())
     diagram = builder.build()
     context = diagram.create_context()
-    with pytest.raises(saltus.ModelError, match=r"(a\.out.*b\.out|b\.out.*a\.out)"):
+    with pytest.raises(
+        saltus.ModelError, match=r"algebraic loop(.|\n)*'a.out' reads\n *'b.out' reads\n *'a.out'"
+    ):
         saltus.simulate(diagram, context, (0.0, 1.0))

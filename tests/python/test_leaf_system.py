@@ -54,7 +54,9 @@ def test_inputs_are_floats_or_arrays():
             self.declare_input_port(shape=shape)
         self.declare_continuous_state(1, ode=ode)
 
-    _, _, (scalar, vector, one), _ = seen_by(declare, [Constant(2.5), Constant([1.0, 2.0]), Constant([3.0])])
+    _, _, (scalar, vector, one), _ = seen_by(
+        declare, [Constant(2.5), Constant([1.0, 2.0]), Constant([3.0])]
+    )
     assert type(scalar) is float
     assert scalar == 2.5
     assert vector.tolist() == [1.0, 2.0]
@@ -62,7 +64,8 @@ def test_inputs_are_floats_or_arrays():
 
 
 @pytest.mark.parametrize(
-    ("requires_inputs", "expected"), [(True, (1.0, 2.0, 3.0)), (False, ()), ([2, 0], (3.0, 1.0)), ([], ())]
+    ("requires_inputs", "expected"),
+    [(True, (1.0, 2.0, 3.0)), (False, ()), ([2, 0], (3.0, 1.0)), ([], ())],
 )
 def test_requires_inputs(requires_inputs, expected):
     def declare(self, ode):
@@ -135,7 +138,9 @@ def test_states_are_values():
     assert (other.mode, state.mode) == (2, 0)
     assert state.continuous_state.tolist() == [0.0, 0.0]
     assert repr(other) == "State(continuous_state=[3. 4.], discrete_state=[1.], mode=2)"
-    with pytest.raises(saltus.ModelError, match="block 'block': continuous state: expected 2 numbers, found 3"):
+    with pytest.raises(
+        saltus.ModelError, match="block 'block': continuous state: expected 2 numbers, found 3"
+    ):
         state.with_continuous_state([1.0, 2.0, 3.0])
 
 
@@ -179,15 +184,22 @@ def test_inputs_reach_the_ode(method):
     builder.connect(sine.output(), block.input())
     diagram = builder.build()
     results = saltus.simulate(
-        diagram, diagram.create_context(), (0.0, 3.0), recorded_signals={"x": block.output()},
-        ode_solver_method=method, rtol=1e-9, atol=1e-11,
+        diagram,
+        diagram.create_context(),
+        (0.0, 3.0),
+        recorded_signals={"x": block.output()},
+        ode_solver_method=method,
+        rtol=1e-9,
+        atol=1e-11,
     )
     # rtol holds for each step; BDF and Adams lose two or three digits over a hundred of them
     np.testing.assert_allclose(results.outputs["x"][:, 0], 1.0 - np.cos(results.time), atol=1e-6)
 
 
 def test_jacobian_is_used_and_read_row_by_row():
-    matrix = np.array([[-1.0, 1000.0], [0.0, -1000.0]])  # its transpose would not converge to the same
+    matrix = np.array(
+        [[-1.0, 1000.0], [0.0, -1000.0]]
+    )  # its transpose would not converge to the same
     calls = []
 
     def declare(self):
@@ -196,14 +208,20 @@ def test_jacobian_is_used_and_read_row_by_row():
             return matrix
 
         self.declare_continuous_state(
-            default_value=[1.0, 1.0], ode=lambda t, s: matrix @ s.continuous_state, jacobian=jacobian
+            default_value=[1.0, 1.0],
+            ode=lambda t, s: matrix @ s.continuous_state,
+            jacobian=jacobian,
         )
 
     system = Block(declare)
-    results = saltus.simulate(system, system.create_context(), (0.0, 1.0), ode_solver_method="bdf", rtol=1e-8, atol=1e-10)
+    results = saltus.simulate(
+        system, system.create_context(), (0.0, 1.0), ode_solver_method="bdf", rtol=1e-8, atol=1e-10
+    )
     assert results.statistics.jacobian_calls == len(calls) > 0
     # x_1 = exp(-1000 t); x_0 = (1 + c) exp(-t) - c exp(-1000 t), c = 1000/999
-    assert results.context.continuous_state[0] == pytest.approx((1 + 1000 / 999) * np.exp(-1.0), rel=1e-5)
+    assert results.context.continuous_state[0] == pytest.approx(
+        (1 + 1000 / 999) * np.exp(-1.0), rel=1e-5
+    )
 
 
 def test_outputs_find_their_shape_by_one_call():
@@ -211,17 +229,27 @@ def test_outputs_find_their_shape_by_one_call():
         self.declare_input_port("u")
         self.declare_continuous_state(2, ode=lambda t, s, u: [0.0, 0.0])
         self.declare_output_port(lambda t, s, u: 2.0 * np.asarray(u), name="as input")
-        self.declare_output_port(lambda t, s: s.continuous_state, name="state", requires_inputs=False)
-        self.declare_output_port(lambda t, s: s.continuous_state[0], name="first", requires_inputs=False)
-        self.declare_output_port(lambda t, s: np.ones(3), name="fixed", requires_inputs=False, shape=3)
-        self.declare_output_port(lambda t, s: [t], name="default", requires_inputs=False, default_value=[0.0])
+        self.declare_output_port(
+            lambda t, s: s.continuous_state, name="state", requires_inputs=False
+        )
+        self.declare_output_port(
+            lambda t, s: s.continuous_state[0], name="first", requires_inputs=False
+        )
+        self.declare_output_port(
+            lambda t, s: np.ones(3), name="fixed", requires_inputs=False, shape=3
+        )
+        self.declare_output_port(
+            lambda t, s: [t], name="default", requires_inputs=False, default_value=[0.0]
+        )
 
     builder = saltus.DiagramBuilder()
     block, source = builder.add(Block(declare), Constant([1.0, 2.0, 3.0]))
     builder.connect(source.output(), block.input())
     diagram = builder.build()
     recorded = {port.name: port for port in block.output_ports}
-    outputs = saltus.simulate(diagram, diagram.create_context(), (0.0, 1.0), recorded_signals=recorded).outputs
+    outputs = saltus.simulate(
+        diagram, diagram.create_context(), (0.0, 1.0), recorded_signals=recorded
+    ).outputs
     widths = {name: array.shape[1:] for name, array in outputs.items()}
     assert widths == {"as input": (3,), "state": (2,), "first": (), "fixed": (3,), "default": (1,)}
     assert outputs["as input"][0].tolist() == [2.0, 4.0, 6.0]
@@ -233,11 +261,15 @@ def test_an_output_that_needs_no_input_closes_a_loop():
     def declare(self, requires_inputs):
         self.declare_input_port("u")
         self.declare_continuous_state(default_value=[1.0], ode=lambda t, s, u: [u])
-        self.declare_output_port(lambda t, s, *u: s.continuous_state[0], name="y", requires_inputs=requires_inputs)
+        self.declare_output_port(
+            lambda t, s, *u: s.continuous_state[0], name="y", requires_inputs=requires_inputs
+        )
 
     def diagram(requires_inputs):
         builder = saltus.DiagramBuilder()
-        block, gain = builder.add(Block(lambda self: declare(self, requires_inputs)), Gain(-1.0, name="gain"))
+        block, gain = builder.add(
+            Block(lambda self: declare(self, requires_inputs)), Gain(-1.0, name="gain")
+        )
         builder.connect(block.output(), gain.input())
         builder.connect(gain.output(), block.input())
         return builder.build()
@@ -251,37 +283,55 @@ def test_an_output_that_needs_no_input_closes_a_loop():
 
 
 def test_boolean_output_resets_an_integrator():
-    """A sawtooth of period 1: the integrator of 1 falls back when a Python block says it is full."""
+    """A sawtooth of period 1: the integrator of 1 falls back when a Python block says it is
+    full.
+    """
 
     def declare(self):
         self.declare_input_port("level")
         self.declare_output_port(lambda t, s, level: level >= 1.0, name="full")
 
     builder = saltus.DiagramBuilder()
-    one, tank, full = builder.add(Constant(1.0), Integrator(enable_reset=True, name="tank"), Block(declare))
+    one, tank, full = builder.add(
+        Constant(1.0), Integrator(enable_reset=True, name="tank"), Block(declare)
+    )
     builder.connect(one.output(), tank.input("in"))
     builder.connect(tank.output(), full.input())
     builder.connect(full.output(), tank.input("reset_trigger"))
     diagram = builder.build()
-    results = saltus.simulate(diagram, diagram.create_context(), (0.0, 3.5), recorded_signals={"x": tank.output()})
+    results = saltus.simulate(
+        diagram, diagram.create_context(), (0.0, 3.5), recorded_signals={"x": tank.output()}
+    )
     # located to a hundred roundings of the time; three of them add up
-    np.testing.assert_allclose(results.events.times("tank.reset"), [1.0, 2.0, 3.0], rtol=0, atol=3e-13)
+    np.testing.assert_allclose(
+        results.events.times("tank.reset"), [1.0, 2.0, 3.0], rtol=0, atol=3e-13
+    )
     assert results.outputs["x"][-1] == pytest.approx(0.5, abs=1e-12)
 
 
 def test_modes_choose_among_guards():
-    """A thermostat: heat until 21, cool until 19. Both legs are straight lines, so every switch is known."""
+    """A thermostat: heat until 21, cool until 19. Both legs are straight lines, so every switch is
+    known.
+    """
 
     def declare(self):
-        self.declare_continuous_state(default_value=[20.0], ode=lambda t, s: [2.0 if s.mode == 1 else -1.0])
+        self.declare_continuous_state(
+            default_value=[20.0], ode=lambda t, s: [2.0 if s.mode == 1 else -1.0]
+        )
         self.declare_default_mode(1)
         self.declare_mode_output("mode")
         self.declare_zero_crossing(
-            lambda t, s: s.continuous_state[0] - 21.0, name="hot", start_mode=1, end_mode=0,
+            lambda t, s: s.continuous_state[0] - 21.0,
+            name="hot",
+            start_mode=1,
+            end_mode=0,
             direction="negative_then_non_negative",
         )
         self.declare_zero_crossing(
-            lambda t, s: s.continuous_state[0] - 19.0, name="cold", start_mode=0, end_mode=1,
+            lambda t, s: s.continuous_state[0] - 19.0,
+            name="cold",
+            start_mode=0,
+            end_mode=1,
             direction="positive_then_non_positive",
         )
 
@@ -296,7 +346,9 @@ def test_reset_map_may_set_the_mode():
     def declare(self):
         self.declare_continuous_state(1, ode=lambda t, s: [1.0])
         self.declare_default_mode(0)
-        self.declare_zero_crossing(lambda t, s: s.continuous_state[0] - 1.0, lambda t, s: s.with_mode(s.mode + 5))
+        self.declare_zero_crossing(
+            lambda t, s: s.continuous_state[0] - 1.0, lambda t, s: s.with_mode(s.mode + 5)
+        )
 
     system = Block(declare)
     assert saltus.simulate(system, system.create_context(), (0.0, 2.0)).context.mode == 5
@@ -316,7 +368,10 @@ def test_terminal_event_ends_the_run_after_its_reset():
 def test_a_monitor_changes_no_bit():
     def oscillator(monitored):
         def declare(self):
-            self.declare_continuous_state(default_value=[1.0, 0.0], ode=lambda t, s: [s.continuous_state[1], -s.continuous_state[0]])
+            self.declare_continuous_state(
+                default_value=[1.0, 0.0],
+                ode=lambda t, s: [s.continuous_state[1], -s.continuous_state[0]],
+            )
             self.declare_continuous_state_output("x")
             if monitored:
                 self.declare_zero_crossing(lambda t, s: s.continuous_state[0], name="zero")
@@ -330,15 +385,27 @@ def test_a_monitor_changes_no_bit():
     np.testing.assert_allclose(watched.events.times("zero"), zeros, rtol=0, atol=1e-6)
 
 
-@pytest.mark.parametrize("direction", ["crosses_zero", "positive_then_non_positive", "negative_then_non_negative", "none"])
+@pytest.mark.parametrize(
+    "direction",
+    ["crosses_zero", "positive_then_non_positive", "negative_then_non_negative", "none"],
+)
 def test_directions(direction):
     def declare(self):
         self.declare_continuous_state(1, ode=lambda t, s: [1.0])
-        self.declare_zero_crossing(lambda t, s: np.sin(t), lambda t, s: s, name="wave", direction=direction)
+        self.declare_zero_crossing(
+            lambda t, s: np.sin(t), lambda t, s: s, name="wave", direction=direction
+        )
 
     system = Block(declare)
-    found = saltus.simulate(system, system.create_context(), (0.5, 10.0), max_minor_step_size=0.5).events.times("wave")
-    expected = {"crosses_zero": [1, 2, 3], "positive_then_non_positive": [1, 3], "negative_then_non_negative": [2], "none": []}
+    found = saltus.simulate(
+        system, system.create_context(), (0.5, 10.0), max_minor_step_size=0.5
+    ).events.times("wave")
+    expected = {
+        "crosses_zero": [1, 2, 3],
+        "positive_then_non_positive": [1, 3],
+        "negative_then_non_negative": [2],
+        "none": [],
+    }
     np.testing.assert_allclose(found, np.pi * np.array(expected[direction]), rtol=0, atol=1e-12)
 
 
@@ -347,7 +414,9 @@ def test_periodic_update(whole_state):
     """It may give a state, or the discrete state alone."""
 
     def count(t, s):
-        return s.with_discrete_state(s.discrete_state + 1.0) if whole_state else s.discrete_state + 1.0
+        return (
+            s.with_discrete_state(s.discrete_state + 1.0) if whole_state else s.discrete_state + 1.0
+        )
 
     def declare(self):
         self.declare_discrete_state(default_value=[0.0])
@@ -355,7 +424,9 @@ def test_periodic_update(whole_state):
         self.declare_periodic_update(count, period=1 / 3, offset=0.5)
 
     results = run(Block(declare), (0.0, 0.5 + 99 / 3))
-    assert results.context.discrete_state == [100.0]  # 100 ticks of 1/3 s, the first at 0.5 s, the last at the end
+    assert results.context.discrete_state == [
+        100.0
+    ]  # 100 ticks of 1/3 s, the first at 0.5 s, the last at the end
     assert results.events[0].time == 0.5
 
 
@@ -384,7 +455,9 @@ def test_a_discrete_controller_restarts_what_it_drives():
     diagram = builder.build()
     results = saltus.simulate(diagram, diagram.create_context(), (0.0, 3.5))
     assert results.statistics.restarts == 3
-    assert results.context.continuous_state[0] == pytest.approx(0.5, abs=1e-14)  # straight lines are exact
+    assert results.context.continuous_state[0] == pytest.approx(
+        0.5, abs=1e-14
+    )  # straight lines are exact
 
 
 def test_reads_decides_how_often_an_output_is_called():
@@ -393,13 +466,17 @@ def test_reads_decides_how_often_an_output_is_called():
 
         def declare(self):
             self.declare_discrete_state(default_value=[1.0])
-            self.declare_output_port(lambda t, s: seen.append(t) or s.discrete_state[0], name="u", **reads)
+            self.declare_output_port(
+                lambda t, s: seen.append(t) or s.discrete_state[0], name="u", **reads
+            )
 
         builder = saltus.DiagramBuilder()
         block, plant = builder.add(Block(declare), Integrator(name="plant"))
         builder.connect(block.output(), plant.input())
         diagram = builder.build()
-        steps = saltus.simulate(diagram, diagram.create_context(), (0.0, 1.0), max_minor_step_size=0.01).statistics.steps
+        steps = saltus.simulate(
+            diagram, diagram.create_context(), (0.0, 1.0), max_minor_step_size=0.01
+        ).statistics.steps
         return len(seen), steps
 
     often, steps = calls()
@@ -417,7 +494,8 @@ def test_step_input_reaches_a_guard():
         self.declare_zero_crossing(
             lambda t, s, floor: s.continuous_state[0] - floor,
             lambda t, s, floor: s.with_continuous_state([floor + 1.0]),
-            name="hit", direction="positive_then_non_positive",
+            name="hit",
+            direction="positive_then_non_positive",
         )
 
     builder = saltus.DiagramBuilder()
@@ -440,24 +518,51 @@ def test_default_name_is_class_and_id():
 @pytest.mark.parametrize(
     ("declare", "message"),
     [
-        (lambda s: s.declare_continuous_state(), "block 'block': continuous state: give a shape, such as 2, or a default_value"),
-        (lambda s: s.declare_continuous_state(2, ode=3), "block 'block': ode: expected a function, found 3"),
-        (lambda s: (s.declare_continuous_state(1), s.declare_continuous_state(1)),
-         "block 'block': the continuous state is declared twice; declare it once, as one vector"),
-        (lambda s: s.declare_continuous_state(1, mass_matrix=[1]), "declare_continuous_state: no option 'mass_matrix': divide by it in the ode"),
-        (lambda s: s.declare_continuous_state(1, odd=len),
-         "declare_continuous_state: unknown option 'odd'; did you mean 'ode'? "
-         "Known: 'shape', 'default_value', 'ode', 'requires_inputs', 'jacobian'"),
-        (lambda s: s.declare_zero_crossing(len, direction="crosses_zer0"),
-         "unknown direction 'crosses_zer0'; did you mean 'crosses_zero'? Known: 'none', 'crosses_zero', "
-         "'positive_then_non_positive', 'negative_then_non_negative', 'edge_detection'"),
-        (lambda s: s.declare_output_port(len, period=0.1), "declare_output_port: no option 'period': put a ZeroOrderHold behind the output"),
-        (lambda s: s.declare_output_port(len, reads=["mood"]),
-         "block 'block': output 'out_0' reads 'mood'; did you mean 'mode'? "
-         "Known: 'time', 'continuous_state', 'discrete_state', 'mode', 'inputs'"),
-        (lambda s: s.declare_dynamic_parameter("k", "much"), "block 'block': parameter 'k': expected numbers, found str"),
-        (lambda s: s.declare_periodic_update(len, period=0.0),
-         "block 'block': periodic update 'periodic_0': period 0 s, offset 0 s; expected period > 0 and a finite offset"),
+        (
+            lambda s: s.declare_continuous_state(),
+            "block 'block': continuous state: give a shape, such as 2, or a default_value",
+        ),
+        (
+            lambda s: s.declare_continuous_state(2, ode=3),
+            "block 'block': ode: expected a function, found 3",
+        ),
+        (
+            lambda s: (s.declare_continuous_state(1), s.declare_continuous_state(1)),
+            "block 'block': the continuous state is declared twice; declare it once, as one vector",
+        ),
+        (
+            lambda s: s.declare_continuous_state(1, mass_matrix=[1]),
+            "declare_continuous_state: no option 'mass_matrix': divide by it in the ode",
+        ),
+        (
+            lambda s: s.declare_continuous_state(1, odd=len),
+            "declare_continuous_state: unknown option 'odd'; did you mean 'ode'? "
+            "Known: 'shape', 'default_value', 'ode', 'requires_inputs', 'jacobian'",
+        ),
+        (
+            lambda s: s.declare_zero_crossing(len, direction="crosses_zer0"),
+            "unknown direction 'crosses_zer0'; did you mean 'crosses_zero'? "
+            "Known: 'none', 'crosses_zero', "
+            "'positive_then_non_positive', 'negative_then_non_negative', 'edge_detection'",
+        ),
+        (
+            lambda s: s.declare_output_port(len, period=0.1),
+            "declare_output_port: no option 'period': put a ZeroOrderHold behind the output",
+        ),
+        (
+            lambda s: s.declare_output_port(len, reads=["mood"]),
+            "block 'block': output 'out_0' reads 'mood'; did you mean 'mode'? "
+            "Known: 'time', 'continuous_state', 'discrete_state', 'mode', 'inputs'",
+        ),
+        (
+            lambda s: s.declare_dynamic_parameter("k", "much"),
+            "block 'block': parameter 'k': expected numbers, found str",
+        ),
+        (
+            lambda s: s.declare_periodic_update(len, period=0.0),
+            "block 'block': periodic update 'periodic_0': period 0 s, offset 0 s; "
+            "expected period > 0 and a finite offset",
+        ),
     ],
 )
 def test_bad_declarations(declare, message):
@@ -469,7 +574,10 @@ def test_bad_declarations(declare, message):
 @pytest.mark.parametrize(
     ("ode", "message"),
     [
-        (lambda t, s: None, "block 'flow': ode returned None, expected 2 numbers; is a `return` missing?"),
+        (
+            lambda t, s: None,
+            "block 'flow': ode returned None, expected 2 numbers; is a `return` missing?",
+        ),
         (lambda t, s: [1.0], "block 'flow': ode returned 1 numbers, expected 2"),
         (lambda t, s: "no", "block 'flow': ode returned a str, expected 2 numbers"),
         (lambda t, s: [1j, 2], "block 'flow': ode returned a list, expected 2 numbers"),
@@ -488,6 +596,23 @@ def test_bad_results_of_an_ode(ode, message, method):
     assert str(caught.value) == message
 
 
+@pytest.mark.parametrize("where", ["output", "ode"])
+def test_required_inputs_must_be_there(where):
+    def declare(self):
+        self.declare_input_port()
+        if where == "ode":
+            self.declare_continuous_state(1, ode=lambda t, s, u: [u], requires_inputs=[1])
+        else:
+            self.declare_output_port(lambda t, s, u: u, requires_inputs=[1])
+
+    builder = saltus.DiagramBuilder()
+    block, source = builder.add(Block(declare), Constant(1.0))
+    builder.connect(source.output(), block.input())
+    diagram = builder.build()
+    with pytest.raises(saltus.ModelError, match="input 1, the block has 1"):
+        saltus.simulate(diagram, diagram.create_context(), (0.0, 1.0))
+
+
 @pytest.mark.parametrize("result", [None, [1.0], 3])
 def test_a_reset_map_gives_a_state(result):
     def declare(self):
@@ -495,5 +620,8 @@ def test_a_reset_map_gives_a_state(result):
         self.declare_zero_crossing(lambda t, s: t - 0.5, lambda t, s: result, name="half")
 
     system = Block(declare)
-    with pytest.raises(saltus.ModelError, match=r"reset map of 'half' returned .*, expected a state: `return state.with_"):
+    with pytest.raises(
+        saltus.ModelError,
+        match=r"reset map of 'half' returned .*, expected a state: `return state.with_",
+    ):
         saltus.simulate(system, system.create_context(), (0.0, 1.0))

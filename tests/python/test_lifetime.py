@@ -66,7 +66,9 @@ def test_a_diagram_keeps_its_blocks_to_any_depth():
     del builder
     gc.collect()
     context = diagram.create_context().with_continuous_state([10.0, 0.0])
-    results = saltus.simulate(diagram, context, (0.0, 1.0), recorded_signals={"s": diagram["inner"].output()})
+    results = saltus.simulate(
+        diagram, context, (0.0, 1.0), recorded_signals={"s": diagram["inner"].output()}
+    )
     assert results.outputs["s"][-1, 1] == pytest.approx(-9.81)
     assert isinstance(diagram["inner"]["ball"], Ball)
 
@@ -88,7 +90,9 @@ def test_a_simulator_keeps_its_system():
 def test_a_port_keeps_its_system():
     port = Ball().output_ports[0]
     gc.collect()
-    results = saltus.simulate(port.system, port.system.create_context(), (0.0, 0.1), recorded_signals={"s": port})
+    results = saltus.simulate(
+        port.system, port.system.create_context(), (0.0, 0.1), recorded_signals={"s": port}
+    )
     assert results.outputs["s"].shape[1] == 2
 
 
@@ -150,12 +154,19 @@ def test_failed_runs_leave_nothing_behind():
 def test_a_thousand_diagrams_do_not_grow():
     def make():
         builder = saltus.DiagramBuilder()
-        c, k, x, f = builder.add(Constant([1.0] * 100), Gain(2.0), Integrator(np.zeros(100)), ReduceBlock(1, lambda u: u[0]))
+        c, k, x, f = builder.add(
+            Constant([1.0] * 100),
+            Gain(2.0),
+            Integrator(np.zeros(100)),
+            ReduceBlock(1, lambda u: u[0]),
+        )
         builder.connect(c.output(), k.input())
         builder.connect(k.output(), x.input())
         builder.connect(x.output(), f.input())
         diagram = builder.build()
-        saltus.simulate(diagram, diagram.create_context(), (0.0, 1.0), recorded_signals={"x": x.output()})
+        saltus.simulate(
+            diagram, diagram.create_context(), (0.0, 1.0), recorded_signals={"x": x.output()}
+        )
 
     def objects():
         gc.collect()

@@ -1,7 +1,8 @@
-"""The four scenes of the tutorial against closed forms: our own scripts, and the tutorial's if it lies beside us.
+"""The four scenes of the tutorial against closed forms: our own scripts, and the tutorial's if it
+lies beside us.
 
-Tolerances: 1e-9 s and 1e-9 m are what the scenes are bound to. A bounce located to 1e-11 s moves a height by
-14 m/s * 1e-11 s = 1.4e-10 m, so the second follows from the first with room to spare.
+Tolerances: 1e-9 s and 1e-9 m are what the scenes are bound to. A bounce located to 1e-11 s moves a
+height by 14 m/s * 1e-11 s = 1.4e-10 m, so the second follows from the first with room to spare.
 """
 
 import re
@@ -41,7 +42,9 @@ def scenes(request, tmp_path_factory):
     found = {}
     for name in ("ball_leaf.py", "ball_zeno.py"):
         own = HERE / "scenes" / name
-        script = own if request.param == "own" else seed_script(name, tmp_path_factory.mktemp("seed"))
+        script = (
+            own if request.param == "own" else seed_script(name, tmp_path_factory.mktemp("seed"))
+        )
         for key, value in runpy.run_path(str(script)).items():
             if key.startswith("scene"):
                 found[key] = value[2] if isinstance(value, tuple) else value
@@ -55,7 +58,9 @@ def height(results):
 
 
 def bounces(results):
-    """Every time at which the ball was turned round: rows whose jump went up, with the height on the floor."""
+    """Every time at which the ball was turned round: rows whose jump went up, with the height on
+    the floor.
+    """
     names = {event.name for event in results.events}
     return results.events.times("reset" if "reset" in names else min(names))
 
@@ -65,7 +70,9 @@ def test_every_row_has_the_exact_height(scenes, scene):
     results = scenes[scene]
     assert results.status == "reached_end"
     assert len(results.time) > 1000  # max_minor_step_size says so
-    np.testing.assert_allclose(height(results), EXACT[scene].heights(results.time), rtol=0, atol=1e-9)
+    np.testing.assert_allclose(
+        height(results), EXACT[scene].heights(results.time), rtol=0, atol=1e-9
+    )
 
 
 @pytest.mark.parametrize("scene", EXACT)
@@ -75,7 +82,9 @@ def test_rows_are_in_order_and_the_span_is_whole(scenes, scene):
     assert results.time[-1] == results.context.time
     assert np.all(np.diff(results.time) >= 0)
     assert np.all(np.diff(results.jump) >= 0)
-    assert len(set(zip(results.time.tolist(), results.jump.tolist(), strict=True))) == len(results.time)
+    assert len(set(zip(results.time.tolist(), results.jump.tolist(), strict=True))) == len(
+        results.time
+    )
 
 
 @pytest.mark.parametrize("scene", ["scene1", "scene2"])
@@ -89,13 +98,25 @@ def test_bounces_of_the_leaf(scenes, scene):
 def test_elastic_ball_keeps_its_energy(scenes):
     y, v = scenes["scene1"].outputs["y"].T
     energy = 9.81 * y + 0.5 * v * v
-    np.testing.assert_allclose(energy, 98.1, rtol=1e-9)  # rtol of the run is 1e-10 a step, exact for a parabola
+    np.testing.assert_allclose(
+        energy, 98.1, rtol=1e-9
+    )  # rtol of the run is 1e-10 a step, exact for a parabola
 
 
 def reset_times(results):
     """Of the integrator of the height; both are reset together."""
-    block = next(event.block for event in results.events if event.name == "reset" and event.block.endswith(("_y", "height")))
-    return np.array([e.time for e in results.events if e.block == block and e.name == "reset" and e.kind == "zero_crossing"])
+    block = next(
+        event.block
+        for event in results.events
+        if event.name == "reset" and event.block.endswith(("_y", "height"))
+    )
+    return np.array(
+        [
+            e.time
+            for e in results.events
+            if e.block == block and e.name == "reset" and e.kind == "zero_crossing"
+        ]
+    )
 
 
 def of_kind(results, kind):

@@ -74,7 +74,9 @@ def test_two_runs_at_once_are_both_inside():
         return saltus.simulate(system, system.create_context(), (0.0, 0.6)).status
 
     with ThreadPoolExecutor(2) as pool:
-        assert [task.result() for task in [pool.submit(one), pool.submit(one)]] == ["reached_end"] * 2
+        assert [task.result() for task in [pool.submit(one), pool.submit(one)]] == [
+            "reached_end"
+        ] * 2
     assert len(met) == 2
 
 
@@ -84,7 +86,11 @@ def test_many_runs_of_one_system_give_the_bits_of_one():
     heights = [5.0 + i for i in range(4)]
 
     def one(height):
-        return run(ball, (0.0, 12.0), context.with_continuous_state([height, 0.0]).with_parameter("g", height))
+        return run(
+            ball,
+            (0.0, 12.0),
+            context.with_continuous_state([height, 0.0]).with_parameter("g", height),
+        )
 
     alone = [one(height) for height in heights]
     with ThreadPoolExecutor(4) as pool:
@@ -105,7 +111,14 @@ def test_ctrl_c(make):
     timer = threading.Timer(0.3, press)
     timer.start()
     with pytest.raises(KeyboardInterrupt) as caught:
-        saltus.simulate(system, system.create_context(), (0.0, 1e9), recorded_signals={"y": system.output()} if system.output_names else None, record_events=False, save_at=[1e9])
+        saltus.simulate(
+            system,
+            system.create_context(),
+            (0.0, 1e9),
+            recorded_signals={"y": system.output()} if system.output_names else None,
+            record_events=False,
+            save_at=[1e9],
+        )
     assert time.perf_counter() - stamp[0] < 0.2
     results = caught.value.results
     assert results.status == "interrupted"

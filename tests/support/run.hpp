@@ -16,7 +16,7 @@ inline constexpr std::array methods{"dopri5", "adams", "bdf", "auto"};
 
 inline constexpr double eps = std::numeric_limits<double>::epsilon();
 inline constexpr double infinite = std::numeric_limits<double>::infinity();
-inline constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+inline constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 /// The message of the `Expected` that `act` throws.
 template <class Expected, class Act>

@@ -25,9 +25,10 @@ struct BouncingBallDiagramParameters {
 
 inline Diagram make_bouncing_ball_diagram(const BouncingBallDiagramParameters& with = {}) {
   DiagramBuilder builder;
-  const Integrator::Options reset{.enable_reset = true, .enable_external_reset = true};
-  auto& v = builder.add<Integrator>("integrator_v", reset);
-  auto& y = builder.add<Integrator>("integrator_y", reset);
+  auto& v = builder.add<Integrator>("integrator_v",
+                                    Integrator::Options{.enable_reset = true, .enable_external_reset = true});
+  auto& y = builder.add<Integrator>("integrator_y",
+                                    Integrator::Options{.enable_reset = true, .enable_external_reset = true});
   auto& gravity = builder.add<Constant>("constant", -with.g);
   auto& below = builder.add<Comparator>("comparator", "<");
   auto& rebound = builder.add<Gain>("reset_v", -with.e);

@@ -143,6 +143,7 @@ class Machine {
   std::vector<GroupCall> groups_;
   std::vector<int> active_;
   bool has_jacobian_ = false;
+  Eigen::VectorXd jacobian_block_;  // of one leaf
 };
 
 }  // namespace saltus

@@ -100,25 +100,28 @@ inline void Machine::select_guards() {
 /// The leaves' Jacobians make up the whole one if no derivative depends on another leaf's continuous state.
 inline void Machine::find_jacobian() {
   has_jacobian_ = !plan_->odes.empty() && plan_->derivatives.empty();
+  Index widest = 0;
   for (int leaf : plan_->odes) {
     const PlanLeaf& of = plan_->leaves[static_cast<std::size_t>(leaf)];
     has_jacobian_ = has_jacobian_ && static_cast<bool>(of.declared().continuous.jacobian);
+    widest = std::max(widest, of.nx);
     for (int input : detail::read_inputs(of.declared().continuous.inputs, of)) {
       has_jacobian_ = has_jacobian_ && plan_->node(input).rate != Rate::continuous;
     }
   }
+  if (has_jacobian_) jacobian_block_.setZero(widest * widest);
 }
 
 inline void Machine::jacobian(double t, const double* state, MatrixRef out) {
   ++jacobian_calls;
   bases_[0] = state;
   out.setZero();
-  Eigen::MatrixXd block;
   for (const OdeCall& ode : odes_) {
     if (held[ode.leaf]) continue;
     const Index at_x = x_offsets_[ode.leaf], n = views_[ode.leaf].x.size();
-    block.setZero(n, n);
-    plan_->leaves[ode.leaf].declared().continuous.jacobian(*ode.system, view(ode.leaf, t), {block.data(), n, n});
+    jacobian_block_.head(n * n).setZero();
+    const MatrixRef block(jacobian_block_.data(), n, n);
+    plan_->leaves[ode.leaf].declared().continuous.jacobian(*ode.system, view(ode.leaf, t), block);
     out.block(at_x, at_x, n, n) = block;
   }
 }

@@ -21,6 +21,7 @@ class Instant {
     bool changed = false;   ///< some pass changed something
     bool restart = false;   ///< the solver's picture of f is no longer right
     bool terminal = false;
+    bool chatters = false;  ///< it does not end, though no state was written
     double horizon = std::numeric_limits<double>::infinity();  ///< [s] within which an event may follow
   };
 
@@ -75,6 +76,7 @@ class Instant {
   void arm_held(const GuardGroup& group, std::size_t slot);
   Departure::Side side_of(const GuardGroup& group, Index slot, double hair, int expected);
   bool rests(const GuardGroup& group, Index slot, int from);
+  bool turned_round(const GuardGroup& group, int side);
   void hold(int leaf, ZenoMonitor& monitor, int source, double predicted);
   bool hold_edges_of(int node);
   void release(int leaf, ZenoMonitor& monitor, int source);
@@ -118,10 +120,11 @@ class Instant {
   std::vector<char> frozen_, resting_;   // slots of relations: their side is kept in this instant, through the hold
   std::vector<signed char> from_;          // slots: the side the last crossing came from
   std::vector<int> edges_fired_;           // in this instant
-  bool wrote_x_ = false;                   // some pass of this instant did
+  bool wrote_ = false, wrote_x_ = false;   // some pass of this instant wrote states, continuous state
+  bool entered_ = false;                   // some pass of this instant entered a mode
   bool flowed_ = false;                    // departure_ stands at the present (t, x)
   Eigen::VectorXd x_minus_, z_minus_, x_next_, z_next_, x_log_, y_before_;
-  std::vector<int> modes_next_;
+  std::vector<int> modes_next_, modes_before_;
   std::vector<double> g_, g_minus_;  // guards now, and before the instant
   std::vector<int> chain_;  // sources of what happened in this instant
 };

@@ -125,6 +125,10 @@ inline void Instant::arm_crossing(const GuardGroup& group, std::size_t k, bool a
   const Departure::Side flow = side_of(group, group.slot, fired_[k] ? 4.0 * std::abs(g_minus_[k]) : 0.0, fired_[k] ? from : 0);
   slot.band = flow.rounding;
   const bool has_effect = crossing.reset_map || crossing.end_mode;
+  const bool its_side = group.direction == Direction::crosses_zero ? flow.side != 0 : flow.side == falls;
+  if (entered_ && !was_active_[k] && has_effect && its_side && turned_round(group, flow.side)) {
+    firings_.push_back({static_cast<int>(k), -flow.side});  // sliding: both modes lead to the surface
+  }
   if (!fired_[k]) {
     // At zero without having fired. At the start of a run a guard with a reset map that the flow takes to its firing
     // side is in contact: it fires at once. All others wait until they have been clearly off zero.
@@ -142,7 +146,7 @@ inline void Instant::arm_crossing(const GuardGroup& group, std::size_t k, bool a
       arm_held(group, k);
       return;
     }
-    slot.side = static_cast<signed char>(from), slot.fresh = true;  // no monitor: it fires again as soon as it can
+    slot.side = static_cast<signed char>(from), slot.fresh = true, slot.band = std::abs(g_[k]);  // fires again as soon as it can
     return;
   }
   slot.side = static_cast<signed char>(flow.side != 0 ? flow.side : from);
@@ -190,6 +194,16 @@ inline bool Instant::rests(const GuardGroup& group, Index slot, int from) {
   departure_.from(t_, x_minus_, longest_);
   flowed_ = false;
   return !(onward > 1e-9 * std::abs(departure_.slope(group, slot)));
+}
+
+/// Whether the flow of the mode before led a guard that stands at zero the other way: both lead to the same surface.
+inline bool Instant::turned_round(const GuardGroup& group, int side) {
+  std::swap(machine_->modes, modes_before_);
+  departure_.from(t_, machine_->x, longest_);
+  const double before = departure_.slope(group, group.slot);
+  std::swap(machine_->modes, modes_before_);
+  flowed_ = false;
+  return side > 0 ? before < 0.0 : before > 0.0;
 }
 
 inline void Instant::hold(int leaf_index, ZenoMonitor& monitor, int source, double predicted) {

@@ -14,7 +14,7 @@ inline Instant::Outcome Instant::run(double t, const std::vector<int>& due, doub
   outcome_ = {};
   std::ranges::fill(fired_, 0), std::ranges::fill(frozen_, 0);
   edges_fired_.clear(), actions_.clear(), chain_.clear();
-  wrote_x_ = flowed_ = false;
+  wrote_ = wrote_x_ = flowed_ = entered_ = false;
   firings_ = watch_->fired;
   watch_->fired.clear();
   x_minus_ = x_next_ = machine_->x, z_minus_ = machine_->z, y_before_ = machine_->y, g_minus_ = watch_->g;
@@ -25,7 +25,11 @@ inline Instant::Outcome Instant::run(double t, const std::vector<int>& due, doub
   bool armed = !at_start;
   std::ranges::fill(carried_, 0);
   for (pass_ = 0;; ++pass_) {
-    if (pass_ >= options_->max_passes) throw_no_end();
+    if (pass_ >= options_->max_passes) {
+      if (wrote_) throw_no_end();
+      outcome_.chatters = true;  // relations or modes only: a surface that both sides lead to
+      break;
+    }
     const bool flipped = flip_relations();
     machine_->evaluate_instant(t);
     const bool released = collect_edges();
@@ -212,6 +216,7 @@ inline bool Instant::run_reset(const Action& action, const ResetMap& map) {
                                "' set a state that is not finite (NaN or Inf)"), t_, of.path);
   }
   if (next.wrote_continuous_state()) wrote_x_ = outcome_.restart = true;
+  wrote_ = wrote_ || next.wrote_continuous_state() || next.wrote_discrete_state();
   const auto shows_z = [&](int i) {  // a held output that shows it is found by its value, one that also reads x or t is not
     return plan().node(i).leaf == action.leaf && !plan().node(i).relation && has(plan().output_of(plan().node(i)).reads, Reads::discrete_state);
   };
@@ -224,7 +229,9 @@ inline void Instant::commit() {
   machine_->x = x_next_;
   machine_->z = z_next_;
   if (modes_next_ != machine_->modes) {
+    modes_before_ = machine_->modes;
     machine_->modes = modes_next_;
+    entered_ = true;
     outcome_.restart = true;
     select_guards();
   }

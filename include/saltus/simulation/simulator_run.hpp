@@ -120,7 +120,8 @@ inline Status Simulator::settle(StopReason reason, double t_end, bool at_start) 
   const Instant::Outcome outcome = instant_.run(time_, due_, t_end - time_, at_start);
   if (outcome.terminal) return end(Status::terminal);
   if (outcome.restart && solver_started_) solver_->restart(time_, machine_.x, {.horizon = outcome.horizon});
-  if (reason == StopReason::root && chatters()) {
+  if (outcome.chatters) recent_events_ += options_.max_passes;
+  if (outcome.chatters || (reason == StopReason::root && chatters())) {
     const Event last = results_.events.empty() ? Event{} : results_.events[results_.events.size() - 1];
     return end(Status::chattering,
                text("t = ", time_, " s: guard '", last.name, "' of block '", last.block, "' fired ", recent_events_,
@@ -174,7 +175,7 @@ inline Status Simulator::end(Status status, std::string message) {
 
 /// Context, last row and counts.
 inline void Simulator::finish() {
-  const bool mid_step = solver_started_ && results_.status != Status::failed && results_.status != Status::terminal;
+  const bool mid_step = solver_started_ && results_.status != Status::terminal;
   if (mid_step) machine_.x = solver_->state();
   if (results_.status != Status::failed) record(time_, machine_.x.data());
   machine_.at_home();

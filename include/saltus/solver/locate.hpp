@@ -98,9 +98,18 @@ class Locator {
       const bool stays = !slot.fresh && (slot.side > 0 ? high_[k] > 0.0 : slot.side < 0 && high_[k] < 0.0);
       watch_->g[k] = high_[k];
       if (stays) continue;
+      if (std::isnan(high_[k])) throw_not_a_number(k);
       slot.follow(high_[k]);
       limits_[i] = slot.limits();
     }
+  }
+
+  [[noreturn]] void throw_not_a_number(std::size_t k) const {
+    const auto holds = [k](const GuardGroup& g) { return static_cast<Index>(k) >= g.slot && static_cast<Index>(k) < g.slot + g.size; };
+    const GuardGroup& group = *std::ranges::find_if(machine_->plan().guards, holds);
+    throw SimulationError(text("t = ", t0_, " s: guard '", group.name, "' is not finite (NaN) in the step that begins here; "
+                               "check it at this state"),
+                          t0_, machine_->plan().leaves[static_cast<std::size_t>(group.leaf)].path);
   }
 
   /// Narrows [low, high], where no guard has fired at low and `high_` shows that one has at high.

@@ -93,11 +93,17 @@ inline double first_step(Machine& machine, double t, const Eigen::VectorXd& x, c
                         t, block);
 }
 
+/// Throws if a derivative is not finite at (t, x), or just behind t, where no step could end.
+inline void require_finite_near(Machine& machine, double t, double h, const double* x) {
+  for (const double ahead : {0.0, std::max(16.0 * h, 64.0 * std::numeric_limits<double>::epsilon() * std::abs(t))}) {
+    if (!machine.not_finite(t + ahead, x).empty()) throw_not_finite(machine, t + ahead, x);
+  }
+}
+
 [[noreturn]] inline void throw_step_too_small(Machine& machine, double t, double h, const double* x,
                                               const SolverOptions& options) {
-  const std::string block = machine.not_finite(t, x);
-  if (!block.empty()) throw_not_finite(machine, t, x);
-  if (h <= options.min_step) {
+  require_finite_near(machine, t, h, x);
+  if (options.min_step > 0.0 && h <= options.min_step) {
     throw SimulationError(text("t = ", t, " s: the tolerance needs a step of ", h, " s, below min_minor_step_size = ",
                                options.min_step, " s; lower that, or loosen rtol and atol"), t);
   }

@@ -1,8 +1,11 @@
-"""Blocks that calculate with their inputs. One input is called 'in', several 'in_0', 'in_1', ...; likewise outputs."""
+"""Blocks that calculate with their inputs. One input is called 'in', several 'in_0', 'in_1', ...;
+likewise outputs.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Any
 
 from numpy.typing import ArrayLike
 
@@ -27,17 +30,25 @@ class Offset(Block, _core.Offset):
 
 
 class Adder(Block, _core.Adder):
-    """y = ±u_0 ±u_1 ..., one sign for each input: "+-" is u_0 - u_1. A number n of inputs is a sum of n."""
+    """y = ±u_0 ±u_1 ..., one sign for each input: "+-" is u_0 - u_1. A number n of inputs is a sum
+    of n.
+    """
 
     def __init__(self, operators: str | int = "++", *, name: str | None = None):
-        super().__init__(self._named(name), operators if isinstance(operators, str) else "+" * operators)
+        super().__init__(
+            self._named(name), operators if isinstance(operators, str) else "+" * operators
+        )
 
 
 class Product(Block, _core.Product):
-    """y = 1 */ u_0 */ u_1 ..., one operator for each input: "*/" is u_0 / u_1. A number n of inputs is a product of n."""
+    """y = 1 */ u_0 */ u_1 ..., one operator for each input: "*/" is u_0 / u_1. A number n of inputs
+    is a product of n.
+    """
 
     def __init__(self, operators: str | int = "**", *, name: str | None = None):
-        super().__init__(self._named(name), operators if isinstance(operators, str) else "*" * operators)
+        super().__init__(
+            self._named(name), operators if isinstance(operators, str) else "*" * operators
+        )
 
 
 class Abs(Block, _core.Abs):
@@ -48,10 +59,16 @@ class Abs(Block, _core.Abs):
 
 
 class Saturate(Block, _core.Saturate):
-    """y = min(max(u, lower_limit), upper_limit), entry by entry. Parameters: the limits that are given, one or both."""
+    """y = min(max(u, lower_limit), upper_limit), entry by entry. Parameters: the limits that are
+    given, one or both.
+    """
 
     def __init__(
-        self, lower_limit: ArrayLike | None = None, upper_limit: ArrayLike | None = None, *, name: str | None = None
+        self,
+        lower_limit: ArrayLike | None = None,
+        upper_limit: ArrayLike | None = None,
+        *,
+        name: str | None = None,
     ):
         super().__init__(self._named(name), lower_limit, upper_limit)
 
@@ -73,16 +90,17 @@ class Demultiplexer(Block, _core.Demultiplexer):
 class ReduceBlock(LeafSystem):
     """y = f((u_0, u_1, ...)): any Python function of the tuple of all inputs, floats or arrays.
 
-    `function` must not change the world: it is called as often as the engine likes, and once before the run, with
-    inputs at zero, to see what it gives: how many numbers, and whether they are booleans. A boolean that reaches a
-    derivative or a reset is located by bisection; a `Comparator`, which Saltus can see into, is faster. `shape` and
-    `boolean` say it where that call would not.
+    `function` must not change the world: it is called as often as the engine likes, and once before
+    the run, with inputs at zero, to see what it gives: how many numbers, and whether they are
+    booleans. A boolean that reaches a derivative or a reset is located by bisection; a
+    `Comparator`, which Saltus can see into, is faster. `shape` and `boolean` say it where that call
+    would not.
     """
 
     def __init__(
         self,
         n_inputs: int,
-        function: Callable[[tuple], ArrayLike],
+        function: Callable[[tuple[Any, ...]], ArrayLike],
         *,
         shape: int | tuple[int, ...] | None = None,
         boolean: bool | None = None,
@@ -97,7 +115,9 @@ class ReduceBlock(LeafSystem):
 
 
 class FunctionBlock(LeafSystem):
-    """y = f(u): any Python function of the one input, a float or an array. Otherwise like `ReduceBlock`."""
+    """y = f(u): any Python function of the one input, a float or an array. Otherwise like
+    `ReduceBlock`.
+    """
 
     def __init__(
         self,

@@ -14,12 +14,14 @@ class Ball(saltus.LeafSystem):
         self.declare_continuous_state_output(name="ball:state")
         self.declare_dynamic_parameter("gravity", gravity)
         self.declare_zero_crossing(
-            guard=self.height, reset_map=self.bounce, name="bounce", direction="positive_then_non_positive"
+            guard=self.height,
+            reset_map=self.bounce,
+            name="bounce",
+            direction="positive_then_non_positive",
         )
 
     def fly(self, time, state, **params):
-        height, velocity = state.continuous_state
-        return np.array([velocity, -params["gravity"]])
+        return np.array([state.continuous_state[1], -params["gravity"]])
 
     def height(self, time, state, **params):
         return state.continuous_state[0]
@@ -32,7 +34,9 @@ class Ball(saltus.LeafSystem):
 def run(restitution, end, steps):
     ball = Ball(gravity=9.81, restitution=restitution)
     context = ball.create_context().with_continuous_state(np.array([10.0, 0.0]))
-    options = SimulatorOptions(max_major_steps=steps, atol=1e-12, rtol=1e-10, max_minor_step_size=1e-3)
+    options = SimulatorOptions(
+        max_major_steps=steps, atol=1e-12, rtol=1e-10, max_minor_step_size=1e-3
+    )
     return saltus.simulate(
         ball, context, (0.0, end), options=options, recorded_signals={"y": ball.output_ports[0]}
     )

@@ -1,4 +1,6 @@
-"""A ball wired up from blocks, over a floor that falls away: it comes to rest on it by infinitely many bounces."""
+"""A ball wired up from blocks, over a floor that falls away: it comes to rest on it by infinitely
+many bounces.
+"""
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -12,7 +14,11 @@ def ball_over(floor, gravity, restitution):
     velocity, height = (
         builder.add(
             Integrator(
-                initial_state=0.0, enable_reset=True, enable_external_reset=True, name=name, zeno_tolerance=1e-6
+                initial_state=0.0,
+                enable_reset=True,
+                enable_external_reset=True,
+                name=name,
+                zeno_tolerance=1e-6,
             )
         )
         for name in ("velocity", "height")
@@ -39,7 +45,11 @@ def run(floor, height, restitution, end, steps):
     block = diagram["height"].system_id
     context = context.with_subcontext(block, context[block].with_continuous_state(height))
     options = SimulatorOptions(
-        max_major_steps=steps, atol=1e-8, rtol=1e-6, max_major_step_length=1e-1, max_minor_step_size=1e-3
+        max_major_steps=steps,
+        atol=1e-8,
+        rtol=1e-6,
+        max_major_step_length=1e-1,
+        max_minor_step_size=1e-3,
     )
     recorded = {"y": diagram["height"].output_ports[0], "v": diagram["velocity"].output_ports[0]}
     return saltus.simulate(diagram, context, (0.0, end), options=options, recorded_signals=recorded)

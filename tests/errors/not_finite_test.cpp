@@ -1,0 +1,128 @@
+// NaN and Inf from a derivative, a guard, an output or a reset map end the run and are named: which block, which t.
+#include <chrono>
+
+#include "support/leaves.hpp"
+#include "support/quiet.hpp"
+
+using namespace saltus;
+using namespace support;
+
+namespace {
+
+struct Ended {
+  std::string message, printed, block;
+  double time = not_a_number;
+  bool partial = false, quick = false;
+};
+
+/// Runs to t = 2 and reports how a SimulationError ended it.
+Ended run(const System& system, const char* method, SimulatorOptions options = {}) {
+  Ended ended;
+  options.ode_solver_method = method;
+  const auto start = std::chrono::steady_clock::now();
+  ended.printed = printed_by([&] {
+    try {
+      simulate(system, system.create_context(), {0.0, 2.0}, options);
+      ended.message = "no exception";
+    } catch (const SimulationError& error) {
+      ended.message = error.what(), ended.time = error.time(), ended.block = error.block();
+      ended.partial = error.results() != nullptr;
+    } catch (const std::exception& error) {
+      ended.message = std::string("another exception: ") + error.what();
+    }
+  });
+  ended.quick = std::chrono::steady_clock::now() - start < std::chrono::seconds(5);
+  return ended;
+}
+
+}  // namespace
+
+TEST_CASE("a derivative that becomes NaN or Inf is named with its block and its time", "[errors]") {
+  const auto* method = GENERATE(from_range(methods));
+  const double bad = GENERATE(from_range(std::vector{not_a_number, infinite, -infinite}));
+  INFO("method " << method << ", " << bad);
+  DiagramBuilder builder;
+  builder.add<Leaf>("good", [](Leaf& l) { declare_ramp(l); });
+  builder.add<Leaf>("bad", [=](Leaf& l) {
+    l.declare_continuous_state({.initial = vec({1.0}), .ode = [=](const At& at) { return at.time > 1.0 ? bad : -at.x[0]; }});
+  });
+  const Diagram diagram = builder.build();
+  const Ended ended = run(diagram, method);
+  INFO(ended.message);
+  CHECK(contains(ended.message, "derivative of block 'bad' is not finite (NaN or Inf)"));
+  CHECK(contains(ended.message, "check its equation and parameters"));
+  CHECK(ended.block == "bad");
+  CHECK(std::abs(ended.time - 1.0) < 1e-3);
+  CHECK(ended.partial);
+  CHECK(ended.quick);
+  CHECK(ended.printed == "");
+}
+
+TEST_CASE("a derivative that is NaN from the start is named at t0", "[errors]") {
+  const auto* method = GENERATE(from_range(methods));
+  INFO("method " << method);
+  const Leaf leaf("root of minus one", [](Leaf& l) {
+    l.declare_continuous_state({.initial = vec({-1.0}), .ode = [](const At& at) { return std::sqrt(at.x[0]); }});
+  });
+  const Ended ended = run(leaf, method);
+  CHECK(contains(ended.message, "t = 0 s: the derivative of block 'root of minus one' is not finite"));
+  CHECK(ended.printed == "");
+}
+
+TEST_CASE("a reset map that sets NaN is named with its event", "[errors]") {
+  const auto* method = GENERATE(from_range(methods));
+  INFO("method " << method);
+  const Leaf leaf("leaf", [](Leaf& l) {
+    declare_ramp(l);
+    l.declare_zero_crossing({.name = "jump", .guard = [](const At& at) { return at.x[0] - 1.0; },
+                             .reset_map = [](const At&, Next& next) { next.set_continuous_state({not_a_number}); }});
+  });
+  const Ended ended = run(leaf, method);
+  INFO(ended.message);
+  CHECK(contains(ended.message, "'leaf.jump' set a state that is not finite (NaN or Inf)"));
+  CHECK(ended.block == "leaf");
+  CHECK(std::abs(ended.time - 1.0) < 1e-9);
+}
+
+TEST_CASE("a guard that becomes NaN is an error, not an event", "[errors]") {
+  const auto* method = GENERATE(from_range(methods));
+  INFO("method " << method);
+  const Leaf leaf("leaf", [](Leaf& l) {
+    declare_ramp(l);
+    l.declare_zero_crossing({.name = "level", .guard = [](const At& at) { return at.x[0] > 1.0 ? not_a_number : 5.0; },
+                             .reset_map = [](const At&, Next& next) { next.set_continuous_state({0.0}); }});
+  });
+  const Ended ended = run(leaf, method);
+  INFO(ended.message);
+  CHECK(contains(ended.message, "'leaf.level'"));
+  CHECK(contains(ended.message, "not finite"));
+  CHECK(ended.block == "leaf");
+}
+
+TEST_CASE("a recorded output that is NaN is an error that names it", "[errors]") {
+  const auto* method = GENERATE(from_range(methods));
+  INFO("method " << method);
+  const Leaf leaf("leaf", [](Leaf& l) {
+    declare_ramp(l);
+    l.declare_output_port({.name = "log", .calc = [](const At& at) { return at.time > 1.0 ? not_a_number : 1.0; }});
+  });
+  const Ended ended = run(leaf, method, {.recorded_signals = {{"log", leaf.output("log")}}});
+  INFO(ended.message);
+  CHECK(contains(ended.message, "'leaf.log'"));
+  CHECK(contains(ended.message, "not finite"));
+}
+
+TEST_CASE("a bad value behind an event is not seen: the step is shortened", "[errors]") {
+  const auto* method = GENERATE(from_range(methods));
+  INFO("method " << method);
+  // Torricelli: the tank is empty at t = 1, and sqrt(h) is NaN beyond.
+  const Leaf tank("tank", [](Leaf& l) {
+    l.declare_continuous_state({.initial = vec({1.0}), .ode = [](const At& at) { return at.mode == 0 ? -2.0 * std::sqrt(at.x[0]) : 0.0; }});
+    l.declare_default_mode(0);
+    l.declare_zero_crossing({.name = "empty", .guard = [](const At& at) { return at.x[0] - 1e-6; }, .start_mode = 0, .end_mode = 1});
+  });
+  const auto results = simulate(tank, tank.create_context(), {0.0, 2.0}, {.ode_solver_method = method, .throw_errors = false});
+  CHECK(results.message == "");
+  REQUIRE(results.events.size() == 1);
+  CHECK(std::abs(results.events[0].time - (1.0 - 1e-3)) < 1e-4);
+}
