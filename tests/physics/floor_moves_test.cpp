@@ -89,6 +89,28 @@ TEST_CASE("a floor that steps up past a flying ball takes it along", "[physics][
   }
 }
 
+TEST_CASE("a ball that a floor took along bounces on it and comes to rest there", "[physics][ball][zeno]") {
+  const auto* method = GENERATE(from_range(methods));
+  for (const Scene& scene : all_forms_over({.g = g, .e = 0.5}, [&] { return step(0.0, 3.0, 0.1); })) {
+    INFO(scene.form << ", method " << method);
+    const auto results = simulate(*scene.system, scene.context(1.0, 0.0), {0.0, 0.4},
+                                  {.rtol = 1e-9, .atol = 1e-11, .ode_solver_method = method});
+    // Up with 0.49 m/s at 0.1 s: flights of 0.1, 0.05, ... s, at rest at 0.3 s.
+    const BallExact exact{g, 0.5, 0.5 * g * 0.01};
+    std::vector<double> times;
+    for (std::size_t i = 0; i < results.events.size(); ++i) {
+      const Event event = results.events[i];
+      if (event.kind == EventKind::zero_crossing && (event.name == "bounce" || event.block == "integrator_y")) times.push_back(event.time);
+    }
+    REQUIRE(times.size() > 5);
+    for (int k = 1; k <= 5; ++k) {
+      CHECK_THAT(times[static_cast<std::size_t>(k - 1)], WithinAbs(exact.contact(k), 1e-6));
+    }
+    CHECK_THAT(results.context.continuous_state()[0], WithinAbs(3.0, 1e-8));
+    CHECK(count(results.events, EventKind::zeno_enter) == scene.monitors);
+  }
+}
+
 TEST_CASE("of two balls in one diagram one rests while the other bounces", "[physics][ball][zeno]") {
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);

@@ -105,6 +105,18 @@ TEST_CASE("the tutorial's scenes are right to 1e-9 in time and height at its own
   if (number == 2) CHECK(a.release_error == 0.0);
 }
 
+TEST_CASE("balls that start on the floor, or are thrown at it, follow the closed form into their rest", "[physics][models]") {
+  const double e = GENERATE(0.0, 0.5, 1.0);
+  const double v0 = GENERATE(0.0, 5.0, -5.0);
+  INFO("e " << e << ", v0 " << v0);
+  const Scene scene = models::bouncing_ball({.e = e, .y0 = 0.0, .v0 = v0, .t_end = 3.0});
+  const Achieved a = achieved(scene, simulate(scene));
+  // Parabolas again: some 20 locations of 100 eps (t + h) each, t + h <= 6, speeds up to 5.
+  CHECK(a.error <= 5 * 20 * 100 * 2.3e-16 * 6);
+  CHECK(a.event_mismatch == 0);
+  if (e < 1.0 || v0 == 0.0) CHECK(a.accumulation_error <= 20 * 100 * 2.3e-16 * 6);
+}
+
 TEST_CASE("Robertson's reaction runs to 4e10 s", "[physics][models]") {
   const auto* method = GENERATE("bdf", "auto");
   const double rtol = GENERATE(1e-4, 1e-6, 1e-8);

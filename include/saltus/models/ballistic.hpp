@@ -76,15 +76,15 @@ inline Ballistic::Ballistic(const BallisticProblem& problem, double t_end) : pro
 
 /// Adds the flights of one series; true if the ball comes to rest before the end of time.
 inline bool Ballistic::fly() {
-  const Real g = problem_.g, e = problem_.e, never = std::numeric_limits<Real>::infinity();
+  const Real g = problem_.g, e = problem_.e;
   Flights& flights = flights_.back();
   EventSeries& series = bounces_.series.back();
   for (;;) {
     const Flight f = flights.back();
-    const bool from_floor = f.y == floor();
-    const Real rest = !from_floor || f.v <= 0 ? (from_floor ? f.begin : never) : e < 1 ? f.begin + 2 * f.v / (g * (1 - e)) : never;
-    // Flights shorter than 1e-18 s are the rest of the series.
-    if (from_floor && 2 * f.v < 1e-18L * g) {
+    // Flights from the floor that are shorter than 1e-18 s are the rest of the series. A ball that starts on the floor
+    // touches it first.
+    if (flights.size() > 1 && 2 * f.v < 1e-18L * g) {
+      const Real rest = e < 1 ? f.begin + 2 * f.v / (g * (1 - e)) : f.begin;
       if (rest <= t_end_) series.accumulation = static_cast<double>(rest);
       return rest <= t_end_;
     }

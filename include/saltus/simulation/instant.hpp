@@ -125,7 +125,7 @@ class Instant {
   bool flowed_ = false;                    // departure_ stands at the present (t, x)
   Eigen::VectorXd x_minus_, z_minus_, x_next_, z_next_, x_log_, y_before_;
   std::vector<int> modes_next_, modes_before_;
-  std::vector<double> g_, g_minus_;  // guards now, and before the instant
+  std::vector<double> g_, g_minus_;  // guards now, and what the location of a root left of them
   std::vector<int> chain_;  // sources of what happened in this instant
 };
 

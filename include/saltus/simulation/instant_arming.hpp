@@ -128,6 +128,7 @@ inline void Instant::arm_crossing(const GuardGroup& group, std::size_t k, bool a
   const bool its_side = group.direction == Direction::crosses_zero ? flow.side != 0 : flow.side == falls;
   if (entered_ && !was_active_[k] && has_effect && its_side && turned_round(group, flow.side)) {
     firings_.push_back({static_cast<int>(k), -flow.side});  // sliding: both modes lead to the surface
+    return;
   }
   if (!fired_[k]) {
     // At zero without having fired. At the start of a run a guard with a reset map that the flow takes to its firing

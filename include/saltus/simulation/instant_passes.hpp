@@ -17,7 +17,9 @@ inline Instant::Outcome Instant::run(double t, const std::vector<int>& due, doub
   wrote_ = wrote_x_ = flowed_ = entered_ = false;
   firings_ = watch_->fired;
   watch_->fired.clear();
-  x_minus_ = x_next_ = machine_->x, z_minus_ = machine_->z, y_before_ = machine_->y, g_minus_ = watch_->g;
+  x_minus_ = x_next_ = machine_->x, z_minus_ = machine_->z, y_before_ = machine_->y;
+  std::ranges::fill(g_minus_, 0.0);
+  for (const Firing& root : firings_) g_minus_[static_cast<std::size_t>(root.slot)] = watch_->g[static_cast<std::size_t>(root.slot)];
   for (int event : due) {
     const ScheduledEvent& scheduled = plan().schedule[static_cast<std::size_t>(event)];
     actions_.push_back({scheduled.leaf, Cause::time, event, -1, 0, false});

@@ -7,7 +7,6 @@
 #include <string>
 #include <utility>
 
-#include "saltus/solver/each.hpp"
 #include "saltus/solver/step_size.hpp"
 #include "saltus/solver/step_solver.hpp"
 #include "saltus/solver/tableau.hpp"
@@ -25,8 +24,7 @@ class RungeKutta final : public StepSolver<RungeKutta<Method>> {
     if (!dense_ready_) prepare_dense();
     const double s = u / length_, r = 1.0 - s;
     const double *x0 = x0_.data(), *c = dense_.data();
-    const Index n = n_;
-    detail::each(n, [=](Index i) { x[i] = x0[i] + s * (c[i] + r * (c[n + i] + s * (c[2 * n + i] + r * c[3 * n + i]))); });
+    for (Index i = 0, n = n_; i < n; ++i) x[i] = x0[i] + s * (c[i] + r * (c[n + i] + s * (c[2 * n + i] + r * c[3 * n + i])));
   }
 
   std::string method() const override { return Method::name; }
@@ -100,9 +98,9 @@ class RungeKutta final : public StepSolver<RungeKutta<Method>> {
   template <std::size_t I>
   void combine(double h, double* out) const {
     const double *k = k_.data(), *x0 = x0_.data();
-    detail::each(n_, [=, n = n_](Index i) {
+    for (Index i = 0, n = n_; i < n; ++i) {
       out[i] = x0[i] + h * dot<[] { return Method::a[I]; }>(k + i, n, std::make_index_sequence<I>{});
-    });
+    }
   }
   /// sum_j row[j] k_j, without the terms that are zero.
   template <auto Row, std::size_t... J>
@@ -117,11 +115,11 @@ class RungeKutta final : public StepSolver<RungeKutta<Method>> {
     const double *k = k_.data(), *x0 = x0_.data(), *x1 = x1_.data();
     const double rtol = options_.rtol, atol = options_.atol;
     double sum = 0.0;
-    detail::each(n_, [=, n = n_, &sum](Index i) {
+    for (Index i = 0, n = n_; i < n; ++i) {
       const double scale = atol + rtol * std::max(std::abs(x0[i]), std::abs(x1[i]));
       const double e = h * dot<[] { return Method::e; }>(k + i, n, std::make_index_sequence<Method::stages>{}) / scale;
       sum += e * e;
-    });
+    }
     const double error = n_ > 0 ? std::sqrt(sum / static_cast<double>(n_)) : 0.0;
     return std::isfinite(error) ? error : infinite;
   }
@@ -129,20 +127,21 @@ class RungeKutta final : public StepSolver<RungeKutta<Method>> {
   void prepare_dense() {
     const double *k = k_.data(), *x0 = x0_.data(), *x1 = x1_.data();
     double* c = dense_.data();
-    detail::each(n_, [=, n = n_, h = length_](Index i) {
+    const double h = length_;
+    for (Index i = 0, n = n_; i < n; ++i) {
       const double rise = x1[i] - x0[i], bend = h * k[i] - rise;
       c[i] = rise;
       c[n + i] = bend;
       c[2 * n + i] = rise - h * k[static_cast<Index>(last) * n + i] - bend;
       c[3 * n + i] = h * dot<[] { return Method::d; }>(k + i, n, std::make_index_sequence<Method::stages>{});
-    });
+    }
     dense_ready_ = true;
   }
 
   void require_finite_start() {
     // A sum is finite if all of its terms are, short of overflow: then the terms are asked one by one.
     double sum = 0.0;
-    detail::each(n_, [k = stage(0), &sum](Index i) { sum += k[i]; });
+    for (Index i = 0; i < n_; ++i) sum += stage(0)[i];
     if (!std::isfinite(sum) && !VectorView(stage(0), n_).allFinite()) throw_not_finite(*machine_, t0_, x0_.data());
   }
   void require_room(double h) {

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 
-#include "saltus/solver/each.hpp"
 #include "saltus/solver/solver.hpp"
 
 namespace saltus {
@@ -46,10 +45,11 @@ class StiffnessTest {
     const double* k6 = s.stage(s.last - 1);
     const double* k7 = s.stage(s.last);
     double numerator = 0.0, denominator = 0.0;
-    detail::each(s.n_, [&, x1 = s.x1_.data(), x6 = s.scratch_.data()](Index i) {  // scratch: the argument of stage 6
+    const double *x1 = s.x1_.data(), *x6 = s.scratch_.data();  // scratch: the argument of stage 6
+    for (Index i = 0, n = s.n_; i < n; ++i) {
       const double f = k7[i] - k6[i], x = x1[i] - x6[i];
       numerator += f * f, denominator += x * x;
-    });
+    }
     // Compared without division or root: h^2 f^2 > 3.25^2 x^2.
     if (denominator > 0.0 && h * h * numerator > 3.25 * 3.25 * denominator) {
       ++stiff_, calm_ = 0;
