@@ -113,40 +113,51 @@ py::object PythonLeaf::input(const At& at, int i) const {
   return read_only_array({u.size()}, u.data());
 }
 
-py::object PythonLeaf::call(int k, const At& at) const {
-  const Function& function = functions_[static_cast<std::size_t>(k)];
-  // Taken out, not shared: another thread may come while this one is in Python.
-  std::unique_ptr<Frame> frame = spare_ ? std::move(spare_) : std::make_unique<Frame>();
-  std::vector<PyObject*>& arguments = frame->arguments;
-  std::vector<py::object>& owned = frame->owned;
-  owned.clear();
+/// The inputs that the function gets, as Python objects that the frame owns.
+void PythonLeaf::fetch_inputs(Frame& frame, const Function& function, const At& at) const {
+  frame.owned.clear();
+  const auto all = static_cast<std::size_t>(at.u.size());
+  const std::size_t count = function.inputs ? function.inputs->size() : all;
+  for (std::size_t i = 0; i < count; ++i) {
+    frame.owned.push_back(input(at, function.inputs ? (*function.inputs)[i] : static_cast<int>(i)));
+  }
+}
+
+/// Puts the arguments in order; returns how many are positional, those by keyword stand behind.
+std::size_t PythonLeaf::arrange(Frame& frame, const Function& function, const At& at) const {
+  fetch_inputs(frame, function, at);
+  auto& [state, owned, parameters, values, arguments] = frame;
   arguments.assign(1, nullptr);  // room that vectorcall may use
   if (function.method) arguments.push_back(self_);
-  const std::size_t count =
-      function.inputs ? function.inputs->size() : static_cast<std::size_t>(at.u.size());
-  for (std::size_t i = 0; i < count; ++i)
-    owned.push_back(input(at, function.inputs ? (*function.inputs)[i] : static_cast<int>(i)));
-  PyObject* keywords = nullptr;
   if (function.convention == Convention::state) {
-    fill_state(*frame, at);
-    fill_parameters(*frame, at);
-    owned.push_back(py::float_(at.time));
-    arguments.push_back(owned.back().ptr());
-    arguments.push_back(frame->state.ptr());
-    for (std::size_t i = 0; i < count; ++i) arguments.push_back(owned[i].ptr());
+    fill_state(frame, at);
+    fill_parameters(frame, at);
+    const py::float_ time(at.time);
+    arguments.insert(arguments.end(), {time.ptr(), state.ptr()});
+    for (const py::object& input : owned) arguments.push_back(input.ptr());
+    owned.push_back(time);
   } else if (function.convention == Convention::inputs) {
-    py::tuple all(count);
-    for (std::size_t i = 0; i < count; ++i) all[i] = owned[i];
+    py::tuple all(owned.size());
+    for (std::size_t i = 0; i < owned.size(); ++i) all[i] = owned[i];
+    arguments.push_back(all.ptr());
     owned.push_back(std::move(all));
-    arguments.push_back(owned.back().ptr());
   } else {
     arguments.push_back(owned.front().ptr());
   }
   const std::size_t positional = arguments.size() - 1;
-  if (function.convention == Convention::state && !parameter_dimensions_.empty()) {
-    for (const py::object& parameter : frame->parameters) arguments.push_back(parameter.ptr());
-    keywords = keywords_.ptr();
+  if (function.convention == Convention::state) {
+    for (const py::object& parameter : parameters) arguments.push_back(parameter.ptr());
   }
+  return positional;
+}
+
+py::object PythonLeaf::call(int k, const At& at) const {
+  const Function& function = functions_[static_cast<std::size_t>(k)];
+  // Taken out, not shared: another thread may come while this one is in Python.
+  std::unique_ptr<Frame> frame = spare_ ? std::move(spare_) : std::make_unique<Frame>();
+  const std::size_t positional = arrange(*frame, function, at);
+  std::vector<PyObject*>& arguments = frame->arguments;
+  PyObject* keywords = arguments.size() > positional + 1 ? keywords_.ptr() : nullptr;
   auto result = py::reinterpret_steal<py::object>(
       PyObject_Vectorcall(function.callable.ptr(), arguments.data() + 1,
                           positional | PY_VECTORCALL_ARGUMENTS_OFFSET, keywords));

@@ -89,10 +89,11 @@ class PythonLeaf final : public LeafSystem {
   };
 
   py::object call(int k, const At& at) const;
+  std::size_t arrange(Frame& frame, const Function& function, const At& at) const;
+  void fetch_inputs(Frame& frame, const Function& function, const At& at) const;
   void fill_state(Frame& frame, const At& at) const;
   void fill_parameters(Frame& frame, const At& at) const;
   py::object input(const At& at, int i) const;
-  void apply(const State& state, Next& next, const Function& function) const;
 
   py::object call_with(int k, const std::vector<Shape>& shapes, double value) const;
   std::optional<py::array> sample(int k, std::vector<Shape> shapes,

@@ -99,19 +99,6 @@ TEST_CASE("a guard that becomes NaN is an error, not an event", "[errors]") {
   CHECK(ended.block == "leaf");
 }
 
-TEST_CASE("a recorded output that is NaN is an error that names it", "[errors]") {
-  const auto* method = GENERATE(from_range(methods));
-  INFO("method " << method);
-  const Leaf leaf("leaf", [](Leaf& l) {
-    declare_ramp(l);
-    l.declare_output_port({.name = "log", .calc = [](const At& at) { return at.time > 1.0 ? not_a_number : 1.0; }});
-  });
-  const Ended ended = run(leaf, method, {.recorded_signals = {{"log", leaf.output("log")}}});
-  INFO(ended.message);
-  CHECK(contains(ended.message, "'leaf.log'"));
-  CHECK(contains(ended.message, "not finite"));
-}
-
 TEST_CASE("a bad value behind an event is not seen: the step is shortened", "[errors]") {
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);

@@ -4,7 +4,7 @@
 #include <map>
 #include <utility>
 
-#include "saltus/plan/plan.hpp"
+#include "saltus/plan/order.hpp"
 
 namespace saltus::detail {
 
@@ -119,6 +119,7 @@ inline void add_shapes(Plan& plan) {
   }
   for (Node& node : plan.nodes) {
     if (!node.shaped) {
+      Ordering(plan).run();  // an algebraic loop is the likelier cause: it throws with the path
       throw ModelError(text("the width of output '", node.name,
                             "' depends on itself around a loop; put a block of known width, for example an Integrator "
                             "with a vector initial_state, into the loop"));

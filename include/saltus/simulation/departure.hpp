@@ -68,6 +68,14 @@ class Departure {
     return std::abs(extrapolated) > 1e-6 * std::abs(far - near) ? extrapolated : 0.0;
   }
 
+  /// The same along another flow f through (t, x), to first order.
+  double slope_along(const Eigen::VectorXd& f, const GuardGroup& group, Index slot) {
+    const double d = first_time(group);
+    x1_ = *x_ + d * f;
+    machine_->guards(t_ + d, x1_.data(), g_.data());
+    return (g_[slot] - g0_[slot]) / d;
+  }
+
  private:
   static constexpr double amount = 1e-7;  // of the disturbance: large against rounding, small against curvature
   static constexpr double eps = std::numeric_limits<double>::epsilon();

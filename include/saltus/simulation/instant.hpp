@@ -123,7 +123,7 @@ class Instant {
   bool wrote_ = false, wrote_x_ = false;   // some pass of this instant wrote states, continuous state
   bool entered_ = false;                   // some pass of this instant entered a mode
   bool flowed_ = false;                    // departure_ stands at the present (t, x)
-  Eigen::VectorXd x_minus_, z_minus_, x_next_, z_next_, x_log_, y_before_;
+  Eigen::VectorXd x_minus_, z_minus_, x_next_, z_next_, y_before_, flow_before_;
   std::vector<int> modes_next_, modes_before_;
   std::vector<double> g_, g_minus_;  // guards now, and what the location of a root left of them
   std::vector<int> chain_;  // sources of what happened in this instant

@@ -199,11 +199,11 @@ inline bool Instant::rests(const GuardGroup& group, Index slot, int from) {
 
 /// Whether the flow of the mode before led a guard that stands at zero the other way: both lead to the same surface.
 inline bool Instant::turned_round(const GuardGroup& group, int side) {
+  flow_before_.resize(machine_->x.size());
   std::swap(machine_->modes, modes_before_);
-  departure_.from(t_, machine_->x, longest_);
-  const double before = departure_.slope(group, group.slot);
+  machine_->derivative(t_, machine_->x.data(), flow_before_.data());
   std::swap(machine_->modes, modes_before_);
-  flowed_ = false;
+  const double before = departure_.slope_along(flow_before_, group, group.slot);
   return side > 0 ? before < 0.0 : before > 0.0;
 }
 

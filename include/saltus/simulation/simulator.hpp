@@ -66,7 +66,7 @@ class Simulator {
   std::unique_ptr<Solver> solver_;
   Method method_;
   Context begin_;
-  double time_ = 0.0;
+  double time_ = 0.0, last_instant_ = 0.0;
   bool begun_ = false, solver_started_ = false, over_ = false;
   std::vector<int> due_;
   std::size_t next_save_ = 0;

@@ -75,7 +75,7 @@ inline Status Simulator::run_to(double t_end) {
 
 /// One minor step, and the instant at its end if there is one.
 inline Status Simulator::step(double t_end) {
-  const double t_stop = std::min({t_end, calendar_.next(), time_ + options_.max_major_step_length});
+  const double t_stop = std::min({t_end, calendar_.next(), last_instant_ + options_.max_major_step_length});
   const double from = time_;
   StopReason reason = StopReason::stop_time;
   move_to(t_stop, reason);
@@ -113,6 +113,7 @@ inline Status Simulator::settle(StopReason reason, double t_end, bool at_start) 
   if (solver_started_) machine_.x = solver_->state();
   machine_.at_home();
   ++results_.statistics.instants;
+  last_instant_ = time_;
   due_.clear();
   if (calendar_.due(time_) || at_start) calendar_.take(time_, due_);
   if (reason != StopReason::root && due_.empty() && !at_start) return Status::reached_end;  // a major step's end only
@@ -120,7 +121,7 @@ inline Status Simulator::settle(StopReason reason, double t_end, bool at_start) 
   const Instant::Outcome outcome = instant_.run(time_, due_, t_end - time_, at_start);
   if (outcome.terminal) return end(Status::terminal);
   if (outcome.restart && solver_started_) solver_->restart(time_, machine_.x, {.horizon = outcome.horizon});
-  if (outcome.chatters) recent_events_ += options_.max_passes;
+  if (outcome.chatters) recent_events_ = options_.max_passes, recent_since_ = time_;
   if (outcome.chatters || (reason == StopReason::root && chatters())) {
     const Event last = results_.events.empty() ? Event{} : results_.events[results_.events.size() - 1];
     return end(Status::chattering,

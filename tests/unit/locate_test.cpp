@@ -1,0 +1,112 @@
+// Location: pairs of roots, roots very close together, the earliest first, the state on the firing side.
+#include "support/leaves.hpp"
+
+using namespace saltus;
+using namespace support;
+using Catch::Matchers::WithinAbs;
+
+namespace {
+
+/// x' = 1 with a counted guard at each of `roots`; the guards are declared in that order.
+Leaf ruler(const std::vector<double>& roots, double scale = 1.0) {
+  return Leaf("ruler", [&](Leaf& l) {
+    declare_ramp(l);
+    l.declare_discrete_state(vec({0.0}));
+    for (std::size_t i = 0; i < roots.size(); ++i) {
+      const double root = roots[i];
+      l.declare_zero_crossing({.name = text("at_", i), .guard = [=](const At& at) { return scale * (at.x[0] - root); },
+                               .reset_map = count_up});
+    }
+  });
+}
+
+Results run(const Leaf& leaf, const char* method, SimulatorOptions options = {}) {
+  options.ode_solver_method = method;
+  return simulate(leaf, leaf.create_context(), {0.0, 1.0}, options);
+}
+
+}  // namespace
+
+TEST_CASE("two guards 0, 1e-13 and 1e-9 apart fire both, the earlier one first", "[locate]") {
+  const auto* method = GENERATE(from_range(methods));
+  const double gap = GENERATE(0.0, 1e-13, 1e-9, 1e-3);
+  INFO("method " << method << ", gap " << gap);
+  const auto results = run(ruler({0.5 + gap, 0.5}), method);  // the later one is declared first
+  REQUIRE(results.events.size() == 2);
+  CHECK(results.context.discrete_state()[0] == 2.0);
+  CHECK(results.events[0].time <= results.events[1].time);
+  if (gap >= 1e-9) {
+    CHECK(results.events[0].name == "at_1");
+    CHECK(results.events[1].name == "at_0");
+    CHECK_THAT(results.events[1].time - results.events[0].time, WithinAbs(gap, 1e-12));
+  } else if (gap == 0.0) {
+    CHECK(results.events[0].time == results.events[1].time);
+    CHECK(results.events[0].jump == results.events[1].jump);  // one pass, declaration order
+    CHECK(results.events[0].name == "at_0");
+  }
+}
+
+TEST_CASE("twenty guards in one step fire in the order of their roots", "[locate]") {
+  const auto* method = GENERATE(from_range(methods));
+  INFO("method " << method);
+  std::vector<double> roots;
+  for (int i = 0; i < 20; ++i) roots.push_back(0.01 + 0.9 * std::fmod(0.618 * (i + 1), 1.0));
+  const auto results = run(ruler(roots), method);
+  std::ranges::sort(roots);
+  REQUIRE(results.events.size() == 20);
+  for (std::size_t i = 0; i < 20; ++i) CHECK_THAT(results.events[i].time, WithinAbs(roots[i], 1e-12));
+}
+
+TEST_CASE("the state handed on is at the root or beyond it, never before", "[locate]") {
+  const auto* method = GENERATE(from_range(methods));
+  const double scale = GENERATE(1.0, -1.0, 1e-30, 1e30);
+  INFO("method " << method << ", scale " << scale);
+  for (const double root : {0.1, 0.3, 1.0 / 3.0, 0.537, 0.7, 0.9}) {
+    const auto results = run(ruler({root}, scale), method);
+    REQUIRE(results.events.size() == 1);
+    CHECK(results.events[0].before[0] >= root);
+    // 100 eps (|t| + |h|), semantics 2.9, on an interpolant that is exact for a straight line but for rounding.
+    CHECK_THAT(results.events[0].time, WithinAbs(root, 100.0 * eps * 2.0));
+    CHECK(results.events[0].direction == (scale > 0.0 ? 1 : -1));
+  }
+}
+
+TEST_CASE("a pair of roots in one step is found at interior points, and missed without them", "[locate]") {
+  const Leaf leaf("dip", [](Leaf& l) {
+    declare_ramp(l);
+    l.declare_discrete_state(vec({0.0}));
+    l.declare_zero_crossing({.name = "dip", .guard = [](const At& at) { return (at.x[0] - 0.45) * (at.x[0] - 0.8); }, .reset_map = count_up});
+  });
+  CHECK(run(leaf, "dopri5").events.size() == 2);
+  CHECK(run(leaf, "dopri5", {.event_scan_points = 20}).events.size() == 2);
+  // x' = 1: the first step is 1e-6 or so, each next one tenfold; the last spans the dip.
+  CHECK(run(leaf, "dopri5", {.event_scan_points = 0}).events.empty());
+}
+
+TEST_CASE("a guard with a steep and one with a flat root are located alike", "[locate]") {
+  const auto* method = GENERATE(from_range(methods));
+  INFO("method " << method);
+  const Leaf leaf("curves", [](Leaf& l) {
+    declare_ramp(l);
+    l.declare_discrete_state(vec({0.0}));
+    l.declare_zero_crossing({.name = "steep", .guard = [](const At& at) { return std::tanh(1e8 * (at.x[0] - 0.3)); }, .reset_map = count_up});
+    l.declare_zero_crossing({.name = "flat", .guard = [](const At& at) { return std::pow(at.x[0] - 0.6, 5.0); }, .reset_map = count_up});
+    l.declare_zero_crossing({.name = "jump", .guard = [](const At& at) { return at.x[0] < 0.9 ? -1e300 : 1e-300; }, .reset_map = count_up});
+  });
+  const auto results = run(leaf, method);
+  REQUIRE(results.events.size() == 3);
+  CHECK_THAT(results.events[0].time, WithinAbs(0.3, 1e-12));
+  CHECK_THAT(results.events[1].time, WithinAbs(0.6, 1e-12));
+  CHECK_THAT(results.events[2].time, WithinAbs(0.9, 1e-12));
+}
+
+TEST_CASE("late in a long run events are located as exactly as time can say", "[locate]") {
+  const auto* method = GENERATE(from_range(methods));
+  INFO("method " << method);
+  const double t0 = 1e6;
+  const Leaf leaf = ruler({0.537});
+  const auto results = simulate(leaf, leaf.create_context(t0), {t0, t0 + 1.0}, {.ode_solver_method = method});
+  REQUIRE(results.events.size() == 1);
+  CHECK_THAT(results.events[0].time, WithinAbs(t0 + 0.537, 100.0 * eps * (t0 + 1.0)));
+  CHECK(results.events[0].before[0] >= 0.537);
+}

@@ -1,0 +1,91 @@
+// ZenoMonitor: shrinking gaps accumulate, equal ones never; the sum of the series is predicted.
+#include "saltus/simulation/zeno.hpp"
+#include "support/leaves.hpp"
+
+using namespace saltus;
+using namespace support;
+using Catch::Matchers::WithinRel;
+
+namespace {
+
+/// A monitor that saw firings at `start` and then after each gap.
+ZenoMonitor seen(double tolerance, double start, const std::vector<double>& gaps) {
+  ZenoMonitor monitor(tolerance);
+  double t = start;
+  monitor.fired(t);
+  for (const double gap : gaps) monitor.fired(t += gap);
+  return monitor;
+}
+
+}  // namespace
+
+TEST_CASE("gaps that shrink geometrically below the tolerance accumulate", "[zeno]") {
+  const double start = GENERATE(0.0, -3.0, 100.0);
+  CHECK(seen(1e-6, start, {8e-7, 4e-7, 2e-7}).accumulates());
+  CHECK(seen(1e-6, start, {1e-3, 1e-5, 1e-7}).accumulates());
+  CHECK(!seen(1e-6, start, {8e-3, 4e-3, 2e-3}).accumulates());   // not there yet
+  CHECK(!seen(1e-6, start, {4e-7, 2e-7}).accumulates());         // two gaps say nothing
+  CHECK(!seen(1e-6, start, {}).accumulates());
+}
+
+TEST_CASE("equal, growing and wavering gaps never accumulate, however short", "[zeno]") {
+  CHECK(!seen(1e-6, 0.0, {1e-7, 1e-7, 1e-7, 1e-7}).accumulates());
+  CHECK(!seen(1e-6, 0.0, {1e-9, 2e-9, 3e-9}).accumulates());
+  CHECK(!seen(1e-6, 0.0, {3e-7, 1e-7, 2e-7}).accumulates());
+  CHECK(!seen(1e-6, 0.0, {3e-7, 2e-7, 2e-7}).accumulates());
+}
+
+TEST_CASE("gaps that shrink by rounding only do not accumulate", "[zeno]") {
+  // At t = 1e3 s a time is rounded to 1e-13 s: a steady rhythm of 1e-7 s wavers by that.
+  CHECK(!seen(1e-6, 1e3, {1e-7, 1e-7 - 1e-13, 1e-7 - 2e-13}).accumulates());
+}
+
+TEST_CASE("the accumulation time and state of a geometric series are exact", "[zeno]") {
+  const double q = GENERATE(0.1, 0.5, 0.9);
+  ZenoMonitor monitor(1.0);
+  Eigen::VectorXd after(2);
+  double t = 2.0, gap = 0.1, v = 1.0;
+  for (int k = 0; k < 6; ++k) {
+    monitor.fired(t);
+    after << 3.0, v;
+    if (k < 5) monitor.remember(after);
+    if (k < 5) t += gap, gap *= q, v *= q;
+  }
+  // t_k + gap q / (1 - q), the sum of all later gaps. Gaps of 1e-6 s between times of 2 s are known to 4e-16 / 1e-6.
+  CHECK_THAT(monitor.accumulation_time(), WithinRel(2.0 + 0.1 / (1.0 - q), 1e-9));
+  monitor.accumulate(after);
+  CHECK(after[0] == 3.0);
+  CHECK(std::abs(after[1]) < 1e-6);
+}
+
+TEST_CASE("the first firing has no gap; forgetting makes it the first again", "[zeno]") {
+  ZenoMonitor monitor(1e-6);
+  CHECK(monitor.gap() == infinite);
+  monitor.fired(0.0);
+  CHECK(monitor.gap() == infinite);
+  CHECK(!monitor.accumulates());
+  monitor = seen(1e-6, 5.0, {8e-7, 4e-7, 2e-7});
+  monitor.forget();
+  CHECK(monitor.gap() == infinite);
+  monitor.fired(5.0);
+  CHECK(!monitor.accumulates());
+}
+
+TEST_CASE("a steady fast rhythm in a run is no Zeno hold", "[zeno]") {
+  const auto* method = GENERATE(from_range(methods));
+  INFO("method " << method);
+  // A sawtooth of 5e-7 s, below the tolerance of 1e-6 s.
+  const Leaf saw("saw", [](Leaf& l) {
+    declare_ramp(l);
+    l.declare_zero_crossing({.name = "full", .guard = [](const At& at) { return at.x[0] - 5e-7; },
+                             .reset_map = [](const At&, Next& next) { next.set_continuous_state({0.0}); }});
+  });
+  const auto results = simulate(saw, saw.create_context(), {0.0, 1e-3}, {.ode_solver_method = method});
+  CHECK(count(results.events, EventKind::zeno_enter) == 0);
+  CHECK(count(results.events, EventKind::zero_crossing) >= 1999);
+}
+
+TEST_CASE("a zero tolerance switches the monitor off", "[zeno]") {
+  CHECK(!ZenoMonitor(0.0).on());
+  CHECK(ZenoMonitor(1e-6).on());
+}
