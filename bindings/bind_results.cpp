@@ -58,12 +58,14 @@ py::array event_times(const Results& results, std::string_view name, std::string
 /// By the names of the fields of saltus.results.Statistics.
 py::dict statistics(const Results& results) {
   const Statistics& s = results.statistics;
+  py::dict by_name;
+  for (const auto& [name, count] : s.events_by_name) by_name[py::str(name)] = count;
   using py::literals::operator""_a;
   return py::dict("method"_a = s.method, "steps"_a = s.steps, "rejected"_a = s.rejected,
                   "restarts"_a = s.restarts, "right_hand_side_calls"_a = s.right_hand_side_calls,
                   "guard_calls"_a = s.guard_calls, "jacobian_calls"_a = s.jacobian_calls,
                   "linear_setups"_a = s.linear_setups, "instants"_a = s.instants,
-                  "events"_a = s.events, "wall_time"_a = s.wall_time);
+                  "events"_a = s.events, "events_by_name"_a = by_name, "wall_time"_a = s.wall_time);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// All public headers.
+// The whole library. Ready scenes and reports stand apart: saltus/models/models.hpp, saltus/report/work_precision.hpp.
 #pragma once
 
 #include "saltus/library/library.hpp"

@@ -92,6 +92,8 @@ class Statistics:
     """major steps"""
     events: int
     """resets, updates and mode changes"""
+    events_by_name: dict[str, int]
+    """how often each event happened: ``{"ball.bounce": 6}``"""
     wall_time: float
     """[s]"""
 

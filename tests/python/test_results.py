@@ -179,3 +179,8 @@ def test_describe_says_what_is_never_computed():
 def test_a_span_of_no_length_has_the_rows_of_the_start():
     results = run(Ball(), (2.0, 2.0))
     assert set(results.time) == {2.0}
+
+
+def test_events_are_counted_by_name(ball_results):
+    """5.4: six bounces by 12 s (t_k = t1 + 2 t1 (e + ... + e^(k-1)); the seventh is at 13.5 s)."""
+    assert ball_results.statistics.events_by_name == {"ball.bounce": 6}

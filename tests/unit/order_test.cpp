@@ -82,3 +82,12 @@ TEST_CASE("a block that reads itself is the shortest loop", "[order]") {
   const Diagram diagram = builder.build();
   CHECK(contains(message<ModelError>([&] { compile(diagram); }), "  'self.out' reads\n  'self.out'\n"));
 }
+
+TEST_CASE("a ring of blocks that take any width is called a loop, not a width that cannot be told", "[order]") {
+  DiagramBuilder builder;
+  auto& one = builder.add<Gain>("one", 0.5);
+  auto& two = builder.add<Gain>("two", 0.5);
+  builder.connect(one.output(), two.input()), builder.connect(two.output(), one.input());
+  const Diagram diagram = builder.build();
+  CHECK(contains(message<ModelError>([&] { compile(diagram); }), "algebraic loop"));
+}

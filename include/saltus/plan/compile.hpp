@@ -127,6 +127,7 @@ inline std::shared_ptr<const Plan> compile(const System& system, const RecordedS
   detail::find_located(plan);
   detail::release_held_relations(plan);
   detail::add_order(plan);
+  detail::lay_out(plan);
   detail::find_rates(plan);
   detail::find_slices(plan);
   detail::add_guards(plan);

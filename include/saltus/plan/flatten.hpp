@@ -158,17 +158,21 @@ inline void add_places(Plan& plan) {
   }
 }
 
-/// The whole pass.
+/// Leaves, wires and who reads whom.
 inline Plan flatten(const System& system) {
   const Structure structure = structure_of(system);
   Plan plan;
   add_leaves(plan, structure);
   add_wires(plan, structure);
   add_needs(plan);
+  return plan;
+}
+
+/// Shapes and places; after the order, so that an algebraic loop is called that.
+inline void lay_out(Plan& plan) {
   add_shapes(plan);
   check_shapes(plan);
   add_places(plan);
-  return plan;
 }
 
 }  // namespace saltus::detail

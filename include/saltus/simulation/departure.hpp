@@ -63,9 +63,10 @@ class Departure {
   /// so that the curvature of a ball at rest is no speed: what is left of it by rounding counts as zero.
   double slope(const GuardGroup& group, Index slot) {
     const double d = first_time(group);
-    const double far = (guard_after(d, slot) - g0_[slot]) / d, near = (guard_after(0.5 * d, slot) - g0_[slot]) / (0.5 * d);
-    const double extrapolated = 2.0 * near - far;
-    return std::abs(extrapolated) > 1e-6 * std::abs(far - near) ? extrapolated : 0.0;
+    const double near = (guard_after(0.5 * d, slot) - g0_[slot]) / (0.5 * d);
+    const double g = guard_after(d, slot), far = (g - g0_[slot]) / d, extrapolated = 2.0 * near - far;
+    const double noise = std::max(1e-6 * std::abs(far - near), rounding_after(d, slot, g) / d);
+    return std::abs(extrapolated) > noise ? extrapolated : 0.0;
   }
 
   /// The same along another flow f through (t, x), to first order.

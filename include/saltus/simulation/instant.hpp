@@ -38,6 +38,8 @@ class Instant {
   void log_monitor(const MonitorHit& hit, const double* x);
 
   int jump() const noexcept { return jump_; }
+  /// How often each event happened, by name; those that did not are left out.
+  std::vector<std::pair<std::string, std::int64_t>> counts() const;
 
  private:
   enum class Cause { crossing, edge, time };
@@ -59,6 +61,8 @@ class Instant {
   void run_action(const Action& action);
   bool run_reset(const Action& action, const ResetMap& map);
   void commit();
+
+  // instant_reading.hpp
   void read_again();
   bool read_relation(const GuardGroup& group, Index slot);
   bool reads_changed(int node) const;
@@ -112,6 +116,7 @@ class Instant {
 
   double t_ = 0.0, longest_ = 0.0;
   int jump_ = 0, pass_ = 0;
+  int event_jump_ = 0;  // of the events logged now
   Outcome outcome_;
   std::vector<Firing> firings_;            // for the pass to come
   std::vector<Action> actions_;
@@ -126,6 +131,7 @@ class Instant {
   Eigen::VectorXd x_minus_, z_minus_, x_next_, z_next_, y_before_, flow_before_;
   std::vector<int> modes_next_, modes_before_;
   std::vector<double> g_, g_minus_;  // guards now, and what the location of a root left of them
+  std::vector<std::int64_t> counts_;  // events of each source
   std::vector<int> chain_;  // sources of what happened in this instant
 };
 
@@ -133,3 +139,4 @@ class Instant {
 
 #include "saltus/simulation/instant_arming.hpp"
 #include "saltus/simulation/instant_passes.hpp"
+#include "saltus/simulation/instant_reading.hpp"

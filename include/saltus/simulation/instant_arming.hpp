@@ -35,11 +35,13 @@ inline Instant::Instant(Machine& machine, Watch& watch, const SimulatorOptions& 
   }
   for (const ScheduledEvent& event : plan().schedule) names.push_back(event.name);
   edge_values_.assign(plan().edges.size(), 0), carried_.assign(plan().edges.size(), 0);
+  counts_.assign(names.size(), 0);
   results.events.begin(std::move(names));
 }
 
 inline void Instant::begin(double t, Recorder* recorder) {
   t_ = t, jump_ = 0, recorder_ = recorder;
+  std::ranges::fill(counts_, 0);
   wrote_x_ = flowed_ = false;
   std::ranges::fill(fired_, 0), std::ranges::fill(frozen_, 0), std::ranges::fill(resting_, 0);
   for (auto* monitors : {&slot_monitors_, &edge_monitors_}) {
@@ -194,7 +196,8 @@ inline bool Instant::rests(const GuardGroup& group, Index slot, int from) {
   if (!(onward > 0.0)) return true;
   departure_.from(t_, x_minus_, longest_);
   flowed_ = false;
-  return !(onward > 1e-9 * std::abs(departure_.slope(group, slot)));
+  const double before = -from * departure_.slope(group, slot);
+  return !(before > 0.0 && onward > 1e-9 * before);
 }
 
 /// Whether the flow of the mode before led a guard that stands at zero the other way: both lead to the same surface.
@@ -239,16 +242,26 @@ inline void Instant::release(int leaf_index, ZenoMonitor& monitor, int source) {
 
 inline void Instant::log(EventKind kind, int source, int leaf_index, int direction, double predicted) {
   ++results_->statistics.events;
+  if (kind != EventKind::zeno_enter && kind != EventKind::zeno_release) ++counts_[static_cast<std::size_t>(source)];
   if (!options_->record_events) return;
   const PlanLeaf& of = leaf(leaf_index);
   const double* after = x_next_.size() > 0 ? x_next_.data() + of.x : nullptr;
-  results_->events.add({t_, jump_ + 1, direction, kind, source, predicted, 0, static_cast<std::size_t>(of.nx)},
+  results_->events.add({t_, event_jump_, direction, kind, source, predicted, 0, static_cast<std::size_t>(of.nx)},
                        machine_->x.data() + of.x, after);
 }
 
+inline std::vector<std::pair<std::string, std::int64_t>> Instant::counts() const {
+  std::vector<std::pair<std::string, std::int64_t>> named;
+  for (std::size_t i = 0; i < counts_.size(); ++i) {
+    if (counts_[i] > 0) named.emplace_back(name_of(static_cast<int>(i)), counts_[i]);
+  }
+  return named;
+}
+
 inline void Instant::log_monitor(const MonitorHit& hit, const double* x) {
-  if (!options_->record_events) return;
   const int group = group_of_slot_[static_cast<std::size_t>(hit.firing.slot)];
+  ++counts_[static_cast<std::size_t>(group)];
+  if (!options_->record_events) return;
   const PlanLeaf& of = leaf(plan().guards[static_cast<std::size_t>(group)].leaf);
   results_->events.add({hit.t, jump_, -hit.firing.from, EventKind::zero_crossing, group,
                         std::numeric_limits<double>::quiet_NaN(), 0, static_cast<std::size_t>(of.nx)},

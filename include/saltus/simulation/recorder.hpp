@@ -24,6 +24,7 @@ class Recorder {
     for (std::size_t i = 0; i < taps.size(); ++i) {
       const Place& place = machine_->plan().node(taps[i].node).place;
       const double* value = machine_->value(place);
+      if (!VectorView(value, place.size).allFinite()) throw_not_finite(t, taps[i]);
       results_->signals[i].values.insert(results_->signals[i].values.end(), value, value + place.size);
     }
   }
@@ -42,6 +43,13 @@ class Recorder {
   }
 
  private:
+  [[noreturn]] void throw_not_finite(double t, const Tap& tap) const {
+    const Node& node = machine_->plan().node(tap.node);
+    throw SimulationError(text("t = ", t, " s: output '", node.name, "', recorded as '", tap.name,
+                               "', is not finite (NaN or Inf); check it at this time"),
+                          t, machine_->plan().leaf_of(node).path);
+  }
+
   Machine* machine_;
   Results* results_;
 };

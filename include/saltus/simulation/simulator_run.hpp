@@ -187,6 +187,7 @@ inline void Simulator::finish() {
   s.right_hand_side_calls = machine_.rhs_calls;
   s.guard_calls = machine_.guard_calls;
   s.jacobian_calls = machine_.jacobian_calls;
+  s.events_by_name = instant_.counts();
 }
 
 inline std::string Simulator::describe() const {

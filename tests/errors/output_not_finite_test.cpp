@@ -1,5 +1,4 @@
-// Not built. Semantics 6.2: NaN or Inf from an output is a SimulationError that names the block. The recorder copies what
-// it finds.
+// Semantics 6.2: NaN or Inf from a recorded output is a SimulationError that names the block.
 #include <chrono>
 
 #include "support/leaves.hpp"

@@ -1,0 +1,97 @@
+// After a commit: held outputs and relations read again, and what the commit moved across zero.
+#pragma once
+
+#include "saltus/simulation/instant.hpp"
+
+namespace saltus {
+
+/// Held outputs and relations after a commit.
+inline void Instant::read_again() {
+  machine_->evaluate_instant(t_);
+  if (plan().guards.empty()) return;
+  for (int round = 0; round < options_->max_passes; ++round) {
+    bool flipped = false;
+    machine_->guards(t_, machine_->x.data(), g_.data());
+    for (int i : machine_->active_guards()) {
+      const GuardGroup& group = plan().guards[static_cast<std::size_t>(i)];
+      if (group.kind == GuardGroup::Kind::crossing) continue;
+      for (Index s = 0; s < group.size; ++s) flipped = read_relation(group, group.slot + s) || flipped;
+    }
+    if (!flipped) return;
+    machine_->evaluate_instant(t_);
+  }
+}
+
+/// The side of a relation now; true if that is a new one. At its own zero it keeps the one it has, until `arm` asks
+/// where the flow goes; after it fired and a reset wrote, it takes the side the flow takes it to.
+inline bool Instant::read_relation(const GuardGroup& group, Index slot) {
+  const auto k = static_cast<std::size_t>(slot);
+  GuardSlot& watched = watch_->slots[k];
+  if (frozen_[k] || (resting_[k] && !reads_changed(group.index))) return false;
+  const bool truth = machine_->signal(group.index)[slot - group.slot] != 0.0;
+  const int crossed_to = fired_[k] ? -from_[k] : truth ? 1 : -1;
+  int side = (g_[k] > 0.0) - (g_[k] < 0.0);
+  if (fired_[k] && !wrote_x_) side = crossed_to;  // nothing it reads was written: its value is rounding
+  const bool opaque = group.kind == GuardGroup::Kind::opaque;
+  const bool unsure = wrote_x_ && fired_[k] && (!opaque || side != crossed_to);
+  if (unsure) {
+    const Departure::Side flow = side_of(group, slot, !opaque ? 4.0 * std::abs(g_minus_[k]) : 0.0, 0);
+    side = flow.side != 0 ? flow.side : crossed_to;
+    const bool back = side == crossed_to && flow.side != 0;
+    if (back && (opaque || rests(group, slot, -crossed_to))) {
+      frozen_[k] = 1;
+      if (hold_edges_of(group.index)) resting_[k] = 1;
+      else side = -crossed_to;  // no monitor: it fires again as soon as it can
+    }
+  }
+  if (side == 0) return false;
+  watched.side = static_cast<signed char>(side);
+  if ((side > 0) == truth) return false;
+  resting_[k] = 0;
+  machine_->signal(group.index)[slot - group.slot] = side > 0 ? 1.0 : 0.0;
+  return true;
+}
+
+/// Whether something that a relation reads was written in this instant. At rest its own value is rounding.
+inline bool Instant::reads_changed(int node) const {
+  return std::ranges::any_of(plan().node(node).needs, [&](int need) {
+    const Node& read = plan().node(need);
+    if (read.rate != Rate::continuous || read.view) return changed(read.place);
+    return wrote_x_ || reads_changed(need);
+  });
+}
+
+/// Zero crossings that the commit moved across zero in their direction fire in the next pass.
+inline void Instant::find_next() {
+  for (int i : machine_->active_guards()) {
+    const GuardGroup& group = plan().guards[static_cast<std::size_t>(i)];
+    if (group.kind != GuardGroup::Kind::crossing) continue;
+    const auto k = static_cast<std::size_t>(group.slot);
+    if (slot_monitors_[k].holding) {
+      if (!fired_now_[k]) look_at_held(group, k);  // else it has only just come to rest
+    } else if (fired_now_[k]) {
+      watch_->slots[k].side = static_cast<signed char>((g_[k] > 0.0) - (g_[k] < 0.0));
+      watch_->slots[k].base = g_[k];
+    } else if (!group.monitor && watch_->crossed(k, g_[k])) {
+      firings_.push_back({static_cast<int>(k), watch_->slots[k].side});
+    } else {
+      watch_->follow(k, g_[k]);
+    }
+  }
+}
+
+/// The guard of a leaf on hold: off to its armed side it lets go, beyond zero the reset map is applied again.
+inline void Instant::look_at_held(const GuardGroup& group, std::size_t k) {
+  GuardSlot& slot = watch_->slots[k];
+  const int now = watch_->sign(k, g_[k]);
+  if (now == 0) return;
+  if (now != slot.side) {
+    release(group.leaf, slot_monitors_[k], source_of(Cause::crossing, group_of_slot_[k]));
+    slot.side = static_cast<signed char>(now);
+    slot.direction = group.direction;
+  } else if (std::abs(g_[k]) > 1e3 * slot.band) {
+    firings_.push_back({static_cast<int>(k), -slot.side});
+  }
+}
+
+}  // namespace saltus
