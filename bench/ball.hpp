@@ -1,4 +1,5 @@
-// The ball of the benchmark, one right-hand side for all who run it: dy/dt = v, dv/dt = -g - k v |v|.
+// The ball of the benchmark, one right-hand side for all who run it: dy/dt = v, dv/dt = -g - k v
+// |v|.
 #pragma once
 
 #include <array>
@@ -9,9 +10,10 @@
 namespace bench {
 
 struct Ball {
-  double g = 9.81;   ///< [m/s^2]
-  double e = 0.9;    ///< coefficient of restitution
-  double k = 0.0;    ///< [1/m] quadratic drag; with 0 flights are parabolas, on which every method is exact
+  double g = 9.81;  ///< [m/s^2]
+  double e = 0.9;   ///< coefficient of restitution
+  double k =
+      0.0;  ///< [1/m] quadratic drag; with 0 flights are parabolas, on which every method is exact
   double y0 = 10.0;  ///< [m]
   double t_end = 12.0;
 
@@ -39,14 +41,18 @@ class BallLeaf final : public saltus::LeafSystem {
  public:
   explicit BallLeaf(const Ball& ball) : LeafSystem("ball"), ball_(ball) {
     declare_continuous_state(2, &BallLeaf::ode);
-    declare_zero_crossing({.name = "bounce", .guard = &BallLeaf::height, .reset_map = &BallLeaf::bounce,
+    declare_zero_crossing({.name = "bounce",
+                           .guard = &BallLeaf::height,
+                           .reset_map = &BallLeaf::bounce,
                            .direction = saltus::Direction::positive_then_non_positive});
   }
 
  private:
   void ode(const At& at, VectorRef xdot) const { ball_.derivative(at.x.data(), xdot.data()); }
   double height(const At& at) const { return at.x[0]; }
-  void bounce(const At& at, Next& next) const { next.set_continuous_state({std::abs(at.x[0]), -ball_.e * at.x[1]}); }
+  void bounce(const At& at, Next& next) const {
+    next.set_continuous_state({std::abs(at.x[0]), -ball_.e * at.x[1]});
+  }
 
   Ball ball_;
 };
@@ -55,7 +61,9 @@ class BallLeaf final : public saltus::LeafSystem {
 class SaltusRun {
  public:
   SaltusRun(const Ball& ball, const saltus::SimulatorOptions& options)
-      : ball_(ball), leaf_(ball), start_(leaf_.create_context().with_continuous_state(Eigen::Vector2d(ball.y0, 0.0))),
+      : ball_(ball),
+        leaf_(ball),
+        start_(leaf_.create_context().with_continuous_state(Eigen::Vector2d(ball.y0, 0.0))),
         simulator_(leaf_, options) {}
 
   void operator()() {
@@ -66,8 +74,11 @@ class SaltusRun {
   Outcome outcome() const {
     const saltus::Results& results = simulator_.results();
     const saltus::Statistics& s = results.statistics;
-    Outcome out{.y = results.context.continuous_state()[0], .v = results.context.continuous_state()[1], .steps = s.steps,
-                .right_hand_side_calls = s.right_hand_side_calls, .guard_calls = s.guard_calls};
+    Outcome out{.y = results.context.continuous_state()[0],
+                .v = results.context.continuous_state()[1],
+                .steps = s.steps,
+                .right_hand_side_calls = s.right_hand_side_calls,
+                .guard_calls = s.guard_calls};
     for (const double t : results.events.times("bounce")) out.bounced(t);
     return out;
   }

@@ -1,6 +1,7 @@
-// How far is Saltus from hand-written code? The leaf ball and the ball with drag, e = 0.9, 12 s, six bounces:
-// dopri5 against the same method inlined for two states, adams against a plain loop over the same CVODE.
-// First line of each group is the floor. Times are medians of interleaved batches, ratios are within one run.
+// How far is Saltus from hand-written code? The leaf ball and the ball with drag, e = 0.9, 12 s,
+// six bounces: dopri5 against the same method inlined for two states, adams against a plain loop
+// over the same CVODE. First line of each group is the floor. Times are medians of interleaved
+// batches, ratios are within one run.
 #include <cstdio>
 #include <cstring>
 
@@ -13,19 +14,26 @@ namespace {
 using bench::Ball, bench::Outcome, bench::SaltusRun;
 
 saltus::SimulatorOptions with(const char* method, double rtol, bool log, int scan) {
-  return {.rtol = rtol, .atol = 1e-2 * rtol, .ode_solver_method = method, .event_scan_points = scan, .record_events = log};
+  return {.rtol = rtol,
+          .atol = 1e-2 * rtol,
+          .ode_solver_method = method,
+          .event_scan_points = scan,
+          .record_events = log};
 }
 
 double worst(const Outcome& a, const Outcome& b) {
   if (a.bounces != b.bounces) return std::numeric_limits<double>::infinity();
   double worst = 0.0;
-  for (std::size_t i = 0; i < std::min(a.bounces, a.times.size()); ++i) worst = std::max(worst, std::abs(a.times[i] - b.times[i]));
+  for (std::size_t i = 0; i < std::min(a.bounces, a.times.size()); ++i)
+    worst = std::max(worst, std::abs(a.times[i] - b.times[i]));
   return worst;
 }
 
-void print(const char* scene, double rtol, const char* who, const bench::Timing& timing, const Outcome& o, double error) {
-  std::printf("%-5s %7.0e  %-28s %8.2f us  %5.2f  %7zu %6ld %5ld %7ld  %8.1e\n", scene, rtol, who, timing.time * 1e6, timing.ratio,
-              o.bounces, o.steps, o.right_hand_side_calls, o.guard_calls, error);
+void print(const char* scene, double rtol, const char* who, const bench::Timing& timing,
+           const Outcome& o, double error) {
+  std::printf("%-5s %7.0e  %-28s %8.2f us  %5.2f  %7zu %6ld %5ld %7ld  %8.1e\n", scene, rtol, who,
+              timing.time * 1e6, timing.ratio, o.bounces, o.steps, o.right_hand_side_calls,
+              o.guard_calls, error);
 }
 
 /// The event times everyone is compared with: the floor at its tightest.
@@ -36,12 +44,14 @@ Outcome reference(const Ball& ball) {
 }
 
 template <class Floor>
-void compare(const char* scene, const Ball& ball, const char* method, double rtol, const char* floor_name) {
+void compare(const char* scene, const Ball& ball, const char* method, double rtol,
+             const char* floor_name) {
   const Outcome exact = reference(ball);
   Floor floor(ball, rtol, 1e-2 * rtol);
   SaltusRun logged(ball, with(method, rtol, true, 3)), silent(ball, with(method, rtol, false, 3));
   SaltusRun ends_only(ball, with(method, rtol, false, 0));
-  const auto timings = bench::interleave({[&] { floor(); }, [&] { logged(); }, [&] { silent(); }, [&] { ends_only(); }});
+  const auto timings = bench::interleave(
+      {[&] { floor(); }, [&] { logged(); }, [&] { silent(); }, [&] { ends_only(); }});
   // Without a log no bounce is counted: what is left to compare is the end.
   const auto without_log = [&](const SaltusRun& run) {
     Outcome o = run.outcome();
@@ -49,9 +59,12 @@ void compare(const char* scene, const Ball& ball, const char* method, double rto
     return o;
   };
   print(scene, rtol, floor_name, timings[0], floor.outcome(), worst(floor.outcome(), exact));
-  print(scene, rtol, saltus::text("saltus ", method).c_str(), timings[1], logged.outcome(), worst(logged.outcome(), exact));
-  print(scene, rtol, "  no event log", timings[2], without_log(silent), std::abs(silent.outcome().y - logged.outcome().y));
-  print(scene, rtol, "  nor a look inside steps", timings[3], without_log(ends_only), std::abs(ends_only.outcome().y - logged.outcome().y));
+  print(scene, rtol, saltus::text("saltus ", method).c_str(), timings[1], logged.outcome(),
+        worst(logged.outcome(), exact));
+  print(scene, rtol, "  no event log", timings[2], without_log(silent),
+        std::abs(silent.outcome().y - logged.outcome().y));
+  print(scene, rtol, "  nor a look inside steps", timings[3], without_log(ends_only),
+        std::abs(ends_only.outcome().y - logged.outcome().y));
 }
 
 /// For a profiler: one runner only, again and again.
@@ -59,13 +72,19 @@ int only(const char* who, int runs) {
   const Ball ball;
   bench::FloorDopri5 dopri5(ball, 1e-8, 1e-10);
   bench::FloorCvode cvode(ball, 1e-8, 1e-10);
-  SaltusRun saltus_dopri5(ball, with("dopri5", 1e-8, true, 3)), saltus_adams(ball, with("adams", 1e-8, true, 3));
+  SaltusRun saltus_dopri5(ball, with("dopri5", 1e-8, true, 3)),
+      saltus_adams(ball, with("adams", 1e-8, true, 3));
   for (int i = 0; i < runs; ++i) {
-    if (std::strcmp(who, "floor_dopri5") == 0) dopri5();
-    else if (std::strcmp(who, "floor_cvode") == 0) cvode();
-    else if (std::strcmp(who, "dopri5") == 0) saltus_dopri5();
-    else if (std::strcmp(who, "adams") == 0) saltus_adams();
-    else return 2;
+    if (std::strcmp(who, "floor_dopri5") == 0)
+      dopri5();
+    else if (std::strcmp(who, "floor_cvode") == 0)
+      cvode();
+    else if (std::strcmp(who, "dopri5") == 0)
+      saltus_dopri5();
+    else if (std::strcmp(who, "adams") == 0)
+      saltus_adams();
+    else
+      return 2;
   }
   return 0;
 }
@@ -74,9 +93,13 @@ int only(const char* who, int runs) {
 
 int main(int argc, char** argv) {
   if (argc == 3) return only(argv[1], std::atoi(argv[2]));
-  std::printf("SUNDIALS %s. Errors are those of the worst event time [s]; without a log, the difference in y at the end [m].\n",
-              SUNDIALS_VERSION);
-  std::printf("scene    rtol  who                              time  ratio  bounces  steps   rhs  guards     error\n");
+  std::printf(
+      "SUNDIALS %s. Errors are those of the worst event time [s]; without a log, the difference in "
+      "y at the end [m].\n",
+      SUNDIALS_VERSION);
+  std::printf(
+      "scene    rtol  who                              time  ratio  bounces  steps   rhs  guards   "
+      "  error\n");
   const Ball parabola, drag{.k = 9.81 / 400.0};  // terminal velocity 20 m/s
   for (const double rtol : {1e-4, 1e-6, 1e-8, 1e-10, 1e-12}) {
     for (const auto& [name, ball] : {std::pair("ball", parabola), std::pair("drag", drag)}) {

@@ -1,5 +1,5 @@
-// Floor for adams: a loop over CVODE as its manual has it, on the same linked library. Adams with fixed-point iteration,
-// CVODE's own root-finding on the falling guard, one ReInit for each bounce.
+// Floor for adams: a loop over CVODE as its manual has it, on the same linked library. Adams with
+// fixed-point iteration, CVODE's own root-finding on the falling guard, one ReInit for each bounce.
 #pragma once
 
 #include "../src/sundials_compat.hpp"
@@ -10,8 +10,11 @@ namespace bench {
 class FloorCvode {
  public:
   FloorCvode(const Ball& ball, double rtol, double atol)
-      : ball_(ball), context_(saltus::sun::make_context()), y_(N_VNew_Serial(2, context_.get())),
-        cvode_(CVodeCreate(CV_ADAMS, context_.get())), nonlinear_(SUNNonlinSol_FixedPoint(y_.get(), 0, context_.get())) {
+      : ball_(ball),
+        context_(saltus::sun::make_context()),
+        y_(N_VNew_Serial(2, context_.get())),
+        cvode_(CVodeCreate(CV_ADAMS, context_.get())),
+        nonlinear_(SUNNonlinSol_FixedPoint(y_.get(), 0, context_.get())) {
     put({ball_.y0, 0.0});
     CVodeInit(cvode_.get(), rate, 0.0, y_.get());
     CVodeSStolerances(cvode_.get(), rtol, atol);

@@ -1,5 +1,6 @@
-// Floor for dopri5: the same method with the same step control, written by hand for two states and one falling guard.
-// Everything is inlined and of fixed size. Location is on the dense output, to 2 eps of the offset in the step.
+// Floor for dopri5: the same method with the same step control, written by hand for two states and
+// one falling guard. Everything is inlined and of fixed size. Location is on the dense output, to 2
+// eps of the offset in the step.
 #pragma once
 
 #include <algorithm>
@@ -52,11 +53,14 @@ class FloorDopri5 {
       }
       return std::sqrt(0.5 * sum);
     };
-    const double d0 = norm(x_), d1 = norm(k_[0]), h0 = d0 < 1e-5 || d1 < 1e-5 ? 1e-6 : 0.01 * d0 / d1;
+    const double d0 = norm(x_), d1 = norm(k_[0]),
+                 h0 = d0 < 1e-5 || d1 < 1e-5 ? 1e-6 : 0.01 * d0 / d1;
     State x{x_[0] + h0 * k_[0][0], x_[1] + h0 * k_[0][1]};
     rate(x, k_[1]);
-    const double d2 = norm({k_[1][0] - k_[0][0], k_[1][1] - k_[0][1]}) / h0, largest = std::max(d1, d2);
-    return std::min(100.0 * h0, largest <= 1e-15 ? std::max(1e-6, h0 * 1e-3) : std::pow(0.01 / largest, 0.2));
+    const double d2 = norm({k_[1][0] - k_[0][0], k_[1][1] - k_[0][1]}) / h0,
+                 largest = std::max(d1, d2);
+    return std::min(100.0 * h0,
+                    largest <= 1e-15 ? std::max(1e-6, h0 * 1e-3) : std::pow(0.01 / largest, 0.2));
   }
 
   void step() {
@@ -69,8 +73,8 @@ class FloorDopri5 {
       if (error <= 1.0) {
         ++out_.steps;
         length_ = h;
-        const double factor =
-            std::clamp(0.9 * std::pow(std::max(error, 1e-12), -0.17) * std::pow(before_, 0.04), 0.2, 10.0);
+        const double factor = std::clamp(
+            0.9 * std::pow(std::max(error, 1e-12), -0.17) * std::pow(before_, 0.04), 0.2, 10.0);
         before_ = std::max(error, 1e-4);
         const double wish = h * (rejected ? std::min(factor, 1.0) : factor);
         h_ = !rejected && h < h_ ? std::max(h_, wish) : wish;
@@ -112,8 +116,8 @@ class FloorDopri5 {
     return x_[i] + s * (dense_[i][0] + r * (dense_[i][1] + s * (dense_[i][2] + r * dense_[i][3])));
   }
 
-  /// Offset of the crossing, by the Illinois method with steps of at least one resolution, so that both ends of the
-  /// bracket come to it. The end that is kept is on the floor or below it.
+  /// Offset of the crossing, by the Illinois method with steps of at least one resolution, so that
+  /// both ends of the bracket come to it. The end that is kept is on the floor or below it.
   double locate() {
     double low = 0.0, high = length_, a = x_[0], b = x1_[0];
     if (x_[1] > 0.0) {  // it flies up, perhaps from the floor: begin where it is clearly above
@@ -123,7 +127,8 @@ class FloorDopri5 {
       const double resolution = 2.0 * std::numeric_limits<double>::epsilon() * high;
       if (high - low <= resolution || b == 0.0) return high;
       double u = low + (high - low) * a / (a - b);
-      u = high - low > 3.0 * resolution ? std::clamp(u, low + resolution, high - resolution) : low + 0.5 * (high - low);
+      u = high - low > 3.0 * resolution ? std::clamp(u, low + resolution, high - resolution)
+                                        : low + 0.5 * (high - low);
       if (!(u > low && u < high)) return high;
       const double y = height(u);
       if (y <= 0.0) {

@@ -1,4 +1,5 @@
-// Ratios that survive a busy machine: the runners take turns, batch by batch, and medians are compared.
+// Ratios that survive a busy machine: the runners take turns, batch by batch, and medians are
+// compared.
 #pragma once
 
 #include <algorithm>
@@ -25,7 +26,8 @@ struct Timing {
 };
 
 /// Each runner runs for `batch` seconds, in turns, `rounds` times.
-inline std::vector<Timing> interleave(const std::vector<std::function<void()>>& runners, int rounds = 21, double batch = 2e-3) {
+inline std::vector<Timing> interleave(const std::vector<std::function<void()>>& runners,
+                                      int rounds = 21, double batch = 2e-3) {
   std::vector<int> repeats;
   for (const auto& run : runners) {
     run();
@@ -43,7 +45,8 @@ inline std::vector<Timing> interleave(const std::vector<std::function<void()>>& 
     }
   }
   std::vector<Timing> result;
-  for (std::size_t i = 0; i < runners.size(); ++i) result.push_back({median(times[i]), median(ratios[i])});
+  for (std::size_t i = 0; i < runners.size(); ++i)
+    result.push_back({median(times[i]), median(ratios[i])});
   return result;
 }
 

@@ -12,6 +12,7 @@ int main(int argc, char** argv) {
     app.add_option("--y0", with.y0, "height at the start [m]")->capture_default_str();
     app.add_option("--v0", with.v0, "velocity at the start, upward [m/s]")->capture_default_str();
   };
-  return examples::run(argc, argv, "bouncing_ball", "A bouncing ball as one leaf, against the closed form.", add,
+  return examples::run(argc, argv, "bouncing_ball",
+                       "A bouncing ball as one leaf, against the closed form.", add,
                        &saltus::models::bouncing_ball);
 }

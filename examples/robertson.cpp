@@ -1,4 +1,5 @@
-// Robertson's reaction: eleven decades of time in a few hundred steps, with a method for stiff scenes.
+// Robertson's reaction: eleven decades of time in a few hundred steps, with a method for stiff
+// scenes.
 #include <saltus/models/robertson.hpp>
 
 #include "runner.hpp"
@@ -11,6 +12,7 @@ int main(int argc, char** argv) {
     app.add_option("--k2", with.k2, "rate of B + C -> A + C [1/s]")->capture_default_str();
     app.add_option("--k3", with.k3, "rate of 2 B -> B + C [1/s]")->capture_default_str();
   };
-  return examples::run(argc, argv, "robertson", "Robertson's stiff reaction, against a reference of 16 digits.", add,
+  return examples::run(argc, argv, "robertson",
+                       "Robertson's stiff reaction, against a reference of 16 digits.", add,
                        &saltus::models::robertson);
 }

@@ -26,9 +26,12 @@ inline void add_settings(CLI::App& app, Settings& settings, double& t_end) {
   app.add_option("--rtol", settings.rtol, "relative tolerance")->capture_default_str();
   app.add_option("--atol", settings.atol, "absolute tolerance")->capture_default_str();
   app.add_option("--method", settings.method, "auto, dopri5, adams, bdf")->capture_default_str();
-  app.add_option("--csv", settings.csv, "write the recorded rows, or the report, to FILE")->option_text("FILE");
-  app.add_option("--json", settings.json, "write events and statistics, or the report, to FILE")->option_text("FILE");
-  app.add_flag("--report", settings.report, "error against run time: each method at rtol 1e-4 ... 1e-12");
+  app.add_option("--csv", settings.csv, "write the recorded rows, or the report, to FILE")
+      ->option_text("FILE");
+  app.add_option("--json", settings.json, "write events and statistics, or the report, to FILE")
+      ->option_text("FILE");
+  app.add_flag("--report", settings.report,
+               "error against run time: each method at rtol 1e-4 ... 1e-12");
 }
 
 /// Every method once, under its first name.
@@ -47,30 +50,34 @@ inline std::ofstream opened(const std::string& file) {
   return out;
 }
 
-// --- one run --------------------------------------------------------------------------------------------------------
+// --- one run
+// --------------------------------------------------------------------------------------------------------
 
 inline void print_events(std::ostream& out, const saltus::EventLog& events) {
   constexpr std::size_t most = 12;
   for (std::size_t i = 0; i < std::min(most, events.size()); ++i) {
     const saltus::Event event = events[i];
-    out << "  t = " << std::setprecision(15) << event.time << " s  " << event.block << "." << event.name << "  "
-        << to_string(event.kind) << "\n";
+    out << "  t = " << std::setprecision(15) << event.time << " s  " << event.block << "."
+        << event.name << "  " << to_string(event.kind) << "\n";
   }
   if (events.size() > most) out << "  ... and " << events.size() - most << " more\n";
 }
 
-inline void print_summary(std::ostream& out, const saltus::Scene& scene, const saltus::Results& results) {
+inline void print_summary(std::ostream& out, const saltus::Scene& scene,
+                          const saltus::Results& results) {
   using saltus::detail::short_number, saltus::detail::short_time;
   const saltus::Statistics& s = results.statistics;
   const saltus::Achieved a = achieved(scene, results);
-  out << scene.name << ": " << to_string(results.status) << " at t = " << results.context.time() << " s, method " << s.method
-      << "\n" << results.events.size() << " events\n";
+  out << scene.name << ": " << to_string(results.status) << " at t = " << results.context.time()
+      << " s, method " << s.method << "\n"
+      << results.events.size() << " events\n";
   print_events(out, results.events);
-  out << "max error " << short_number(a.error) << ", worst event time " << short_number(a.event_error) << " s, events off "
-      << a.event_mismatch << "\n  against: " << scene.exact.provenance << "\n";
-  out << s.steps << " steps, " << s.rejected << " rejected, " << s.restarts << " restarts, " << s.right_hand_side_calls
-      << " right-hand-side, " << s.guard_calls << " guard and " << s.jacobian_calls << " Jacobian calls, "
-      << short_time(s.wall_time) << "\n";
+  out << "max error " << short_number(a.error) << ", worst event time "
+      << short_number(a.event_error) << " s, events off " << a.event_mismatch
+      << "\n  against: " << scene.exact.provenance << "\n";
+  out << s.steps << " steps, " << s.rejected << " rejected, " << s.restarts << " restarts, "
+      << s.right_hand_side_calls << " right-hand-side, " << s.guard_calls << " guard and "
+      << s.jacobian_calls << " Jacobian calls, " << short_time(s.wall_time) << "\n";
 }
 
 /// Time, pass, then the recorded signals, a row a line.
@@ -97,8 +104,13 @@ inline nlohmann::json to_json(const saltus::Scene& scene, const saltus::Results&
   nlohmann::json events = nlohmann::json::array();
   for (std::size_t i = 0; i < results.events.size(); ++i) {
     const saltus::Event e = results.events[i];
-    events.push_back({{"time", e.time}, {"jump", e.jump}, {"block", e.block}, {"name", e.name}, {"kind", to_string(e.kind)},
-                      {"direction", e.direction}, {"predicted", e.predicted},
+    events.push_back({{"time", e.time},
+                      {"jump", e.jump},
+                      {"block", e.block},
+                      {"name", e.name},
+                      {"kind", to_string(e.kind)},
+                      {"direction", e.direction},
+                      {"predicted", e.predicted},
                       {"before", std::vector(e.before.begin(), e.before.end())},
                       {"after", std::vector(e.after.begin(), e.after.end())}});
   }
@@ -107,12 +119,21 @@ inline nlohmann::json to_json(const saltus::Scene& scene, const saltus::Results&
           {"time", results.context.time()},
           {"method", s.method},
           {"events", events},
-          {"achieved", {{"error", a.error}, {"event_error", a.event_error}, {"event_mismatch", a.event_mismatch},
-                        {"accumulation_error", a.accumulation_error}, {"release_error", a.release_error},
-                        {"against", scene.exact.provenance}}},
-          {"statistics", {{"steps", s.steps}, {"rejected", s.rejected}, {"restarts", s.restarts},
-                          {"right_hand_side_calls", s.right_hand_side_calls}, {"guard_calls", s.guard_calls},
-                          {"jacobian_calls", s.jacobian_calls}, {"wall_time", s.wall_time}}}};
+          {"achieved",
+           {{"error", a.error},
+            {"event_error", a.event_error},
+            {"event_mismatch", a.event_mismatch},
+            {"accumulation_error", a.accumulation_error},
+            {"release_error", a.release_error},
+            {"against", scene.exact.provenance}}},
+          {"statistics",
+           {{"steps", s.steps},
+            {"rejected", s.rejected},
+            {"restarts", s.restarts},
+            {"right_hand_side_calls", s.right_hand_side_calls},
+            {"guard_calls", s.guard_calls},
+            {"jacobian_calls", s.jacobian_calls},
+            {"wall_time", s.wall_time}}}};
 }
 
 inline void run_once(saltus::Scene scene, const Settings& settings) {
@@ -126,11 +147,13 @@ inline void run_once(saltus::Scene scene, const Settings& settings) {
   if (!settings.json.empty()) opened(settings.json) << to_json(scene, results).dump(1) << "\n";
 }
 
-// --- the report -----------------------------------------------------------------------------------------------------
+// --- the report
+// -----------------------------------------------------------------------------------------------------
 
 inline void run_report(const saltus::Scene& scene, const Settings& settings) {
-  const auto rows = saltus::work_precision(
-      scene, {.methods = all_methods(), .atol_over_rtol = settings.atol / settings.rtol, .time_limit = 1.0});
+  const auto rows = saltus::work_precision(scene, {.methods = all_methods(),
+                                                   .atol_over_rtol = settings.atol / settings.rtol,
+                                                   .time_limit = 1.0});
   std::cout << scene.name << ", errors against: " << scene.exact.provenance << "\n";
   write_text(std::cout, rows);
   if (!settings.csv.empty()) {
@@ -143,9 +166,11 @@ inline void run_report(const saltus::Scene& scene, const Settings& settings) {
   }
 }
 
-// --- main -----------------------------------------------------------------------------------------------------------
+// --- main
+// -----------------------------------------------------------------------------------------------------------
 
-/// Runs `body`; what goes wrong becomes one line and an exit code: 2 for bad input, 1 for a run that failed.
+/// Runs `body`; what goes wrong becomes one line and an exit code: 2 for bad input, 1 for a run
+/// that failed.
 template <class Body>
 int guarded(CLI::App& app, int argc, char** argv, Body&& body) {
   try {
@@ -171,14 +196,16 @@ int run(int argc, char** argv, const std::string& name, const std::string& about
         saltus::Scene (*make)(const Parameters&)) {
   Parameters parameters;
   const saltus::SimulatorOptions defaults = make(parameters).options;
-  Settings settings{.rtol = defaults.rtol, .atol = defaults.atol, .method = defaults.ode_solver_method};
+  Settings settings{
+      .rtol = defaults.rtol, .atol = defaults.atol, .method = defaults.ode_solver_method};
   CLI::App app(about, name);
   add(app, parameters);
   add_settings(app, settings, parameters.t_end);
   return guarded(app, argc, argv, [&] {
     saltus::method_from(settings.method);  // before any work
     if (!(parameters.t_end >= 0.0)) {
-      throw saltus::ModelError(saltus::text("--t-end: expected a time >= 0 s, found ", parameters.t_end));
+      throw saltus::ModelError(
+          saltus::text("--t-end: expected a time >= 0 s, found ", parameters.t_end));
     }
     saltus::Scene scene = make(parameters);
     scene.options.rtol = settings.rtol;

@@ -20,12 +20,17 @@ namespace {
 class CvodeSolver final : public StepSolver<CvodeSolver> {
  public:
   CvodeSolver(Machine& machine, Watch& watch, const SolverOptions& options, CvodeMethod method)
-      : StepSolver(machine, watch, options), method_(method), context_(sun::make_context()),
-        y_(make_vector(n_, context_.get())), dky_(N_VClone(y_.get())),
+      : StepSolver(machine, watch, options),
+        method_(method),
+        context_(sun::make_context()),
+        y_(make_vector(n_, context_.get())),
+        dky_(N_VClone(y_.get())),
         cvode_(CVodeCreate(method == CvodeMethod::adams ? CV_ADAMS : CV_BDF, context_.get())),
         starter_(machine, watch, options) {
     if (!cvode_ || !y_ || !dky_) throw Error("SUNDIALS: out of memory");
-    hook_ = {[](const char* message, void* self) { static_cast<CvodeSolver*>(self)->note(message); }, this};
+    hook_ = {
+        [](const char* message, void* self) { static_cast<CvodeSolver*>(self)->note(message); },
+        this};
     sun::hook_errors(context_.get(), cvode_.get(), &hook_);
   }
 
@@ -49,13 +54,16 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
   void begin(const Start& how) {
     if (how.first) first_step_ = 0.0;
     begun_at_ = t1_;
-    // A multistep method begins with order 1 and steps that keep that within the tolerance. A flight hardly longer
-    // than those is drawn as a line that falls from the start: the ball would fall through. So a one-step method
-    // starts where an event may follow that soon (C. W. Gear, "Runge-Kutta starters for multistep methods", ACM
-    // TOMS 6 (1980) 263), and CVODE takes over once the flight has proved longer.
+    // A multistep method begins with order 1 and steps that keep that within the tolerance. A
+    // flight hardly longer than those is drawn as a line that falls from the start: the ball would
+    // fall through. So a one-step method starts where an event may follow that soon (C. W. Gear,
+    // "Runge-Kutta starters for multistep methods", ACM TOMS 6 (1980) 263), and CVODE takes over
+    // once the flight has proved longer.
     starting_ = how.horizon < 2e4 * first_step_;
-    if (starting_) start_with_one_step(t1_, x1_, how.horizon);
-    else start_cvode(how.first);
+    if (starting_)
+      start_with_one_step(t1_, x1_, how.horizon);
+    else
+      start_cvode(how.first);
   }
 
   static N_Vector make_vector(Index n, SUNContext context) {
@@ -145,16 +153,20 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
     ++steps_;
     t1_ = flag == CV_TSTOP_RETURN ? t_stop : t;
     length_ = t1_ - t0_;
-    standing_ = length_ > 16.0 * std::numeric_limits<double>::epsilon() * std::abs(t0_) ? 0 : standing_ + 1;
-    if (standing_ > 100) throw_step_too_small(*machine_, t0_, length_, x1_.data(), options_);  // CVODE itself would go on
+    standing_ =
+        length_ > 16.0 * std::numeric_limits<double>::epsilon() * std::abs(t0_) ? 0 : standing_ + 1;
+    if (standing_ > 100)
+      throw_step_too_small(*machine_, t0_, length_, x1_.data(),
+                           options_);  // CVODE itself would go on
     std::copy_n(N_VGetArrayPointer(y_.get()), n_, x1_.data());
   }
 
-  /// A guard that was at zero when this stretch began, found at zero again within the two steps of order 1.
+  /// A guard that was at zero when this stretch began, found at zero again within the two steps of
+  /// order 1.
   bool too_coarse() const {
     return steps_ < 2 && std::ranges::any_of(watch_->slots, [](const GuardSlot& slot) {
-      return slot.active && slot.fresh && !slot.monitor;
-    });
+             return slot.active && slot.fresh && !slot.monitor;
+           });
   }
 
   void add_counts(SolverStatistics& to) const {
@@ -166,7 +178,8 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
     to.steps += steps, to.rejected += rejected, to.linear_setups += setups;
   }
 
-  // --- what CVODE calls; nothing may be thrown through it -----------------------------------------------------
+  // --- what CVODE calls; nothing may be thrown through it
+  // -----------------------------------------------------
 
   /// Keeps the first exception of a callback: CVODE tries ten times more before it gives up.
   template <class Call>
@@ -189,16 +202,18 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
     });
   }
 
-  static int jacobian(double t, N_Vector x, N_Vector, SUNMatrix out, void* user, N_Vector, N_Vector, N_Vector) {
+  static int jacobian(double t, N_Vector x, N_Vector, SUNMatrix out, void* user, N_Vector, N_Vector,
+                      N_Vector) {
     auto* self = static_cast<CvodeSolver*>(user);
     return self->guarded([&] {
-      self->machine_->jacobian(t, N_VGetArrayPointer(x), {SUNDenseMatrix_Data(out), self->n_, self->n_});
+      self->machine_->jacobian(t, N_VGetArrayPointer(x),
+                               {SUNDenseMatrix_Data(out), self->n_, self->n_});
       return 0;
     });
   }
 
-  /// CVODE only wakes us; the locator judges. So it never sees an exact zero at the start of a stretch, which would
-  /// switch the guard off, nor a monitor.
+  /// CVODE only wakes us; the locator judges. So it never sees an exact zero at the start of a
+  /// stretch, which would switch the guard off, nor a monitor.
   static int root_functions(double t, N_Vector x, double* g, void* user) {
     auto* self = static_cast<CvodeSolver*>(user);
     return self->guarded([&] {
@@ -229,10 +244,12 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
     CVodeGetCurrentTime(cvode_.get(), &t);
     CVodeGetCurrentStep(cvode_.get(), &h);
     require_finite_near(*machine_, t, h, x1_.data());
-    throw SimulationError(text("t = ", t, " s: CVODE (", method(), ") cannot go on, step ", h, " s: ", last_message_,
-                               "; the solution blows up in finite time, has a jump that no guard announces, or the "
-                               "tolerance cannot be met; rtol = ", options_.rtol, ", atol = ", options_.atol),
-                          t);
+    throw SimulationError(
+        text("t = ", t, " s: CVODE (", method(), ") cannot go on, step ", h, " s: ", last_message_,
+             "; the solution blows up in finite time, has a jump that no guard announces, or the "
+             "tolerance cannot be met; rtol = ",
+             options_.rtol, ", atol = ", options_.atol),
+        t);
   }
 
   CvodeMethod method_;
@@ -255,7 +272,8 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
 
 }  // namespace
 
-std::unique_ptr<Solver> make_cvode(Machine& machine, Watch& watch, const SolverOptions& options, CvodeMethod method) {
+std::unique_ptr<Solver> make_cvode(Machine& machine, Watch& watch, const SolverOptions& options,
+                                   CvodeMethod method) {
   return std::make_unique<CvodeSolver>(machine, watch, options, method);
 }
 

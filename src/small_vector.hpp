@@ -1,5 +1,6 @@
-// Vector operations written out for small systems. A call of SUNDIALS' serial vectors goes through two tables and a
-// general loop; for a few states that costs more than the arithmetic. The content stays that of the serial vector.
+// Vector operations written out for small systems. A call of SUNDIALS' serial vectors goes through
+// two tables and a general loop; for a few states that costs more than the arithmetic. The content
+// stays that of the serial vector.
 #pragma once
 
 #include <cmath>
@@ -11,7 +12,9 @@ namespace saltus::sun {
 namespace small {
 
 inline double* data(N_Vector v) { return static_cast<N_VectorContent_Serial>(v->content)->data; }
-inline sunindextype size(N_Vector v) { return static_cast<N_VectorContent_Serial>(v->content)->length; }
+inline sunindextype size(N_Vector v) {
+  return static_cast<N_VectorContent_Serial>(v->content)->length;
+}
 
 /// z[i] = f(i)
 template <class F>

@@ -22,7 +22,8 @@
 #if !defined(SUNDIALS_VERSION_MAJOR) || SUNDIALS_VERSION_MAJOR * 100 + SUNDIALS_VERSION_MINOR < 602
 #error "Saltus needs SUNDIALS 6.2 or newer"
 #endif
-static_assert(std::is_same_v<sunrealtype, double>, "Saltus needs a SUNDIALS built for double precision");
+static_assert(std::is_same_v<sunrealtype, double>,
+              "Saltus needs a SUNDIALS built for double precision");
 
 namespace saltus::sun {
 
@@ -75,17 +76,22 @@ struct ErrorHook {
 };
 
 #if SUNDIALS_VERSION_MAJOR >= 7
-inline void on_error(int, const char*, const char*, const char* message, SUNErrCode, void* data, SUNContext) {
+inline void on_error(int, const char*, const char*, const char* message, SUNErrCode, void* data,
+                     SUNContext) {
   const auto* hook = static_cast<ErrorHook*>(data);
   hook->sink(message == nullptr ? "" : message, hook->user);
 }
-inline void hook_errors(SUNContext context, void*, ErrorHook* hook) { SUNContext_PushErrHandler(context, on_error, hook); }
+inline void hook_errors(SUNContext context, void*, ErrorHook* hook) {
+  SUNContext_PushErrHandler(context, on_error, hook);
+}
 #else
 inline void on_error(int, const char*, const char*, char* message, void* data) {
   const auto* hook = static_cast<ErrorHook*>(data);
   hook->sink(message == nullptr ? "" : message, hook->user);
 }
-inline void hook_errors(SUNContext, void* cvode, ErrorHook* hook) { CVodeSetErrHandlerFn(cvode, on_error, hook); }
+inline void hook_errors(SUNContext, void* cvode, ErrorHook* hook) {
+  CVodeSetErrHandlerFn(cvode, on_error, hook);
+}
 #endif
 
 }  // namespace saltus::sun

@@ -1,4 +1,5 @@
-// The whole library. Ready scenes and reports stand apart: saltus/models/models.hpp, saltus/report/work_precision.hpp.
+// The whole library. Ready scenes and reports stand apart: saltus/models/models.hpp,
+// saltus/report/work_precision.hpp.
 #pragma once
 
 #include "saltus/library/library.hpp"

@@ -11,7 +11,9 @@ namespace {
 template <class Declare>
 Leaf oscillator(Declare declare) {
   return Leaf("oscillator", [&](Leaf& l) {
-    l.declare_continuous_state({.initial = vec({1.0, 0.0}), .ode = [](const At& at, VectorRef xdot) { xdot << at.x[1], -at.x[0]; }});
+    l.declare_continuous_state(
+        {.initial = vec({1.0, 0.0}),
+         .ode = [](const At& at, VectorRef xdot) { xdot << at.x[1], -at.x[0]; }});
     l.declare_continuous_state_output("x");
     declare(l);
   });
@@ -23,7 +25,8 @@ TEST_CASE("a scene without guards never asks for guards", "[absent]") {
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Leaf leaf = oscillator([](Leaf&) {});
-  const auto results = simulate(leaf, leaf.create_context(), {0.0, 20.0}, {.ode_solver_method = method});
+  const auto results =
+      simulate(leaf, leaf.create_context(), {0.0, 20.0}, {.ode_solver_method = method});
   CHECK(results.statistics.guard_calls == 0);
   CHECK(contains(compile(leaf)->describe(), "no guards: no root-finding"));
 }
@@ -33,9 +36,11 @@ TEST_CASE("a guard of direction none is never called", "[absent]") {
   INFO("method " << method);
   int calls = 0;
   const Leaf leaf = oscillator([&](Leaf& l) {
-    l.declare_zero_crossing({.guard = [&](const At& at) { return ++calls, at.x[0]; }, .direction = Direction::none});
+    l.declare_zero_crossing(
+        {.guard = [&](const At& at) { return ++calls, at.x[0]; }, .direction = Direction::none});
   });
-  const auto results = simulate(leaf, leaf.create_context(), {0.0, 20.0}, {.ode_solver_method = method});
+  const auto results =
+      simulate(leaf, leaf.create_context(), {0.0, 20.0}, {.ode_solver_method = method});
   CHECK(calls == 0);
   CHECK(results.statistics.guard_calls == 0);
   CHECK(contains(compile(leaf)->describe(), "no guards"));
@@ -48,12 +53,16 @@ TEST_CASE("a guard is not called outside its mode", "[absent]") {
   const Leaf leaf = oscillator([&](Leaf& l) {
     l.declare_default_mode(0);
     for (int m = 0; m < 2; ++m) {
-      l.declare_zero_crossing({.name = text("from_", m),
-                               .guard = [&wrong, &right, m](const At& at) { return ++(at.mode == m ? right : wrong), at.x[0]; },
-                               .start_mode = m, .end_mode = 1 - m});
+      l.declare_zero_crossing(
+          {.name = text("from_", m),
+           .guard = [&wrong, &right,
+                     m](const At& at) { return ++(at.mode == m ? right : wrong), at.x[0]; },
+           .start_mode = m,
+           .end_mode = 1 - m});
     }
   });
-  const auto results = simulate(leaf, leaf.create_context(), {0.0, 20.0}, {.ode_solver_method = method});
+  const auto results =
+      simulate(leaf, leaf.create_context(), {0.0, 20.0}, {.ode_solver_method = method});
   CHECK(results.events.size() == 6);
   CHECK(wrong == 0);
   CHECK(right > 0);
@@ -70,8 +79,9 @@ TEST_CASE("a comparison that reaches no derivative, guard or reset is no guard",
   builder.connect(sine.output(), above.input(0)), builder.connect(zero.output(), above.input(1));
   builder.connect(sine.output(), integrator.input());
   const Diagram diagram = builder.build();
-  const auto results = simulate(diagram, diagram.create_context(), {0.0, 20.0},
-                                {.ode_solver_method = method, .recorded_signals = {{"above", above.output()}}});
+  const auto results =
+      simulate(diagram, diagram.create_context(), {0.0, 20.0},
+               {.ode_solver_method = method, .recorded_signals = {{"above", above.output()}}});
   CHECK(results.statistics.guard_calls == 0);
   CHECK(results.events.empty());
 }
@@ -80,7 +90,8 @@ TEST_CASE("without a Zeno tolerance there is no Zeno event", "[absent]") {
   const auto* method = GENERATE(from_range(methods));
   for (const Scene& scene : all_forms({.e = 0.5, .zeno_tolerance = 0.0})) {
     INFO(scene.form << ", method " << method);
-    const auto results = simulate(*scene.system, scene.context(1.0, 0.0), {0.0, 3.0}, {.ode_solver_method = method, .throw_errors = false});
+    const auto results = simulate(*scene.system, scene.context(1.0, 0.0), {0.0, 3.0},
+                                  {.ode_solver_method = method, .throw_errors = false});
     CHECK(count(results.events, EventKind::zeno_enter) == 0);
     CHECK(results.status == Status::chattering);
   }

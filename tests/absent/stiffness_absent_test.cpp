@@ -1,4 +1,5 @@
-// No stiffness: no Jacobian, no linear algebra. No discontinuity in the right-hand side: no restart.
+// No stiffness: no Jacobian, no linear algebra. No discontinuity in the right-hand side: no
+// restart.
 #include "saltus/library/library.hpp"
 #include "support/leaves.hpp"
 
@@ -10,7 +11,9 @@ namespace {
 /// An oscillator whose Jacobian counts its calls.
 Leaf oscillator(int& calls) {
   return Leaf("oscillator", [&](Leaf& l) {
-    l.declare_continuous_state({.initial = vec({1.0, 0.0}), .ode = [](const At& at, VectorRef xdot) { xdot << at.x[1], -at.x[0]; }});
+    l.declare_continuous_state(
+        {.initial = vec({1.0, 0.0}),
+         .ode = [](const At& at, VectorRef xdot) { xdot << at.x[1], -at.x[0]; }});
     l.declare_jacobian([&](const At&, MatrixRef j) { ++calls, j << 0.0, 1.0, -1.0, 0.0; });
   });
 }
@@ -22,21 +25,26 @@ TEST_CASE("a scene that is not stiff has no Jacobian and no linear solver", "[ab
   INFO("method " << method);
   int calls = 0;
   const Leaf leaf = oscillator(calls);
-  const auto results = simulate(leaf, leaf.create_context(), {0.0, 100.0}, {.ode_solver_method = method});
+  const auto results =
+      simulate(leaf, leaf.create_context(), {0.0, 100.0}, {.ode_solver_method = method});
   CHECK(calls == 0);
   CHECK(results.statistics.jacobian_calls == 0);
   CHECK(results.statistics.linear_setups == 0);
   CHECK(!contains(results.statistics.method, "bdf"));
 }
 
-TEST_CASE("BDF asks the leaf for its Jacobian where there is one, and makes no differences", "[absent]") {
+TEST_CASE("BDF asks the leaf for its Jacobian where there is one, and makes no differences",
+          "[absent]") {
   int calls = 0;
   const Leaf leaf = oscillator(calls);
-  const auto results = simulate(leaf, leaf.create_context(), {0.0, 100.0}, {.ode_solver_method = "bdf"});
+  const auto results =
+      simulate(leaf, leaf.create_context(), {0.0, 100.0}, {.ode_solver_method = "bdf"});
   CHECK(calls > 0);
   CHECK(results.statistics.jacobian_calls == calls);
-  // Newton needs one or two evaluations a step; differences would add one a state for each Jacobian.
-  CHECK(results.statistics.right_hand_side_calls < 3 * (results.statistics.steps + results.statistics.rejected) + 10);
+  // Newton needs one or two evaluations a step; differences would add one a state for each
+  // Jacobian.
+  CHECK(results.statistics.right_hand_side_calls <
+        3 * (results.statistics.steps + results.statistics.rejected) + 10);
 }
 
 TEST_CASE("updates that no derivative reads restart nothing", "[absent]") {
@@ -48,16 +56,19 @@ TEST_CASE("updates that no derivative reads restart nothing", "[absent]") {
   auto& hold = builder.add<ZeroOrderHold>("hold", 0.1);
   auto& step = builder.add<Step>("step", Step::Options{.step_time = 0.5});
   auto& gain = builder.add<Gain>("gain", 2.0);
-  builder.connect(sine.output(), integrator.input()), builder.connect(integrator.output(), hold.input());
+  builder.connect(sine.output(), integrator.input()),
+      builder.connect(integrator.output(), hold.input());
   builder.connect(step.output(), gain.input());
   const Diagram diagram = builder.build();
-  const auto results = simulate(diagram, diagram.create_context(), {0.0, 10.0},
-                                {.ode_solver_method = method, .recorded_signals = {{"gain", gain.output()}}});
+  const auto results =
+      simulate(diagram, diagram.create_context(), {0.0, 10.0},
+               {.ode_solver_method = method, .recorded_signals = {{"gain", gain.output()}}});
   CHECK(count(results.events, EventKind::time) == 102);
   CHECK(results.statistics.restarts == 0);
 }
 
-TEST_CASE("a held signal that a derivative reads restarts it when it changes, and only then", "[absent]") {
+TEST_CASE("a held signal that a derivative reads restarts it when it changes, and only then",
+          "[absent]") {
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);
   DiagramBuilder builder;
@@ -66,7 +77,8 @@ TEST_CASE("a held signal that a derivative reads restarts it when it changes, an
   auto& integrator = builder.add<Integrator>("integrator");
   builder.connect(pulse.output(), hold.input()), builder.connect(hold.output(), integrator.input());
   const Diagram diagram = builder.build();
-  const auto results = simulate(diagram, diagram.create_context(), {0.0, 10.01}, {.ode_solver_method = method});
+  const auto results =
+      simulate(diagram, diagram.create_context(), {0.0, 10.01}, {.ode_solver_method = method});
   // The hold changes at 0, 0.5, ..., 10: at 0 the solver has not started yet.
   CHECK(results.statistics.restarts == 20);
 }

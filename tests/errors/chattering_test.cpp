@@ -1,4 +1,5 @@
-// Events that go on without time advancing end the run: status chattering, who did it, and what helps.
+// Events that go on without time advancing end the run: status chattering, who did it, and what
+// helps.
 #include <chrono>
 
 #include "support/balls.hpp"
@@ -12,27 +13,39 @@ namespace {
 /// x' = -sign(x) by two modes, started off the switching surface.
 Leaf sliding_modes() {
   return Leaf("relay", [](Leaf& l) {
-    l.declare_continuous_state({.initial = vec({0.5}), .ode = [](const At& at) { return at.mode == 1 ? -1.0 : 1.0; }});
+    l.declare_continuous_state(
+        {.initial = vec({0.5}), .ode = [](const At& at) { return at.mode == 1 ? -1.0 : 1.0; }});
     l.declare_default_mode(1);
-    l.declare_zero_crossing({.name = "down", .guard = [](const At& at) { return at.x[0]; },
-                             .direction = Direction::positive_then_non_positive, .start_mode = 1, .end_mode = -1});
-    l.declare_zero_crossing({.name = "up", .guard = [](const At& at) { return at.x[0]; },
-                             .direction = Direction::negative_then_non_negative, .start_mode = -1, .end_mode = 1});
+    l.declare_zero_crossing({.name = "down",
+                             .guard = [](const At& at) { return at.x[0]; },
+                             .direction = Direction::positive_then_non_positive,
+                             .start_mode = 1,
+                             .end_mode = -1});
+    l.declare_zero_crossing({.name = "up",
+                             .guard = [](const At& at) { return at.x[0]; },
+                             .direction = Direction::negative_then_non_negative,
+                             .start_mode = -1,
+                             .end_mode = 1});
   });
 }
 
 /// The same by a relation.
 Leaf sliding_relation() {
   return Leaf("relay", [](Leaf& l) {
-    const auto positive = l.declare_relation({.name = "positive", .guard = [](const At& at) { return at.x[0]; }});
-    l.declare_continuous_state({.initial = vec({0.5}), .ode = [=](const At& at) { return at.relation(positive) ? -1.0 : 1.0; }});
+    const auto positive =
+        l.declare_relation({.name = "positive", .guard = [](const At& at) { return at.x[0]; }});
+    l.declare_continuous_state({.initial = vec({0.5}), .ode = [=](const At& at) {
+                                  return at.relation(positive) ? -1.0 : 1.0;
+                                }});
   });
 }
 
 void chatters(const System& system, const char* method, const std::string& block) {
   const auto start = std::chrono::steady_clock::now();
-  const auto results = simulate(system, system.create_context(), {0.0, 10.0}, {.ode_solver_method = method, .throw_errors = false});
-  INFO(to_string(results.status) << ": " << results.message << ", x = " << results.context.continuous_state());
+  const auto results = simulate(system, system.create_context(), {0.0, 10.0},
+                                {.ode_solver_method = method, .throw_errors = false});
+  INFO(to_string(results.status) << ": " << results.message
+                                 << ", x = " << results.context.continuous_state());
   CHECK(results.status == Status::chattering);
   CHECK(contains(results.message, text("block '", block, "' fired")));
   CHECK(contains(results.message, "hysteresis"));
@@ -68,13 +81,15 @@ TEST_CASE("sliding in a diagram with a Comparator or a lambda chatters", "[error
   auto& choice = builder.add<Switch>("choice");
   if (opaque) {
     auto& above = builder.add<FunctionBlock>("above", [](double value) { return value > 0.0; });
-    builder.connect(x.output(), above.input()), builder.connect(above.output(), choice.input("control"));
+    builder.connect(x.output(), above.input()),
+        builder.connect(above.output(), choice.input("control"));
   } else {
     auto& above = builder.add<Comparator>("above", ">");
     builder.connect(x.output(), above.input(0)), builder.connect(zero.output(), above.input(1));
     builder.connect(above.output(), choice.input("control"));
   }
-  builder.connect(minus.output(), choice.input("true_value")), builder.connect(plus.output(), choice.input("false_value"));
+  builder.connect(minus.output(), choice.input("true_value")),
+      builder.connect(plus.output(), choice.input("false_value"));
   builder.connect(choice.output(), x.input());
   chatters(builder.build(), method, "above");
 }
@@ -85,8 +100,9 @@ TEST_CASE("a ball without Zeno monitor past its Zeno time chatters", "[errors][c
   for (const Scene& scene : all_forms({.e = e})) {
     INFO(scene.form << ", method " << method << ", e = " << e);
     const auto start = std::chrono::steady_clock::now();
-    const auto results = simulate(*scene.system, scene.context(0.1, 0.0), {0.0, 10.0},
-                                  {.ode_solver_method = method, .zeno_tolerance = 0.0, .throw_errors = false});
+    const auto results =
+        simulate(*scene.system, scene.context(0.1, 0.0), {0.0, 10.0},
+                 {.ode_solver_method = method, .zeno_tolerance = 0.0, .throw_errors = false});
     INFO(to_string(results.status) << ": " << results.message);
     CHECK(results.status == Status::chattering);
     CHECK(contains(results.message, "zeno_tolerance"));
@@ -95,15 +111,17 @@ TEST_CASE("a ball without Zeno monitor past its Zeno time chatters", "[errors][c
   }
 }
 
-TEST_CASE("a sliding run that starts on its surface at t = 0 does not hang", "[errors][chattering]") {
+TEST_CASE("a sliding run that starts on its surface at t = 0 does not hang",
+          "[errors][chattering]") {
   const auto* method = GENERATE(from_range(methods));
   const bool modes = GENERATE(true, false);
   INFO("method " << method << ", modes " << modes);
   const Leaf leaf = modes ? sliding_modes() : sliding_relation();
   const auto start = std::chrono::steady_clock::now();
-  const auto results = simulate(leaf, leaf.create_context().with_continuous_state(vec({0.0})), {0.0, 1.0},
-                                {.ode_solver_method = method, .throw_errors = false});
-  INFO(to_string(results.status) << ": " << results.message << ", x = " << results.context.continuous_state());
+  const auto results = simulate(leaf, leaf.create_context().with_continuous_state(vec({0.0})),
+                                {0.0, 1.0}, {.ode_solver_method = method, .throw_errors = false});
+  INFO(to_string(results.status) << ": " << results.message
+                                 << ", x = " << results.context.continuous_state());
   CHECK(results.status != Status::reached_end);
   CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(5));
 }

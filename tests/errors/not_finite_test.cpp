@@ -1,4 +1,5 @@
-// NaN and Inf from a derivative, a guard, an output or a reset map end the run and are named: which block, which t.
+// NaN and Inf from a derivative, a guard, an output or a reset map end the run and are named: which
+// block, which t.
 #include <chrono>
 
 #include "support/leaves.hpp"
@@ -44,7 +45,9 @@ TEST_CASE("a derivative that becomes NaN or Inf is named with its block and its 
   DiagramBuilder builder;
   builder.add<Leaf>("good", [](Leaf& l) { declare_ramp(l); });
   builder.add<Leaf>("bad", [=](Leaf& l) {
-    l.declare_continuous_state({.initial = vec({1.0}), .ode = [=](const At& at) { return at.time > 1.0 ? bad : -at.x[0]; }});
+    l.declare_continuous_state({.initial = vec({1.0}), .ode = [=](const At& at) {
+                                  return at.time > 1.0 ? bad : -at.x[0];
+                                }});
   });
   const Diagram diagram = builder.build();
   const Ended ended = run(diagram, method);
@@ -62,10 +65,12 @@ TEST_CASE("a derivative that is NaN from the start is named at t0", "[errors]") 
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Leaf leaf("root of minus one", [](Leaf& l) {
-    l.declare_continuous_state({.initial = vec({-1.0}), .ode = [](const At& at) { return std::sqrt(at.x[0]); }});
+    l.declare_continuous_state(
+        {.initial = vec({-1.0}), .ode = [](const At& at) { return std::sqrt(at.x[0]); }});
   });
   const Ended ended = run(leaf, method);
-  CHECK(contains(ended.message, "t = 0 s: the derivative of block 'root of minus one' is not finite"));
+  CHECK(contains(ended.message,
+                 "t = 0 s: the derivative of block 'root of minus one' is not finite"));
   CHECK(ended.printed == "");
 }
 
@@ -74,8 +79,10 @@ TEST_CASE("a reset map that sets NaN is named with its event", "[errors]") {
   INFO("method " << method);
   const Leaf leaf("leaf", [](Leaf& l) {
     declare_ramp(l);
-    l.declare_zero_crossing({.name = "jump", .guard = [](const At& at) { return at.x[0] - 1.0; },
-                             .reset_map = [](const At&, Next& next) { next.set_continuous_state({not_a_number}); }});
+    l.declare_zero_crossing(
+        {.name = "jump",
+         .guard = [](const At& at) { return at.x[0] - 1.0; },
+         .reset_map = [](const At&, Next& next) { next.set_continuous_state({not_a_number}); }});
   });
   const Ended ended = run(leaf, method);
   INFO(ended.message);
@@ -89,8 +96,10 @@ TEST_CASE("a guard that becomes NaN is an error, not an event", "[errors]") {
   INFO("method " << method);
   const Leaf leaf("leaf", [](Leaf& l) {
     declare_ramp(l);
-    l.declare_zero_crossing({.name = "level", .guard = [](const At& at) { return at.x[0] > 1.0 ? not_a_number : 5.0; },
-                             .reset_map = [](const At&, Next& next) { next.set_continuous_state({0.0}); }});
+    l.declare_zero_crossing(
+        {.name = "level",
+         .guard = [](const At& at) { return at.x[0] > 1.0 ? not_a_number : 5.0; },
+         .reset_map = [](const At&, Next& next) { next.set_continuous_state({0.0}); }});
   });
   const Ended ended = run(leaf, method);
   INFO(ended.message);
@@ -104,11 +113,17 @@ TEST_CASE("a bad value behind an event is not seen: the step is shortened", "[er
   INFO("method " << method);
   // Torricelli: the tank is empty at t = 1, and sqrt(h) is NaN beyond.
   const Leaf tank("tank", [](Leaf& l) {
-    l.declare_continuous_state({.initial = vec({1.0}), .ode = [](const At& at) { return at.mode == 0 ? -2.0 * std::sqrt(at.x[0]) : 0.0; }});
+    l.declare_continuous_state({.initial = vec({1.0}), .ode = [](const At& at) {
+                                  return at.mode == 0 ? -2.0 * std::sqrt(at.x[0]) : 0.0;
+                                }});
     l.declare_default_mode(0);
-    l.declare_zero_crossing({.name = "empty", .guard = [](const At& at) { return at.x[0] - 1e-6; }, .start_mode = 0, .end_mode = 1});
+    l.declare_zero_crossing({.name = "empty",
+                             .guard = [](const At& at) { return at.x[0] - 1e-6; },
+                             .start_mode = 0,
+                             .end_mode = 1});
   });
-  const auto results = simulate(tank, tank.create_context(), {0.0, 2.0}, {.ode_solver_method = method, .throw_errors = false});
+  const auto results = simulate(tank, tank.create_context(), {0.0, 2.0},
+                                {.ode_solver_method = method, .throw_errors = false});
   CHECK(results.message == "");
   REQUIRE(results.events.size() == 1);
   CHECK(std::abs(results.events[0].time - (1.0 - 1e-3)) < 1e-4);

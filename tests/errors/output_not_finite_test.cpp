@@ -42,7 +42,8 @@ TEST_CASE("a recorded output that is NaN is an error that names it", "[errors]")
   INFO("method " << method);
   const Leaf leaf("leaf", [](Leaf& l) {
     declare_ramp(l);
-    l.declare_output_port({.name = "log", .calc = [](const At& at) { return at.time > 1.0 ? not_a_number : 1.0; }});
+    l.declare_output_port(
+        {.name = "log", .calc = [](const At& at) { return at.time > 1.0 ? not_a_number : 1.0; }});
   });
   const Ended ended = run(leaf, method, {.recorded_signals = {{"log", leaf.output("log")}}});
   INFO(ended.message);

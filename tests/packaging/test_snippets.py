@@ -68,13 +68,17 @@ def programs(tmp_path_factory):
     build = source / "build"
     configure = ["cmake", "-G", "Ninja", "-S", source, "-B", build, f"-DCMAKE_PREFIX_PATH={prefix}"]
     subprocess.run(configure, check=True, stdout=subprocess.DEVNULL)
-    subprocess.run(["cmake", "--build", build, "--", "-k", "0"], check=False)  # the log says what did not compile
+    subprocess.run(
+        ["cmake", "--build", build, "--", "-k", "0"], check=False
+    )  # the log says what did not compile
     return build
 
 
 def run(command, directory):
     environment = os.environ | {"MPLBACKEND": "Agg"}
-    done = subprocess.run(command, cwd=directory, env=environment, capture_output=True, text=True, timeout=120)
+    done = subprocess.run(
+        command, cwd=directory, env=environment, capture_output=True, text=True, timeout=120
+    )
     assert done.returncode == 0, f"exit {done.returncode}\n{done.stdout}{done.stderr}"
 
 
@@ -94,6 +98,10 @@ def test_cpp(where, text, tmp_path, programs):
 
 @pytest.mark.parametrize("document", DOCUMENTS, ids=lambda path: path.name)
 def test_links_point_somewhere(document):
-    links = re.findall(r"\]\(([^)#\s]+)[^)]*\)", re.sub(r"```.*?```", "", document.read_text(), flags=re.S))
-    missing = [link for link in links if "://" not in link and not (document.parent / link).exists()]
+    links = re.findall(
+        r"\]\(([^)#\s]+)[^)]*\)", re.sub(r"```.*?```", "", document.read_text(), flags=re.S)
+    )
+    missing = [
+        link for link in links if "://" not in link and not (document.parent / link).exists()
+    ]
     assert not missing, f"{document.name} links to {', '.join(missing)}"

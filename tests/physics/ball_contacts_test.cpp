@@ -7,7 +7,8 @@ using Catch::Matchers::WithinAbs;
 
 namespace {
 
-/// One edge or zero crossing per contact: the crossings of the relation are logged beside the resets.
+/// One edge or zero crossing per contact: the crossings of the relation are logged beside the
+/// resets.
 std::vector<double> contact_times(const Scene& scene, const Results& results) {
   return results.events.times(scene.leaf ? "bounce" : "difference");
 }
@@ -26,8 +27,9 @@ TEST_CASE("contact k of a ball as a leaf comes when the closed form says", "[phy
                                 {.rtol = rtol, .atol = atol, .ode_solver_method = method});
   const auto times = contact_times(scene, results);
   REQUIRE(times.size() == 6);
-  // A flight is a parabola, so a Runge-Kutta method is exact; the multistep methods err by their tolerance in each of
-  // some 20 steps a flight. An error in the speed of contact k is carried on as a time 2 dv/g in every later flight.
+  // A flight is a parabola, so a Runge-Kutta method is exact; the multistep methods err by their
+  // tolerance in each of some 20 steps a flight. An error in the speed of contact k is carried on
+  // as a time 2 dv/g in every later flight.
   const double tolerance = 6.0 * 6.0 * 20.0 * (rtol * 14.0 + atol) / 9.81;
   for (int k = 1; k <= 6; ++k) {
     CHECK_THAT(times[static_cast<std::size_t>(k - 1)], WithinAbs(exact.contact(k), tolerance));
@@ -39,7 +41,8 @@ TEST_CASE("contact k of a ball as a leaf comes when the closed form says", "[phy
   }
 }
 
-TEST_CASE("a ball from blocks bounces when its leaf does, whatever tells the contact", "[physics][ball]") {
+TEST_CASE("a ball from blocks bounces when its leaf does, whatever tells the contact",
+          "[physics][ball]") {
   const auto* method = GENERATE(from_range(methods));
   const Contact contact = GENERATE(from_range(contacts));
   const Scene scene = blocks(contact, {.e = 0.9});
@@ -59,21 +62,25 @@ TEST_CASE("a ball from blocks bounces when its leaf does, whatever tells the con
   }
 }
 
-TEST_CASE("the one-step method is exact on parabolas: contacts right to rounding", "[physics][ball]") {
+TEST_CASE("the one-step method is exact on parabolas: contacts right to rounding",
+          "[physics][ball]") {
   const BallExact exact{9.81, 0.9, 10.0};
   for (const Scene& scene : all_forms({.e = 0.9})) {
     INFO(scene.form);
-    const auto results = simulate(*scene.system, scene.context(10.0, 0.0), {0.0, 12.0}, {.ode_solver_method = "dopri5"});
+    const auto results = simulate(*scene.system, scene.context(10.0, 0.0), {0.0, 12.0},
+                                  {.ode_solver_method = "dopri5"});
     std::vector<double> times;
     for (std::size_t i = 0; i < results.events.size(); ++i) {
       const Event event = results.events[i];
       if (event.block == "ball" || event.block == "integrator_y") times.push_back(event.time);
     }
     REQUIRE(times.size() == 6);
-    // Six flights; each adds a few roundings of heights up to 10 m and of times up to 12 s, divided by a speed above
-    // 8 m/s, and 100 eps (|t| + |h|) of location: together below 6 * (200 + 100) eps * 24 s.
+    // Six flights; each adds a few roundings of heights up to 10 m and of times up to 12 s, divided
+    // by a speed above 8 m/s, and 100 eps (|t| + |h|) of location: together below 6 * (200 + 100)
+    // eps * 24 s.
     for (int k = 1; k <= 6; ++k) {
-      CHECK_THAT(times[static_cast<std::size_t>(k - 1)], WithinAbs(exact.contact(k), 6.0 * 300.0 * eps * 24.0));
+      CHECK_THAT(times[static_cast<std::size_t>(k - 1)],
+                 WithinAbs(exact.contact(k), 6.0 * 300.0 * eps * 24.0));
     }
   }
 }

@@ -19,17 +19,20 @@ TEST_CASE("a ball thrown up from the floor flies and comes back", "[physics][bal
                                   {.rtol = rtol, .atol = atol, .ode_solver_method = method});
     // Up for 1 s, then 0.25 s of a flight that starts with 2.5 m/s.
     const double tolerance = 100.0 * (rtol * 5.0 + atol);
-    CHECK_THAT(results.context.continuous_state()[0], WithinAbs(floor + 2.5 * 0.25 - 5.0 * 0.0625, tolerance));
+    CHECK_THAT(results.context.continuous_state()[0],
+               WithinAbs(floor + 2.5 * 0.25 - 5.0 * 0.0625, tolerance));
     CHECK_THAT(results.context.continuous_state()[1], WithinAbs(0.0, 10.0 * tolerance));
     CHECK(count(results.events, EventKind::zeno_enter) == 0);
   }
 }
 
-TEST_CASE("a ball thrown down on the floor it touches bounces at once, at t0", "[physics][ball][start]") {
+TEST_CASE("a ball thrown down on the floor it touches bounces at once, at t0",
+          "[physics][ball][start]") {
   const auto* method = GENERATE(from_range(methods));
   for (const Scene& scene : all_forms({.g = g, .e = 0.5})) {
     INFO(scene.form << ", method " << method);
-    const auto results = simulate(*scene.system, scene.context(0.0, -4.0), {0.0, 0.2}, {.ode_solver_method = method});
+    const auto results = simulate(*scene.system, scene.context(0.0, -4.0), {0.0, 0.2},
+                                  {.ode_solver_method = method});
     REQUIRE(!results.events.empty());
     CHECK_THAT(results.events[0].time, WithinAbs(0.0, 1e-12));
     CHECK_THAT(results.context.continuous_state()[1], WithinAbs(2.0 - g * 0.2, 1e-6));
@@ -40,23 +43,27 @@ TEST_CASE("a ball that starts below the floor is not invented a bounce", "[physi
   const auto* method = GENERATE(from_range(methods));
   for (const Scene& scene : all_forms({.g = g, .e = 0.5})) {
     INFO(scene.form << ", method " << method);
-    const auto results = simulate(*scene.system, scene.context(-1.0, -1.0), {0.0, 1.0}, {.ode_solver_method = method});
+    const auto results = simulate(*scene.system, scene.context(-1.0, -1.0), {0.0, 1.0},
+                                  {.ode_solver_method = method});
     CHECK(results.events.empty());
     CHECK_THAT(results.context.continuous_state()[0], WithinAbs(-1.0 - 1.0 - 5.0, 1e-4));
   }
 }
 
-TEST_CASE("a ball thrown up from below the floor passes it, then bounces on it", "[physics][ball][start]") {
+TEST_CASE("a ball thrown up from below the floor passes it, then bounces on it",
+          "[physics][ball][start]") {
   const auto* method = GENERATE(from_range(methods));
   for (const Scene& scene : all_forms({.g = g, .e = 0.5})) {
     INFO(scene.form << ", method " << method);
-    const auto results = simulate(*scene.system, scene.context(-1.0, 6.0), {0.0, 1.1}, {.ode_solver_method = method});
+    const auto results = simulate(*scene.system, scene.context(-1.0, 6.0), {0.0, 1.1},
+                                  {.ode_solver_method = method});
     const double contact = 1.0;  // -1 + 6 t - 5 t^2 = 0 at 0.2 s, going up, and at 1 s
     CHECK_THAT(results.context.continuous_state()[1], WithinAbs(2.0 - g * (1.1 - contact), 1e-4));
   }
 }
 
-TEST_CASE("a first impact right after the start is a bounce, not a Zeno hold", "[physics][ball][start]") {
+TEST_CASE("a first impact right after the start is a bounce, not a Zeno hold",
+          "[physics][ball][start]") {
   const double t0 = GENERATE(0.0, -5.0, 1e6);
   for (const Scene& scene : all_forms({.g = g, .e = 0.5})) {
     INFO(scene.form << ", t0 = " << t0);

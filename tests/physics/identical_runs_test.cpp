@@ -21,7 +21,9 @@ Outcome run(const Scene& scene, SimulatorOptions options) {
 }
 
 std::vector<Scene> scenes() {
-  const auto step = [] { return std::make_shared<Step>("floor", Step::Options{.end_value = -0.5, .step_time = 3.5}); };
+  const auto step = [] {
+    return std::make_shared<Step>("floor", Step::Options{.end_value = -0.5, .step_time = 3.5});
+  };
   return all_forms_over({.e = 0.6}, step);
 }
 
@@ -31,17 +33,20 @@ TEST_CASE("the same run twice gives the same bits", "[physics][identical]") {
   const auto* method = GENERATE(from_range(methods));
   for (const Scene& scene : scenes()) {
     INFO(scene.form << ", method " << method);
-    const Outcome a = run(scene, {.ode_solver_method = method}), b = run(scene, {.ode_solver_method = method});
+    const Outcome a = run(scene, {.ode_solver_method = method}),
+                  b = run(scene, {.ode_solver_method = method});
     CHECK(same_bits(a.context, b.context));
     CHECK(same_bits(a.events, b.events));
   }
 }
 
-TEST_CASE("a simulator that is initialized again repeats its run bit for bit", "[physics][identical]") {
+TEST_CASE("a simulator that is initialized again repeats its run bit for bit",
+          "[physics][identical]") {
   const auto* method = GENERATE(from_range(methods));
   for (const Scene& scene : scenes()) {
     INFO(scene.form << ", method " << method);
-    Simulator simulator(*scene.system, {.ode_solver_method = method, .recorded_signals = {{"y", scene.height}}});
+    Simulator simulator(*scene.system,
+                        {.ode_solver_method = method, .recorded_signals = {{"y", scene.height}}});
     simulator.initialize(scene.context(1.0, 0.3));
     simulator.advance_to(4.0);
     const Results first = simulator.results();
@@ -69,8 +74,14 @@ TEST_CASE("recording changes no bit of the context and of the event log", "[phys
     const std::vector<SimulatorOptions> all{
         {.ode_solver_method = method, .recorded_signals = signals},
         {.ode_solver_method = method, .recorded_signals = signals, .save_at = times},
-        {.ode_solver_method = method, .recorded_signals = signals, .save_at = times, .save_steps = true},
-        {.ode_solver_method = method, .recorded_signals = signals, .save_at = {0.123}, .save_steps = false},
+        {.ode_solver_method = method,
+         .recorded_signals = signals,
+         .save_at = times,
+         .save_steps = true},
+        {.ode_solver_method = method,
+         .recorded_signals = signals,
+         .save_at = {0.123},
+         .save_steps = false},
         {.ode_solver_method = method, .save_at = times}};
     for (const SimulatorOptions& options : all) {
       const Outcome shown = run(scene, options);
@@ -97,7 +108,8 @@ TEST_CASE("two threads over one system give the bits of one", "[physics][identic
   }
 }
 
-TEST_CASE("results that were taken leave the simulator fit for another run", "[physics][identical]") {
+TEST_CASE("results that were taken leave the simulator fit for another run",
+          "[physics][identical]") {
   const Scene scene = leaf({.e = 0.6});
   Simulator simulator(*scene.system, {.recorded_signals = {{"y", scene.height}}});
   simulator.initialize(scene.context(1.0, 0.3));

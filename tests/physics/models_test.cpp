@@ -1,4 +1,5 @@
-// The ready scenes against what is known of them, with every method that suits them; and the report that compares them.
+// The ready scenes against what is known of them, with every method that suits them; and the report
+// that compares them.
 #include <saltus/models/models.hpp>
 #include <saltus/report/table.hpp>
 #include <sstream>
@@ -21,7 +22,8 @@ Scene at_tolerance(Scene scene, const std::string& method, double rtol, double a
 }  // namespace
 
 TEST_CASE("the exact answer of the ball is the published sum of its flights", "[physics][models]") {
-  // t_k = t1 + 2 t1 (e + ... + e^(k-1)), and t1 (1 + e) / (1 - e) for k without end; to rounding of times below 32 s.
+  // t_k = t1 + 2 t1 (e + ... + e^(k-1)), and t1 (1 + e) / (1 - e) for k without end; to rounding of
+  // times below 32 s.
   const double t1 = std::sqrt(2.0 * 10.0 / 9.81);
   const models::Ballistic ball({.e = 0.9, .y0 = 10.0}, 40.0);
   const EventSeries& series = ball.bounces().series.front();
@@ -41,10 +43,13 @@ TEST_CASE("the exact answer follows a floor that drops", "[physics][models]") {
   CHECK_THAT(at_rest.bounces().series[0].accumulation, WithinAbs(0.12850588106343583, 1e-16));
   CHECK(at_rest.bounces().series[0].release == 1.0);
   CHECK(at_rest.bounces().series[1].times.size() == 7);
-  const models::Ballistic in_flight({.e = 0.9, .y0 = 10.0, .floor = 5.0, .dropped = 0.0, .drop_time = 10.0}, 40.0);
+  const models::Ballistic in_flight(
+      {.e = 0.9, .y0 = 10.0, .floor = 5.0, .dropped = 0.0, .drop_time = 10.0}, 40.0);
   REQUIRE(in_flight.bounces().series.size() == 1);
   CHECK_THAT(in_flight.bounces().series[0].accumulation, WithinAbs(31.272333732171473, 4e-15));
-  CHECK(std::ranges::upper_bound(in_flight.bounces().series[0].times, 10.0) - in_flight.bounces().series[0].times.begin() == 7);
+  CHECK(std::ranges::upper_bound(in_flight.bounces().series[0].times, 10.0) -
+            in_flight.bounces().series[0].times.begin() ==
+        7);
 }
 
 TEST_CASE("the ball agrees with the closed form with every method", "[physics][models]") {
@@ -53,8 +58,9 @@ TEST_CASE("the ball agrees with the closed form with every method", "[physics][m
   INFO("method " << method << ", rtol " << rtol);
   const Scene scene = at_tolerance(models::bouncing_ball(), method, rtol, 1e-2 * rtol);
   const Achieved a = achieved(scene, simulate(scene));
-  // Heights and speeds reach 14. A bounce passes an error in speed on with the factor 0.9, and turns one of the height
-  // into one of time: nothing grows. Ten times what a step may do wrong is the bound that every method is held to.
+  // Heights and speeds reach 14. A bounce passes an error in speed on with the factor 0.9, and
+  // turns one of the height into one of time: nothing grows. Ten times what a step may do wrong is
+  // the bound that every method is held to.
   const double allowed = 10.0 * (14.0 * rtol + 1e-2 * rtol);
   CHECK(a.error <= allowed);
   CHECK(a.event_error <= allowed);
@@ -65,7 +71,8 @@ TEST_CASE("one-step methods are exact on parabolas, at any tolerance", "[physics
   const double rtol = GENERATE(1e-2, 1e-5, 1e-12);
   const Scene scene = at_tolerance(models::bouncing_ball(), "dopri5", rtol, 1e-2 * rtol);
   const Achieved a = achieved(scene, simulate(scene));
-  // 12 steps and 6 locations of 100 eps (t + h) each, t + h <= 24, at speeds up to 14 and an acceleration of 10.
+  // 12 steps and 6 locations of 100 eps (t + h) each, t + h <= 24, at speeds up to 14 and an
+  // acceleration of 10.
   CHECK(a.event_error <= 6 * 100 * 2.3e-16 * 24);
   CHECK(a.error <= 14 * 6 * 100 * 2.3e-16 * 24);
 }
@@ -73,12 +80,13 @@ TEST_CASE("one-step methods are exact on parabolas, at any tolerance", "[physics
 TEST_CASE("leaf and diagram are the same ball", "[physics][models]") {
   const auto* method = GENERATE("dopri5", "adams", "auto");
   INFO("method " << method);
-  // At 1e-12 each is within 10 (14e-12 + 1e-14) = 1.4e-10 of the truth by the bound above; two that see the same equation
-  // with the same norm err alike.
+  // At 1e-12 each is within 10 (14e-12 + 1e-14) = 1.4e-10 of the truth by the bound above; two that
+  // see the same equation with the same norm err alike.
   const Scene leaf = at_tolerance(models::bouncing_ball(), method, 1e-12, 1e-14);
-  const Scene blocks = at_tolerance(models::bouncing_ball_diagram({.e = 0.9, .y0 = 10.0, .floor = 0.0, .dropped = 0.0,
-                                                                   .drop_time = 100.0, .t_end = 12.0}),
-                                    method, 1e-12, 1e-14);
+  const Scene blocks = at_tolerance(
+      models::bouncing_ball_diagram(
+          {.e = 0.9, .y0 = 10.0, .floor = 0.0, .dropped = 0.0, .drop_time = 100.0, .t_end = 12.0}),
+      method, 1e-12, 1e-14);
   const Results a = simulate(leaf), b = simulate(blocks);
   const auto bounces = a.events.times("ball.bounce"), resets = b.events.times("integrator_y.reset");
   REQUIRE(bounces.size() == 6);
@@ -86,11 +94,14 @@ TEST_CASE("leaf and diagram are the same ball", "[physics][models]") {
   for (std::size_t i = 0; i < 6; ++i) CHECK_THAT(resets[i], WithinAbs(bounces[i], 1e-10));
   const System& y = (*std::static_pointer_cast<const Diagram>(blocks.system))["integrator_y"];
   const System& v = (*std::static_pointer_cast<const Diagram>(blocks.system))["integrator_v"];
-  CHECK_THAT(b.context[y.system_id()].continuous_state()[0], WithinAbs(a.context.continuous_state()[0], 1e-10));
-  CHECK_THAT(b.context[v.system_id()].continuous_state()[0], WithinAbs(a.context.continuous_state()[1], 1e-10));
+  CHECK_THAT(b.context[y.system_id()].continuous_state()[0],
+             WithinAbs(a.context.continuous_state()[0], 1e-10));
+  CHECK_THAT(b.context[v.system_id()].continuous_state()[0],
+             WithinAbs(a.context.continuous_state()[1], 1e-10));
 }
 
-TEST_CASE("the tutorial's scenes are right to 1e-9 in time and height at its own tolerances", "[physics][models]") {
+TEST_CASE("the tutorial's scenes are right to 1e-9 in time and height at its own tolerances",
+          "[physics][models]") {
   const auto scenes = models::tutorial();
   const auto number = GENERATE(0U, 1U, 2U, 3U);
   const Scene& scene = scenes[number];
@@ -105,7 +116,9 @@ TEST_CASE("the tutorial's scenes are right to 1e-9 in time and height at its own
   if (number == 2) CHECK(a.release_error == 0.0);
 }
 
-TEST_CASE("balls that start on the floor, or are thrown at it, follow the closed form into their rest", "[physics][models]") {
+TEST_CASE(
+    "balls that start on the floor, or are thrown at it, follow the closed form into their rest",
+    "[physics][models]") {
   const double e = GENERATE(0.0, 0.5, 1.0);
   const double v0 = GENERATE(0.0, 5.0, -5.0);
   INFO("e " << e << ", v0 " << v0);
@@ -127,16 +140,18 @@ TEST_CASE("Robertson's reaction runs to 4e10 s", "[physics][models]") {
   REQUIRE(results.status == Status::reached_end);
   REQUIRE(results.time.size() >= 12);
   const Achieved a = achieved(scene, results);
-  // The slow manifold attracts, but along it errors add up while y1 falls like 1/t: CVODE is held to a hundred local
-  // errors over eleven decades, here of y1 relative to its size as well.
+  // The slow manifold attracts, but along it errors add up while y1 falls like 1/t: CVODE is held
+  // to a hundred local errors over eleven decades, here of y1 relative to its size as well.
   CHECK(a.error <= 100 * rtol);
   CHECK(a.event_mismatch == 0);
   const auto crossing = results.events.times("y1_is_1e-4");
   REQUIRE(crossing.size() == 1);
-  CHECK_THAT(crossing[0], WithinRel(20795496.883026623, 100 * rtol));  // y1 ~ 1/t there: relative errors are equal
+  CHECK_THAT(crossing[0], WithinRel(20795496.883026623,
+                                    100 * rtol));  // y1 ~ 1/t there: relative errors are equal
 }
 
-TEST_CASE("Van der Pol's oscillator with mu = 1000 looks stiff, and auto goes over to BDF", "[physics][models]") {
+TEST_CASE("Van der Pol's oscillator with mu = 1000 looks stiff, and auto goes over to BDF",
+          "[physics][models]") {
   const double rtol = GENERATE(1e-4, 1e-6, 1e-8);
   INFO("rtol " << rtol);
   const Scene by_bdf = at_tolerance(models::van_der_pol(), "bdf", rtol, 1e-2 * rtol);
@@ -144,11 +159,13 @@ TEST_CASE("Van der Pol's oscillator with mu = 1000 looks stiff, and auto goes ov
   const Results bdf = simulate(by_bdf), automatic = simulate(by_auto);
   CHECK(automatic.statistics.method.find("bdf") != std::string::npos);
   // Before it is sure it takes a few hundred explicit steps of six calls.
-  CHECK(automatic.statistics.right_hand_side_calls <= 2 * bdf.statistics.right_hand_side_calls + 1000);
+  CHECK(automatic.statistics.right_hand_side_calls <=
+        2 * bdf.statistics.right_hand_side_calls + 1000);
   for (const Achieved& a : {achieved(by_bdf, bdf), achieved(by_auto, automatic)}) {
     CHECK(a.event_mismatch == 0);
-    // Where it creeps, dx/dt is as small as 2/3 mu^-1: an error of x is one of time 1500 times as large, and 0.9 mu^-1 times
-    // that, of x again, at the end. A hundred local errors of 2 rtol, as above.
+    // Where it creeps, dx/dt is as small as 2/3 mu^-1: an error of x is one of time 1500 times as
+    // large, and 0.9 mu^-1 times that, of x again, at the end. A hundred local errors of 2 rtol, as
+    // above.
     CHECK(a.event_error <= 1500 * 100 * 2 * rtol);
     CHECK(a.error <= 100 * 2 * rtol);
   }
@@ -159,7 +176,8 @@ TEST_CASE("a mild Van der Pol oscillator is no stiff scene", "[physics][models]"
   CHECK(simulate(scene).statistics.method == "dopri5");
 }
 
-// --- the report -----------------------------------------------------------------------------------------------------
+// --- the report
+// -----------------------------------------------------------------------------------------------------
 
 TEST_CASE("the report notices a bounce too few, and one in the wrong place", "[physics][report]") {
   Scene scene = models::bouncing_ball();
@@ -172,7 +190,8 @@ TEST_CASE("the report notices a bounce too few, and one in the wrong place", "[p
 }
 
 TEST_CASE("rows at an event are compared on their own side", "[physics][report]") {
-  // Both rows of a bounce have the same time; on the wrong side the velocity would be off by twice its size.
+  // Both rows of a bounce have the same time; on the wrong side the velocity would be off by twice
+  // its size.
   const Scene scene = at_tolerance(models::bouncing_ball(), "adams", 1e-6, 1e-8);
   const Achieved a = achieved(scene, simulate(scene));
   CHECK(a.error < 1e-3);
@@ -186,8 +205,11 @@ TEST_CASE("a method that does not come to the end is shown as such", "[physics][
   CHECK(row.message.find("run time") != std::string::npos);
 }
 
-TEST_CASE("a work-precision report has a row for each method and tolerance, in three formats", "[physics][report]") {
-  const auto rows = work_precision(models::bouncing_ball(), {.methods = {"dopri5", "adams"}, .rtols = {1e-4, 1e-8}, .least_time = 0.0});
+TEST_CASE("a work-precision report has a row for each method and tolerance, in three formats",
+          "[physics][report]") {
+  const auto rows =
+      work_precision(models::bouncing_ball(),
+                     {.methods = {"dopri5", "adams"}, .rtols = {1e-4, 1e-8}, .least_time = 0.0});
   REQUIRE(rows.size() == 4);
   CHECK(rows[3].method == "adams");
   CHECK(rows[3].rtol == 1e-8);

@@ -1,4 +1,5 @@
-// Rows: before and after each pass that changed something, at steps or asked-for times, at start and end; none twice.
+// Rows: before and after each pass that changed something, at steps or asked-for times, at start
+// and end; none twice.
 #include "support/balls.hpp"
 #include "support/leaves.hpp"
 
@@ -25,7 +26,8 @@ void rows_are_sound(const Results& results, double begin, double end) {
     const auto rows = rows_at(results, event.time);
     REQUIRE(rows.size() >= 2);
     const auto has = [&](int jump) {
-      return std::ranges::count_if(rows, [&](std::size_t row) { return results.jump[row] == jump; });
+      return std::ranges::count_if(rows,
+                                   [&](std::size_t row) { return results.jump[row] == jump; });
     };
     CHECK(has(event.jump - 1) == 1);
     CHECK(has(event.jump) == 1);
@@ -36,14 +38,20 @@ void rows_are_sound(const Results& results, double begin, double end) {
 
 TEST_CASE("time never decreases and no row stands twice, whatever is recorded", "[physics][rows]") {
   const auto* method = GENERATE(from_range(methods));
-  const auto drop = [] { return std::make_shared<Step>("floor", Step::Options{.end_value = -0.5, .step_time = 3.0}); };
+  const auto drop = [] {
+    return std::make_shared<Step>("floor", Step::Options{.end_value = -0.5, .step_time = 3.0});
+  };
   for (const Scene& scene : all_forms_over({.e = 0.6}, drop)) {
     INFO(scene.form << ", method " << method);
-    for (const std::vector<double>& times : {std::vector<double>{}, {0.0, 0.5, 1.0, 3.0, 4.0}, {0.25}}) {
-      for (const std::optional<bool> steps : {std::optional<bool>(), std::optional(true), std::optional(false)}) {
+    for (const std::vector<double>& times :
+         {std::vector<double>{}, {0.0, 0.5, 1.0, 3.0, 4.0}, {0.25}}) {
+      for (const std::optional<bool> steps :
+           {std::optional<bool>(), std::optional(true), std::optional(false)}) {
         const auto results = simulate(*scene.system, scene.context(1.0, 0.0), {0.0, 4.0},
-                                      {.ode_solver_method = method, .recorded_signals = {{"y", scene.height}},
-                                       .save_at = times, .save_steps = steps});
+                                      {.ode_solver_method = method,
+                                       .recorded_signals = {{"y", scene.height}},
+                                       .save_at = times,
+                                       .save_steps = steps});
         rows_are_sound(results, 0.0, 4.0);
         for (const double t : times) CHECK(!rows_at(results, t).empty());
       }
@@ -55,15 +63,21 @@ TEST_CASE("rows at asked-for times are right, whatever the steps are", "[physics
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Leaf leaf("leaf", [](Leaf& l) {
-    l.declare_continuous_state({.initial = vec({0.0, 1.0}), .ode = [](const At& at, VectorRef xdot) { xdot << at.x[1], -at.x[0]; }});
+    l.declare_continuous_state(
+        {.initial = vec({0.0, 1.0}),
+         .ode = [](const At& at, VectorRef xdot) { xdot << at.x[1], -at.x[0]; }});
     l.declare_continuous_state_output("x");
     l.declare_output_port({.name = "twice", .calc = [](const At& at) { return 2.0 * at.x[0]; }});
   });
   std::vector<double> times;
   for (int i = 0; i <= 100; ++i) times.push_back(0.1 * i);
-  const auto results = simulate(leaf, leaf.create_context(), {0.0, 10.0},
-                                {.rtol = 1e-9, .atol = 1e-11, .ode_solver_method = method,
-                                 .recorded_signals = {{"x", leaf.output(0)}, {"twice", leaf.output(1)}}, .save_at = times});
+  const auto results =
+      simulate(leaf, leaf.create_context(), {0.0, 10.0},
+               {.rtol = 1e-9,
+                .atol = 1e-11,
+                .ode_solver_method = method,
+                .recorded_signals = {{"x", leaf.output(0)}, {"twice", leaf.output(1)}},
+                .save_at = times});
   REQUIRE(results.time == times);
   const auto x = results.output("x");
   const auto twice = results.output("twice");
@@ -76,12 +90,14 @@ TEST_CASE("rows at asked-for times are right, whatever the steps are", "[physics
   }
 }
 
-TEST_CASE("the row before a bounce shows the ball falling, the row after it rising", "[physics][rows]") {
+TEST_CASE("the row before a bounce shows the ball falling, the row after it rising",
+          "[physics][rows]") {
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Scene scene = leaf({.e = 0.5});
-  const auto results = simulate(*scene.system, scene.context(1.0, 0.0), {0.0, 0.6},
-                                {.ode_solver_method = method, .recorded_signals = {{"y", scene.height}}});
+  const auto results =
+      simulate(*scene.system, scene.context(1.0, 0.0), {0.0, 0.6},
+               {.ode_solver_method = method, .recorded_signals = {{"y", scene.height}}});
   const auto rows = rows_at(results, results.events[0].time);
   REQUIRE(rows.size() == 2);
   const auto y = results.output("y");
@@ -94,7 +110,8 @@ TEST_CASE("the row before a bounce shows the ball falling, the row after it risi
 
 TEST_CASE("a run of zero length has the rows of its start", "[physics][rows]") {
   const Scene scene = leaf({.e = 0.5});
-  const auto results = simulate(*scene.system, scene.context(1.0, 0.0, 3.0), {3.0, 3.0}, {.recorded_signals = {{"y", scene.height}}});
+  const auto results = simulate(*scene.system, scene.context(1.0, 0.0, 3.0), {3.0, 3.0},
+                                {.recorded_signals = {{"y", scene.height}}});
   CHECK(results.time == std::vector{3.0});
   CHECK(results.status == Status::reached_end);
   CHECK(same_bits(results.context, scene.context(1.0, 0.0, 3.0)));
@@ -117,7 +134,9 @@ TEST_CASE("without continuous state rows stand at events and asked-for times", "
     l.declare_discrete_state_output("count");
     l.declare_periodic_update(count_up, 1.0, 0.5);
   });
-  const auto results = simulate(leaf, leaf.create_context(), {0.0, 3.0}, {.recorded_signals = {{"n", leaf.output()}}, .save_at = {1.0, 2.0}});
+  const auto results =
+      simulate(leaf, leaf.create_context(), {0.0, 3.0},
+               {.recorded_signals = {{"n", leaf.output()}}, .save_at = {1.0, 2.0}});
   CHECK(results.time == std::vector{0.0, 0.5, 0.5, 1.0, 1.5, 1.5, 2.0, 2.5, 2.5, 3.0});
   CHECK(column(results, "n") == std::vector{0.0, 0.0, 1.0, 1.0, 1.0, 2.0, 2.0, 2.0, 3.0, 3.0});
 }

@@ -31,7 +31,8 @@ double ticks(const Leaf& leaf, const std::vector<double>& stops, bool recorded) 
 
 }  // namespace
 
-TEST_CASE("ticks are counted the same in one run and in many, recorded or not", "[physics][split]") {
+TEST_CASE("ticks are counted the same in one run and in many, recorded or not",
+          "[physics][split]") {
   const bool with_state = GENERATE(true, false);
   const bool recorded = GENERATE(true, false);
   INFO("state " << with_state << ", recorded " << recorded);
@@ -46,7 +47,8 @@ TEST_CASE("ticks are counted the same in one run and in many, recorded or not", 
   CHECK(ticks(counter(0.25, 0.1, with_state), {0.1, 0.35, 0.6, 1.0}, recorded) == 4.0);
 }
 
-TEST_CASE("a run that goes on from results.context has the events of the unbroken run", "[physics][split]") {
+TEST_CASE("a run that goes on from results.context has the events of the unbroken run",
+          "[physics][split]") {
   const auto* method = GENERATE(from_range(methods));
   for (const Scene& scene : all_forms({.e = 0.8})) {
     INFO(scene.form << ", method " << method);
@@ -59,7 +61,8 @@ TEST_CASE("a run that goes on from results.context has the events of the unbroke
     kinds.insert(kinds.end(), rest.begin(), rest.end());
     CHECK(kinds == events(whole.events));
     // Errors of 20 steps a flight, carried on over five flights.
-    CHECK_THAT(second.context.continuous_state()[0], WithinAbs(whole.context.continuous_state()[0], 1e-6));
+    CHECK_THAT(second.context.continuous_state()[0],
+               WithinAbs(whole.context.continuous_state()[0], 1e-6));
   }
 }
 
@@ -75,7 +78,8 @@ TEST_CASE("a run split where the ball rests goes on resting", "[physics][split]"
   }
 }
 
-TEST_CASE("advance_to in pieces has the events of one run, and its numbers to the tolerance", "[physics][split]") {
+TEST_CASE("advance_to in pieces has the events of one run, and its numbers to the tolerance",
+          "[physics][split]") {
   const auto* method = GENERATE(from_range(methods));
   for (const Scene& scene : all_forms({.e = 0.8})) {
     INFO(scene.form << ", method " << method);
@@ -85,11 +89,13 @@ TEST_CASE("advance_to in pieces has the events of one run, and its numbers to th
     whole.advance_to(3.0);
     for (int i = 1; i <= 30; ++i) pieces.advance_to(0.1 * i);
     CHECK(events(pieces.results().events) == events(whole.results().events));
-    CHECK_THAT(pieces.context().continuous_state()[0], WithinAbs(whole.context().continuous_state()[0], 1e-6));
+    CHECK_THAT(pieces.context().continuous_state()[0],
+               WithinAbs(whole.context().continuous_state()[0], 1e-6));
   }
 }
 
-TEST_CASE("without continuous state advance_to in pieces is one run bit for bit", "[physics][split]") {
+TEST_CASE("without continuous state advance_to in pieces is one run bit for bit",
+          "[physics][split]") {
   const Leaf leaf = counter(1.0 / 3.0, 0.05, false);
   Simulator whole(leaf), pieces(leaf);
   whole.initialize(leaf.create_context()), pieces.initialize(leaf.create_context());

@@ -15,13 +15,16 @@ Leaf watcher(Guard guard, Direction direction = Direction::crosses_zero) {
   return Leaf("leaf", [=](Leaf& l) {
     declare_ramp(l);
     l.declare_discrete_state(vec({0.0}));
-    l.declare_zero_crossing({.name = "hit", .guard = guard, .reset_map = count_up, .direction = direction});
+    l.declare_zero_crossing(
+        {.name = "hit", .guard = guard, .reset_map = count_up, .direction = direction});
   });
 }
 
-std::vector<double> hits(const Leaf& leaf, double end, const char* method, double max_step = infinite) {
-  const auto results = simulate(leaf, leaf.create_context(), {0.0, end},
-                                {.rtol = 1e-9, .atol = 1e-11, .ode_solver_method = method, .max_minor_step_size = max_step});
+std::vector<double> hits(const Leaf& leaf, double end, const char* method,
+                         double max_step = infinite) {
+  const auto results = simulate(
+      leaf, leaf.create_context(), {0.0, end},
+      {.rtol = 1e-9, .atol = 1e-11, .ode_solver_method = method, .max_minor_step_size = max_step});
   return results.events.times("hit");
 }
 
@@ -30,26 +33,35 @@ std::vector<double> hits(const Leaf& leaf, double end, const char* method, doubl
 TEST_CASE("a guard that touches zero from above does not fire", "[physics][guards]") {
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);
-  // sin t - 1 touches zero from below at pi/2 + 2 pi k; 1 - sin t from above. In doubles sin never passes 1.
-  CHECK(hits(watcher([](const At& at) { return std::sin(at.time) - 1.0 - 1e-9; }), 20.0, method).empty());
-  CHECK(hits(watcher([](const At& at) { return 1.0 + 1e-9 - std::sin(at.time); }), 20.0, method).empty());
-  CHECK(hits(watcher([](const At& at) { return 1.0 - std::sin(at.x[0]); }, Direction::negative_then_non_negative), 20.0,
-             method).empty());
+  // sin t - 1 touches zero from below at pi/2 + 2 pi k; 1 - sin t from above. In doubles sin never
+  // passes 1.
+  CHECK(hits(watcher([](const At& at) { return std::sin(at.time) - 1.0 - 1e-9; }), 20.0, method)
+            .empty());
+  CHECK(hits(watcher([](const At& at) { return 1.0 + 1e-9 - std::sin(at.time); }), 20.0, method)
+            .empty());
+  CHECK(hits(watcher([](const At& at) { return 1.0 - std::sin(at.x[0]); },
+                     Direction::negative_then_non_negative),
+             20.0, method)
+            .empty());
 }
 
-TEST_CASE("a guard on a plateau of zeros fires on reaching it, not on it, not on leaving it to its armed side",
-          "[physics][guards]") {
+TEST_CASE(
+    "a guard on a plateau of zeros fires on reaching it, not on it, not on leaving it to its armed "
+    "side",
+    "[physics][guards]") {
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);
   // Falls to 0 at 1, stays until 2, then rises again or goes on down.
-  const auto back = watcher([](const At& at) { return std::max(1.0 - at.x[0], 0.0) + std::max(at.x[0] - 2.0, 0.0); },
-                            Direction::positive_then_non_positive);
+  const auto back = watcher(
+      [](const At& at) { return std::max(1.0 - at.x[0], 0.0) + std::max(at.x[0] - 2.0, 0.0); },
+      Direction::positive_then_non_positive);
   CHECK(hits(back, 3.0, method, 0.1).size() == 1);
   const auto flat = watcher([](const At&) { return 0.0; });
   CHECK(hits(flat, 3.0, method).empty());
 }
 
-TEST_CASE("a monotone guard fires once in its direction and never against it", "[physics][guards]") {
+TEST_CASE("a monotone guard fires once in its direction and never against it",
+          "[physics][guards]") {
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);
   const auto rising = [](const At& at) { return at.x[0] - 0.7; };
@@ -67,14 +79,18 @@ TEST_CASE("every zero of a sine is found, in each direction its half", "[physics
   const auto down = hits(watcher(sine, Direction::positive_then_non_positive), 10.0, method, 0.5);
   REQUIRE(up.size() == 4);  // at zero at the start, and going up: contact
   REQUIRE(down.size() == 3);
-  for (std::size_t k = 0; k < 4; ++k) CHECK_THAT(up[k], WithinAbs(pi * static_cast<double>(k), 1e-9));
-  for (std::size_t k = 0; k < 3; ++k) CHECK_THAT(down[k], WithinAbs(pi * (static_cast<double>(k) + 0.5), 1e-9));
+  for (std::size_t k = 0; k < 4; ++k)
+    CHECK_THAT(up[k], WithinAbs(pi * static_cast<double>(k), 1e-9));
+  for (std::size_t k = 0; k < 3; ++k)
+    CHECK_THAT(down[k], WithinAbs(pi * (static_cast<double>(k) + 0.5), 1e-9));
 }
 
-TEST_CASE("two crossings inside one step are found where an interior point lies between them", "[physics][guards]") {
+TEST_CASE("two crossings inside one step are found where an interior point lies between them",
+          "[physics][guards]") {
   const auto* method = GENERATE("dopri5", "auto");
   INFO("method " << method);
-  // x' = 1 lets steps grow to the end; the guard dips below zero between 0.45 and 0.8 of a step of length 1.
+  // x' = 1 lets steps grow to the end; the guard dips below zero between 0.45 and 0.8 of a step of
+  // length 1.
   const auto dip = watcher([](const At& at) { return (at.x[0] - 0.45) * (at.x[0] - 0.8); });
   const auto found = hits(dip, 1.0, method);
   REQUIRE(found.size() == 2);
@@ -86,7 +102,8 @@ TEST_CASE("a guard scaled to 1e-200 or 1e200 fires at the same time", "[physics]
   const auto* method = GENERATE(from_range(methods));
   const double scale = GENERATE(1e-200, 1e-300, 1e200, 1.0);
   INFO("method " << method << ", scale " << scale);
-  const auto found = hits(watcher([=](const At& at) { return scale * (at.x[0] - 0.537); }), 1.0, method);
+  const auto found =
+      hits(watcher([=](const At& at) { return scale * (at.x[0] - 0.537); }), 1.0, method);
   REQUIRE(found.size() == 1);
   CHECK_THAT(found[0], WithinAbs(0.537, 1e-9));
 }
@@ -94,7 +111,8 @@ TEST_CASE("a guard scaled to 1e-200 or 1e200 fires at the same time", "[physics]
 TEST_CASE("a slope that vanishes at the root does not hide it", "[physics][guards]") {
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);
-  const auto found = hits(watcher([](const At& at) { return std::pow(at.x[0] - 0.5, 3.0); }), 1.0, method);
+  const auto found =
+      hits(watcher([](const At& at) { return std::pow(at.x[0] - 0.5, 3.0); }), 1.0, method);
   REQUIRE(found.size() == 1);
   CHECK_THAT(found[0], WithinAbs(0.5, 1e-9));
 }
@@ -102,7 +120,10 @@ TEST_CASE("a slope that vanishes at the root does not hide it", "[physics][guard
 TEST_CASE("edge detection fires at every change of a stepwise value", "[physics][guards]") {
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);
-  const auto found = hits(watcher([](const At& at) { return std::floor(at.x[0]); }, Direction::edge_detection), 3.5, method, 0.4);
+  const auto found =
+      hits(watcher([](const At& at) { return std::floor(at.x[0]); }, Direction::edge_detection),
+           3.5, method, 0.4);
   REQUIRE(found.size() == 3);
-  for (std::size_t k = 0; k < 3; ++k) CHECK_THAT(found[k], WithinAbs(static_cast<double>(k + 1), 1e-12));
+  for (std::size_t k = 0; k < 3; ++k)
+    CHECK_THAT(found[k], WithinAbs(static_cast<double>(k + 1), 1e-12));
 }

@@ -12,7 +12,7 @@ std::atomic<long> count{0};
 }
 
 extern "C" {
-void* __libc_malloc(std::size_t);            // NOLINT(bugprone-reserved-identifier): the names glibc has
+void* __libc_malloc(std::size_t);  // NOLINT(bugprone-reserved-identifier): the names glibc has
 void* __libc_calloc(std::size_t, std::size_t);
 void* __libc_realloc(void*, std::size_t);
 

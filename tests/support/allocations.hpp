@@ -3,8 +3,8 @@
 
 namespace support {
 
-/// Calls of malloc, calloc and realloc since the program began; -1 where they cannot be counted (sanitizers, other
-/// C libraries than glibc).
+/// Calls of malloc, calloc and realloc since the program began; -1 where they cannot be counted
+/// (sanitizers, other C libraries than glibc).
 long allocations();
 
 /// What `act` asked for.

@@ -15,21 +15,24 @@ namespace support {
 using saltus::Direction;
 
 struct BallOptions {
-  double g = 9.81;      ///< [m/s^2]
-  double e = 0.9;       ///< coefficient of restitution
-  double floor = 0.0;   ///< [m]
+  double g = 9.81;     ///< [m/s^2]
+  double e = 0.9;      ///< coefficient of restitution
+  double floor = 0.0;  ///< [m]
   std::optional<double> zeno_tolerance = {};
 };
 
 /// State: height [m], velocity [m/s]. The floor is a parameter.
 class Ball final : public saltus::LeafSystem {
  public:
-  explicit Ball(const BallOptions& options = {}, std::string name = "ball") : LeafSystem(std::move(name)), e_(options.e) {
+  explicit Ball(const BallOptions& options = {}, std::string name = "ball")
+      : LeafSystem(std::move(name)), e_(options.e) {
     declare_continuous_state(2, &Ball::ode);
     declare_continuous_state_output("state");
     g_ = declare_dynamic_parameter("g", options.g);
     floor_ = declare_dynamic_parameter("floor", options.floor);
-    declare_zero_crossing({.name = "bounce", .guard = &Ball::height, .reset_map = &Ball::bounce,
+    declare_zero_crossing({.name = "bounce",
+                           .guard = &Ball::height,
+                           .reset_map = &Ball::bounce,
                            .direction = Direction::positive_then_non_positive,
                            .zeno_tolerance = options.zeno_tolerance});
   }
@@ -37,7 +40,9 @@ class Ball final : public saltus::LeafSystem {
  private:
   void ode(const At& at, VectorRef xdot) const { xdot << at.x[1], -at.p[g_]; }
   double height(const At& at) const { return at.x[0] - at.p[floor_]; }
-  void bounce(const At& at, Next& next) const { next.set_continuous_state({at.p[floor_], -e_ * at.x[1]}); }
+  void bounce(const At& at, Next& next) const {
+    next.set_continuous_state({at.p[floor_], -e_ * at.x[1]});
+  }
 
   double e_;
   saltus::ParameterIndex g_, floor_;
@@ -48,11 +53,14 @@ class BallOnTable final : public saltus::LeafSystem {
  public:
   explicit BallOnTable(const BallOptions& options = {}, std::string name = "ball")
       : LeafSystem(std::move(name)), g_(options.g), e_(options.e) {
-    declare_continuous_state({.initial = Eigen::VectorXd::Zero(2), .ode = &BallOnTable::ode,
+    declare_continuous_state({.initial = Eigen::VectorXd::Zero(2),
+                              .ode = &BallOnTable::ode,
                               .reads = saltus::Reads::continuous_state});
     declare_input_port({.name = "floor", .shape = saltus::Shape::scalar()});
     declare_continuous_state_output("state");
-    declare_zero_crossing({.name = "bounce", .guard = &BallOnTable::height, .reset_map = &BallOnTable::bounce,
+    declare_zero_crossing({.name = "bounce",
+                           .guard = &BallOnTable::height,
+                           .reset_map = &BallOnTable::bounce,
                            .direction = Direction::positive_then_non_positive,
                            .zeno_tolerance = options.zeno_tolerance});
   }
@@ -60,12 +68,15 @@ class BallOnTable final : public saltus::LeafSystem {
  private:
   void ode(const At& at, VectorRef xdot) const { xdot << at.x[1], -g_; }
   double height(const At& at) const { return at.x[0] - at.u(0); }
-  void bounce(const At& at, Next& next) const { next.set_continuous_state({at.u(0), -e_ * at.x[1]}); }
+  void bounce(const At& at, Next& next) const {
+    next.set_continuous_state({at.u(0), -e_ * at.x[1]});
+  }
 
   double g_, e_;
 };
 
-/// How a diagram tells that the ball touches the floor: a relation, or a boolean nobody can see into.
+/// How a diagram tells that the ball touches the floor: a relation, or a boolean nobody can see
+/// into.
 enum class Contact { comparator, reduce, function };
 inline constexpr std::array contacts{Contact::comparator, Contact::reduce, Contact::function};
 
@@ -74,21 +85,24 @@ struct Scene {
   std::shared_ptr<const saltus::System> system;
   std::string form;
   saltus::OutputPort height;
-  int monitors = 1;   ///< Zeno monitors of one ball: two integrators have one each
+  int monitors = 1;  ///< Zeno monitors of one ball: two integrators have one each
   bool leaf = true;
 
   saltus::Context context(double y, double v, double t = 0.0) const {
     Eigen::VectorXd x(2);
     x << y, v;
-    return system->create_context(t).with_continuous_state(x);  // blocks: integrator_y is added first
+    return system->create_context(t).with_continuous_state(
+        x);  // blocks: integrator_y is added first
   }
 };
 
 /// The tutorial's diagram: two integrators, a floor, y < floor as `contact` tells it.
-inline Scene blocks(Contact contact, const BallOptions& options, std::shared_ptr<const saltus::System> floor) {
+inline Scene blocks(Contact contact, const BallOptions& options,
+                    std::shared_ptr<const saltus::System> floor) {
   using namespace saltus;
   DiagramBuilder builder;
-  const Integrator::Options integrator{.enable_reset = true, .enable_external_reset = true,
+  const Integrator::Options integrator{.enable_reset = true,
+                                       .enable_external_reset = true,
                                        .zeno_tolerance = options.zeno_tolerance};
   auto& y = builder.add<Integrator>("integrator_y", integrator);
   auto& v = builder.add<Integrator>("integrator_v", integrator);
@@ -106,7 +120,8 @@ inline Scene blocks(Contact contact, const BallOptions& options, std::shared_ptr
     builder.connect(gap.output(), below.input());
     touches = below.output();
   } else if (contact == Contact::reduce) {
-    auto& below = builder.add<ReduceBlock>("touches", 2, [](std::span<const double> u) { return u[0] < u[1]; });
+    auto& below = builder.add<ReduceBlock>("touches", 2,
+                                           [](std::span<const double> u) { return u[0] < u[1]; });
     builder.connect(y.output(), below.input(0)), builder.connect(floor->output(), below.input(1));
     touches = below.output();
   } else {
@@ -114,11 +129,14 @@ inline Scene blocks(Contact contact, const BallOptions& options, std::shared_ptr
     builder.connect(y.output(), below.input(0)), builder.connect(floor->output(), below.input(1));
     touches = below.output();
   }
-  builder.connect(touches, y.input("reset_trigger")), builder.connect(touches, v.input("reset_trigger"));
+  builder.connect(touches, y.input("reset_trigger")),
+      builder.connect(touches, v.input("reset_trigger"));
   builder.connect(floor->output(), y.input("reset_value"));
-  builder.connect(v.output(), reflect.input()), builder.connect(reflect.output(), v.input("reset_value"));
+  builder.connect(v.output(), reflect.input()),
+      builder.connect(reflect.output(), v.input("reset_value"));
   const OutputPort height = y.output();
-  return {std::make_shared<Diagram>(builder.build()), names[static_cast<std::size_t>(contact)], height, 2, false};
+  return {std::make_shared<Diagram>(builder.build()), names[static_cast<std::size_t>(contact)],
+          height, 2, false};
 }
 
 inline Scene blocks(Contact contact, const BallOptions& options = {}) {
@@ -142,7 +160,8 @@ inline Scene leaf_on(const BallOptions& options, std::shared_ptr<const saltus::S
 
 /// All forms of a ball over a fixed floor.
 inline std::vector<Scene> all_forms(const BallOptions& options = {}) {
-  std::vector<Scene> all{leaf(options), leaf_on(options, std::make_shared<saltus::Constant>("floor", options.floor))};
+  std::vector<Scene> all{
+      leaf(options), leaf_on(options, std::make_shared<saltus::Constant>("floor", options.floor))};
   for (const Contact contact : contacts) all.push_back(blocks(contact, options));
   return all;
 }
@@ -158,14 +177,18 @@ std::vector<Scene> all_forms_over(const BallOptions& options, MakeFloor make_flo
 /// Closed forms of a ball dropped from height h [m] above its floor.
 struct BallExact {
   double g, e, h;
-  double first() const { return std::sqrt(2.0 * h / g); }                  ///< [s] first contact
-  double speed(int k) const { return std::pow(e, k) * g * first(); }       ///< [m/s] after contact k = 1, 2, ...
-  double contact(int k) const {                                            ///< [s] contact k = 1, 2, ...
+  double first() const { return std::sqrt(2.0 * h / g); }  ///< [s] first contact
+  double speed(int k) const {
+    return std::pow(e, k) * g * first();
+  }                              ///< [m/s] after contact k = 1, 2, ...
+  double contact(int k) const {  ///< [s] contact k = 1, 2, ...
     double t = first();
     for (int i = 1; i < k; ++i) t += 2.0 * speed(i) / g;
     return t;
   }
-  double rest() const { return first() * (1.0 + e) / (1.0 - e); }          ///< [s] where the contacts accumulate
+  double rest() const {
+    return first() * (1.0 + e) / (1.0 - e);
+  }  ///< [s] where the contacts accumulate
 };
 
 }  // namespace support

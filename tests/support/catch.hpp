@@ -1,5 +1,6 @@
 #pragma once
-// Catch2 3 where it is installed, else 2.13. Compare numbers with WithinAbs and WithinRel; Approx differs between the two.
+// Catch2 3 where it is installed, else 2.13. Compare numbers with WithinAbs and WithinRel; Approx
+// differs between the two.
 #if __has_include(<catch2/catch_test_macros.hpp>)
 #include <catch2/catch_template_test_macros.hpp>
 #include <catch2/catch_test_macros.hpp>

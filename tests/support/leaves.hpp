@@ -12,10 +12,12 @@
 namespace support {
 
 inline Eigen::VectorXd vec(std::initializer_list<double> values) {
-  return Eigen::Map<const Eigen::VectorXd>(values.begin(), static_cast<saltus::Index>(values.size()));
+  return Eigen::Map<const Eigen::VectorXd>(values.begin(),
+                                           static_cast<saltus::Index>(values.size()));
 }
 
-/// A leaf whose declarations a test makes itself: `Leaf leaf("name", [](Leaf& l) { l.declare_...; })`.
+/// A leaf whose declarations a test makes itself: `Leaf leaf("name", [](Leaf& l) { l.declare_...;
+/// })`.
 class Leaf : public saltus::LeafSystem {
  public:
   template <class Declare>
@@ -44,11 +46,14 @@ using saltus::Next;
 using saltus::VectorRef;
 
 /// A reset that counts in discrete state 0.
-inline void count_up(const At& at, Next& next) { next.set_discrete_state(at.z + Eigen::VectorXd::Unit(at.z.size(), 0)); }
+inline void count_up(const At& at, Next& next) {
+  next.set_discrete_state(at.z + Eigen::VectorXd::Unit(at.z.size(), 0));
+}
 
 /// x' = rate, x(0) = start.
 inline void declare_ramp(Leaf& leaf, double rate = 1.0, double start = 0.0) {
-  leaf.declare_continuous_state({.initial = vec({start}), .ode = [rate](const At&) { return rate; }});
+  leaf.declare_continuous_state(
+      {.initial = vec({start}), .ode = [rate](const At&) { return rate; }});
   leaf.declare_continuous_state_output("x");
 }
 

@@ -1,11 +1,11 @@
 // What a piece of code prints, also from C.
 #pragma once
 
+#include <unistd.h>
 #include <cstdio>
 #include <fstream>
 #include <sstream>
 #include <string>
-#include <unistd.h>
 
 namespace support {
 
@@ -20,7 +20,8 @@ std::string printed_by(Act act) {
   std::fflush(nullptr);
   dup2(out, STDOUT_FILENO), dup2(err, STDERR_FILENO);
   close(out), close(err);
-  std::string text(static_cast<std::size_t>(std::ftell(file) < 0 ? 0 : lseek(fileno(file), 0, SEEK_END)), '\0');
+  std::string text(
+      static_cast<std::size_t>(std::ftell(file) < 0 ? 0 : lseek(fileno(file), 0, SEEK_END)), '\0');
   std::rewind(file);
   text.resize(std::fread(text.data(), 1, text.size(), file));
   std::fclose(file);

@@ -64,7 +64,8 @@ inline std::vector<std::size_t> rows_at(const saltus::Results& results, double t
 }
 
 /// Entry `column` of a recorded signal, row by row.
-inline std::vector<double> column(const saltus::Results& results, std::string_view name, saltus::Index column = 0) {
+inline std::vector<double> column(const saltus::Results& results, std::string_view name,
+                                  saltus::Index column = 0) {
   const auto matrix = results.output(name);
   std::vector<double> values;
   for (saltus::Index row = 0; row < matrix.rows(); ++row) values.push_back(matrix(row, column));
@@ -77,15 +78,18 @@ inline bool same_bits(const saltus::EventLog& a, const saltus::EventLog& b) {
   if (a.size() != b.size()) return false;
   for (std::size_t i = 0; i < a.size(); ++i) {
     const saltus::Event p = a[i], q = b[i];
-    if (p.time != q.time || p.jump != q.jump || p.kind != q.kind || p.direction != q.direction) return false;
+    if (p.time != q.time || p.jump != q.jump || p.kind != q.kind || p.direction != q.direction)
+      return false;
     if (p.block != q.block || p.name != q.name || !same(p.predicted, q.predicted)) return false;
-    if (!std::ranges::equal(p.before, q.before) || !std::ranges::equal(p.after, q.after)) return false;
+    if (!std::ranges::equal(p.before, q.before) || !std::ranges::equal(p.after, q.after))
+      return false;
   }
   return true;
 }
 inline bool same_bits(const saltus::Context& a, const saltus::Context& b) {
-  return a.time() == b.time() && a.continuous_state() == b.continuous_state() && a.modes() == b.modes() &&
-         a.discrete_state() == b.discrete_state() && a.parameters() == b.parameters();
+  return a.time() == b.time() && a.continuous_state() == b.continuous_state() &&
+         a.modes() == b.modes() && a.discrete_state() == b.discrete_state() &&
+         a.parameters() == b.parameters();
 }
 
 }  // namespace support

@@ -38,7 +38,8 @@ TEST_CASE("every block has one header in library.hpp and one row in docs/blocks.
     if (block.empty()) continue;
     ++blocks;
     INFO(entry.path().filename().string());
-    CHECK(library_test::contains(library, saltus::text("library/", entry.path().filename().string(), "\"")));
+    CHECK(library_test::contains(library,
+                                 saltus::text("library/", entry.path().filename().string(), "\"")));
     CHECK(library_test::contains(rows, saltus::text("| `", block, "`")));
     CHECK(header.starts_with("// "));  // opens with what it means
   }

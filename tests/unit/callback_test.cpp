@@ -20,7 +20,8 @@ class Block final : public LeafSystem {
 
 /// An At of two states, one discrete value, three parameters and one input.
 struct World {
-  Eigen::VectorXd x = vec({1.0, 2.0}), z = vec({3.0}), p = vec({4.0, 5.0, 6.0}), y = vec({7.0, 8.0});
+  Eigen::VectorXd x = vec({1.0, 2.0}), z = vec({3.0}), p = vec({4.0, 5.0, 6.0}),
+                  y = vec({7.0, 8.0});
   Bases bases{x.data(), z.data(), p.data(), y.data()};
   Place input{Space::y, 0, 2};
   double relation[2] = {1.0, 0.0};
@@ -51,7 +52,9 @@ TEST_CASE("a callback is a method or a lambda, returns a number or fills", "[cal
 TEST_CASE("an empty callback says so; a copy calls the same", "[callback]") {
   const VectorFunction empty;
   CHECK(!empty);
-  const VectorFunction first = [values = std::vector{1.0, 2.0}](const At&, VectorRef out) { out << values[0], values[1]; };
+  const VectorFunction first = [values = std::vector{1.0, 2.0}](const At&, VectorRef out) {
+    out << values[0], values[1];
+  };
   const VectorFunction copy = first;
   CHECK(copy);
   CHECK(call(copy, Block(0.0)) == std::vector{1.0, 2.0});
@@ -84,6 +87,7 @@ TEST_CASE("Next says what was written, even the value that was there", "[view]")
   next.set_mode(4);
   CHECK((next.wrote_discrete_state() && next.wrote_mode() && z[0] == 5.0 && mode == 4));
   CHECK(message<ModelError>([&] { next.set_discrete_state({1.0, 2.0}); }) ==
-        "block 'plant.tank': expected 1 values for the discrete state, found 2; set all of it at once");
+        "block 'plant.tank': expected 1 values for the discrete state, found 2; set all of it at "
+        "once");
   CHECK(z[0] == 5.0);
 }

@@ -14,37 +14,67 @@ std::string refused(Declare declare) {
 }  // namespace
 
 TEST_CASE("a state that is declared twice, or not finite, is refused", "[declare]") {
-  CHECK(contains(refused([](Leaf& l) { declare_ramp(l), declare_ramp(l); }), "block 'block': the continuous state is declared twice"));
-  CHECK(contains(refused([](Leaf& l) { l.declare_discrete_state(vec({1.0})), l.declare_discrete_state(vec({1.0})); }),
+  CHECK(contains(refused([](Leaf& l) { declare_ramp(l), declare_ramp(l); }),
+                 "block 'block': the continuous state is declared twice"));
+  CHECK(contains(refused([](Leaf& l) {
+                   l.declare_discrete_state(vec({1.0})), l.declare_discrete_state(vec({1.0}));
+                 }),
                  "the discrete state is declared twice"));
-  CHECK(contains(refused([](Leaf& l) { declare_ramp(l, 1.0, not_a_number); }), "initial continuous state: entry 0 is nan"));
-  CHECK(contains(refused([](Leaf& l) { l.declare_discrete_state(vec({1.0, infinite})); }), "initial discrete state: entry 1 is inf"));
-  CHECK(contains(refused([](Leaf& l) { l.declare_dynamic_parameter("k", not_a_number); }), "parameter 'k': entry 0 is nan"));
+  CHECK(contains(refused([](Leaf& l) { declare_ramp(l, 1.0, not_a_number); }),
+                 "initial continuous state: entry 0 is nan"));
+  CHECK(contains(refused([](Leaf& l) { l.declare_discrete_state(vec({1.0, infinite})); }),
+                 "initial discrete state: entry 1 is inf"));
+  CHECK(contains(refused([](Leaf& l) { l.declare_dynamic_parameter("k", not_a_number); }),
+                 "parameter 'k': entry 0 is nan"));
 }
 
 TEST_CASE("a name that is declared twice is refused, for every kind of declaration", "[declare]") {
   const std::string twice = "block 'block': the name 'n' is declared twice";
   const auto guard = [](const At& at) { return at.time; };
   const auto update = [](const At&, Next&) {};
-  CHECK(refused([](Leaf& l) { l.declare_dynamic_parameter("n", 1.0), l.declare_dynamic_parameter("n", 2.0); }) == twice);
-  CHECK(refused([](Leaf& l) { l.declare_input_port({.name = "n"}), l.declare_input_port({.name = "n"}); }) == twice);
-  CHECK(refused([&](Leaf& l) { l.declare_output_port({.name = "n", .calc = guard}), l.declare_output_port({.name = "n", .calc = guard}); }) == twice);
-  CHECK(refused([&](Leaf& l) { l.declare_zero_crossing({.name = "n", .guard = guard}), l.declare_zero_crossing({.name = "n", .guard = guard}); }) == twice);
-  CHECK(refused([&](Leaf& l) { l.declare_relation({.name = "n", .guard = guard}), l.declare_relation({.name = "n", .guard = guard}); }) == twice);
-  CHECK(refused([&](Leaf& l) { l.declare_periodic_update(update, 1.0, 0.0, "n"), l.declare_one_shot(1.0, update, "n"); }) == twice);
+  CHECK(refused([](Leaf& l) {
+          l.declare_dynamic_parameter("n", 1.0), l.declare_dynamic_parameter("n", 2.0);
+        }) == twice);
+  CHECK(refused([](Leaf& l) {
+          l.declare_input_port({.name = "n"}), l.declare_input_port({.name = "n"});
+        }) == twice);
+  CHECK(refused([&](Leaf& l) {
+          l.declare_output_port({.name = "n", .calc = guard}),
+              l.declare_output_port({.name = "n", .calc = guard});
+        }) == twice);
+  CHECK(refused([&](Leaf& l) {
+          l.declare_zero_crossing({.name = "n", .guard = guard}),
+              l.declare_zero_crossing({.name = "n", .guard = guard});
+        }) == twice);
+  CHECK(refused([&](Leaf& l) {
+          l.declare_relation({.name = "n", .guard = guard}),
+              l.declare_relation({.name = "n", .guard = guard});
+        }) == twice);
+  CHECK(refused([&](Leaf& l) {
+          l.declare_periodic_update(update, 1.0, 0.0, "n"), l.declare_one_shot(1.0, update, "n");
+        }) == twice);
 }
 
 TEST_CASE("what has no function, or no sensible time, is refused", "[declare]") {
   const auto update = [](const At&, Next&) {};
-  CHECK(contains(refused([](Leaf& l) { l.declare_output_port({.name = "y"}); }), "output 'y' has no function"));
-  CHECK(contains(refused([](Leaf& l) { l.declare_zero_crossing({.name = "z"}); }), "zero crossing 'z' has no guard"));
-  CHECK(contains(refused([](Leaf& l) { l.declare_zero_crossing({.name = "z", .guard = [](const At& at) { return at.time; }, .zeno_tolerance = -1.0}); }),
+  CHECK(contains(refused([](Leaf& l) { l.declare_output_port({.name = "y"}); }),
+                 "output 'y' has no function"));
+  CHECK(contains(refused([](Leaf& l) { l.declare_zero_crossing({.name = "z"}); }),
+                 "zero crossing 'z' has no guard"));
+  CHECK(contains(refused([](Leaf& l) {
+                   l.declare_zero_crossing({.name = "z",
+                                            .guard = [](const At& at) { return at.time; },
+                                            .zeno_tolerance = -1.0});
+                 }),
                  "zeno_tolerance -1 is not a time >= 0 s"));
   for (const double period : {0.0, -1.0, not_a_number}) {
-    CHECK(contains(refused([&](Leaf& l) { l.declare_periodic_update(update, period); }), "expected period > 0"));
+    CHECK(contains(refused([&](Leaf& l) { l.declare_periodic_update(update, period); }),
+                   "expected period > 0"));
   }
-  CHECK(contains(refused([&](Leaf& l) { l.declare_periodic_update(update, 1.0, infinite); }), "finite offset"));
-  CHECK(contains(refused([&](Leaf& l) { l.declare_one_shot(not_a_number); }), "time event 'one_shot_0' at nan s"));
+  CHECK(contains(refused([&](Leaf& l) { l.declare_periodic_update(update, 1.0, infinite); }),
+                 "finite offset"));
+  CHECK(contains(refused([&](Leaf& l) { l.declare_one_shot(not_a_number); }),
+                 "time event 'one_shot_0' at nan s"));
 }
 
 TEST_CASE("nameless declarations get names", "[declare]") {
@@ -58,6 +88,8 @@ TEST_CASE("nameless declarations get names", "[declare]") {
   CHECK(leaf.input("force").index == 1);
   CHECK(message<ModelError>([&] { leaf.input("farce"); }) ==
         "block 'leaf' has no input 'farce'; did you mean 'force'? Known: 'in_0', 'force', 'in_2'");
-  CHECK(message<ModelError>([&] { leaf.output(2); }) == "block 'leaf' has no output 2: it has 2 ('out_0', 'x')");
-  CHECK(message<ModelError>([&] { leaf.output(-1); }) == "block 'leaf' has no output -1: it has 2 ('out_0', 'x')");
+  CHECK(message<ModelError>([&] { leaf.output(2); }) ==
+        "block 'leaf' has no output 2: it has 2 ('out_0', 'x')");
+  CHECK(message<ModelError>([&] { leaf.output(-1); }) ==
+        "block 'leaf' has no output -1: it has 2 ('out_0', 'x')");
 }

@@ -15,7 +15,8 @@ TEST_CASE("two blocks of one name, and one block twice, are refused", "[diagram_
   CHECK(message<ModelError>([&] { builder.add(shared); }) == "block 'clock' is added twice");
 }
 
-TEST_CASE("a block that was not added, and an input with two sources, are refused", "[diagram_builder]") {
+TEST_CASE("a block that was not added, and an input with two sources, are refused",
+          "[diagram_builder]") {
   DiagramBuilder builder;
   const Clock foreign("foreign");
   auto& clock = builder.add<Clock>("clock");
@@ -25,18 +26,23 @@ TEST_CASE("a block that was not added, and an input with two sources, are refuse
   builder.connect(clock.output(), gain.input());
   CHECK(message<ModelError>([&] { builder.connect(clock.output(), gain.input()); }) ==
         "input 'in' of block 'gain' already has a source, block 'clock'; an input takes one");
-  CHECK(contains(message<ModelError>([&] { builder.export_input(gain.input()); }), "already has a source, block 'clock'"));
+  CHECK(contains(message<ModelError>([&] { builder.export_input(gain.input()); }),
+                 "already has a source, block 'clock'"));
 }
 
-TEST_CASE("an open input, and a diagram without blocks, are refused when it is built", "[diagram_builder]") {
+TEST_CASE("an open input, and a diagram without blocks, are refused when it is built",
+          "[diagram_builder]") {
   DiagramBuilder empty;
-  CHECK(message<ModelError>([&] { empty.build(); }) == "build: the diagram has no block; add one first");
+  CHECK(message<ModelError>([&] { empty.build(); }) ==
+        "build: the diagram has no block; add one first");
   DiagramBuilder builder;
   builder.add<Adder>("sum", "+-");
-  CHECK(message<ModelError>([&] { builder.build(); }) == "input 'in_0' of block 'sum' is not connected; connect it or export it");
+  CHECK(message<ModelError>([&] { builder.build(); }) ==
+        "input 'in_0' of block 'sum' is not connected; connect it or export it");
 }
 
-TEST_CASE("a builder that was refused can be mended; one that built is spent", "[diagram_builder]") {
+TEST_CASE("a builder that was refused can be mended; one that built is spent",
+          "[diagram_builder]") {
   DiagramBuilder builder;
   auto& gain = builder.add<Gain>("gain", 2.0);
   CHECK_THROWS_AS(builder.build(), ModelError);
@@ -51,7 +57,8 @@ TEST_CASE("a builder that was refused can be mended; one that built is spent", "
   CHECK(message<ModelError>([&] { builder.build(); }) == spent);
 }
 
-TEST_CASE("exported ports have names, their own or the block's, and none twice", "[diagram_builder]") {
+TEST_CASE("exported ports have names, their own or the block's, and none twice",
+          "[diagram_builder]") {
   DiagramBuilder builder;
   auto& gain = builder.add<Gain>("gain", 2.0);
   auto& other = builder.add<Gain>("other", 3.0);
@@ -59,12 +66,15 @@ TEST_CASE("exported ports have names, their own or the block's, and none twice",
   CHECK(builder.export_input(other.input(), "force") == 1);
   CHECK(builder.export_output(gain.output()) == 0);
   CHECK(builder.export_output(gain.output(), "same again") == 1);
-  CHECK(contains(message<ModelError>([&] { builder.export_output(other.output(), "same again"); }), "'same again' is declared twice"));
-  CHECK(contains(message<ModelError>([&] { builder.connect(gain.output(), other.input()); }), "the exported input 'force'"));
+  CHECK(contains(message<ModelError>([&] { builder.export_output(other.output(), "same again"); }),
+                 "'same again' is declared twice"));
+  CHECK(contains(message<ModelError>([&] { builder.connect(gain.output(), other.input()); }),
+                 "the exported input 'force'"));
   const Diagram diagram = builder.build();
   CHECK(diagram.input_names() == std::vector<std::string>{"gain_in", "force"});
   CHECK(diagram.output_names() == std::vector<std::string>{"gain_out", "same again"});
-  CHECK(message<ModelError>([&] { diagram["gaim"]; }) == "diagram 'root' has no block 'gaim'; did you mean 'gain'? Known: 'gain', 'other'");
+  CHECK(message<ModelError>([&] { diagram["gaim"]; }) ==
+        "diagram 'root' has no block 'gaim'; did you mean 'gain'? Known: 'gain', 'other'");
 }
 
 TEST_CASE("blocks without a name get one", "[diagram_builder]") {

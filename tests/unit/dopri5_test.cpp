@@ -1,4 +1,5 @@
-// DOPRI5: its coefficients, order 5 of the step, order 4 of the dense output, on a nonlinear problem.
+// DOPRI5: its coefficients, order 5 of the step, order 4 of the dense output, on a nonlinear
+// problem.
 #include "saltus/solver/dopri5.hpp"
 #include "saltus/solver/choose.hpp"
 #include "support/leaves.hpp"
@@ -12,7 +13,8 @@ namespace {
 /// x' = x (1 - x), x(0) = 0.1: the logistic equation.
 Leaf logistic() {
   return Leaf("logistic", [](Leaf& l) {
-    l.declare_continuous_state({.initial = vec({0.1}), .ode = [](const At& at) { return at.x[0] * (1.0 - at.x[0]); }});
+    l.declare_continuous_state(
+        {.initial = vec({0.1}), .ode = [](const At& at) { return at.x[0] * (1.0 - at.x[0]); }});
     l.declare_continuous_state_output("x");
   });
 }
@@ -61,7 +63,8 @@ TEST_CASE("the coefficients of DOPRI5 are consistent: rows sum to c, weights to 
   CHECK_THAT(dense, WithinAbs(0.0, 40.0 * eps));
 }
 
-TEST_CASE("the error of the step falls with h^5, that of the dense output with h^5 too, or h^4", "[dopri5]") {
+TEST_CASE("the error of the step falls with h^5, that of the dense output with h^5 too, or h^4",
+          "[dopri5]") {
   // The observed order is the logarithm of the ratio, to base 2, when steps are halved.
   const Errors coarse = errors(8), fine = errors(16), finest = errors(32);
   const auto order = [](double a, double b) { return std::log2(a / b); };
@@ -79,16 +82,22 @@ TEST_CASE("the achieved error stays within ten tolerances, by any method", "[dop
   INFO("method " << method << ", rtol " << rtol);
   const Leaf leaf = logistic();
   const auto results = simulate(leaf, leaf.create_context(), {0.0, 4.0},
-                                {.rtol = rtol, .atol = 0.01 * rtol, .ode_solver_method = method, .recorded_signals = {{"x", leaf.output()}}});
+                                {.rtol = rtol,
+                                 .atol = 0.01 * rtol,
+                                 .ode_solver_method = method,
+                                 .recorded_signals = {{"x", leaf.output()}}});
   const auto x = column(results, "x");
   // Growth of the logistic equation from 0.1 to 0.5: e^2.2 / 4 or so, below 4.
-  for (std::size_t i = 0; i < x.size(); ++i) CHECK_THAT(x[i], WithinAbs(exact(results.time[i]), 10.0 * 4.0 * rtol));
+  for (std::size_t i = 0; i < x.size(); ++i)
+    CHECK_THAT(x[i], WithinAbs(exact(results.time[i]), 10.0 * 4.0 * rtol));
 }
 
 TEST_CASE("a right-hand side of degree four in time is integrated exactly", "[dopri5]") {
   const Leaf leaf("quartic", [](Leaf& l) {
-    l.declare_continuous_state({.initial = vec({0.0}), .ode = [](const At& at) { return 5.0 * std::pow(at.time, 4.0); }});
+    l.declare_continuous_state(
+        {.initial = vec({0.0}), .ode = [](const At& at) { return 5.0 * std::pow(at.time, 4.0); }});
   });
-  const auto results = simulate(leaf, leaf.create_context(), {0.0, 1.0}, {.ode_solver_method = "dopri5"});
+  const auto results =
+      simulate(leaf, leaf.create_context(), {0.0, 1.0}, {.ode_solver_method = "dopri5"});
   CHECK_THAT(results.context.continuous_state()[0], WithinAbs(1.0, 1e-14));
 }

@@ -11,8 +11,24 @@ EventLog two_rows() {
   EventLog log;
   log.begin({"plant.ball.bounce", "clock.tick"});
   const double before[] = {0.0, -3.0}, after[] = {0.0, 2.0};
-  log.add({.time = 1.0, .jump = 1, .direction = -1, .kind = EventKind::zero_crossing, .source = 0, .predicted = not_a_number, .states = 0, .width = 2}, before, after);
-  log.add({.time = 1.5, .jump = 2, .direction = 0, .kind = EventKind::time, .source = 1, .predicted = not_a_number, .states = 0, .width = 0}, before, after);
+  log.add({.time = 1.0,
+           .jump = 1,
+           .direction = -1,
+           .kind = EventKind::zero_crossing,
+           .source = 0,
+           .predicted = not_a_number,
+           .states = 0,
+           .width = 2},
+          before, after);
+  log.add({.time = 1.5,
+           .jump = 2,
+           .direction = 0,
+           .kind = EventKind::time,
+           .source = 1,
+           .predicted = not_a_number,
+           .states = 0,
+           .width = 0},
+          before, after);
   return log;
 }
 
@@ -22,7 +38,8 @@ TEST_CASE("an event has time, jump, kind, direction, block, name and states", "[
   const EventLog log = two_rows();
   REQUIRE(log.size() == 2);
   const Event bounce = log[0];
-  CHECK((bounce.time == 1.0 && bounce.jump == 1 && bounce.direction == -1 && bounce.kind == EventKind::zero_crossing));
+  CHECK((bounce.time == 1.0 && bounce.jump == 1 && bounce.direction == -1 &&
+         bounce.kind == EventKind::zero_crossing));
   CHECK(bounce.block == "plant.ball");
   CHECK(bounce.name == "bounce");
   CHECK((bounce.before[1] == -3.0 && bounce.after[1] == 2.0 && bounce.before.size() == 2));
@@ -46,7 +63,15 @@ TEST_CASE("a cleared log keeps its names; an emptied copy too", "[event_log]") {
   CHECK(log.empty());
   CHECK(copy.empty());
   const double x[] = {1.0};
-  copy.add({.time = 2.0, .jump = 0, .direction = 0, .kind = EventKind::time, .source = 1, .predicted = 0.0, .states = 0, .width = 1}, x, x);
+  copy.add({.time = 2.0,
+            .jump = 0,
+            .direction = 0,
+            .kind = EventKind::time,
+            .source = 1,
+            .predicted = 0.0,
+            .states = 0,
+            .width = 1},
+           x, x);
   CHECK(copy[0].name == "tick");
 }
 
@@ -58,13 +83,16 @@ TEST_CASE("every kind has its name", "[event_log]") {
   CHECK(to_string(EventKind::terminal) == "terminal");
 }
 
-TEST_CASE("the log of a run holds the state of the event's own block, before and after", "[event_log]") {
+TEST_CASE("the log of a run holds the state of the event's own block, before and after",
+          "[event_log]") {
   DiagramBuilder builder;
   builder.add<Leaf>("other", [](Leaf& l) { declare_ramp(l, 5.0, 100.0); });
   builder.add<Leaf>("saw", [](Leaf& l) {
     declare_ramp(l);
-    l.declare_zero_crossing({.name = "full", .guard = [](const At& at) { return at.x[0] - 1.0; },
-                             .reset_map = [](const At&, Next& next) { next.set_continuous_state({-2.0}); }});
+    l.declare_zero_crossing(
+        {.name = "full",
+         .guard = [](const At& at) { return at.x[0] - 1.0; },
+         .reset_map = [](const At&, Next& next) { next.set_continuous_state({-2.0}); }});
   });
   const Diagram diagram = builder.build();
   const auto results = simulate(diagram, diagram.create_context(), {0.0, 2.0});

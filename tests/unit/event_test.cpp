@@ -9,11 +9,12 @@ TEST_CASE("each direction fires in its cells of the table and in no other", "[ev
     Direction direction;
     bool fires[2][3];  // armed on +1, -1; now -1, 0, +1
   };
-  const Row table[] = {{Direction::none, {{false, false, false}, {false, false, false}}},
-                       {Direction::crosses_zero, {{true, true, false}, {false, true, true}}},
-                       {Direction::positive_then_non_positive, {{true, true, false}, {false, false, false}}},
-                       {Direction::negative_then_non_negative, {{false, false, false}, {false, true, true}}},
-                       {Direction::edge_detection, {{true, true, false}, {false, true, true}}}};
+  const Row table[] = {
+      {Direction::none, {{false, false, false}, {false, false, false}}},
+      {Direction::crosses_zero, {{true, true, false}, {false, true, true}}},
+      {Direction::positive_then_non_positive, {{true, true, false}, {false, false, false}}},
+      {Direction::negative_then_non_negative, {{false, false, false}, {false, true, true}}},
+      {Direction::edge_detection, {{true, true, false}, {false, true, true}}}};
   for (const Row& row : table) {
     for (int side : {1, -1}) {
       for (int now : {-1, 0, 1}) {
@@ -25,8 +26,9 @@ TEST_CASE("each direction fires in its cells of the table and in no other", "[ev
 }
 
 TEST_CASE("a guard without a side fires in no direction but edge detection", "[event]") {
-  for (const Direction direction : {Direction::none, Direction::crosses_zero, Direction::positive_then_non_positive,
-                                    Direction::negative_then_non_negative}) {
+  for (const Direction direction :
+       {Direction::none, Direction::crosses_zero, Direction::positive_then_non_positive,
+        Direction::negative_then_non_negative}) {
     for (int now : {-1, 0, 1}) CHECK(!fires(direction, 0, now));
   }
 }

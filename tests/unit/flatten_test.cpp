@@ -22,21 +22,24 @@ std::shared_ptr<const System> nested_gain(double k, int depth) {
 
 }  // namespace
 
-TEST_CASE("a gain three diagrams deep is one leaf with a path, and does what it does", "[flatten]") {
+TEST_CASE("a gain three diagrams deep is one leaf with a path, and does what it does",
+          "[flatten]") {
   const int depth = GENERATE(0, 1, 2, 3);
   DiagramBuilder builder;
   auto& clock = builder.add<Clock>("clock");
   auto& integrator = builder.add<Integrator>("integrator");
   const auto gain = nested_gain(3.0, depth);
   builder.add(gain);
-  builder.connect(clock.output(), gain->input()), builder.connect(gain->output(), integrator.input());
+  builder.connect(clock.output(), gain->input()),
+      builder.connect(gain->output(), integrator.input());
   const Diagram diagram = builder.build();
   const auto plan = compile(diagram, {{"y", gain->output()}});
   REQUIRE(plan->leaves.size() == 3);
   const std::string prefix[] = {"", "level_0.", "level_1.level_0.", "level_2.level_1.level_0."};
   CHECK(plan->leaves[2].path == prefix[depth] + "gain");
   CHECK(plan->derivatives.size() == 2);
-  const auto results = simulate(diagram, diagram.create_context(), {0.0, 2.0}, {.recorded_signals = {{"y", gain->output()}}});
+  const auto results = simulate(diagram, diagram.create_context(), {0.0, 2.0},
+                                {.recorded_signals = {{"y", gain->output()}}});
   CHECK_THAT(results.context.continuous_state()[0], WithinAbs(6.0, 1e-9));
   CHECK(column(results, "y").back() == 6.0);
 }
@@ -57,7 +60,8 @@ TEST_CASE("shapes spread along the wires, through blocks that take any", "[flatt
   auto& scalar = builder.add<Constant>("scalar", 2.0);
   auto& product = builder.add<Product>("product");
   auto& gain = builder.add<Gain>("gain", 2.0);
-  builder.connect(scalar.output(), product.input(0)), builder.connect(vector.output(), product.input(1));
+  builder.connect(scalar.output(), product.input(0)),
+      builder.connect(vector.output(), product.input(1));
   builder.connect(product.output(), gain.input());
   const Diagram diagram = builder.build();
   const auto plan = compile(diagram, {{"y", gain.output()}, {"s", scalar.output()}});
@@ -68,7 +72,8 @@ TEST_CASE("shapes spread along the wires, through blocks that take any", "[flatt
 TEST_CASE("a width that does not fit is refused with both ports", "[flatten]") {
   DiagramBuilder builder;
   auto& vector = builder.add<Constant>("vector", Value{1.0, 2.0, 3.0});
-  auto& integrator = builder.add<Integrator>("integrator", Integrator::Options{.initial_state = {0.0, 0.0}});
+  auto& integrator =
+      builder.add<Integrator>("integrator", Integrator::Options{.initial_state = {0.0, 0.0}});
   builder.connect(vector.output(), integrator.input());
   const Diagram diagram = builder.build();
   CHECK(message<ModelError>([&] { compile(diagram); }) ==
@@ -82,7 +87,8 @@ TEST_CASE("vectors of different widths that meet are refused", "[flatten]") {
   auto& sum = builder.add<Adder>("sum");
   builder.connect(two.output(), sum.input(0)), builder.connect(three.output(), sum.input(1));
   const Diagram diagram = builder.build();
-  CHECK(contains(message<ModelError>([&] { compile(diagram); }), "block 'sum': expected scalars and vectors of one width, found the widths 2, 3"));
+  CHECK(contains(message<ModelError>([&] { compile(diagram); }),
+                 "block 'sum': expected scalars and vectors of one width, found the widths 2, 3"));
 }
 
 TEST_CASE("a width that depends on itself around a loop is refused with the remedy", "[flatten]") {
@@ -97,7 +103,9 @@ TEST_CASE("a width that depends on itself around a loop is refused with the reme
 
 TEST_CASE("a declaration that reads an input there is none of is refused", "[flatten]") {
   const Leaf leaf("leaf", [](Leaf& l) {
-    l.declare_output_port({.name = "y", .calc = [](const At& at) { return at.u(1); }, .inputs = std::vector{1}});
+    l.declare_output_port(
+        {.name = "y", .calc = [](const At& at) { return at.u(1); }, .inputs = std::vector{1}});
   });
-  CHECK(contains(message<ModelError>([&] { compile(leaf); }), "block 'leaf': a declaration reads input 1, the block has 0"));
+  CHECK(contains(message<ModelError>([&] { compile(leaf); }),
+                 "block 'leaf': a declaration reads input 1, the block has 0"));
 }

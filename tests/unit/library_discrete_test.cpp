@@ -22,6 +22,7 @@ TEST_CASE("ZeroOrderHold shows its state, not copied", "[library]") {
 }
 
 TEST_CASE("a period that is no positive time is refused", "[library]") {
-  CHECK(model_error([] { UnitDelay("d", 0.0); }) == "block 'd': dt = 0 s; expected a finite time > 0 s");
+  CHECK(model_error([] { UnitDelay("d", 0.0); }) ==
+        "block 'd': dt = 0 s; expected a finite time > 0 s");
   CHECK(contains(model_error([] { ZeroOrderHold("h", -1.0); }), "dt = -1 s"));
 }

@@ -14,9 +14,13 @@ namespace {
 constexpr double pi = std::numbers::pi;
 
 /// Values of a recorded signal at given times, one column wide.
-Numbers at_times(const System& system, OutputPort port, const std::vector<double>& times, double rtol = 1e-10) {
+Numbers at_times(const System& system, OutputPort port, const std::vector<double>& times,
+                 double rtol = 1e-10) {
   const auto results = simulate(system, system.create_context(), {0.0, times.back()},
-                                {.rtol = rtol, .atol = 1e-12, .recorded_signals = {{"y", port}}, .save_at = times,
+                                {.rtol = rtol,
+                                 .atol = 1e-12,
+                                 .recorded_signals = {{"y", port}},
+                                 .save_at = times,
                                  .save_steps = false});
   const auto y = results.output("y");
   Numbers values;
@@ -48,8 +52,8 @@ const auto no_inputs = [](DiagramBuilder&, auto&) {};
 /// Errors of the integrals: 10 (rtol |x| + atol) with |x| < 10 and rtol = 1e-10.
 constexpr double solver_tolerance = 1e-8;
 
-/// Where the integrand is piecewise linear or flat, a Runge-Kutta step is exact: what is left is rounding, a few eps
-/// of |x| < 10 for each of at most 100 pieces.
+/// Where the integrand is piecewise linear or flat, a Runge-Kutta step is exact: what is left is
+/// rounding, a few eps of |x| < 10 for each of at most 100 pieces.
 constexpr double rounding = 1e-12;
 
 }  // namespace
@@ -58,10 +62,12 @@ TEST_CASE("the integral of |sin t| is exact across its kinks", "[library][dynami
   const auto sine = [](DiagramBuilder& builder, Abs& abs) {
     builder.connect(builder.add<Sine>("sine").output(), abs.input());
   };
-  CHECK_THAT(integral<Abs>(10.0, sine), WithinAbs(6.0 + 1.0 - std::cos(10.0 - 3.0 * pi), solver_tolerance));
+  CHECK_THAT(integral<Abs>(10.0, sine),
+             WithinAbs(6.0 + 1.0 - std::cos(10.0 - 3.0 * pi), solver_tolerance));
 }
 
-TEST_CASE("Abs of a constant of either sign is right where it reaches a derivative", "[library][dynamics]") {
+TEST_CASE("Abs of a constant of either sign is right where it reaches a derivative",
+          "[library][dynamics]") {
   const auto constant = [](double value) {
     return [value](DiagramBuilder& builder, Abs& abs) {
       builder.connect(builder.add<Constant>("constant", value).output(), abs.input());
@@ -73,20 +79,25 @@ TEST_CASE("Abs of a constant of either sign is right where it reaches a derivati
 
 TEST_CASE("the integral of a saturated sine is exact across the limits", "[library][dynamics]") {
   const auto sine = [](DiagramBuilder& builder, Saturate& saturate) {
-    builder.connect(builder.add<Sine>("sine", Sine::Options{.amplitude = 2.0}).output(), saturate.input());
+    builder.connect(builder.add<Sine>("sine", Sine::Options{.amplitude = 2.0}).output(),
+                    saturate.input());
   };
-  const double exact = 4.0 * (1.0 - std::cos(pi / 6.0)) + 2.0 * pi / 3.0;  // two flanks and the plateau
-  CHECK_THAT(integral<Saturate>(pi, sine, Saturate::Options{.lower_limit = -1.0, .upper_limit = 1.0}),
-             WithinAbs(exact, solver_tolerance));
+  const double exact =
+      4.0 * (1.0 - std::cos(pi / 6.0)) + 2.0 * pi / 3.0;  // two flanks and the plateau
+  CHECK_THAT(
+      integral<Saturate>(pi, sine, Saturate::Options{.lower_limit = -1.0, .upper_limit = 1.0}),
+      WithinAbs(exact, solver_tolerance));
 }
 
-TEST_CASE("a Switch with a threshold switches where the control reaches it", "[library][dynamics]") {
+TEST_CASE("a Switch with a threshold switches where the control reaches it",
+          "[library][dynamics]") {
   const auto inputs = [](DiagramBuilder& builder, Switch& choice) {
     builder.connect(builder.add<Constant>("two", 2.0).output(), choice.input("true_value"));
     builder.connect(builder.add<Clock>("clock").output(), choice.input("control"));
     builder.connect(builder.add<Constant>("minus_one", -1.0).output(), choice.input("false_value"));
   };
-  CHECK_THAT(integral<Switch>(3.0, inputs, Switch::Options{.threshold = 1.0}), WithinAbs(3.0, rounding));
+  CHECK_THAT(integral<Switch>(3.0, inputs, Switch::Options{.threshold = 1.0}),
+             WithinAbs(3.0, rounding));
 }
 
 TEST_CASE("a Comparator behind a Switch is located", "[library][dynamics]") {
@@ -114,16 +125,20 @@ TEST_CASE("both edges of a Pulse are exact", "[library][dynamics]") {
 }
 
 TEST_CASE("Step and Ramp change exactly at their time", "[library][dynamics]") {
-  CHECK_THAT(integral<Step>(2.0, no_inputs, Step::Options{.start_value = 1.0, .end_value = -1.0, .step_time = 0.3}),
+  CHECK_THAT(integral<Step>(2.0, no_inputs,
+                            Step::Options{.start_value = 1.0, .end_value = -1.0, .step_time = 0.3}),
              WithinAbs(0.3 - 1.7, rounding));
-  CHECK_THAT(integral<Ramp>(2.0, no_inputs, Ramp::Options{.start_value = 1.0, .slope = 2.0, .start_time = 0.5}),
+  CHECK_THAT(integral<Ramp>(2.0, no_inputs,
+                            Ramp::Options{.start_value = 1.0, .slope = 2.0, .start_time = 0.5}),
              WithinAbs(2.0 + 1.5 * 1.5, rounding));
 }
 
-TEST_CASE("a Step that falls on another event within rounding is not missed", "[library][dynamics]") {
+TEST_CASE("a Step that falls on another event within rounding is not missed",
+          "[library][dynamics]") {
   DiagramBuilder builder;
   auto& early = builder.add<Step>("early", Step::Options{.step_time = 0.3});
-  auto& late = builder.add<Step>("late", Step::Options{.step_time = 3.0 * 0.1});  // one ulp after 0.3
+  auto& late =
+      builder.add<Step>("late", Step::Options{.step_time = 3.0 * 0.1});  // one ulp after 0.3
   auto& sum = builder.add<Adder>("sum", "++");
   auto& integrator = builder.add<Integrator>("integrator");
   builder.connect(early.output(), sum.input(0));
@@ -170,26 +185,34 @@ TEST_CASE("ZeroOrderHold holds what it saw at its ticks", "[library][dynamics]")
   CHECK(at_times(diagram, hold.output(), {0.1, 0.49, 0.6, 1.9}) == Numbers{0.0, 0.0, 0.5, 1.5});
 }
 
-TEST_CASE("an Integrator with limits waits at a limit until its input turns", "[library][dynamics]") {
+TEST_CASE("an Integrator with limits waits at a limit until its input turns",
+          "[library][dynamics]") {
   DiagramBuilder builder;
   auto& cosine = builder.add<Sine>("cosine", Sine::Options{.phase = pi / 2.0});
   auto& limited = builder.add<Integrator>(
-      "limited", Integrator::Options{.enable_limits = true, .lower_limit = -0.5, .upper_limit = 0.5});
+      "limited",
+      Integrator::Options{.enable_limits = true, .lower_limit = -0.5, .upper_limit = 0.5});
   builder.connect(cosine.output(), limited.input());
   const Diagram diagram = builder.build();
-  // Up to 0.5 at pi/6, there until pi/2, down to -0.5 at pi, there until 3 pi/2, up to 0.5 at 2 pi, there until 5 pi/2.
-  const std::vector<double> t{0.1 * pi, 0.3 * pi, 0.75 * pi, 1.25 * pi, 1.75 * pi, 2.25 * pi, 2.75 * pi};
+  // Up to 0.5 at pi/6, there until pi/2, down to -0.5 at pi, there until 3 pi/2, up to 0.5 at 2 pi,
+  // there until 5 pi/2.
+  const std::vector<double> t{0.1 * pi,  0.3 * pi,  0.75 * pi, 1.25 * pi,
+                              1.75 * pi, 2.25 * pi, 2.75 * pi};
   const Numbers x = at_times(diagram, limited.output(), t);
-  const Numbers exact{std::sin(t[0]), 0.5, std::sin(t[2]) - 0.5, -0.5, std::sin(t[4]) + 0.5, 0.5, std::sin(t[6]) - 0.5};
-  for (std::size_t i = 0; i < t.size(); ++i) CHECK_THAT(x[i], WithinAbs(exact[i], solver_tolerance));
+  const Numbers exact{std::sin(t[0]),       0.5, std::sin(t[2]) - 0.5, -0.5,
+                      std::sin(t[4]) + 0.5, 0.5, std::sin(t[6]) - 0.5};
+  for (std::size_t i = 0; i < t.size(); ++i)
+    CHECK_THAT(x[i], WithinAbs(exact[i], solver_tolerance));
 }
 
-TEST_CASE("an Integrator that starts at its limit is held there, and leaves it inward", "[library][dynamics]") {
+TEST_CASE("an Integrator that starts at its limit is held there, and leaves it inward",
+          "[library][dynamics]") {
   const auto end = [](double u) {
     DiagramBuilder builder;
     auto& constant = builder.add<Constant>("constant", u);
     auto& limited = builder.add<Integrator>(
-        "limited", Integrator::Options{.initial_state = 1.0, .enable_limits = true, .upper_limit = 1.0});
+        "limited",
+        Integrator::Options{.initial_state = 1.0, .enable_limits = true, .upper_limit = 1.0});
     builder.connect(constant.output(), limited.input());
     const Diagram diagram = builder.build();
     return at_times(diagram, limited.output(), {2.0}).back();
@@ -201,13 +224,15 @@ TEST_CASE("an Integrator that starts at its limit is held there, and leaves it i
 TEST_CASE("limits hold for each entry of a vector by itself", "[library][dynamics]") {
   DiagramBuilder builder;
   auto& u = builder.add<Constant>("u", Value{1.0, -1.0, 2.0});
-  auto& limited = builder.add<Integrator>("limited", Integrator::Options{.initial_state = {0.0, 0.0, 0.0},
-                                                                         .enable_limits = true,
-                                                                         .lower_limit = -0.5,
-                                                                         .upper_limit = Value{0.25, 9.0, 1.5}});
+  auto& limited =
+      builder.add<Integrator>("limited", Integrator::Options{.initial_state = {0.0, 0.0, 0.0},
+                                                             .enable_limits = true,
+                                                             .lower_limit = -0.5,
+                                                             .upper_limit = Value{0.25, 9.0, 1.5}});
   builder.connect(u.output(), limited.input());
   const Diagram diagram = builder.build();
-  const auto results = simulate(diagram, diagram.create_context(), {0.0, 5.0}, {.rtol = 1e-10, .atol = 1e-12});
+  const auto results =
+      simulate(diagram, diagram.create_context(), {0.0, 5.0}, {.rtol = 1e-10, .atol = 1e-12});
   const Eigen::VectorXd x = results.context.continuous_state();
   CHECK_THAT(x[0], WithinAbs(0.25, rounding));
   CHECK_THAT(x[1], WithinAbs(-0.5, rounding));
@@ -218,7 +243,8 @@ TEST_CASE("an Integrator stands still while hold_trigger is true", "[library][dy
   DiagramBuilder builder;
   auto& one = builder.add<Constant>("one", 1.0);
   auto& pulse = builder.add<Pulse>("pulse", Pulse::Options{.period = 1.0, .pulse_width = 0.25});
-  auto& integrator = builder.add<Integrator>("integrator", Integrator::Options{.enable_hold = true});
+  auto& integrator =
+      builder.add<Integrator>("integrator", Integrator::Options{.enable_hold = true});
   builder.connect(one.output(), integrator.input());
   builder.connect(pulse.output(), integrator.input("hold_trigger"));
   const Diagram diagram = builder.build();
@@ -232,8 +258,8 @@ TEST_CASE("a reset to initial_state makes a sawtooth", "[library][dynamics]") {
   DiagramBuilder builder;
   auto& one = builder.add<Constant>("one", 1.0);
   auto& full = builder.add<Comparator>("full", ">=");
-  auto& integrator =
-      builder.add<Integrator>("integrator", Integrator::Options{.initial_state = 0.25, .enable_reset = true});
+  auto& integrator = builder.add<Integrator>(
+      "integrator", Integrator::Options{.initial_state = 0.25, .enable_reset = true});
   builder.connect(one.output(), integrator.input());
   builder.connect(integrator.output(), full.input(0));
   builder.connect(one.output(), full.input(1));
@@ -245,10 +271,12 @@ TEST_CASE("a reset to initial_state makes a sawtooth", "[library][dynamics]") {
   CHECK_THAT(x[2], WithinAbs(0.35, rounding));
 }
 
-TEST_CASE("an external reset takes the value of its input at the rising edge only", "[library][dynamics]") {
+TEST_CASE("an external reset takes the value of its input at the rising edge only",
+          "[library][dynamics]") {
   DiagramBuilder builder;
   auto& one = builder.add<Constant>("one", 1.0);
-  auto& pulse = builder.add<Pulse>("pulse", Pulse::Options{.period = 2.0, .pulse_width = 0.5, .phase_delay = 1.0});
+  auto& pulse = builder.add<Pulse>(
+      "pulse", Pulse::Options{.period = 2.0, .pulse_width = 0.5, .phase_delay = 1.0});
   auto& ten = builder.add<Constant>("ten", 10.0);
   auto& integrator = builder.add<Integrator>(
       "integrator", Integrator::Options{.enable_reset = true, .enable_external_reset = true});

@@ -1,4 +1,5 @@
-// Integrator: its ports, derivative and reset map as the plan and the machine see them, and error texts.
+// Integrator: its ports, derivative and reset map as the plan and the machine see them, and error
+// texts.
 #include "library_support.hpp"
 
 using namespace saltus;
@@ -8,18 +9,22 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-/// xdot of an Integrator between constants, its relations set by hand: {at_lower, at_upper, rising}.
-double rate_of(const Integrator::Options& options, const std::vector<Value>& inputs, const std::vector<double>& truths = {}) {
+/// xdot of an Integrator between constants, its relations set by hand: {at_lower, at_upper,
+/// rising}.
+double rate_of(const Integrator::Options& options, const std::vector<Value>& inputs,
+               const std::vector<double>& truths = {}) {
   DiagramBuilder builder;
   auto& block = builder.add<Integrator>("block", options);
   for (std::size_t i = 0; i < inputs.size(); ++i) {
-    builder.connect(builder.add<Constant>(text("u", i), inputs[i]).output(), block.input(static_cast<int>(i)));
+    builder.connect(builder.add<Constant>(text("u", i), inputs[i]).output(),
+                    block.input(static_cast<int>(i)));
   }
   const Diagram diagram = builder.build();
   const auto plan = compile(diagram);
   Machine machine(plan);
   machine.load(diagram.create_context());
-  for (std::size_t r = 0; r < truths.size(); ++r) *machine.signal(plan->leaves[0].relations[r]) = truths[r];
+  for (std::size_t r = 0; r < truths.size(); ++r)
+    *machine.signal(plan->leaves[0].relations[r]) = truths[r];
   double xdot = 0.0;
   machine.derivative(0.0, machine.x.data(), &xdot);
   return xdot;
@@ -30,12 +35,13 @@ double rate_of(const Integrator::Options& options, const std::vector<Value>& inp
 TEST_CASE("the ports of an Integrator stand in a fixed order, each only if enabled", "[library]") {
   CHECK(Integrator("i").input_names() == Names{"in"});
   CHECK(Integrator("i", {.enable_reset = true}).input_names() == Names{"in", "reset_trigger"});
-  CHECK(Integrator("i", {.enable_reset = true, .enable_external_reset = true, .enable_hold = true}).input_names() ==
-        Names{"in", "reset_trigger", "reset_value", "hold_trigger"});
+  CHECK(Integrator("i", {.enable_reset = true, .enable_external_reset = true, .enable_hold = true})
+            .input_names() == Names{"in", "reset_trigger", "reset_value", "hold_trigger"});
   CHECK(Integrator("i", {.enable_hold = true}).input_names() == Names{"in", "hold_trigger"});
 }
 
-TEST_CASE("the output of an Integrator is a view of its state in the shape of initial_state", "[library]") {
+TEST_CASE("the output of an Integrator is a view of its state in the shape of initial_state",
+          "[library]") {
   Bench<Integrator> scalar({1.0}, Integrator::Options{.initial_state = 4.0});
   Bench<Integrator> vector({Value{1.0, 2.0}}, Integrator::Options{.initial_state = {4.0, 5.0}});
   CHECK(scalar.output() == Numbers{4.0});
@@ -79,7 +85,8 @@ TEST_CASE("chains of constants in front of an Integrator are computed once", "[l
 
 TEST_CASE("an Integrator in a loop is no algebraic loop", "[library]") {
   DiagramBuilder builder;
-  auto& integrator = builder.add<Integrator>("integrator", Integrator::Options{.initial_state = 1.0});
+  auto& integrator =
+      builder.add<Integrator>("integrator", Integrator::Options{.initial_state = 1.0});
   auto& gain = builder.add<Gain>("gain", -1.0);
   builder.connect(integrator.output(), gain.input());
   builder.connect(gain.output(), integrator.input());
@@ -89,13 +96,19 @@ TEST_CASE("an Integrator in a loop is no algebraic loop", "[library]") {
 
 TEST_CASE("options of an Integrator that contradict each other are refused", "[library]") {
   CHECK(model_error([] { Integrator("i", {.enable_external_reset = true}); }) ==
-        "block 'i': enable_external_reset without enable_reset; a value to reset to needs a trigger: set both");
-  CHECK(contains(model_error([] { Integrator("i", {.enable_limits = true}); }), "enable_limits without a limit"));
-  CHECK(contains(model_error([] { Integrator("i", {.enable_limits = true, .lower_limit = 1.0, .upper_limit = 0.0}); }),
+        "block 'i': enable_external_reset without enable_reset; a value to reset to needs a "
+        "trigger: set both");
+  CHECK(contains(model_error([] { Integrator("i", {.enable_limits = true}); }),
+                 "enable_limits without a limit"));
+  CHECK(contains(model_error([] {
+                   Integrator("i", {.enable_limits = true, .lower_limit = 1.0, .upper_limit = 0.0});
+                 }),
                  "lower_limit 1 is above upper_limit 0"));
-  CHECK(contains(model_error([] { Integrator("i", {.zeno_tolerance = -1.0}); }), "expected a time >= 0 s"));
-  CHECK(contains(model_error([] { Integrator("i", {.enable_limits = true, .upper_limit = Value{1.0, 2.0}}); }),
-                 "a limit has 2 values, initial_state has 1"));
+  CHECK(contains(model_error([] { Integrator("i", {.zeno_tolerance = -1.0}); }),
+                 "expected a time >= 0 s"));
+  CHECK(contains(
+      model_error([] { Integrator("i", {.enable_limits = true, .upper_limit = Value{1.0, 2.0}}); }),
+      "a limit has 2 values, initial_state has 1"));
   CHECK(model_error([] { Bench<Integrator>({Value{1.0, 2.0}}); }) ==
         "input 'in' of block 'block': expected 1 values, found 2 from output 'u0.out'");
 }

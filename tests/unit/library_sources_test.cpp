@@ -28,7 +28,8 @@ TEST_CASE("a context can change the value of a Constant", "[library]") {
 }
 
 TEST_CASE("Step switches at step_time, not before and not after", "[library]") {
-  const double before = 2.0 - 1e-14;  // times closer than that count as one instant: 16 eps of 2 s is 7e-15 s
+  const double before =
+      2.0 - 1e-14;  // times closer than that count as one instant: 16 eps of 2 s is 7e-15 s
   Bench<Step> step({}, Step::Options{.start_value = 5.0, .end_value = -1.0, .step_time = 2.0});
   CHECK(step.output(0, 0.0) == Numbers{5.0});
   CHECK(step.output(0, before) == Numbers{5.0});
@@ -41,15 +42,19 @@ TEST_CASE("Step switches at step_time, not before and not after", "[library]") {
 }
 
 TEST_CASE("a Step between a number and a vector is a vector", "[library]") {
-  Bench<Step> step({}, Step::Options{.start_value = 0.0, .end_value = {1.0, 2.0}, .step_time = 1.0});
+  Bench<Step> step({},
+                   Step::Options{.start_value = 0.0, .end_value = {1.0, 2.0}, .step_time = 1.0});
   CHECK(step.output(0, 0.0) == Numbers{0.0, 0.0});
   CHECK(step.output(0, 1.0) == Numbers{1.0, 2.0});
   CHECK(step.node().shape == Shape::of(2));
 }
 
 TEST_CASE("Sine is amplitude sin(frequency t + phase) + bias, entry by entry", "[library]") {
-  Bench<Sine> sine({}, Sine::Options{.amplitude = {2.0, 3.0}, .frequency = 4.0, .phase = {0.0, 0.5}, .bias = 1.0});
-  // The same formula in the same order: rounding of one sine, product and sum, 3 eps of a value below 4.
+  Bench<Sine> sine(
+      {},
+      Sine::Options{.amplitude = {2.0, 3.0}, .frequency = 4.0, .phase = {0.0, 0.5}, .bias = 1.0});
+  // The same formula in the same order: rounding of one sine, product and sum, 3 eps of a value
+  // below 4.
   const double tolerance = 12.0 * std::numeric_limits<double>::epsilon();
   for (const double t : {0.0, 0.3, 7.0}) {
     const Numbers y = sine.output(0, t);
@@ -70,15 +75,20 @@ TEST_CASE("Ramp is flat, then a line, and its kink is an exact stop", "[library]
   Bench<Ramp> ramp({}, Ramp::Options{.start_value = 1.0, .slope = {2.0, -4.0}, .start_time = 0.5});
   CHECK(ramp.output(0, 0.0) == Numbers{1.0, 1.0});
   CHECK(ramp.output(0, 0.5) == Numbers{1.0, 1.0});
-  CHECK(ramp.output(0, 1.0) == Numbers{2.0, -1.0});  // exact: all numbers are short binary fractions
+  CHECK(ramp.output(0, 1.0) ==
+        Numbers{2.0, -1.0});  // exact: all numbers are short binary fractions
   CHECK(ramp.node().rate == Rate::continuous);
   REQUIRE(ramp.plan().schedule.size() == 1);
   CHECK(ramp.plan().schedule[0].offset == 0.5);
 }
 
-TEST_CASE("Pulse is high exactly from each rise to each fall, ticks being offset + k period as doubles", "[library]") {
+TEST_CASE(
+    "Pulse is high exactly from each rise to each fall, ticks being offset + k period as doubles",
+    "[library]") {
   const double period = 1.0 / 3.0, width = 0.3, delay = 0.1;
-  Bench<Pulse> pulse({}, Pulse::Options{.amplitude = 2.0, .period = period, .pulse_width = width, .phase_delay = delay});
+  Bench<Pulse> pulse(
+      {}, Pulse::Options{
+              .amplitude = 2.0, .period = period, .pulse_width = width, .phase_delay = delay});
   REQUIRE(pulse.plan().schedule.size() == 2);
   const double rise = pulse.plan().schedule[0].offset, fall = pulse.plan().schedule[1].offset;
   CHECK(pulse.output(0, 0.0) == Numbers{0.0});
@@ -90,7 +100,8 @@ TEST_CASE("Pulse is high exactly from each rise to each fall, ticks being offset
   CHECK(pulse.node().rate == Rate::held);
 }
 
-TEST_CASE("a Pulse of width 0 is always low, one of width 1 always high from its delay on", "[library]") {
+TEST_CASE("a Pulse of width 0 is always low, one of width 1 always high from its delay on",
+          "[library]") {
   Bench<Pulse> low({}, Pulse::Options{.period = 0.1, .pulse_width = 0.0});
   Bench<Pulse> high({}, Pulse::Options{.period = 0.1, .pulse_width = 1.0, .phase_delay = 0.7});
   CHECK(high.output(0, 0.6) == Numbers{0.0});
@@ -103,5 +114,6 @@ TEST_CASE("a Pulse of width 0 is always low, one of width 1 always high from its
 TEST_CASE("a Pulse refuses a period or width that makes no pulse", "[library]") {
   CHECK(model_error([] { Pulse("p", Pulse::Options{.period = 0.0}); }) ==
         "block 'p': period = 0 s; expected a finite time > 0 s");
-  CHECK(contains(model_error([] { Pulse("p", Pulse::Options{.pulse_width = 1.5}); }), "pulse_width = 1.5"));
+  CHECK(contains(model_error([] { Pulse("p", Pulse::Options{.pulse_width = 1.5}); }),
+                 "pulse_width = 1.5"));
 }

@@ -1,4 +1,5 @@
-// What the tests of the block library share: one block between constants, looked at through plan and machine.
+// What the tests of the block library share: one block between constants, looked at through plan
+// and machine.
 #pragma once
 
 #include <string>
@@ -24,9 +25,12 @@ std::string model_error(Make make) {
   return "no ModelError";
 }
 
-inline bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+inline bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
 
-/// A block called "block" whose inputs are Constants, in a diagram of its own. All its outputs are recorded.
+/// A block called "block" whose inputs are Constants, in a diagram of its own. All its outputs are
+/// recorded.
 template <class Block>
 class Bench {
  public:
@@ -45,7 +49,9 @@ class Bench {
     const double* first = machine_.value(place);
     return {first, first + place.size};
   }
-  const saltus::Node& node(int k = 0) const { return plan_->node(plan_->taps[static_cast<std::size_t>(k)].node); }
+  const saltus::Node& node(int k = 0) const {
+    return plan_->node(plan_->taps[static_cast<std::size_t>(k)].node);
+  }
   const saltus::Plan& plan() const { return *plan_; }
 
  private:

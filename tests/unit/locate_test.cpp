@@ -1,4 +1,5 @@
-// Location: pairs of roots, roots very close together, the earliest first, the state on the firing side.
+// Location: pairs of roots, roots very close together, the earliest first, the state on the firing
+// side.
 #include "support/leaves.hpp"
 
 using namespace saltus;
@@ -14,7 +15,8 @@ Leaf ruler(const std::vector<double>& roots, double scale = 1.0) {
     l.declare_discrete_state(vec({0.0}));
     for (std::size_t i = 0; i < roots.size(); ++i) {
       const double root = roots[i];
-      l.declare_zero_crossing({.name = text("at_", i), .guard = [=](const At& at) { return scale * (at.x[0] - root); },
+      l.declare_zero_crossing({.name = text("at_", i),
+                               .guard = [=](const At& at) { return scale * (at.x[0] - root); },
                                .reset_map = count_up});
     }
   });
@@ -54,7 +56,8 @@ TEST_CASE("twenty guards in one step fire in the order of their roots", "[locate
   const auto results = run(ruler(roots), method);
   std::ranges::sort(roots);
   REQUIRE(results.events.size() == 20);
-  for (std::size_t i = 0; i < 20; ++i) CHECK_THAT(results.events[i].time, WithinAbs(roots[i], 1e-12));
+  for (std::size_t i = 0; i < 20; ++i)
+    CHECK_THAT(results.events[i].time, WithinAbs(roots[i], 1e-12));
 }
 
 TEST_CASE("the state handed on is at the root or beyond it, never before", "[locate]") {
@@ -65,17 +68,22 @@ TEST_CASE("the state handed on is at the root or beyond it, never before", "[loc
     const auto results = run(ruler({root}, scale), method);
     REQUIRE(results.events.size() == 1);
     CHECK(results.events[0].before[0] >= root);
-    // 100 eps (|t| + |h|), semantics 2.9, on an interpolant that is exact for a straight line but for rounding.
+    // 100 eps (|t| + |h|), semantics 2.9, on an interpolant that is exact for a straight line but
+    // for rounding.
     CHECK_THAT(results.events[0].time, WithinAbs(root, 100.0 * eps * 2.0));
     CHECK(results.events[0].direction == (scale > 0.0 ? 1 : -1));
   }
 }
 
-TEST_CASE("a pair of roots in one step is found at interior points, and missed without them", "[locate]") {
+TEST_CASE("a pair of roots in one step is found at interior points, and missed without them",
+          "[locate]") {
   const Leaf leaf("dip", [](Leaf& l) {
     declare_ramp(l);
     l.declare_discrete_state(vec({0.0}));
-    l.declare_zero_crossing({.name = "dip", .guard = [](const At& at) { return (at.x[0] - 0.45) * (at.x[0] - 0.8); }, .reset_map = count_up});
+    l.declare_zero_crossing(
+        {.name = "dip",
+         .guard = [](const At& at) { return (at.x[0] - 0.45) * (at.x[0] - 0.8); },
+         .reset_map = count_up});
   });
   CHECK(run(leaf, "dopri5").events.size() == 2);
   CHECK(run(leaf, "dopri5", {.event_scan_points = 20}).events.size() == 2);
@@ -89,9 +97,15 @@ TEST_CASE("a guard with a steep and one with a flat root are located alike", "[l
   const Leaf leaf("curves", [](Leaf& l) {
     declare_ramp(l);
     l.declare_discrete_state(vec({0.0}));
-    l.declare_zero_crossing({.name = "steep", .guard = [](const At& at) { return std::tanh(1e8 * (at.x[0] - 0.3)); }, .reset_map = count_up});
-    l.declare_zero_crossing({.name = "flat", .guard = [](const At& at) { return std::pow(at.x[0] - 0.6, 5.0); }, .reset_map = count_up});
-    l.declare_zero_crossing({.name = "jump", .guard = [](const At& at) { return at.x[0] < 0.9 ? -1e300 : 1e-300; }, .reset_map = count_up});
+    l.declare_zero_crossing({.name = "steep",
+                             .guard = [](const At& at) { return std::tanh(1e8 * (at.x[0] - 0.3)); },
+                             .reset_map = count_up});
+    l.declare_zero_crossing({.name = "flat",
+                             .guard = [](const At& at) { return std::pow(at.x[0] - 0.6, 5.0); },
+                             .reset_map = count_up});
+    l.declare_zero_crossing({.name = "jump",
+                             .guard = [](const At& at) { return at.x[0] < 0.9 ? -1e300 : 1e-300; },
+                             .reset_map = count_up});
   });
   const auto results = run(leaf, method);
   REQUIRE(results.events.size() == 3);
@@ -105,7 +119,8 @@ TEST_CASE("late in a long run events are located as exactly as time can say", "[
   INFO("method " << method);
   const double t0 = 1e6;
   const Leaf leaf = ruler({0.537});
-  const auto results = simulate(leaf, leaf.create_context(t0), {t0, t0 + 1.0}, {.ode_solver_method = method});
+  const auto results =
+      simulate(leaf, leaf.create_context(t0), {t0, t0 + 1.0}, {.ode_solver_method = method});
   REQUIRE(results.events.size() == 1);
   CHECK_THAT(results.events[0].time, WithinAbs(t0 + 0.537, 100.0 * eps * (t0 + 1.0)));
   CHECK(results.events[0].before[0] >= 0.537);

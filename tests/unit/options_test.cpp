@@ -25,23 +25,32 @@ TEST_CASE("tolerances that are not positive, or finer than a double, are refused
     CHECK(contains(refused({.rtol = bad}), "option rtol: expected a positive number, found "));
     CHECK(contains(refused({.atol = bad}), "option atol: expected a positive number, found "));
   }
-  CHECK(refused({.rtol = 1e-16}) == "option rtol: expected at least 1e-15: a double has no more digits, found 1e-16");
+  CHECK(refused({.rtol = 1e-16}) ==
+        "option rtol: expected at least 1e-15: a double has no more digits, found 1e-16");
 }
 
 TEST_CASE("step bounds that make no sense are refused", "[options]") {
-  CHECK(refused({.max_major_steps = 0}) == "option max_major_steps: expected a positive number, or none, found 0");
-  CHECK(refused({.max_major_steps = -5}) == "option max_major_steps: expected a positive number, or none, found -5");
-  CHECK(refused({.max_major_step_length = 0.0}) == "option max_major_step_length: expected a time > 0 s, found 0");
+  CHECK(refused({.max_major_steps = 0}) ==
+        "option max_major_steps: expected a positive number, or none, found 0");
+  CHECK(refused({.max_major_steps = -5}) ==
+        "option max_major_steps: expected a positive number, or none, found -5");
+  CHECK(refused({.max_major_step_length = 0.0}) ==
+        "option max_major_step_length: expected a time > 0 s, found 0");
   CHECK(contains(refused({.max_major_step_length = not_a_number}), "option max_major_step_length"));
-  CHECK(refused({.min_minor_step_size = -1.0}) == "option min_minor_step_size: expected a time >= 0 s, found -1");
-  CHECK(refused({.max_minor_step_size = 0.0}) == "option max_minor_step_size: expected more than min_minor_step_size, found 0");
-  CHECK(contains(refused({.min_minor_step_size = 0.2, .max_minor_step_size = 0.1}), "more than min_minor_step_size, found 0.1"));
+  CHECK(refused({.min_minor_step_size = -1.0}) ==
+        "option min_minor_step_size: expected a time >= 0 s, found -1");
+  CHECK(refused({.max_minor_step_size = 0.0}) ==
+        "option max_minor_step_size: expected more than min_minor_step_size, found 0");
+  CHECK(contains(refused({.min_minor_step_size = 0.2, .max_minor_step_size = 0.1}),
+                 "more than min_minor_step_size, found 0.1"));
 }
 
 TEST_CASE("event options that make no sense are refused", "[options]") {
-  CHECK(refused({.zeno_tolerance = -1.0}) == "option zeno_tolerance: expected a time >= 0 s, found -1");
+  CHECK(refused({.zeno_tolerance = -1.0}) ==
+        "option zeno_tolerance: expected a time >= 0 s, found -1");
   CHECK(contains(refused({.zeno_tolerance = not_a_number}), "option zeno_tolerance"));
-  CHECK(refused({.event_scan_points = -1}) == "option event_scan_points: expected 0 or more, found -1");
+  CHECK(refused({.event_scan_points = -1}) ==
+        "option event_scan_points: expected 0 or more, found -1");
   CHECK(refused({.max_passes = 0}) == "option max_passes: expected 1 or more, found 0");
 }
 

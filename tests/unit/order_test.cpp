@@ -10,15 +10,18 @@ TEST_CASE("outputs are ordered after what they read, however blocks were added",
   std::vector<Gain*> chain;
   for (int i = 0; i < 50; ++i) chain.push_back(&builder.add<Gain>(text("gain_", i), 1.0));
   auto& clock = builder.add<Clock>("clock");
-  for (std::size_t i = 0; i + 1 < 50; ++i) builder.connect(chain[i + 1]->output(), chain[i]->input());
+  for (std::size_t i = 0; i + 1 < 50; ++i)
+    builder.connect(chain[i + 1]->output(), chain[i]->input());
   builder.connect(clock.output(), chain[49]->input());
   const Diagram diagram = builder.build();
   const auto plan = compile(diagram);
   std::vector<std::size_t> place(plan->nodes.size());
-  for (std::size_t i = 0; i < plan->order.size(); ++i) place[static_cast<std::size_t>(plan->order[i])] = i;
+  for (std::size_t i = 0; i < plan->order.size(); ++i)
+    place[static_cast<std::size_t>(plan->order[i])] = i;
   CHECK(plan->order.size() == plan->nodes.size());
   for (std::size_t i = 0; i < plan->nodes.size(); ++i) {
-    for (const int need : plan->nodes[i].needs) CHECK(place[static_cast<std::size_t>(need)] < place[i]);
+    for (const int need : plan->nodes[i].needs)
+      CHECK(place[static_cast<std::size_t>(need)] < place[i]);
   }
 }
 
@@ -34,7 +37,8 @@ TEST_CASE("an algebraic loop is printed as the path of ports, with the remedy", 
   const std::string what = message<ModelError>([&] { compile(diagram); });
   INFO(what);
   CHECK(contains(what, "algebraic loop"));
-  CHECK(contains(what, "  'sum.out' reads\n  'offset.out' reads\n  'gain.out' reads\n  'sum.out'\n"));
+  CHECK(
+      contains(what, "  'sum.out' reads\n  'offset.out' reads\n  'gain.out' reads\n  'sum.out'\n"));
   CHECK(!contains(what, "clock"));
   CHECK(contains(what, "Integrator, UnitDelay"));
 }
@@ -46,7 +50,8 @@ TEST_CASE("a loop through nested diagrams is printed with the paths of its leave
   DiagramBuilder outside;
   auto box = std::make_shared<Diagram>(inside.build("box"));
   outside.add(box);
-  auto& negate = outside.add<ReduceBlock>("negate", 1, [](std::span<const double> u) { return -u[0]; });
+  auto& negate =
+      outside.add<ReduceBlock>("negate", 1, [](std::span<const double> u) { return -u[0]; });
   outside.connect(box->output(), negate.input()), outside.connect(negate.output(), box->input());
   const Diagram diagram = outside.build();
   const std::string what = message<ModelError>([&] { compile(diagram); });
@@ -54,7 +59,8 @@ TEST_CASE("a loop through nested diagrams is printed with the paths of its leave
   CHECK(contains(what, "'negate.out' reads"));
 }
 
-TEST_CASE("an Integrator, a UnitDelay or an output that does not read its input breaks a loop", "[order]") {
+TEST_CASE("an Integrator, a UnitDelay or an output that does not read its input breaks a loop",
+          "[order]") {
   const auto compiles = [](auto add) {
     DiagramBuilder builder;
     auto& gain = builder.add<Gain>("gain", 0.5);
@@ -65,7 +71,8 @@ TEST_CASE("an Integrator, a UnitDelay or an output that does not read its input 
   };
   CHECK(compiles([](DiagramBuilder& b) -> LeafSystem& { return b.add<Integrator>("block"); }));
   CHECK(compiles([](DiagramBuilder& b) -> LeafSystem& { return b.add<UnitDelay>("block", 1.0); }));
-  CHECK(compiles([](DiagramBuilder& b) -> LeafSystem& { return b.add<ZeroOrderHold>("block", 1.0); }));
+  CHECK(compiles(
+      [](DiagramBuilder& b) -> LeafSystem& { return b.add<ZeroOrderHold>("block", 1.0); }));
   CHECK(compiles([](DiagramBuilder& b) -> LeafSystem& {
     return b.add<Leaf>("block", [](Leaf& l) {
       l.declare_input_port({.shape = Shape::scalar()});
@@ -80,10 +87,12 @@ TEST_CASE("a block that reads itself is the shortest loop", "[order]") {
   auto& self = builder.add<ReduceBlock>("self", 1, [](std::span<const double> u) { return u[0]; });
   builder.connect(self.output(), self.input());
   const Diagram diagram = builder.build();
-  CHECK(contains(message<ModelError>([&] { compile(diagram); }), "  'self.out' reads\n  'self.out'\n"));
+  CHECK(contains(message<ModelError>([&] { compile(diagram); }),
+                 "  'self.out' reads\n  'self.out'\n"));
 }
 
-TEST_CASE("a ring of blocks that take any width is called a loop, not a width that cannot be told", "[order]") {
+TEST_CASE("a ring of blocks that take any width is called a loop, not a width that cannot be told",
+          "[order]") {
   DiagramBuilder builder;
   auto& one = builder.add<Gain>("one", 0.5);
   auto& two = builder.add<Gain>("two", 0.5);

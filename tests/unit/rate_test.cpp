@@ -1,4 +1,5 @@
-// Rates, and the lists they make: what is constant, held, continuous; what the derivatives, guards and taps need.
+// Rates, and the lists they make: what is constant, held, continuous; what the derivatives, guards
+// and taps need.
 #include "saltus/library/library.hpp"
 #include "support/leaves.hpp"
 
@@ -38,8 +39,10 @@ struct Rates {
     held = chain(builder.add<Step>("step"), "held");
     continuous = chain(builder.add<Sine>("sine"), "continuous");
     slow = &builder.add<Adder>("slow"), fast = &builder.add<Adder>("fast");
-    builder.connect(constant->output(), slow->input(0)), builder.connect(held->output(), slow->input(1));
-    builder.connect(slow->output(), fast->input(0)), builder.connect(continuous->output(), fast->input(1));
+    builder.connect(constant->output(), slow->input(0)),
+        builder.connect(held->output(), slow->input(1));
+    builder.connect(slow->output(), fast->input(0)),
+        builder.connect(continuous->output(), fast->input(1));
     diagram = std::make_unique<Diagram>(builder.build());
   }
 };
@@ -56,16 +59,21 @@ using Names = std::vector<std::string>;
 
 TEST_CASE("the rate of an output is the fastest of its own and its inputs'", "[rate]") {
   const Rates rates;
-  const auto plan = compile(*rates.diagram, {{"c", rates.constant->output()}, {"h", rates.held->output()},
-                                             {"x", rates.continuous->output()}, {"s", rates.slow->output()}, {"f", rates.fast->output()}});
-  const Rate expected[] = {Rate::constant, Rate::held, Rate::continuous, Rate::held, Rate::continuous};
+  const auto plan = compile(*rates.diagram, {{"c", rates.constant->output()},
+                                             {"h", rates.held->output()},
+                                             {"x", rates.continuous->output()},
+                                             {"s", rates.slow->output()},
+                                             {"f", rates.fast->output()}});
+  const Rate expected[] = {Rate::constant, Rate::held, Rate::continuous, Rate::held,
+                           Rate::continuous};
   for (std::size_t i = 0; i < 5; ++i) CHECK(plan->node(plan->taps[i].node).rate == expected[i]);
 }
 
 TEST_CASE("taps pull what they need at each rate, and nothing else", "[needs]") {
   const Rates rates;
   const auto none = compile(*rates.diagram);
-  CHECK((none->constants.empty() && none->instants.empty() && none->tap_needs.empty() && none->derivatives.empty()));
+  CHECK((none->constants.empty() && none->instants.empty() && none->tap_needs.empty() &&
+         none->derivatives.empty()));
   const auto slow = compile(*rates.diagram, {{"s", rates.slow->output()}});
   CHECK(names(*slow, slow->constants) == Names{"constant.out"});
   CHECK(names(*slow, slow->instants) == Names{"held.out", "slow.out", "step.out"});
@@ -90,17 +98,21 @@ TEST_CASE("a relation between held values moves at instants only and is no guard
   CHECK(std::abs(results.context.continuous_state()[0] - 2.0) < 1e-9);
 }
 
-TEST_CASE("an opaque boolean that reaches a derivative is located, and describe says so", "[describe]") {
+TEST_CASE("an opaque boolean that reaches a derivative is located, and describe says so",
+          "[describe]") {
   DiagramBuilder builder;
   auto& sine = builder.add<Sine>("sine");
   auto& above = builder.add<FunctionBlock>("above", [](double u) { return u > 0.5; });
   auto& integrator = builder.add<Integrator>("integrator");
-  builder.connect(sine.output(), above.input()), builder.connect(above.output(), integrator.input());
+  builder.connect(sine.output(), above.input()),
+      builder.connect(above.output(), integrator.input());
   const Diagram diagram = builder.build();
   const auto plan = compile(diagram);
   REQUIRE(plan->guards.size() == 1);
   CHECK(plan->guards[0].kind == GuardGroup::Kind::opaque);
-  CHECK(contains(plan->describe(), "block 'above' is an opaque boolean: located by bisection; a Comparator would be faster"));
+  CHECK(contains(
+      plan->describe(),
+      "block 'above' is an opaque boolean: located by bisection; a Comparator would be faster"));
   const auto results = simulate(diagram, diagram.create_context(), {0.0, 3.0});
   CHECK(std::abs(results.context.continuous_state()[0] - 2.0 * std::acos(-1.0) / 3.0) < 1e-8);
 }

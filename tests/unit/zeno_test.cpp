@@ -23,8 +23,8 @@ TEST_CASE("gaps that shrink geometrically below the tolerance accumulate", "[zen
   const double start = GENERATE(0.0, -3.0, 100.0);
   CHECK(seen(1e-6, start, {8e-7, 4e-7, 2e-7}).accumulates());
   CHECK(seen(1e-6, start, {1e-3, 1e-5, 1e-7}).accumulates());
-  CHECK(!seen(1e-6, start, {8e-3, 4e-3, 2e-3}).accumulates());   // not there yet
-  CHECK(!seen(1e-6, start, {4e-7, 2e-7}).accumulates());         // two gaps say nothing
+  CHECK(!seen(1e-6, start, {8e-3, 4e-3, 2e-3}).accumulates());  // not there yet
+  CHECK(!seen(1e-6, start, {4e-7, 2e-7}).accumulates());        // two gaps say nothing
   CHECK(!seen(1e-6, start, {}).accumulates());
 }
 
@@ -51,7 +51,8 @@ TEST_CASE("the accumulation time and state of a geometric series are exact", "[z
     if (k < 5) monitor.remember(after);
     if (k < 5) t += gap, gap *= q, v *= q;
   }
-  // t_k + gap q / (1 - q), the sum of all later gaps. Gaps of 1e-6 s between times of 2 s are known to 4e-16 / 1e-6.
+  // t_k + gap q / (1 - q), the sum of all later gaps. Gaps of 1e-6 s between times of 2 s are known
+  // to 4e-16 / 1e-6.
   CHECK_THAT(monitor.accumulation_time(), WithinRel(2.0 + 0.1 / (1.0 - q), 1e-9));
   monitor.accumulate(after);
   CHECK(after[0] == 3.0);
@@ -77,10 +78,13 @@ TEST_CASE("a steady fast rhythm in a run is no Zeno hold", "[zeno]") {
   // A sawtooth of 5e-7 s, below the tolerance of 1e-6 s.
   const Leaf saw("saw", [](Leaf& l) {
     declare_ramp(l);
-    l.declare_zero_crossing({.name = "full", .guard = [](const At& at) { return at.x[0] - 5e-7; },
-                             .reset_map = [](const At&, Next& next) { next.set_continuous_state({0.0}); }});
+    l.declare_zero_crossing(
+        {.name = "full",
+         .guard = [](const At& at) { return at.x[0] - 5e-7; },
+         .reset_map = [](const At&, Next& next) { next.set_continuous_state({0.0}); }});
   });
-  const auto results = simulate(saw, saw.create_context(), {0.0, 1e-3}, {.ode_solver_method = method});
+  const auto results =
+      simulate(saw, saw.create_context(), {0.0, 1e-3}, {.ode_solver_method = method});
   CHECK(count(results.events, EventKind::zeno_enter) == 0);
   CHECK(count(results.events, EventKind::zero_crossing) >= 1999);
 }

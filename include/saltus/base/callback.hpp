@@ -1,4 +1,5 @@
-// One type-erased callable over `&Block::method` or a lambda. Erased once, at declaration: 3 ns a call.
+// One type-erased callable over `&Block::method` or a lambda. Erased once, at declaration: 3 ns a
+// call.
 #pragma once
 
 #include <cstring>
@@ -20,13 +21,15 @@ struct MethodOf<R (C::*)(A...) const> : std::true_type {
   using Class = C;
 };
 
-/// Calls `f(at, out)`, or stores the number that `f(at)` returns: a scalar output, guard or derivative.
+/// Calls `f(at, out)`, or stores the number that `f(at)` returns: a scalar output, guard or
+/// derivative.
 template <class F>
 void call(const F& f, const At& at, const VectorRef& out) {
   if constexpr (std::is_invocable_v<const F&, const At&, VectorRef>) {
     f(at, out);
   } else {
-    *const_cast<double*>(out.data()) = static_cast<double>(f(at));  // a const view of memory that is not
+    *const_cast<double*>(out.data()) =
+        static_cast<double>(f(at));  // a const view of memory that is not
   }
 }
 template <class F>
@@ -47,7 +50,8 @@ class Callback;
 /// The leaf is passed at each call, so a leaf may be moved after its callbacks were declared.
 template <class Out>
 class Callback<void(const At&, Out)> {
-  using Passed = std::add_lvalue_reference_t<const Out>;  // views go by value to users, by reference on the way
+  using Passed = std::add_lvalue_reference_t<const Out>;  // views go by value to users, by
+                                                          // reference on the way
 
  public:
   Callback() = default;
@@ -66,7 +70,9 @@ class Callback<void(const At&, Out)> {
   }
 
   explicit operator bool() const noexcept { return call_ != nullptr; }
-  void operator()(const LeafSystem& leaf, const At& at, Passed out) const { call_(*this, leaf, at, out); }
+  void operator()(const LeafSystem& leaf, const At& at, Passed out) const {
+    call_(*this, leaf, at, out);
+  }
 
  private:
   template <class F>
@@ -91,7 +97,8 @@ class Callback<void(const At&, Out)> {
   std::shared_ptr<const void> callable_;
 };
 
-/// Fills a vector: a derivative, an output, a guard. A function that returns a number fills one entry.
+/// Fills a vector: a derivative, an output, a guard. A function that returns a number fills one
+/// entry.
 using VectorFunction = Callback<void(const At&, VectorRef)>;
 
 /// Reset map or update: says through `Next` what the state becomes.

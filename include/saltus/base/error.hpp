@@ -20,7 +20,8 @@ namespace saltus {
 
 struct Results;  // simulation/results.hpp
 
-/// Base of everything Saltus throws on its own account. What a user's function throws comes out as it was.
+/// Base of everything Saltus throws on its own account. What a user's function throws comes out as
+/// it was.
 class Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -38,9 +39,13 @@ class SimulationError : public Error {
   SimulationError(const std::string& message, double time, std::string block = {})
       : Error(message), time_(time), block_(std::move(block)) {}
 
-  double time() const noexcept { return time_; }                   ///< [s] where the run stood
-  const std::string& block() const noexcept { return block_; }     ///< path of the block at fault, or empty
-  const std::shared_ptr<const Results>& results() const noexcept { return results_; }  ///< what was computed
+  double time() const noexcept { return time_; }  ///< [s] where the run stood
+  const std::string& block() const noexcept {
+    return block_;
+  }  ///< path of the block at fault, or empty
+  const std::shared_ptr<const Results>& results() const noexcept {
+    return results_;
+  }  ///< what was computed
   void attach(std::shared_ptr<const Results> results) { results_ = std::move(results); }
 
  private:
@@ -104,7 +109,8 @@ inline std::string known_names(std::string_view wrong, const std::vector<std::st
   const auto nearest = std::ranges::min_element(
       names, {}, [&](const std::string& name) { return detail::edit_distance(wrong, name); });
   const bool close = detail::edit_distance(wrong, *nearest) <= 1 + wrong.size() / 3;
-  return text(close ? text("; did you mean '", *nearest, "'?") : std::string(";"), " Known: ", quoted_list(names));
+  return text(close ? text("; did you mean '", *nearest, "'?") : std::string(";"),
+              " Known: ", quoted_list(names));
 }
 
 }  // namespace saltus

@@ -17,7 +17,8 @@ struct SystemId {
   auto operator<=>(const SystemId&) const = default;
 };
 
-/// Where a declared parameter stands in `at.p`: `at.p[g_]` for a scalar, `at.parameter(k_)` for a vector.
+/// Where a declared parameter stands in `at.p`: `at.p[g_]` for a scalar, `at.parameter(k_)` for a
+/// vector.
 struct ParameterIndex {
   Index offset = 0;
   Index size = 1;

@@ -1,4 +1,5 @@
-// What a callback sees (At) and what a reset map or update may set (Next): maps over the machine's flat memory.
+// What a callback sees (At) and what a reset map or update may set (Next): maps over the machine's
+// flat memory.
 #pragma once
 
 #include <algorithm>
@@ -35,7 +36,8 @@ using Bases = std::array<const double*, 4>;
 /// The inputs of a leaf. `u[i]` is input i as a vector, `u(i)` its first entry, for scalars.
 class Inputs {
  public:
-  Inputs(const Place* places, int count, const Bases* bases) : places_(places), count_(count), bases_(bases) {}
+  Inputs(const Place* places, int count, const Bases* bases)
+      : places_(places), count_(count), bases_(bases) {}
 
   VectorView operator[](int i) const { return {data(i), places_[i].size}; }
   double operator()(int i) const { return *data(i); }
@@ -67,24 +69,30 @@ class At {
   /// A vector parameter.
   VectorView parameter(ParameterIndex k) const { return {p.data() + k.offset, k.size}; }
 
-  /// The truth of entry i of a relation: held between instants where it reaches a derivative, else as of now.
+  /// The truth of entry i of a relation: held between instants where it reaches a derivative, else
+  /// as of now.
   bool relation(RelationIndex r, Index i = 0) const { return relations_[r.value][i] != 0.0; }
 
  private:
   const double* const* relations_;
 };
 
-/// What a reset map or update says. It starts as the present state; writing is saying "I wrote this", even if
-/// the value is the one that was there.
+/// What a reset map or update says. It starts as the present state; writing is saying "I wrote
+/// this", even if the value is the one that was there.
 class Next {
  public:
-  Next(VectorRef x, VectorRef z, int& mode, const std::string& path) : x_(x), z_(z), mode_(&mode), path_(&path) {}
+  Next(VectorRef x, VectorRef z, int& mode, const std::string& path)
+      : x_(x), z_(z), mode_(&mode), path_(&path) {}
 
-  void set_continuous_state(const Eigen::Ref<const Eigen::VectorXd>& x) { set(x_, x.data(), x.size(), "continuous", wrote_x_); }
+  void set_continuous_state(const Eigen::Ref<const Eigen::VectorXd>& x) {
+    set(x_, x.data(), x.size(), "continuous", wrote_x_);
+  }
   void set_continuous_state(std::initializer_list<double> x) {
     set(x_, x.begin(), static_cast<Index>(x.size()), "continuous", wrote_x_);
   }
-  void set_discrete_state(const Eigen::Ref<const Eigen::VectorXd>& z) { set(z_, z.data(), z.size(), "discrete", wrote_z_); }
+  void set_discrete_state(const Eigen::Ref<const Eigen::VectorXd>& z) {
+    set(z_, z.data(), z.size(), "discrete", wrote_z_);
+  }
   void set_discrete_state(std::initializer_list<double> z) {
     set(z_, z.begin(), static_cast<Index>(z.size()), "discrete", wrote_z_);
   }
@@ -98,10 +106,11 @@ class Next {
   bool wrote_mode() const noexcept { return wrote_mode_; }
 
  private:
-  void set(VectorRef& target, const double* values, Index size, const char* what, bool& wrote) const {
+  void set(VectorRef& target, const double* values, Index size, const char* what,
+           bool& wrote) const {
     if (size != target.size()) {
-      throw ModelError(text("block '", *path_, "': expected ", target.size(), " values for the ", what,
-                            " state, found ", size, "; set all of it at once"));
+      throw ModelError(text("block '", *path_, "': expected ", target.size(), " values for the ",
+                            what, " state, found ", size, "; set all of it at once"));
     }
     std::copy_n(values, size, target.data());
     wrote = true;

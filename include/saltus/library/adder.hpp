@@ -8,15 +8,21 @@ namespace saltus {
 
 class Adder final : public LeafSystem {
  public:
-  explicit Adder(std::string name, std::string_view operators = "++") : LeafSystem(std::move(name)) {
+  explicit Adder(std::string name, std::string_view operators = "++")
+      : LeafSystem(std::move(name)) {
     detail::require_count(this->name(), "operator", static_cast<int>(operators.size()), 1);
     for (const char sign : operators) {
-      detail::insist(sign == '+' || sign == '-', this->name(), "unknown operator '", std::string(1, sign), "' in '",
-                      operators, "'; expected one '+' or '-' for each input, as in \"++-\"; a Product takes '*' and '/'");
+      detail::insist(
+          sign == '+' || sign == '-', this->name(), "unknown operator '", std::string(1, sign),
+          "' in '", operators,
+          "'; expected one '+' or '-' for each input, as in \"++-\"; a Product takes '*' and '/'");
       signs_.push_back(sign == '+' ? 1.0 : -1.0);
       declare_input_port();
     }
-    declare_output_port({.name = "out", .calc = &Adder::sum, .shape = {}, .shape_rule = detail::stretch(this->name()),
+    declare_output_port({.name = "out",
+                         .calc = &Adder::sum,
+                         .shape = {},
+                         .shape_rule = detail::stretch(this->name()),
                          .reads = Reads::inputs});
   }
 

@@ -11,13 +11,18 @@
 
 namespace saltus {
 
-/// A number or a vector. A number makes a scalar signal, a vector (also one of a single entry) a vector signal.
+/// A number or a vector. A number makes a scalar signal, a vector (also one of a single entry) a
+/// vector signal.
 struct Value {
-  Value(double number) : values(Eigen::VectorXd::Constant(1, number)) {}  // NOLINT(google-explicit-constructor)
-  Value(std::initializer_list<double> numbers)                           // NOLINT(google-explicit-constructor)
-      : values(Eigen::Map<const Eigen::VectorXd>(numbers.begin(), static_cast<Index>(numbers.size()))), vector(true) {}
+  Value(double number)
+      : values(Eigen::VectorXd::Constant(1, number)) {}  // NOLINT(google-explicit-constructor)
+  Value(std::initializer_list<double> numbers)           // NOLINT(google-explicit-constructor)
+      : values(
+            Eigen::Map<const Eigen::VectorXd>(numbers.begin(), static_cast<Index>(numbers.size()))),
+        vector(true) {}
   template <class Derived>
-  Value(const Eigen::MatrixBase<Derived>& numbers) : values(numbers), vector(true) {}  // NOLINT(google-explicit-constructor)
+  Value(const Eigen::MatrixBase<Derived>& numbers)
+      : values(numbers), vector(true) {}  // NOLINT(google-explicit-constructor)
 
   Shape shape() const { return {values.size(), vector}; }
 
@@ -47,7 +52,8 @@ inline void require_count(const std::string& block, std::string_view what, int f
 
 /// Refuses a period that is not a positive, finite time.
 inline void require_period(const std::string& block, std::string_view what, double found) {
-  insist(found > 0.0 && std::isfinite(found), block, what, " = ", found, " s; expected a finite time > 0 s");
+  insist(found > 0.0 && std::isfinite(found), block, what, " = ", found,
+         " s; expected a finite time > 0 s");
 }
 
 }  // namespace detail

@@ -34,21 +34,24 @@ void store(const std::string&, VectorRef out, const Result& result) {
 }
 template <class Derived>
 void store(const std::string& block, VectorRef out, const Eigen::MatrixBase<Derived>& result) {
-  insist(result.size() == out.size(), block, "expected ", out.size(), " values from its function, found ", result.size(),
-          "; say the width in Options::shape");
+  insist(result.size() == out.size(), block, "expected ", out.size(),
+         " values from its function, found ", result.size(), "; say the width in Options::shape");
   out = result;
 }
 
 template <OverInputs F>
 VectorFunction calculation(std::string block, F f) {
-  return [block = std::move(block), f = std::move(f)](const At& at, VectorRef out) { store(block, out, f(at.u)); };
+  return [block = std::move(block), f = std::move(f)](const At& at, VectorRef out) {
+    store(block, out, f(at.u));
+  };
 }
 template <OverScalars F>
 VectorFunction calculation(std::string block, F f) {
   return [block = std::move(block), f = std::move(f)](const At& at, VectorRef out) {
     std::array<double, most_scalars> scalars{};
     for (int k = 0; k < at.u.size(); ++k) scalars[static_cast<std::size_t>(k)] = at.u(k);
-    store(block, out, f(std::span<const double>(scalars.data(), static_cast<std::size_t>(at.u.size()))));
+    store(block, out,
+          f(std::span<const double>(scalars.data(), static_cast<std::size_t>(at.u.size()))));
   };
 }
 

@@ -9,7 +9,8 @@ namespace saltus {
 class Clock final : public LeafSystem {
  public:
   explicit Clock(std::string name) : LeafSystem(std::move(name)) {
-    declare_output_port({.name = "out", .calc = [](const At& at) { return at.time; }, .reads = Reads::time});
+    declare_output_port(
+        {.name = "out", .calc = [](const At& at) { return at.time; }, .reads = Reads::time});
   }
 };
 

@@ -1,7 +1,8 @@
 // y = u_0 operator u_1, elementwise, 0 or 1; operators <  <=  >  >=  ==  !=.
 // in_0, in_1: scalars and vectors of one width. out: boolean, that width.
-// The first four own a relation with the smooth guard u_0 - u_1, located and held where it reaches a derivative, a
-// guard or a reset. Equality has no sign to change, so it is an opaque boolean: meant for held signals, such as modes.
+// The first four own a relation with the smooth guard u_0 - u_1, located and held where it reaches
+// a derivative, a guard or a reset. Equality has no sign to change, so it is an opaque boolean:
+// meant for held signals, such as modes.
 #pragma once
 
 #include "saltus/library/elementwise.hpp"
@@ -20,15 +21,22 @@ class Comparator final : public LeafSystem {
       return;
     }
     sign_ = operation[0] == '>' ? 1.0 : -1.0;
-    relation_ = declare_relation({.name = "difference", .guard = &Comparator::difference,
-                                  .true_at_zero = operation.size() == 2, .size = std::nullopt, .reads = Reads::inputs});
+    relation_ = declare_relation({.name = "difference",
+                                  .guard = &Comparator::difference,
+                                  .true_at_zero = operation.size() == 2,
+                                  .size = std::nullopt,
+                                  .reads = Reads::inputs});
     declare_truth(&Comparator::held_truth, Reads::relations);
   }
 
  private:
   void declare_truth(VectorFunction calc, Reads reads) {
-    declare_output_port({.name = "out", .calc = std::move(calc), .shape = {}, .shape_rule = detail::stretch(name()),
-                         .reads = reads, .boolean = true});
+    declare_output_port({.name = "out",
+                         .calc = std::move(calc),
+                         .shape = {},
+                         .shape_rule = detail::stretch(name()),
+                         .reads = reads,
+                         .boolean = true});
   }
   void difference(const At& at, VectorRef g) const {
     const VectorView a = at.u[0], b = at.u[1];
@@ -39,7 +47,8 @@ class Comparator final : public LeafSystem {
   }
   void equality(const At& at, VectorRef out) const {
     const VectorView a = at.u[0], b = at.u[1];
-    for (Index i = 0; i < out.size(); ++i) out[i] = (detail::entry(a, i) == detail::entry(b, i)) == equal_ ? 1.0 : 0.0;
+    for (Index i = 0; i < out.size(); ++i)
+      out[i] = (detail::entry(a, i) == detail::entry(b, i)) == equal_ ? 1.0 : 0.0;
   }
 
   double sign_ = 1.0;

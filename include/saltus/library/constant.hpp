@@ -1,5 +1,6 @@
 // y = value.
-// out: shape of `value`. Parameter "value". Shown where it stands in the context: nothing is ever computed.
+// out: shape of `value`. Parameter "value". Shown where it stands in the context: nothing is ever
+// computed.
 #pragma once
 
 #include "saltus/library/arguments.hpp"
@@ -9,9 +10,12 @@ namespace saltus {
 class Constant final : public LeafSystem {
  public:
   Constant(std::string name, const Value& value) : LeafSystem(std::move(name)) {
-    detail::insist(value.values.size() > 0, this->name(), "value is an empty vector; give at least one number");
+    detail::insist(value.values.size() > 0, this->name(),
+                   "value is an empty vector; give at least one number");
     const ParameterIndex k = declare_dynamic_parameter("value", value.values);
-    declare_output_port({.name = "out", .shape = value.shape(), .reads = Reads::parameters,
+    declare_output_port({.name = "out",
+                         .shape = value.shape(),
+                         .reads = Reads::parameters,
                          .view = Place{Space::p, k.offset, k.size}});
   }
 };

@@ -1,5 +1,6 @@
 // y_k = part k of u, which is cut into n_outputs equal parts.
-// in: a vector whose width is a multiple of n_outputs. out_0, out_1, ...: scalars if each part has one entry.
+// in: a vector whose width is a multiple of n_outputs. out_0, out_1, ...: scalars if each part has
+// one entry.
 #pragma once
 
 #include "saltus/library/arguments.hpp"
@@ -13,12 +14,15 @@ class Demultiplexer final : public LeafSystem {
     declare_input_port({.name = "in"});
     const auto part = [block = this->name(), n_outputs](std::span<const Shape> inputs) {
       const Index width = inputs[0].size;
-      detail::insist(width % n_outputs == 0, block, "an input of width ", width, " cannot be cut into ", n_outputs,
-                      " equal parts; expected a multiple of n_outputs");
+      detail::insist(width % n_outputs == 0, block, "an input of width ", width,
+                     " cannot be cut into ", n_outputs,
+                     " equal parts; expected a multiple of n_outputs");
       return width == n_outputs ? Shape::scalar() : Shape::of(width / n_outputs);
     };
     for (int k = 0; k < n_outputs; ++k) {
-      const auto cut = [k](const At& at, VectorRef out) { out = at.u[0].segment(k * out.size(), out.size()); };
+      const auto cut = [k](const At& at, VectorRef out) {
+        out = at.u[0].segment(k * out.size(), out.size());
+      };
       declare_output_port({.calc = cut, .shape = {}, .shape_rule = part, .reads = Reads::inputs});
     }
   }

@@ -1,4 +1,5 @@
-// What elementwise blocks share: a scalar stands for a vector of equal entries, vectors must be of one width.
+// What elementwise blocks share: a scalar stands for a vector of equal entries, vectors must be of
+// one width.
 #pragma once
 
 #include <limits>
@@ -11,7 +12,9 @@
 namespace saltus::detail {
 
 /// Entry i of a vector, or the one entry of a scalar.
-inline double entry(const VectorView& values, Index i) { return values[values.size() == 1 ? 0 : i]; }
+inline double entry(const VectorView& values, Index i) {
+  return values[values.size() == 1 ? 0 : i];
+}
 
 /// The shape that fits them all; a ModelError if vectors of different widths meet.
 inline Shape stretched(const std::string& block, std::span<const Shape> shapes) {
@@ -23,22 +26,24 @@ inline Shape stretched(const std::string& block, std::span<const Shape> shapes) 
     widths += text(widths.empty() ? "" : ", ", shape.size);
   }
   insist(fit, block, "expected scalars and vectors of one width, found the widths ", widths,
-          "; bring them to one width, for example with a Multiplexer");
+         "; bring them to one width, for example with a Multiplexer");
   return result;
 }
 
 /// The rule for an output that combines the block's inputs with `parameters`, entry by entry.
 inline ShapeRule stretch(std::string block, std::vector<Shape> parameters = {}) {
-  return [block = std::move(block), parameters = std::move(parameters)](std::span<const Shape> inputs) {
+  return [block = std::move(block),
+          parameters = std::move(parameters)](std::span<const Shape> inputs) {
     std::vector<Shape> all = parameters;
     all.insert(all.end(), inputs.begin(), inputs.end());
     return stretched(block, all);
   };
 }
 
-/// The width of a relation between the inputs and parameters of these shapes: the inputs decide unless one of the
-/// parameters is wider than one.
-inline std::optional<Index> relation_width(const std::string& block, const std::vector<Shape>& parameters) {
+/// The width of a relation between the inputs and parameters of these shapes: the inputs decide
+/// unless one of the parameters is wider than one.
+inline std::optional<Index> relation_width(const std::string& block,
+                                           const std::vector<Shape>& parameters) {
   const Shape shape = stretched(block, parameters);
   return shape.size > 1 ? std::optional(shape.size) : std::nullopt;
 }
@@ -49,7 +54,8 @@ inline void require_ordered(const std::string& block, const Value& lower, const 
   for (Index i = 0; i < stretched(block, shapes).size; ++i) {
     const double low = lower.values[lower.values.size() == 1 ? 0 : i];
     const double high = upper.values[upper.values.size() == 1 ? 0 : i];
-    insist(low <= high, block, "lower_limit ", low, " is above upper_limit ", high, "; expected lower_limit <= upper_limit");
+    insist(low <= high, block, "lower_limit ", low, " is above upper_limit ", high,
+           "; expected lower_limit <= upper_limit");
   }
 }
 

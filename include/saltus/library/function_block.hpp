@@ -16,7 +16,11 @@ class FunctionBlock final : public LeafSystem {
       const VectorView u = at.u[0];
       for (Index i = 0; i < out.size(); ++i) out[i] = static_cast<double>(function(u[i]));
     };
-    declare_output_port({.name = "out", .calc = map, .shape = {}, .shape_rule = elementwise, .reads = Reads::inputs,
+    declare_output_port({.name = "out",
+                         .calc = map,
+                         .shape = {},
+                         .shape_rule = elementwise,
+                         .reads = Reads::inputs,
                          .boolean = detail::Truth<Result>});
   }
 };

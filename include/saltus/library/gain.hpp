@@ -11,8 +11,11 @@ class Gain final : public LeafSystem {
   Gain(std::string name, const Value& gain) : LeafSystem(std::move(name)) {
     gain_ = declare_dynamic_parameter("gain", gain.values);
     declare_input_port({.name = "in"});
-    declare_output_port({.name = "out", .calc = &Gain::scale, .shape = {},
-                         .shape_rule = detail::stretch(this->name(), {gain.shape()}), .reads = Reads::inputs});
+    declare_output_port({.name = "out",
+                         .calc = &Gain::scale,
+                         .shape = {},
+                         .shape_rule = detail::stretch(this->name(), {gain.shape()}),
+                         .reads = Reads::inputs});
   }
 
  private:

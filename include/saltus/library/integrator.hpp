@@ -1,9 +1,11 @@
-// dx/dt = u, y = x, elementwise; on a rising edge of reset_trigger x becomes reset_value, or initial_state.
-// Ports, each only if its option is on, in this order: in, reset_trigger, reset_value, hold_trigger. in, reset_value and
-// out have the shape of initial_state; the triggers are one boolean each. out is a view of the state, no feedthrough.
-// Parameters "initial_state" (what a reset goes back to; the state itself is in the context), "lower_limit", "upper_limit".
-// With limits an entry stands still while it is at its limit and pushed outward, and goes on when u turns; both facts
-// are relations, so the derivative is smooth between instants. A Zeno hold after ever faster resets is the engine's.
+// dx/dt = u, y = x, elementwise; on a rising edge of reset_trigger x becomes reset_value, or
+// initial_state. Ports, each only if its option is on, in this order: in, reset_trigger,
+// reset_value, hold_trigger. in, reset_value and out have the shape of initial_state; the triggers
+// are one boolean each. out is a view of the state, no feedthrough. Parameters "initial_state"
+// (what a reset goes back to; the state itself is in the context), "lower_limit", "upper_limit".
+// With limits an entry stands still while it is at its limit and pushed outward, and goes on when u
+// turns; both facts are relations, so the derivative is smooth between instants. A Zeno hold after
+// ever faster resets is the engine's.
 #pragma once
 
 #include <algorithm>
@@ -15,13 +17,13 @@ namespace saltus {
 
 struct IntegratorOptions {
   Value initial_state = 0.0;
-  bool enable_reset = false;                     ///< input reset_trigger
-  bool enable_external_reset = false;            ///< input reset_value; needs enable_reset
-  std::optional<double> zeno_tolerance = {};     ///< [s] overrides that of the simulator options
-  bool enable_limits = false;                    ///< the limits below count only with it
+  bool enable_reset = false;                  ///< input reset_trigger
+  bool enable_external_reset = false;         ///< input reset_value; needs enable_reset
+  std::optional<double> zeno_tolerance = {};  ///< [s] overrides that of the simulator options
+  bool enable_limits = false;                 ///< the limits below count only with it
   std::optional<Value> lower_limit = {};
   std::optional<Value> upper_limit = {};
-  bool enable_hold = false;                      ///< input hold_trigger: dx/dt = 0 while it is true
+  bool enable_hold = false;  ///< input hold_trigger: dx/dt = 0 while it is true
 };
 
 class Integrator final : public LeafSystem {
@@ -39,13 +41,16 @@ class Integrator final : public LeafSystem {
 
   bool on_hold(const At& at) const { return hold_ && at.u(*hold_) != 0.0; }
   void flow(const At& at, VectorRef xdot) const {
-    if (on_hold(at)) xdot.setZero();
-    else xdot = at.u[0];
+    if (on_hold(at))
+      xdot.setZero();
+    else
+      xdot = at.u[0];
   }
   void limited_flow(const At& at, VectorRef xdot) const {
     flow(at, xdot);
     for (Index i = 0; i < xdot.size(); ++i) {
-      const bool outward = at.relation(rising_, i) ? upper_ && at.relation(at_upper_, i) : lower_ && at.relation(at_lower_, i);
+      const bool outward = at.relation(rising_, i) ? upper_ && at.relation(at_upper_, i)
+                                                   : lower_ && at.relation(at_lower_, i);
       if (outward) xdot[i] = 0.0;
     }
   }
@@ -57,13 +62,14 @@ class Integrator final : public LeafSystem {
   }
   void reset(const At& at, Next& next) const;
 
-  std::optional<int> trigger_, value_, hold_;      // inputs
+  std::optional<int> trigger_, value_, hold_;  // inputs
   std::optional<ParameterIndex> lower_, upper_;
   ParameterIndex initial_;
   RelationIndex at_lower_, at_upper_, rising_;
 };
 
-inline Integrator::Integrator(std::string name, const Options& options) : LeafSystem(std::move(name)) {
+inline Integrator::Integrator(std::string name, const Options& options)
+    : LeafSystem(std::move(name)) {
   require_sound(options);
   initial_ = declare_dynamic_parameter("initial_state", options.initial_state.values);
   declare_ports(options);
@@ -73,45 +79,64 @@ inline Integrator::Integrator(std::string name, const Options& options) : LeafSy
 }
 
 inline void Integrator::require_sound(const Options& o) const {
-  detail::insist(o.initial_state.values.size() > 0, name(), "initial_state is an empty vector; give at least one number");
-  detail::insist(o.enable_reset || !o.enable_external_reset, name(),
-                  "enable_external_reset without enable_reset; a value to reset to needs a trigger: set both");
-  detail::insist(!o.zeno_tolerance || *o.zeno_tolerance >= 0.0, name(), "zeno_tolerance = ", o.zeno_tolerance.value_or(0.0),
-                  " s; expected a time >= 0 s, where 0 switches the Zeno monitor off");
+  detail::insist(o.initial_state.values.size() > 0, name(),
+                 "initial_state is an empty vector; give at least one number");
+  detail::insist(
+      o.enable_reset || !o.enable_external_reset, name(),
+      "enable_external_reset without enable_reset; a value to reset to needs a trigger: set both");
+  detail::insist(!o.zeno_tolerance || *o.zeno_tolerance >= 0.0, name(),
+                 "zeno_tolerance = ", o.zeno_tolerance.value_or(0.0),
+                 " s; expected a time >= 0 s, where 0 switches the Zeno monitor off");
   if (!o.enable_limits) return;
   detail::insist(o.lower_limit || o.upper_limit, name(),
-                  "enable_limits without a limit; give lower_limit, upper_limit or both");
-  if (o.lower_limit && o.upper_limit) detail::require_ordered(name(), *o.lower_limit, *o.upper_limit);
+                 "enable_limits without a limit; give lower_limit, upper_limit or both");
+  if (o.lower_limit && o.upper_limit)
+    detail::require_ordered(name(), *o.lower_limit, *o.upper_limit);
   for (const auto& limit : {o.lower_limit, o.upper_limit}) {
     const Index found = limit ? limit->values.size() : 1, expected = o.initial_state.values.size();
-    detail::insist(found == 1 || found == expected, name(), "a limit has ", found, " values, initial_state has ", expected,
-                    "; expected one value or as many");
+    detail::insist(found == 1 || found == expected, name(), "a limit has ", found,
+                   " values, initial_state has ", expected, "; expected one value or as many");
   }
 }
 
 inline void Integrator::declare_ports(const Options& options) {
   const Shape shape = options.initial_state.shape();
   declare_input_port({.name = "in", .shape = shape});
-  if (options.enable_reset) trigger_ = declare_input_port({.name = "reset_trigger", .shape = Shape::scalar()});
-  if (options.enable_external_reset) value_ = declare_input_port({.name = "reset_value", .shape = shape});
-  if (options.enable_hold) hold_ = declare_input_port({.name = "hold_trigger", .shape = Shape::scalar()});
+  if (options.enable_reset)
+    trigger_ = declare_input_port({.name = "reset_trigger", .shape = Shape::scalar()});
+  if (options.enable_external_reset)
+    value_ = declare_input_port({.name = "reset_value", .shape = shape});
+  if (options.enable_hold)
+    hold_ = declare_input_port({.name = "hold_trigger", .shape = Shape::scalar()});
 }
 
-/// At a limit counts as beyond it: a state that starts exactly there is held if it is pushed outward.
+/// At a limit counts as beyond it: a state that starts exactly there is held if it is pushed
+/// outward.
 inline void Integrator::declare_limits(const Options& options) {
   const Index n = options.initial_state.values.size();
   if (options.lower_limit) {
     lower_ = declare_dynamic_parameter("lower_limit", options.lower_limit->values);
-    at_lower_ = declare_relation({.name = "at_lower_limit", .guard = &Integrator::below, .true_at_zero = true, .size = n,
-                                  .reads = Reads::continuous_state, .inputs = std::vector<int>{}});
+    at_lower_ = declare_relation({.name = "at_lower_limit",
+                                  .guard = &Integrator::below,
+                                  .true_at_zero = true,
+                                  .size = n,
+                                  .reads = Reads::continuous_state,
+                                  .inputs = std::vector<int>{}});
   }
   if (options.upper_limit) {
     upper_ = declare_dynamic_parameter("upper_limit", options.upper_limit->values);
-    at_upper_ = declare_relation({.name = "at_upper_limit", .guard = &Integrator::above, .true_at_zero = true, .size = n,
-                                  .reads = Reads::continuous_state, .inputs = std::vector<int>{}});
+    at_upper_ = declare_relation({.name = "at_upper_limit",
+                                  .guard = &Integrator::above,
+                                  .true_at_zero = true,
+                                  .size = n,
+                                  .reads = Reads::continuous_state,
+                                  .inputs = std::vector<int>{}});
   }
-  rising_ = declare_relation({.name = "rising", .guard = [](const At& at, VectorRef g) { g = at.u[0]; }, .size = n,
-                              .reads = Reads::inputs, .inputs = std::vector{0}});
+  rising_ = declare_relation({.name = "rising",
+                              .guard = [](const At& at, VectorRef g) { g = at.u[0]; },
+                              .size = n,
+                              .reads = Reads::inputs,
+                              .inputs = std::vector{0}});
 }
 
 inline void Integrator::declare_state(const Options& options) {
@@ -119,20 +144,27 @@ inline void Integrator::declare_state(const Options& options) {
   if (hold_) inputs.push_back(*hold_);
   const bool limits = options.enable_limits;
   declare_continuous_state({.initial = options.initial_state.values,
-                            .ode = limits ? VectorFunction(&Integrator::limited_flow) : VectorFunction(&Integrator::flow),
+                            .ode = limits ? VectorFunction(&Integrator::limited_flow)
+                                          : VectorFunction(&Integrator::flow),
                             .jacobian = [](const At&, MatrixRef jacobian) { jacobian.setZero(); },
                             .reads = limits ? Reads::inputs | Reads::relations : Reads::inputs,
                             .inputs = std::move(inputs)});
   const Shape shape = options.initial_state.shape();
-  declare_output_port({.name = "out", .shape = shape, .reads = Reads::continuous_state,
+  declare_output_port({.name = "out",
+                       .shape = shape,
+                       .reads = Reads::continuous_state,
                        .view = Place{Space::x, 0, shape.size}});
 }
 
 inline void Integrator::declare_reset(const Options& options) {
   std::vector<int> inputs;
   if (value_) inputs.push_back(*value_);
-  declare_edge_reset({.name = "reset", .input = *trigger_, .edge = Edge::rising, .reset_map = &Integrator::reset,
-                      .zeno_tolerance = options.zeno_tolerance, .inputs = std::move(inputs)});
+  declare_edge_reset({.name = "reset",
+                      .input = *trigger_,
+                      .edge = Edge::rising,
+                      .reset_map = &Integrator::reset,
+                      .zeno_tolerance = options.zeno_tolerance,
+                      .inputs = std::move(inputs)});
 }
 
 inline void Integrator::reset(const At& at, Next& next) const {

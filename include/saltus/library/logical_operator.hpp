@@ -1,5 +1,6 @@
-// y = function(u_0, u_1, ...), elementwise, 0 or 1; functions or, and, not, nor, nand, xor (an odd number is true).
-// in_0, in_1, ...: booleans, true where not 0; scalars and vectors of one width. out: boolean, that width.
+// y = function(u_0, u_1, ...), elementwise, 0 or 1; functions or, and, not, nor, nand, xor (an odd
+// number is true). in_0, in_1, ...: booleans, true where not 0; scalars and vectors of one width.
+// out: boolean, that width.
 #pragma once
 
 #include "saltus/library/elementwise.hpp"
@@ -11,14 +12,21 @@ class LogicalOperator final : public LeafSystem {
   /// `not` has one input, the others `n_inputs`.
   explicit LogicalOperator(std::string name, const std::string& function, int n_inputs = 2)
       : LeafSystem(std::move(name)) {
-    detail::require_known(this->name(), "function", function, {"or", "and", "not", "nor", "nand", "xor"});
+    detail::require_known(this->name(), "function", function,
+                          {"or", "and", "not", "nor", "nand", "xor"});
     detail::require_count(this->name(), "input", n_inputs, 1);
     if (function == "not") n_inputs = 1;
     for (int k = 0; k < n_inputs; ++k) declare_input_port();
-    combine_ = function == "and" || function == "nand" ? Combine::all : function == "xor" ? Combine::odd : Combine::any;
+    combine_ = function == "and" || function == "nand" ? Combine::all
+               : function == "xor"                     ? Combine::odd
+                                                       : Combine::any;
     negate_ = function[0] == 'n';
-    declare_output_port({.name = "out", .calc = &LogicalOperator::truth, .shape = {},
-                         .shape_rule = detail::stretch(this->name()), .reads = Reads::inputs, .boolean = true});
+    declare_output_port({.name = "out",
+                         .calc = &LogicalOperator::truth,
+                         .shape = {},
+                         .shape_rule = detail::stretch(this->name()),
+                         .reads = Reads::inputs,
+                         .boolean = true});
   }
 
  private:

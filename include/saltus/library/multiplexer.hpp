@@ -11,7 +11,10 @@ class Multiplexer final : public LeafSystem {
   Multiplexer(std::string name, int n_inputs) : LeafSystem(std::move(name)) {
     detail::require_count(this->name(), "input", n_inputs, 1);
     for (int k = 0; k < n_inputs; ++k) declare_input_port();
-    declare_output_port({.name = "out", .calc = &Multiplexer::join, .shape = {}, .shape_rule = &Multiplexer::total,
+    declare_output_port({.name = "out",
+                         .calc = &Multiplexer::join,
+                         .shape = {},
+                         .shape_rule = &Multiplexer::total,
                          .reads = Reads::inputs});
   }
 

@@ -11,8 +11,11 @@ class Offset final : public LeafSystem {
   Offset(std::string name, const Value& offset) : LeafSystem(std::move(name)) {
     offset_ = declare_dynamic_parameter("offset", offset.values);
     declare_input_port({.name = "in"});
-    declare_output_port({.name = "out", .calc = &Offset::shift, .shape = {},
-                         .shape_rule = detail::stretch(this->name(), {offset.shape()}), .reads = Reads::inputs});
+    declare_output_port({.name = "out",
+                         .calc = &Offset::shift,
+                         .shape = {},
+                         .shape_rule = detail::stretch(this->name(), {offset.shape()}),
+                         .reads = Reads::inputs});
   }
 
  private:

@@ -1,5 +1,6 @@
 // y = 1 */ u_0 */ u_1 ..., elementwise, one operator an input: "*/" is u_0 / u_1, "/" is 1 / u_0.
-// in_0, in_1, ...: scalars and vectors of one width. out: that width. A division by zero ends the run with an error.
+// in_0, in_1, ...: scalars and vectors of one width. out: that width. A division by zero ends the
+// run with an error.
 #pragma once
 
 #include "saltus/library/elementwise.hpp"
@@ -12,12 +13,17 @@ class Product final : public LeafSystem {
       : LeafSystem(std::move(name)), operators_(operators) {
     detail::require_count(this->name(), "operator", static_cast<int>(operators_.size()), 1);
     for (const char op : operators_) {
-      detail::insist(op == '*' || op == '/', this->name(), "unknown operator '", std::string(1, op), "' in '", operators_,
-                      "'; expected one '*' or '/' for each input, as in \"*/\"; an Adder takes '+' and '-'");
+      detail::insist(
+          op == '*' || op == '/', this->name(), "unknown operator '", std::string(1, op), "' in '",
+          operators_,
+          "'; expected one '*' or '/' for each input, as in \"*/\"; an Adder takes '+' and '-'");
       declare_input_port();
     }
-    declare_output_port({.name = "out", .calc = &Product::product, .shape = {},
-                         .shape_rule = detail::stretch(this->name()), .reads = Reads::inputs});
+    declare_output_port({.name = "out",
+                         .calc = &Product::product,
+                         .shape = {},
+                         .shape_rule = detail::stretch(this->name()),
+                         .reads = Reads::inputs});
   }
 
  private:

@@ -1,7 +1,8 @@
 // y = f(u_0, u_1, ...): any C++ callable over all inputs.
-// f takes std::span<const double>, for scalar inputs (at most 32), or const Inputs&, for any widths. It returns a
-// double, a bool or an Eigen vector. A bool makes an opaque boolean: where it reaches a derivative or a reset it is
-// located by bisection; a Comparator, which has a smooth guard, is faster.
+// f takes std::span<const double>, for scalar inputs (at most 32), or const Inputs&, for any
+// widths. It returns a double, a bool or an Eigen vector. A bool makes an opaque boolean: where it
+// reaches a derivative or a reset it is located by bisection; a Comparator, which has a smooth
+// guard, is faster.
 #pragma once
 
 #include "saltus/library/callable.hpp"
@@ -16,7 +17,8 @@ class ReduceBlock final : public LeafSystem {
  public:
   using Options = ReduceBlockOptions;
 
-  /// `function` must not change anything: it is called as often as the engine likes, by several threads.
+  /// `function` must not change anything: it is called as often as the engine likes, by several
+  /// threads.
   template <class Function>
     requires(detail::OverScalars<Function> || detail::OverInputs<Function>)
   ReduceBlock(std::string name, int n_inputs, Function function, const Options& options = {})
@@ -24,15 +26,20 @@ class ReduceBlock final : public LeafSystem {
     using Result = typename detail::ResultOf<Function>::type;
     constexpr bool scalars = detail::OverScalars<Function>;
     detail::require_count(this->name(), "input", n_inputs, 1);
-    detail::insist(!scalars || n_inputs <= detail::most_scalars, this->name(), "a function over scalars takes at most ",
-                    detail::most_scalars, " inputs, found ", n_inputs, "; write it over `const Inputs&`");
-    detail::insist(!detail::Number<Result> || options.shape.size == 1, this->name(), "the function returns one number, ",
-                    "Options::shape says ", options.shape.size, "; return an Eigen::VectorXd or leave the shape out");
+    detail::insist(!scalars || n_inputs <= detail::most_scalars, this->name(),
+                   "a function over scalars takes at most ", detail::most_scalars,
+                   " inputs, found ", n_inputs, "; write it over `const Inputs&`");
+    detail::insist(!detail::Number<Result> || options.shape.size == 1, this->name(),
+                   "the function returns one number, ", "Options::shape says ", options.shape.size,
+                   "; return an Eigen::VectorXd or leave the shape out");
     for (int k = 0; k < n_inputs; ++k) {
       declare_input_port({.shape = scalars ? std::optional(Shape::scalar()) : std::nullopt});
     }
-    declare_output_port({.name = "out", .calc = detail::calculation(this->name(), std::move(function)),
-                         .shape = options.shape, .reads = Reads::inputs, .boolean = detail::Truth<Result>});
+    declare_output_port({.name = "out",
+                         .calc = detail::calculation(this->name(), std::move(function)),
+                         .shape = options.shape,
+                         .reads = Reads::inputs,
+                         .boolean = detail::Truth<Result>});
   }
 };
 

@@ -1,6 +1,7 @@
 // y = min(max(u, lower_limit), upper_limit), elementwise; either limit may be missing.
-// in: any width. out: the width of u and the limits. Parameters "lower_limit", "upper_limit", those that are given.
-// Where y reaches a derivative, the limits are located and the side is held between instants.
+// in: any width. out: the width of u and the limits. Parameters "lower_limit", "upper_limit", those
+// that are given. Where y reaches a derivative, the limits are located and the side is held between
+// instants.
 #pragma once
 
 #include <optional>
@@ -30,14 +31,19 @@ class Saturate final : public LeafSystem {
     const auto width = detail::relation_width(this->name(), limits);
     if (lower) {
       lower_ = declare_dynamic_parameter("lower_limit", lower->values);
-      below_ = declare_relation({.name = "below", .guard = &Saturate::shortfall, .size = width, .reads = Reads::inputs});
+      below_ = declare_relation(
+          {.name = "below", .guard = &Saturate::shortfall, .size = width, .reads = Reads::inputs});
     }
     if (upper) {
       upper_ = declare_dynamic_parameter("upper_limit", upper->values);
-      above_ = declare_relation({.name = "above", .guard = &Saturate::excess, .size = width, .reads = Reads::inputs});
+      above_ = declare_relation(
+          {.name = "above", .guard = &Saturate::excess, .size = width, .reads = Reads::inputs});
     }
-    declare_output_port({.name = "out", .calc = &Saturate::limited, .shape = {},
-                         .shape_rule = detail::stretch(this->name(), limits), .reads = Reads::inputs | Reads::relations});
+    declare_output_port({.name = "out",
+                         .calc = &Saturate::limited,
+                         .shape = {},
+                         .shape_rule = detail::stretch(this->name(), limits),
+                         .reads = Reads::inputs | Reads::relations});
   }
 
  private:
@@ -52,9 +58,12 @@ class Saturate final : public LeafSystem {
   void limited(const At& at, VectorRef out) const {
     const VectorView u = at.u[0];
     for (Index i = 0; i < out.size(); ++i) {
-      if (below_.value >= 0 && at.relation(below_, i)) out[i] = detail::entry(at.parameter(lower_), i);
-      else if (above_.value >= 0 && at.relation(above_, i)) out[i] = detail::entry(at.parameter(upper_), i);
-      else out[i] = detail::entry(u, i);
+      if (below_.value >= 0 && at.relation(below_, i))
+        out[i] = detail::entry(at.parameter(lower_), i);
+      else if (above_.value >= 0 && at.relation(above_, i))
+        out[i] = detail::entry(at.parameter(upper_), i);
+      else
+        out[i] = detail::entry(u, i);
     }
   }
 

@@ -1,5 +1,6 @@
 // y = start_value for t < step_time, end_value from step_time on.
-// out: elementwise of both values. Parameters "start_value", "end_value". Held; changes at an exact time event.
+// out: elementwise of both values. Parameters "start_value", "end_value". Held; changes at an exact
+// time event.
 #pragma once
 
 #include "saltus/library/elementwise.hpp"
@@ -22,7 +23,9 @@ class Step final : public LeafSystem {
     start_ = declare_dynamic_parameter("start_value", options.start_value.values);
     end_ = declare_dynamic_parameter("end_value", options.end_value.values);
     const std::vector<Shape> values{options.start_value.shape(), options.end_value.shape()};
-    declare_output_port({.name = "out", .calc = &Step::value, .shape = detail::stretched(this->name(), values),
+    declare_output_port({.name = "out",
+                         .calc = &Step::value,
+                         .shape = detail::stretched(this->name(), values),
                          .reads = Reads::schedule});
     declare_one_shot(step_time_, {}, "step");
   }
@@ -33,7 +36,7 @@ class Step final : public LeafSystem {
     for (Index i = 0; i < out.size(); ++i) out[i] = detail::entry(now, i);
   }
 
-  double step_time_;            // [s]
+  double step_time_;  // [s]
   ParameterIndex start_, end_;
 };
 

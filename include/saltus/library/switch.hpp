@@ -1,7 +1,8 @@
 // y = true_value if control is true, else false_value; elementwise.
-// true_value, false_value: scalars and vectors of one width. control: one boolean, true where not 0; with a
-// threshold one real number, true where control >= threshold, located and held where y reaches a derivative.
-// A real signal that moves continuously needs the threshold: without it the solver would see the jump.
+// true_value, false_value: scalars and vectors of one width. control: one boolean, true where not
+// 0; with a threshold one real number, true where control >= threshold, located and held where y
+// reaches a derivative. A real signal that moves continuously needs the threshold: without it the
+// solver would see the jump.
 #pragma once
 
 #include <optional>
@@ -24,12 +25,18 @@ class Switch final : public LeafSystem {
     false_value_ = declare_input_port({.name = "false_value"});
     if (options.threshold) {
       threshold_ = declare_dynamic_parameter("threshold", *options.threshold);
-      reached_ = declare_relation({.name = "reached", .guard = &Switch::margin, .true_at_zero = true,
-                                   .reads = Reads::inputs, .inputs = std::vector{control_}});
+      reached_ = declare_relation({.name = "reached",
+                                   .guard = &Switch::margin,
+                                   .true_at_zero = true,
+                                   .reads = Reads::inputs,
+                                   .inputs = std::vector{control_}});
     }
-    declare_output_port({.name = "out", .calc = &Switch::chosen, .shape = {},
-                         .shape_rule = detail::stretch(this->name()),
-                         .reads = options.threshold ? Reads::inputs | Reads::relations : Reads::inputs});
+    declare_output_port(
+        {.name = "out",
+         .calc = &Switch::chosen,
+         .shape = {},
+         .shape_rule = detail::stretch(this->name()),
+         .reads = options.threshold ? Reads::inputs | Reads::relations : Reads::inputs});
   }
 
  private:

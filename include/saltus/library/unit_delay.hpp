@@ -1,7 +1,8 @@
 // y[k] = u[k-1], y[0] = initial_state; held from tick k, at t = k dt, to the next.
 // in, out: the shape of initial_state. Ticks are exact time events.
-// At a tick all outputs move on first, then all delays sample: y is worked out from the time, before z is updated.
-// Were y a view of z, a delay fed by a delay would sample the tick before, and n in a row would delay 2n - 1 ticks.
+// At a tick all outputs move on first, then all delays sample: y is worked out from the time,
+// before z is updated. Were y a view of z, a delay fed by a delay would sample the tick before, and
+// n in a row would delay 2n - 1 ticks.
 #pragma once
 
 #include "saltus/library/arguments.hpp"
@@ -25,7 +26,9 @@ class UnitDelay final : public LeafSystem {
     z << -1.0, initial, initial;
     declare_discrete_state(z);
     declare_input_port({.name = "in", .shape = options.initial_state.shape()});
-    declare_output_port({.name = "out", .calc = &UnitDelay::delayed, .shape = options.initial_state.shape(),
+    declare_output_port({.name = "out",
+                         .calc = &UnitDelay::delayed,
+                         .shape = options.initial_state.shape(),
                          .reads = Reads::discrete_state | Reads::schedule});
     declare_periodic_update(&UnitDelay::sample, dt, 0.0, "tick");
   }

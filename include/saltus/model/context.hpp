@@ -34,9 +34,10 @@ struct Layout {
   std::vector<Range> systems;
 };
 
-/// Time t [s], continuous state x, discrete state z, a mode per leaf, parameters p. A value: every `with_*`
-/// returns a new context and leaves the old one, and the system, unchanged.
-/// Throws ModelError for a wrong size, a value that is not finite, an unknown parameter or an unknown system.
+/// Time t [s], continuous state x, discrete state z, a mode per leaf, parameters p. A value: every
+/// `with_*` returns a new context and leaves the old one, and the system, unchanged. Throws
+/// ModelError for a wrong size, a value that is not finite, an unknown parameter or an unknown
+/// system.
 class Context {
  public:
   Context() = default;
@@ -73,7 +74,8 @@ class Context {
   friend class Machine;
 
   const Layout::Range& range(SystemId id) const;
-  std::pair<const Layout::Leaf*, const Layout::Parameter*> find_parameter(std::string_view name) const;
+  std::pair<const Layout::Leaf*, const Layout::Parameter*> find_parameter(
+      std::string_view name) const;
   static void replace(Eigen::VectorXd& values, const Eigen::VectorXd& with, std::string_view what);
 
   std::shared_ptr<const Layout> layout_;
@@ -95,7 +97,8 @@ inline void require_finite(const Eigen::VectorXd& values, std::string_view what)
 
 }  // namespace detail
 
-inline void Context::replace(Eigen::VectorXd& values, const Eigen::VectorXd& with, std::string_view what) {
+inline void Context::replace(Eigen::VectorXd& values, const Eigen::VectorXd& with,
+                             std::string_view what) {
   if (values.size() != with.size()) {
     throw ModelError(text(what, ": expected ", values.size(), " values, found ", with.size()));
   }
@@ -104,7 +107,8 @@ inline void Context::replace(Eigen::VectorXd& values, const Eigen::VectorXd& wit
 }
 
 inline int Context::mode() const {
-  if (modes_.size() != 1) throw ModelError("mode(): this is the context of several blocks; take context[id] first");
+  if (modes_.size() != 1)
+    throw ModelError("mode(): this is the context of several blocks; take context[id] first");
   return modes_.front();
 }
 
@@ -129,17 +133,20 @@ inline Context Context::with_discrete_state(const Eigen::VectorXd& z) const {
 }
 
 inline Context Context::with_mode(int mode) const {
-  if (modes_.size() != 1) throw ModelError("with_mode: this is the context of several blocks; take context[id] first");
+  if (modes_.size() != 1)
+    throw ModelError("with_mode: this is the context of several blocks; take context[id] first");
   Context next = *this;
   next.modes_.front() = mode;
   return next;
 }
 
-inline std::pair<const Layout::Leaf*, const Layout::Parameter*> Context::find_parameter(std::string_view name) const {
+inline std::pair<const Layout::Leaf*, const Layout::Parameter*> Context::find_parameter(
+    std::string_view name) const {
   std::vector<std::string> known;
   for (const auto& leaf : layout_->leaves) {
     for (const auto& parameter : leaf.parameters) {
-      const std::string full = layout_->leaves.size() == 1 ? parameter.name : leaf.path + "." + parameter.name;
+      const std::string full =
+          layout_->leaves.size() == 1 ? parameter.name : leaf.path + "." + parameter.name;
       if (full == name) return {&leaf, &parameter};
       known.push_back(full);
     }
@@ -151,7 +158,8 @@ inline Context Context::with_parameter(std::string_view name, const Eigen::Vecto
   const auto [leaf, parameter] = find_parameter(name);
   detail::require_finite(value, text("parameter '", name, "'"));
   if (value.size() != 1 && value.size() != parameter->size) {
-    throw ModelError(text("parameter '", name, "': expected ", parameter->size, " values, found ", value.size()));
+    throw ModelError(text("parameter '", name, "': expected ", parameter->size, " values, found ",
+                          value.size()));
   }
   Context next = *this;
   for (Index i = 0; i < parameter->size; ++i) {
@@ -175,7 +183,8 @@ inline const Layout::Range& Context::range(SystemId id) const {
     if (system.id == id) return system;
     known.push_back(text(system.path, " (", system.id.value, ")"));
   }
-  throw ModelError(text("no system with id ", id.value, " in this context. Known: ", quoted_list(known)));
+  throw ModelError(
+      text("no system with id ", id.value, " in this context. Known: ", quoted_list(known)));
 }
 
 }  // namespace saltus

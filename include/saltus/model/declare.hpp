@@ -1,4 +1,5 @@
-// What the declare_* methods of LeafSystem do and refuse, and how a context is made from declarations.
+// What the declare_* methods of LeafSystem do and refuse, and how a context is made from
+// declarations.
 #pragma once
 
 #include <cmath>
@@ -18,17 +19,23 @@ std::vector<std::string> names_of(const List& list) {
 
 /// Gives a nameless declaration a name, and refuses a second one of the same name.
 template <class List>
-void name_it(std::string& name, const List& others, std::string_view prefix, const std::string& block) {
+void name_it(std::string& name, const List& others, std::string_view prefix,
+             const std::string& block) {
   if (name.empty()) name = text(prefix, others.size());
   for (const auto& other : others) {
-    if (other.name == name) throw ModelError(text("block '", block, "': the name '", name, "' is declared twice"));
+    if (other.name == name)
+      throw ModelError(text("block '", block, "': the name '", name, "' is declared twice"));
   }
 }
 
 }  // namespace detail
 
-inline std::vector<std::string> LeafSystem::input_names() const { return detail::names_of(declared_.inputs); }
-inline std::vector<std::string> LeafSystem::output_names() const { return detail::names_of(declared_.outputs); }
+inline std::vector<std::string> LeafSystem::input_names() const {
+  return detail::names_of(declared_.inputs);
+}
+inline std::vector<std::string> LeafSystem::output_names() const {
+  return detail::names_of(declared_.outputs);
+}
 
 inline void LeafSystem::collect(Structure& out, const std::string& path) const {
   const std::string known_as = path.empty() ? name() : path;
@@ -38,7 +45,9 @@ inline void LeafSystem::collect(Structure& out, const std::string& path) const {
 
 inline void LeafSystem::declare_continuous_state(ContinuousState state) {
   if (declared_.continuous.initial.size() > 0) {
-    throw ModelError(text("block '", name(), "': the continuous state is declared twice; declare it once, as one vector"));
+    throw ModelError(
+        text("block '", name(),
+             "': the continuous state is declared twice; declare it once, as one vector"));
   }
   detail::require_finite(state.initial, text("block '", name(), "': initial continuous state"));
   if (!state.jacobian) state.jacobian = declared_.continuous.jacobian;
@@ -47,7 +56,9 @@ inline void LeafSystem::declare_continuous_state(ContinuousState state) {
 
 inline void LeafSystem::declare_discrete_state(const Eigen::VectorXd& initial) {
   if (declared_.discrete.size() > 0) {
-    throw ModelError(text("block '", name(), "': the discrete state is declared twice; declare it once, as one vector"));
+    throw ModelError(
+        text("block '", name(),
+             "': the discrete state is declared twice; declare it once, as one vector"));
   }
   detail::require_finite(initial, text("block '", name(), "': initial discrete state"));
   declared_.discrete = initial;
@@ -58,7 +69,8 @@ inline void LeafSystem::declare_default_mode(int mode) {
   declared_.has_modes = true;
 }
 
-inline ParameterIndex LeafSystem::declare_dynamic_parameter(std::string parameter, const Eigen::VectorXd& value) {
+inline ParameterIndex LeafSystem::declare_dynamic_parameter(std::string parameter,
+                                                            const Eigen::VectorXd& value) {
   detail::name_it(parameter, declared_.parameters, "parameter_", name());
   detail::require_finite(value, text("block '", name(), "': parameter '", parameter, "'"));
   const ParameterIndex index{declared_.parameter_values.size(), value.size()};
@@ -77,7 +89,8 @@ inline int LeafSystem::declare_input_port(InputDeclaration input) {
 inline int LeafSystem::declare_output_port(OutputDeclaration output) {
   detail::name_it(output.name, declared_.outputs, "out_", name());
   if (!output.calc && !output.view) {
-    throw ModelError(text("block '", name(), "': output '", output.name, "' has no function that computes it"));
+    throw ModelError(
+        text("block '", name(), "': output '", output.name, "' has no function that computes it"));
   }
   declared_.outputs.push_back(std::move(output));
   return static_cast<int>(declared_.outputs.size()) - 1;
@@ -85,27 +98,34 @@ inline int LeafSystem::declare_output_port(OutputDeclaration output) {
 
 inline int LeafSystem::declare_continuous_state_output(std::string port) {
   const Index n = declared_.continuous.initial.size();
-  return declare_output_port({.name = std::move(port), .shape = Shape::of(n), .reads = Reads::continuous_state,
+  return declare_output_port({.name = std::move(port),
+                              .shape = Shape::of(n),
+                              .reads = Reads::continuous_state,
                               .view = Place{Space::x, 0, n}});
 }
 
 inline int LeafSystem::declare_discrete_state_output(std::string port) {
   const Index n = declared_.discrete.size();
-  return declare_output_port({.name = std::move(port), .shape = Shape::of(n), .reads = Reads::discrete_state,
+  return declare_output_port({.name = std::move(port),
+                              .shape = Shape::of(n),
+                              .reads = Reads::discrete_state,
                               .view = Place{Space::z, 0, n}});
 }
 
 inline int LeafSystem::declare_mode_output(std::string port) {
-  return declare_output_port(
-      {.name = std::move(port), .calc = [](const At& at) { return at.mode; }, .reads = Reads::mode});
+  return declare_output_port({.name = std::move(port),
+                              .calc = [](const At& at) { return at.mode; },
+                              .reads = Reads::mode});
 }
 
 inline int LeafSystem::declare_zero_crossing(ZeroCrossing crossing) {
   detail::name_it(crossing.name, declared_.zero_crossings, "zero_crossing_", name());
-  if (!crossing.guard) throw ModelError(text("block '", name(), "': zero crossing '", crossing.name, "' has no guard"));
+  if (!crossing.guard)
+    throw ModelError(
+        text("block '", name(), "': zero crossing '", crossing.name, "' has no guard"));
   if (crossing.zeno_tolerance && !(*crossing.zeno_tolerance >= 0.0)) {
-    throw ModelError(text("block '", name(), "': zero crossing '", crossing.name, "': zeno_tolerance ",
-                          *crossing.zeno_tolerance, " is not a time >= 0 s"));
+    throw ModelError(text("block '", name(), "': zero crossing '", crossing.name,
+                          "': zeno_tolerance ", *crossing.zeno_tolerance, " is not a time >= 0 s"));
   }
   declared_.zero_crossings.push_back(std::move(crossing));
   return static_cast<int>(declared_.zero_crossings.size()) - 1;
@@ -113,23 +133,38 @@ inline int LeafSystem::declare_zero_crossing(ZeroCrossing crossing) {
 
 inline RelationIndex LeafSystem::declare_relation(Relation relation) {
   detail::name_it(relation.name, declared_.relations, "relation_", name());
+  if (!relation.guard) {
+    throw ModelError(text("block '", name(), "': relation '", relation.name, "' has no guard"));
+  }
   declared_.relations.push_back(std::move(relation));
   return {static_cast<int>(declared_.relations.size()) - 1};
 }
 
-inline void LeafSystem::declare_periodic_update(ResetMap update, double period, double offset, std::string event) {
+inline void LeafSystem::declare_edge_reset(EdgeReset reset) {
+  detail::name_it(reset.name, declared_.edge_resets, "edge_reset_", name());
+  if (!reset.reset_map) {
+    throw ModelError(text("block '", name(), "': edge reset '", reset.name, "' has no reset map"));
+  }
+  declared_.edge_resets.push_back(std::move(reset));
+}
+
+inline void LeafSystem::declare_periodic_update(ResetMap update, double period, double offset,
+                                                std::string event) {
   detail::name_it(event, declared_.time_events, "periodic_", name());
   if (!(period > 0.0) || !std::isfinite(offset)) {
-    throw ModelError(text("block '", name(), "': periodic update '", event, "': period ", period, " s, offset ", offset,
-                          " s; expected period > 0 and a finite offset"));
+    throw ModelError(text("block '", name(), "': periodic update '", event, "': period ", period,
+                          " s, offset ", offset, " s; expected period > 0 and a finite offset"));
   }
-  declared_.time_events.push_back({.name = std::move(event), .update = std::move(update), .period = period, .offset = offset});
+  declared_.time_events.push_back(
+      {.name = std::move(event), .update = std::move(update), .period = period, .offset = offset});
 }
 
 inline void LeafSystem::declare_one_shot(double time, ResetMap update, std::string event) {
   detail::name_it(event, declared_.time_events, "one_shot_", name());
-  if (!std::isfinite(time)) throw ModelError(text("block '", name(), "': time event '", event, "' at ", time, " s"));
-  declared_.time_events.push_back({.name = std::move(event), .update = std::move(update), .offset = time});
+  if (!std::isfinite(time))
+    throw ModelError(text("block '", name(), "': time event '", event, "' at ", time, " s"));
+  declared_.time_events.push_back(
+      {.name = std::move(event), .update = std::move(update), .offset = time});
 }
 
 inline Context System::create_context(double t) const {

@@ -11,7 +11,8 @@
 
 namespace saltus {
 
-/// Made by DiagramBuilder. Owns its blocks; references that `add` returned stay valid as long as it lives.
+/// Made by DiagramBuilder. Owns its blocks; references that `add` returned stay valid as long as it
+/// lives.
 class Diagram final : public System {
  public:
   struct Child {
@@ -68,12 +69,14 @@ inline const System& Diagram::operator[](std::string_view child) const {
 
 inline void Diagram::collect(Structure& out, const std::string& path) const {
   const std::size_t mine = out.systems.size();
-  out.systems.push_back({system_id(), path.empty() ? name() : path, out.leaves.size(), out.leaves.size()});
+  out.systems.push_back(
+      {system_id(), path.empty() ? name() : path, out.leaves.size(), out.leaves.size()});
   for (const Child& child : children_) {
     child.system->collect(out, path.empty() ? child.name : path + "." + child.name);
   }
   for (const Wire& wire : wires_) {
-    out.wires.push_back({wire.from.system->output_source(wire.from.index), wire.to.system->input_target(wire.to.index)});
+    out.wires.push_back({wire.from.system->output_source(wire.from.index),
+                         wire.to.system->input_target(wire.to.index)});
   }
   out.systems[mine].last = out.leaves.size();
 }

@@ -10,8 +10,9 @@
 
 namespace saltus {
 
-/// Collects blocks and wires and is spent by `build`. Throws ModelError for a name used twice, a port of a block
-/// that was not added, an input with two sources, and, in `build`, for an input with none.
+/// Collects blocks and wires and is spent by `build`. Throws ModelError for a name used twice, a
+/// port of a block that was not added, an input with two sources, and, in `build`, for an input
+/// with none.
 class DiagramBuilder {
  public:
   /// Makes a block in place; its reference stays valid in the diagram.
@@ -23,14 +24,17 @@ class DiagramBuilder {
     return reference;
   }
 
-  /// Adds a block made before, for example a diagram: `add(std::make_shared<Diagram>(inner.build("inner")))`.
+  /// Adds a block made before, for example a diagram:
+  /// `add(std::make_shared<Diagram>(inner.build("inner")))`.
   void add(std::shared_ptr<const System> block) {
     require_unspent();
-    std::string name = block->name().empty() ? text("block_", block->system_id().value) : block->name();
+    std::string name =
+        block->name().empty() ? text("block_", block->system_id().value) : block->name();
     for (const auto& other : diagram_.children_) {
       if (other.system == block) throw ModelError(text("block '", name, "' is added twice"));
       if (other.name == name) {
-        throw ModelError(text("two blocks are called '", name, "'; give each block of a diagram its own name"));
+        throw ModelError(
+            text("two blocks are called '", name, "'; give each block of a diagram its own name"));
       }
     }
     diagram_.children_.push_back({std::move(block), std::move(name)});
@@ -55,7 +59,8 @@ class DiagramBuilder {
   int export_output(OutputPort port, std::string name = {}) {
     require_mine(port.system);
     if (name.empty()) {
-      name = text(name_of(port.system), "_", port.system->output_names()[static_cast<std::size_t>(port.index)]);
+      name = text(name_of(port.system), "_",
+                  port.system->output_names()[static_cast<std::size_t>(port.index)]);
     }
     detail::name_it(name, diagram_.outputs_, "out_", "the diagram");
     diagram_.outputs_.push_back({std::move(name), port});
@@ -64,13 +69,14 @@ class DiagramBuilder {
 
   Diagram build(std::string name = "root") {
     require_unspent();
-    if (diagram_.children_.empty()) throw ModelError("build: the diagram has no block; add one first");
+    if (diagram_.children_.empty())
+      throw ModelError("build: the diagram has no block; add one first");
     for (const auto& child : diagram_.children_) {
       const auto ports = child.system->input_names();
       for (int i = 0; i < static_cast<int>(ports.size()); ++i) {
         if (source_of({child.system.get(), i}).empty()) {
-          throw ModelError(text("input '", ports[static_cast<std::size_t>(i)], "' of block '", child.name,
-                                "' is not connected; connect it or export it"));
+          throw ModelError(text("input '", ports[static_cast<std::size_t>(i)], "' of block '",
+                                child.name, "' is not connected; connect it or export it"));
         }
       }
     }
@@ -92,7 +98,8 @@ class DiagramBuilder {
     require_unspent();
     const auto mine = [&](const Diagram::Child& child) { return child.system.get() == system; };
     if (std::ranges::none_of(diagram_.children_, mine)) {
-      throw ModelError(text("block '", system->name(), "' was not added to this diagram; its blocks: ",
+      throw ModelError(text("block '", system->name(),
+                            "' was not added to this diagram; its blocks: ",
                             quoted_list(detail::names_of(diagram_.children_))));
     }
   }
@@ -100,24 +107,28 @@ class DiagramBuilder {
   void require_free(InputPort to) const {
     require_mine(to.system);
     if (const std::string source = source_of(to); !source.empty()) {
-      throw ModelError(text("input '", port_name(to), "' of block '", name_of(to.system), "' already has a source, ", source,
-                            "; an input takes one"));
+      throw ModelError(text("input '", port_name(to), "' of block '", name_of(to.system),
+                            "' already has a source, ", source, "; an input takes one"));
     }
   }
 
   /// What feeds an input, in words; empty if nothing does.
   std::string source_of(InputPort to) const {
     for (const auto& wire : diagram_.wires_) {
-      if (wire.to.system == to.system && wire.to.index == to.index) return text("block '", name_of(wire.from.system), "'");
+      if (wire.to.system == to.system && wire.to.index == to.index)
+        return text("block '", name_of(wire.from.system), "'");
     }
     for (const auto& input : diagram_.inputs_) {
-      if (input.port.system == to.system && input.port.index == to.index) return text("the exported input '", input.name, "'");
+      if (input.port.system == to.system && input.port.index == to.index)
+        return text("the exported input '", input.name, "'");
     }
     return {};
   }
 
   std::string name_of(const System* system) const {
-    return std::ranges::find_if(diagram_.children_, [&](const auto& child) { return child.system.get() == system; })->name;
+    return std::ranges::find_if(diagram_.children_,
+                                [&](const auto& child) { return child.system.get() == system; })
+        ->name;
   }
   static std::string port_name(InputPort port) {
     return port.system->input_names()[static_cast<std::size_t>(port.index)];

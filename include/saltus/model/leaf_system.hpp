@@ -1,4 +1,5 @@
-// LeafSystem: a system with its own equations. Its constructor declares; its callbacks are short const methods.
+// LeafSystem: a system with its own equations. Its constructor declares; its callbacks are short
+// const methods.
 #pragma once
 
 #include <concepts>
@@ -15,10 +16,10 @@ namespace saltus {
 /// Continuous state: initial value, xdot = ode(t, x, z, m, u, p), and what the ode reads.
 struct ContinuousState {
   Eigen::VectorXd initial = {};
-  VectorFunction ode = {};                       ///< empty: xdot = 0
-  MatrixFunction jacobian = {};                  ///< d(xdot)/d(x), optional; used by a stiff method
+  VectorFunction ode = {};       ///< empty: xdot = 0
+  MatrixFunction jacobian = {};  ///< d(xdot)/d(x), optional; used by a stiff method
   Reads reads = Reads::everything;
-  std::optional<std::vector<int>> inputs = {};   ///< the inputs the ode reads; all if not said
+  std::optional<std::vector<int>> inputs = {};  ///< the inputs the ode reads; all if not said
 };
 
 /// All that a leaf has declared, in the order in which it did.
@@ -62,7 +63,9 @@ class LeafSystem : public System {
   }
   void declare_continuous_state(ContinuousState state);
   /// d(xdot)/d(x), n by n, for stiff methods.
-  void declare_jacobian(MatrixFunction jacobian) { declared_.continuous.jacobian = std::move(jacobian); }
+  void declare_jacobian(MatrixFunction jacobian) {
+    declared_.continuous.jacobian = std::move(jacobian);
+  }
   void declare_discrete_state(const Eigen::VectorXd& initial);
   /// The mode the leaf starts in.
   void declare_default_mode(int mode);
@@ -82,10 +85,12 @@ class LeafSystem : public System {
   /// Returns the position of the zero crossing among those of this leaf.
   int declare_zero_crossing(ZeroCrossing crossing);
   RelationIndex declare_relation(Relation relation);
-  void declare_edge_reset(EdgeReset reset) { declared_.edge_resets.push_back(std::move(reset)); }
+  void declare_edge_reset(EdgeReset reset);
   /// `update` at offset + k period, k = 0, 1, ...; period and offset in seconds, period > 0.
-  void declare_periodic_update(ResetMap update, double period, double offset = 0.0, std::string name = {});
-  /// `update` once, at `time` [s]. Without update: an exact stop at which held outputs are read again.
+  void declare_periodic_update(ResetMap update, double period, double offset = 0.0,
+                               std::string name = {});
+  /// `update` once, at `time` [s]. Without update: an exact stop at which held outputs are read
+  /// again.
   void declare_one_shot(double time, ResetMap update = {}, std::string name = {});
 
  private:

@@ -38,20 +38,22 @@ inline Shape elementwise(std::span<const Shape> inputs) {
 
 /// What a value depends on. It decides how often it is computed: see `Rate`.
 enum class Reads : unsigned {
-  parameters = 0,          ///< nothing that changes during a run
+  parameters = 0,  ///< nothing that changes during a run
   time = 1,
   continuous_state = 2,
   discrete_state = 4,
   mode = 8,
   inputs = 16,
   relations = 32,
-  schedule = 64,           ///< the time, but changing at the leaf's own time events only
+  schedule = 64,  ///< the time, but changing at the leaf's own time events only
   everything = 63,
 };
 constexpr Reads operator|(Reads a, Reads b) {
   return static_cast<Reads>(static_cast<unsigned>(a) | static_cast<unsigned>(b));
 }
-constexpr bool has(Reads set, Reads one) { return (static_cast<unsigned>(set) & static_cast<unsigned>(one)) != 0; }
+constexpr bool has(Reads set, Reads one) {
+  return (static_cast<unsigned>(set) & static_cast<unsigned>(one)) != 0;
+}
 
 struct InputDeclaration {
   std::string name = {};
@@ -60,13 +62,14 @@ struct InputDeclaration {
 
 struct OutputDeclaration {
   std::string name = {};
-  VectorFunction calc = {};                     ///< empty for a view of a state or of parameters
+  VectorFunction calc = {};  ///< empty for a view of a state or of parameters
   std::optional<Shape> shape = Shape::scalar();
-  ShapeRule shape_rule = {};                    ///< used where `shape` is empty
+  ShapeRule shape_rule = {};  ///< used where `shape` is empty
   Reads reads = Reads::everything;
-  std::optional<std::vector<int>> inputs = {};  ///< feedthrough: the inputs it reads; all if not said
-  bool boolean = false;                         ///< 0 or 1; held by bisection where it reaches a derivative
-  std::optional<Place> view = {};               ///< a state or parameter shown as it is, never copied
+  std::optional<std::vector<int>> inputs =
+      {};                          ///< feedthrough: the inputs it reads; all if not said
+  bool boolean = false;            ///< 0 or 1; held by bisection where it reaches a derivative
+  std::optional<Place> view = {};  ///< a state or parameter shown as it is, never copied
 };
 
 /// An output port of a system, to connect or to record.

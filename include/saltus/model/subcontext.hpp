@@ -1,4 +1,5 @@
-// context[id] and with_subcontext: cutting one system's values out of a context and splicing them back.
+// context[id] and with_subcontext: cutting one system's values out of a context and splicing them
+// back.
 #pragma once
 
 #include "saltus/model/context.hpp"
@@ -9,7 +10,8 @@ namespace detail {
 
 /// First entry and number of entries of the leaves [first, last) in one of the flat arrays.
 template <class Offset, class Size>
-std::pair<Index, Index> extent(const Layout& layout, const Layout::Range& range, Offset offset, Size size) {
+std::pair<Index, Index> extent(const Layout& layout, const Layout::Range& range, Offset offset,
+                               Size size) {
   if (range.first == range.last) return {0, 0};
   Index count = 0;
   for (std::size_t i = range.first; i < range.last; ++i) count += layout.leaves[i].*size;
@@ -20,7 +22,8 @@ std::pair<Index, Index> extent(const Layout& layout, const Layout::Range& range,
 inline std::shared_ptr<const Layout> part_layout(const Layout& whole, const Layout::Range& range) {
   auto part = std::make_shared<Layout>();
   const Layout::Leaf origin = range.first < range.last ? whole.leaves[range.first] : Layout::Leaf{};
-  const std::string prefix = range.last - range.first == 1 && origin.path == range.path ? "" : range.path + ".";
+  const std::string prefix =
+      range.last - range.first == 1 && origin.path == range.path ? "" : range.path + ".";
   for (std::size_t i = range.first; i < range.last; ++i) {
     Layout::Leaf leaf = whole.leaves[i];
     leaf.x -= origin.x, leaf.z -= origin.z, leaf.p -= origin.p;
@@ -60,16 +63,20 @@ inline Context Context::with_subcontext(SystemId id, const Context& part) const 
   const auto [x, nx] = detail::extent(*layout_, where, &Leaf::x, &Leaf::nx);
   const auto [z, nz] = detail::extent(*layout_, where, &Leaf::z, &Leaf::nz);
   const auto [p, np] = detail::extent(*layout_, where, &Leaf::p, &Leaf::np);
-  if (part.x_.size() != nx || part.z_.size() != nz || part.p_.size() != np) {
-    throw ModelError(text("with_subcontext: the context given is not one of '", where.path, "': expected ", nx,
-                          " continuous and ", nz, " discrete states and ", np, " parameters, found ", part.x_.size(),
-                          ", ", part.z_.size(), " and ", part.p_.size()));
+  const std::size_t leaves = where.last - where.first;
+  if (part.x_.size() != nx || part.z_.size() != nz || part.p_.size() != np ||
+      part.modes_.size() != leaves) {
+    throw ModelError(text("with_subcontext: the context given is not one of '", where.path,
+                          "': expected ", nx, " continuous and ", nz, " discrete states, ", np,
+                          " parameters and ", leaves, " modes, found ", part.x_.size(), ", ",
+                          part.z_.size(), ", ", part.p_.size(), " and ", part.modes_.size()));
   }
   Context next = *this;
   next.x_.segment(x, nx) = part.x_;
   next.z_.segment(z, nz) = part.z_;
   next.p_.segment(p, np) = part.p_;
-  std::copy(part.modes_.begin(), part.modes_.end(), next.modes_.begin() + static_cast<std::ptrdiff_t>(where.first));
+  std::copy(part.modes_.begin(), part.modes_.end(),
+            next.modes_.begin() + static_cast<std::ptrdiff_t>(where.first));
   return next;
 }
 

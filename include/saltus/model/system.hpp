@@ -50,9 +50,15 @@ class System {
 
   /// Ports by position or by name; a ModelError lists the names there are.
   InputPort input(int index = 0) const { return {this, checked(index, input_names(), "input")}; }
-  InputPort input(std::string_view port) const { return {this, find(port, input_names(), "input")}; }
-  OutputPort output(int index = 0) const { return {this, checked(index, output_names(), "output")}; }
-  OutputPort output(std::string_view port) const { return {this, find(port, output_names(), "output")}; }
+  InputPort input(std::string_view port) const {
+    return {this, find(port, input_names(), "input")};
+  }
+  OutputPort output(int index = 0) const {
+    return {this, checked(index, output_names(), "output")};
+  }
+  OutputPort output(std::string_view port) const {
+    return {this, find(port, output_names(), "output")};
+  }
 
   /// The default values of every block, at time t [s].
   Context create_context(double t = 0.0) const;
@@ -71,13 +77,16 @@ class System {
   }
   int checked(int index, const std::vector<std::string>& names, std::string_view kind) const {
     if (index >= 0 && index < static_cast<int>(names.size())) return index;
-    throw ModelError(text("block '", name_, "' has no ", kind, " ", index, ": it has ", names.size(),
+    throw ModelError(text("block '", name_, "' has no ", kind, " ", index, ": it has ",
+                          names.size(),
                           names.empty() ? std::string() : text(" (", quoted_list(names), ")")));
   }
-  int find(std::string_view port, const std::vector<std::string>& names, std::string_view kind) const {
+  int find(std::string_view port, const std::vector<std::string>& names,
+           std::string_view kind) const {
     const auto found = std::ranges::find(names, port);
     if (found != names.end()) return static_cast<int>(found - names.begin());
-    throw ModelError(text("block '", name_, "' has no ", kind, " '", port, "'", known_names(port, names)));
+    throw ModelError(
+        text("block '", name_, "' has no ", kind, " '", port, "'", known_names(port, names)));
   }
 
   std::string name_;

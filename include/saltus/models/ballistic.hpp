@@ -1,4 +1,5 @@
-// Ballistic: the exact motion of a ball that bounces on a floor, flight by flight, where the floor may drop once.
+// Ballistic: the exact motion of a ball that bounces on a floor, flight by flight, where the floor
+// may drop once.
 #pragma once
 
 #include <cmath>
@@ -12,20 +13,22 @@
 
 namespace saltus::models {
 
-/// A ball thrown from y0 with v0 over a floor at `floor`; at `drop_time` the floor is at `dropped`, which is lower.
+/// A ball thrown from y0 with v0 over a floor at `floor`; at `drop_time` the floor is at `dropped`,
+/// which is lower.
 struct BallisticProblem {
-  double g = 9.81;   ///< [m/s^2] > 0
-  double e = 1.0;    ///< coefficient of restitution, 0 <= e <= 1
-  double y0 = 10.0;  ///< [m]
-  double v0 = 0.0;   ///< [m/s]
-  double floor = 0.0, dropped = 0.0;                               ///< [m]
-  double drop_time = std::numeric_limits<double>::infinity();      ///< [s]
+  double g = 9.81;                    ///< [m/s^2] > 0
+  double e = 1.0;                     ///< coefficient of restitution, 0 <= e <= 1
+  double y0 = 10.0;                   ///< [m]
+  double v0 = 0.0;                    ///< [m/s]
+  double floor = 0.0, dropped = 0.0;  ///< [m]
+  double drop_time = std::numeric_limits<double>::infinity();  ///< [s]
 };
 
-/// A flight from (y, v) at `begin` is y + v d - g d^2 / 2. It ends on the floor after d = (v + s) / g, with the speed
-/// s = sqrt(v^2 + 2 g (y - floor)), and the next one begins with e s. Flights from the floor last 2 v/g e^k: they
-/// accumulate at begin + 2 v / (g (1 - e)), and there the ball rests until the floor drops from under it. A drop in
-/// flight changes nothing but where the flight ends. In long double, so that no rounding of its own shows.
+/// A flight from (y, v) at `begin` is y + v d - g d^2 / 2. It ends on the floor after d = (v + s) /
+/// g, with the speed s = sqrt(v^2 + 2 g (y - floor)), and the next one begins with e s. Flights
+/// from the floor last 2 v/g e^k: they accumulate at begin + 2 v / (g (1 - e)), and there the ball
+/// rests until the floor drops from under it. A drop in flight changes nothing but where the flight
+/// ends. In long double, so that no rounding of its own shows.
 class Ballistic {
  public:
   Ballistic(const BallisticProblem& problem, double t_end);
@@ -45,7 +48,9 @@ class Ballistic {
 
   bool fly();
   Real floor() const { return dropped_ ? problem_.dropped : problem_.floor; }
-  Real impact_speed(const Flight& f) const { return std::sqrt(f.v * f.v + 2 * Real(problem_.g) * (f.y - floor())); }
+  Real impact_speed(const Flight& f) const {
+    return std::sqrt(f.v * f.v + 2 * Real(problem_.g) * (f.y - floor()));
+  }
 
   BallisticProblem problem_;
   double t_end_;
@@ -54,14 +59,17 @@ class Ballistic {
   EventTimes bounces_;
 };
 
-inline Ballistic::Ballistic(const BallisticProblem& problem, double t_end) : problem_(problem), t_end_(t_end) {
+inline Ballistic::Ballistic(const BallisticProblem& problem, double t_end)
+    : problem_(problem), t_end_(t_end) {
   const auto insist = [](bool good, std::string_view what, double found) {
     if (!good) throw ModelError(text("bouncing ball: expected ", what, ", found ", found));
   };
   insist(problem.g > 0.0 && std::isfinite(problem.g), "g > 0 m/s^2", problem.g);
-  insist(problem.e >= 0.0 && problem.e <= 1.0, "a coefficient of restitution 0 <= e <= 1", problem.e);
+  insist(problem.e >= 0.0 && problem.e <= 1.0, "a coefficient of restitution 0 <= e <= 1",
+         problem.e);
   insist(problem.y0 >= problem.floor, "y0 at or above the floor", problem.y0);
-  insist(problem.dropped <= problem.floor || !std::isfinite(problem.drop_time), "a floor that drops", problem.dropped);
+  insist(problem.dropped <= problem.floor || !std::isfinite(problem.drop_time),
+         "a floor that drops", problem.dropped);
   flights_.push_back({{0, problem.y0, problem.v0}});
   bounces_.series.emplace_back();
   while (fly()) {
@@ -81,8 +89,8 @@ inline bool Ballistic::fly() {
   EventSeries& series = bounces_.series.back();
   for (;;) {
     const Flight f = flights.back();
-    // Flights from the floor that are shorter than 1e-18 s are the rest of the series. A ball that starts on the floor
-    // touches it first.
+    // Flights from the floor that are shorter than 1e-18 s are the rest of the series. A ball that
+    // starts on the floor touches it first.
     if (flights.size() > 1 && 2 * f.v < 1e-18L * g) {
       const Real rest = e < 1 ? f.begin + 2 * f.v / (g * (1 - e)) : f.begin;
       if (rest <= t_end_) series.accumulation = static_cast<double>(rest);
@@ -94,7 +102,9 @@ inline bool Ballistic::fly() {
       continue;
     }
     if (impact > t_end_) return false;
-    if (flights.size() > 1'000'000) throw ModelError(text("bouncing ball: more than a million bounces before t = ", t_end_, " s"));
+    if (flights.size() > 1'000'000)
+      throw ModelError(
+          text("bouncing ball: more than a million bounces before t = ", t_end_, " s"));
     series.times.push_back(static_cast<double>(impact));
     flights.push_back({impact, floor(), e * speed});
   }
@@ -106,7 +116,8 @@ inline Eigen::VectorXd Ballistic::state(double t, const Branch& branch) const {
   if (branch.rest) return Eigen::Vector2d(static_cast<double>(flights.back().y), 0.0);
   const Flight& f = flights[std::min(branch.events, flights.size() - 1)];
   const Real d = t - f.begin, g = problem_.g;
-  return Eigen::Vector2d(static_cast<double>(f.y + d * (f.v - g * d / 2)), static_cast<double>(f.v - g * d));
+  return Eigen::Vector2d(static_cast<double>(f.y + d * (f.v - g * d / 2)),
+                         static_cast<double>(f.v - g * d));
 }
 
 inline Branch Ballistic::branch_at(double t) const {

@@ -1,9 +1,10 @@
 // A ball over a floor at 0, as one leaf: the smallest hybrid system with a Zeno point.
 //   dy/dt = v, dv/dt = -g        while it flies
 //   y+ = |y-|, v+ = -e v-        when y falls to 0
-// State: height y [m], velocity v [m/s]. Parameters: g [m/s^2] in the context, e (coefficient of restitution) in the block.
-// Flights are parabolas, known exactly, and so is the Zeno time t1 (1 + e) / (1 - e), t1 = sqrt(2 y0 / g).
-// Newton's law of restitution; the scene is the first one of the tutorial "Bouncing Ball" of Collimator.
+// State: height y [m], velocity v [m/s]. Parameters: g [m/s^2] in the context, e (coefficient of
+// restitution) in the block. Flights are parabolas, known exactly, and so is the Zeno time t1 (1 +
+// e) / (1 - e), t1 = sqrt(2 y0 / g). Newton's law of restitution; the scene is the first one of the
+// tutorial "Bouncing Ball" of Collimator.
 #pragma once
 
 #include <memory>
@@ -20,17 +21,21 @@ class BouncingBall final : public LeafSystem {
     declare_continuous_state_output("ball:y");
     declare_jacobian([](const At&, MatrixRef jacobian) { jacobian << 0.0, 1.0, 0.0, 0.0; });
     g_ = declare_dynamic_parameter("g", g);
-    declare_zero_crossing({.name = "bounce", .guard = &BouncingBall::height, .reset_map = &BouncingBall::bounce,
+    declare_zero_crossing({.name = "bounce",
+                           .guard = &BouncingBall::height,
+                           .reset_map = &BouncingBall::bounce,
                            .direction = Direction::positive_then_non_positive});
   }
 
  private:
   void ode(const At& at, VectorRef xdot) const { xdot << at.x[1], -at.p[g_]; }
   double height(const At& at) const { return at.x[0]; }
-  void bounce(const At& at, Next& next) const { next.set_continuous_state({std::abs(at.x[0]), -e_ * at.x[1]}); }
+  void bounce(const At& at, Next& next) const {
+    next.set_continuous_state({std::abs(at.x[0]), -e_ * at.x[1]});
+  }
 
-  double e_;            // coefficient of restitution, 0 <= e <= 1
-  ParameterIndex g_;    // [m/s^2]
+  double e_;          // coefficient of restitution, 0 <= e <= 1
+  ParameterIndex g_;  // [m/s^2]
 };
 
 struct BouncingBallParameters {
@@ -43,14 +48,16 @@ struct BouncingBallParameters {
 
 /// Six bounces with the defaults; comes to rest at 27.13 s. Records "y", the state (y, v).
 inline Scene bouncing_ball(const BouncingBallParameters& with = {}) {
-  Exact exact = ballistic_answer({.g = with.g, .e = with.e, .y0 = with.y0, .v0 = with.v0}, with.t_end, "ball.bounce");
+  Exact exact = ballistic_answer({.g = with.g, .e = with.e, .y0 = with.y0, .v0 = with.v0},
+                                 with.t_end, "ball.bounce");
   const auto ball = std::make_shared<const BouncingBall>(with.g, with.e);
-  return {.name = "bouncing ball",
-          .system = ball,
-          .context = ball->create_context().with_continuous_state(Eigen::Vector2d(with.y0, with.v0)),
-          .span = {0.0, with.t_end},
-          .options = {.recorded_signals = {{"y", ball->output(0)}}},
-          .exact = std::move(exact)};
+  return {
+      .name = "bouncing ball",
+      .system = ball,
+      .context = ball->create_context().with_continuous_state(Eigen::Vector2d(with.y0, with.v0)),
+      .span = {0.0, with.t_end},
+      .options = {.recorded_signals = {{"y", ball->output(0)}}},
+      .exact = std::move(exact)};
 }
 
 }  // namespace saltus::models

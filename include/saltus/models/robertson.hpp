@@ -1,11 +1,13 @@
-// Robertson's reaction A -> B, 2 B -> B + C, B + C -> A + C: three rates nine decades apart, run over eleven decades of time.
+// Robertson's reaction A -> B, 2 B -> B + C, B + C -> A + C: three rates nine decades apart, run
+// over eleven decades of time.
 //   dy1/dt = -0.04 y1 + 1e4 y2 y3
 //   dy2/dt =  0.04 y1 - 1e4 y2 y3 - 3e7 y2^2
 //   dy3/dt =  3e7 y2^2
-// State: concentrations y1, y2, y3 (without unit), y1 + y2 + y3 = 1; time in seconds; y(0) = (1, 0, 0). The rates are
-// parameters k1, k2, k3. Two monitors, as in the example cvRoberts_dns of SUNDIALS: y1 = 1e-4 and y3 = 0.01.
-// H. H. Robertson, "The solution of a set of reaction rate equations", in J. Walsh (ed.), Numerical Analysis, 1966;
-// E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, p. 144, ROBER. It shows what a stiff method is for.
+// State: concentrations y1, y2, y3 (without unit), y1 + y2 + y3 = 1; time in seconds; y(0) = (1, 0,
+// 0). The rates are parameters k1, k2, k3. Two monitors, as in the example cvRoberts_dns of
+// SUNDIALS: y1 = 1e-4 and y3 = 0.01. H. H. Robertson, "The solution of a set of reaction rate
+// equations", in J. Walsh (ed.), Numerical Analysis, 1966; E. Hairer, G. Wanner, Solving Ordinary
+// Differential Equations II, p. 144, ROBER. It shows what a stiff method is for.
 #pragma once
 
 #include "saltus/report/scene.hpp"
@@ -15,24 +17,30 @@ namespace saltus::models {
 class Robertson final : public LeafSystem {
  public:
   explicit Robertson(double k1 = 0.04, double k2 = 1e4, double k3 = 3e7) : LeafSystem("reaction") {
-    declare_continuous_state({.initial = Eigen::Vector3d(1.0, 0.0, 0.0), .ode = &Robertson::ode, .jacobian = &Robertson::jacobian});
+    declare_continuous_state({.initial = Eigen::Vector3d(1.0, 0.0, 0.0),
+                              .ode = &Robertson::ode,
+                              .jacobian = &Robertson::jacobian});
     declare_continuous_state_output("y");
     k1_ = declare_dynamic_parameter("k1", k1);
     k2_ = declare_dynamic_parameter("k2", k2);
     k3_ = declare_dynamic_parameter("k3", k3);
-    declare_zero_crossing({.name = "y1_is_1e-4", .guard = [](const At& at) { return at.x[0] - 1e-4; }});
-    declare_zero_crossing({.name = "y3_is_0.01", .guard = [](const At& at) { return at.x[2] - 0.01; }});
+    declare_zero_crossing(
+        {.name = "y1_is_1e-4", .guard = [](const At& at) { return at.x[0] - 1e-4; }});
+    declare_zero_crossing(
+        {.name = "y3_is_0.01", .guard = [](const At& at) { return at.x[2] - 0.01; }});
   }
 
  private:
   void ode(const At& at, VectorRef xdot) const {
-    const double decay = at.p[k1_] * at.x[0], back = at.p[k2_] * at.x[1] * at.x[2], on = at.p[k3_] * at.x[1] * at.x[1];
+    const double decay = at.p[k1_] * at.x[0], back = at.p[k2_] * at.x[1] * at.x[2],
+                 on = at.p[k3_] * at.x[1] * at.x[1];
     xdot << back - decay, decay - back - on, on;
   }
   void jacobian(const At& at, MatrixRef out) const {
-    const double k1 = at.p[k1_], by2 = at.p[k2_] * at.x[2], by3 = at.p[k2_] * at.x[1], on = 2.0 * at.p[k3_] * at.x[1];
-    out << -k1, by2, by3,       //
-        k1, -by2 - on, -by3,    //
+    const double k1 = at.p[k1_], by2 = at.p[k2_] * at.x[2], by3 = at.p[k2_] * at.x[1],
+                 on = 2.0 * at.p[k3_] * at.x[1];
+    out << -k1, by2, by3,     //
+        k1, -by2 - on, -by3,  //
         0.0, on, 0.0;
   }
 
@@ -46,9 +54,11 @@ struct RobertsonParameters {
 
 namespace detail {
 
-/// To 16 digits, by Radau IIA of order 13 in 40 digits, 20 steps to a decade; order 9 gives the same to 6e-13. The known
-/// value at 1e11 s (Test Set for IVP Solvers, ROBER: 2.083340149701255e-8, 8.333360770334713e-14, 0.9999999791665050) comes
-/// out with a difference of 2e-14 of it. The value at 4e10 s in cvRoberts_dns (5.20834743e-8, 2.08333908e-13) is good to 6 digits.
+/// To 16 digits, by Radau IIA of order 13 in 40 digits, 20 steps to a decade; order 9 gives the
+/// same to 6e-13. The known value at 1e11 s (Test Set for IVP Solvers,
+/// ROBER: 2.083340149701255e-8, 8.333360770334713e-14, 0.9999999791665050) comes out with a
+/// difference of 2e-14 of it. The value at 4e10 s in cvRoberts_dns (5.20834743e-8, 2.08333908e-13)
+/// is good to 6 digits.
 inline const std::vector<Sample>& robertson_samples() {
   static const std::vector<Sample> samples{
       {4e-1, Eigen::Vector3d(0.98517211386098986, 3.3863953789749041e-5, 0.014794022185220389)},
@@ -71,11 +81,16 @@ inline const std::vector<Sample>& robertson_samples() {
 
 /// What is known of the original rates, up to t_end; nothing is of others.
 inline Exact robertson_answer(const RobertsonParameters& with) {
-  if (with.k1 != 0.04 || with.k2 != 1e4 || with.k3 != 3e7) return {.provenance = "none: not the original rates"};
-  const auto until = [&](double t) { return t <= with.t_end ? std::vector{t} : std::vector<double>{}; };
-  Exact exact{.provenance = "Radau IIA of order 13 in 40 digits; agrees with the Test Set for IVP Solvers, ROBER",
-              .events = {{"reaction.y3_is_0.01", {{.times = until(0.26401907818763256)}}},
-                         {"reaction.y1_is_1e-4", {{.times = until(20795496.883026623)}}}}};
+  if (with.k1 != 0.04 || with.k2 != 1e4 || with.k3 != 3e7)
+    return {.provenance = "none: not the original rates"};
+  const auto until = [&](double t) {
+    return t <= with.t_end ? std::vector{t} : std::vector<double>{};
+  };
+  Exact exact{
+      .provenance =
+          "Radau IIA of order 13 in 40 digits; agrees with the Test Set for IVP Solvers, ROBER",
+      .events = {{"reaction.y3_is_0.01", {{.times = until(0.26401907818763256)}}},
+                 {"reaction.y1_is_1e-4", {{.times = until(20795496.883026623)}}}}};
   for (const Sample& sample : detail::robertson_samples()) {
     if (sample.time <= with.t_end) exact.samples.push_back(sample);
   }
@@ -85,12 +100,13 @@ inline Exact robertson_answer(const RobertsonParameters& with) {
 /// Records "y" at the times of the reference, 0.4, 4, 40, ... s.
 inline Scene robertson(const RobertsonParameters& with = {}) {
   const auto reaction = std::make_shared<const Robertson>(with.k1, with.k2, with.k3);
-  Scene scene{.name = "Robertson",
-              .system = reaction,
-              .context = reaction->create_context(),
-              .span = {0.0, with.t_end},
-              .options = {.rtol = 1e-6, .atol = 1e-10, .recorded_signals = {{"y", reaction->output(0)}}},
-              .exact = robertson_answer(with)};
+  Scene scene{
+      .name = "Robertson",
+      .system = reaction,
+      .context = reaction->create_context(),
+      .span = {0.0, with.t_end},
+      .options = {.rtol = 1e-6, .atol = 1e-10, .recorded_signals = {{"y", reaction->output(0)}}},
+      .exact = robertson_answer(with)};
   for (const Sample& sample : scene.exact.samples) scene.options.save_at.push_back(sample.time);
   return scene;
 }

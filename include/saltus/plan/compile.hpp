@@ -11,14 +11,16 @@ namespace detail {
 
 inline void add_taps(Plan& plan, const RecordedSignals& signals) {
   for (const auto& [name, port] : signals) {
-    if (port.system == nullptr) throw ModelError(text("recorded signal '", name, "' names no output port"));
+    if (port.system == nullptr)
+      throw ModelError(text("recorded signal '", name, "' names no output port"));
     const LeafPort source = port.system->output_source(port.index);
     const auto leaf = std::ranges::find(plan.leaves, source.leaf, &PlanLeaf::system);
     if (leaf == plan.leaves.end()) {
       throw ModelError(text("recorded signal '", name, "' belongs to block '", port.system->name(),
                             "', which is not part of this system"));
     }
-    const bool twice = std::ranges::any_of(plan.taps, [&](const Tap& tap) { return tap.name == name; });
+    const bool twice =
+        std::ranges::any_of(plan.taps, [&](const Tap& tap) { return tap.name == name; });
     if (twice) throw ModelError(text("two recorded signals are called '", name, "'"));
     plan.taps.push_back({name, leaf->outputs[static_cast<std::size_t>(source.index)]});
   }
@@ -31,14 +33,16 @@ inline std::vector<int> leaves_behind(const Plan& plan, const std::vector<int>& 
   std::vector<int> leaves;
   for (std::size_t i = 0; i < reached.size(); ++i) {
     const int leaf = plan.nodes[i].leaf;
-    if (reached[i] && plan.nodes[i].rate == Rate::continuous && plan.leaves[static_cast<std::size_t>(leaf)].nx > 0) {
+    if (reached[i] && plan.nodes[i].rate == Rate::continuous &&
+        plan.leaves[static_cast<std::size_t>(leaf)].nx > 0) {
       leaves.push_back(leaf);
     }
   }
   return leaves;
 }
 
-/// The blocks whose continuous state moves a guard, at once or through the derivative of one that does.
+/// The blocks whose continuous state moves a guard, at once or through the derivative of one that
+/// does.
 inline std::vector<int> moving_leaves(const Plan& plan, int own, const std::vector<int>& nodes) {
   std::vector<int> leaves = leaves_behind(plan, nodes);
   if (plan.leaves[static_cast<std::size_t>(own)].nx > 0) leaves.push_back(own);
@@ -66,17 +70,25 @@ inline void add_guards(Plan& plan) {
       const ZeroCrossing& crossing = crossings[i];
       if (crossing.direction == Direction::none) continue;  // never fires: never computed
       const bool monitor = !crossing.reset_map && !crossing.end_mode && !crossing.terminal;
-      add_guard(plan, {.kind = GuardGroup::Kind::crossing, .leaf = static_cast<int>(l), .index = static_cast<int>(i),
-                       .direction = crossing.direction, .monitor = monitor,
-                       .name = text(plan.leaves[l].path, ".", crossing.name)},
+      add_guard(plan,
+                {.kind = GuardGroup::Kind::crossing,
+                 .leaf = static_cast<int>(l),
+                 .index = static_cast<int>(i),
+                 .direction = crossing.direction,
+                 .monitor = monitor,
+                 .name = text(plan.leaves[l].path, ".", crossing.name)},
                 read_inputs(crossing.inputs, plan.leaves[l]));
     }
   }
   for (std::size_t i = 0; i < plan.nodes.size(); ++i) {
     const Node& node = plan.nodes[i];
     if (!node.located) continue;
-    add_guard(plan, {.kind = node.relation ? GuardGroup::Kind::relation : GuardGroup::Kind::opaque, .leaf = node.leaf,
-                     .index = static_cast<int>(i), .size = node.shape.size, .name = node.name},
+    add_guard(plan,
+              {.kind = node.relation ? GuardGroup::Kind::relation : GuardGroup::Kind::opaque,
+               .leaf = node.leaf,
+               .index = static_cast<int>(i),
+               .size = node.shape.size,
+               .name = node.name},
               node.needs);
   }
 }
@@ -86,14 +98,17 @@ inline void add_edges(Plan& plan) {
     const PlanLeaf& leaf = plan.leaves[l];
     const auto& resets = leaf.declared().edge_resets;
     for (std::size_t i = 0; i < resets.size(); ++i) {
-      EdgeWatch edge{.leaf = static_cast<int>(l), .index = static_cast<int>(i),
+      EdgeWatch edge{.leaf = static_cast<int>(l),
+                     .index = static_cast<int>(i),
                      .node = read_inputs(std::vector{resets[i].input}, leaf).front(),
                      .name = text(leaf.path, ".", resets[i].name)};
       const Node& trigger = plan.node(edge.node);
       if (trigger.rate == Rate::continuous || trigger.shape.size != 1) {
-        throw ModelError(text("input '", leaf.declared().inputs[static_cast<std::size_t>(resets[i].input)].name,
-                              "' of block '", leaf.path, "' expects one boolean, found ", trigger.shape.size,
-                              " continuous value(s) from output '", trigger.name, "'; put a Comparator between them"));
+        throw ModelError(
+            text("input '", leaf.declared().inputs[static_cast<std::size_t>(resets[i].input)].name,
+                 "' of block '", leaf.path, "' expects one boolean, found ", trigger.shape.size,
+                 " continuous value(s) from output '", trigger.name,
+                 "'; put a Comparator between them"));
       }
       Marks reached(plan.nodes.size());
       spread(plan, {edge.node}, reached, [](const Node&) { return false; });
@@ -109,8 +124,8 @@ inline void add_schedule(Plan& plan) {
   for (std::size_t l = 0; l < plan.leaves.size(); ++l) {
     const auto& events = plan.leaves[l].declared().time_events;
     for (std::size_t i = 0; i < events.size(); ++i) {
-      plan.schedule.push_back({static_cast<int>(l), static_cast<int>(i), events[i].period, events[i].offset,
-                               text(plan.leaves[l].path, ".", events[i].name)});
+      plan.schedule.push_back({static_cast<int>(l), static_cast<int>(i), events[i].period,
+                               events[i].offset, text(plan.leaves[l].path, ".", events[i].name)});
     }
     if (plan.leaves[l].nx > 0) plan.odes.push_back(static_cast<int>(l));
   }
@@ -118,10 +133,11 @@ inline void add_schedule(Plan& plan) {
 
 }  // namespace detail
 
-/// Compiles a system and the signals to record into a plan. Throws ModelError for an open input, an algebraic
-/// loop (printed as the path it is), widths that do not fit, a recorded signal of another system.
-/// The plan refers to the system, which has to live as long.
-inline std::shared_ptr<const Plan> compile(const System& system, const RecordedSignals& recorded = {}) {
+/// Compiles a system and the signals to record into a plan. Throws ModelError for an open input, an
+/// algebraic loop (printed as the path it is), widths that do not fit, a recorded signal of another
+/// system. The plan refers to the system, which has to live as long.
+inline std::shared_ptr<const Plan> compile(const System& system,
+                                           const RecordedSignals& recorded = {}) {
   Plan plan = detail::flatten(system);
   detail::add_taps(plan, recorded);
   detail::find_located(plan);

@@ -7,9 +7,11 @@ namespace saltus {
 
 namespace detail {
 
-inline void describe_list(std::string& out, const Plan& plan, std::string_view title, const std::vector<int>& nodes) {
+inline void describe_list(std::string& out, const Plan& plan, std::string_view title,
+                          const std::vector<int>& nodes) {
   out += text("  ", title, ": ", nodes.size());
-  for (std::size_t i = 0; i < nodes.size() && i < 8; ++i) out += text(i == 0 ? " (" : ", ", plan.node(nodes[i]).name);
+  for (std::size_t i = 0; i < nodes.size() && i < 8; ++i)
+    out += text(i == 0 ? " (" : ", ", plan.node(nodes[i]).name);
   if (!nodes.empty()) out += nodes.size() > 8 ? ", ...)" : ")";
   out += "\n";
 }
@@ -18,7 +20,8 @@ inline void describe_guard(std::string& out, const Plan& plan, const GuardGroup&
   using Kind = GuardGroup::Kind;
   out += text("  guard '", guard.name, "': ");
   if (guard.kind == Kind::crossing) {
-    out += text(to_string(guard.direction), guard.monitor ? ", a monitor: located, changes nothing" : "");
+    out += text(to_string(guard.direction),
+                guard.monitor ? ", a monitor: located, changes nothing" : "");
   } else if (guard.kind == Kind::relation) {
     out += "a relation, held between instants";
   } else {
@@ -31,14 +34,17 @@ inline void describe_guard(std::string& out, const Plan& plan, const GuardGroup&
 }  // namespace detail
 
 inline std::string Plan::describe() const {
-  std::string out = text("plan: ", leaves.size(), leaves.size() == 1 ? " block, " : " blocks, ", nx, " continuous and ", nz,
-                         " discrete states\n");
+  std::string out = text("plan: ", leaves.size(), leaves.size() == 1 ? " block, " : " blocks, ", nx,
+                         " continuous and ", nz, " discrete states\n");
   std::vector<int> views, dropped;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    if (nodes[i].view) views.push_back(static_cast<int>(i));
-    else if (!nodes[i].used && !nodes[i].relation) dropped.push_back(static_cast<int>(i));
+    if (nodes[i].view)
+      views.push_back(static_cast<int>(i));
+    else if (!nodes[i].used && !nodes[i].relation)
+      dropped.push_back(static_cast<int>(i));
   }
-  out += text("outputs: ", std::ranges::count_if(nodes, [](const Node& n) { return !n.relation; }), "\n");
+  out += text("outputs: ", std::ranges::count_if(nodes, [](const Node& n) { return !n.relation; }),
+              "\n");
   detail::describe_list(out, *this, "views of a state or parameter, never copied", views);
   detail::describe_list(out, *this, "constant, computed once", constants);
   detail::describe_list(out, *this, "computed at instants", instants);
@@ -51,7 +57,8 @@ inline std::string Plan::describe() const {
   if (!edges.empty()) out += text("resets that follow an edge: ", edges.size(), "\n");
   if (!schedule.empty()) out += text("time events: ", schedule.size(), "\n");
   if (odes.empty()) out += "no continuous state: no solver\n";
-  out += taps.empty() ? "nothing recorded: no recorder\n" : text("recorded signals: ", taps.size(), "\n");
+  out += taps.empty() ? "nothing recorded: no recorder\n"
+                      : text("recorded signals: ", taps.size(), "\n");
   return out;
 }
 

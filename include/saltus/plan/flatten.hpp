@@ -9,12 +9,14 @@
 namespace saltus::detail {
 
 /// The inputs that something reads: those it names, else all.
-inline std::vector<int> read_inputs(const std::optional<std::vector<int>>& named, const PlanLeaf& leaf) {
+inline std::vector<int> read_inputs(const std::optional<std::vector<int>>& named,
+                                    const PlanLeaf& leaf) {
   if (!named) return leaf.inputs;
   std::vector<int> nodes;
   for (int i : *named) {
     if (i < 0 || i >= static_cast<int>(leaf.inputs.size())) {
-      throw ModelError(text("block '", leaf.path, "': a declaration reads input ", i, ", the block has ", leaf.inputs.size()));
+      throw ModelError(text("block '", leaf.path, "': a declaration reads input ", i,
+                            ", the block has ", leaf.inputs.size()));
     }
     nodes.push_back(leaf.inputs[static_cast<std::size_t>(i)]);
   }
@@ -32,7 +34,9 @@ inline void add_leaves(Plan& plan, const Structure& structure) {
     plan.nx += leaf.nx, plan.nz += leaf.nz, plan.np += leaf.np;
     const int number = static_cast<int>(plan.leaves.size());
     for (std::size_t i = 0; i < d.outputs.size(); ++i) {
-      Node node{.leaf = number, .index = static_cast<int>(i), .boolean = d.outputs[i].boolean,
+      Node node{.leaf = number,
+                .index = static_cast<int>(i),
+                .boolean = d.outputs[i].boolean,
                 .name = path + "." + d.outputs[i].name};
       node.view = d.outputs[i].view.has_value();
       leaf.outputs.push_back(static_cast<int>(plan.nodes.size()));
@@ -40,7 +44,10 @@ inline void add_leaves(Plan& plan, const Structure& structure) {
     }
     for (std::size_t i = 0; i < d.relations.size(); ++i) {
       leaf.relations.push_back(static_cast<int>(plan.nodes.size()));
-      plan.nodes.push_back({.leaf = number, .index = static_cast<int>(i), .relation = true, .boolean = true,
+      plan.nodes.push_back({.leaf = number,
+                            .index = static_cast<int>(i),
+                            .relation = true,
+                            .boolean = true,
                             .name = path + "." + d.relations[i].name});
     }
     leaf.inputs.assign(d.inputs.size(), -1);
@@ -101,11 +108,13 @@ inline bool shape_node(const Plan& plan, Node& node) {
     const auto size = plan.relation_of(node).size;
     return size ? std::optional(Shape{*size, *size > 1}) : std::nullopt;
   }();
-  const auto inputs = fixed ? std::optional<std::vector<Shape>>() : input_shapes(plan, plan.leaf_of(node));
+  const auto inputs =
+      fixed ? std::optional<std::vector<Shape>>() : input_shapes(plan, plan.leaf_of(node));
   if (!fixed && !inputs) return false;
   node.shape = fixed ? *fixed
-               : !node.relation && plan.output_of(node).shape_rule ? plan.output_of(node).shape_rule(*inputs)
-                                                                   : elementwise(*inputs);
+               : !node.relation && plan.output_of(node).shape_rule
+                   ? plan.output_of(node).shape_rule(*inputs)
+                   : elementwise(*inputs);
   return node.shaped = true;
 }
 
@@ -121,7 +130,8 @@ inline void add_shapes(Plan& plan) {
     if (!node.shaped) {
       Ordering(plan).run();  // an algebraic loop is the likelier cause: it throws with the path
       throw ModelError(text("the width of output '", node.name,
-                            "' depends on itself around a loop; put a block of known width, for example an Integrator "
+                            "' depends on itself around a loop; put a block of known width, for "
+                            "example an Integrator "
                             "with a vector initial_state, into the loop"));
     }
   }
@@ -134,8 +144,9 @@ inline void check_shapes(const Plan& plan) {
       const Node& source = plan.node(leaf.inputs[i]);
       const InputDeclaration& input = leaf.declared().inputs[i];
       if (input.shape && input.shape->size != source.shape.size) {
-        throw ModelError(text("input '", input.name, "' of block '", leaf.path, "': expected ", input.shape->size,
-                              " values, found ", source.shape.size, " from output '", source.name, "'"));
+        throw ModelError(text("input '", input.name, "' of block '", leaf.path, "': expected ",
+                              input.shape->size, " values, found ", source.shape.size,
+                              " from output '", source.name, "'"));
       }
     }
   }
@@ -151,7 +162,9 @@ inline void add_places(Plan& plan) {
     }
     const PlanLeaf& leaf = plan.leaf_of(node);
     node.place = *plan.output_of(node).view;
-    node.place.offset += node.place.space == Space::x ? leaf.x : node.place.space == Space::z ? leaf.z : leaf.p;
+    node.place.offset += node.place.space == Space::x   ? leaf.x
+                         : node.place.space == Space::z ? leaf.z
+                                                        : leaf.p;
   }
   for (PlanLeaf& leaf : plan.leaves) {
     for (int input : leaf.inputs) leaf.input_places.push_back(plan.node(input).place);

@@ -64,7 +64,9 @@ class Machine {
   void select_guards();
   const std::vector<int>& active_guards() const noexcept { return active_; }
 
-  const double* value(const Place& place) const { return bases_[static_cast<std::size_t>(place.space)] + place.offset; }
+  const double* value(const Place& place) const {
+    return bases_[static_cast<std::size_t>(place.space)] + place.offset;
+  }
   double* signal(int node) { return y.data() + plan_->node(node).place.offset; }
   bool truth(int node) const { return *value(plan_->node(node).place) != 0.0; }
   const Plan& plan() const noexcept { return *plan_; }
@@ -135,10 +137,11 @@ class Machine {
 
   std::shared_ptr<const Plan> plan_;
   Bases bases_{};
-  std::vector<At> views_;          // one for each leaf
+  std::vector<At> views_;  // one for each leaf
   std::vector<Index> x_offsets_;
   std::vector<const double*> relation_values_;
-  std::vector<Call> constant_calls_, instant_calls_, derivative_calls_, guard_calls_list_, tap_calls_;
+  std::vector<Call> constant_calls_, instant_calls_, derivative_calls_, guard_calls_list_,
+      tap_calls_;
   std::vector<OdeCall> odes_;
   std::vector<GroupCall> groups_;
   std::vector<int> active_;

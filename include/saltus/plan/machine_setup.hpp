@@ -1,4 +1,5 @@
-// Machine: construction, loading and saving a context, the Jacobian, and the search for what is not finite.
+// Machine: construction, loading and saving a context, the Jacobian, and the search for what is not
+// finite.
 #pragma once
 
 #include "saltus/plan/machine.hpp"
@@ -9,9 +10,11 @@ inline std::vector<Machine::Call> Machine::calls_of(const std::vector<int>& node
   std::vector<Call> calls;
   for (int i : nodes) {
     const Node& node = plan_->node(i);
-    const VectorFunction& function = node.relation ? plan_->relation_of(node).guard : plan_->output_of(node).calc;
-    calls.push_back({&function, plan_->leaf_of(node).system, static_cast<std::size_t>(node.leaf), node.place.offset,
-                     node.place.size, node.relation, node.relation && plan_->relation_of(node).true_at_zero});
+    const VectorFunction& function =
+        node.relation ? plan_->relation_of(node).guard : plan_->output_of(node).calc;
+    calls.push_back({&function, plan_->leaf_of(node).system, static_cast<std::size_t>(node.leaf),
+                     node.place.offset, node.place.size, node.relation,
+                     node.relation && plan_->relation_of(node).true_at_zero});
   }
   return calls;
 }
@@ -26,9 +29,10 @@ inline Machine::Machine(std::shared_ptr<const Plan> plan) : plan_(std::move(plan
   }
   const double* const* relations = relation_values_.data();
   for (const PlanLeaf& leaf : plan_->leaves) {
-    const Inputs inputs(leaf.input_places.data(), static_cast<int>(leaf.input_places.size()), &bases_);
-    views_.push_back(At(0.0, {x.data() + leaf.x, leaf.nx}, {z.data() + leaf.z, leaf.nz}, {p.data() + leaf.p, leaf.np}, 0,
-                        inputs, relations));
+    const Inputs inputs(leaf.input_places.data(), static_cast<int>(leaf.input_places.size()),
+                        &bases_);
+    views_.push_back(At(0.0, {x.data() + leaf.x, leaf.nx}, {z.data() + leaf.z, leaf.nz},
+                        {p.data() + leaf.p, leaf.np}, 0, inputs, relations));
     x_offsets_.push_back(leaf.x);
     relations += leaf.relations.size();
   }
@@ -46,21 +50,24 @@ inline Machine::Machine(std::shared_ptr<const Plan> plan) : plan_(std::move(plan
     const bool crossing = group.kind == GuardGroup::Kind::crossing;
     const VectorFunction& function =
         crossing ? leaf.declared().zero_crossings[static_cast<std::size_t>(group.index)].guard
-        : group.kind == GuardGroup::Kind::relation ? plan_->relation_of(plan_->node(group.index)).guard
-                                                   : plan_->output_of(plan_->node(group.index)).calc;
-    groups_.push_back({&function, leaf.system, static_cast<std::size_t>(group.leaf), group.slot, group.size,
-                       group.kind == GuardGroup::Kind::opaque});
+        : group.kind == GuardGroup::Kind::relation
+            ? plan_->relation_of(plan_->node(group.index)).guard
+            : plan_->output_of(plan_->node(group.index)).calc;
+    groups_.push_back({&function, leaf.system, static_cast<std::size_t>(group.leaf), group.slot,
+                       group.size, group.kind == GuardGroup::Kind::opaque});
   }
   find_jacobian();
   select_guards();
 }
 
 inline void Machine::load(const Context& context) {
-  if (context.continuous_state().size() != plan_->nx || context.discrete_state().size() != plan_->nz ||
-      context.parameters().size() != plan_->np || context.modes().size() != plan_->leaves.size()) {
-    throw ModelError(text("the context is not one of this system: expected ", plan_->nx, " continuous and ", plan_->nz,
-                          " discrete states and ", plan_->np, " parameters, found ", context.continuous_state().size(),
-                          ", ", context.discrete_state().size(), " and ", context.parameters().size()));
+  if (context.continuous_state().size() != plan_->nx ||
+      context.discrete_state().size() != plan_->nz || context.parameters().size() != plan_->np ||
+      context.modes().size() != plan_->leaves.size()) {
+    throw ModelError(text("the context is not one of this system: expected ", plan_->nx,
+                          " continuous and ", plan_->nz, " discrete states and ", plan_->np,
+                          " parameters, found ", context.continuous_state().size(), ", ",
+                          context.discrete_state().size(), " and ", context.parameters().size()));
   }
   x = context.continuous_state();
   z = context.discrete_state();
@@ -90,14 +97,16 @@ inline void Machine::select_guards() {
     const GuardGroup& group = plan_->guards[i];
     const auto leaf = static_cast<std::size_t>(group.leaf);
     if (group.kind == GuardGroup::Kind::crossing) {
-      const auto& crossing = plan_->leaves[leaf].declared().zero_crossings[static_cast<std::size_t>(group.index)];
+      const auto& crossing =
+          plan_->leaves[leaf].declared().zero_crossings[static_cast<std::size_t>(group.index)];
       if (crossing.start_mode && *crossing.start_mode != modes[leaf]) continue;
     }
     active_.push_back(static_cast<int>(i));
   }
 }
 
-/// The leaves' Jacobians make up the whole one if no derivative depends on another leaf's continuous state.
+/// The leaves' Jacobians make up the whole one if no derivative depends on another leaf's
+/// continuous state.
 inline void Machine::find_jacobian() {
   has_jacobian_ = !plan_->odes.empty() && plan_->derivatives.empty();
   Index widest = 0;
@@ -136,7 +145,8 @@ inline std::string Machine::not_finite(double t, const double* state) {
   Eigen::VectorXd xdot(plan_->nx);
   for (const OdeCall& ode : odes_) {
     ode_of(ode, t, xdot.data());
-    if (!xdot.segment(x_offsets_[ode.leaf], views_[ode.leaf].x.size()).allFinite()) return plan_->leaves[ode.leaf].path;
+    if (!xdot.segment(x_offsets_[ode.leaf], views_[ode.leaf].x.size()).allFinite())
+      return plan_->leaves[ode.leaf].path;
   }
   return {};
 }

@@ -1,4 +1,5 @@
-// Needs: what the derivatives, the guards, the instants and the taps read. Nothing else is ever computed.
+// Needs: what the derivatives, the guards, the instants and the taps read. Nothing else is ever
+// computed.
 #pragma once
 
 #include "saltus/plan/flatten.hpp"
@@ -17,7 +18,9 @@ void spread(const Plan& plan, const std::vector<int>& from, Marks& marks, Stop s
   }
 }
 
-inline void append(std::vector<int>& list, const std::vector<int>& more) { list.insert(list.end(), more.begin(), more.end()); }
+inline void append(std::vector<int>& list, const std::vector<int>& more) {
+  list.insert(list.end(), more.begin(), more.end());
+}
 
 /// The nodes the odes read.
 inline std::vector<int> derivative_roots(const Plan& plan) {
@@ -40,7 +43,8 @@ inline std::vector<int> event_roots(const Plan& plan) {
       append(roots, read_inputs(crossing.inputs, leaf));
       append(roots, leaf.relations);
     }
-    for (const EdgeReset& reset : leaf.declared().edge_resets) append(roots, read_inputs(std::vector{reset.input}, leaf));
+    for (const EdgeReset& reset : leaf.declared().edge_resets)
+      append(roots, read_inputs(std::vector{reset.input}, leaf));
   }
   return roots;
 }
@@ -63,8 +67,8 @@ inline std::vector<int> reset_roots(const Plan& plan) {
   return roots;
 }
 
-/// A relation, or a boolean output we cannot see into, is located when, and only when, it reaches a derivative,
-/// a guard or an edge: there its jump would spoil the solver's smooth picture.
+/// A relation, or a boolean output we cannot see into, is located when, and only when, it reaches a
+/// derivative, a guard or an edge: there its jump would spoil the solver's smooth picture.
 inline void find_located(Plan& plan) {
   Marks reached(plan.nodes.size());
   const auto never = [](const Node&) { return false; };
@@ -76,8 +80,8 @@ inline void find_located(Plan& plan) {
   }
 }
 
-/// A relation over constant or held values moves at instants only: it is read in order like any output, and is no
-/// guard. Before the order is known, so rates are spread until none changes.
+/// A relation over constant or held values moves at instants only: it is read in order like any
+/// output, and is no guard. Before the order is known, so rates are spread until none changes.
 inline void release_held_relations(Plan& plan) {
   std::vector<Rate> own(plan.nodes.size(), Rate::constant);
   for (bool again = true; again;) {
@@ -88,7 +92,8 @@ inline void release_held_relations(Plan& plan) {
       const Reads reads = node.relation ? plan.relation_of(node).reads : plan.output_of(node).reads;
       Rate rate = own_rate(reads, leaf.nx > 0, leaf.nz > 0, leaf.declared().has_modes);
       for (int need : node.needs) {
-        const bool stepwise = plan.node(need).located || (plan.node(need).boolean && plan.node(need).used);
+        const bool stepwise =
+            plan.node(need).located || (plan.node(need).boolean && plan.node(need).used);
         const Rate seen = own[static_cast<std::size_t>(need)];
         rate = faster(rate, stepwise ? std::min(seen, Rate::held) : seen);
       }
@@ -101,7 +106,8 @@ inline void release_held_relations(Plan& plan) {
   }
 }
 
-/// Rates spread along the order; a reached boolean that would be continuous is an opaque one, located and held.
+/// Rates spread along the order; a reached boolean that would be continuous is an opaque one,
+/// located and held.
 inline void find_rates(Plan& plan) {
   for (int i : plan.order) {
     Node& node = plan.nodes[static_cast<std::size_t>(i)];
@@ -109,7 +115,8 @@ inline void find_rates(Plan& plan) {
     const Reads reads = node.relation ? plan.relation_of(node).reads : plan.output_of(node).reads;
     node.rate = own_rate(reads, leaf.nx > 0, leaf.nz > 0, leaf.declared().has_modes);
     for (int need : node.needs) node.rate = faster(node.rate, plan.node(need).rate);
-    if (!node.relation && node.boolean && node.used && node.rate == Rate::continuous) node.located = true;
+    if (!node.relation && node.boolean && node.used && node.rate == Rate::continuous)
+      node.located = true;
     if (node.located) node.rate = Rate::held;  // what it reads may stand behind it in the order
   }
 }
@@ -119,7 +126,8 @@ inline std::vector<int> slice(const Plan& plan, const Marks& marks, Rate rate) {
   std::vector<int> list;
   for (int i : plan.order) {
     const Node& node = plan.node(i);
-    if (marks[static_cast<std::size_t>(i)] && node.rate == rate && !node.view && !node.located) list.push_back(i);
+    if (marks[static_cast<std::size_t>(i)] && node.rate == rate && !node.view && !node.located)
+      list.push_back(i);
   }
   return list;
 }
@@ -158,17 +166,20 @@ inline void find_slices(Plan& plan) {
 
   Marks instants = marked(reset_roots(plan), held);
   for (std::size_t i = 0; i < plan.nodes.size(); ++i) {
-    if (used[i] && plan.nodes[i].rate == Rate::held) spread(plan, {static_cast<int>(i)}, instants, never);
+    if (used[i] && plan.nodes[i].rate == Rate::held)
+      spread(plan, {static_cast<int>(i)}, instants, never);
   }
   for (int i : plan.order) {
     const Node& node = plan.node(i);
-    if (instants[static_cast<std::size_t>(i)] && node.rate != Rate::constant && !node.view && !node.located) {
+    if (instants[static_cast<std::size_t>(i)] && node.rate != Rate::constant && !node.view &&
+        !node.located) {
       plan.instants.push_back(i);
     }
   }
   const Marks moving = marked(derivative_roots(plan), held);
   for (std::size_t i = 0; i < plan.nodes.size(); ++i) {
-    if (moving[i] && plan.nodes[i].rate == Rate::held) plan.restarting.push_back(static_cast<int>(i));
+    if (moving[i] && plan.nodes[i].rate == Rate::held)
+      plan.restarting.push_back(static_cast<int>(i));
   }
 }
 

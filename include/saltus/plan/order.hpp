@@ -1,4 +1,5 @@
-// Feedthrough order: every node after what it needs; an algebraic loop is reported as the path it is.
+// Feedthrough order: every node after what it needs; an algebraic loop is reported as the path it
+// is.
 #pragma once
 
 #include "saltus/plan/plan.hpp"
@@ -37,9 +38,11 @@ class Ordering {
     // path_ runs from reader to what it reads; the signal flows the other way round.
     const auto first = std::ranges::find(path_, start);
     std::string message = "algebraic loop: each output depends on the next at the same time\n";
-    for (auto it = first; it != path_.end(); ++it) message += text("  '", plan_.node(*it).name, "' reads\n");
+    for (auto it = first; it != path_.end(); ++it)
+      message += text("  '", plan_.node(*it).name, "' reads\n");
     message += text("  '", plan_.node(start).name,
-                    "'\nput a block without feedthrough into the loop (Integrator, UnitDelay), or declare which "
+                    "'\nput a block without feedthrough into the loop (Integrator, UnitDelay), or "
+                    "declare which "
                     "inputs an output does not read");
     throw ModelError(message);
   }

@@ -1,4 +1,5 @@
-// Plan: a system compiled to flat lists. Structure only, immutable after compile(), shared by threads.
+// Plan: a system compiled to flat lists. Structure only, immutable after compile(), shared by
+// threads.
 #pragma once
 
 #include <memory>
@@ -13,18 +14,19 @@ namespace saltus {
 /// An output or a relation: one value that others read.
 struct Node {
   int leaf = -1;
-  int index = -1;          // of the output or the relation within its leaf
+  int index = -1;  // of the output or the relation within its leaf
   bool relation = false;
   bool boolean = false;
-  std::string name = {};   // "block.port"
+  std::string name = {};  // "block.port"
   Shape shape = {};
-  bool shaped = false;     // the shape is known
-  Place place = {};        // where its value lives; a view of a state or a parameter has no place of its own
+  bool shaped = false;  // the shape is known
+  Place place =
+      {};  // where its value lives; a view of a state or a parameter has no place of its own
   bool view = false;
   std::vector<int> needs = {};  // nodes read when it is computed
   Rate rate = Rate::constant;
-  bool located = false;    // a relation, or an opaque boolean, that is held between instants
-  bool used = false;       // somebody reads it
+  bool located = false;  // a relation, or an opaque boolean, that is held between instants
+  bool used = false;     // somebody reads it
 
   bool opaque() const { return located && !relation; }
 };
@@ -33,10 +35,10 @@ struct PlanLeaf {
   const LeafSystem* system = nullptr;
   std::string path = {};
   Index x = 0, nx = 0, z = 0, nz = 0, p = 0, np = 0;
-  std::vector<int> inputs = {};      // node behind each input
+  std::vector<int> inputs = {};  // node behind each input
   std::vector<Place> input_places = {};
-  std::vector<int> outputs = {};     // node of each output
-  std::vector<int> relations = {};   // node of each relation
+  std::vector<int> outputs = {};    // node of each output
+  std::vector<int> relations = {};  // node of each relation
 
   const Declarations& declared() const { return system->declarations(); }
 };
@@ -46,8 +48,8 @@ struct GuardGroup {
   enum class Kind { crossing, relation, opaque };
   Kind kind = Kind::crossing;
   int leaf = -1;
-  int index = -1;   // zero crossing of the leaf; else the node
-  Index slot = 0;   // first of its places in the vector of all guards
+  int index = -1;  // zero crossing of the leaf; else the node
+  Index slot = 0;  // first of its places in the vector of all guards
   Index size = 1;
   Direction direction = Direction::crosses_zero;
   bool monitor = false;
@@ -58,10 +60,10 @@ struct GuardGroup {
 /// A watched held signal with a reset behind it.
 struct EdgeWatch {
   int leaf = -1;
-  int index = -1;              // edge reset of the leaf
-  int node = -1;               // the watched signal
+  int index = -1;                   // edge reset of the leaf
+  int node = -1;                    // the watched signal
   std::vector<int> relations = {};  // located nodes that decide it
-  std::string name = {};       // "block.reset"
+  std::string name = {};            // "block.reset"
 };
 
 struct ScheduledEvent {
@@ -82,12 +84,13 @@ struct Plan {
   std::vector<int> order;  // all nodes, each after what it needs
 
   // What is computed when. Each list is a part of `order`; nothing else is ever computed.
-  std::vector<int> constants;    // once, at run start
-  std::vector<int> instants;     // at instants: held outputs, and what resets, updates and edges read
+  std::vector<int> constants;  // once, at run start
+  std::vector<int> instants;   // at instants: held outputs, and what resets, updates and edges read
   std::vector<int> derivatives;  // before the odes
   std::vector<int> guard_needs;  // before the guards
   std::vector<int> tap_needs;    // before a row is recorded
-  std::vector<int> restarting;   // held nodes the derivatives read: if one changes, the solver restarts
+  std::vector<int>
+      restarting;  // held nodes the derivatives read: if one changes, the solver restarts
 
   std::vector<int> odes;  // leaves with a continuous state
   std::vector<GuardGroup> guards;
@@ -100,7 +103,9 @@ struct Plan {
   /// What was kept, folded and dropped, and why; one line a fact.
   std::string describe() const;
 
-  const PlanLeaf& leaf_of(const Node& node) const { return leaves[static_cast<std::size_t>(node.leaf)]; }
+  const PlanLeaf& leaf_of(const Node& node) const {
+    return leaves[static_cast<std::size_t>(node.leaf)];
+  }
   const Node& node(int i) const { return nodes[static_cast<std::size_t>(i)]; }
   const OutputDeclaration& output_of(const Node& node) const {
     return leaf_of(node).declared().outputs[static_cast<std::size_t>(node.index)];

@@ -17,8 +17,8 @@ enum class Rate {
 constexpr Rate own_rate(Reads reads, bool has_x, bool has_z, bool has_modes) {
   if (has(reads, Reads::time)) return Rate::continuous;
   if (has_x && has(reads, Reads::continuous_state)) return Rate::continuous;
-  const bool stepwise = (has_z && has(reads, Reads::discrete_state)) || (has_modes && has(reads, Reads::mode)) ||
-                        has(reads, Reads::schedule);
+  const bool stepwise = (has_z && has(reads, Reads::discrete_state)) ||
+                        (has_modes && has(reads, Reads::mode)) || has(reads, Reads::schedule);
   return stepwise ? Rate::held : Rate::constant;
 }
 

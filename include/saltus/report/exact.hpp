@@ -15,8 +15,9 @@ struct EventSeries {
   static constexpr double never = std::numeric_limits<double>::infinity();
 
   std::vector<double> times = {};  ///< [s]
-  double accumulation = never;     ///< [s] where the events accumulate; `times` are then the first of infinitely many
-  double release = never;          ///< [s] where the rest after that ends, and the next series begins
+  double accumulation =
+      never;  ///< [s] where the events accumulate; `times` are then the first of infinitely many
+  double release = never;  ///< [s] where the rest after that ends, and the next series begins
 };
 
 /// All event times of one guard, "bounce" or "ball.bounce", up to the end of the span.
@@ -25,9 +26,10 @@ struct EventTimes {
   std::vector<EventSeries> series;
 };
 
-/// A smooth piece of a trajectory with resets: after `events` events of series `series`, or at rest behind it.
-/// A row is compared with its own piece, continued beyond its ends where it must be: an event found a little early or
-/// late is an error in time, which is counted apart, and not also one of the size of the jump.
+/// A smooth piece of a trajectory with resets: after `events` events of series `series`, or at rest
+/// behind it. A row is compared with its own piece, continued beyond its ends where it must be: an
+/// event found a little early or late is an error in time, which is counted apart, and not also one
+/// of the size of the jump.
 struct Branch {
   std::size_t series = 0;
   std::size_t events = 0;
@@ -42,10 +44,12 @@ struct Sample {
 
 /// A known answer. The state is that of the recorded signals of the scene, one after the other.
 struct Exact {
-  std::string provenance = {};      ///< where the answer comes from, and to how many digits it is known
+  std::string provenance = {};  ///< where the answer comes from, and to how many digits it is known
   std::vector<EventTimes> events = {};  ///< branches are counted by the first guard
-  std::function<Eigen::VectorXd(double t, const Branch& branch)> state = {};  ///< empty: no closed form
-  std::vector<Sample> samples = {};  ///< instead of a closed form: times ascending, each in the scene's save_at
+  std::function<Eigen::VectorXd(double t, const Branch& branch)> state =
+      {};  ///< empty: no closed form
+  std::vector<Sample> samples =
+      {};  ///< instead of a closed form: times ascending, each in the scene's save_at
 };
 
 }  // namespace saltus

@@ -12,11 +12,13 @@ namespace saltus {
 /// Whether an event is one of the guard "bounce", or "ball.bounce".
 inline bool is_of(const Event& event, std::string_view guard) {
   if (event.name == guard) return true;
-  return guard.size() == event.block.size() + 1 + event.name.size() && guard.starts_with(event.block) &&
-         guard[event.block.size()] == '.' && guard.ends_with(event.name);
+  return guard.size() == event.block.size() + 1 + event.name.size() &&
+         guard.starts_with(event.block) && guard[event.block.size()] == '.' &&
+         guard.ends_with(event.name);
 }
 
-/// The events of a guard as they happened; accumulation times as they were predicted on entering a hold.
+/// The events of a guard as they happened; accumulation times as they were predicted on entering a
+/// hold.
 inline std::vector<EventSeries> observed_series(const EventLog& log, std::string_view guard) {
   std::vector<EventSeries> series(1);
   for (std::size_t i = 0; i < log.size(); ++i) {
@@ -51,9 +53,12 @@ class BranchWalk {
 
  private:
   void pass(EventKind kind) {
-    if (kind == EventKind::zeno_enter) branch_.rest = true;
-    else if (kind == EventKind::zeno_release) branch_ = {branch_.series + 1, 0, false};
-    else if (!branch_.rest) ++branch_.events;
+    if (kind == EventKind::zeno_enter)
+      branch_.rest = true;
+    else if (kind == EventKind::zeno_release)
+      branch_ = {branch_.series + 1, 0, false};
+    else if (!branch_.rest)
+      ++branch_.events;
   }
 
   const EventLog* log_;

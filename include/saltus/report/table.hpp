@@ -30,8 +30,13 @@ inline std::string short_time(double seconds) {
   if (std::isnan(seconds)) return "-";
   std::array<char, 32> buffer{};
   const bool micro = seconds < 1e-3, milli = seconds < 1.0;
-  std::snprintf(buffer.data(), buffer.size(), "%.3g %s", seconds * (micro ? 1e6 : milli ? 1e3 : 1.0),
-                micro ? "us" : milli ? "ms" : "s");
+  std::snprintf(buffer.data(), buffer.size(), "%.3g %s",
+                seconds * (micro   ? 1e6
+                           : milli ? 1e3
+                                   : 1.0),
+                micro   ? "us"
+                : milli ? "ms"
+                        : "s");
   return buffer.data();
 }
 
@@ -63,7 +68,8 @@ inline std::vector<Cell> cells_of(const WorkRow& row) {
           {"message", row.message}};
 }
 
-/// The value as CSV or JSON has it: `escape` stands before a quote within quotes, `unknown` for a number nobody knows.
+/// The value as CSV or JSON has it: `escape` stands before a quote within quotes, `unknown` for a
+/// number nobody knows.
 inline std::string written(const Cell& cell, char escape, std::string_view unknown) {
   if (const auto* number = std::get_if<double>(&cell.value)) {
     return std::isfinite(*number) ? text(*number) : std::string(unknown);
@@ -84,18 +90,23 @@ inline void write_text(std::ostream& out, const std::vector<WorkRow>& rows) {
   const auto line = [&out](const auto&... cells) {
     const std::array<std::string, sizeof...(cells)> all{std::string(cells)...};
     constexpr std::array<int, 10> widths{8, 9, 11, 13, 5, 10, 9, 9, 9, 2};
-    for (std::size_t i = 0; i + 1 < all.size(); ++i) out << (i == 0 ? std::left : std::right) << std::setw(widths[i]) << all[i];
+    for (std::size_t i = 0; i + 1 < all.size(); ++i)
+      out << (i == 0 ? std::left : std::right) << std::setw(widths[i]) << all[i];
     out << "  " << all.back() << "\n";
   };
-  line("method", "rtol", "max error", "event error", "off", "run time", "steps", "rhs", "guards", "status");
+  line("method", "rtol", "max error", "event error", "off", "run time", "steps", "rhs", "guards",
+       "status");
   for (const WorkRow& row : rows) {
     const Statistics& s = row.statistics;
     line(row.method, detail::short_number(row.rtol), detail::short_number(row.achieved.error),
-         detail::short_number(row.achieved.event_error), text(row.achieved.event_mismatch), detail::short_time(row.seconds),
-         text(s.steps), text(s.right_hand_side_calls), text(s.guard_calls), to_string(row.status));
+         detail::short_number(row.achieved.event_error), text(row.achieved.event_mismatch),
+         detail::short_time(row.seconds), text(s.steps), text(s.right_hand_side_calls),
+         text(s.guard_calls), to_string(row.status));
   }
   for (const WorkRow& row : rows) {
-    if (!row.message.empty()) out << row.method << ", rtol " << detail::short_number(row.rtol) << ": " << row.message << "\n";
+    if (!row.message.empty())
+      out << row.method << ", rtol " << detail::short_number(row.rtol) << ": " << row.message
+          << "\n";
   }
 }
 
@@ -106,7 +117,8 @@ inline void write_csv(std::ostream& out, const std::vector<WorkRow>& rows) {
   out << "\n";
   for (const WorkRow& row : rows) {
     const auto cells = detail::cells_of(row);
-    for (std::size_t k = 0; k < cells.size(); ++k) out << (k == 0 ? "" : ",") << detail::written(cells[k], '"', "");
+    for (std::size_t k = 0; k < cells.size(); ++k)
+      out << (k == 0 ? "" : ",") << detail::written(cells[k], '"', "");
     out << "\n";
   }
 }
@@ -118,7 +130,8 @@ inline void write_json(std::ostream& out, const std::vector<WorkRow>& rows) {
     out << (i == 0 ? "\n  {" : ",\n  {");
     const auto cells = detail::cells_of(rows[i]);
     for (std::size_t k = 0; k < cells.size(); ++k) {
-      out << (k == 0 ? "\"" : ", \"") << cells[k].name << "\": " << detail::written(cells[k], '\\', "null");
+      out << (k == 0 ? "\"" : ", \"") << cells[k].name
+          << "\": " << detail::written(cells[k], '\\', "null");
     }
     out << "}";
   }

@@ -15,7 +15,8 @@ struct WorkRow {
   std::string method = {};
   double rtol = 0.0, atol = 0.0;
   Achieved achieved = {};
-  double seconds = std::numeric_limits<double>::quiet_NaN();  ///< [s] median of a warm run that records no signals
+  double seconds = std::numeric_limits<double>::quiet_NaN();  ///< [s] median of a warm run that
+                                                              ///< records no signals
   Statistics statistics = {};
   Status status = Status::reached_end;
   std::string message = {};  ///< why, where the status is none of the good ones
@@ -25,9 +26,10 @@ struct WorkOptions {
   std::vector<std::string> methods = {"dopri5", "adams", "bdf", "auto"};
   std::vector<double> rtols = {1e-4, 1e-6, 1e-8, 1e-10, 1e-12};
   double atol_over_rtol = 1e-2;
-  double least_time = 0.1;   ///< [s] a row is timed for at least this long, in repeated runs
+  double least_time = 0.1;  ///< [s] a row is timed for at least this long, in repeated runs
   int most_repeats = 10000;
-  double time_limit = 5.0;   ///< [s] a single run that takes longer is stopped, and shown as interrupted
+  double time_limit =
+      5.0;  ///< [s] a single run that takes longer is stopped, and shown as interrupted
 };
 
 namespace detail {
@@ -44,12 +46,15 @@ inline double median(std::vector<double> values) {
 
 /// Options of a run that gives up after `limit` seconds of wall time.
 inline SimulatorOptions bounded(SimulatorOptions options, double limit) {
-  options.interrupt = [limit, start = std::chrono::steady_clock::now()] { return seconds_since(start) > limit; };
+  options.interrupt = [limit, start = std::chrono::steady_clock::now()] {
+    return seconds_since(start) > limit;
+  };
   options.throw_errors = false;
   return options;
 }
 
-/// Median of the time of one run, first run not counted. The simulator is re-used, nothing but events is recorded.
+/// Median of the time of one run, first run not counted. The simulator is re-used, nothing but
+/// events is recorded.
 inline double time_of_run(const Scene& scene, SimulatorOptions options, const WorkOptions& work) {
   options.recorded_signals.clear();
   options.save_at.clear();
@@ -65,14 +70,17 @@ inline double time_of_run(const Scene& scene, SimulatorOptions options, const Wo
   std::vector<double> times;
   const auto start = std::chrono::steady_clock::now();
   do times.push_back(run());
-  while (seconds_since(start) < work.least_time && static_cast<int>(times.size()) < work.most_repeats);
+  while (seconds_since(start) < work.least_time &&
+         static_cast<int>(times.size()) < work.most_repeats);
   return median(std::move(times));
 }
 
 }  // namespace detail
 
-/// Runs the scene once for the errors, then again and again for the time. A run that fails gives a row that says so.
-inline WorkRow measure(const Scene& scene, const SimulatorOptions& options, const WorkOptions& work = {}) {
+/// Runs the scene once for the errors, then again and again for the time. A run that fails gives a
+/// row that says so.
+inline WorkRow measure(const Scene& scene, const SimulatorOptions& options,
+                       const WorkOptions& work = {}) {
   WorkRow row{.method = options.ode_solver_method, .rtol = options.rtol, .atol = options.atol};
   const Results results =
       simulate(*scene.system, scene.context, scene.span, detail::bounded(options, work.time_limit));
@@ -80,7 +88,8 @@ inline WorkRow measure(const Scene& scene, const SimulatorOptions& options, cons
   row.statistics = results.statistics;
   row.status = results.status;
   row.message = results.status == Status::interrupted
-                    ? text("stopped at t = ", results.context.time(), " s, after ", work.time_limit, " s of run time")
+                    ? text("stopped at t = ", results.context.time(), " s, after ", work.time_limit,
+                           " s of run time")
                     : results.message;
   if (ended_well(row.status)) row.seconds = detail::time_of_run(scene, options, work);
   return row;

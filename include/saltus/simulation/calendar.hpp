@@ -11,7 +11,8 @@
 
 namespace saltus {
 
-/// Tick k of a schedule is at offset + k period, whatever was done before: 1000 periods of 1/3 s are 1000 ticks.
+/// Tick k of a schedule is at offset + k period, whatever was done before: 1000 periods of 1/3 s
+/// are 1000 ticks.
 class Calendar {
  public:
   explicit Calendar(const Plan& plan) : plan_(&plan), tick_(plan.schedule.size(), 0) {}
@@ -22,7 +23,8 @@ class Calendar {
       const ScheduledEvent& event = plan_->schedule[i];
       tick_[i] = 0;
       if (std::isfinite(event.period)) {
-        tick_[i] = std::max<std::int64_t>(0, static_cast<std::int64_t>(std::floor((t - event.offset) / event.period)) - 1);
+        tick_[i] = std::max<std::int64_t>(
+            0, static_cast<std::int64_t>(std::floor((t - event.offset) / event.period)) - 1);
       }
       while (time_of(i) < t - slack(t) || (settled && time_of(i) <= t + slack(t))) ++tick_[i];
     }
@@ -52,12 +54,15 @@ class Calendar {
  private:
   static constexpr double infinite = std::numeric_limits<double>::infinity();
   /// Times that differ by rounding only are one instant: 3 * 0.1 and 0.3.
-  static double slack(double t) { return 4.0 * std::numeric_limits<double>::epsilon() * std::abs(t); }
+  static double slack(double t) {
+    return 4.0 * std::numeric_limits<double>::epsilon() * std::abs(t);
+  }
 
   double time_of(std::size_t i) const {
     const ScheduledEvent& event = plan_->schedule[i];
     if (tick_[i] == 0) return event.offset;
-    return std::isfinite(event.period) ? event.offset + static_cast<double>(tick_[i]) * event.period : infinite;
+    return std::isfinite(event.period) ? event.offset + static_cast<double>(tick_[i]) * event.period
+                                       : infinite;
   }
 
   const Plan* plan_;

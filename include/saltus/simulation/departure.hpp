@@ -11,10 +11,10 @@
 
 namespace saltus {
 
-/// Follows the flow from (t, x) for a short time d along x + d/2 (f(x) + f(x + d f)), right to second order, and
-/// lets d grow until the guard has left zero by more than rounding explains: that is its side. A guard that stays
-/// within rounding has none. Rounding is measured, not guessed: how much the guard moves when x, and with it f,
-/// is disturbed by a known relative amount.
+/// Follows the flow from (t, x) for a short time d along x + d/2 (f(x) + f(x + d f)), right to
+/// second order, and lets d grow until the guard has left zero by more than rounding explains: that
+/// is its side. A guard that stays within rounding has none. Rounding is measured, not guessed: how
+/// much the guard moves when x, and with it f, is disturbed by a known relative amount.
 class Departure {
  public:
   Departure(Machine& machine, const SimulatorOptions& options)
@@ -25,7 +25,8 @@ class Departure {
     for (auto* v : {&g_, &g0_, &g_disturbed_}) v->setOnes(slots);
   }
 
-  /// What the flow does to one guard: the side it takes (0: none), and the rounding it was told from.
+  /// What the flow does to one guard: the side it takes (0: none), and the rounding it was told
+  /// from.
   struct Side {
     int side = 0;
     double rounding = 0.0;
@@ -40,7 +41,8 @@ class Departure {
   }
 
   /// `hair`: a guard within it is at zero too, and is followed until it has left that as well.
-  /// `expected`: a side that makes no difference to being at zero, so that its rounding need not be asked for.
+  /// `expected`: a side that makes no difference to being at zero, so that its rounding need not be
+  /// asked for.
   Side of(const GuardGroup& group, Index slot, double hair, int expected) {
     Side result{.rounding = hair};
     const bool opaque = group.kind == GuardGroup::Kind::opaque;
@@ -52,19 +54,22 @@ class Departure {
       if (side != 0 && side == expected && std::abs(g) > hair) return result.side = side, result;
       const double rounding = opaque ? 0.0 : rounding_after(d, slot, g);
       result.rounding = std::max(hair, rounding);
-      if (std::abs(g) > result.rounding && (!opaque || has_moved(group))) return result.side = side, result;
+      if (std::abs(g) > result.rounding && (!opaque || has_moved(group)))
+        return result.side = side, result;
       if (std::abs(g) > rounding && !opaque) furthest = longest_;
       d *= 8.0;
       if (d > furthest) return result;
     }
   }
 
-  /// d g / d t along the flow at (t, x), by two forward differences over the time that `of` starts with. Extrapolated,
-  /// so that the curvature of a ball at rest is no speed: what is left of it by rounding counts as zero.
+  /// d g / d t along the flow at (t, x), by two forward differences over the time that `of` starts
+  /// with. Extrapolated, so that the curvature of a ball at rest is no speed: what is left of it by
+  /// rounding counts as zero.
   double slope(const GuardGroup& group, Index slot) {
     const double d = first_time(group);
     const double near = (guard_after(0.5 * d, slot) - g0_[slot]) / (0.5 * d);
-    const double g = guard_after(d, slot), far = (g - g0_[slot]) / d, extrapolated = 2.0 * near - far;
+    const double g = guard_after(d, slot), far = (g - g0_[slot]) / d,
+                 extrapolated = 2.0 * near - far;
     const double noise = std::max(1e-6 * std::abs(far - near), rounding_after(d, slot, g) / d);
     return std::abs(extrapolated) > noise ? extrapolated : 0.0;
   }
@@ -78,7 +83,8 @@ class Departure {
   }
 
  private:
-  static constexpr double amount = 1e-7;  // of the disturbance: large against rounding, small against curvature
+  static constexpr double amount =
+      1e-7;  // of the disturbance: large against rounding, small against curvature
   static constexpr double eps = std::numeric_limits<double>::epsilon();
 
   /// Weights without pattern, so that what cancels in a guard does not cancel in the disturbance.
@@ -91,8 +97,9 @@ class Departure {
     }
   }
 
-  /// The time in which the fastest state the guard depends on moves by its tolerance. A state that hardly does so
-  /// within the run says nothing: what moves the guard is the time, or another block.
+  /// The time in which the fastest state the guard depends on moves by its tolerance. A state that
+  /// hardly does so within the run says nothing: what moves the guard is the time, or another
+  /// block.
   double first_time(const GuardGroup& group) const {
     double d = 1e-9 * longest_;  // for a guard that no state moves
     bool moved = false;
@@ -134,7 +141,8 @@ class Departure {
     return 16.0 * eps / amount * (through_x + std::abs(g_disturbed_[slot] - g));
   }
 
-  /// For a guard that only says yes or no: whether each state it reads has moved by more than its rounding.
+  /// For a guard that only says yes or no: whether each state it reads has moved by more than its
+  /// rounding.
   bool has_moved(const GuardGroup& group) const {
     for (int leaf : group.leaves) {
       const PlanLeaf& of = machine_->plan().leaves[static_cast<std::size_t>(leaf)];

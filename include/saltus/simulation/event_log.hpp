@@ -14,19 +14,21 @@ namespace saltus {
 enum class EventKind { zero_crossing, time, zeno_enter, zeno_release, terminal };
 
 inline std::string_view to_string(EventKind kind) {
-  constexpr std::string_view names[] = {"zero_crossing", "time", "zeno_enter", "zeno_release", "terminal"};
+  constexpr std::string_view names[] = {"zero_crossing", "time", "zeno_enter", "zeno_release",
+                                        "terminal"};
   return names[static_cast<std::size_t>(kind)];
 }
 
 /// One event. `before` and `after` are the continuous state of its block at x- and x+.
 struct Event {
-  double time = 0.0;   ///< [s]
-  int jump = 0;        ///< passes that had changed something when it was over
+  double time = 0.0;  ///< [s]
+  int jump = 0;       ///< passes that had changed something when it was over
   EventKind kind = EventKind::zero_crossing;
-  int direction = 0;   ///< +1: its guard was rising, -1: falling, 0: no guard
+  int direction = 0;  ///< +1: its guard was rising, -1: falling, 0: no guard
   std::string_view block;
   std::string_view name;
-  double predicted = std::numeric_limits<double>::quiet_NaN();  ///< [s] accumulation time, of zeno_enter
+  double predicted =
+      std::numeric_limits<double>::quiet_NaN();  ///< [s] accumulation time, of zeno_enter
   std::span<const double> before, after;
 };
 
@@ -39,21 +41,31 @@ class EventLog {
   Event operator[](std::size_t i) const {
     const Row& row = rows_[i];
     const auto [block, name] = split(names_[static_cast<std::size_t>(row.source)]);
-    return {row.time, row.jump, row.kind, row.direction, block, name, row.predicted,
-            std::span(states_).subspan(row.states, row.width), std::span(states_).subspan(row.states + row.width, row.width)};
+    return {row.time,
+            row.jump,
+            row.kind,
+            row.direction,
+            block,
+            name,
+            row.predicted,
+            std::span(states_).subspan(row.states, row.width),
+            std::span(states_).subspan(row.states + row.width, row.width)};
   }
 
   /// The times of the events of one name ("bounce" or "ball.bounce") and kind.
-  std::vector<double> times(std::string_view name, EventKind kind = EventKind::zero_crossing) const {
+  std::vector<double> times(std::string_view name,
+                            EventKind kind = EventKind::zero_crossing) const {
     std::vector<double> found;
     for (const Row& row : rows_) {
       const std::string& full = names_[static_cast<std::size_t>(row.source)];
-      if (row.kind == kind && (full == name || split(full).second == name)) found.push_back(row.time);
+      if (row.kind == kind && (full == name || split(full).second == name))
+        found.push_back(row.time);
     }
     return found;
   }
 
-  // --- for the engine -------------------------------------------------------------------------------------------
+  // --- for the engine
+  // -------------------------------------------------------------------------------------------
   struct Row {
     double time;
     int jump, direction;
@@ -80,7 +92,8 @@ class EventLog {
  private:
   static std::pair<std::string_view, std::string_view> split(std::string_view full) {
     const auto dot = full.rfind('.');
-    return dot == std::string_view::npos ? std::pair{full, std::string_view()} : std::pair{full.substr(0, dot), full.substr(dot + 1)};
+    return dot == std::string_view::npos ? std::pair{full, std::string_view()}
+                                         : std::pair{full.substr(0, dot), full.substr(dot + 1)};
   }
 
   std::vector<Row> rows_;

@@ -13,16 +13,18 @@
 
 namespace saltus {
 
-/// One pass: relations that were crossed flip; held outputs follow; reset maps and updates run, all from x-, and are
-/// committed together; relations are read again; what the commit moved across zero fires in the next pass.
+/// One pass: relations that were crossed flip; held outputs follow; reset maps and updates run, all
+/// from x-, and are committed together; relations are read again; what the commit moved across zero
+/// fires in the next pass.
 class Instant {
  public:
   struct Outcome {
-    bool changed = false;   ///< some pass changed something
-    bool restart = false;   ///< the solver's picture of f is no longer right
+    bool changed = false;  ///< some pass changed something
+    bool restart = false;  ///< the solver's picture of f is no longer right
     bool terminal = false;
     bool chatters = false;  ///< it does not end, though no state was written
-    double horizon = std::numeric_limits<double>::infinity();  ///< [s] within which an event may follow
+    double horizon =
+        std::numeric_limits<double>::infinity();  ///< [s] within which an event may follow
   };
 
   Instant(Machine& machine, Watch& watch, const SimulatorOptions& options, Results& results);
@@ -30,8 +32,8 @@ class Instant {
   /// Clean monitors, relations and held signals for a run that begins at t. Nothing fires yet.
   void begin(double t, Recorder* recorder);
 
-  /// Runs the instant at t: the guards in watch.fired, and the time events in `due`. `longest` [s]: how far the
-  /// run still goes.
+  /// Runs the instant at t: the guards in watch.fired, and the time events in `due`. `longest` [s]:
+  /// how far the run still goes.
   Outcome run(double t, const std::vector<int>& due, double longest, bool at_start = false);
 
   /// Logs the crossings of monitors; they change nothing.
@@ -46,10 +48,10 @@ class Instant {
   struct Action {
     int leaf;
     Cause cause;
-    int index;       // guard group, edge watch or scheduled event
-    int slot;        // of a crossing
-    int from;        // side a crossing came from
-    bool carry;      // the reset map of a leaf on hold, applied again
+    int index;   // guard group, edge watch or scheduled event
+    int slot;    // of a crossing
+    int from;    // side a crossing came from
+    bool carry;  // the reset map of a leaf on hold, applied again
   };
 
   // instant_passes.hpp
@@ -95,10 +97,14 @@ class Instant {
     return leaf(edge.leaf).declared().edge_resets[static_cast<std::size_t>(edge.index)];
   }
   int source_of(Cause cause, int index) const {
-    const auto groups = static_cast<int>(plan().guards.size()), edges = static_cast<int>(plan().edges.size());
-    return cause == Cause::crossing ? index : cause == Cause::edge ? groups + index : groups + edges + index;
+    const auto groups = static_cast<int>(plan().guards.size()),
+               edges = static_cast<int>(plan().edges.size());
+    return cause == Cause::crossing ? index
+           : cause == Cause::edge   ? groups + index
+                                    : groups + edges + index;
   }
-  void log(EventKind kind, int source, int leaf_index, int direction, double predicted = std::numeric_limits<double>::quiet_NaN());
+  void log(EventKind kind, int source, int leaf_index, int direction,
+           double predicted = std::numeric_limits<double>::quiet_NaN());
   void select_guards();
   bool held_outputs_changed() const;
   bool changed(const Place& place) const;
@@ -118,21 +124,23 @@ class Instant {
   int jump_ = 0, pass_ = 0;
   int event_jump_ = 0;  // of the events logged now
   Outcome outcome_;
-  std::vector<Firing> firings_;            // for the pass to come
+  std::vector<Firing> firings_;  // for the pass to come
   std::vector<Action> actions_;
   std::vector<char> fired_, fired_now_;  // slots: in this instant, in this pass
   std::vector<char> was_active_;         // slots: for select_guards
-  std::vector<char> frozen_, resting_;   // slots of relations: their side is kept in this instant, through the hold
-  std::vector<signed char> from_;          // slots: the side the last crossing came from
-  std::vector<int> edges_fired_;           // in this instant
-  bool wrote_ = false, wrote_x_ = false;   // some pass of this instant wrote states, continuous state
-  bool entered_ = false;                   // some pass of this instant entered a mode
-  bool flowed_ = false;                    // departure_ stands at the present (t, x)
+  std::vector<char> frozen_,
+      resting_;  // slots of relations: their side is kept in this instant, through the hold
+  std::vector<signed char> from_;  // slots: the side the last crossing came from
+  std::vector<int> edges_fired_;   // in this instant
+  bool wrote_ = false,
+       wrote_x_ = false;  // some pass of this instant wrote states, continuous state
+  bool entered_ = false;  // some pass of this instant entered a mode
+  bool flowed_ = false;   // departure_ stands at the present (t, x)
   Eigen::VectorXd x_minus_, z_minus_, x_next_, z_next_, y_before_, flow_before_;
   std::vector<int> modes_next_, modes_before_;
-  std::vector<double> g_, g_minus_;  // guards now, and what the location of a root left of them
+  std::vector<double> g_, g_minus_;   // guards now, and what the location of a root left of them
   std::vector<std::int64_t> counts_;  // events of each source
-  std::vector<int> chain_;  // sources of what happened in this instant
+  std::vector<int> chain_;            // sources of what happened in this instant
 };
 
 }  // namespace saltus

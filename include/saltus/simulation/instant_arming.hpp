@@ -5,12 +5,19 @@
 
 namespace saltus {
 
-inline Instant::Instant(Machine& machine, Watch& watch, const SimulatorOptions& options, Results& results)
-    : machine_(&machine), watch_(&watch), options_(&options), results_(&results), departure_(machine, options) {
+inline Instant::Instant(Machine& machine, Watch& watch, const SimulatorOptions& options,
+                        Results& results)
+    : machine_(&machine),
+      watch_(&watch),
+      options_(&options),
+      results_(&results),
+      departure_(machine, options) {
   const auto slots = static_cast<std::size_t>(plan().guard_slots);
-  watch.slots.resize(slots), watch.g.assign(slots, 1.0), g_.assign(slots, 1.0), g_minus_.assign(slots, 0.0);
+  watch.slots.resize(slots), watch.g.assign(slots, 1.0), g_.assign(slots, 1.0),
+      g_minus_.assign(slots, 0.0);
   watch.scan_points = options.event_scan_points;
-  for (auto* marks : {&fired_, &fired_now_, &frozen_, &resting_, &was_active_}) marks->assign(slots, 0);
+  for (auto* marks : {&fired_, &fired_now_, &frozen_, &resting_, &was_active_})
+    marks->assign(slots, 0);
   group_of_slot_.resize(slots), from_.assign(slots, 0);
   slot_monitors_.resize(slots);
   std::vector<std::string> names;
@@ -75,10 +82,14 @@ inline void Instant::begin(double t, Recorder* recorder) {
     if (!changed) break;
   }
   for (std::size_t k = 0; k < watch_->slots.size(); ++k) {
-    if (plan().guards[static_cast<std::size_t>(group_of_slot_[k])].kind == GuardGroup::Kind::crossing) watch_->follow(k, g_[k]);
-    else watch_->g[k] = g_[k];
+    if (plan().guards[static_cast<std::size_t>(group_of_slot_[k])].kind ==
+        GuardGroup::Kind::crossing)
+      watch_->follow(k, g_[k]);
+    else
+      watch_->g[k] = g_[k];
   }
-  for (std::size_t e = 0; e < plan().edges.size(); ++e) edge_values_[e] = machine_->truth(plan().edges[e].node);
+  for (std::size_t e = 0; e < plan().edges.size(); ++e)
+    edge_values_[e] = machine_->truth(plan().edges[e].node);
 }
 
 inline void Instant::select_guards() {
@@ -86,9 +97,11 @@ inline void Instant::select_guards() {
   watch_->active.clear();
   for (int i : machine_->active_guards()) {
     const GuardGroup& group = plan().guards[static_cast<std::size_t>(i)];
-    for (Index s = 0; s < group.size; ++s) watch_->active.push_back(static_cast<std::size_t>(group.slot + s));
+    for (Index s = 0; s < group.size; ++s)
+      watch_->active.push_back(static_cast<std::size_t>(group.slot + s));
   }
-  for (std::size_t k = 0; k < was_active_.size(); ++k) was_active_[k] = std::exchange(watch_->slots[k].active, false);
+  for (std::size_t k = 0; k < was_active_.size(); ++k)
+    was_active_[k] = std::exchange(watch_->slots[k].active, false);
   for (std::size_t k : watch_->active) {
     GuardSlot& slot = watch_->slots[k];
     slot.active = true;
@@ -97,13 +110,15 @@ inline void Instant::select_guards() {
 }
 
 /// `hair`: how far the location left the guard from zero; nothing within it counts as off zero.
-inline Departure::Side Instant::side_of(const GuardGroup& group, Index slot, double hair, int expected) {
+inline Departure::Side Instant::side_of(const GuardGroup& group, Index slot, double hair,
+                                        int expected) {
   if (!flowed_) departure_.from(t_, machine_->x, longest_);
   flowed_ = true;
   return departure_.of(group, slot, hair, expected);
 }
 
-/// Sides for the solver. A guard that stands at zero, or just fired, takes the side the flow takes it to.
+/// Sides for the solver. A guard that stands at zero, or just fired, takes the side the flow takes
+/// it to.
 inline void Instant::arm(bool at_start) {
   if (plan().guards.empty()) return;
   for (int i : machine_->active_guards()) {
@@ -111,9 +126,12 @@ inline void Instant::arm(bool at_start) {
     for (Index s = 0; s < group.size; ++s) {
       const auto k = static_cast<std::size_t>(group.slot + s);
       watch_->g[k] = watch_->slots[k].base = g_[k];
-      if (group.kind != GuardGroup::Kind::crossing) arm_relation(group, k);
-      else if (slot_monitors_[k].holding) arm_held(group, k);
-      else if (fired_[k] || g_[k] == 0.0) arm_crossing(group, k, at_start);
+      if (group.kind != GuardGroup::Kind::crossing)
+        arm_relation(group, k);
+      else if (slot_monitors_[k].holding)
+        arm_held(group, k);
+      else if (fired_[k] || g_[k] == 0.0)
+        arm_crossing(group, k, at_start);
     }
   }
 }
@@ -122,21 +140,31 @@ inline void Instant::arm_crossing(const GuardGroup& group, std::size_t k, bool a
   GuardSlot& slot = watch_->slots[k];
   if (slot.fresh && !fired_[k]) return;  // dormant since before
   const ZeroCrossing& crossing = crossing_of(group);
-  const int falls = group.direction == Direction::negative_then_non_negative ? 1 : -1;  // side it fires on reaching
-  const int from = group.direction != Direction::crosses_zero ? -falls : slot.side != 0 ? slot.side : -falls;
-  const Departure::Side flow = side_of(group, group.slot, fired_[k] ? 4.0 * std::abs(g_minus_[k]) : 0.0, fired_[k] ? from : 0);
+  const int falls = group.direction == Direction::negative_then_non_negative
+                        ? 1
+                        : -1;  // side it fires on reaching
+  const int from = group.direction != Direction::crosses_zero ? -falls
+                   : slot.side != 0                           ? slot.side
+                                                              : -falls;
+  const Departure::Side flow = side_of(
+      group, group.slot, fired_[k] ? 4.0 * std::abs(g_minus_[k]) : 0.0, fired_[k] ? from : 0);
   slot.band = flow.rounding;
   const bool has_effect = crossing.reset_map || crossing.end_mode;
-  const bool its_side = group.direction == Direction::crosses_zero ? flow.side != 0 : flow.side == falls;
+  const bool its_side =
+      group.direction == Direction::crosses_zero ? flow.side != 0 : flow.side == falls;
   if (entered_ && !was_active_[k] && has_effect && its_side && turned_round(group, flow.side)) {
-    firings_.push_back({static_cast<int>(k), -flow.side});  // sliding: both modes lead to the surface
+    firings_.push_back(
+        {static_cast<int>(k), -flow.side});  // sliding: both modes lead to the surface
     return;
   }
   if (!fired_[k]) {
-    // At zero without having fired. At the start of a run a guard with a reset map that the flow takes to its firing
-    // side is in contact: it fires at once. All others wait until they have been clearly off zero.
-    const bool contact = at_start && has_effect && group.direction != Direction::edge_detection && flow.side == falls &&
-                         (group.direction != Direction::crosses_zero || departure_.slope(group, group.slot) == 0.0);
+    // At zero without having fired. At the start of a run a guard with a reset map that the flow
+    // takes to its firing side is in contact: it fires at once. All others wait until they have
+    // been clearly off zero.
+    const bool contact =
+        at_start && has_effect && group.direction != Direction::edge_detection &&
+        flow.side == falls &&
+        (group.direction != Direction::crosses_zero || departure_.slope(group, group.slot) == 0.0);
     if (contact) firings_.push_back({static_cast<int>(k), -falls});
     slot.side = static_cast<signed char>(flow.side);
     slot.fresh = false;
@@ -149,7 +177,8 @@ inline void Instant::arm_crossing(const GuardGroup& group, std::size_t k, bool a
       arm_held(group, k);
       return;
     }
-    slot.side = static_cast<signed char>(from), slot.fresh = true, slot.band = std::abs(g_[k]);  // fires again as soon as it can
+    slot.side = static_cast<signed char>(from), slot.fresh = true,
+    slot.band = std::abs(g_[k]);  // fires again as soon as it can
     return;
   }
   slot.side = static_cast<signed char>(flow.side != 0 ? flow.side : from);
@@ -162,7 +191,9 @@ inline void Instant::arm_relation(const GuardGroup& group, std::size_t k) {
   const int now = (g_[k] > 0.0) - (g_[k] < 0.0);
   if (group.kind == GuardGroup::Kind::opaque) {
     const bool truth = machine_->signal(group.index)[static_cast<Index>(k) - group.slot] != 0.0;
-    slot.side = static_cast<signed char>(resting_[k] ? 0 : truth ? 1 : -1);  // at rest its value says nothing
+    slot.side = static_cast<signed char>(resting_[k] ? 0
+                                         : truth     ? 1
+                                                     : -1);  // at rest its value says nothing
     return;
   }
   if (now == slot.side && !fired_[k]) return;
@@ -171,10 +202,12 @@ inline void Instant::arm_relation(const GuardGroup& group, std::size_t k) {
     slot.band = std::abs(g_[k]);
     return;
   }
-  const Departure::Side flow = side_of(group, static_cast<Index>(k), fired_[k] ? 4.0 * std::abs(g_minus_[k]) : 0.0, 0);
+  const Departure::Side flow =
+      side_of(group, static_cast<Index>(k), fired_[k] ? 4.0 * std::abs(g_minus_[k]) : 0.0, 0);
   slot.fresh = true;
   slot.band = flow.rounding;
-  if (flow.side != 0 && flow.side != slot.side) firings_.push_back({static_cast<int>(k), slot.side});
+  if (flow.side != 0 && flow.side != slot.side)
+    firings_.push_back({static_cast<int>(k), slot.side});
 }
 
 /// On hold the guard is watched the other way round: off to its armed side it lets go.
@@ -183,13 +216,16 @@ inline void Instant::arm_held(const GuardGroup& group, std::size_t k) {
   const int falls = group.direction == Direction::negative_then_non_negative ? 1 : -1;
   const Departure::Side flow = side_of(group, group.slot, 0.0, 0);
   slot.side = static_cast<signed char>(falls);
-  slot.direction = falls > 0 ? Direction::positive_then_non_positive : Direction::negative_then_non_negative;
+  slot.direction =
+      falls > 0 ? Direction::positive_then_non_positive : Direction::negative_then_non_negative;
   slot.fresh = true;
-  slot.band = std::max({flow.rounding, std::abs(g_[k]), fired_[k] ? 4.0 * std::abs(g_minus_[k]) : slot.band});
+  slot.band = std::max(
+      {flow.rounding, std::abs(g_[k]), fired_[k] ? 4.0 * std::abs(g_minus_[k]) : slot.band});
 }
 
-/// After a reset, the flow leads straight back across the guard: nothing can move until something else does. Not so
-/// where the guard was merely passed through: there the flow before the reset went the same way.
+/// After a reset, the flow leads straight back across the guard: nothing can move until something
+/// else does. Not so where the guard was merely passed through: there the flow before the reset
+/// went the same way.
 inline bool Instant::rests(const GuardGroup& group, Index slot, int from) {
   if (!wrote_x_) return false;
   const double onward = -from * departure_.slope(group, slot);
@@ -200,7 +236,8 @@ inline bool Instant::rests(const GuardGroup& group, Index slot, int from) {
   return !(before > 0.0 && onward > 1e-9 * before);
 }
 
-/// Whether the flow of the mode before led a guard that stands at zero the other way: both lead to the same surface.
+/// Whether the flow of the mode before led a guard that stands at zero the other way: both lead to
+/// the same surface.
 inline bool Instant::turned_round(const GuardGroup& group, int side) {
   flow_before_.resize(machine_->x.size());
   std::swap(machine_->modes, modes_before_);
@@ -219,15 +256,19 @@ inline void Instant::hold(int leaf_index, ZenoMonitor& monitor, int source, doub
   log(EventKind::zeno_enter, source, leaf_index, 0, predicted);
 }
 
-/// A relation at rest holds the blocks whose resets it set off in this instant; false if one of them has no monitor.
+/// A relation at rest holds the blocks whose resets it set off in this instant; false if one of
+/// them has no monitor.
 inline bool Instant::hold_edges_of(int node) {
   bool all = true;
   for (int e : edges_fired_) {
     const EdgeWatch& edge = plan().edges[static_cast<std::size_t>(e)];
     ZenoMonitor& monitor = edge_monitors_[static_cast<std::size_t>(e)];
-    if (monitor.holding || std::ranges::find(edge.relations, node) == edge.relations.end()) continue;
-    if (monitor.on()) hold(edge.leaf, monitor, source_of(Cause::edge, e), t_);
-    else all = false;
+    if (monitor.holding || std::ranges::find(edge.relations, node) == edge.relations.end())
+      continue;
+    if (monitor.on())
+      hold(edge.leaf, monitor, source_of(Cause::edge, e), t_);
+    else
+      all = false;
   }
   return all;
 }
@@ -240,14 +281,17 @@ inline void Instant::release(int leaf_index, ZenoMonitor& monitor, int source) {
   log(EventKind::zeno_release, source, leaf_index, 0);
 }
 
-inline void Instant::log(EventKind kind, int source, int leaf_index, int direction, double predicted) {
+inline void Instant::log(EventKind kind, int source, int leaf_index, int direction,
+                         double predicted) {
   ++results_->statistics.events;
-  if (kind != EventKind::zeno_enter && kind != EventKind::zeno_release) ++counts_[static_cast<std::size_t>(source)];
+  if (kind != EventKind::zeno_enter && kind != EventKind::zeno_release)
+    ++counts_[static_cast<std::size_t>(source)];
   if (!options_->record_events) return;
   const PlanLeaf& of = leaf(leaf_index);
   const double* after = x_next_.size() > 0 ? x_next_.data() + of.x : nullptr;
-  results_->events.add({t_, event_jump_, direction, kind, source, predicted, 0, static_cast<std::size_t>(of.nx)},
-                       machine_->x.data() + of.x, after);
+  results_->events.add(
+      {t_, event_jump_, direction, kind, source, predicted, 0, static_cast<std::size_t>(of.nx)},
+      machine_->x.data() + of.x, after);
 }
 
 inline std::vector<std::pair<std::string, std::int64_t>> Instant::counts() const {
@@ -263,9 +307,10 @@ inline void Instant::log_monitor(const MonitorHit& hit, const double* x) {
   ++counts_[static_cast<std::size_t>(group)];
   if (!options_->record_events) return;
   const PlanLeaf& of = leaf(plan().guards[static_cast<std::size_t>(group)].leaf);
-  results_->events.add({hit.t, jump_, -hit.firing.from, EventKind::zero_crossing, group,
-                        std::numeric_limits<double>::quiet_NaN(), 0, static_cast<std::size_t>(of.nx)},
-                       x + of.x, x + of.x);
+  results_->events.add(
+      {hit.t, jump_, -hit.firing.from, EventKind::zero_crossing, group,
+       std::numeric_limits<double>::quiet_NaN(), 0, static_cast<std::size_t>(of.nx)},
+      x + of.x, x + of.x);
 }
 
 }  // namespace saltus

@@ -9,7 +9,8 @@
 
 namespace saltus {
 
-inline Instant::Outcome Instant::run(double t, const std::vector<int>& due, double longest, bool at_start) {
+inline Instant::Outcome Instant::run(double t, const std::vector<int>& due, double longest,
+                                     bool at_start) {
   t_ = t, longest_ = longest;
   outcome_ = {};
   std::ranges::fill(fired_, 0), std::ranges::fill(frozen_, 0);
@@ -19,7 +20,8 @@ inline Instant::Outcome Instant::run(double t, const std::vector<int>& due, doub
   watch_->fired.clear();
   x_minus_ = x_next_ = machine_->x, z_minus_ = machine_->z, y_before_ = machine_->y;
   std::ranges::fill(g_minus_, 0.0);
-  for (const Firing& root : firings_) g_minus_[static_cast<std::size_t>(root.slot)] = watch_->g[static_cast<std::size_t>(root.slot)];
+  for (const Firing& root : firings_)
+    g_minus_[static_cast<std::size_t>(root.slot)] = watch_->g[static_cast<std::size_t>(root.slot)];
   for (int event : due) {
     const ScheduledEvent& scheduled = plan().schedule[static_cast<std::size_t>(event)];
     actions_.push_back({scheduled.leaf, Cause::time, event, -1, 0, false});
@@ -72,7 +74,8 @@ inline bool Instant::held_outputs_changed() const {
   });
 }
 
-/// Relations whose root was found take the side the crossing says: the value there may be exactly zero.
+/// Relations whose root was found take the side the crossing says: the value there may be exactly
+/// zero.
 inline bool Instant::flip_relations() {
   bool flipped = false;
   std::ranges::fill(fired_now_, 0);
@@ -84,7 +87,8 @@ inline bool Instant::flip_relations() {
     if (group.kind == GuardGroup::Kind::crossing) continue;
     machine_->signal(group.index)[firing.slot - group.slot] = firing.from < 0 ? 1.0 : 0.0;
     watch_->slots[slot].side = static_cast<signed char>(firing.from < 0 ? 1 : -1);
-    log(EventKind::zero_crossing, source_of(Cause::crossing, group_of_slot_[slot]), group.leaf, -firing.from);
+    log(EventKind::zero_crossing, source_of(Cause::crossing, group_of_slot_[slot]), group.leaf,
+        -firing.from);
     flipped = true;
   }
   return flipped;
@@ -100,12 +104,15 @@ inline bool Instant::collect_edges() {
     ZenoMonitor& monitor = edge_monitors_[e];
     const auto index = static_cast<int>(e);
     if (monitor.holding) {
-      if (!now) release(edge.leaf, monitor, source_of(Cause::edge, index)), released = true;
-      else collect_carried(index);
+      if (!now)
+        release(edge.leaf, monitor, source_of(Cause::edge, index)), released = true;
+      else
+        collect_carried(index);
       continue;
     }
     const Edge wanted = reset_of(edge).edge;
-    const bool fires_now = now != before && (wanted == Edge::either || (wanted == Edge::rising) == now);
+    const bool fires_now =
+        now != before && (wanted == Edge::either || (wanted == Edge::rising) == now);
     if (!fires_now) continue;
     actions_.push_back({edge.leaf, Cause::edge, index, -1, now ? -1 : 1, false});
     edges_fired_.push_back(index);
@@ -113,8 +120,9 @@ inline bool Instant::collect_edges() {
   return released;
 }
 
-/// A leaf on hold whose reset value moved while its trigger stayed: a floor that rises carries the ball. Not before
-/// the relations have been read again, for a floor that falls moves the reset value too.
+/// A leaf on hold whose reset value moved while its trigger stayed: a floor that rises carries the
+/// ball. Not before the relations have been read again, for a floor that falls moves the reset
+/// value too.
 inline void Instant::collect_carried(int index) {
   if (pass_ == 0 || carried_[static_cast<std::size_t>(index)]) return;
   const EdgeWatch& edge = plan().edges[static_cast<std::size_t>(index)];
@@ -136,12 +144,16 @@ inline void Instant::add_crossings() {
     const GuardGroup& of = plan().guards[static_cast<std::size_t>(group)];
     if (of.kind != GuardGroup::Kind::crossing) continue;
     ZenoMonitor& monitor = slot_monitors_[static_cast<std::size_t>(firing.slot)];
-    if (monitor.holding && firing.from == watch_->slots[static_cast<std::size_t>(firing.slot)].side) continue;
-    actions_.push_back({of.leaf, Cause::crossing, group, firing.slot, firing.from, monitor.holding});
+    if (monitor.holding && firing.from == watch_->slots[static_cast<std::size_t>(firing.slot)].side)
+      continue;
+    actions_.push_back(
+        {of.leaf, Cause::crossing, group, firing.slot, firing.from, monitor.holding});
   }
   firings_.clear();
   if (actions_.size() < 2) return;
-  const auto before = [](const Action& a, const Action& b) { return a.leaf != b.leaf ? a.leaf < b.leaf : a.cause < b.cause; };
+  const auto before = [](const Action& a, const Action& b) {
+    return a.leaf != b.leaf ? a.leaf < b.leaf : a.cause < b.cause;
+  };
   for (auto a = actions_.begin(); a != actions_.end(); ++a) {  // stable, and allocates nothing
     std::rotate(std::upper_bound(actions_.begin(), a, *a, before), a, a + 1);
   }
@@ -165,7 +177,8 @@ inline void Instant::run_action(const Action& action) {
   auto state = x_next_.segment(of.x, of.nx);
   if (chain_.size() < 400) chain_.push_back(source);
   if (action.cause == Cause::time) {
-    const auto& event = of.declared().time_events[static_cast<std::size_t>(plan().schedule[static_cast<std::size_t>(action.index)].index)];
+    const auto& event = of.declared().time_events[static_cast<std::size_t>(
+        plan().schedule[static_cast<std::size_t>(action.index)].index)];
     if (event.update) run_reset(action, event.update);
     log(EventKind::time, source, action.leaf, 0);
     return;
@@ -173,14 +186,18 @@ inline void Instant::run_action(const Action& action) {
   const bool by_guard = action.cause == Cause::crossing;
   ZenoMonitor& monitor = by_guard ? slot_monitors_[static_cast<std::size_t>(action.slot)]
                                   : edge_monitors_[static_cast<std::size_t>(action.index)];
-  const GuardGroup* group = by_guard ? &plan().guards[static_cast<std::size_t>(action.index)] : nullptr;
-  const ResetMap& map = by_guard ? crossing_of(*group).reset_map : reset_of(plan().edges[static_cast<std::size_t>(action.index)]).reset_map;
+  const GuardGroup* group =
+      by_guard ? &plan().guards[static_cast<std::size_t>(action.index)] : nullptr;
+  const ResetMap& map =
+      by_guard ? crossing_of(*group).reset_map
+               : reset_of(plan().edges[static_cast<std::size_t>(action.index)]).reset_map;
   bool wrote = false;
   if (map) {
     if (!action.carry) monitor.fired(t_);
     wrote = run_reset(action, map);
   }
-  if (by_guard && crossing_of(*group).end_mode) modes_next_[static_cast<std::size_t>(action.leaf)] = *crossing_of(*group).end_mode;
+  if (by_guard && crossing_of(*group).end_mode)
+    modes_next_[static_cast<std::size_t>(action.leaf)] = *crossing_of(*group).end_mode;
   const bool terminal = by_guard && crossing_of(*group).terminal;
   outcome_.terminal = outcome_.terminal || terminal;
   log(terminal ? EventKind::terminal : EventKind::zero_crossing, source, action.leaf, -action.from);
@@ -192,18 +209,21 @@ inline void Instant::run_action(const Action& action) {
       for (int node : plan().edges[static_cast<std::size_t>(action.index)].relations) {
         for (const GuardGroup& relation : plan().guards) {
           if (relation.kind == GuardGroup::Kind::crossing || relation.index != node) continue;
-          for (auto k = static_cast<std::size_t>(relation.slot), s = k; s < k + static_cast<std::size_t>(relation.size); ++s) frozen_[s] = resting_[s] = 1;
+          for (auto k = static_cast<std::size_t>(relation.slot), s = k;
+               s < k + static_cast<std::size_t>(relation.size); ++s)
+            frozen_[s] = resting_[s] = 1;
         }
       }
     }
   } else {
     monitor.remember(state);
-    if (std::isfinite(monitor.gap())) outcome_.horizon = std::min(outcome_.horizon, std::max(1.2 * monitor.gap(), least_time()));
+    if (std::isfinite(monitor.gap()))
+      outcome_.horizon = std::min(outcome_.horizon, std::max(1.2 * monitor.gap(), least_time()));
   }
 }
 
-/// Within one leaf each reset map sees what the one before left; updates and other leaves' values are those of x-.
-/// Returns whether continuous state was written.
+/// Within one leaf each reset map sees what the one before left; updates and other leaves' values
+/// are those of x-. Returns whether continuous state was written.
 inline bool Instant::run_reset(const Action& action, const ResetMap& map) {
   const PlanLeaf& of = leaf(action.leaf);
   const auto number = static_cast<std::size_t>(action.leaf);
@@ -213,19 +233,25 @@ inline bool Instant::run_reset(const Action& action, const ResetMap& map) {
     new (&at.z) VectorView(z_next_.data() + of.z, of.nz);
     at.mode = modes_next_[number];
   }
-  Next next({x_next_.data() + of.x, of.nx}, {z_next_.data() + of.z, of.nz}, modes_next_[number], of.path);
+  Next next({x_next_.data() + of.x, of.nx}, {z_next_.data() + of.z, of.nz}, modes_next_[number],
+            of.path);
   map(*of.system, at, next);
   if (!x_next_.segment(of.x, of.nx).allFinite() || !z_next_.segment(of.z, of.nz).allFinite()) {
     throw SimulationError(text("t = ", t_, " s: '", name_of(source_of(action.cause, action.index)),
-                               "' set a state that is not finite (NaN or Inf)"), t_, of.path);
+                               "' set a state that is not finite (NaN or Inf)"),
+                          t_, of.path);
   }
   if (next.wrote_continuous_state()) wrote_x_ = outcome_.restart = true;
   wrote_ = wrote_ || next.wrote_continuous_state() || next.wrote_discrete_state();
-  const auto shows_z = [&](int i) {  // a held output that shows it is found by its value, one that also reads x or t is not
-    return plan().node(i).leaf == action.leaf && !plan().node(i).relation && has(plan().output_of(plan().node(i)).reads, Reads::discrete_state);
+  const auto shows_z = [&](int i) {  // a held output that shows it is found by its value, one that
+                                     // also reads x or t is not
+    return plan().node(i).leaf == action.leaf && !plan().node(i).relation &&
+           has(plan().output_of(plan().node(i)).reads, Reads::discrete_state);
   };
   const bool ode_reads_z = of.nx > 0 && has(of.declared().continuous.reads, Reads::discrete_state);
-  if (next.wrote_discrete_state() && (ode_reads_z || std::ranges::any_of(plan().derivatives, shows_z))) outcome_.restart = true;
+  if (next.wrote_discrete_state() &&
+      (ode_reads_z || std::ranges::any_of(plan().derivatives, shows_z)))
+    outcome_.restart = true;
   return next.wrote_continuous_state();
 }
 
@@ -245,17 +271,19 @@ inline void Instant::commit() {
 [[noreturn]] inline void Instant::throw_no_end() const {
   std::string causes;
   const std::size_t first = chain_.size() > 6 ? chain_.size() - 6 : 0;
-  for (std::size_t i = first; i < chain_.size(); ++i) causes += text(i == first ? "'" : " -> '", name_of(chain_[i]), "'");
+  for (std::size_t i = first; i < chain_.size(); ++i)
+    causes += text(i == first ? "'" : " -> '", name_of(chain_[i]), "'");
   const std::string last = chain_.empty() ? std::string() : name_of(chain_.back());
-  throw SimulationError(text("t = ", t_, " s: this instant does not come to an end: more than ", options_->max_passes,
-                             " passes; the events set each other off: ... ", causes,
-                             " ...; break the loop, or raise max_passes"),
+  throw SimulationError(text("t = ", t_, " s: this instant does not come to an end: more than ",
+                             options_->max_passes, " passes; the events set each other off: ... ",
+                             causes, " ...; break the loop, or raise max_passes"),
                         t_, last.substr(0, last.rfind('.')));
 }
 
 /// "block.event" of a source.
 inline const std::string& Instant::name_of(int source) const {
-  const auto groups = static_cast<int>(plan().guards.size()), edges = static_cast<int>(plan().edges.size());
+  const auto groups = static_cast<int>(plan().guards.size()),
+             edges = static_cast<int>(plan().edges.size());
   if (source < groups) return plan().guards[static_cast<std::size_t>(source)].name;
   if (source < groups + edges) return plan().edges[static_cast<std::size_t>(source - groups)].name;
   return plan().schedule[static_cast<std::size_t>(source - groups - edges)].name;

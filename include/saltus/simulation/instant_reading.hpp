@@ -15,15 +15,17 @@ inline void Instant::read_again() {
     for (int i : machine_->active_guards()) {
       const GuardGroup& group = plan().guards[static_cast<std::size_t>(i)];
       if (group.kind == GuardGroup::Kind::crossing) continue;
-      for (Index s = 0; s < group.size; ++s) flipped = read_relation(group, group.slot + s) || flipped;
+      for (Index s = 0; s < group.size; ++s)
+        flipped = read_relation(group, group.slot + s) || flipped;
     }
     if (!flipped) return;
     machine_->evaluate_instant(t_);
   }
 }
 
-/// The side of a relation now; true if that is a new one. At its own zero it keeps the one it has, until `arm` asks
-/// where the flow goes; after it fired and a reset wrote, it takes the side the flow takes it to.
+/// The side of a relation now; true if that is a new one. At its own zero it keeps the one it has,
+/// until `arm` asks where the flow goes; after it fired and a reset wrote, it takes the side the
+/// flow takes it to.
 inline bool Instant::read_relation(const GuardGroup& group, Index slot) {
   const auto k = static_cast<std::size_t>(slot);
   GuardSlot& watched = watch_->slots[k];
@@ -31,17 +33,21 @@ inline bool Instant::read_relation(const GuardGroup& group, Index slot) {
   const bool truth = machine_->signal(group.index)[slot - group.slot] != 0.0;
   const int crossed_to = fired_[k] ? -from_[k] : truth ? 1 : -1;
   int side = (g_[k] > 0.0) - (g_[k] < 0.0);
-  if (fired_[k] && !wrote_x_) side = crossed_to;  // nothing it reads was written: its value is rounding
+  if (fired_[k] && !wrote_x_)
+    side = crossed_to;  // nothing it reads was written: its value is rounding
   const bool opaque = group.kind == GuardGroup::Kind::opaque;
   const bool unsure = wrote_x_ && fired_[k] && (!opaque || side != crossed_to);
   if (unsure) {
-    const Departure::Side flow = side_of(group, slot, !opaque ? 4.0 * std::abs(g_minus_[k]) : 0.0, 0);
+    const Departure::Side flow =
+        side_of(group, slot, !opaque ? 4.0 * std::abs(g_minus_[k]) : 0.0, 0);
     side = flow.side != 0 ? flow.side : crossed_to;
     const bool back = side == crossed_to && flow.side != 0;
     if (back && (opaque || rests(group, slot, -crossed_to))) {
       frozen_[k] = 1;
-      if (hold_edges_of(group.index)) resting_[k] = 1;
-      else side = -crossed_to;  // no monitor: it fires again as soon as it can
+      if (hold_edges_of(group.index))
+        resting_[k] = 1;
+      else
+        side = -crossed_to;  // no monitor: it fires again as soon as it can
     }
   }
   if (side == 0) return false;
@@ -52,7 +58,8 @@ inline bool Instant::read_relation(const GuardGroup& group, Index slot) {
   return true;
 }
 
-/// Whether something that a relation reads was written in this instant. At rest its own value is rounding.
+/// Whether something that a relation reads was written in this instant. At rest its own value is
+/// rounding.
 inline bool Instant::reads_changed(int node) const {
   return std::ranges::any_of(plan().node(node).needs, [&](int need) {
     const Node& read = plan().node(need);
@@ -80,7 +87,8 @@ inline void Instant::find_next() {
   }
 }
 
-/// The guard of a leaf on hold: off to its armed side it lets go, beyond zero the reset map is applied again.
+/// The guard of a leaf on hold: off to its armed side it lets go, beyond zero the reset map is
+/// applied again.
 inline void Instant::look_at_held(const GuardGroup& group, std::size_t k) {
   GuardSlot& slot = watch_->slots[k];
   const int now = watch_->sign(k, g_[k]);

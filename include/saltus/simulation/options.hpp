@@ -31,17 +31,20 @@ struct SimulatorOptions {
   double min_minor_step_size = 0.0;
   double max_minor_step_size = std::numeric_limits<double>::infinity();
 
-  /// [s] A guard whose firings follow each other this closely, with shrinking gaps, comes to rest: a Zeno hold.
-  /// 0 switches the monitor off. Flights lower than atol cannot be seen, whatever stands here.
+  /// [s] A guard whose firings follow each other this closely, with shrinking gaps, comes to rest:
+  /// a Zeno hold. 0 switches the monitor off. Flights lower than atol cannot be seen, whatever
+  /// stands here.
   double zeno_tolerance = 1e-6;
-  /// Interior points of a step at which guards are looked at, for two crossings in one step; 0 turns that off.
+  /// Interior points of a step at which guards are looked at, for two crossings in one step; 0
+  /// turns that off.
   int event_scan_points = 3;
   /// Passes an instant may have before it counts as a loop without end.
   int max_passes = 100;
 
   /// What is recorded, by name; nothing recorded costs nothing.
   RecordedSignals recorded_signals = {};
-  /// [s] Times to record at, increasing. If any are given, solver steps are recorded only with save_steps = true.
+  /// [s] Times to record at, increasing. If any are given, solver steps are recorded only with
+  /// save_steps = true.
   std::vector<double> save_at = {};
   std::optional<bool> save_steps = {};
   /// The event log; switching it off changes nothing else.
@@ -66,10 +69,12 @@ inline void check(const SimulatorOptions& o) {
   require(o.rtol >= 1e-15, "rtol", o.rtol, "at least 1e-15: a double has no more digits");
   require(!o.max_major_steps || *o.max_major_steps > 0, "max_major_steps",
           static_cast<double>(o.max_major_steps.value_or(1)), "a positive number, or none");
-  require(o.max_major_step_length > 0.0, "max_major_step_length", o.max_major_step_length, "a time > 0 s");
-  require(o.min_minor_step_size >= 0.0, "min_minor_step_size", o.min_minor_step_size, "a time >= 0 s");
-  require(o.max_minor_step_size > o.min_minor_step_size, "max_minor_step_size", o.max_minor_step_size,
-          "more than min_minor_step_size");
+  require(o.max_major_step_length > 0.0, "max_major_step_length", o.max_major_step_length,
+          "a time > 0 s");
+  require(o.min_minor_step_size >= 0.0, "min_minor_step_size", o.min_minor_step_size,
+          "a time >= 0 s");
+  require(o.max_minor_step_size > o.min_minor_step_size, "max_minor_step_size",
+          o.max_minor_step_size, "more than min_minor_step_size");
   require(o.zeno_tolerance >= 0.0, "zeno_tolerance", o.zeno_tolerance, "a time >= 0 s");
   require(o.event_scan_points >= 0, "event_scan_points", o.event_scan_points, "0 or more");
   require(o.max_passes > 0, "max_passes", o.max_passes, "1 or more");

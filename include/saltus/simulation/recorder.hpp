@@ -1,4 +1,5 @@
-// Recorder: grows columns. It exists only where something is recorded, and changes no bit of the run.
+// Recorder: grows columns. It exists only where something is recorded, and changes no bit of the
+// run.
 #pragma once
 
 #include "saltus/plan/machine.hpp"
@@ -25,7 +26,8 @@ class Recorder {
       const Place& place = machine_->plan().node(taps[i].node).place;
       const double* value = machine_->value(place);
       if (!VectorView(value, place.size).allFinite()) throw_not_finite(t, taps[i]);
-      results_->signals[i].values.insert(results_->signals[i].values.end(), value, value + place.size);
+      results_->signals[i].values.insert(results_->signals[i].values.end(), value,
+                                         value + place.size);
     }
   }
 

@@ -26,12 +26,12 @@ constexpr bool ended_well(Status status) { return status <= Status::zeno_stop; }
 /// Counts, summed over the whole run.
 struct Statistics : SolverStatistics {
   std::int64_t right_hand_side_calls = 0;
-  std::int64_t guard_calls = 0;     ///< of all guards at once
+  std::int64_t guard_calls = 0;  ///< of all guards at once
   std::int64_t jacobian_calls = 0;
-  std::int64_t events = 0;          ///< resets, updates and mode changes
-  std::int64_t instants = 0;        ///< major steps
+  std::int64_t events = 0;    ///< resets, updates and mode changes
+  std::int64_t instants = 0;  ///< major steps
   std::vector<std::pair<std::string, std::int64_t>> events_by_name = {};
-  double wall_time = 0.0;           ///< [s]
+  double wall_time = 0.0;  ///< [s]
   std::string method = {};
 };
 
@@ -43,7 +43,8 @@ struct RecordedSignal {
 
   using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   Eigen::Map<const Matrix> matrix() const {
-    return {values.data(), shape.size > 0 ? static_cast<Index>(values.size()) / shape.size : 0, shape.size};
+    return {values.data(), shape.size > 0 ? static_cast<Index>(values.size()) / shape.size : 0,
+            shape.size};
   }
 };
 
@@ -52,7 +53,7 @@ struct Results {
   std::vector<int> jump;     ///< j of each row: rows of equal time are told apart by it
   std::vector<RecordedSignal> signals;
   EventLog events;
-  Context context;           ///< the values at the end; a run can go on from here
+  Context context;  ///< the values at the end; a run can go on from here
   Status status = Status::reached_end;
   std::string message;       ///< why, where the status is none of the good ones
   std::exception_ptr cause;  ///< what was thrown, where the status is failed

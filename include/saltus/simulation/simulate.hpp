@@ -13,12 +13,15 @@ struct TimeSpan {
   double end = 0.0;
 };
 
-/// Runs `system` from the values of `context` over `span` and returns what was recorded, the event log, the final
-/// context, the status and the statistics. Throws ModelError before the run for bad input, SimulationError during it
-/// with the partial results attached, and whatever a function of the model threw, as it was thrown.
-inline Results simulate(const System& system, const Context& context, TimeSpan span, const SimulatorOptions& options = {}) {
+/// Runs `system` from the values of `context` over `span` and returns what was recorded, the event
+/// log, the final context, the status and the statistics. Throws ModelError before the run for bad
+/// input, SimulationError during it with the partial results attached, and whatever a function of
+/// the model threw, as it was thrown.
+inline Results simulate(const System& system, const Context& context, TimeSpan span,
+                        const SimulatorOptions& options = {}) {
   if (!(span.end >= span.begin)) {
-    throw ModelError(text("simulate: expected a span with begin <= end, found ", span.begin, " s to ", span.end, " s"));
+    throw ModelError(text("simulate: expected a span with begin <= end, found ", span.begin,
+                          " s to ", span.end, " s"));
   }
   Simulator simulator(system, options);
   simulator.initialize(context.time() == span.begin ? context : context.with_time(span.begin));

@@ -11,18 +11,19 @@
 
 namespace saltus {
 
-/// Advances a context of a system from instant to instant. The system has to outlive it. One simulator serves one
-/// thread; it can be initialized again and keeps its memory.
+/// Advances a context of a system from instant to instant. The system has to outlive it. One
+/// simulator serves one thread; it can be initialized again and keeps its memory.
 class Simulator {
  public:
   explicit Simulator(const System& system, SimulatorOptions options = {});
 
-  /// Begins a run at the context's time. Throws ModelError if the context is not one of this system.
+  /// Begins a run at the context's time. Throws ModelError if the context is not one of this
+  /// system.
   void initialize(const Context& context);
 
   /// Goes on to t_end [s], or to where the run ends before. In pieces or at once: the same events.
-  /// Throws SimulationError with the partial results attached, or what a user's function threw, unless the option
-  /// throw_errors is off.
+  /// Throws SimulationError with the partial results attached, or what a user's function threw,
+  /// unless the option throw_errors is off.
   Status advance_to(double t_end);
 
   double time() const noexcept { return time_; }

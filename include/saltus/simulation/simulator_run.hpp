@@ -11,8 +11,10 @@ inline SimulatorOptions Simulator::checked(SimulatorOptions options) const {
 }
 
 inline Simulator::Simulator(const System& system, SimulatorOptions options)
-    : options_(checked(std::move(options))), machine_(compile(system, options_.recorded_signals)),
-      instant_(machine_, watch_, options_, results_), calendar_(machine_.plan()),
+    : options_(checked(std::move(options))),
+      machine_(compile(system, options_.recorded_signals)),
+      instant_(machine_, watch_, options_, results_),
+      calendar_(machine_.plan()),
       method_(method_from(options_.ode_solver_method)) {}
 
 inline void Simulator::initialize(const Context& context) {
@@ -30,18 +32,22 @@ inline void Simulator::initialize(const Context& context) {
 
 inline Status Simulator::advance_to(double t_end) {
   if (!(t_end >= time_)) {
-    throw ModelError(text("cannot run from t = ", time_, " s back to t = ", t_end, " s; the end has to be later"));
+    throw ModelError(text("cannot run from t = ", time_, " s back to t = ", t_end,
+                          " s; the end has to be later"));
   }
   const auto start = std::chrono::steady_clock::now();
   asked_ = start;
   try {
     results_.status = run_to(t_end);
   } catch (const std::exception& error) {
-    results_.status = Status::failed, results_.message = error.what(), results_.cause = std::current_exception();
+    results_.status = Status::failed, results_.message = error.what(),
+    results_.cause = std::current_exception();
   } catch (...) {
-    results_.status = Status::failed, results_.message = "a function of the model threw", results_.cause = std::current_exception();
+    results_.status = Status::failed, results_.message = "a function of the model threw",
+    results_.cause = std::current_exception();
   }
-  results_.statistics.wall_time += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  results_.statistics.wall_time +=
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   finish();
   if (ended_well(results_.status) || !options_.throw_errors) return results_.status;
   const auto partial = std::make_shared<const Results>(results_);
@@ -64,18 +70,21 @@ inline Status Simulator::run_to(double t_end) {
   }
   while (time_ < t_end) {
     if (options_.max_major_steps && results_.statistics.instants >= *options_.max_major_steps) {
-      return end(Status::step_limit, text("t = ", time_, " s: the run used its ", *options_.max_major_steps,
-                                          " major steps before t = ", t_end, " s; raise max_major_steps"));
+      return end(Status::step_limit,
+                 text("t = ", time_, " s: the run used its ", *options_.max_major_steps,
+                      " major steps before t = ", t_end, " s; raise max_major_steps"));
     }
     if (const Status status = step(t_end); over_) return status;
-    if ((++ticks_ & 15) == 0 && interrupted()) return end(Status::interrupted, text("t = ", time_, " s: interrupted"));
+    if ((++ticks_ & 15) == 0 && interrupted())
+      return end(Status::interrupted, text("t = ", time_, " s: interrupted"));
   }
   return Status::reached_end;
 }
 
 /// One minor step, and the instant at its end if there is one.
 inline Status Simulator::step(double t_end) {
-  const double t_stop = std::min({t_end, calendar_.next(), last_instant_ + options_.max_major_step_length});
+  const double t_stop =
+      std::min({t_end, calendar_.next(), last_instant_ + options_.max_major_step_length});
   const double from = time_;
   StopReason reason = StopReason::stop_time;
   move_to(t_stop, reason);
@@ -96,7 +105,9 @@ inline void Simulator::move_to(double t_stop, StopReason& reason) {
     return;
   }
   if (!solver_started_) {
-    if (!solver_) solver_ = make_solver(plan().nx == 0 ? Method::dopri5 : method_, machine_, watch_, solver_options());
+    if (!solver_)
+      solver_ = make_solver(plan().nx == 0 ? Method::dopri5 : method_, machine_, watch_,
+                            solver_options());
     solver_->restart(time_, machine_.x, {.first = true});
     solver_started_ = true;
   }
@@ -116,18 +127,23 @@ inline Status Simulator::settle(StopReason reason, double t_end, bool at_start) 
   last_instant_ = time_;
   due_.clear();
   if (calendar_.due(time_) || at_start) calendar_.take(time_, due_);
-  if (reason != StopReason::root && due_.empty() && !at_start) return Status::reached_end;  // a major step's end only
-  if (recorder_ && !recorder_->has_row(time_, instant_.jump())) recorder_->record(time_, instant_.jump(), machine_.x.data());
+  if (reason != StopReason::root && due_.empty() && !at_start)
+    return Status::reached_end;  // a major step's end only
+  if (recorder_ && !recorder_->has_row(time_, instant_.jump()))
+    recorder_->record(time_, instant_.jump(), machine_.x.data());
   const Instant::Outcome outcome = instant_.run(time_, due_, t_end - time_, at_start);
   if (outcome.terminal) return end(Status::terminal);
-  if (outcome.restart && solver_started_) solver_->restart(time_, machine_.x, {.horizon = outcome.horizon});
+  if (outcome.restart && solver_started_)
+    solver_->restart(time_, machine_.x, {.horizon = outcome.horizon});
   if (outcome.chatters) recent_events_ = options_.max_passes, recent_since_ = time_;
   if (outcome.chatters || (reason == StopReason::root && chatters())) {
-    const Event last = results_.events.empty() ? Event{} : results_.events[results_.events.size() - 1];
+    const Event last =
+        results_.events.empty() ? Event{} : results_.events[results_.events.size() - 1];
     return end(Status::chattering,
-               text("t = ", time_, " s: guard '", last.name, "' of block '", last.block, "' fired ", recent_events_,
-                    " times in ", time_ - recent_since_,
-                    " s: time does not advance. Give it hysteresis, a zeno_tolerance above 0 s, or a mode of its own for "
+               text("t = ", time_, " s: guard '", last.name, "' of block '", last.block, "' fired ",
+                    recent_events_, " times in ", time_ - recent_since_,
+                    " s: time does not advance. Give it hysteresis, a zeno_tolerance above 0 s, or "
+                    "a mode of its own for "
                     "the motion along the switching surface"));
   }
   return Status::reached_end;
@@ -151,7 +167,8 @@ inline bool Simulator::interrupted() {
 }
 
 inline void Simulator::record(double t, const double* x) {
-  if (recorder_ && !recorder_->has_row(t, instant_.jump())) recorder_->record(t, instant_.jump(), x);
+  if (recorder_ && !recorder_->has_row(t, instant_.jump()))
+    recorder_->record(t, instant_.jump(), x);
 }
 
 /// Rows of the step from `from` to now: those at asked-for times, then its end.
@@ -164,7 +181,8 @@ inline void Simulator::record_step(double from) {
     if (solver_started_ && t < time_) solver_->interpolate(t, machine_.x.data());
     record(t, t < time_ || !solver_started_ ? machine_.x.data() : solver_->state().data());
   }
-  if (steps_recorded()) record(time_, solver_started_ ? solver_->state().data() : machine_.x.data());
+  if (steps_recorded())
+    record(time_, solver_started_ ? solver_->state().data() : machine_.x.data());
 }
 
 inline Status Simulator::end(Status status, std::string message) {
@@ -191,7 +209,8 @@ inline void Simulator::finish() {
 }
 
 inline std::string Simulator::describe() const {
-  return plan().describe() + text("method: ", options_.ode_solver_method, solver_ ? text(" (", solver_->method(), ")") : "", "\n");
+  return plan().describe() + text("method: ", options_.ode_solver_method,
+                                  solver_ ? text(" (", solver_->method(), ")") : "", "\n");
 }
 
 }  // namespace saltus

@@ -21,7 +21,7 @@ inline constexpr std::array<std::pair<std::string_view, Method>, 8> method_names
     {"dopri5", Method::dopri5},
     {"adams", Method::adams},
     {"bdf", Method::bdf},
-    {"rk45", Method::dopri5},       // synonyms
+    {"rk45", Method::dopri5},  // synonyms
     {"non-stiff", Method::dopri5},
     {"stiff", Method::bdf},
     {"BDF", Method::bdf},
@@ -37,7 +37,8 @@ inline Method method_from(std::string_view name) {
   throw ModelError(text("unknown ode_solver_method '", name, "'", known_names(name, known)));
 }
 
-/// Starts with dopri5; when that looks stiff, BDF takes over at the present point. CVODE is made only then.
+/// Starts with dopri5; when that looks stiff, BDF takes over at the present point. CVODE is made
+/// only then.
 class AutoSolver final : public Solver {
  public:
   AutoSolver(Machine& machine, Watch& watch, const SolverOptions& options)
@@ -73,7 +74,8 @@ class AutoSolver final : public Solver {
   }
 
   std::string method() const override {
-    return second_ ? text("dopri5, then bdf from t = ", switched_at_, " s: the scene looks stiff") : std::string("dopri5");
+    return second_ ? text("dopri5, then bdf from t = ", switched_at_, " s: the scene looks stiff")
+                   : std::string("dopri5");
   }
 
  private:
@@ -89,12 +91,17 @@ class AutoSolver final : public Solver {
   mutable SolverStatistics sum_;
 };
 
-inline std::unique_ptr<Solver> make_solver(Method method, Machine& machine, Watch& watch, const SolverOptions& options) {
+inline std::unique_ptr<Solver> make_solver(Method method, Machine& machine, Watch& watch,
+                                           const SolverOptions& options) {
   switch (method) {
-    case Method::automatic: return std::make_unique<AutoSolver>(machine, watch, options);
-    case Method::dopri5: return std::make_unique<RungeKutta<Dopri5>>(machine, watch, options);
-    case Method::adams: return make_cvode(machine, watch, options, CvodeMethod::adams);
-    case Method::bdf: return make_cvode(machine, watch, options, CvodeMethod::bdf);
+    case Method::automatic:
+      return std::make_unique<AutoSolver>(machine, watch, options);
+    case Method::dopri5:
+      return std::make_unique<RungeKutta<Dopri5>>(machine, watch, options);
+    case Method::adams:
+      return make_cvode(machine, watch, options, CvodeMethod::adams);
+    case Method::bdf:
+      return make_cvode(machine, watch, options, CvodeMethod::bdf);
   }
   return nullptr;
 }

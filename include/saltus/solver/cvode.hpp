@@ -9,11 +9,14 @@ namespace saltus {
 
 enum class CvodeMethod {
   adams,  ///< Adams-Moulton, orders 1 to 12, fixed-point iteration: long smooth stretches
-  bdf     ///< backward differentiation, orders 1 to 5, Newton iteration with a dense Jacobian: stiff scenes
+  bdf  ///< backward differentiation, orders 1 to 5, Newton iteration with a dense Jacobian: stiff
+       ///< scenes
 };
 
-/// A. C. Hindmarsh et al., "SUNDIALS: Suite of nonlinear and differential/algebraic equation solvers", ACM TOMS 31
-/// (2005) 363. Its own root-finding watches the guards; a root it returns is polished on its interpolant.
-std::unique_ptr<Solver> make_cvode(Machine& machine, Watch& watch, const SolverOptions& options, CvodeMethod method);
+/// A. C. Hindmarsh et al., "SUNDIALS: Suite of nonlinear and differential/algebraic equation
+/// solvers", ACM TOMS 31 (2005) 363. Its own root-finding watches the guards; a root it returns is
+/// polished on its interpolant.
+std::unique_ptr<Solver> make_cvode(Machine& machine, Watch& watch, const SolverOptions& options,
+                                   CvodeMethod method);
 
 }  // namespace saltus

@@ -1,4 +1,5 @@
-// Location: the earliest crossing of any guard inside one solver step, on the solver's own interpolant.
+// Location: the earliest crossing of any guard inside one solver step, on the solver's own
+// interpolant.
 #pragma once
 
 #include <algorithm>
@@ -10,13 +11,14 @@
 
 namespace saltus {
 
-/// Looks at all guards in one vector call at a few interior points of a step (pairs of roots), then narrows the
-/// first interval in which one crosses by the Illinois variant of regula falsi, guarded by bisection
-/// (K. L. Hiebert and L. F. Shampine, "Implicitly defined output points for solutions of ODEs", Sandia report
-/// SAND80-0180, 1980: the vector form, earliest root first). The end that is kept is always the one on the firing
-/// side, so the state handed on is past the crossing or exactly on it.
-/// Places inside the step are offsets u from its beginning, not times: the bracket ends below 2 eps u, finer than
-/// any |t| allows, so that a state lands on its surface late in a long run as well as early.
+/// Looks at all guards in one vector call at a few interior points of a step (pairs of roots), then
+/// narrows the first interval in which one crosses by the Illinois variant of regula falsi, guarded
+/// by bisection (K. L. Hiebert and L. F. Shampine, "Implicitly defined output points for solutions
+/// of ODEs", Sandia report SAND80-0180, 1980: the vector form, earliest root first). The end that
+/// is kept is always the one on the firing side, so the state handed on is past the crossing or
+/// exactly on it. Places inside the step are offsets u from its beginning, not times: the bracket
+/// ends below 2 eps u, finer than any |t| allows, so that a state lands on its surface late in a
+/// long run as well as early.
 class Locator {
  public:
   Locator(Machine& machine, Watch& watch)
@@ -26,8 +28,9 @@ class Locator {
     crossed_.reserve(slots), limits_.reserve(slots);
   }
 
-  /// The first offset in (from, to] at which a guard that is no monitor fires; false if there is none.
-  /// The step begins at `t0`; `interpolate(u, x)` gives the state inside it, `end` is the state at `to` exactly.
+  /// The first offset in (from, to] at which a guard that is no monitor fires; false if there is
+  /// none. The step begins at `t0`; `interpolate(u, x)` gives the state inside it, `end` is the
+  /// state at `to` exactly.
   template <class Interpolate>
   bool find(double t0, double from, double to, const double* end, const Interpolate& interpolate) {
     t0_ = t0;
@@ -67,7 +70,8 @@ class Locator {
 
   /// All guards at offset u.
   template <class Interpolate>
-  void look(double u, const double* known, const Interpolate& interpolate, std::vector<double>& values) {
+  void look(double u, const double* known, const Interpolate& interpolate,
+            std::vector<double>& values) {
     if (known == nullptr) interpolate(u, x_.data());
     machine_->guards(t0_ + u, known == nullptr ? x_.data() : known, values.data());
   }
@@ -95,7 +99,8 @@ class Locator {
     for (std::size_t i = 0; i < limits_.size(); ++i) {
       const std::size_t k = watch_->active[i];
       GuardSlot& slot = watch_->slots[k];
-      const bool stays = !slot.fresh && (slot.side > 0 ? high_[k] > 0.0 : slot.side < 0 && high_[k] < 0.0);
+      const bool stays =
+          !slot.fresh && (slot.side > 0 ? high_[k] > 0.0 : slot.side < 0 && high_[k] < 0.0);
       watch_->g[k] = high_[k];
       if (stays) continue;
       if (std::isnan(high_[k])) throw_not_a_number(k);
@@ -105,9 +110,12 @@ class Locator {
   }
 
   [[noreturn]] void throw_not_a_number(std::size_t k) const {
-    const auto holds = [k](const GuardGroup& g) { return static_cast<Index>(k) >= g.slot && static_cast<Index>(k) < g.slot + g.size; };
+    const auto holds = [k](const GuardGroup& g) {
+      return static_cast<Index>(k) >= g.slot && static_cast<Index>(k) < g.slot + g.size;
+    };
     const GuardGroup& group = *std::ranges::find_if(machine_->plan().guards, holds);
-    throw SimulationError(text("t = ", t0_, " s: guard '", group.name, "' is not finite (NaN) in the step that begins here; "
+    throw SimulationError(text("t = ", t0_, " s: guard '", group.name,
+                               "' is not finite (NaN) in the step that begins here; "
                                "check it at this state"),
                           t0_, machine_->plan().leaves[static_cast<std::size_t>(group.leaf)].path);
   }
@@ -117,7 +125,8 @@ class Locator {
   template <class Interpolate>
   double narrow(double low, double high, const Interpolate& interpolate) {
     low_ = watch_->g;
-    int kept = 0;  // how often in a row the low (> 0) or high (< 0) end was kept: Illinois halves its value
+    int kept = 0;  // how often in a row the low (> 0) or high (< 0) end was kept: Illinois halves
+                   // its value
     double weight = 1.0;
     for (int count = 0; count < 200; ++count) {
       const double resolution = 2.0 * std::numeric_limits<double>::epsilon() * high;
@@ -152,15 +161,16 @@ class Locator {
     return std::ranges::all_of(crossed_, [&](std::size_t k) { return high_[k] == 0.0; });
   }
 
-  /// The secant point of the guard that seems to cross first, kept one resolution off the ends; the middle where
-  /// the secant says nothing: guards that jump, or that are at zero at the low end.
+  /// The secant point of the guard that seems to cross first, kept one resolution off the ends; the
+  /// middle where the secant says nothing: guards that jump, or that are at zero at the low end.
   double next_point(double low, double high, double weight, double resolution, int count) const {
     if (high - low <= 3.0 * resolution || count > 60) return low + 0.5 * (high - low);
     double fraction = 2.0;  // of the interval, from low
     for (std::size_t k : crossed_) {
       const GuardSlot& slot = watch_->slots[k];
       const double a = std::abs(low_[k]) * weight, b = std::abs(high_[k]);
-      const bool blind = slot.jumps || slot.fresh || !(a > 0.0) || !(a + b < std::numeric_limits<double>::infinity());
+      const bool blind = slot.jumps || slot.fresh || !(a > 0.0) ||
+                         !(a + b < std::numeric_limits<double>::infinity());
       fraction = std::min(fraction, blind ? 0.5 : a / (a + b));
     }
     return std::clamp(low + fraction * (high - low), low + resolution, high - resolution);
@@ -173,8 +183,10 @@ class Locator {
     for (std::size_t k : crossed_) {
       const GuardSlot& slot = watch_->slots[k];
       const Firing firing{static_cast<int>(k), slot.side};
-      if (slot.monitor) watch_->monitors.push_back({t0_ + u, firing});
-      else watch_->fired.push_back(firing);
+      if (slot.monitor)
+        watch_->monitors.push_back({t0_ + u, firing});
+      else
+        watch_->fired.push_back(firing);
     }
     for (std::size_t i = 0; i < limits_.size(); ++i) {
       const std::size_t k = watch_->active[i];

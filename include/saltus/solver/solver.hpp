@@ -18,7 +18,7 @@ enum class StopReason {
 
 /// Counts, summed across restarts.
 struct SolverStatistics {
-  std::int64_t steps = 0;      ///< accepted
+  std::int64_t steps = 0;  ///< accepted
   std::int64_t rejected = 0;
   std::int64_t restarts = 0;
   std::int64_t linear_setups = 0;
@@ -28,19 +28,20 @@ struct SolverStatistics {
 struct SolverOptions {
   double rtol = 1e-6;
   double atol = 1e-8;
-  double min_step = 0.0;                                     ///< [s]
-  double max_step = std::numeric_limits<double>::infinity(); ///< [s]
+  double min_step = 0.0;                                      ///< [s]
+  double max_step = std::numeric_limits<double>::infinity();  ///< [s]
 };
 
 /// How a stretch begins.
 struct Start {
-  double horizon = std::numeric_limits<double>::infinity();  ///< [s] within which an event may follow: resolve it
-  bool first = false;                                         ///< a new run: step size and counts are forgotten too
+  double horizon = std::numeric_limits<double>::infinity();  ///< [s] within which an event may
+                                                             ///< follow: resolve it
+  bool first = false;  ///< a new run: step size and counts are forgotten too
 };
 
-/// Advances the continuous state of a machine. Between two calls of `restart` the machine's discrete values do
-/// not change, so f and the guards are smooth. Throws SimulationError where no step can be taken, and whatever a
-/// user's function threw, as it was thrown.
+/// Advances the continuous state of a machine. Between two calls of `restart` the machine's
+/// discrete values do not change, so f and the guards are smooth. Throws SimulationError where no
+/// step can be taken, and whatever a user's function threw, as it was thrown.
 class Solver {
  public:
   virtual ~Solver() = default;

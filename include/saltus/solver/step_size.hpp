@@ -1,5 +1,5 @@
-// Step sizes of the one-step methods: the first one, the next one, the stiffness test, and what to say when none is
-// small enough.
+// Step sizes of the one-step methods: the first one, the next one, the stiffness test, and what to
+// say when none is small enough.
 #pragma once
 
 #include <algorithm>
@@ -10,20 +10,26 @@
 
 namespace saltus {
 
-/// Proportional-integral control of the step size (K. Gustafsson; Hairer, Wanner II, p. 28, (2.43c), with the
-/// constants of the code DOPRI5: beta 0.04, safety 0.9, factors within [0.2, 10]).
+/// Proportional-integral control of the step size (K. Gustafsson; Hairer, Wanner II, p. 28,
+/// (2.43c), with the constants of the code DOPRI5: beta 0.04, safety 0.9, factors within [0.2,
+/// 10]).
 class StepController {
  public:
-  explicit StepController(double order) : exponent_(1.0 / order - 0.75 * beta), plain_(1.0 / order) {}
+  explicit StepController(double order)
+      : exponent_(1.0 / order - 0.75 * beta), plain_(1.0 / order) {}
 
   double accept(double error, double h, bool after_rejection) {
     // Below 1e-8 both powers together exceed 10 for every order up to 8: no need to ask.
-    const double factor = error < 1e-8 ? 10.0 : std::clamp(safety * std::pow(error, -exponent_) * std::pow(before_, beta), 0.2, 10.0);
+    const double factor =
+        error < 1e-8
+            ? 10.0
+            : std::clamp(safety * std::pow(error, -exponent_) * std::pow(before_, beta), 0.2, 10.0);
     before_ = std::max(error, 1e-4);
     return h * (after_rejection ? std::min(factor, 1.0) : factor);
   }
   double reject(double error, double h) const {
-    return h * (std::isfinite(error) ? std::clamp(safety * std::pow(error, -plain_), 0.1, 0.9) : 0.1);
+    return h *
+           (std::isfinite(error) ? std::clamp(safety * std::pow(error, -plain_), 0.1, 0.9) : 0.1);
   }
 
  private:
@@ -31,9 +37,10 @@ class StepController {
   double exponent_, plain_, before_ = 1e-4;
 };
 
-/// Stiffness by comparing h with the stability region: h |k7 - k6| / |x1 - X6| estimates h |lambda|, which lies
-/// beyond 3.25 when stability bounds the step (L. F. Shampine; Hairer, Wanner II, p. 21, (2.33)). Fifteen such
-/// steps, with no more than five other ones in a row between, are called stiff.
+/// Stiffness by comparing h with the stability region: h |k7 - k6| / |x1 - X6| estimates h
+/// |lambda|, which lies beyond 3.25 when stability bounds the step (L. F. Shampine; Hairer, Wanner
+/// II, p. 21, (2.33)). Fifteen such steps, with no more than five other ones in a row between, are
+/// called stiff.
 class StiffnessTest {
  public:
   bool detected() const noexcept { return stiff_ >= 15; }
@@ -63,8 +70,9 @@ class StiffnessTest {
 };
 
 /// First step by the size of x, f and f' (Hairer, Norsett, Wanner I, p. 169, "Starting step size").
-inline double first_step(Machine& machine, double t, const Eigen::VectorXd& x, const double* f, Eigen::VectorXd& scratch,
-                         double* f1, const SolverOptions& options, double order, double t_stop) {
+inline double first_step(Machine& machine, double t, const Eigen::VectorXd& x, const double* f,
+                         Eigen::VectorXd& scratch, double* f1, const SolverOptions& options,
+                         double order, double t_stop) {
   const Index n = x.size();
   const auto norm = [&](auto value) {
     double sum = 0.0;
@@ -81,21 +89,24 @@ inline double first_step(Machine& machine, double t, const Eigen::VectorXd& x, c
   machine.derivative(t + h0, scratch.data(), f1);
   const double d2 = norm([&](Index i) { return f1[i] - f[i]; }) / h0;
   const double largest = std::max(d1, d2);
-  const double h1 = largest <= 1e-15 ? std::max(1e-6, h0 * 1e-3) : std::pow(0.01 / largest, 1.0 / order);
+  const double h1 =
+      largest <= 1e-15 ? std::max(1e-6, h0 * 1e-3) : std::pow(0.01 / largest, 1.0 / order);
   const double h = std::min({100.0 * h0, h1, limit});
   return std::isfinite(h) && h > 0.0 ? h : h0;
 }
 
 [[noreturn]] inline void throw_not_finite(Machine& machine, double t, const double* x) {
   const std::string block = machine.not_finite(t, x);
-  throw SimulationError(text("t = ", t, " s: the derivative of block '", block,
-                             "' is not finite (NaN or Inf); check its equation and parameters at this state"),
-                        t, block);
+  throw SimulationError(
+      text("t = ", t, " s: the derivative of block '", block,
+           "' is not finite (NaN or Inf); check its equation and parameters at this state"),
+      t, block);
 }
 
 /// Throws if a derivative is not finite at (t, x), or just behind t, where no step could end.
 inline void require_finite_near(Machine& machine, double t, double h, const double* x) {
-  for (const double ahead : {0.0, std::max(16.0 * h, 64.0 * std::numeric_limits<double>::epsilon() * std::abs(t))}) {
+  for (const double ahead :
+       {0.0, std::max(16.0 * h, 64.0 * std::numeric_limits<double>::epsilon() * std::abs(t))}) {
     if (!machine.not_finite(t + ahead, x).empty()) throw_not_finite(machine, t + ahead, x);
   }
 }
@@ -104,12 +115,17 @@ inline void require_finite_near(Machine& machine, double t, double h, const doub
                                               const SolverOptions& options) {
   require_finite_near(machine, t, h, x);
   if (options.min_step > 0.0 && h <= options.min_step) {
-    throw SimulationError(text("t = ", t, " s: the tolerance needs a step of ", h, " s, below min_minor_step_size = ",
-                               options.min_step, " s; lower that, or loosen rtol and atol"), t);
+    throw SimulationError(text("t = ", t, " s: the tolerance needs a step of ", h,
+                               " s, below min_minor_step_size = ", options.min_step,
+                               " s; lower that, or loosen rtol and atol"),
+                          t);
   }
-  throw SimulationError(text("t = ", t, " s: the step size underflows (", h,
-                             " s): the solution blows up in finite time, has a jump that no guard announces, or the "
-                             "tolerance cannot be met; rtol = ", options.rtol, ", atol = ", options.atol), t);
+  throw SimulationError(
+      text("t = ", t, " s: the step size underflows (", h,
+           " s): the solution blows up in finite time, has a jump that no guard announces, or the "
+           "tolerance cannot be met; rtol = ",
+           options.rtol, ", atol = ", options.atol),
+      t);
 }
 
 }  // namespace saltus

@@ -8,20 +8,28 @@ namespace saltus {
 
 /// A method derives from it and says
 ///   begin(start)       start at (t1_, x1_)
-///   step(t_stop)       go from t1_ to a new t1_ <= t_stop; x1_ becomes the state there, length_ the size of the step
-///   inside_step(u, x)  the state at offset u from the beginning of the step, 0 <= u <= length_
-/// The rest, roots included, stands here. After a root that changes nothing continuous, the rest of the same step is
-/// delivered: the trajectory stays what it was.
+///   step(t_stop)       go from t1_ to a new t1_ <= t_stop; x1_ becomes the state there, length_
+///   the size of the step inside_step(u, x)  the state at offset u from the beginning of the step,
+///   0 <= u <= length_
+/// The rest, roots included, stands here. After a root that changes nothing continuous, the rest of
+/// the same step is delivered: the trajectory stays what it was.
 template <class Method>
 class StepSolver : public Solver {
  public:
   StepSolver(Machine& machine, Watch& watch, const SolverOptions& options)
-      : machine_(&machine), watch_(&watch), options_(options), n_(machine.plan().nx), x1_(n_), locator_(machine, watch),
+      : machine_(&machine),
+        watch_(&watch),
+        options_(options),
+        n_(machine.plan().nx),
+        x1_(n_),
+        locator_(machine, watch),
         state_(n_) {}
 
   void restart(double t, const Eigen::VectorXd& x, const Start& start) final {
-    if (start.first) statistics_ = {};
-    else ++statistics_.restarts;
+    if (start.first)
+      statistics_ = {};
+    else
+      ++statistics_.restarts;
     t0_ = t1_ = time_ = t;
     x1_ = state_ = x;
     delivered_ = true;
@@ -36,8 +44,10 @@ class StepSolver : public Solver {
       offset_ = locator_.offset();
       delivered_ = offset_ >= length_;
       time_ = delivered_ ? t1_ : t0_ + offset_;
-      if (delivered_) state_ = x1_;
-      else self().inside_step(offset_, state_.data());
+      if (delivered_)
+        state_ = x1_;
+      else
+        self().inside_step(offset_, state_.data());
       return StopReason::root;
     }
     delivered_ = true;
@@ -47,8 +57,10 @@ class StepSolver : public Solver {
   }
 
   void interpolate(double t, double* x) final {
-    if (t >= t1_) std::copy_n(x1_.data(), n_, x);
-    else self().inside_step(t - t0_, x);
+    if (t >= t1_)
+      std::copy_n(x1_.data(), n_, x);
+    else
+      self().inside_step(t - t0_, x);
   }
 
   const std::vector<Firing>& roots() const final { return watch_->fired; }
@@ -56,7 +68,8 @@ class StepSolver : public Solver {
   double time() const final { return time_; }
   const Eigen::VectorXd& state() const final { return state_; }
 
-  // --- one step without a look at the guards, for a method that lets another one start for it --------------------
+  // --- one step without a look at the guards, for a method that lets another one start for it
+  // --------------------
   void begin_at(double t, const Eigen::VectorXd& x, const Start& start) {
     t0_ = t1_ = t, x1_ = x;
     self().begin(start);

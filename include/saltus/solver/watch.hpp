@@ -1,4 +1,5 @@
-// Watch: on which side of zero every guard is armed, shared by the engine (which arms) and the solver (which looks).
+// Watch: on which side of zero every guard is armed, shared by the engine (which arms) and the
+// solver (which looks).
 #pragma once
 
 #include <cmath>
@@ -13,13 +14,14 @@ namespace saltus {
 /// One guard as the solver sees it.
 struct GuardSlot {
   Direction direction = Direction::crosses_zero;
-  signed char side = 0;   ///< +1, -1: armed there; 0: no side yet, the first one it takes is its own
-  bool active = false;    ///< can fire in the present modes
-  bool fresh = false;     ///< at zero when integration began: it fires only after leaving zero for `side`
-  bool monitor = false;   ///< located and logged, stops nothing
-  bool jumps = false;     ///< takes only two values: located by bisection
-  double band = 0.0;      ///< a fresh guard within it is still at zero
-  double base = 0.0;      ///< edge_detection: the value it had
+  signed char side = 0;  ///< +1, -1: armed there; 0: no side yet, the first one it takes is its own
+  bool active = false;   ///< can fire in the present modes
+  bool fresh =
+      false;  ///< at zero when integration began: it fires only after leaving zero for `side`
+  bool monitor = false;  ///< located and logged, stops nothing
+  bool jumps = false;    ///< takes only two values: located by bisection
+  double band = 0.0;     ///< a fresh guard within it is still at zero
+  double base = 0.0;     ///< edge_detection: the value it had
 
   int sign(double value) const {
     if (std::abs(value) <= band) return 0;
@@ -37,9 +39,11 @@ struct GuardSlot {
   /// Where it fires: at values <= first or >= second. The same as crossed(), for many values.
   std::pair<double, double> limits() const {
     constexpr double never = std::numeric_limits<double>::infinity();
-    if (direction == Direction::edge_detection) return {std::nextafter(base, -never), std::nextafter(base, never)};
+    if (direction == Direction::edge_detection)
+      return {std::nextafter(base, -never), std::nextafter(base, never)};
     const double reach = fresh ? std::nextafter(band, never) : band;
-    const bool falls = side > 0 && fires(direction, 1, -1), rises = side < 0 && fires(direction, -1, 1);
+    const bool falls = side > 0 && fires(direction, 1, -1),
+               rises = side < 0 && fires(direction, -1, 1);
     return {falls ? (fresh ? -reach : reach) : -never, rises ? (fresh ? reach : -reach) : never};
   }
 
@@ -69,15 +73,17 @@ struct MonitorHit {
 /// All guards of a run.
 struct Watch {
   std::vector<GuardSlot> slots;
-  std::vector<std::size_t> active;  ///< slots that can fire in the present modes
-  std::vector<double> g;            ///< values at the last time looked at
-  std::vector<Firing> fired;        ///< what crossed at the last root
-  std::vector<MonitorHit> monitors; ///< hits in the last advance
-  int scan_points = 3;              ///< interior points of a step at which guards are looked at
+  std::vector<std::size_t> active;   ///< slots that can fire in the present modes
+  std::vector<double> g;             ///< values at the last time looked at
+  std::vector<Firing> fired;         ///< what crossed at the last root
+  std::vector<MonitorHit> monitors;  ///< hits in the last advance
+  int scan_points = 3;               ///< interior points of a step at which guards are looked at
 
   bool any() const noexcept { return !active.empty(); }
   int sign(std::size_t k, double value) const { return slots[k].sign(value); }
-  bool crossed(std::size_t k, double value) const { return slots[k].active && slots[k].crossed(value); }
+  bool crossed(std::size_t k, double value) const {
+    return slots[k].active && slots[k].crossed(value);
+  }
   void follow(std::size_t k, double value) {
     g[k] = value;
     slots[k].follow(value);

@@ -4,7 +4,8 @@
 
 #include <saltus/saltus.hpp>
 
-double simulated_height(double time);  // other.cpp includes saltus too: nothing may be defined twice
+double simulated_height(
+    double time);  // other.cpp includes saltus too: nothing may be defined twice
 
 int main() {
   const double expected = 10.0 - 0.5 * 9.81;

@@ -1,7 +1,4 @@
-// Not built. Three checks that the model layer lacks:
-//  with_subcontext compares the numbers of x, z and p, not of modes: a part of more leaves writes past the end;
-//  declare_edge_reset takes any name, also twice, and none;
-//  declare_relation takes a relation without a guard, which is called through a null pointer later.
+// What the model layer refuses when it is declared or put together.
 #include "support/leaves.hpp"
 
 using namespace saltus;
@@ -27,11 +24,14 @@ TEST_CASE("an edge reset whose name is declared twice is refused", "[declare]") 
   CHECK(message<ModelError>([&] {
           Leaf("block", [&](Leaf& l) {
             l.declare_input_port({.shape = Shape::scalar()});
-            l.declare_edge_reset({.name = "n", .reset_map = update}), l.declare_edge_reset({.name = "n", .reset_map = update});
+            l.declare_edge_reset({.name = "n", .reset_map = update}),
+                l.declare_edge_reset({.name = "n", .reset_map = update});
           });
         }) == "block 'block': the name 'n' is declared twice");
 }
 
 TEST_CASE("a relation without a guard is refused", "[declare]") {
-  CHECK(contains(message<ModelError>([] { Leaf("block", [](Leaf& l) { l.declare_relation({.name = "r"}); }); }), "relation 'r' has no guard"));
+  CHECK(contains(message<ModelError>(
+                     [] { Leaf("block", [](Leaf& l) { l.declare_relation({.name = "r"}); }); }),
+                 "relation 'r' has no guard"));
 }
