@@ -225,12 +225,12 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
 
   double shown(std::size_t k, double t, double value) const {
     const GuardSlot& slot = watch_->slots[k];
-    constexpr double tiny = std::numeric_limits<double>::min();
+    constexpr double tiny = 1e-100;  // CVODE multiplies values to compare signs: nothing it sees may underflow then
     if (!slot.active || slot.monitor) return 1.0;
     if (slot.direction == Direction::edge_detection) return value == slot.base ? 1.0 : -1.0;
     const double side = slot.side < 0 ? -tiny : tiny;
     if (slot.fresh && t == begun_at_) return side;
-    if (std::abs(value) > slot.band) return value;
+    if (std::abs(value) > slot.band) return std::copysign(std::max(std::abs(value), tiny), value);
     return slot.fresh || slot.side == 0 ? side : -side;
   }
 

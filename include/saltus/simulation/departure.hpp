@@ -49,7 +49,7 @@ class Departure {
     double d = first_time(group);
     double g = guard_after(d, slot);
     // Not much further than the tolerance sees: what lies behind is the solver's to find.
-    for (double furthest = std::min(longest_, 3e5 * d);; g = guard_after(d, slot)) {
+    for (double furthest = std::min(longest_, std::max(3e5 * d, lift_time(group, d)));; g = guard_after(d, slot)) {
       const int side = (g > 0.0) - (g < 0.0);
       if (side != 0 && side == expected && std::abs(g) > hair) return result.side = side, result;
       const double rounding = opaque ? 0.0 : rounding_after(d, slot, g);
@@ -113,6 +113,20 @@ class Departure {
       }
     }
     return std::max(d, 64.0 * eps * std::abs(t_));
+  }
+
+  /// The time after which curvature has lifted the states off their own rounding, from f and f1 after d: at a tight
+  /// tolerance that is longer than the tolerance sees.
+  double lift_time(const GuardGroup& group, double d) const {
+    double time = 0.0;
+    for (int leaf : group.leaves) {
+      const PlanLeaf& of = machine_->plan().leaves[static_cast<std::size_t>(leaf)];
+      for (Index i = of.x; i < of.x + of.nx; ++i) {
+        const double bend = std::abs(f1_[i] - f_[i]) / d;
+        if (bend > 0.0) time = std::max(time, std::sqrt(64.0 * eps * std::abs((*x_)[i]) / bend));
+      }
+    }
+    return std::min(16.0 * time, 1e-4 * longest_);
   }
 
   double guard_after(double d, Index slot) {

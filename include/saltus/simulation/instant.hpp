@@ -84,6 +84,7 @@ class Instant {
   bool rests(const GuardGroup& group, Index slot, int from);
   bool turned_round(const GuardGroup& group, int side);
   void hold(int leaf, ZenoMonitor& monitor, int source, double predicted);
+  bool sets_off(int node) const;
   bool hold_edges_of(int node);
   void release(int leaf, ZenoMonitor& monitor, int source);
 

@@ -256,6 +256,16 @@ inline void Instant::hold(int leaf_index, ZenoMonitor& monitor, int source, doub
   log(EventKind::zeno_enter, source, leaf_index, 0, predicted);
 }
 
+/// Whether a relation set off a reset in this instant, and still stands on the side that did.
+inline bool Instant::sets_off(int node) const {
+  return std::ranges::any_of(edges_fired_, [&](int e) {
+    const EdgeWatch& edge = plan().edges[static_cast<std::size_t>(e)];
+    const bool up = reset_of(edge).edge != Edge::falling;
+    return std::ranges::find(edge.relations, node) != edge.relations.end() &&
+           machine_->truth(edge.node) == up;
+  });
+}
+
 /// A relation at rest holds the blocks whose resets it set off in this instant; false if one of
 /// them has no monitor.
 inline bool Instant::hold_edges_of(int node) {

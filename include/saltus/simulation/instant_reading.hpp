@@ -42,7 +42,7 @@ inline bool Instant::read_relation(const GuardGroup& group, Index slot) {
         side_of(group, slot, !opaque ? 4.0 * std::abs(g_minus_[k]) : 0.0, 0);
     side = flow.side != 0 ? flow.side : crossed_to;
     const bool back = side == crossed_to && flow.side != 0;
-    if (back && (opaque || rests(group, slot, -crossed_to))) {
+    if (back && sets_off(group.index) && (opaque || rests(group, slot, -crossed_to))) {
       frozen_[k] = 1;
       if (hold_edges_of(group.index))
         resting_[k] = 1;

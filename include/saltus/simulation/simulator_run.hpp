@@ -50,7 +50,8 @@ inline Status Simulator::advance_to(double t_end) {
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   finish();
   if (ended_well(results_.status) || !options_.throw_errors) return results_.status;
-  const auto partial = std::make_shared<const Results>(results_);
+  const auto partial = std::make_shared<Results>(results_);
+  partial->cause = nullptr;  // else the error would hold itself
   try {
     if (results_.cause) std::rethrow_exception(results_.cause);
     throw SimulationError(results_.message, time_);
