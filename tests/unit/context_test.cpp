@@ -112,3 +112,9 @@ TEST_CASE("a wrong size, a value that is not finite, an unknown system are refus
                  "the context given is not one of 'inner': expected 2 continuous and 0 discrete "
                  "states, 2 parameters and "));
 }
+
+TEST_CASE("a state may be written as a list", "[context]") {
+  const Ball ball;
+  const Context context = ball.create_context().with_continuous_state({10.0, -1.0});
+  CHECK(context.continuous_state() == Eigen::Vector2d(10.0, -1.0));
+}

@@ -1,6 +1,7 @@
 // Context: all values of a system at one time, as one regular value.
 #pragma once
 
+#include <initializer_list>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -56,7 +57,13 @@ class Context {
 
   Context with_time(double t) const;
   Context with_continuous_state(const Eigen::VectorXd& x) const;
+  Context with_continuous_state(std::initializer_list<double> x) const {
+    return with_continuous_state(vector_of(x));
+  }
   Context with_discrete_state(const Eigen::VectorXd& z) const;
+  Context with_discrete_state(std::initializer_list<double> z) const {
+    return with_discrete_state(vector_of(z));
+  }
   Context with_mode(int mode) const;
   /// A parameter by name, in a diagram by path: "ball.g". A scalar for a vector parameter fills it.
   Context with_parameter(std::string_view name, const Eigen::VectorXd& value) const;
@@ -73,6 +80,9 @@ class Context {
   friend class System;
   friend class Machine;
 
+  static Eigen::VectorXd vector_of(std::initializer_list<double> values) {
+    return Eigen::Map<const Eigen::VectorXd>(values.begin(), static_cast<Index>(values.size()));
+  }
   const Layout::Range& range(SystemId id) const;
   std::pair<const Layout::Leaf*, const Layout::Parameter*> find_parameter(
       std::string_view name) const;
