@@ -69,7 +69,7 @@ endif()
 add_library(saltus_sundials INTERFACE)
 if(SALTUS_SUNDIALS_WHEEL)
   # The wheel's libraries call hooks of its Python layer. The archive that stands in for it must come after them when linking.
-  add_library(saltus_sundials_hooks STATIC ${PROJECT_SOURCE_DIR}/src/sundials_hooks.c)
+  add_library(saltus_sundials_hooks STATIC ${PROJECT_SOURCE_DIR}/src/solver/sundials_hooks.c)
   set_target_properties(saltus_sundials_hooks PROPERTIES POSITION_INDEPENDENT_CODE ON)
   target_link_libraries(SUNDIALS::core_static INTERFACE saltus_sundials_hooks)
   target_compile_definitions(saltus_sundials INTERFACE SALTUS_SUNDIALS_CVODES=1)

@@ -1,7 +1,8 @@
 // DOPRI5: its coefficients, order 5 of the step, order 4 of the dense output, on a nonlinear
 // problem.
 #include "saltus/solver/dopri5.hpp"
-#include "saltus/solver/choose.hpp"
+#include "saltus/solver/dopri5.hpp"
+#include "saltus/solver/runge_kutta.hpp"
 #include "support/leaves.hpp"
 
 using namespace saltus;

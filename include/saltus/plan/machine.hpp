@@ -150,5 +150,3 @@ class Machine {
 };
 
 }  // namespace saltus
-
-#include "saltus/plan/machine_setup.hpp"

@@ -146,6 +146,3 @@ class Instant {
 
 }  // namespace saltus
 
-#include "saltus/simulation/instant_arming.hpp"
-#include "saltus/simulation/instant_passes.hpp"
-#include "saltus/simulation/instant_reading.hpp"

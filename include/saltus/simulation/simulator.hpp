@@ -77,5 +77,3 @@ class Simulator {
 };
 
 }  // namespace saltus
-
-#include "saltus/simulation/simulator_run.hpp"

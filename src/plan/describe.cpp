@@ -1,13 +1,11 @@
 // Plan::describe(): what was kept, folded and dropped, and why.
-#pragma once
-
 #include "saltus/plan/plan.hpp"
 
 namespace saltus {
 
-namespace detail {
+namespace {
 
-inline void describe_list(std::string& out, const Plan& plan, std::string_view title,
+void describe_list(std::string& out, const Plan& plan, std::string_view title,
                           const std::vector<int>& nodes) {
   out += text("  ", title, ": ", nodes.size());
   for (std::size_t i = 0; i < nodes.size() && i < 8; ++i)
@@ -16,7 +14,7 @@ inline void describe_list(std::string& out, const Plan& plan, std::string_view t
   out += "\n";
 }
 
-inline void describe_guard(std::string& out, const Plan& plan, const GuardGroup& guard) {
+void describe_guard(std::string& out, const Plan& plan, const GuardGroup& guard) {
   using Kind = GuardGroup::Kind;
   out += text("  guard '", guard.name, "': ");
   if (guard.kind == Kind::crossing) {
@@ -31,9 +29,9 @@ inline void describe_guard(std::string& out, const Plan& plan, const GuardGroup&
   out += "\n";
 }
 
-}  // namespace detail
+}  // namespace
 
-inline std::string Plan::describe() const {
+std::string Plan::describe() const {
   std::string out = text("plan: ", leaves.size(), leaves.size() == 1 ? " block, " : " blocks, ", nx,
                          " continuous and ", nz, " discrete states\n");
   std::vector<int> views, dropped;
@@ -45,15 +43,15 @@ inline std::string Plan::describe() const {
   }
   out += text("outputs: ", std::ranges::count_if(nodes, [](const Node& n) { return !n.relation; }),
               "\n");
-  detail::describe_list(out, *this, "views of a state or parameter, never copied", views);
-  detail::describe_list(out, *this, "constant, computed once", constants);
-  detail::describe_list(out, *this, "computed at instants", instants);
-  detail::describe_list(out, *this, "computed for the derivatives", derivatives);
-  detail::describe_list(out, *this, "computed for the guards", guard_needs);
-  detail::describe_list(out, *this, "computed for recorded rows", tap_needs);
-  detail::describe_list(out, *this, "dropped, nothing reads them", dropped);
+  describe_list(out, *this, "views of a state or parameter, never copied", views);
+  describe_list(out, *this, "constant, computed once", constants);
+  describe_list(out, *this, "computed at instants", instants);
+  describe_list(out, *this, "computed for the derivatives", derivatives);
+  describe_list(out, *this, "computed for the guards", guard_needs);
+  describe_list(out, *this, "computed for recorded rows", tap_needs);
+  describe_list(out, *this, "dropped, nothing reads them", dropped);
   out += guards.empty() ? "no guards: no root-finding\n" : text("guards: ", guard_slots, "\n");
-  for (const GuardGroup& guard : guards) detail::describe_guard(out, *this, guard);
+  for (const GuardGroup& guard : guards) describe_guard(out, *this, guard);
   if (!edges.empty()) out += text("resets that follow an edge: ", edges.size(), "\n");
   if (!schedule.empty()) out += text("time events: ", schedule.size(), "\n");
   if (odes.empty()) out += "no continuous state: no solver\n";

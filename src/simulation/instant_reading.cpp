@@ -1,12 +1,10 @@
 // After a commit: held outputs and relations read again, and what the commit moved across zero.
-#pragma once
-
 #include "saltus/simulation/instant.hpp"
 
 namespace saltus {
 
 /// Held outputs and relations after a commit.
-inline void Instant::read_again() {
+void Instant::read_again() {
   machine_->evaluate_instant(t_);
   if (plan().guards.empty()) return;
   for (int round = 0; round < options_->max_passes; ++round) {
@@ -26,7 +24,7 @@ inline void Instant::read_again() {
 /// The side of a relation now; true if that is a new one. At its own zero it keeps the one it has,
 /// until `arm` asks where the flow goes; after it fired and a reset wrote, it takes the side the
 /// flow takes it to.
-inline bool Instant::read_relation(const GuardGroup& group, Index slot) {
+bool Instant::read_relation(const GuardGroup& group, Index slot) {
   const auto k = static_cast<std::size_t>(slot);
   GuardSlot& watched = watch_->slots[k];
   if (frozen_[k] || (resting_[k] && !reads_changed(group.index))) return false;
@@ -60,7 +58,7 @@ inline bool Instant::read_relation(const GuardGroup& group, Index slot) {
 
 /// Whether something that a relation reads was written in this instant. At rest its own value is
 /// rounding.
-inline bool Instant::reads_changed(int node) const {
+bool Instant::reads_changed(int node) const {
   return std::ranges::any_of(plan().node(node).needs, [&](int need) {
     const Node& read = plan().node(need);
     if (read.rate != Rate::continuous || read.view) return changed(read.place);
@@ -69,7 +67,7 @@ inline bool Instant::reads_changed(int node) const {
 }
 
 /// Zero crossings that the commit moved across zero in their direction fire in the next pass.
-inline void Instant::find_next() {
+void Instant::find_next() {
   for (int i : machine_->active_guards()) {
     const GuardGroup& group = plan().guards[static_cast<std::size_t>(i)];
     if (group.kind != GuardGroup::Kind::crossing) continue;
@@ -89,7 +87,7 @@ inline void Instant::find_next() {
 
 /// The guard of a leaf on hold: off to its armed side it lets go, beyond zero the reset map is
 /// applied again.
-inline void Instant::look_at_held(const GuardGroup& group, std::size_t k) {
+void Instant::look_at_held(const GuardGroup& group, std::size_t k) {
   GuardSlot& slot = watch_->slots[k];
   const int now = watch_->sign(k, g_[k]);
   if (now == 0) return;

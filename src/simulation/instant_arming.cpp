@@ -1,11 +1,9 @@
 // Arming: on which side every guard stands when integration goes on; holds and releases.
-#pragma once
-
 #include "saltus/simulation/instant.hpp"
 
 namespace saltus {
 
-inline Instant::Instant(Machine& machine, Watch& watch, const SimulatorOptions& options,
+Instant::Instant(Machine& machine, Watch& watch, const SimulatorOptions& options,
                         Results& results)
     : machine_(&machine),
       watch_(&watch),
@@ -46,7 +44,7 @@ inline Instant::Instant(Machine& machine, Watch& watch, const SimulatorOptions& 
   results.events.begin(std::move(names));
 }
 
-inline void Instant::begin(double t, Recorder* recorder) {
+void Instant::begin(double t, Recorder* recorder) {
   t_ = t, jump_ = 0, recorder_ = recorder;
   std::ranges::fill(counts_, 0);
   wrote_x_ = flowed_ = false;
@@ -92,7 +90,7 @@ inline void Instant::begin(double t, Recorder* recorder) {
     edge_values_[e] = machine_->truth(plan().edges[e].node);
 }
 
-inline void Instant::select_guards() {
+void Instant::select_guards() {
   machine_->select_guards();
   watch_->active.clear();
   for (int i : machine_->active_guards()) {
@@ -110,7 +108,7 @@ inline void Instant::select_guards() {
 }
 
 /// `hair`: how far the location left the guard from zero; nothing within it counts as off zero.
-inline Departure::Side Instant::side_of(const GuardGroup& group, Index slot, double hair,
+Departure::Side Instant::side_of(const GuardGroup& group, Index slot, double hair,
                                         int expected) {
   if (!flowed_) departure_.from(t_, machine_->x, longest_);
   flowed_ = true;
@@ -119,7 +117,7 @@ inline Departure::Side Instant::side_of(const GuardGroup& group, Index slot, dou
 
 /// Sides for the solver. A guard that stands at zero, or just fired, takes the side the flow takes
 /// it to.
-inline void Instant::arm(bool at_start) {
+void Instant::arm(bool at_start) {
   if (plan().guards.empty()) return;
   for (int i : machine_->active_guards()) {
     const GuardGroup& group = plan().guards[static_cast<std::size_t>(i)];
@@ -136,7 +134,7 @@ inline void Instant::arm(bool at_start) {
   }
 }
 
-inline void Instant::arm_crossing(const GuardGroup& group, std::size_t k, bool at_start) {
+void Instant::arm_crossing(const GuardGroup& group, std::size_t k, bool at_start) {
   GuardSlot& slot = watch_->slots[k];
   if (slot.fresh && !fired_[k]) return;  // dormant since before
   const ZeroCrossing& crossing = crossing_of(group);
@@ -186,7 +184,7 @@ inline void Instant::arm_crossing(const GuardGroup& group, std::size_t k, bool a
 }
 
 /// A relation near its zero may only leave it, not cross it, until it has been clearly off.
-inline void Instant::arm_relation(const GuardGroup& group, std::size_t k) {
+void Instant::arm_relation(const GuardGroup& group, std::size_t k) {
   GuardSlot& slot = watch_->slots[k];
   const int now = (g_[k] > 0.0) - (g_[k] < 0.0);
   if (group.kind == GuardGroup::Kind::opaque) {
@@ -211,7 +209,7 @@ inline void Instant::arm_relation(const GuardGroup& group, std::size_t k) {
 }
 
 /// On hold the guard is watched the other way round: off to its armed side it lets go.
-inline void Instant::arm_held(const GuardGroup& group, std::size_t k) {
+void Instant::arm_held(const GuardGroup& group, std::size_t k) {
   GuardSlot& slot = watch_->slots[k];
   const int falls = group.direction == Direction::negative_then_non_negative ? 1 : -1;
   const Departure::Side flow = side_of(group, group.slot, 0.0, 0);
@@ -226,7 +224,7 @@ inline void Instant::arm_held(const GuardGroup& group, std::size_t k) {
 /// After a reset, the flow leads straight back across the guard: nothing can move until something
 /// else does. Not so where the guard was merely passed through: there the flow before the reset
 /// went the same way.
-inline bool Instant::rests(const GuardGroup& group, Index slot, int from) {
+bool Instant::rests(const GuardGroup& group, Index slot, int from) {
   if (!wrote_x_) return false;
   const double onward = -from * departure_.slope(group, slot);
   if (!(onward > 0.0)) return true;
@@ -238,7 +236,7 @@ inline bool Instant::rests(const GuardGroup& group, Index slot, int from) {
 
 /// Whether the flow of the mode before led a guard that stands at zero the other way: both lead to
 /// the same surface.
-inline bool Instant::turned_round(const GuardGroup& group, int side) {
+bool Instant::turned_round(const GuardGroup& group, int side) {
   flow_before_.resize(machine_->x.size());
   std::swap(machine_->modes, modes_before_);
   machine_->derivative(t_, machine_->x.data(), flow_before_.data());
@@ -247,7 +245,7 @@ inline bool Instant::turned_round(const GuardGroup& group, int side) {
   return side > 0 ? before < 0.0 : before > 0.0;
 }
 
-inline void Instant::hold(int leaf_index, ZenoMonitor& monitor, int source, double predicted) {
+void Instant::hold(int leaf_index, ZenoMonitor& monitor, int source, double predicted) {
   monitor.holding = true;
   outcome_.horizon = std::numeric_limits<double>::infinity();
   machine_->held[static_cast<std::size_t>(leaf_index)] = 1;
@@ -257,7 +255,7 @@ inline void Instant::hold(int leaf_index, ZenoMonitor& monitor, int source, doub
 }
 
 /// Whether a relation set off a reset in this instant, and still stands on the side that did.
-inline bool Instant::sets_off(int node) const {
+bool Instant::sets_off(int node) const {
   return std::ranges::any_of(edges_fired_, [&](int e) {
     const EdgeWatch& edge = plan().edges[static_cast<std::size_t>(e)];
     const bool up = reset_of(edge).edge != Edge::falling;
@@ -268,7 +266,7 @@ inline bool Instant::sets_off(int node) const {
 
 /// A relation at rest holds the blocks whose resets it set off in this instant; false if one of
 /// them has no monitor.
-inline bool Instant::hold_edges_of(int node) {
+bool Instant::hold_edges_of(int node) {
   bool all = true;
   for (int e : edges_fired_) {
     const EdgeWatch& edge = plan().edges[static_cast<std::size_t>(e)];
@@ -283,7 +281,7 @@ inline bool Instant::hold_edges_of(int node) {
   return all;
 }
 
-inline void Instant::release(int leaf_index, ZenoMonitor& monitor, int source) {
+void Instant::release(int leaf_index, ZenoMonitor& monitor, int source) {
   monitor.forget();
   machine_->held[static_cast<std::size_t>(leaf_index)] = 0;
   outcome_.restart = true;
@@ -291,7 +289,7 @@ inline void Instant::release(int leaf_index, ZenoMonitor& monitor, int source) {
   log(EventKind::zeno_release, source, leaf_index, 0);
 }
 
-inline void Instant::log(EventKind kind, int source, int leaf_index, int direction,
+void Instant::log(EventKind kind, int source, int leaf_index, int direction,
                          double predicted) {
   ++results_->statistics.events;
   if (kind != EventKind::zeno_enter && kind != EventKind::zeno_release)
@@ -304,7 +302,7 @@ inline void Instant::log(EventKind kind, int source, int leaf_index, int directi
       machine_->x.data() + of.x, after);
 }
 
-inline std::vector<std::pair<std::string, std::int64_t>> Instant::counts() const {
+std::vector<std::pair<std::string, std::int64_t>> Instant::counts() const {
   std::vector<std::pair<std::string, std::int64_t>> named;
   for (std::size_t i = 0; i < counts_.size(); ++i) {
     if (counts_[i] > 0) named.emplace_back(name_of(static_cast<int>(i)), counts_[i]);
@@ -312,7 +310,7 @@ inline std::vector<std::pair<std::string, std::int64_t>> Instant::counts() const
   return named;
 }
 
-inline void Instant::log_monitor(const MonitorHit& hit, const double* x) {
+void Instant::log_monitor(const MonitorHit& hit, const double* x) {
   const int group = group_of_slot_[static_cast<std::size_t>(hit.firing.slot)];
   ++counts_[static_cast<std::size_t>(group)];
   if (!options_->record_events) return;

@@ -1,12 +1,12 @@
 // Machine: construction, loading and saving a context, the Jacobian, and the search for what is not
 // finite.
-#pragma once
-
 #include "saltus/plan/machine.hpp"
+
+#include "saltus/plan/flatten.hpp"
 
 namespace saltus {
 
-inline std::vector<Machine::Call> Machine::calls_of(const std::vector<int>& nodes) const {
+std::vector<Machine::Call> Machine::calls_of(const std::vector<int>& nodes) const {
   std::vector<Call> calls;
   for (int i : nodes) {
     const Node& node = plan_->node(i);
@@ -19,7 +19,7 @@ inline std::vector<Machine::Call> Machine::calls_of(const std::vector<int>& node
   return calls;
 }
 
-inline Machine::Machine(std::shared_ptr<const Plan> plan) : plan_(std::move(plan)) {
+Machine::Machine(std::shared_ptr<const Plan> plan) : plan_(std::move(plan)) {
   x.setZero(plan_->nx), z.setZero(plan_->nz), p.setZero(plan_->np), y.setZero(plan_->ny);
   modes.assign(plan_->leaves.size(), 0);
   held.assign(plan_->leaves.size(), 0);
@@ -60,7 +60,7 @@ inline Machine::Machine(std::shared_ptr<const Plan> plan) : plan_(std::move(plan
   select_guards();
 }
 
-inline void Machine::load(const Context& context) {
+void Machine::load(const Context& context) {
   if (context.continuous_state().size() != plan_->nx ||
       context.discrete_state().size() != plan_->nz || context.parameters().size() != plan_->np ||
       context.modes().size() != plan_->leaves.size()) {
@@ -81,7 +81,7 @@ inline void Machine::load(const Context& context) {
   select_guards();
 }
 
-inline Context Machine::save(const Context& like, double t) const {
+Context Machine::save(const Context& like, double t) const {
   Context context = like;
   context.x_ = x;
   context.z_ = z;
@@ -91,7 +91,7 @@ inline Context Machine::save(const Context& like, double t) const {
   return context;
 }
 
-inline void Machine::select_guards() {
+void Machine::select_guards() {
   active_.clear();
   for (std::size_t i = 0; i < plan_->guards.size(); ++i) {
     const GuardGroup& group = plan_->guards[i];
@@ -107,7 +107,7 @@ inline void Machine::select_guards() {
 
 /// The leaves' Jacobians make up the whole one if no derivative depends on another leaf's
 /// continuous state.
-inline void Machine::find_jacobian() {
+void Machine::find_jacobian() {
   has_jacobian_ = !plan_->odes.empty() && plan_->derivatives.empty();
   Index widest = 0;
   for (int leaf : plan_->odes) {
@@ -121,7 +121,7 @@ inline void Machine::find_jacobian() {
   if (has_jacobian_) jacobian_block_.setZero(widest * widest);
 }
 
-inline void Machine::jacobian(double t, const double* state, MatrixRef out) {
+void Machine::jacobian(double t, const double* state, MatrixRef out) {
   ++jacobian_calls;
   bases_[0] = state;
   out.setZero();
@@ -135,7 +135,7 @@ inline void Machine::jacobian(double t, const double* state, MatrixRef out) {
   }
 }
 
-inline std::string Machine::not_finite(double t, const double* state) {
+std::string Machine::not_finite(double t, const double* state) {
   bases_[0] = state;
   for (const Call& call : derivative_calls_) {
     const VectorRef out(y.data() + call.offset, call.size);

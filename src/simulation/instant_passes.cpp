@@ -1,15 +1,14 @@
 // The passes of an instant.
-#pragma once
-
 #include <algorithm>
 #include <new>
 #include <tuple>
 
+#include "saltus/plan/flatten.hpp"
 #include "saltus/simulation/instant.hpp"
 
 namespace saltus {
 
-inline Instant::Outcome Instant::run(double t, const std::vector<int>& due, double longest,
+Instant::Outcome Instant::run(double t, const std::vector<int>& due, double longest,
                                      bool at_start) {
   t_ = t, longest_ = longest;
   outcome_ = {};
@@ -59,7 +58,7 @@ inline Instant::Outcome Instant::run(double t, const std::vector<int>& due, doub
 }
 
 /// Whether what stands there is another value than before the instant.
-inline bool Instant::changed(const Place& place) const {
+bool Instant::changed(const Place& place) const {
   if (place.space == Space::p) return false;
   const auto& [before, now] = place.space == Space::x   ? std::tie(x_minus_, machine_->x)
                               : place.space == Space::z ? std::tie(z_minus_, machine_->z)
@@ -67,7 +66,7 @@ inline bool Instant::changed(const Place& place) const {
   return before.segment(place.offset, place.size) != now.segment(place.offset, place.size);
 }
 
-inline bool Instant::held_outputs_changed() const {
+bool Instant::held_outputs_changed() const {
   return std::ranges::any_of(plan().instants, [&](int i) {
     const Node& node = plan().node(i);
     return node.rate == Rate::held && changed(node.place);
@@ -76,7 +75,7 @@ inline bool Instant::held_outputs_changed() const {
 
 /// Relations whose root was found take the side the crossing says: the value there may be exactly
 /// zero.
-inline bool Instant::flip_relations() {
+bool Instant::flip_relations() {
   bool flipped = false;
   std::ranges::fill(fired_now_, 0);
   for (const Firing& firing : firings_) {
@@ -95,7 +94,7 @@ inline bool Instant::flip_relations() {
 }
 
 /// The edges of watched signals; true if a falling one ended a hold.
-inline bool Instant::collect_edges() {
+bool Instant::collect_edges() {
   bool released = false;
   for (std::size_t e = 0; e < plan().edges.size(); ++e) {
     const EdgeWatch& edge = plan().edges[e];
@@ -123,7 +122,7 @@ inline bool Instant::collect_edges() {
 /// A leaf on hold whose reset value moved while its trigger stayed: a floor that rises carries the
 /// ball. Not before the relations have been read again, for a floor that falls moves the reset
 /// value too.
-inline void Instant::collect_carried(int index) {
+void Instant::collect_carried(int index) {
   if (pass_ == 0 || carried_[static_cast<std::size_t>(index)]) return;
   const EdgeWatch& edge = plan().edges[static_cast<std::size_t>(index)];
   const EdgeReset& reset = reset_of(edge);
@@ -138,7 +137,7 @@ inline void Instant::collect_carried(int index) {
 }
 
 /// The zero crossings that fire in this pass; leaf by leaf, in declaration order.
-inline void Instant::add_crossings() {
+void Instant::add_crossings() {
   for (const Firing& firing : firings_) {
     const int group = group_of_slot_[static_cast<std::size_t>(firing.slot)];
     const GuardGroup& of = plan().guards[static_cast<std::size_t>(group)];
@@ -159,7 +158,7 @@ inline void Instant::add_crossings() {
   }
 }
 
-inline void Instant::run_pass() {
+void Instant::run_pass() {
   x_next_ = machine_->x, z_next_ = machine_->z, modes_next_ = machine_->modes;
   for (const Action& action : actions_) run_action(action);
   actions_.clear();
@@ -171,7 +170,7 @@ inline void Instant::run_pass() {
   if (recorder_ != nullptr) recorder_->record(t_, jump_, machine_->x.data());
 }
 
-inline void Instant::run_action(const Action& action) {
+void Instant::run_action(const Action& action) {
   const int source = source_of(action.cause, action.index);
   const PlanLeaf& of = leaf(action.leaf);
   auto state = x_next_.segment(of.x, of.nx);
@@ -224,7 +223,7 @@ inline void Instant::run_action(const Action& action) {
 
 /// Within one leaf each reset map sees what the one before left; updates and other leaves' values
 /// are those of x-. Returns whether continuous state was written.
-inline bool Instant::run_reset(const Action& action, const ResetMap& map) {
+bool Instant::run_reset(const Action& action, const ResetMap& map) {
   const PlanLeaf& of = leaf(action.leaf);
   const auto number = static_cast<std::size_t>(action.leaf);
   At at = machine_->at(number, t_);
@@ -255,7 +254,7 @@ inline bool Instant::run_reset(const Action& action, const ResetMap& map) {
   return next.wrote_continuous_state();
 }
 
-inline void Instant::commit() {
+void Instant::commit() {
   machine_->x = x_next_;
   machine_->z = z_next_;
   if (modes_next_ != machine_->modes) {
@@ -268,7 +267,7 @@ inline void Instant::commit() {
   flowed_ = false;
 }
 
-[[noreturn]] inline void Instant::throw_no_end() const {
+[[noreturn]] void Instant::throw_no_end() const {
   std::string causes;
   const std::size_t first = chain_.size() > 6 ? chain_.size() - 6 : 0;
   for (std::size_t i = first; i < chain_.size(); ++i)
@@ -281,7 +280,7 @@ inline void Instant::commit() {
 }
 
 /// "block.event" of a source.
-inline const std::string& Instant::name_of(int source) const {
+const std::string& Instant::name_of(int source) const {
   const auto groups = static_cast<int>(plan().guards.size()),
              edges = static_cast<int>(plan().edges.size());
   if (source < groups) return plan().guards[static_cast<std::size_t>(source)].name;

@@ -1,23 +1,21 @@
 // Simulator: the loop from instant to instant.
-#pragma once
-
 #include "saltus/simulation/simulator.hpp"
 
 namespace saltus {
 
-inline SimulatorOptions Simulator::checked(SimulatorOptions options) const {
+SimulatorOptions Simulator::checked(SimulatorOptions options) const {
   detail::check(options);
   return options;
 }
 
-inline Simulator::Simulator(const System& system, SimulatorOptions options)
+Simulator::Simulator(const System& system, SimulatorOptions options)
     : options_(checked(std::move(options))),
       machine_(compile(system, options_.recorded_signals)),
       instant_(machine_, watch_, options_, results_),
       calendar_(machine_.plan()),
       method_(method_from(options_.ode_solver_method)) {}
 
-inline void Simulator::initialize(const Context& context) {
+void Simulator::initialize(const Context& context) {
   machine_.load(context);
   begin_ = context;
   time_ = context.time();
@@ -30,7 +28,7 @@ inline void Simulator::initialize(const Context& context) {
   next_save_ = 0, recent_events_ = ticks_ = 0, recent_since_ = time_;
 }
 
-inline Status Simulator::advance_to(double t_end) {
+Status Simulator::advance_to(double t_end) {
   if (!(t_end >= time_)) {
     throw ModelError(text("cannot run from t = ", time_, " s back to t = ", t_end,
                           " s; the end has to be later"));
@@ -61,7 +59,7 @@ inline Status Simulator::advance_to(double t_end) {
   }
 }
 
-inline Status Simulator::run_to(double t_end) {
+Status Simulator::run_to(double t_end) {
   if (over_) return results_.status;
   if (!begun_) {
     begun_ = true;
@@ -83,7 +81,7 @@ inline Status Simulator::run_to(double t_end) {
 }
 
 /// One minor step, and the instant at its end if there is one.
-inline Status Simulator::step(double t_end) {
+Status Simulator::step(double t_end) {
   const double t_stop =
       std::min({t_end, calendar_.next(), last_instant_ + options_.max_major_step_length});
   const double from = time_;
@@ -99,7 +97,7 @@ inline Status Simulator::step(double t_end) {
 }
 
 /// Lets the solver move, where something moves.
-inline void Simulator::move_to(double t_stop, StopReason& reason) {
+void Simulator::move_to(double t_stop, StopReason& reason) {
   watch_.monitors.clear();
   if (plan().nx == 0 && !watch_.any()) {
     time_ = t_stop;
@@ -116,12 +114,12 @@ inline void Simulator::move_to(double t_stop, StopReason& reason) {
   time_ = solver_->time();
 }
 
-inline SolverOptions Simulator::solver_options() const {
+SolverOptions Simulator::solver_options() const {
   return {options_.rtol, options_.atol, options_.min_minor_step_size, options_.max_minor_step_size};
 }
 
 /// The instant at time_, where there is one; restarts the solver if it has to forget.
-inline Status Simulator::settle(StopReason reason, double t_end, bool at_start) {
+Status Simulator::settle(StopReason reason, double t_end, bool at_start) {
   if (solver_started_) machine_.x = solver_->state();
   machine_.at_home();
   ++results_.statistics.instants;
@@ -151,7 +149,7 @@ inline Status Simulator::settle(StopReason reason, double t_end, bool at_start) 
 }
 
 /// A thousand roots within what rounding leaves of time.
-inline bool Simulator::chatters() {
+bool Simulator::chatters() {
   const double window = 1e6 * std::numeric_limits<double>::epsilon() * std::abs(time_);
   if (++recent_events_ < 1000) return false;
   if (time_ - recent_since_ <= window) return true;
@@ -159,7 +157,7 @@ inline bool Simulator::chatters() {
   return false;
 }
 
-inline bool Simulator::interrupted() {
+bool Simulator::interrupted() {
   if (!options_.interrupt) return false;
   const auto now = std::chrono::steady_clock::now();
   if (now - asked_ < std::chrono::milliseconds(20)) return false;
@@ -167,13 +165,13 @@ inline bool Simulator::interrupted() {
   return options_.interrupt();
 }
 
-inline void Simulator::record(double t, const double* x) {
+void Simulator::record(double t, const double* x) {
   if (recorder_ && !recorder_->has_row(t, instant_.jump()))
     recorder_->record(t, instant_.jump(), x);
 }
 
 /// Rows of the step from `from` to now: those at asked-for times, then its end.
-inline void Simulator::record_step(double from) {
+void Simulator::record_step(double from) {
   if (!recorder_) return;
   const auto& wanted = options_.save_at;
   while (next_save_ < wanted.size() && wanted[next_save_] < from) ++next_save_;
@@ -186,7 +184,7 @@ inline void Simulator::record_step(double from) {
     record(time_, solver_started_ ? solver_->state().data() : machine_.x.data());
 }
 
-inline Status Simulator::end(Status status, std::string message) {
+Status Simulator::end(Status status, std::string message) {
   over_ = true;
   results_.status = status;
   results_.message = std::move(message);
@@ -194,7 +192,7 @@ inline Status Simulator::end(Status status, std::string message) {
 }
 
 /// Context, last row and counts.
-inline void Simulator::finish() {
+void Simulator::finish() {
   const bool mid_step = solver_started_ && results_.status != Status::terminal;
   if (mid_step) machine_.x = solver_->state();
   if (results_.status != Status::failed) record(time_, machine_.x.data());
@@ -209,7 +207,7 @@ inline void Simulator::finish() {
   s.events_by_name = instant_.counts();
 }
 
-inline std::string Simulator::describe() const {
+std::string Simulator::describe() const {
   return plan().describe() + text("method: ", options_.ode_solver_method,
                                   solver_ ? text(" (", solver_->method(), ")") : "", "\n");
 }
