@@ -66,7 +66,7 @@ TEST_CASE("what has no function, or no sensible time, is refused", "[declare]") 
                                             .guard = [](const At& at) { return at.time; },
                                             .zeno_tolerance = -1.0});
                  }),
-                 "zeno_tolerance -1 is not a time >= 0 s"));
+                 "has zeno_tolerance -1; expected a time >= 0 s"));
   for (const double period : {0.0, -1.0, not_a_number}) {
     CHECK(contains(refused([&](Leaf& l) { l.declare_periodic_update(update, period); }),
                    "expected period > 0"));

@@ -65,6 +65,7 @@ class At {
   VectorView p;  ///< parameters of this leaf, one after the other
   Inputs u;      ///< inputs of this leaf
   int mode;      ///< mode of this leaf
+  Index entry = 0;  ///< in a reset map: which guard of a vector of them fired
 
   /// A vector parameter.
   VectorView parameter(ParameterIndex k) const { return {p.data() + k.offset, k.size}; }

@@ -118,15 +118,36 @@ inline int LeafSystem::declare_mode_output(std::string port) {
                               .reads = Reads::mode});
 }
 
+namespace detail {
+
+/// The options of a zero crossing that exclude each other, or that name what is not there.
+inline void require_sound(const ZeroCrossing& c, const Declarations& declared,
+                          const std::string& block) {
+  const auto refuse = [&](bool wrong, auto&&... why) {
+    if (wrong) throw ModelError(text("block '", block, "': zero crossing '", c.name, "' ", why...));
+  };
+  refuse(!c.guard, "has no guard");
+  refuse(c.size < 1, "has ", c.size, " guards; expected 1 or more");
+  refuse(c.max_count < 1, "has max_count ", c.max_count, "; expected 1 or more");
+  refuse(c.max_count > 1 && !c.terminal,
+         "has max_count ", c.max_count, " but is not terminal; set terminal too");
+  refuse(c.zeno_tolerance && !(*c.zeno_tolerance >= 0.0),
+         "has zeno_tolerance ", c.zeno_tolerance.value_or(0.0), "; expected a time >= 0 s");
+  refuse(!c.holds.empty() && static_cast<Index>(c.holds.size()) != c.size,
+         "has ", c.size, " guards and ", c.holds.size(), " lists of states to hold; give one list for each guard");
+  const Index n = declared.continuous.initial.size();
+  for (const auto& states : c.holds) {
+    for (int i : states)
+      refuse(i < 0 || i >= n, "holds state ", i, "; the block has ", n,
+             " continuous states, declared before it");
+  }
+}
+
+}  // namespace detail
+
 inline int LeafSystem::declare_zero_crossing(ZeroCrossing crossing) {
   detail::name_it(crossing.name, declared_.zero_crossings, "zero_crossing_", name());
-  if (!crossing.guard)
-    throw ModelError(
-        text("block '", name(), "': zero crossing '", crossing.name, "' has no guard"));
-  if (crossing.zeno_tolerance && !(*crossing.zeno_tolerance >= 0.0)) {
-    throw ModelError(text("block '", name(), "': zero crossing '", crossing.name,
-                          "': zeno_tolerance ", *crossing.zeno_tolerance, " is not a time >= 0 s"));
-  }
+  detail::require_sound(crossing, declared_, name());
   declared_.zero_crossings.push_back(std::move(crossing));
   return static_cast<int>(declared_.zero_crossings.size()) - 1;
 }

@@ -32,14 +32,24 @@ inline constexpr std::array<std::pair<std::string_view, Direction>, 5> direction
     {"edge_detection", Direction::edge_detection},
 }};
 
-/// The direction of that name; a ModelError with the nearest name if there is none.
-inline Direction direction_from(std::string_view name) {
+namespace detail {
+
+/// What stands under a name in a table; a ModelError with the nearest name if nothing does.
+template <class Table>
+auto value_of(const Table& table, std::string_view what, std::string_view name) {
   std::vector<std::string> known;
-  for (const auto& [text_form, direction] : direction_names) {
-    if (text_form == name) return direction;
+  for (const auto& [text_form, value] : table) {
+    if (text_form == name) return value;
     known.emplace_back(text_form);
   }
-  throw ModelError(text("unknown direction '", name, "'", known_names(name, known)));
+  throw ModelError(text("unknown ", what, " '", name, "'", known_names(name, known)));
+}
+
+}  // namespace detail
+
+/// The direction of that name; a ModelError with the nearest name if there is none.
+inline Direction direction_from(std::string_view name) {
+  return detail::value_of(direction_names, "direction", name);
 }
 
 inline std::string_view to_string(Direction direction) {
@@ -66,18 +76,69 @@ constexpr bool fires(Direction direction, int side, int now) {
   return false;
 }
 
+/// What becomes of a guard that is exactly at zero, or on its firing side already, when a run starts
+/// or its mode is entered.
+enum class AtStart {
+  automatic,  ///< at zero, headed for its firing side: with a reset map or a mode change it fires at
+              ///< once (contact), without it waits; on its firing side: it waits to leave it
+  ignore,     ///< it waits, in either case
+  fire,       ///< it fires at once, in either case
+  error       ///< a SimulationError, in either case
+};
+
+inline constexpr std::array<std::pair<std::string_view, AtStart>, 4> at_start_names{{
+    {"auto", AtStart::automatic},
+    {"ignore", AtStart::ignore},
+    {"fire", AtStart::fire},
+    {"error", AtStart::error},
+}};
+
+/// The one of that name; a ModelError with the nearest name if there is none.
+inline AtStart at_start_from(std::string_view name) {
+  return detail::value_of(at_start_names, "at_start", name);
+}
+
+/// What a Zeno point means to a guard: the firings accumulate, or no time can pass between them.
+class OnZeno {
+ public:
+  enum class Kind { hold, stop, error, mode };
+
+  static constexpr OnZeno hold() { return {Kind::hold, 0}; }    ///< rest there, until released
+  static constexpr OnZeno stop() { return {Kind::stop, 0}; }    ///< end the run: zeno_stop
+  static constexpr OnZeno error() { return {Kind::error, 0}; }  ///< a SimulationError
+  /// Go on in this mode of the leaf, from the accumulation state.
+  static constexpr OnZeno enter(int mode) { return {Kind::mode, mode}; }
+
+  constexpr OnZeno() = default;
+  constexpr Kind kind() const noexcept { return kind_; }
+  constexpr int mode() const noexcept { return mode_; }
+
+ private:
+  constexpr OnZeno(Kind kind, int mode) : kind_(kind), mode_(mode) {}
+  Kind kind_ = Kind::hold;
+  int mode_ = 0;
+};
+
 /// A guard and what happens when it fires. Without reset map, mode change and `terminal` it is a
 /// monitor: its crossings are located and logged, and the trajectory is the same to the last bit as
-/// without it.
+/// without it. With `size` n it is n guards that one call computes; each fires for itself, and its
+/// reset map finds in `At::entry` which one it was.
 struct ZeroCrossing {
   std::string name = {};
-  VectorFunction guard = {};  ///< g(t, x, z, m, u, p), a number
+  VectorFunction guard = {};  ///< g(t, x, z, m, u, p), `size` numbers
   ResetMap reset_map = {};    ///< x+ from x-; optional
   Direction direction = Direction::crosses_zero;
-  std::optional<int> start_mode = {};           ///< seen in this mode only
-  std::optional<int> end_mode = {};             ///< mode after it fired
-  bool terminal = false;                        ///< ends the run, after its reset map
-  std::optional<double> zeno_tolerance = {};    ///< [s] overrides SimulatorOptions::zeno_tolerance
+  std::optional<int> start_mode = {};         ///< seen in this mode only
+  std::optional<int> end_mode = {};           ///< mode after it fired
+  bool terminal = false;                      ///< ends the run, after its reset map
+  int max_count = 1;                          ///< of a terminal one: it ends the run when it fires this often
+  Index size = 1;                             ///< number of guards
+  AtStart at_start = AtStart::automatic;      ///< at zero, or beyond it, when integration begins
+  OnZeno on_zeno = OnZeno::hold();            ///< what its Zeno points mean
+  std::optional<double> zeno_tolerance = {};  ///< [s] overrides SimulatorOptions::zeno_tolerance
+  /// The entries of the leaf's continuous state that rest on a hold, a list for each guard; all of
+  /// the state if not said.
+  std::vector<std::vector<int>> holds = {};
   std::optional<std::vector<int>> inputs = {};  ///< the inputs the guard reads; all if not said
 };
 
@@ -101,6 +162,7 @@ struct EdgeReset {
   int input = 0;  ///< the input that is watched, read as boolean: u != 0
   Edge edge = Edge::rising;
   ResetMap reset_map = {};
+  OnZeno on_zeno = OnZeno::hold();              ///< what its Zeno points mean
   std::optional<double> zeno_tolerance = {};    ///< [s] overrides SimulatorOptions::zeno_tolerance
   std::optional<std::vector<int>> inputs = {};  ///< the inputs the reset map reads; all if not said
 };

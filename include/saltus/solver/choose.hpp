@@ -27,12 +27,7 @@ inline constexpr std::array<std::pair<std::string_view, Method>, 8> method_names
 
 /// The method of that name; a ModelError with the nearest name if there is none.
 inline Method method_from(std::string_view name) {
-  std::vector<std::string> known;
-  for (const auto& [known_name, method] : method_names) {
-    if (known_name == name) return method;
-    known.emplace_back(known_name);
-  }
-  throw ModelError(text("unknown ode_solver_method '", name, "'", known_names(name, known)));
+  return detail::value_of(method_names, "ode_solver_method", name);
 }
 
 /// The solver of a method for one run. CVODE is made only where it is asked for, or once "auto" needs it.
