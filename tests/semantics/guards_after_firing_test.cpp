@@ -93,6 +93,35 @@ TEST_CASE("2.5 a reset that turns the flow round re-arms a guard that rounding l
   for (const double y : column(results, "state")) REQUIRE(y > -1e-10);
 }
 
+TEST_CASE("2.5 a swing that turns at zero by its reset goes on swinging, in every direction",
+          "[semantics][.engine]") {
+  const auto* method = GENERATE(from_range(methods));
+  const auto direction = GENERATE(Direction::crosses_zero, Direction::positive_then_non_positive,
+                                  Direction::negative_then_non_negative);
+  const bool keeps_x = GENERATE(true, false);  // what location left of it, or exactly zero
+  INFO("method " << method << ", " << to_string(direction) << ", keeps x " << keeps_x);
+  const double sign = direction == Direction::negative_then_non_negative ? -1.0 : 1.0;
+  const Leaf swing("swing", [=](Leaf& leaf) {  // x = +-cos t, turned and halved at each zero
+    leaf.declare_continuous_state(
+        {.initial = vec({sign, 0.0}),
+         .ode = [](const At& at, VectorRef xdot) { xdot << at.x[1], -at.x[0]; }});
+    leaf.declare_zero_crossing({.name = "axis",
+                                .guard = [](const At& at) { return at.x[0]; },
+                                .reset_map =
+                                    [=](const At& at, Next& next) {
+                                      next.set_continuous_state(
+                                          {keeps_x ? at.x[0] : 0.0, -0.5 * at.x[1]});
+                                    },
+                                .direction = direction});
+  });
+  const auto results = simulate(swing, swing.create_context(), {0.0, 12.0},
+                                {.rtol = 1e-9, .atol = 1e-11, .ode_solver_method = method});
+  CHECK(count(results.events, EventKind::zeno_enter) == 0);
+  CHECK(results.events.times("axis").size() == 4);  // pi / 2 + k pi
+  CHECK_THAT(results.context.continuous_state()[0],
+             WithinAbs(sign * std::abs(std::cos(12.0)) / 16.0, 1e-6));
+}
+
 TEST_CASE("2.5 a guard that a later pass carries across zero fires again at the same instant",
           "[semantics][.engine]") {
   const auto* method = GENERATE(from_range(methods));
