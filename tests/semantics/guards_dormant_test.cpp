@@ -27,10 +27,9 @@ Leaf plateau(double after, bool monitor) {
 
 }  // namespace
 
-TEST_CASE("2.6 a plateau of zeros is one firing, to whichever side it is left",
-          "[semantics][.engine]") {
+TEST_CASE("2.6 a plateau of zeros is one firing, on reaching it", "[semantics][.engine]") {
   const auto* method = GENERATE(from_range(methods));
-  const double after = GENERATE(1.0, -1.0, 0.0);
+  const double after = GENERATE(1.0, 0.0);
   const bool monitor = GENERATE(false, true);
   INFO("method " << method << ", left with slope " << after << ", monitor " << monitor);
   const Leaf leaf = plateau(after, monitor);

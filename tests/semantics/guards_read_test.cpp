@@ -64,6 +64,30 @@ TEST_CASE("2.1 a guard is a function of t, x, z, m, u and p", "[semantics]") {
   CHECK_THAT(found(with(part.with_parameter("p", 1.5))), WithinAbs(0.0625, 1e-9));
 }
 
+TEST_CASE("2.1 edge_detection fires at each change of a held signal, at its very time",
+          "[semantics]") {
+  const auto* method = GENERATE(from_range(methods));
+  const bool with_state = GENERATE(true, false);
+  INFO("method " << method << ", state " << with_state);
+  DiagramBuilder builder;
+  auto& pulse = builder.add<Pulse>(
+      "pulse", Pulse::Options{.period = 1.0, .pulse_width = 0.5, .phase_delay = 0.25});
+  auto& leaf = builder.add<Leaf>("leaf", [=](Leaf& l) {
+    l.declare_input_port({.name = "u", .shape = Shape::scalar()});
+    if (with_state) declare_ramp(l);
+    l.declare_discrete_state(vec({0.0}));
+    l.declare_zero_crossing({.name = "edge",
+                             .guard = [](const At& at) { return at.u(0); },
+                             .reset_map = count_up,
+                             .direction = Direction::edge_detection});
+  });
+  builder.connect(pulse.output(), leaf.input());
+  const Diagram diagram = builder.build();
+  const auto results =
+      simulate(diagram, diagram.create_context(), {0.0, 2.0}, {.ode_solver_method = method});
+  CHECK(results.events.times("leaf.edge") == std::vector{0.25, 0.75, 1.25, 1.75});
+}
+
 TEST_CASE("2.1 crosses_zero is the direction of a guard that does not say one", "[semantics]") {
   CHECK(ZeroCrossing{}.direction == Direction::crosses_zero);
 }
