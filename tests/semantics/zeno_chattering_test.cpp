@@ -11,7 +11,7 @@ namespace {
 /// x' = f(x, on), on while guard(x, t) > 0.
 template <class Guard, class Flow>
 Leaf relay(const Eigen::VectorXd& start, Guard guard, Flow flow, std::string name = "relay") {
-  return Leaf(std::move(name), [=](Leaf& l) {
+  return Leaf(std::move(name), [&](Leaf& l) {
     const auto on = l.declare_relation({.name = "on", .guard = guard});
     l.declare_continuous_state({.initial = start, .ode = [=](const At& at, VectorRef xdot) {
                                   flow(at, at.relation(on), xdot);
