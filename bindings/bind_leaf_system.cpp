@@ -1,14 +1,11 @@
 // LeafSystem: what python/saltus/leaf_system.py declares blocks with.
 #include <pybind11/stl.h>
 
-#include "python_leaf.hpp"
+#include "zero_crossing.hpp"
 
 namespace saltus::python {
 
 namespace {
-
-using OptionalNumber = std::optional<double>;
-using OptionalMode = std::optional<int>;
 
 /// Functions held by a block are seen by the garbage collector: a lambda that holds its block is no
 /// leak.
@@ -93,31 +90,6 @@ int declare_view(py::handle self, std::string name, Space space) {
                                    .view = Place{space, 0, shape.size}});
 }
 
-void declare_zero_crossing(py::handle self, py::object guard, py::object reset_map,
-                           std::string name, const std::string& direction, OptionalMode start_mode,
-                           OptionalMode end_mode, bool terminal, OptionalNumber zeno_tolerance,
-                           const InputList& inputs) {
-  PythonLeaf& leaf = leaf_of(self);
-  const std::string called =
-      name.empty() ? text("zero_crossing_", leaf.declarations().zero_crossings.size()) : name;
-  const int g =
-      leaf.add(self, std::move(guard), inputs, text("guard of '", called, "'"), Convention::state);
-  ZeroCrossing crossing{.name = std::move(name),
-                        .guard = leaf.vector_function(g),
-                        .direction = direction_from(direction),
-                        .start_mode = start_mode,
-                        .end_mode = end_mode,
-                        .terminal = terminal,
-                        .zeno_tolerance = zeno_tolerance,
-                        .inputs = inputs};
-  if (!reset_map.is_none()) {
-    crossing.reset_map =
-        leaf.reset_map(leaf.add(self, std::move(reset_map), inputs,
-                                text("reset map of '", called, "'"), Convention::state));
-  }
-  leaf.declare_zero_crossing(std::move(crossing));
-}
-
 ResetMap update_of(py::handle self, py::object callback, const char* what) {
   PythonLeaf& leaf = leaf_of(self);
   if (callback.is_none()) return {};
@@ -136,6 +108,8 @@ the value is the one that was there.)")
       .def_readonly("continuous_state", &State::x, "Read-only array of the declared shape.")
       .def_readonly("discrete_state", &State::z, "Read-only array of the declared shape.")
       .def_readonly("mode", &State::mode)
+      .def_readonly("entry", &State::entry,
+                    "In a reset map: which guard of a zero crossing of several fired; else 0.")
       .def("with_continuous_state", &State::with_continuous_state, py::arg("continuous_state"))
       .def("with_discrete_state", &State::with_discrete_state, py::arg("discrete_state"))
       .def("with_mode", &State::with_mode, py::arg("mode"))
