@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import operator
 from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
@@ -42,7 +43,13 @@ def _initial(what: str, shape: Any, default_value: ArrayLike | None) -> ArrayLik
 def _shape(shape: Any, default_value: ArrayLike | None = None) -> list[int] | None:
     if shape is None:
         return None if default_value is None else list(np.shape(default_value))
-    return [int(n) for n in np.atleast_1d(np.asarray(shape, dtype=int))] if shape != () else []
+    try:
+        sizes = [operator.index(n) for n in np.atleast_1d(np.asarray(shape, dtype=object))]
+    except TypeError:
+        sizes = [-1]
+    if any(n < 0 for n in sizes):
+        raise ModelError(f"shape: expected () or a number of entries, found {shape!r}")
+    return sizes
 
 
 class LeafSystem(System, _core.LeafSystem):
