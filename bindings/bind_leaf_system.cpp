@@ -7,6 +7,14 @@ namespace saltus::python {
 
 namespace {
 
+/// Whether there is a block in a Python object. There is none yet while pybind11 makes the object,
+/// and the garbage collector may come in the middle of that, before the object has room for one.
+bool holds_block(PyObject* self) {
+  const auto* object = reinterpret_cast<const py::detail::instance*>(self);
+  if (!object->simple_layout && object->nonsimple.status == nullptr) return false;
+  return py::detail::is_holder_constructed(self);
+}
+
 /// Functions held by a block are seen by the garbage collector: a lambda that holds its block is no
 /// leak.
 void let_collect(PyHeapTypeObject* heap_type) {
@@ -14,11 +22,11 @@ void let_collect(PyHeapTypeObject* heap_type) {
   type.tp_flags |= Py_TPFLAGS_HAVE_GC;
   type.tp_traverse = [](PyObject* self, visitproc visit, void* arg) {
     Py_VISIT(Py_TYPE(self));
-    if (!py::detail::is_holder_constructed(self)) return 0;
+    if (!holds_block(self)) return 0;
     return py::cast<const PythonLeaf&>(py::handle(self)).traverse(visit, arg);
   };
   type.tp_clear = [](PyObject* self) {
-    if (py::detail::is_holder_constructed(self)) py::cast<PythonLeaf&>(py::handle(self)).clear();
+    if (holds_block(self)) py::cast<PythonLeaf&>(py::handle(self)).clear();
     return 0;
   };
 }
