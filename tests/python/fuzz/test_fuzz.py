@@ -7,6 +7,7 @@ import os
 
 import numpy as np
 import saltus
+from draw_scene import scenes
 from hypothesis import HealthCheck, Phase, assume, event, given, note, settings
 from hypothesis import strategies as st
 from known import is_known
@@ -20,7 +21,6 @@ from properties import (
 )
 from running import run, run_in_pieces
 from scene import build
-from strategies import scenes
 
 EXAMPLES = os.environ.get("SALTUS_FUZZ_EXAMPLES")
 several = settings(
