@@ -233,5 +233,7 @@ def simulate(
     if recorded_signals is not None:
         option_overrides["recorded_signals"] = recorded_signals
     simulator = Simulator(system, options, **option_overrides)
-    simulator.initialize(_context(context).with_time(begin))
+    context = _context(context)
+    # one that ended another run at this time knows what of it has happened already
+    simulator.initialize(context if context.time == begin else context.with_time(begin))
     return simulator._advance(end, take=True)
