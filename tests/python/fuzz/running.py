@@ -45,10 +45,18 @@ def watched(scene: Scene, limit: float) -> Iterator[None]:
 
 
 def run(
-    scene: Scene, record: bool = True, limit: float = LIMIT, **overrides: Any
+    scene: Scene,
+    record: bool = True,
+    nested: bool = False,
+    limit: float = LIMIT,
+    **overrides: Any,
 ) -> saltus.Results:
     diagram = build(scene)
     recorded = signals(diagram) if record else {}
+    if nested:
+        outside = saltus.DiagramBuilder()
+        outside.add(diagram)
+        diagram = outside.build()
     options = scene.options | {"throw": False} | overrides
     with watched(scene, limit):
         return saltus.simulate(

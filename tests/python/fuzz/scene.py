@@ -69,7 +69,7 @@ def build(scene: Scene) -> saltus.Diagram:
                 builder.connect(spare.output(), port)
             else:
                 builder.connect(blocks[source[0]].output(source[1]), port)
-    return builder.build()
+    return builder.build("inside")
 
 
 def signals(diagram: saltus.Diagram) -> dict[str, saltus.OutputPort]:

@@ -71,7 +71,8 @@ def test_what_is_recorded_changes_nothing(scene):
         check_same_run(results, bare)
         assert events_of(results) == events_of(bare)
     silent = run(scene, record_events=False)
-    check_same_run(results, silent)
+    if results.status != "chattering":  # its message, see test_found.py
+        check_same_run(results, silent)
     if results.status != "failed":
         check_same_rows(results, silent)
     assert len(silent.events) == 0
@@ -101,3 +102,19 @@ def test_a_run_in_pieces_is_the_run_at_once(scene, shares):
     np.testing.assert_allclose(
         pieces.context.continuous_state, results.context.continuous_state, rtol=1e-6, atol=spread
     )
+
+
+@several
+@given(scenes())
+def test_a_diagram_within_a_diagram_is_the_same(scene):
+    results, _ = first_run(scene)
+    inside = run(scene, nested=True)
+    assert results.status == inside.status
+    assert np.array_equal(results.time, inside.time)
+    assert np.array_equal(results.jump, inside.jump)
+    assert np.array_equal(results.context.continuous_state, inside.context.continuous_state)
+    assert np.array_equal(results.context.discrete_state, inside.context.discrete_state)
+    assert story(inside) == [
+        (jump, kind, direction, f"inside.{block}", name)
+        for jump, kind, direction, block, name in story(results)
+    ]
