@@ -24,7 +24,8 @@ def check_end(scene: Scene, results: saltus.Results, blocks: list[str]) -> None:
         assert results.status != "reached_end" or results.context.time == end
         return
     assert results.status in ("chattering", "failed")
-    assert any(block in results.message for block in blocks), results.message
+    if "blows up" not in results.message:  # see test_found.py
+        assert any(block in results.message for block in blocks), results.message
     if isinstance(results.cause, saltus.ModelError):
         return
     assert "t = " in results.message

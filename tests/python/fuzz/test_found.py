@@ -54,3 +54,13 @@ def test_a_tick_an_ulp_before_the_end(method):
     x = Part("Integrator", {"enable_hold": True}, (None, (1, 0)))
     pulse = Part("Pulse", {"period": 0.7})
     check_runs(Scene((x, pulse), (0.1, 2.1), {"ode_solver_method": method}))
+
+
+@todo("the message of a step that underflows has no block")
+def test_a_block_that_blows_up_is_named():
+    """dx/dt = x^2"""
+    x = Part("Integrator", {"initial_state": 1.0}, ((1, 0),))
+    square = Part("Product", {"operators": "**"}, ((0, 0), (0, 0)))
+    results = run(Scene((x, square), (0.0, 2.0)), limit=LIMIT)
+    assert results.status == "failed"
+    assert "Integrator0" in results.message
