@@ -70,7 +70,7 @@ struct Cradle {
   const char* method;
   double rtol = 1e-10, atol = 1e-12;
   /// Three quarter turns are 2.4 half ones; an oscillator does not let errors grow, they add up.
-  double tolerance = allowed(1e-10, 1e-12, 1.0, 5.0 * 3.15);
+  double tolerance = allowed(method, 1e-10, 1e-12, 1.0, 5.0 * 3.15);
 
   Results run(const System& system, double end) const {
     return simulate(

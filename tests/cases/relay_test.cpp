@@ -65,7 +65,7 @@ TEST_CASE("a relay over a first-order lag switches with one period", "[cases][mo
                                   {.rtol = rtol, .atol = atol, .ode_solver_method = method});
     // Each half period starts anew from the band, so its error is one of time, dx over the speed
     // 1 - band at the switch; they add up.
-    const double once = allowed(rtol, atol, band) / (1.0 - band) + 200.0 * eps * n * half;
+    const double once = allowed(method, rtol, atol, band) / (1.0 - band) + 200.0 * eps * n * half;
     within(text("relay lag ", band, " ", form.name), method,
            worst(firing_times(results.events), expected), n * once);
   }
