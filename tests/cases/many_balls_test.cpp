@@ -21,7 +21,10 @@ std::shared_ptr<Leaf> balls(const Eigen::VectorXd& heights, double e) {
     std::vector<std::vector<int>> holds;
     for (int i = 0; i < n; ++i) holds.push_back({i, static_cast<int>(n) + i});
     l.declare_zero_crossing({.name = "bounce",
-                             .guard = [=](const At& at, VectorRef h) { h = at.x.head(n); },
+                             .guard =
+                                 [](const At& at, VectorRef h) {
+                                   for (Index i = 0; i < h.size(); ++i) h[i] = at.x[i];
+                                 },
                              .reset_map =
                                  [=](const At& at, Next& next) {
                                    Eigen::VectorXd x = at.x;
