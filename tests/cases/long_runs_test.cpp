@@ -76,3 +76,23 @@ TEST_CASE("ticks of two blocks that coincide now and then do both, at one time",
   CHECK(results.statistics.instants <= 301 + 701 - 101 + 1);
   CHECK(results.events[results.events.size() - 1].jump == 301 + 701 - 101);
 }
+
+TEST_CASE("ticks are counted from their offset, wherever a run begins", "[cases][events]") {
+  const auto* method = GENERATE(from_range(methods));
+  const auto ticks = [&](double period, double offset, double t0, double end) {
+    const auto leaf = make_leaf("counter", [=](Leaf& l) {
+      declare_ramp(l);
+      l.declare_discrete_state(vec({0.0}));
+      l.declare_periodic_update(count_up, period, offset);
+    });
+    const auto results =
+        simulate(*leaf, leaf->create_context(t0), {t0, end}, {.ode_solver_method = method});
+    return results.context.discrete_state()[0];
+  };
+  INFO("method " << method);
+  CHECK(ticks(1.0 / 3.0, 0.0, 1e8, 1e8 + 1000.0) == 3001.0);  // at both ends
+  CHECK(ticks(0.1, 0.0, 1e6, 1e6 + 100.0) == 1001.0);
+  CHECK(ticks(0.5, -0.25, 0.0, 10.0) == 20.0);  // 0.25, 0.75, ..., 9.75
+  CHECK(ticks(0.5, 0.25, -5.0, 1.0) == 2.0);    // none before the offset
+  CHECK(ticks(7.0, 3.0, 3.0, 3.0) == 1.0);      // a run of no length, at a tick
+}
