@@ -33,13 +33,9 @@ void late_in_time(const char* method, double t0) {
     const double blind = 200.0 * eps * std::abs(t0);
     rests(text("ball from t0=", t0, " ", scene.form), method, results, 0.0,
           4.5 * blind + 40.0 * (rtol + atol));
-    std::vector<double> times;
-    for (std::size_t i = 0; i < results.events.size() && times.size() < 4; ++i) {
-      const Event event = results.events[i];
-      if (event.kind == EventKind::zero_crossing &&
-          (event.block == "ball" || event.block == "integrator_y"))
-        times.push_back(event.time - t0);
-    }
+    auto times = contact_times(results.events);
+    times.resize(std::min<std::size_t>(times.size(), 4));
+    for (double& t : times) t -= t0;
     std::vector<double> expected;
     for (int k = 1; k <= 4; ++k) expected.push_back(exact.contact(k));
     const double made = one_step(method) ? 0.0 : 40.0 * (rtol * 4.5 + atol) / g;
@@ -51,15 +47,13 @@ void late_in_time(const char* method, double t0) {
 void far_from_zero(const char* method, double floor, double e, bool of_blocks) {
   const BallOptions options{.g = g, .e = e, .floor = floor};
   const Scene scene = of_blocks ? blocks(Contact::comparator, options) : leaf(options);
-  {
-    const double rtol = 1e-13, atol = 1e-10;
-    const auto results =
-        simulate(*scene.system, scene.context(floor + 1.0, 0.0), {0.0, 15.0},
-                 {.rtol = rtol, .atol = atol, .ode_solver_method = method, .throw_errors = false});
-    // Heights are told apart by eps |floor|, and to rtol |floor| + atol a step.
-    rests(text("ball on a floor at ", floor, " e=", e, " ", scene.form), method, results, floor,
-          8.0 * eps * std::abs(floor) + 40.0 * (rtol * std::abs(floor) + atol));
-  }
+  const double rtol = 1e-13, atol = 1e-10;
+  const auto results =
+      simulate(*scene.system, scene.context(floor + 1.0, 0.0), {0.0, 15.0},
+               {.rtol = rtol, .atol = atol, .ode_solver_method = method, .throw_errors = false});
+  // Heights are told apart by eps |floor|, and to rtol |floor| + atol a step.
+  rests(text("ball on a floor at ", floor, " e=", e, " ", scene.form), method, results, floor,
+        8.0 * eps * std::abs(floor) + 40.0 * (rtol * std::abs(floor) + atol));
 }
 
 void of_any_size(const char* method, double y0, double gravity) {

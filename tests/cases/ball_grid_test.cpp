@@ -51,17 +51,6 @@ std::vector<Scene> both_forms(const Problem& p) {
   return {leaf(options), blocks(Contact::comparator, options)};
 }
 
-std::vector<double> contact_times(const EventLog& log) {
-  std::vector<double> times;
-  for (std::size_t i = 0; i < log.size(); ++i) {
-    const Event event = log[i];
-    if (event.kind == EventKind::zero_crossing &&
-        (event.block == "ball" || event.block == "integrator_y"))
-      times.push_back(event.time);
-  }
-  return times;
-}
-
 }  // namespace
 
 TEST_CASE("contacts of a ball in any units come when the closed form says", "[cases][ball]") {

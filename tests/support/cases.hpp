@@ -76,6 +76,18 @@ inline std::vector<double> firing_times(const saltus::EventLog& log) {
   return times;
 }
 
+/// The contacts of the ball of a `Scene`, leaf or blocks, in order.
+inline std::vector<double> contact_times(const saltus::EventLog& log) {
+  std::vector<double> times;
+  for (std::size_t i = 0; i < log.size(); ++i) {
+    const saltus::Event event = log[i];
+    if (event.kind == saltus::EventKind::zero_crossing &&
+        (event.block == "ball" || event.block == "integrator_y"))
+      times.push_back(event.time);
+  }
+  return times;
+}
+
 /// The names of all firings, in order.
 inline std::vector<std::string> firing_names(const saltus::EventLog& log) {
   std::vector<std::string> names;
