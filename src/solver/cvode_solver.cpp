@@ -6,8 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "saltus/solver/dopri5.hpp"
-#include "saltus/solver/runge_kutta.hpp"
+#include "saltus/solver/one_step.hpp"
 #include "saltus/solver/step_size.hpp"
 #include "saltus/solver/step_solver.hpp"
 #include "small_vector.hpp"
@@ -231,7 +230,8 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
 
   double shown(std::size_t k, double t, double value) const {
     const GuardSlot& slot = watch_->slots[k];
-    constexpr double tiny = 1e-100;  // CVODE multiplies values to compare signs: nothing it sees may underflow then
+    constexpr double tiny =
+        1e-100;  // CVODE multiplies values to compare signs: nothing it sees may underflow then
     if (!slot.active || slot.monitor) return 1.0;
     if (slot.leaving) return std::abs(value) > slot.band ? -tiny : tiny;
     if (slot.direction == Direction::edge_detection) return value == slot.base ? 1.0 : -1.0;
