@@ -142,7 +142,10 @@ void Instant::arm_fired(const GuardGroup& group, std::size_t k, int from, Depart
   Rest& rest = slot_rests_[k];
   slot.side = static_cast<signed char>(from);
   slot.band = std::abs(g_[k]);  // without a monitor it fires again as soon as it can
-  if (!rest.monitor.on()) return;
+  if (!rest.monitor.on()) {
+    outcome_.stuck = true;
+    return;
+  }
   come_to_rest(rest, t_, false);
   if (rest.monitor.holding) touch_crossing(k);
 }

@@ -148,25 +148,33 @@ void Instant::touch_relation(std::size_t k) {
     slot.side = 0;
 }
 
-/// Watches a contact: where its surface moves it is carried, and its guard is the lift off it.
+/// Watches a contact: where its surface moves it is carried, and its guard is the lift off it. It
+/// ends where the flow, that led into the surface, now leads off it.
 void Instant::arm_contact(SurfaceContact& contact, double band) {
-  GuardSlot& slot = watch_->slots[static_cast<std::size_t>(contact.slot)];
+  const auto k = static_cast<std::size_t>(contact.slot);
+  GuardSlot& slot = watch_->slots[k];
   double* x = machine_->x.data();
   contact.band = band;
-  if (contact.look_ahead == 0.0) contacts_.choose_look_ahead(contact, t_, x, longest_);
+  double lift = 0.0;
   if (!contact.members.empty()) {
+    if (contact.look_ahead == 0.0) contacts_.choose_look_ahead(contact, t_, x, longest_);
     const bool moves = contact.carried || contacts_.moves(contact, t_, x, longest_);
-    if (moves && contacts_.settle(contact, t_, x) && contacts_.lift(contact, t_, x) < 0.0) contact.carried = true;
-    else contact.carried = false;
+    if (moves) contact.carried = contacts_.settle(contact, t_, x);
+    lift = contacts_.lift(contact, t_, x);
+    contact.carried = contact.carried && lift < 0.0;
+    if (contact.pressed_on && lift > 0.0) {
+      firings_.push_back({contact.slot, lifts_off});
+      return;
+    }
+    contact.pressed_on = lift < 0.0;
   }
   contacts_.engage();
   slot.leaving = !contact.carried && !contact.opaque;
   slot.fresh = !contact.carried;
   slot.band = contact.carried ? 0.0 : band;
   slot.side = static_cast<signed char>(contact.carried ? -1 : contact.opaque ? 0 : contact.pressed);
-  slot.direction = contact.carried ? Direction::negative_then_non_negative
-                                   : group_of(static_cast<std::size_t>(contact.slot)).direction;
-  if (contact.carried) watch_->g[static_cast<std::size_t>(contact.slot)] = contacts_.lift(contact, t_, x);
+  slot.direction = contact.carried ? Direction::negative_then_non_negative : group_of(k).direction;
+  if (contact.carried) watch_->g[k] = lift;
 }
 
 /// Takes out of the firings those of contacts, and those against the flow; true if a contact let
@@ -175,6 +183,11 @@ bool Instant::look_at_firings() {
   bool off = false;
   std::erase_if(firings_, [&](const Firing& firing) {
     SurfaceContact* contact = contacts_.empty() ? nullptr : contacts_.on(firing.slot);
+    if (firing.from == lifts_off) {
+      if (contact != nullptr) let_go(*contact), off = true;
+      return true;
+    }
+    if (pass_ > 0) return false;
     if (contact == nullptr) return goes_against(firing);
     off = wake(*contact) || off;
     return true;
@@ -197,6 +210,16 @@ bool Instant::goes_against(const Firing& firing) {
   slot.side = static_cast<signed char>(firing.from), slot.fresh = true;
   slot.band = std::max({slot.band, hair, flow.rounding});
   return true;
+}
+
+/// Holds of leaves that have entered a mode which does not see the guard of the hold.
+void Instant::release_unseen() {
+  for (std::size_t k = 0; k < slot_rests_.size(); ++k) {
+    Rest& rest = slot_rests_[k];
+    if (!rest.monitor.holding || fired_now_[k] || watch_->slots[k].active) continue;
+    leave_contact(k);
+    release(rest);
+  }
 }
 
 /// Holds whose state a reset map or an update of the same leaf has changed end: what was kicked is

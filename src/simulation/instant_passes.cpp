@@ -13,6 +13,7 @@ void Instant::open(double t, const std::vector<int>& due) {
   t_ = t;
   outcome_ = {};
   std::ranges::fill(fired_, 0), std::ranges::fill(frozen_, 0), std::ranges::fill(carried_, 0);
+  std::ranges::fill(turned_, 0);
   edges_fired_.clear(), actions_.clear(), chain_.clear();
   wrote_ = wrote_x_ = flowed_ = entered_ = false;
   effects_ = 0;
@@ -40,7 +41,7 @@ Instant::Outcome Instant::run(double t, const std::vector<int>& due, double long
       break;
     }
     event_jump_ = jump_ + 1;
-    const bool let_go = pass_ == 0 && look_at_firings();
+    const bool let_go = look_at_firings();
     const bool flipped = flip_relations();
     machine_->evaluate_instant(t);
     const bool released = collect_edges() || let_go;
@@ -169,6 +170,7 @@ void Instant::add_crossings() {
 }
 
 void Instant::run_pass() {
+  wrote_ = false;
   x_next_ = machine_->x, z_next_ = machine_->z, modes_next_ = machine_->modes;
   for (const Action& action : actions_) run_action(action);
   actions_.clear();
@@ -275,6 +277,7 @@ void Instant::commit() {
     entered_ = true;
     outcome_.restart = true;
     select_guards();
+    if (holds_ > 0) release_unseen();
   }
   flowed_ = false;
 }

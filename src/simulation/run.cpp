@@ -26,7 +26,7 @@ void Run::initialize(const Context& context) {
   if (!plan().taps.empty()) recorder_.emplace(machine_, results_);
   calendar_.begin(time_, context.settled());
   begun_ = solver_started_ = over_ = false;
-  next_save_ = 0, recent_events_ = many_events_ = ticks_ = 0, recent_since_ = many_since_ = time_;
+  next_save_ = 0, recent_events_ = many_events_ = stuck_ = ticks_ = 0, recent_since_ = many_since_ = time_;
 }
 
 Results Run::take_results() {
@@ -151,7 +151,9 @@ Status Run::settle(StopReason reason, double t_end, bool at_start) {
     solver_->restart(time_, machine_.x, {.horizon = outcome.horizon});
   if (outcome.terminal) return end(Status::terminal);
   if (outcome.zeno_stop) return end(Status::zeno_stop);
-  if (outcome.chatters) recent_events_ = options_.max_passes, recent_since_ = time_;
+  if (outcome.chatters) recent_events_ = outcome.events, recent_since_ = time_;
+  stuck_ = outcome.stuck ? stuck_ + 1 : 0;
+  if (stuck_ == 1) stuck_since_ = time_;
   if (outcome.chatters || (reason == StopReason::root && chatters(t_end))) return chattering();
   return Status::reached_end;
 }
@@ -166,10 +168,15 @@ Status Run::chattering() {
                   "mode of its own for the motion along the switching surface"));
 }
 
-/// A thousand roots within what rounding leaves of time; or so many in so small a part of the run
+/// A thousand times at rest without a Zeno monitor; a thousand roots within what rounding leaves of
+/// time; or so many in so small a part of the run
 /// that it would never end: ten thousand in 1e-7 of it are 1e11 in all.
 bool Run::chatters(double t_end) {
   const double rounding = 1e6 * std::numeric_limits<double>::epsilon() * std::abs(time_);
+  if (stuck_ >= 1000) {
+    recent_events_ = stuck_, recent_since_ = stuck_since_;
+    return true;
+  }
   ++recent_events_, ++many_events_;
   if (many_events_ >= 10'000) {
     if (time_ - many_since_ <= 1e-7 * (t_end - begin_.time())) {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "saltus/simulation/event_log.hpp"
-#include "saltus/solver/solver.hpp"
+#include "saltus/solver/statistics.hpp"
 
 namespace saltus {
 

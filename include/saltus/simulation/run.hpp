@@ -61,8 +61,8 @@ class Run {
   bool begun_ = false, solver_started_ = false, over_ = false;
   std::vector<int> due_;
   std::size_t next_save_ = 0;
-  std::int64_t recent_events_ = 0, many_events_ = 0, ticks_ = 0;
-  double recent_since_ = 0.0, many_since_ = 0.0;
+  std::int64_t recent_events_ = 0, many_events_ = 0, stuck_ = 0, ticks_ = 0;
+  double recent_since_ = 0.0, many_since_ = 0.0, stuck_since_ = 0.0;
   std::chrono::steady_clock::time_point asked_{};
 };
 

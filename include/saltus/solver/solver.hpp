@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "saltus/plan/machine.hpp"
+#include "saltus/solver/statistics.hpp"
 #include "saltus/solver/watch.hpp"
 
 namespace saltus {
@@ -14,14 +15,6 @@ enum class StopReason {
   step,       ///< one accepted minor step, nothing else
   stop_time,  ///< exactly the time that was asked for
   root        ///< a guard fired: see Watch::fired
-};
-
-/// Counts, summed across restarts.
-struct SolverStatistics {
-  std::int64_t steps = 0;  ///< accepted
-  std::int64_t rejected = 0;
-  std::int64_t restarts = 0;
-  std::int64_t linear_setups = 0;
 };
 
 /// What a solver needs to know beyond the scene.
