@@ -10,7 +10,10 @@ namespace saltus {
 void Instant::come_to_rest(Rest& rest, double predicted, bool in_pass) {
   using Kind = OnZeno::Kind;
   const Kind kind = rest.on_zeno.kind();
-  if (kind == Kind::hold) return hold(rest, predicted);
+  const bool there = kind == Kind::mode &&
+                     machine_->modes[static_cast<std::size_t>(rest.leaf)] == rest.on_zeno.mode();
+  if (kind == Kind::hold || there) return hold(rest, predicted);
+  if (kind == Kind::stop && outcome_.zeno_stop) return;
   const std::string& name = name_of(rest.source);
   if (kind == Kind::error) {
     throw SimulationError(
@@ -167,6 +170,8 @@ void Instant::arm_contact(SurfaceContact& contact, double band) {
       return;
     }
     contact.pressed_on = lift < 0.0;
+    if (lift < 0.0 && !contact.carried && wrote_x_ && contacts_.settle(contact, t_, x))
+      outcome_.restart = true;  // exactly at rest; pushed into its surface it stays where it is
   }
   contacts_.engage();
   slot.leaving = !contact.carried && !contact.opaque;
@@ -212,6 +217,15 @@ bool Instant::goes_against(const Firing& firing) {
   return true;
 }
 
+/// Whether an edge on hold rests on a relation alone, whose contact tells when it ends.
+bool Instant::rests_on_contact(std::size_t e) {
+  const auto& relations = plan().edges[e].relations;
+  return std::ranges::any_of(watch_->active, [&](std::size_t k) {
+    return group_of(k).kind != GuardGroup::Kind::crossing &&
+           relations == std::vector{group_of(k).index} && contacts_.on(static_cast<int>(k));
+  });
+}
+
 /// Holds of leaves that have entered a mode which does not see the guard of the hold.
 void Instant::release_unseen() {
   for (std::size_t k = 0; k < slot_rests_.size(); ++k) {
@@ -222,8 +236,8 @@ void Instant::release_unseen() {
   }
 }
 
-/// Holds whose state a reset map or an update of the same leaf has changed end: what was kicked is
-/// at rest no longer. Its guards are armed anew.
+/// Holds whose state a reset map or an update of the same leaf has changed end, if there is no
+/// reset map to tell by whether what was kicked goes on resting: see arm_contact.
 void Instant::release_kicked() {
   const auto kicked = [&](const Rest& rest) {
     return rest.monitor.holding && std::ranges::any_of(rest.states, [&](Index i) {
@@ -231,14 +245,15 @@ void Instant::release_kicked() {
            });
   };
   for (std::size_t k = 0; k < slot_rests_.size(); ++k) {
-    if (!kicked(slot_rests_[k]) || fired_now_[k]) continue;
+    const SurfaceContact* contact = contacts_.on(static_cast<int>(k));
+    if (!kicked(slot_rests_[k]) || fired_now_[k] || (contact && !contact->members.empty())) continue;
     leave_contact(k);
     release(slot_rests_[k]);
     watch_->slots[k].side = 0;
   }
   for (std::size_t e = 0; e < edge_rests_.size(); ++e) {
     const bool own = carried_[e] != 0 || std::ranges::find(edges_fired_, static_cast<int>(e)) != edges_fired_.end();
-    if (own || !kicked(edge_rests_[e])) continue;
+    if (own || rests_on_contact(e) || !kicked(edge_rests_[e])) continue;
     release(edge_rests_[e]);
     for (std::size_t k = 0; k < resting_.size(); ++k) {
       const auto& relations = plan().edges[e].relations;

@@ -235,16 +235,19 @@ void Instant::look_for_zeno(const Action& action, Rest& rest) {
     rest_relations_of(plan().edges[static_cast<std::size_t>(action.index)]);
 }
 
-/// Within one leaf each reset map and update sees what the one before left; other leaves' values are
+/// Within one leaf each reset map sees what the one before left, updates included; updates, and what is read of
+/// other leaves, are those of x-. Was:
 /// those of x-. Returns whether continuous state was written.
 bool Instant::run_reset(const Action& action, const ResetMap& map) {
   const PlanLeaf& of = leaf(action.leaf);
   const auto number = static_cast<std::size_t>(action.leaf);
   At at = machine_->at(number, t_);
   if (action.cause == Cause::crossing) at.entry = slot_rests_[static_cast<std::size_t>(action.slot)].entry;
-  new (&at.x) VectorView(x_next_.data() + of.x, of.nx);
-  new (&at.z) VectorView(z_next_.data() + of.z, of.nz);
-  at.mode = modes_next_[number];
+  if (action.cause != Cause::time) {
+    new (&at.x) VectorView(x_next_.data() + of.x, of.nx);
+    new (&at.z) VectorView(z_next_.data() + of.z, of.nz);
+    at.mode = modes_next_[number];
+  }
   Next next({x_next_.data() + of.x, of.nx}, {z_next_.data() + of.z, of.nz}, modes_next_[number],
             of.path);
   map(*of.system, at, next);

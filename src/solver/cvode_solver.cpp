@@ -251,12 +251,13 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
     CVodeGetCurrentTime(cvode_.get(), &t);
     CVodeGetCurrentStep(cvode_.get(), &h);
     require_finite_near(*machine_, t, h, x1_.data());
+    const std::string block = fastest_block(*machine_, t, x1_.data(), options_);
     throw SimulationError(
         text("t = ", t, " s: CVODE (", method(), ") cannot go on, step ", h, " s: ", last_message_,
              "; the solution blows up in finite time, has a jump that no guard announces, or the "
-             "tolerance cannot be met; rtol = ",
+             "tolerance cannot be met; block '", block, "' moves fastest; rtol = ",
              options_.rtol, ", atol = ", options_.atol),
-        t);
+        t, block);
   }
 
   CvodeMethod method_;

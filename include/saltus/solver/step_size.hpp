@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include "saltus/solver/solver.hpp"
 
@@ -109,29 +110,54 @@ inline double first_step(Machine& machine, double t, const Eigen::VectorXd& x, c
       t, block);
 }
 
-/// Throws if a derivative is not finite at (t, x), or just behind t, where no step could end.
+/// Throws if a derivative is not finite at (t, x), or just ahead on the flow, where no step could
+/// end.
 inline void require_finite_near(Machine& machine, double t, double h, const double* x) {
-  for (const double ahead :
-       {0.0, std::max(16.0 * h, 64.0 * std::numeric_limits<double>::epsilon() * std::abs(t))}) {
-    if (!machine.not_finite(t + ahead, x).empty()) throw_not_finite(machine, t + ahead, x);
+  const double ahead =
+      std::max(16.0 * h, 64.0 * std::numeric_limits<double>::epsilon() * std::abs(t));
+  const VectorView here(x, machine.plan().nx);
+  Eigen::VectorXd there = here;
+  if (!machine.not_finite(t, x).empty()) throw_not_finite(machine, t, x);
+  if (!machine.not_finite(t + ahead, x).empty()) throw_not_finite(machine, t + ahead, x);
+  machine.derivative(t, x, there.data());
+  there = here + ahead * there;
+  if (!machine.not_finite(t + ahead, there.data()).empty())
+    throw_not_finite(machine, t + ahead, there.data());
+}
+
+/// The block whose state moves fastest, measured by the tolerance: where a solution blows up.
+inline std::string fastest_block(Machine& machine, double t, const double* x,
+                                 const SolverOptions& options) {
+  Eigen::VectorXd f(machine.plan().nx);
+  machine.derivative(t, x, f.data());
+  std::string block;
+  double most = -1.0;
+  for (const PlanLeaf& leaf : machine.plan().leaves) {
+    for (Index i = leaf.x; i < leaf.x + leaf.nx; ++i) {
+      const double speed = std::abs(f[i]) / (options.atol + options.rtol * std::abs(x[i]));
+      if (speed > most) most = speed, block = leaf.path;
+    }
   }
+  return block;
 }
 
 [[noreturn]] inline void throw_step_too_small(Machine& machine, double t, double h, const double* x,
                                               const SolverOptions& options) {
   require_finite_near(machine, t, h, x);
+  const std::string block = fastest_block(machine, t, x, options);
   if (options.min_step > 0.0 && h <= options.min_step) {
     throw SimulationError(text("t = ", t, " s: the tolerance needs a step of ", h,
                                " s, below min_minor_step_size = ", options.min_step,
-                               " s; lower that, or loosen rtol and atol"),
-                          t);
+                               " s; lower that, or loosen rtol and atol; block '", block,
+                               "' moves fastest"),
+                          t, block);
   }
   throw SimulationError(
       text("t = ", t, " s: the step size underflows (", h,
            " s): the solution blows up in finite time, has a jump that no guard announces, or the "
-           "tolerance cannot be met; rtol = ",
-           options.rtol, ", atol = ", options.atol),
-      t);
+           "tolerance cannot be met; block '",
+           block, "' moves fastest; rtol = ", options.rtol, ", atol = ", options.atol),
+      t, block);
 }
 
 }  // namespace saltus
