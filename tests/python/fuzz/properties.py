@@ -37,9 +37,11 @@ def check_rows(scene: Scene, results: saltus.Results) -> None:
     is there.
     """
     t, j = results.time, results.jump
+    if results.status == "failed" and len(t) == 0:
+        return  # at the start already
     assert t[0] == scene.span[0]
     assert j[0] == 0
-    assert t[-1] == results.context.time
+    assert t[-1] == results.context.time or results.status == "failed"
     passes = np.diff(j) == 1
     steps = np.diff(t)
     assert np.all((np.diff(j) == 0) | passes)
