@@ -62,11 +62,15 @@ def check_events(results: saltus.Results) -> None:
     when = [(e.time, e.jump) for e in events]
     assert when == sorted(when)
     rows = list(zip(results.time.tolist(), results.jump.tolist(), strict=True))
+    if not rows:
+        return
     after = {row for row, one in zip(rows[1:], np.diff(results.jump), strict=True) if one == 1}
     assert after <= set(when), "a pass without a cause"
     first = {jump: time for time, jump in reversed(rows)}
     last = {jump: time for time, jump in rows}
     for e in events:
+        if results.status == "failed" and e.time > rows[-1][0]:
+            continue  # an output of the next row is not finite
         assert e.jump in first, e
         assert first[e.jump] <= e.time <= last[e.jump], e
         assert e.kind == "zeno_enter" or math.isnan(e.predicted)
