@@ -21,7 +21,7 @@ Leaf oscillator(Declare declare) {
 
 }  // namespace
 
-TEST_CASE("a scene without guards never asks for guards", "[absent]") {
+TEST_CASE("2.7 a scene without guards never asks for guards", "[semantics][absent]") {
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Leaf leaf = oscillator([](Leaf&) {});
@@ -31,7 +31,7 @@ TEST_CASE("a scene without guards never asks for guards", "[absent]") {
   CHECK(contains(compile(leaf)->describe(), "no guards: no root-finding"));
 }
 
-TEST_CASE("a guard of direction none is never called", "[absent]") {
+TEST_CASE("2.7 a guard of direction none is never called", "[semantics][absent]") {
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);
   int calls = 0;
@@ -46,7 +46,7 @@ TEST_CASE("a guard of direction none is never called", "[absent]") {
   CHECK(contains(compile(leaf)->describe(), "no guards"));
 }
 
-TEST_CASE("a guard is not called outside its mode", "[absent]") {
+TEST_CASE("2.7 a guard is not called outside its mode", "[semantics][absent]") {
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);
   int wrong = 0, right = 0;
@@ -86,7 +86,7 @@ TEST_CASE("a comparison that reaches no derivative, guard or reset is no guard",
   CHECK(results.events.empty());
 }
 
-TEST_CASE("without a Zeno tolerance there is no Zeno event", "[absent]") {
+TEST_CASE("4.1 without a Zeno tolerance there is no Zeno event", "[semantics][absent]") {
   const auto* method = GENERATE(from_range(methods));
   for (const Scene& scene : all_forms({.e = 0.5, .zeno_tolerance = 0.0})) {
     INFO(scene.form << ", method " << method);

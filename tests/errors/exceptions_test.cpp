@@ -52,7 +52,8 @@ std::shared_ptr<const System> scene(Where where) {
 
 }  // namespace
 
-TEST_CASE("an exception from any callback comes out as it was thrown, by any method", "[errors]") {
+TEST_CASE("6.2 an exception from any callback comes out as it was thrown, by any method",
+          "[semantics][errors]") {
   const auto* method = GENERATE(from_range(methods));
   const Where where = GENERATE(Where::ode, Where::guard, Where::reset, Where::update,
                                Where::relation, Where::shown);
@@ -74,7 +75,8 @@ TEST_CASE("an exception from any callback comes out as it was thrown, by any met
   CHECK(printed == "");
 }
 
-TEST_CASE("an exception from a Jacobian comes out of BDF as it was thrown", "[errors]") {
+TEST_CASE("6.2 an exception from a Jacobian comes out of BDF as it was thrown",
+          "[semantics][errors]") {
   const auto system = scene(Where::jacobian);
   CHECK_THROWS_AS(
       simulate(*system, system->create_context(), {0.0, 2.0}, {.ode_solver_method = "bdf"}),
@@ -83,8 +85,8 @@ TEST_CASE("an exception from a Jacobian comes out of BDF as it was thrown", "[er
       simulate(*system, system->create_context(), {0.0, 2.0}, {.ode_solver_method = "adams"}));
 }
 
-TEST_CASE("with throw_errors off the cause and the partial results are in what is returned",
-          "[errors]") {
+TEST_CASE("5.5 with throw_errors off the cause and the partial results are in what is returned",
+          "[semantics][errors]") {
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);
   const auto system = scene(Where::ode);
@@ -100,7 +102,7 @@ TEST_CASE("with throw_errors off the cause and the partial results are in what i
   CHECK(results.context.time() <= 0.6);
 }
 
-TEST_CASE("what is thrown need not be an exception", "[errors]") {
+TEST_CASE("6.2 what is thrown need not be an exception", "[semantics][errors]") {
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Leaf leaf("leaf", [](Leaf& l) {
@@ -117,7 +119,7 @@ TEST_CASE("what is thrown need not be an exception", "[errors]") {
   CHECK(caught == 42);
 }
 
-TEST_CASE("after an exception the simulator can be initialized again", "[errors]") {
+TEST_CASE("6.4 after an exception the simulator can be initialized again", "[semantics][errors]") {
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);
   bool angry = true;

@@ -38,7 +38,8 @@ Ended run(const System& system, const char* method, SimulatorOptions options = {
 
 }  // namespace
 
-TEST_CASE("a derivative that becomes NaN or Inf is named with its block and its time", "[errors]") {
+TEST_CASE("6.2 a derivative that becomes NaN or Inf is named with its block and its time",
+          "[semantics][errors]") {
   const auto* method = GENERATE(from_range(methods));
   const double bad = GENERATE(from_range(std::vector{not_a_number, infinite, -infinite}));
   INFO("method " << method << ", " << bad);
@@ -61,7 +62,7 @@ TEST_CASE("a derivative that becomes NaN or Inf is named with its block and its 
   CHECK(ended.printed == "");
 }
 
-TEST_CASE("a derivative that is NaN from the start is named at t0", "[errors]") {
+TEST_CASE("6.2 a derivative that is NaN from the start is named at t0", "[semantics][errors]") {
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Leaf leaf("root of minus one", [](Leaf& l) {
@@ -74,7 +75,7 @@ TEST_CASE("a derivative that is NaN from the start is named at t0", "[errors]") 
   CHECK(ended.printed == "");
 }
 
-TEST_CASE("a reset map that sets NaN is named with its event", "[errors]") {
+TEST_CASE("6.2 a reset map that sets NaN is named with its event", "[semantics][errors]") {
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Leaf leaf("leaf", [](Leaf& l) {
@@ -91,7 +92,7 @@ TEST_CASE("a reset map that sets NaN is named with its event", "[errors]") {
   CHECK(std::abs(ended.time - 1.0) < 1e-9);
 }
 
-TEST_CASE("a guard that becomes NaN is an error, not an event", "[errors]") {
+TEST_CASE("6.2 a guard that becomes NaN is an error, not an event", "[semantics][errors]") {
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Leaf leaf("leaf", [](Leaf& l) {
@@ -108,7 +109,8 @@ TEST_CASE("a guard that becomes NaN is an error, not an event", "[errors]") {
   CHECK(ended.block == "leaf");
 }
 
-TEST_CASE("a bad value behind an event is not seen: the step is shortened", "[errors]") {
+TEST_CASE("2.9a a bad value behind an event is not seen: the step is shortened",
+          "[semantics][errors]") {
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);
   // Torricelli: the tank is empty at t = 1, and sqrt(h) is NaN beyond.

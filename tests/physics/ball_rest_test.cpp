@@ -37,8 +37,8 @@ void comes_to_rest(const Scene& scene, const char* method, double e, double y0, 
 
 }  // namespace
 
-TEST_CASE("a ball of any restitution ends at rest on the floor, by any method",
-          "[physics][ball][zeno]") {
+TEST_CASE("4.1 a ball of any restitution ends at rest on the floor, by any method",
+          "[semantics][physics][ball][zeno]") {
   const auto* method = GENERATE(from_range(methods));
   const double e = GENERATE(0.0, 0.1, 0.5, 0.9);
   for (const Scene& scene : all_forms({.g = g, .e = e})) {
@@ -54,7 +54,8 @@ TEST_CASE("a ball of restitution 0.999 ends at rest after thousands of bounces",
                 1.2 * BallExact{g, 0.999, y0}.rest());
 }
 
-TEST_CASE("the accumulation time is predicted from the gaps before", "[physics][ball][zeno]") {
+TEST_CASE("4.3 the accumulation time is predicted from the gaps before",
+          "[semantics][physics][ball][zeno]") {
   const double e = GENERATE(0.3, 0.5, 0.8, 0.9);
   const BallExact exact{g, e, 1e-3};
   for (const Scene& scene : all_forms({.g = g, .e = e})) {
@@ -72,7 +73,8 @@ TEST_CASE("the accumulation time is predicted from the gaps before", "[physics][
   }
 }
 
-TEST_CASE("a ball placed at rest on the floor rests there", "[physics][ball][zeno]") {
+TEST_CASE("2.3 a ball placed at rest on the floor rests there",
+          "[semantics][physics][ball][zeno]") {
   const auto* method = GENERATE(from_range(methods));
   const double floor = GENERATE(0.0, 5.0, -3.0, 0.1);
   for (const Scene& scene : all_forms({.g = g, .floor = floor})) {
@@ -89,8 +91,8 @@ TEST_CASE("a ball placed at rest on the floor rests there", "[physics][ball][zen
   }
 }
 
-TEST_CASE("holding costs nothing: the same steps for a second as for a million",
-          "[physics][ball][zeno]") {
+TEST_CASE("4.6 holding costs nothing: the same steps for a second as for a million",
+          "[semantics][physics][ball][zeno]") {
   const auto* method = GENERATE(from_range(methods));
   for (const Scene& scene : all_forms({.g = g})) {
     INFO(scene.form << ", method " << method);

@@ -9,7 +9,8 @@ namespace {
 constexpr double g = 10.0;
 }
 
-TEST_CASE("a ball thrown up from the floor flies and comes back", "[physics][ball][start]") {
+TEST_CASE("2.3 a ball thrown up from the floor flies and comes back",
+          "[semantics][physics][ball][start]") {
   const auto* method = GENERATE(from_range(methods));
   const double floor = GENERATE(0.0, 0.3);
   for (const Scene& scene : all_forms({.g = g, .e = 0.5, .floor = floor})) {
@@ -26,8 +27,8 @@ TEST_CASE("a ball thrown up from the floor flies and comes back", "[physics][bal
   }
 }
 
-TEST_CASE("a ball thrown down on the floor it touches bounces at once, at t0",
-          "[physics][ball][start]") {
+TEST_CASE("2.3 a ball thrown down on the floor it touches bounces at once, at t0",
+          "[semantics][physics][ball][start]") {
   const auto* method = GENERATE(from_range(methods));
   for (const Scene& scene : all_forms({.g = g, .e = 0.5})) {
     INFO(scene.form << ", method " << method);
@@ -39,7 +40,8 @@ TEST_CASE("a ball thrown down on the floor it touches bounces at once, at t0",
   }
 }
 
-TEST_CASE("a ball that starts below the floor is not invented a bounce", "[physics][ball][start]") {
+TEST_CASE("2.4 a ball that starts below the floor is not invented a bounce",
+          "[semantics][physics][ball][start]") {
   const auto* method = GENERATE(from_range(methods));
   for (const Scene& scene : all_forms({.g = g, .e = 0.5})) {
     INFO(scene.form << ", method " << method);
@@ -50,8 +52,8 @@ TEST_CASE("a ball that starts below the floor is not invented a bounce", "[physi
   }
 }
 
-TEST_CASE("a ball thrown up from below the floor passes it, then bounces on it",
-          "[physics][ball][start]") {
+TEST_CASE("2.4 a ball thrown up from below the floor passes it, then bounces on it",
+          "[semantics][physics][ball][start]") {
   const auto* method = GENERATE(from_range(methods));
   for (const Scene& scene : all_forms({.g = g, .e = 0.5})) {
     INFO(scene.form << ", method " << method);
@@ -62,8 +64,8 @@ TEST_CASE("a ball thrown up from below the floor passes it, then bounces on it",
   }
 }
 
-TEST_CASE("a first impact right after the start is a bounce, not a Zeno hold",
-          "[physics][ball][start]") {
+TEST_CASE("4.2 a first impact right after the start is a bounce, not a Zeno hold",
+          "[semantics][physics][ball][start]") {
   const double t0 = GENERATE(0.0, -5.0, 1e6);
   for (const Scene& scene : all_forms({.g = g, .e = 0.5})) {
     INFO(scene.form << ", t0 = " << t0);

@@ -25,8 +25,8 @@ std::vector<double> releases(const Results& results) {
 
 }  // namespace
 
-TEST_CASE("a floor that drops under a resting ball lets it go exactly then",
-          "[physics][ball][zeno]") {
+TEST_CASE("4.5 a floor that drops under a resting ball lets it go exactly then",
+          "[semantics][physics][ball][zeno]") {
   const auto* method = GENERATE(from_range(methods));
   const double drop = GENERATE(1.0, 1.0 / 3.0);
   for (const Scene& scene :
@@ -45,8 +45,8 @@ TEST_CASE("a floor that drops under a resting ball lets it go exactly then",
   }
 }
 
-TEST_CASE("the tutorial's third scene: to rest, let go at 1 s, seven bounces by 1.1 s",
-          "[physics][ball][zeno]") {
+TEST_CASE("4.5 the tutorial's third scene: to rest, let go at 1 s, seven bounces by 1.1 s",
+          "[semantics][physics][ball][zeno]") {
   const auto* method = GENERATE(from_range(methods));
   const double e = 0.8, y0 = 1e-3;
   const BallExact exact{g, e, y0};
@@ -70,7 +70,8 @@ TEST_CASE("the tutorial's third scene: to rest, let go at 1 s, seven bounces by 
   }
 }
 
-TEST_CASE("a floor that steps up under a resting ball carries it", "[physics][ball][zeno]") {
+TEST_CASE("4.5 a floor that steps up under a resting ball carries it",
+          "[semantics][physics][ball][zeno]") {
   const auto* method = GENERATE(from_range(methods));
   for (const Scene& scene :
        all_forms_over({.g = g, .e = 0.5}, [&] { return step(0.0, 0.75, 1.0); })) {
@@ -128,8 +129,8 @@ TEST_CASE("a ball that a floor took along bounces on it and comes to rest there"
   }
 }
 
-TEST_CASE("of two balls in one diagram one rests while the other bounces",
-          "[physics][ball][zeno]") {
+TEST_CASE("4.4 of two balls in one diagram one rests while the other bounces",
+          "[semantics][physics][ball][zeno]") {
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);
   DiagramBuilder builder;

@@ -29,7 +29,7 @@ std::vector<Scene> scenes() {
 
 }  // namespace
 
-TEST_CASE("the same run twice gives the same bits", "[physics][identical]") {
+TEST_CASE("5.7 the same run twice gives the same bits", "[semantics][physics][identical]") {
   const auto* method = GENERATE(from_range(methods));
   for (const Scene& scene : scenes()) {
     INFO(scene.form << ", method " << method);
@@ -63,7 +63,8 @@ TEST_CASE("a simulator that is initialized again repeats its run bit for bit",
   }
 }
 
-TEST_CASE("recording changes no bit of the context and of the event log", "[physics][identical]") {
+TEST_CASE("5.2 recording changes no bit of the context and of the event log",
+          "[semantics][physics][identical]") {
   const auto* method = GENERATE(from_range(methods));
   for (const Scene& scene : scenes()) {
     INFO(scene.form << ", method " << method);
@@ -94,7 +95,8 @@ TEST_CASE("recording changes no bit of the context and of the event log", "[phys
   }
 }
 
-TEST_CASE("two threads over one system give the bits of one", "[physics][identical]") {
+TEST_CASE("5.7 two threads over one system give the bits of one",
+          "[semantics][physics][identical]") {
   const auto* method = GENERATE("dopri5", "bdf");
   for (const Scene& scene : scenes()) {
     INFO(scene.form << ", method " << method);

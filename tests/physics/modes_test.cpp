@@ -89,8 +89,8 @@ TEST_CASE("integrate and fire: a leaky membrane spikes with the period of its cl
   CHECK(count(results.events, EventKind::zeno_enter) == 0);
 }
 
-TEST_CASE("a guard already beyond zero when its mode is entered waits until it has been back",
-          "[physics][modes]") {
+TEST_CASE("3.7 a guard already beyond zero when its mode is entered waits until it has been back",
+          "[semantics][physics][modes]") {
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);
   // x = sin t. Mode 0 ends at t = 1; the guard of mode 1, x falling through 0.5, is beyond zero
@@ -118,7 +118,8 @@ TEST_CASE("a guard already beyond zero when its mode is entered waits until it h
   CHECK(results.context.mode() == 2);
 }
 
-TEST_CASE("three modes in a circle: each guard is seen in its own mode only", "[physics][modes]") {
+TEST_CASE("3.7 three modes in a circle: each guard is seen in its own mode only",
+          "[semantics][physics][modes]") {
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Leaf leaf("leaf", [](Leaf& l) {

@@ -26,7 +26,8 @@ Leaf pendulum(int monitors) {
 
 }  // namespace
 
-TEST_CASE("a trajectory is bit-identical with monitors and without", "[physics][monitors]") {
+TEST_CASE("2.10 a trajectory is bit-identical with monitors and without",
+          "[semantics][physics][monitors]") {
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Leaf with = pendulum(10), without = pendulum(0);
@@ -43,7 +44,8 @@ TEST_CASE("a trajectory is bit-identical with monitors and without", "[physics][
   CHECK(a.statistics.restarts == 0);
 }
 
-TEST_CASE("a monitor beside a bouncing ball changes no bit of it", "[physics][monitors]") {
+TEST_CASE("2.10 a monitor beside a bouncing ball changes no bit of it",
+          "[semantics][physics][monitors]") {
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);
   const auto ball = [](bool watched) {
@@ -70,7 +72,8 @@ TEST_CASE("a monitor beside a bouncing ball changes no bit of it", "[physics][mo
   CHECK(a.events.times("top").size() >= 5);
 }
 
-TEST_CASE("what a monitor logs is the time, the direction and the state", "[physics][monitors]") {
+TEST_CASE("5.3 what a monitor logs is the time, the direction and the state",
+          "[semantics][physics][monitors]") {
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Leaf leaf("clock", [](Leaf& l) {
@@ -95,8 +98,8 @@ TEST_CASE("what a monitor logs is the time, the direction and the state", "[phys
   }
 }
 
-TEST_CASE("events of monitors and of others stand in the log in the order of time",
-          "[physics][monitors]") {
+TEST_CASE("5.3 events of monitors and of others stand in the log in the order of time",
+          "[semantics][physics][monitors]") {
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Leaf leaf("leaf", [](Leaf& l) {

@@ -39,8 +39,8 @@ std::shared_ptr<Leaf> starter() {
 
 }  // namespace
 
-TEST_CASE("a reset that moves the guard of another block across zero fires it in the next pass",
-          "[physics][passes]") {
+TEST_CASE("3.4 a reset that moves the guard of another block across zero fires it in the next pass",
+          "[semantics][physics][passes]") {
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);
   DiagramBuilder builder;
@@ -66,7 +66,8 @@ TEST_CASE("a reset that moves the guard of another block across zero fires it in
   CHECK(results.context.discrete_state() == Eigen::VectorXd::Ones(5));
 }
 
-TEST_CASE("a loop of resets is an error that prints the chain of causes", "[physics][passes]") {
+TEST_CASE("3.4 a loop of resets is an error that prints the chain of causes",
+          "[semantics][physics][passes]") {
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);
   // b follows a, a turns against b: whenever one has moved the other has to.
@@ -115,7 +116,7 @@ TEST_CASE("a loop of resets is an error that prints the chain of causes", "[phys
   CHECK(contains(what, "max_passes"));
 }
 
-TEST_CASE("two blocks swap values at a tick", "[physics][passes]") {
+TEST_CASE("3.3 two blocks swap values at a tick", "[semantics][physics][passes]") {
   const auto holder = [](std::string name, double value) {
     return std::make_shared<Leaf>(std::move(name), [=](Leaf& l) {
       l.declare_input_port({.name = "in", .shape = Shape::scalar()});
@@ -139,9 +140,9 @@ TEST_CASE("two blocks swap values at a tick", "[physics][passes]") {
 }
 
 TEST_CASE(
-    "within a leaf resets run in declaration order and see each other; across leaves none sees "
+    "3.2 within a leaf resets run in declaration order and see each other; across leaves none sees "
     "another's",
-    "[physics][passes]") {
+    "[semantics][physics][passes]") {
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Leaf one("leaf", [](Leaf& l) {

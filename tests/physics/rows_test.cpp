@@ -36,7 +36,8 @@ void rows_are_sound(const Results& results, double begin, double end) {
 
 }  // namespace
 
-TEST_CASE("time never decreases and no row stands twice, whatever is recorded", "[physics][rows]") {
+TEST_CASE("1.2 time never decreases and no row stands twice, whatever is recorded",
+          "[semantics][physics][rows]") {
   const auto* method = GENERATE(from_range(methods));
   const auto drop = [] {
     return std::make_shared<Step>("floor", Step::Options{.end_value = -0.5, .step_time = 3.0});
@@ -59,7 +60,8 @@ TEST_CASE("time never decreases and no row stands twice, whatever is recorded", 
   }
 }
 
-TEST_CASE("rows at asked-for times are right, whatever the steps are", "[physics][rows]") {
+TEST_CASE("5.1 rows at asked-for times are right, whatever the steps are",
+          "[semantics][physics][rows]") {
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Leaf leaf("leaf", [](Leaf& l) {
@@ -90,8 +92,8 @@ TEST_CASE("rows at asked-for times are right, whatever the steps are", "[physics
   }
 }
 
-TEST_CASE("the row before a bounce shows the ball falling, the row after it rising",
-          "[physics][rows]") {
+TEST_CASE("5.1 the row before a bounce shows the ball falling, the row after it rising",
+          "[semantics][physics][rows]") {
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Scene scene = leaf({.e = 0.5});
@@ -108,7 +110,7 @@ TEST_CASE("the row before a bounce shows the ball falling, the row after it risi
   CHECK(y(static_cast<Index>(rows[1]), 0) == 0.0);
 }
 
-TEST_CASE("a run of zero length has the rows of its start", "[physics][rows]") {
+TEST_CASE("6.3 a run of zero length has the rows of its start", "[semantics][physics][rows]") {
   const Scene scene = leaf({.e = 0.5});
   const auto results = simulate(*scene.system, scene.context(1.0, 0.0, 3.0), {3.0, 3.0},
                                 {.recorded_signals = {{"y", scene.height}}});
@@ -118,7 +120,8 @@ TEST_CASE("a run of zero length has the rows of its start", "[physics][rows]") {
   CHECK(results.statistics.steps == 0);
 }
 
-TEST_CASE("no state, no guard, no output: a legal scene, and time passes", "[physics][rows]") {
+TEST_CASE("6.3 no state, no guard, no output: a legal scene, and time passes",
+          "[semantics][physics][rows]") {
   const Leaf nothing("nothing", [](Leaf&) {});
   const auto results = simulate(nothing, nothing.create_context(), {0.0, 1e6});
   CHECK(results.context.time() == 1e6);
@@ -128,7 +131,8 @@ TEST_CASE("no state, no guard, no output: a legal scene, and time passes", "[phy
   CHECK(results.statistics.steps == 0);
 }
 
-TEST_CASE("without continuous state rows stand at events and asked-for times", "[physics][rows]") {
+TEST_CASE("5.1 without continuous state rows stand at events and asked-for times",
+          "[semantics][physics][rows]") {
   const Leaf leaf("leaf", [](Leaf& l) {
     l.declare_discrete_state(vec({0.0}));
     l.declare_discrete_state_output("count");

@@ -31,8 +31,8 @@ double ticks(const Leaf& leaf, const std::vector<double>& stops, bool recorded) 
 
 }  // namespace
 
-TEST_CASE("ticks are counted the same in one run and in many, recorded or not",
-          "[physics][split]") {
+TEST_CASE("3.3 ticks are counted the same in one run and in many, recorded or not",
+          "[semantics][physics][split]") {
   const bool with_state = GENERATE(true, false);
   const bool recorded = GENERATE(true, false);
   INFO("state " << with_state << ", recorded " << recorded);
@@ -47,8 +47,8 @@ TEST_CASE("ticks are counted the same in one run and in many, recorded or not",
   CHECK(ticks(counter(0.25, 0.1, with_state), {0.1, 0.35, 0.6, 1.0}, recorded) == 4.0);
 }
 
-TEST_CASE("a run that goes on from results.context has the events of the unbroken run",
-          "[physics][split]") {
+TEST_CASE("5.6 a run that goes on from results.context has the events of the unbroken run",
+          "[semantics][physics][split]") {
   const auto* method = GENERATE(from_range(methods));
   for (const Scene& scene : all_forms({.e = 0.8})) {
     INFO(scene.form << ", method " << method);
@@ -66,7 +66,7 @@ TEST_CASE("a run that goes on from results.context has the events of the unbroke
   }
 }
 
-TEST_CASE("a run split where the ball rests goes on resting", "[physics][split]") {
+TEST_CASE("5.6 a run split where the ball rests goes on resting", "[semantics][physics][split]") {
   const auto* method = GENERATE(from_range(methods));
   for (const Scene& scene : all_forms({.e = 0.5})) {
     INFO(scene.form << ", method " << method);
@@ -78,8 +78,8 @@ TEST_CASE("a run split where the ball rests goes on resting", "[physics][split]"
   }
 }
 
-TEST_CASE("advance_to in pieces has the events of one run, and its numbers to the tolerance",
-          "[physics][split]") {
+TEST_CASE("5.6 advance_to in pieces has the events of one run, and its numbers to the tolerance",
+          "[semantics][physics][split]") {
   const auto* method = GENERATE(from_range(methods));
   for (const Scene& scene : all_forms({.e = 0.8})) {
     INFO(scene.form << ", method " << method);

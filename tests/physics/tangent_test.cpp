@@ -30,7 +30,8 @@ std::vector<double> hits(const Leaf& leaf, double end, const char* method,
 
 }  // namespace
 
-TEST_CASE("a guard that touches zero from above does not fire", "[physics][guards]") {
+TEST_CASE("2.2 a guard that touches zero from above does not fire",
+          "[semantics][physics][guards]") {
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);
   // sin t - 1 touches zero from below at pi/2 + 2 pi k; 1 - sin t from above. In doubles sin never
@@ -46,9 +47,10 @@ TEST_CASE("a guard that touches zero from above does not fire", "[physics][guard
 }
 
 TEST_CASE(
-    "a guard on a plateau of zeros fires on reaching it, not on it, not on leaving it to its armed "
+    "2.6 a guard on a plateau of zeros fires on reaching it, not on it, not on leaving it to its "
+    "armed "
     "side",
-    "[physics][guards]") {
+    "[semantics][physics][guards]") {
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);
   // Falls to 0 at 1, stays until 2, then rises again or goes on down.
@@ -60,8 +62,8 @@ TEST_CASE(
   CHECK(hits(flat, 3.0, method).empty());
 }
 
-TEST_CASE("a monotone guard fires once in its direction and never against it",
-          "[physics][guards]") {
+TEST_CASE("2.1 a monotone guard fires once in its direction and never against it",
+          "[semantics][physics][guards]") {
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);
   const auto rising = [](const At& at) { return at.x[0] - 0.7; };
@@ -71,7 +73,8 @@ TEST_CASE("a monotone guard fires once in its direction and never against it",
   CHECK(hits(watcher(rising, Direction::crosses_zero), 2.0, method).size() == 1);
 }
 
-TEST_CASE("every zero of a sine is found, in each direction its half", "[physics][guards]") {
+TEST_CASE("2.1 every zero of a sine is found, in each direction its half",
+          "[semantics][physics][guards]") {
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);
   const auto sine = [](const At& at) { return std::sin(2.0 * at.x[0]); };
@@ -85,8 +88,8 @@ TEST_CASE("every zero of a sine is found, in each direction its half", "[physics
     CHECK_THAT(down[k], WithinAbs(pi * (static_cast<double>(k) + 0.5), 1e-9));
 }
 
-TEST_CASE("two crossings inside one step are found where an interior point lies between them",
-          "[physics][guards]") {
+TEST_CASE("2.8 two crossings inside one step are found where an interior point lies between them",
+          "[semantics][physics][guards]") {
   const auto* method = GENERATE("dopri5", "auto");
   INFO("method " << method);
   // x' = 1 lets steps grow to the end; the guard dips below zero between 0.45 and 0.8 of a step of
@@ -98,7 +101,8 @@ TEST_CASE("two crossings inside one step are found where an interior point lies 
   CHECK_THAT(found[1], WithinAbs(0.8, 1e-12));
 }
 
-TEST_CASE("a guard scaled to 1e-200 or 1e200 fires at the same time", "[physics][guards]") {
+TEST_CASE("2.9a a guard scaled to 1e-200 or 1e200 fires at the same time",
+          "[semantics][physics][guards]") {
   const auto* method = GENERATE(from_range(methods));
   const double scale = GENERATE(1e-200, 1e-300, 1e200, 1.0);
   INFO("method " << method << ", scale " << scale);
@@ -108,7 +112,8 @@ TEST_CASE("a guard scaled to 1e-200 or 1e200 fires at the same time", "[physics]
   CHECK_THAT(found[0], WithinAbs(0.537, 1e-9));
 }
 
-TEST_CASE("a slope that vanishes at the root does not hide it", "[physics][guards]") {
+TEST_CASE("2.9a a slope that vanishes at the root does not hide it",
+          "[semantics][physics][guards]") {
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);
   const auto found =
@@ -117,7 +122,8 @@ TEST_CASE("a slope that vanishes at the root does not hide it", "[physics][guard
   CHECK_THAT(found[0], WithinAbs(0.5, 1e-9));
 }
 
-TEST_CASE("edge detection fires at every change of a stepwise value", "[physics][guards]") {
+TEST_CASE("2.1 edge detection fires at every change of a stepwise value",
+          "[semantics][physics][guards]") {
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);
   const auto found =

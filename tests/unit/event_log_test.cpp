@@ -34,7 +34,8 @@ EventLog two_rows() {
 
 }  // namespace
 
-TEST_CASE("an event has time, jump, kind, direction, block, name and states", "[event_log]") {
+TEST_CASE("5.3 an event has time, jump, kind, direction, block, name and states",
+          "[semantics][event_log]") {
   const EventLog log = two_rows();
   REQUIRE(log.size() == 2);
   const Event bounce = log[0];
@@ -75,7 +76,7 @@ TEST_CASE("a cleared log keeps its names; an emptied copy too", "[event_log]") {
   CHECK(copy[0].name == "tick");
 }
 
-TEST_CASE("every kind has its name", "[event_log]") {
+TEST_CASE("5.3 every kind has its name", "[semantics][event_log]") {
   CHECK(to_string(EventKind::zero_crossing) == "zero_crossing");
   CHECK(to_string(EventKind::time) == "time");
   CHECK(to_string(EventKind::zeno_enter) == "zeno_enter");
@@ -83,8 +84,8 @@ TEST_CASE("every kind has its name", "[event_log]") {
   CHECK(to_string(EventKind::terminal) == "terminal");
 }
 
-TEST_CASE("the log of a run holds the state of the event's own block, before and after",
-          "[event_log]") {
+TEST_CASE("5.3 the log of a run holds the state of the event's own block, before and after",
+          "[semantics][event_log]") {
   DiagramBuilder builder;
   builder.add<Leaf>("other", [](Leaf& l) { declare_ramp(l, 5.0, 100.0); });
   builder.add<Leaf>("saw", [](Leaf& l) {

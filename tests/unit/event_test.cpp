@@ -4,7 +4,8 @@
 
 using namespace saltus;
 
-TEST_CASE("each direction fires in its cells of the table and in no other", "[event]") {
+TEST_CASE("2.1 each direction fires in its cells of the table and in no other",
+          "[semantics][event]") {
   struct Row {
     Direction direction;
     bool fires[2][3];  // armed on +1, -1; now -1, 0, +1
@@ -33,7 +34,7 @@ TEST_CASE("a guard without a side fires in no direction but edge detection", "[e
   }
 }
 
-TEST_CASE("every direction has a name, and a name its direction", "[event]") {
+TEST_CASE("2.1 every direction has a name, and a name its direction", "[semantics][event]") {
   for (const auto& [name, direction] : direction_names) {
     CHECK(to_string(direction) == name);
     CHECK(direction_from(name) == direction);
@@ -42,7 +43,8 @@ TEST_CASE("every direction has a name, and a name its direction", "[event]") {
                           "unknown direction 'crosses zero'; did you mean 'crosses_zero'?"));
 }
 
-TEST_CASE("signs are compared, so the smallest and the largest numbers have one", "[event]") {
+TEST_CASE("2.9a signs are compared, so the smallest and the largest numbers have one",
+          "[semantics][event]") {
   const GuardSlot slot{.direction = Direction::crosses_zero, .side = 1, .active = true};
   CHECK(slot.crossed(-5e-324));
   CHECK(slot.crossed(0.0));

@@ -69,7 +69,7 @@ TEST_CASE("shapes spread along the wires, through blocks that take any", "[flatt
   CHECK(plan->node(plan->taps[1].node).shape == Shape::scalar());
 }
 
-TEST_CASE("a width that does not fit is refused with both ports", "[flatten]") {
+TEST_CASE("6.1 a width that does not fit is refused with both ports", "[semantics][flatten]") {
   DiagramBuilder builder;
   auto& vector = builder.add<Constant>("vector", Value{1.0, 2.0, 3.0});
   auto& integrator =

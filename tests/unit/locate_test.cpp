@@ -29,7 +29,8 @@ Results run(const Leaf& leaf, const char* method, SimulatorOptions options = {})
 
 }  // namespace
 
-TEST_CASE("two guards 0, 1e-13 and 1e-9 apart fire both, the earlier one first", "[locate]") {
+TEST_CASE("2.9 two guards 0, 1e-13 and 1e-9 apart fire both, the earlier one first",
+          "[semantics][locate]") {
   const auto* method = GENERATE(from_range(methods));
   const double gap = GENERATE(0.0, 1e-13, 1e-9, 1e-3);
   INFO("method " << method << ", gap " << gap);
@@ -48,7 +49,7 @@ TEST_CASE("two guards 0, 1e-13 and 1e-9 apart fire both, the earlier one first",
   }
 }
 
-TEST_CASE("twenty guards in one step fire in the order of their roots", "[locate]") {
+TEST_CASE("2.9 twenty guards in one step fire in the order of their roots", "[semantics][locate]") {
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);
   std::vector<double> roots;
@@ -60,7 +61,8 @@ TEST_CASE("twenty guards in one step fire in the order of their roots", "[locate
     CHECK_THAT(results.events[i].time, WithinAbs(roots[i], 1e-12));
 }
 
-TEST_CASE("the state handed on is at the root or beyond it, never before", "[locate]") {
+TEST_CASE("2.9 the state handed on is at the root or beyond it, never before",
+          "[semantics][locate]") {
   const auto* method = GENERATE(from_range(methods));
   const double scale = GENERATE(1.0, -1.0, 1e-30, 1e30);
   INFO("method " << method << ", scale " << scale);
@@ -75,8 +77,8 @@ TEST_CASE("the state handed on is at the root or beyond it, never before", "[loc
   }
 }
 
-TEST_CASE("a pair of roots in one step is found at interior points, and missed without them",
-          "[locate]") {
+TEST_CASE("2.8 a pair of roots in one step is found at interior points, and missed without them",
+          "[semantics][locate]") {
   const Leaf leaf("dip", [](Leaf& l) {
     declare_ramp(l);
     l.declare_discrete_state(vec({0.0}));
@@ -91,7 +93,8 @@ TEST_CASE("a pair of roots in one step is found at interior points, and missed w
   CHECK(run(leaf, "dopri5", {.event_scan_points = 0}).events.empty());
 }
 
-TEST_CASE("a guard with a steep and one with a flat root are located alike", "[locate]") {
+TEST_CASE("2.9a a guard with a steep and one with a flat root are located alike",
+          "[semantics][locate]") {
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Leaf leaf("curves", [](Leaf& l) {
@@ -114,7 +117,8 @@ TEST_CASE("a guard with a steep and one with a flat root are located alike", "[l
   CHECK_THAT(results.events[2].time, WithinAbs(0.9, 1e-12));
 }
 
-TEST_CASE("late in a long run events are located as exactly as time can say", "[locate]") {
+TEST_CASE("2.9 late in a long run events are located as exactly as time can say",
+          "[semantics][locate]") {
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);
   const double t0 = 1e6;

@@ -1,4 +1,5 @@
 // Options: each value that makes no sense is refused by name; the defaults are fine.
+#include "saltus/solver/choose.hpp"
 #include "support/balls.hpp"
 
 using namespace saltus;
@@ -19,7 +20,8 @@ TEST_CASE("the defaults are accepted", "[options]") {
   CHECK(refused({.zeno_tolerance = 0.0}) == "no exception");
 }
 
-TEST_CASE("tolerances that are not positive, or finer than a double, are refused", "[options]") {
+TEST_CASE("6.1 tolerances that are not positive, or finer than a double, are refused",
+          "[semantics][options]") {
   for (const double bad : {0.0, -1e-6, not_a_number, infinite}) {
     INFO(bad);
     CHECK(contains(refused({.rtol = bad}), "option rtol: expected a positive number, found "));

@@ -25,7 +25,8 @@ TEST_CASE("outputs are ordered after what they read, however blocks were added",
   }
 }
 
-TEST_CASE("an algebraic loop is printed as the path of ports, with the remedy", "[order]") {
+TEST_CASE("6.1 an algebraic loop is printed as the path of ports, with the remedy",
+          "[semantics][order]") {
   DiagramBuilder builder;
   auto& clock = builder.add<Clock>("clock");
   auto& sum = builder.add<Adder>("sum");

@@ -1,0 +1,48 @@
+"""Each numbered sentence of docs/semantics.md has a C++ test with its number before its name."""
+
+import re
+from collections import Counter
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+DOCUMENT = ROOT / "docs" / "semantics.md"
+SENTENCE = re.compile(r"^\*\*(\d+\.\d+[a-z]?)\*\*", re.M)  # **2.3** at the begin of a line
+CASE = re.compile(r'TEST_CASE\(\s*"(\d+\.\d+[a-z]?) ')
+# How many sentences each section of the contract has; 2.9a is one of its own.
+SECTIONS = {1: 2, 2: 12, 3: 10, 4: 7, 5: 7, 6: 4}
+
+SENTENCES = SENTENCE.findall(DOCUMENT.read_text())
+
+
+def numbered_cases():
+    """Number -> how many test cases carry it."""
+    files = (ROOT / "tests").rglob("*_test.cpp")
+    return Counter(number for file in files for number in CASE.findall(file.read_text()))
+
+
+CASES = numbered_cases()
+
+
+def test_the_document_has_every_sentence_once():
+    assert [number for number, times in Counter(SENTENCES).items() if times > 1] == []
+    found = Counter(int(number.split(".")[0]) for number in SENTENCES)
+    assert dict(found) == SECTIONS
+
+
+def test_sentences_stand_in_order():
+    def place(number):
+        section, item, letter = re.fullmatch(r"(\d+)\.(\d+)([a-z]?)", number).groups()
+        return int(section), int(item), letter
+
+    assert SENTENCES == sorted(SENTENCES, key=place)
+
+
+@pytest.mark.parametrize("number", SENTENCES)
+def test_a_sentence_has_a_test(number):
+    assert CASES[number] > 0, f"no C++ test case is named '{number} ...'"
+
+
+def test_no_test_carries_a_number_that_is_no_sentence():
+    assert sorted(set(CASES) - set(SENTENCES)) == []

@@ -1,0 +1,73 @@
+// Semantics 4.3, 4.5: predictions at any tolerance; what a write to a held leaf does.
+#include "support/balls.hpp"
+#include "support/leaves.hpp"
+
+using namespace saltus;
+using namespace support;
+using Catch::Matchers::WithinAbs;
+
+namespace {
+
+/// A ball at rest on its floor whose state an update sets at 1 s.
+Results touched(double y, double v, double end, const char* method) {
+  const Leaf ball("ball", [=](Leaf& l) {
+    l.declare_continuous_state(
+        {.initial = vec({0.0, 0.0}),
+         .ode = [](const At& at, VectorRef xdot) { xdot << at.x[1], -10.0; }});
+    l.declare_zero_crossing(
+        {.name = "bounce",
+         .guard = [](const At& at) { return at.x[0]; },
+         .reset_map = [](const At& at,
+                         Next& next) { next.set_continuous_state({0.0, -0.5 * at.x[1]}); },
+         .direction = Direction::positive_then_non_positive});
+    l.declare_one_shot(1.0, [=](const At&, Next& next) { next.set_continuous_state({y, v}); });
+  });
+  return simulate(ball, ball.create_context(), {0.0, end},
+                  {.rtol = 1e-9, .atol = 1e-11, .ode_solver_method = method});
+}
+
+}  // namespace
+
+TEST_CASE("4.3 the prediction is exact however early the tolerance begins the hold",
+          "[semantics]") {
+  const double tolerance = GENERATE(0.1, 1e-3, 1e-5);
+  for (const Scene& scene : all_forms({.g = 10.0, .e = 0.5, .zeno_tolerance = tolerance})) {
+    INFO(scene.form << ", zeno_tolerance " << tolerance);
+    const auto results = simulate(*scene.system, scene.context(0.2, 0.0), {0.0, 1.0},
+                                  {.rtol = 1e-10, .atol = 1e-14, .ode_solver_method = "dopri5"});
+    for (std::size_t i = 0; i < results.events.size(); ++i) {
+      const Event event = results.events[i];
+      if (event.kind != EventKind::zeno_enter) continue;
+      CHECK_THAT(event.predicted, WithinAbs(0.6, 1e-9));
+      CHECK(event.time < event.predicted);
+    }
+    CHECK_THAT(results.context.continuous_state()[0], WithinAbs(0.0, 1e-9));
+    CHECK_THAT(results.context.continuous_state()[1], WithinAbs(0.0, 1e-9));
+  }
+}
+
+TEST_CASE("4.5 an update that lifts a held ball releases it", "[semantics]") {
+  const auto* method = GENERATE(from_range(methods));
+  INFO("method " << method);
+  const auto results = touched(2.0, 0.0, 1.2, method);
+  CHECK(results.events.times("bounce", EventKind::zeno_release) == std::vector{1.0});
+  CHECK_THAT(results.context.continuous_state()[0], WithinAbs(1.8, 1e-7));
+}
+
+TEST_CASE("4.5 an update that kicks a held ball releases it: the flow leads to the armed side",
+          "[semantics][.engine]") {
+  const auto* method = GENERATE(from_range(methods));
+  INFO("method " << method);
+  const auto results = touched(0.0, 3.0, 1.2, method);
+  CHECK(results.events.times("bounce", EventKind::zeno_release) == std::vector{1.0});
+  CHECK_THAT(results.context.continuous_state()[0], WithinAbs(0.4, 1e-7));
+}
+
+TEST_CASE("4.5 an update that pushes a held ball into its floor does not release it",
+          "[semantics]") {
+  const auto* method = GENERATE(from_range(methods));
+  INFO("method " << method);
+  const auto results = touched(0.0, -3.0, 1.2, method);
+  CHECK(results.events.times("bounce", EventKind::zeno_release).empty());
+  CHECK(results.context.continuous_state()[0] == 0.0);
+}
