@@ -95,7 +95,7 @@ TEST_CASE("a change of mode that lifts the ball ends its hold", "[.engine][cases
   }
 }
 
-TEST_CASE("a guard on time that throws the ball up ends its hold", "[.engine][cases][zeno]") {
+TEST_CASE("a guard on time that throws the ball up ends its hold", "[cases][zeno]") {
   const auto* method = GENERATE(from_range(methods));
   const auto ball = resting_ball([](Leaf& l) {
     l.declare_zero_crossing({.name = "kick", .guard = late, .reset_map = [](const At&, Next& next) {
