@@ -235,9 +235,8 @@ void Instant::look_for_zeno(const Action& action, Rest& rest) {
     rest_relations_of(plan().edges[static_cast<std::size_t>(action.index)]);
 }
 
-/// Within one leaf each reset map sees what the one before left, updates included; updates, and what is read of
-/// other leaves, are those of x-. Was:
-/// those of x-. Returns whether continuous state was written.
+/// Updates read x- z-. Within one leaf each reset map sees what they and the one before left; of
+/// other leaves it sees x-. Returns whether continuous state was written.
 bool Instant::run_reset(const Action& action, const ResetMap& map) {
   const PlanLeaf& of = leaf(action.leaf);
   const auto number = static_cast<std::size_t>(action.leaf);

@@ -236,6 +236,7 @@ void Run::finish() {
   results_.context = context();
   Statistics& s = results_.statistics;
   if (solver_started_) static_cast<SolverStatistics&>(s) = solver_->statistics();
+  s.stretches = solver_started_ ? solver_->stretches() : std::vector<Stretch>{};
   s.method = solver_started_ ? solver_->method() : "none: no continuous state";
   s.right_hand_side_calls = machine_.rhs_calls;
   s.guard_calls = machine_.guard_calls;

@@ -19,8 +19,8 @@ struct SimulatorOptions {
   double rtol = 1e-6;
   double atol = 1e-8;
 
-  /// "auto" (dopri5; BDF takes over where the scene looks stiff), "dopri5", "dop853", "adams",
-  /// "bdf". Synonyms: "rk45", "RK45" and "non-stiff" for dopri5, "DOP853" for dop853, "stiff" and
+  /// "auto" (dopri5 or dop853 by tolerance, BDF while the scene is stiff), "dopri5", "dop853",
+  /// "adams", "bdf". Synonyms: "rk45", "RK45" and "non-stiff" for dopri5, "DOP853" for dop853, "stiff" and
   /// "BDF" for bdf.
   std::string ode_solver_method = "auto";
 

@@ -15,4 +15,11 @@ struct SolverStatistics {
   std::int64_t linear_setups = 0;
 };
 
+/// A time over which one method was used.
+struct Stretch {
+  std::string method = {};
+  double begin = 0.0, end = 0.0;  ///< [s]
+  std::int64_t steps = 0;         ///< accepted
+};
+
 }  // namespace saltus

@@ -1,5 +1,5 @@
-// Step sizes of the one-step methods: the first one, the next one, the stiffness test, and what to
-// say when none is small enough.
+// Step sizes of the one-step methods: the first one, the next one, and what to say when none is
+// small enough.
 #pragma once
 
 #include <algorithm>
@@ -32,48 +32,16 @@ class StepController {
     before_ = std::max(error, 1e-4);
     return h * (after_rejection ? std::min(factor, 1.0) : factor);
   }
+  /// The codes shorten to a tenth at most; after a change of mode a thousandth may be right, and an
+  /// error of 1e10 says so.
   double reject(double error, double h) const {
     return h *
-           (std::isfinite(error) ? std::clamp(safety * std::pow(error, -plain_), 0.1, 0.9) : 0.1);
+           (std::isfinite(error) ? std::clamp(safety * std::pow(error, -plain_), 1e-3, 0.9) : 0.1);
   }
 
  private:
   static constexpr double safety = 0.9;
   double beta_, shortest_, longest_, exponent_, plain_, before_ = 1e-4;
-};
-
-/// Stiffness by comparing h with the stability region: h |f(x1) - f(X)| / |x1 - X|, X the argument
-/// of the last stage but one, also at t + h, estimates h |lambda|, which lies beyond `stability`
-/// when that bounds the step (L. F. Shampine; Hairer, Wanner II, p. 21, (2.33)). Fifteen such
-/// steps, with no more than five other ones in a row between, are called stiff.
-class StiffnessTest {
- public:
-  explicit StiffnessTest(double stability) : square_(stability * stability) {}
-
-  bool detected() const noexcept { return stiff_ >= 15; }
-  void forget() noexcept { stiff_ = calm_ = 0; }
-
-  template <class Stepper>
-  void look(Stepper& s, double h, double error) {
-    if (error > 1.0) return;
-    const double *f0 = s.stage(s.last - 1), *f1 = s.stage(s.last);
-    double numerator = 0.0, denominator = 0.0;
-    const double *x1 = s.x1_.data(), *x0 = s.scratch_.data();  // scratch: what stage last - 1 read
-    for (Index i = 0, n = s.n_; i < n; ++i) {
-      const double f = f1[i] - f0[i], x = x1[i] - x0[i];
-      numerator += f * f, denominator += x * x;
-    }
-    // Compared without division or root: h^2 f^2 > stability^2 x^2.
-    if (denominator > 0.0 && h * h * numerator > square_ * denominator) {
-      ++stiff_, calm_ = 0;
-    } else if (++calm_ == 6) {
-      stiff_ = 0;
-    }
-  }
-
- private:
-  double square_;
-  int stiff_ = 0, calm_ = 0;
 };
 
 /// First step by the size of x, f and f' (Hairer, Norsett, Wanner I, p. 169, "Starting step size").
