@@ -20,8 +20,8 @@ struct SimulatorOptions {
   double atol = 1e-8;
 
   /// "auto" (dopri5 or dop853 by tolerance, BDF while the scene is stiff), "dopri5", "dop853",
-  /// "adams", "bdf". Synonyms: "rk45", "RK45" and "non-stiff" for dopri5, "DOP853" for dop853, "stiff" and
-  /// "BDF" for bdf.
+  /// "adams", "bdf". Synonyms: "rk45", "RK45" and "non-stiff" for dopri5, "DOP853" for dop853,
+  /// "stiff" and "BDF" for bdf.
   std::string ode_solver_method = "auto";
 
   /// Instants a run may have; more end it with the status step_limit. Not said: no limit.
