@@ -163,6 +163,17 @@ void Contacts::carry(double t, double* x) {
   }
 }
 
+void Contacts::rates(double t, const double* x, double* xdot) {
+  for (const SurfaceContact& contact : list_) {
+    if (!contact.carried) continue;
+    const double d = contact.look_ahead;
+    stood_ = VectorView(x, stood_.size());
+    later_ = stood_ + d * VectorView(xdot, stood_.size());
+    if (!settle(contact, t + d, later_.data())) continue;
+    for (const Index i : contact.states) xdot[i] = (later_[i] - stood_[i]) / d;
+  }
+}
+
 void Contacts::lift(double t, const double* x, double* g) {
   for (const SurfaceContact& contact : list_) {
     if (contact.carried) g[contact.slot] = lift(contact, t, x);

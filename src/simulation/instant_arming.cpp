@@ -52,8 +52,7 @@ bool Instant::begin_on_firing_side(const GuardGroup& group, std::size_t k) {
   if (!there) return false;
   if (wish == AtStart::error) {
     throw SimulationError(
-        text("t = ", t_, " s: guard '", crossing_of(group).name, "' of block '",
-             leaf(group.leaf).path, "' begins ", g == 0.0 ? "at zero" : "beyond zero",
+        text("t = ", t_, " s: guard '", group.name, "' begins ", g == 0.0 ? "at zero" : "beyond zero",
              " (", g_[k], "), and its at_start is \"error\"; begin on its armed side, or choose "
              "\"auto\", \"ignore\" or \"fire\""),
         t_, leaf(group.leaf).path);
@@ -201,7 +200,7 @@ bool Instant::rests(const GuardGroup& group, Index slot, int from) {
   departure_.from(t_, x_minus_, longest_);
   flowed_ = false;
   const double before = -from * departure_.slope(group, slot);
-  return !(before > 0.0 && onward > 1e-9 * before);
+  return !(before > 0.0 && onward > 1e-6 * before);
 }
 
 /// Whether the flow of the mode before led a guard that stands at zero the other way: both lead to

@@ -217,15 +217,6 @@ bool Instant::goes_against(const Firing& firing) {
   return true;
 }
 
-/// Whether an edge on hold rests on a relation alone, whose contact tells when it ends.
-bool Instant::rests_on_contact(std::size_t e) {
-  const auto& relations = plan().edges[e].relations;
-  return std::ranges::any_of(watch_->active, [&](std::size_t k) {
-    return group_of(k).kind != GuardGroup::Kind::crossing &&
-           relations == std::vector{group_of(k).index} && contacts_.on(static_cast<int>(k));
-  });
-}
-
 /// Holds of leaves that have entered a mode which does not see the guard of the hold.
 void Instant::release_unseen() {
   for (std::size_t k = 0; k < slot_rests_.size(); ++k) {
@@ -236,8 +227,8 @@ void Instant::release_unseen() {
   }
 }
 
-/// Holds whose state a reset map or an update of the same leaf has changed end, if there is no
-/// reset map to tell by whether what was kicked goes on resting: see arm_contact.
+/// Holds whose state a reset map or an update of the same leaf has changed end: what was kicked is
+/// at rest no longer. Its guards are armed anew.
 void Instant::release_kicked() {
   const auto kicked = [&](const Rest& rest) {
     return rest.monitor.holding && std::ranges::any_of(rest.states, [&](Index i) {
@@ -245,15 +236,14 @@ void Instant::release_kicked() {
            });
   };
   for (std::size_t k = 0; k < slot_rests_.size(); ++k) {
-    const SurfaceContact* contact = contacts_.on(static_cast<int>(k));
-    if (!kicked(slot_rests_[k]) || fired_now_[k] || (contact && !contact->members.empty())) continue;
+    if (!kicked(slot_rests_[k]) || fired_now_[k]) continue;
     leave_contact(k);
     release(slot_rests_[k]);
     watch_->slots[k].side = 0;
   }
   for (std::size_t e = 0; e < edge_rests_.size(); ++e) {
     const bool own = carried_[e] != 0 || std::ranges::find(edges_fired_, static_cast<int>(e)) != edges_fired_.end();
-    if (own || rests_on_contact(e) || !kicked(edge_rests_[e])) continue;
+    if (own || !kicked(edge_rests_[e])) continue;
     release(edge_rests_[e]);
     for (std::size_t k = 0; k < resting_.size(); ++k) {
       const auto& relations = plan().edges[e].relations;
@@ -288,7 +278,11 @@ void Instant::let_go(SurfaceContact& contact) {
   const GuardGroup& group = group_of(k);
   const int armed = -contact.pressed;
   GuardSlot& slot = watch_->slots[k];
-  const double band = contact.band;
+  // Off a surface that falls away it gets as the third power of time: until it is clear of it by
+  // more than the tolerance, it is at zero.
+  departure_.from(t_, machine_->x, longest_);
+  flowed_ = false;
+  const double band = std::max(contact.band, contact.opaque ? 0.0 : departure_.tolerance(contact.slot));
   leave_contact(k);
   slot.side = static_cast<signed char>(armed), slot.fresh = true, slot.band = band;
   if (group.kind == GuardGroup::Kind::crossing) return release(slot_rests_[k]);

@@ -147,6 +147,7 @@ Status Run::settle(StopReason reason, double t_end, bool at_start) {
     return Status::reached_end;  // a major step's end only
   if (recorder_ && !recorder_->has_row(time_, instant_.jump()))
     recorder_->record(time_, instant_.jump(), machine_.x.data());
+  const bool idle = reason == StopReason::root && !moved();
   const Instant::Outcome outcome = instant_.run(time_, due_, t_end - time_, at_start);
   if (outcome.restart && solver_started_)
     solver_->restart(time_, machine_.x, {.horizon = outcome.horizon});
@@ -154,7 +155,7 @@ Status Run::settle(StopReason reason, double t_end, bool at_start) {
   if (outcome.zeno_stop) return end(Status::zeno_stop);
   if (outcome.chatters) told_ = {outcome.events, time_};
   stuck_ = outcome.stuck ? Series{stuck_.count + 1, stuck_.count == 0 ? time_ : stuck_.since} : Series{};
-  if (outcome.chatters || (reason == StopReason::root && chatters(t_end))) return chattering();
+  if (outcome.chatters || (reason == StopReason::root && chatters(t_end, idle))) return chattering();
   return Status::reached_end;
 }
 
@@ -171,25 +172,24 @@ Status Run::chattering() {
 /// Events go on, and time does not: a thousand times at rest without a Zeno monitor; a thousand
 /// roots within what rounding leaves of time; ten thousand in 1e-7 of the run, which would be 1e11
 /// in all, between which no state moves by its tolerance.
-bool Run::chatters(double t_end) {
+bool Run::chatters(double t_end, bool idle) {
   const double rounding = 1e6 * std::numeric_limits<double>::epsilon() * std::abs(time_);
   if (stuck_.count >= 1000) return chatters_as(stuck_);
   if (recent_.full(1000, time_) && time_ - recent_.since <= rounding) return chatters_as(recent_);
-  if (moved()) idle_ = {0, time_};
+  at_root_ = machine_.x;
+  if (!idle) idle_ = {0, time_};
   if (idle_.full(10'000, time_) && time_ - idle_.since <= 1e-7 * (t_end - begin_.time()))
     return chatters_as(idle_);
   return false;
 }
 
 /// Whether some state has moved by its tolerance since the last root.
-bool Run::moved() {
-  bool moved = false;
+bool Run::moved() const {
   for (Index i = 0; i < at_root_.size(); ++i) {
     const double tolerance = options_.atol + options_.rtol * std::abs(machine_.x[i]);
-    moved = moved || !(std::abs(machine_.x[i] - at_root_[i]) <= tolerance);
+    if (!(std::abs(machine_.x[i] - at_root_[i]) <= tolerance)) return true;
   }
-  at_root_ = machine_.x;
-  return moved;
+  return false;
 }
 
 bool Run::interrupted() {

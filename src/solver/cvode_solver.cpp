@@ -138,7 +138,9 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
   void step(double t_stop) {
     if (starting_ && t1_ >= starter_until_) start_cvode();
     // CVODE takes no step within a few roundings of the time.
-    const double shortest = 64.0 * std::numeric_limits<double>::epsilon() * std::max(std::abs(t_stop), std::abs(t1_));
+    const double shortest = std::max(
+        64.0 * std::numeric_limits<double>::epsilon() * std::max(std::abs(t_stop), std::abs(t1_)),
+        1e-290);
     if (!starting_ && t_stop - t1_ < shortest) {
       start_with_one_step(t1_, x1_, t_stop - t1_);
       starter_until_ = t1_;

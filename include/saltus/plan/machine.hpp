@@ -17,6 +17,8 @@ class Carrier {
   virtual ~Carrier() = default;
   /// The states it carries, from t and all the others.
   virtual void carry(double t, double* x) = 0;
+  /// How fast these states move with their surface, for the control of the step size.
+  virtual void rates(double t, const double* x, double* xdot) = 0;
   /// In place of the guards of these blocks: below zero while they press on their surface.
   virtual void lift(double t, const double* x, double* g) = 0;
 };
@@ -36,7 +38,9 @@ class Machine {
 
   /// xdot(t, x), everything else held as it is.
   void derivative(double t, const double* state, double* xdot) {
-    flow(t, carried(t, state), xdot);
+    const double* x_now = carried(t, state);
+    flow(t, x_now, xdot);
+    if (carrier != nullptr) [[unlikely]] carrier->rates(t, x_now, xdot);
   }
   /// All guards that can fire now, into their slots of g.
   void guards(double t, const double* state, double* g) {

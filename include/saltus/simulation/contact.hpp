@@ -54,6 +54,7 @@ class Contacts final : public Carrier {
   void engage();
 
   void carry(double t, double* x) override;
+  void rates(double t, const double* x, double* xdot) override;
   void lift(double t, const double* x, double* g) override;
 
  private:

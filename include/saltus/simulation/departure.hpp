@@ -47,6 +47,9 @@ class Departure {
     return rounding_after(0.0, slot, g0_[slot]);
   }
 
+  /// What the tolerance of the states leaves uncertain of a guard where it stands.
+  double tolerance(Index slot) { return rounding(slot) * rtol_ / (16.0 * eps) + atol_; }
+
   /// `hair`: a guard within it is at zero too, and is followed until it has left that as well.
   /// `expected`: a side that makes no difference to being at zero, so that its rounding need not be
   /// asked for.
@@ -179,7 +182,7 @@ class Departure {
     move_ = (d / 6.0) * (move_ + f1_);
   }
 
-  /// Sixteen units of rounding in x and in f, carried through the guard.
+  /// Sixteen units of rounding in x, in f and in t, carried through the guard.
   double rounding_after(double d, Index slot, double g) {
     if (!disturbed_) {
       trial_ = *x_;
@@ -193,7 +196,9 @@ class Departure {
     const double through_x = std::abs(g_disturbed_[slot] - g);
     trial_ = x1_ + d * (f_disturbed_ - f_);
     machine_->guards(t_ + d, trial_.data(), g_disturbed_.data());
-    return 16.0 * eps / amount * (through_x + std::abs(g_disturbed_[slot] - g));
+    const double through_f = std::abs(g_disturbed_[slot] - g);
+    machine_->guards(t_ + d + 64.0 * eps * std::abs(t_), x1_.data(), g_disturbed_.data());
+    return 16.0 * eps / amount * (through_x + through_f) + 0.25 * std::abs(g_disturbed_[slot] - g);
   }
 
   /// For a guard that only says yes or no: whether each state it reads has moved by more than its

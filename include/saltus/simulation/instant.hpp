@@ -131,7 +131,6 @@ class Instant {
   bool look_at_firings();
   bool goes_against(const Firing& firing);
   void release_kicked();
-  bool rests_on_contact(std::size_t edge);
   void release_unseen();
   bool wake(SurfaceContact& contact);
   void let_go(SurfaceContact& contact);

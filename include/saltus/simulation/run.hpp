@@ -46,12 +46,12 @@ class Run {
       return ++count >= size;
     }
   };
-  bool chatters(double t_end);
+  bool chatters(double t_end, bool idle);
   bool chatters_as(const Series& series) {
     told_ = series;
     return true;
   }
-  bool moved();
+  bool moved() const;
   Status chattering();
   SimulatorOptions checked(SimulatorOptions options) const;
   SolverOptions solver_options() const;

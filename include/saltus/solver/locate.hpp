@@ -82,8 +82,25 @@ class Locator {
       from = narrow(from, high, interpolate);
       forget();
       if (take(from)) return true;
+      leave_zero_of_monitors(from, to, interpolate);
     }
     return false;
+  }
+
+  /// A monitor located exactly on zero: the side it leaves to, a hair further on.
+  template <class Interpolate>
+  void leave_zero_of_monitors(double from, double to, const Interpolate& interpolate) {
+    const auto unsure = [&](std::size_t k) { return watch_->slots[k].side == 0; };
+    if (std::ranges::none_of(crossed_, unsure)) return;
+    const double resolution = std::numeric_limits<double>::epsilon() * (std::abs(t0_) + from);
+    look(std::min(to, from + std::max(64.0 * resolution, 1e-9 * (to - from))), nullptr, interpolate,
+         middle_);
+    for (const std::size_t k : crossed_) {
+      GuardSlot& slot = watch_->slots[k];
+      if (slot.side == 0) slot.side = static_cast<signed char>((middle_[k] > 0.0) - (middle_[k] < 0.0));
+    }
+    for (std::size_t i = 0; i < limits_.size(); ++i)
+      limits_[i] = watch_->slots[watch_->active[i]].limits();
   }
 
   /// The look at `from` is the one before the next look.
@@ -106,13 +123,13 @@ class Locator {
               {slot.side * earlier_[k], slot.side * watch_->g[k], slot.side * high_[k]}};
       // A touch within rounding is none; nor is a vertex far above zero.
       const double size = std::max({dip.g[0], dip.g[1], dip.g[2]});
-      double u = dip.vertex(0.05 * size);
-      for (int round = 0; round < 4 && u > from && u < to; ++round) {
+      double u = dip.vertex(0.25 * size);
+      for (int round = 0; round < 6 && u > from && u < to; ++round) {
         look(u, nullptr, interpolate, middle_);
         const double g = slot.side * middle_[k];
         if (g < -1e-12 * size) return u;
         dip.replace(u, g);
-        u = dip.vertex(0.05 * dip.g[1]);
+        u = dip.vertex(0.5 * dip.g[1]);
       }
     }
     return never;

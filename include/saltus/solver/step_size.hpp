@@ -70,8 +70,10 @@ inline double first_step(Machine& machine, double t, const Eigen::VectorXd& x, c
   return std::isfinite(h) && h > 0.0 ? h : h0;
 }
 
-[[noreturn]] inline void throw_not_finite(Machine& machine, double t, const double* x) {
-  const std::string block = machine.not_finite(t, x);
+/// At (t, x), or at (t + ahead, x), where the run that stands at t cannot get to.
+[[noreturn]] inline void throw_not_finite(Machine& machine, double t, const double* x,
+                                          double ahead = 0.0) {
+  const std::string block = machine.not_finite(t + ahead, x);
   throw SimulationError(
       text("t = ", t, " s: the derivative of block '", block,
            "' is not finite (NaN or Inf); check its equation and parameters at this state"),
@@ -86,11 +88,11 @@ inline void require_finite_near(Machine& machine, double t, double h, const doub
   const VectorView here(x, machine.plan().nx);
   Eigen::VectorXd there = here;
   if (!machine.not_finite(t, x).empty()) throw_not_finite(machine, t, x);
-  if (!machine.not_finite(t + ahead, x).empty()) throw_not_finite(machine, t + ahead, x);
+  if (!machine.not_finite(t + ahead, x).empty()) throw_not_finite(machine, t, x, ahead);
   machine.derivative(t, x, there.data());
   there = here + ahead * there;
   if (!machine.not_finite(t + ahead, there.data()).empty())
-    throw_not_finite(machine, t + ahead, there.data());
+    throw_not_finite(machine, t, there.data(), ahead);
 }
 
 /// The block whose state moves fastest, measured by the tolerance: where a solution blows up.
