@@ -69,10 +69,11 @@ void compare(const char* scene, const Ball& ball, const char* method, double rto
 
 /// For a profiler: one runner only, again and again.
 int only(const char* who, int runs) {
-  const Ball ball;
+  const Ball ball{.k = 9.81 / 400.0};
   bench::FloorDopri5 dopri5(ball, 1e-8, 1e-10);
   bench::FloorCvode cvode(ball, 1e-8, 1e-10);
   SaltusRun saltus_dopri5(ball, with("dopri5", 1e-8, true, 3)),
+      saltus_dop853(ball, with("dop853", 1e-8, true, 3)),
       saltus_adams(ball, with("adams", 1e-8, true, 3));
   for (int i = 0; i < runs; ++i) {
     if (std::strcmp(who, "floor_dopri5") == 0)
@@ -81,6 +82,8 @@ int only(const char* who, int runs) {
       cvode();
     else if (std::strcmp(who, "dopri5") == 0)
       saltus_dopri5();
+    else if (std::strcmp(who, "dop853") == 0)
+      saltus_dop853();
     else if (std::strcmp(who, "adams") == 0)
       saltus_adams();
     else

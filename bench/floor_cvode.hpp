@@ -2,7 +2,7 @@
 // fixed-point iteration, CVODE's own root-finding on the falling guard, one ReInit for each bounce.
 #pragma once
 
-#include "../src/sundials_compat.hpp"
+#include "../src/solver/sundials_compat.hpp"
 #include "ball.hpp"
 
 namespace bench {

@@ -96,7 +96,7 @@ class FloorDopri5 {
     double sum = 0.0;
     for (std::size_t i = 0; i < 2; ++i) {
       double e = 0.0;
-      for (std::size_t j = 0; j < 7; ++j) e += Tableau::e[j] * k_[j][i];
+      for (std::size_t j = 0; j < 7; ++j) e += Tableau::e[0][j] * k_[j][i];
       e *= h / (atol_ + rtol_ * std::max(std::abs(x_[i]), std::abs(x1_[i])));
       sum += e * e;
     }
@@ -107,7 +107,7 @@ class FloorDopri5 {
     for (std::size_t i = 0; i < 2; ++i) {
       const double rise = x1_[i] - x_[i], bend = length_ * k_[0][i] - rise;
       double last = 0.0;
-      for (std::size_t j = 0; j < 7; ++j) last += Tableau::d[j] * k_[j][i];
+      for (std::size_t j = 0; j < 7; ++j) last += Tableau::d[0][j] * k_[j][i];
       dense_[i] = {rise, bend, rise - length_ * k_[6][i] - bend, length_ * last};
     }
   }

@@ -1,14 +1,19 @@
 // LeafSystem: what python/saltus/leaf_system.py declares blocks with.
 #include <pybind11/stl.h>
 
-#include "python_leaf.hpp"
+#include "zero_crossing.hpp"
 
 namespace saltus::python {
 
 namespace {
 
-using OptionalNumber = std::optional<double>;
-using OptionalMode = std::optional<int>;
+/// Whether there is a block in a Python object. There is none yet while pybind11 makes the object,
+/// and the garbage collector may come in the middle of that, before the object has room for one.
+bool holds_block(PyObject* self) {
+  const auto* object = reinterpret_cast<const py::detail::instance*>(self);
+  if (!object->simple_layout && object->nonsimple.status == nullptr) return false;
+  return py::detail::is_holder_constructed(self);
+}
 
 /// Functions held by a block are seen by the garbage collector: a lambda that holds its block is no
 /// leak.
@@ -17,11 +22,11 @@ void let_collect(PyHeapTypeObject* heap_type) {
   type.tp_flags |= Py_TPFLAGS_HAVE_GC;
   type.tp_traverse = [](PyObject* self, visitproc visit, void* arg) {
     Py_VISIT(Py_TYPE(self));
-    if (!py::detail::is_holder_constructed(self)) return 0;
+    if (!holds_block(self)) return 0;
     return py::cast<const PythonLeaf&>(py::handle(self)).traverse(visit, arg);
   };
   type.tp_clear = [](PyObject* self) {
-    if (py::detail::is_holder_constructed(self)) py::cast<PythonLeaf&>(py::handle(self)).clear();
+    if (holds_block(self)) py::cast<PythonLeaf&>(py::handle(self)).clear();
     return 0;
   };
 }
@@ -93,31 +98,6 @@ int declare_view(py::handle self, std::string name, Space space) {
                                    .view = Place{space, 0, shape.size}});
 }
 
-void declare_zero_crossing(py::handle self, py::object guard, py::object reset_map,
-                           std::string name, const std::string& direction, OptionalMode start_mode,
-                           OptionalMode end_mode, bool terminal, OptionalNumber zeno_tolerance,
-                           const InputList& inputs) {
-  PythonLeaf& leaf = leaf_of(self);
-  const std::string called =
-      name.empty() ? text("zero_crossing_", leaf.declarations().zero_crossings.size()) : name;
-  const int g =
-      leaf.add(self, std::move(guard), inputs, text("guard of '", called, "'"), Convention::state);
-  ZeroCrossing crossing{.name = std::move(name),
-                        .guard = leaf.vector_function(g),
-                        .direction = direction_from(direction),
-                        .start_mode = start_mode,
-                        .end_mode = end_mode,
-                        .terminal = terminal,
-                        .zeno_tolerance = zeno_tolerance,
-                        .inputs = inputs};
-  if (!reset_map.is_none()) {
-    crossing.reset_map =
-        leaf.reset_map(leaf.add(self, std::move(reset_map), inputs,
-                                text("reset map of '", called, "'"), Convention::state));
-  }
-  leaf.declare_zero_crossing(std::move(crossing));
-}
-
 ResetMap update_of(py::handle self, py::object callback, const char* what) {
   PythonLeaf& leaf = leaf_of(self);
   if (callback.is_none()) return {};
@@ -136,6 +116,8 @@ the value is the one that was there.)")
       .def_readonly("continuous_state", &State::x, "Read-only array of the declared shape.")
       .def_readonly("discrete_state", &State::z, "Read-only array of the declared shape.")
       .def_readonly("mode", &State::mode)
+      .def_readonly("entry", &State::entry,
+                    "In a reset map: which guard of a zero crossing of several fired; else 0.")
       .def("with_continuous_state", &State::with_continuous_state, py::arg("continuous_state"))
       .def("with_discrete_state", &State::with_discrete_state, py::arg("discrete_state"))
       .def("with_mode", &State::with_mode, py::arg("mode"))

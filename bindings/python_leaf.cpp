@@ -87,6 +87,7 @@ void PythonLeaf::fill_state(Frame& frame, const At& at) const {
   std::copy_n(at.x.data(), at.x.size(), numbers_of(state.x));
   std::copy_n(at.z.data(), at.z.size(), numbers_of(state.z));
   state.mode = at.mode;
+  state.entry = at.entry;
 }
 
 /// The same objects as long as the values are the same, which is for a whole run.

@@ -26,6 +26,7 @@ struct State {
   std::string block;
   py::array x, z;
   int mode = 0;
+  Index entry = 0;
   bool wrote_x = false, wrote_z = false, wrote_mode = false;
 };
 

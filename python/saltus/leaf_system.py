@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+import operator
+from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
 import numpy as np
@@ -42,7 +43,13 @@ def _initial(what: str, shape: Any, default_value: ArrayLike | None) -> ArrayLik
 def _shape(shape: Any, default_value: ArrayLike | None = None) -> list[int] | None:
     if shape is None:
         return None if default_value is None else list(np.shape(default_value))
-    return [int(n) for n in np.atleast_1d(np.asarray(shape, dtype=int))] if shape != () else []
+    try:
+        sizes = [operator.index(n) for n in np.atleast_1d(np.asarray(shape, dtype=object))]
+    except TypeError:
+        sizes = [-1]
+    if any(n < 0 for n in sizes):
+        raise ModelError(f"shape: expected () or a number of entries, found {shape!r}")
+    return sizes
 
 
 class LeafSystem(System, _core.LeafSystem):
@@ -177,7 +184,7 @@ class LeafSystem(System, _core.LeafSystem):
     @refusing
     def declare_zero_crossing(
         self,
-        guard: Callable[..., float],
+        guard: Callable[..., ArrayLike],
         reset_map: Callable[..., _core.State] | None = None,
         name: str | None = None,
         direction: str = "crosses_zero",
@@ -186,28 +193,52 @@ class LeafSystem(System, _core.LeafSystem):
         terminal: bool = False,
         zeno_tolerance: float | None = None,
         requires_inputs: RequiresInputs = True,
+        max_count: int = 1,
+        size: int = 1,
+        at_start: str = "auto",
+        on_zeno: str | int = "hold",
+        holds: Sequence[Sequence[int]] | None = None,
     ) -> None:
-        """An event where guard(time, state, *inputs, **parameters), a smooth number, reaches or
-        crosses zero.
+        """An event where g = guard(time, state, *inputs, **parameters), a smooth number in any
+        unit, reaches zero or crosses it. Without a reset map, a mode change and `terminal` it is
+        only logged, and changes nothing.
 
-        `direction` is 'crosses_zero', 'positive_then_non_positive', 'negative_then_non_negative',
-        'edge_detection' (any change, for values that jump) or 'none'. At the event `reset_map`,
-        called like the guard, returns the state after it. With `start_mode` it is seen in that mode
-        only; `end_mode` is the mode after it; `terminal` ends the run after it. Without any of
-        these it is only logged, and changes nothing. `zeno_tolerance` [s] overrides that of the
-        simulator options.
+        - `reset_map`, called like the guard, returns x+ from x-, the state before the event.
+        - `direction` is 'crosses_zero', 'positive_then_non_positive', 'negative_then_non_negative',
+          'edge_detection' (any change, for values that jump) or 'none' (never).
+        - With `start_mode` it is seen in that mode only; `end_mode` is the mode after it.
+        - `terminal` ends the run after the reset map, `max_count` n when it happens the n-th time.
+        - `size` n is n guards in one: the guard returns n numbers, each fires for itself, and
+          `state.entry` tells the reset map which one did, 0 to n - 1.
+        - `at_start` is for a guard at zero, or on its firing side, when a run starts or its mode is
+          entered. 'auto': at zero and headed for the firing side it fires at once if it has a reset
+          map or changes the mode, and waits if not; on the firing side it waits until it has been
+          on the other. 'ignore' waits, 'fire' fires at once, 'error' is a SimulationError.
+        - `on_zeno` says what becomes of the block where events accumulate. 'hold': the state rests
+          at the accumulation state until the guard moves to its armed side. 'stop': the run ends,
+          status 'zeno_stop'. 'error': a SimulationError. An integer: the mode to go on in.
+        - `holds` lists, for each of the `size` guards, the positions in the continuous state that
+          rest on a hold, such as [[0, 1]]; without it all do.
+        - `zeno_tolerance` [s] overrides that of the simulator options, 0 switches the monitor off.
+
+        A ModelError for a name declared twice, an unknown direction, `at_start` or `on_zeno` (with
+        the nearest name), a `size` or `max_count` below 1, a `max_count` without `terminal`, a
+        negative `zeno_tolerance`, and `holds` of another length or beyond the state.
         """
-        super().declare_zero_crossing(
-            guard,
-            reset_map,
-            name or "",
-            direction,
-            start_mode,
-            end_mode,
-            terminal,
-            zeno_tolerance,
-            _inputs(requires_inputs),
-        )
+        options = {
+            "direction": direction,
+            "start_mode": start_mode,
+            "end_mode": end_mode,
+            "terminal": terminal,
+            "max_count": max_count,
+            "size": size,
+            "at_start": at_start,
+            "on_zeno": on_zeno,
+            "zeno_tolerance": zeno_tolerance,
+            "holds": holds,
+            "inputs": _inputs(requires_inputs),
+        }
+        super().declare_zero_crossing(guard, reset_map, name or "", options)
 
     @refusing
     def declare_periodic_update(

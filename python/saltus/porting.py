@@ -5,8 +5,9 @@ instead.
 from __future__ import annotations
 
 import functools
+import inspect
 from collections.abc import Callable, Iterable, Mapping
-from typing import ParamSpec, TypeVar
+from typing import Any, ParamSpec, TypeVar
 
 from saltus._core import known_names
 from saltus.errors import ModelError
@@ -58,13 +59,32 @@ def refuse(
 
 
 def refusing(method: Callable[P, R]) -> Callable[P, R]:
-    """A method of which unknown keywords are refused like that, not with a TypeError."""
+    """A method of which unknown keywords, and arguments of the wrong kind, are refused like that,
+    not with a TypeError.
+    """
     code = method.__code__
     known = code.co_varnames[1 : code.co_argcount + code.co_kwonlyargcount]
 
     @functools.wraps(method)
     def checked(*arguments: P.args, **options: P.kwargs) -> R:
         refuse(method.__name__, options, known)
-        return method(*arguments, **options)
+        try:
+            return method(*arguments, **options)
+        except TypeError as error:
+            if WRONG_KIND not in str(error):
+                raise
+        raise ModelError(_wrong_kind(method, arguments, options))
 
     return checked
+
+
+WRONG_KIND = "incompatible function arguments"  # what the compiled module says
+
+
+def _wrong_kind(method: Callable[..., Any], arguments: Any, options: Any) -> str:
+    """What was expected, from the annotations, and what was found."""
+    signature = inspect.signature(method)
+    given = dict(list(signature.bind(*arguments, **options).arguments.items())[1:])  # not self
+    expected = ", ".join(f"{name}: {signature.parameters[name].annotation}" for name in given)
+    found = ", ".join(f"{name} = {value!r}" for name, value in given.items())
+    return f"{method.__name__}: expected {expected}; found {found}"

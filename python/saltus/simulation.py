@@ -8,6 +8,8 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from typing import Any
 
+import numpy as np
+
 from saltus import _core
 from saltus.errors import ModelError, SimulationError
 from saltus.porting import OPTIONS, refuse
@@ -114,8 +116,16 @@ def _core_options(options: SimulatorOptions) -> _core.SimulatorOptions:
             raise ModelError(
                 f"option {field.name}: expected {field.type}, found {value!r}"
             ) from None
+    if not isinstance(options.throw, (bool, np.bool_)):
+        raise ModelError(f"option throw: expected bool, found {options.throw!r}")
     core.set_recorded_signals(_ports(options.recorded_signals))
     return core
+
+
+def _context(context: object) -> _core.Context:
+    if not isinstance(context, _core.Context):
+        raise ModelError(f"expected a context, such as system.create_context(), found {context!r}")
+    return context
 
 
 class Simulator:
@@ -140,8 +150,8 @@ class Simulator:
 
     def initialize(self, context: _core.Context) -> None:
         """Begins a run with these values, at their time."""
+        self._core.initialize(_context(context))
         self._failed = None
-        self._core.initialize(context)
 
     def advance_to(self, time: float) -> str:
         """Goes on to `time` [s], or to where the run ends before; returns the status.
@@ -153,10 +163,13 @@ class Simulator:
         return self._advance(time, take=False).status
 
     def _advance(self, time: float, take: bool) -> Results:
-        self._core.advance_to(time)
+        try:
+            self._core.advance_to(time)
+        except TypeError:
+            raise ModelError(f"advance_to: expected a time in seconds, found {time!r}") from None
         core, raised = self._core.results(take)
         results = Results(core, raised)
-        if results.status == "failed":
+        if results.status in ("failed", "interrupted"):
             self._failed = results
         if self.options.throw and results.status not in ("reached_end", "terminal", "zeno_stop"):
             self._raise(results, raised)
@@ -209,11 +222,18 @@ def simulate(
     >>> recorded = {"y": ball.output_ports[0]}
     >>> results = saltus.simulate(ball, context, (0.0, 12.0), recorded_signals=recorded, rtol=1e-9)
     """
-    begin, end = time_span
+    try:
+        begin, end = map(float, time_span)
+    except (TypeError, ValueError):
+        raise ModelError(
+            f"simulate: expected a span (begin, end) in seconds, found {time_span!r}"
+        ) from None
     if not end >= begin:
         raise ModelError(f"simulate: expected a span with begin <= end, found {begin} s to {end} s")
     if recorded_signals is not None:
         option_overrides["recorded_signals"] = recorded_signals
     simulator = Simulator(system, options, **option_overrides)
+    context = _context(context)
+    # one that ended another run at this time knows what of it has happened already
     simulator.initialize(context if context.time == begin else context.with_time(begin))
     return simulator._advance(end, take=True)

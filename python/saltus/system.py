@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import operator
 from dataclasses import dataclass
 
 from saltus import _core
+from saltus.errors import ModelError
 
 __all__ = ["InputPort", "OutputPort", "System"]
 
@@ -39,6 +41,15 @@ class InputPort:
         return f"<input '{self.name}' of '{self.system.name}'>"
 
 
+def _key(port: object) -> int | str:
+    if isinstance(port, str):
+        return port
+    try:
+        return operator.index(port)  # type: ignore[arg-type]
+    except TypeError:
+        raise ModelError(f"expected the position or the name of a port, found {port!r}") from None
+
+
 class System:
     """A block or a diagram: structure, which a run never changes. The values are in a `Context`."""
 
@@ -61,11 +72,11 @@ class System:
 
     def input(self, port: int | str = 0) -> InputPort:
         """One input, by position or by name. ModelError lists the names there are."""
-        return InputPort(self, _core.System.find_input(self, port))
+        return InputPort(self, _core.System.find_input(self, _key(port)))
 
     def output(self, port: int | str = 0) -> OutputPort:
         """One output, by position or by name. ModelError lists the names there are."""
-        return OutputPort(self, _core.System.find_output(self, port))
+        return OutputPort(self, _core.System.find_output(self, _key(port)))
 
     def create_context(self, time: float = 0.0) -> _core.Context:
         """The values every block starts with, at `time` [s]. What you change in it changes no

@@ -75,6 +75,7 @@ void add_guards(Plan& plan) {
                 {.kind = GuardGroup::Kind::crossing,
                  .leaf = static_cast<int>(l),
                  .index = static_cast<int>(i),
+                 .size = crossing.size,
                  .direction = crossing.direction,
                  .monitor = monitor,
                  .name = text(plan.leaves[l].path, ".", crossing.name)},

@@ -22,7 +22,10 @@ std::vector<Machine::Call> Machine::calls_of(const std::vector<int>& nodes) cons
 Machine::Machine(std::shared_ptr<const Plan> plan) : plan_(std::move(plan)) {
   x.setZero(plan_->nx), z.setZero(plan_->nz), p.setZero(plan_->np), y.setZero(plan_->ny);
   modes.assign(plan_->leaves.size(), 0);
-  held.assign(plan_->leaves.size(), 0);
+  rests_.assign(static_cast<std::size_t>(plan_->nx), 0);
+  resting_of_.assign(plan_->leaves.size(), 0);
+  for (std::size_t i = 0; i < plan_->leaves.size(); ++i)
+    leaf_of_state_.insert(leaf_of_state_.end(), static_cast<std::size_t>(plan_->leaves[i].nx), i);
   bases_ = {x.data(), z.data(), p.data(), y.data()};
   for (const PlanLeaf& leaf : plan_->leaves) {
     for (int node : leaf.relations) relation_values_.push_back(signal(node));
@@ -38,6 +41,11 @@ Machine::Machine(std::shared_ptr<const Plan> plan) : plan_(std::move(plan)) {
   }
   constant_calls_ = calls_of(plan_->constants);
   instant_calls_ = calls_of(plan_->instants);
+  std::vector<int> moving;
+  std::ranges::copy_if(plan_->instants, std::back_inserter(moving), [&](int i) {
+    return plan_->node(i).rate == Rate::continuous;
+  });
+  moving_calls_ = calls_of(moving);
   derivative_calls_ = calls_of(plan_->derivatives);
   guard_calls_list_ = calls_of(plan_->guard_needs);
   tap_calls_ = calls_of(plan_->tap_needs);
@@ -73,21 +81,30 @@ void Machine::load(const Context& context) {
   z = context.discrete_state();
   p = context.parameters();
   modes = context.modes();
-  std::ranges::fill(held, 0);
+  std::ranges::fill(rests_, 0), std::ranges::fill(resting_of_, 0);
   y.setZero();
+  carrier = nullptr;
   rhs_calls = guard_calls = jacobian_calls = 0;
   at_home();
   run(constant_calls_, context.time());
   select_guards();
 }
 
-Context Machine::save(const Context& like, double t) const {
+const double* Machine::carry(double t, const double* state) {
+  carried_x_ = VectorView(state, x.size());
+  carrier->carry(t, carried_x_.data());
+  return carried_x_.data();
+}
+
+Context Machine::save(const Context& like, double t,
+                      std::shared_ptr<const Continuation> continuation) const {
   Context context = like;
   context.x_ = x;
   context.z_ = z;
   context.modes_ = modes;
   context.time_ = t;
   context.settled_ = true;
+  context.continuation_ = std::move(continuation);
   return context;
 }
 
@@ -103,6 +120,14 @@ void Machine::select_guards() {
     }
     active_.push_back(static_cast<int>(i));
   }
+}
+
+void Machine::change_rest(Index i, int by) {
+  int& count = rests_[static_cast<std::size_t>(i)];
+  const bool before = count > 0;
+  count += by;
+  const std::size_t leaf = leaf_of_state_[static_cast<std::size_t>(i)];
+  resting_of_[leaf] += static_cast<Index>(count > 0) - static_cast<Index>(before);
 }
 
 /// The leaves' Jacobians make up the whole one if no derivative depends on another leaf's
@@ -123,20 +148,28 @@ void Machine::find_jacobian() {
 
 void Machine::jacobian(double t, const double* state, MatrixRef out) {
   ++jacobian_calls;
-  bases_[0] = state;
+  bases_[0] = carried(t, state);
   out.setZero();
   for (const OdeCall& ode : odes_) {
-    if (held[ode.leaf]) continue;
     const Index at_x = x_offsets_[ode.leaf], n = views_[ode.leaf].x.size();
+    if (resting_of_[ode.leaf] == n) continue;
     jacobian_block_.head(n * n).setZero();
     const MatrixRef block(jacobian_block_.data(), n, n);
     plan_->leaves[ode.leaf].declared().continuous.jacobian(*ode.system, view(ode.leaf, t), block);
-    out.block(at_x, at_x, n, n) = block;
+    if (!block.allFinite()) {
+      const std::string& path = plan_->leaves[ode.leaf].path;
+      throw SimulationError(text("t = ", t, " s: the Jacobian of block '", path,
+                                 "' is not finite (NaN or Inf); check its function at this state"),
+                            t, path);
+    }
+    for (Index i = 0; i < n; ++i) {
+      if (rests_[static_cast<std::size_t>(at_x + i)] == 0) out.row(at_x + i).segment(at_x, n) = block.row(i);
+    }
   }
 }
 
 std::string Machine::not_finite(double t, const double* state) {
-  bases_[0] = state;
+  bases_[0] = carried(t, state);
   for (const Call& call : derivative_calls_) {
     const VectorRef out(y.data() + call.offset, call.size);
     (*call.function)(*call.system, view(call.leaf, t), out);

@@ -8,13 +8,14 @@
 
 namespace saltus {
 
-Instant::Outcome Instant::run(double t, const std::vector<int>& due, double longest,
-                                     bool at_start) {
-  t_ = t, longest_ = longest;
+/// What stands before the first pass.
+void Instant::open(double t, const std::vector<int>& due) {
+  t_ = t;
   outcome_ = {};
-  std::ranges::fill(fired_, 0), std::ranges::fill(frozen_, 0);
+  std::ranges::fill(fired_, 0), std::ranges::fill(frozen_, 0), std::ranges::fill(carried_, 0);
   edges_fired_.clear(), actions_.clear(), chain_.clear();
   wrote_ = wrote_x_ = flowed_ = entered_ = false;
+  effects_ = 0;
   firings_ = watch_->fired;
   watch_->fired.clear();
   x_minus_ = x_next_ = machine_->x, z_minus_ = machine_->z, y_before_ = machine_->y;
@@ -25,8 +26,13 @@ Instant::Outcome Instant::run(double t, const std::vector<int>& due, double long
     const ScheduledEvent& scheduled = plan().schedule[static_cast<std::size_t>(event)];
     actions_.push_back({scheduled.leaf, Cause::time, event, -1, 0, false});
   }
+}
+
+Instant::Outcome Instant::run(double t, const std::vector<int>& due, double longest,
+                              bool at_start) {
+  longest_ = longest;
+  open(t, due);
   bool armed = !at_start;
-  std::ranges::fill(carried_, 0);
   for (pass_ = 0;; ++pass_) {
     if (pass_ >= options_->max_passes) {
       if (wrote_) throw_no_end();
@@ -34,22 +40,21 @@ Instant::Outcome Instant::run(double t, const std::vector<int>& due, double long
       break;
     }
     event_jump_ = jump_ + 1;
+    const bool let_go = pass_ == 0 && look_at_firings();
     const bool flipped = flip_relations();
     machine_->evaluate_instant(t);
-    const bool released = collect_edges();
+    const bool released = collect_edges() || let_go;
     add_crossings();
     if (flipped || released || !actions_.empty() || (pass_ == 0 && held_outputs_changed())) {
       run_pass();
       armed = false;
-      if (outcome_.terminal) break;
-    } else if (!armed) {
-      event_jump_ = jump_;
-      arm(at_start);
-      armed = true;
-      if (firings_.empty()) break;
-    } else {
-      break;
+      continue;
     }
+    if (armed) break;
+    event_jump_ = jump_;
+    arm(at_start);
+    armed = true;
+    if (firings_.empty() && actions_.empty()) break;
   }
   for (int node : plan().restarting) {
     if (changed(plan().node(node).place)) outcome_.restart = true;
@@ -100,11 +105,10 @@ bool Instant::collect_edges() {
     const EdgeWatch& edge = plan().edges[e];
     const bool now = machine_->truth(edge.node), before = edge_values_[e] != 0;
     edge_values_[e] = now;
-    ZenoMonitor& monitor = edge_monitors_[e];
     const auto index = static_cast<int>(e);
-    if (monitor.holding) {
+    if (edge_rests_[e].monitor.holding) {
       if (!now)
-        release(edge.leaf, monitor, source_of(Cause::edge, index)), released = true;
+        release(edge_rests_[e]), released = true;
       else
         collect_carried(index);
       continue;
@@ -139,19 +143,25 @@ void Instant::collect_carried(int index) {
 /// The zero crossings that fire in this pass; leaf by leaf, in declaration order.
 void Instant::add_crossings() {
   for (const Firing& firing : firings_) {
-    const int group = group_of_slot_[static_cast<std::size_t>(firing.slot)];
-    const GuardGroup& of = plan().guards[static_cast<std::size_t>(group)];
+    const auto slot = static_cast<std::size_t>(firing.slot);
+    const GuardGroup& of = group_of(slot);
     if (of.kind != GuardGroup::Kind::crossing) continue;
-    ZenoMonitor& monitor = slot_monitors_[static_cast<std::size_t>(firing.slot)];
-    if (monitor.holding && firing.from == watch_->slots[static_cast<std::size_t>(firing.slot)].side)
-      continue;
-    actions_.push_back(
-        {of.leaf, Cause::crossing, group, firing.slot, firing.from, monitor.holding});
+    const auto group = static_cast<std::size_t>(group_of_slot_[slot]);
+    const ZeroCrossing& crossing = crossing_of(of);
+    const Rest& rest = slot_rests_[slot];
+    const bool last = earlier_[group] + counts_[group] + 1 >= crossing.max_count;
+    if (!has_effect(of) && !(crossing.terminal && last))  // a monitor, or terminal only later
+      log(EventKind::zero_crossing, static_cast<int>(group), of.leaf, -firing.from, std::numeric_limits<double>::quiet_NaN(), firing.slot - of.slot);
+    else
+      actions_.push_back({of.leaf, Cause::crossing, static_cast<int>(group), firing.slot, firing.from,
+                          rest.monitor.holding});
   }
   firings_.clear();
   if (actions_.size() < 2) return;
+  // Within a leaf updates come first: they read x- z-, and what they write is not lost to a reset.
   const auto before = [](const Action& a, const Action& b) {
-    return a.leaf != b.leaf ? a.leaf < b.leaf : a.cause < b.cause;
+    const auto rank = [](Cause cause) { return cause == Cause::time ? -1 : static_cast<int>(cause); };
+    return a.leaf != b.leaf ? a.leaf < b.leaf : rank(a.cause) < rank(b.cause);
   };
   for (auto a = actions_.begin(); a != actions_.end(); ++a) {  // stable, and allocates nothing
     std::rotate(std::upper_bound(actions_.begin(), a, *a, before), a, a + 1);
@@ -170,68 +180,69 @@ void Instant::run_pass() {
   if (recorder_ != nullptr) recorder_->record(t_, jump_, machine_->x.data());
 }
 
-void Instant::run_action(const Action& action) {
-  const int source = source_of(action.cause, action.index);
-  const PlanLeaf& of = leaf(action.leaf);
-  auto state = x_next_.segment(of.x, of.nx);
-  if (chain_.size() < 400) chain_.push_back(source);
-  if (action.cause == Cause::time) {
-    const auto& event = of.declared().time_events[static_cast<std::size_t>(
-        plan().schedule[static_cast<std::size_t>(action.index)].index)];
-    if (event.update) run_reset(action, event.update);
-    log(EventKind::time, source, action.leaf, 0);
-    return;
-  }
-  const bool by_guard = action.cause == Cause::crossing;
-  ZenoMonitor& monitor = by_guard ? slot_monitors_[static_cast<std::size_t>(action.slot)]
-                                  : edge_monitors_[static_cast<std::size_t>(action.index)];
-  const GuardGroup* group =
-      by_guard ? &plan().guards[static_cast<std::size_t>(action.index)] : nullptr;
-  const ResetMap& map =
-      by_guard ? crossing_of(*group).reset_map
-               : reset_of(plan().edges[static_cast<std::size_t>(action.index)]).reset_map;
-  bool wrote = false;
-  if (map) {
-    if (!action.carry) monitor.fired(t_);
-    wrote = run_reset(action, map);
-  }
-  if (by_guard && crossing_of(*group).end_mode)
-    modes_next_[static_cast<std::size_t>(action.leaf)] = *crossing_of(*group).end_mode;
-  const bool terminal = by_guard && crossing_of(*group).terminal;
-  outcome_.terminal = outcome_.terminal || terminal;
-  log(terminal ? EventKind::terminal : EventKind::zero_crossing, source, action.leaf, -action.from);
-  if (!wrote || action.carry) return;
-  if (monitor.on() && monitor.accumulates()) {
-    monitor.accumulate(state);
-    hold(action.leaf, monitor, source, monitor.accumulation_time());
-    if (!by_guard) {
-      for (int node : plan().edges[static_cast<std::size_t>(action.index)].relations) {
-        for (const GuardGroup& relation : plan().guards) {
-          if (relation.kind == GuardGroup::Kind::crossing || relation.index != node) continue;
-          for (auto k = static_cast<std::size_t>(relation.slot), s = k;
-               s < k + static_cast<std::size_t>(relation.size); ++s)
-            frozen_[s] = resting_[s] = 1;
-        }
-      }
-    }
-  } else {
-    monitor.remember(state);
-    if (std::isfinite(monitor.gap()))
-      outcome_.horizon = std::min(outcome_.horizon, std::max(1.2 * monitor.gap(), least_time()));
-  }
+void Instant::run_update(const Action& action) {
+  const auto& event = leaf(action.leaf).declared().time_events[static_cast<std::size_t>(
+      plan().schedule[static_cast<std::size_t>(action.index)].index)];
+  if (event.update) run_reset(action, event.update);
+  log(EventKind::time, source_of(action.cause, action.index), action.leaf, 0);
 }
 
-/// Within one leaf each reset map sees what the one before left; updates and other leaves' values
-/// are those of x-. Returns whether continuous state was written.
+void Instant::run_action(const Action& action) {
+  if (action.cause == Cause::zeno) {
+    modes_next_[static_cast<std::size_t>(action.leaf)] = action.from;
+    return;
+  }
+  const int source = source_of(action.cause, action.index);
+  if (chain_.size() < 400) chain_.push_back(source);
+  if (action.cause == Cause::time) return run_update(action);
+  const auto index = static_cast<std::size_t>(action.index);
+  const ZeroCrossing* crossing =
+      action.cause == Cause::crossing ? &crossing_of(plan().guards[index]) : nullptr;
+  const ResetMap& map = crossing ? crossing->reset_map : reset_of(plan().edges[index]).reset_map;
+  Rest& rest = crossing ? slot_rests_[static_cast<std::size_t>(action.slot)] : edge_rests_[index];
+  const bool effect = map || (crossing && crossing->end_mode);
+  if (effect && !action.carry) rest.monitor.fired(t_);
+  bool wrote = map && run_reset(action, map);
+  if (crossing && crossing->end_mode)
+    modes_next_[static_cast<std::size_t>(action.leaf)] = *crossing->end_mode, wrote = true;
+  const bool last = crossing && crossing->terminal &&
+                    earlier_[index] + counts_[index] + 1 >= crossing->max_count;
+  outcome_.terminal = outcome_.terminal || last;
+  log(last ? EventKind::terminal : EventKind::zero_crossing, source, action.leaf, -action.from,
+      std::numeric_limits<double>::quiet_NaN(), rest.entry);
+  if (wrote && !action.carry) look_for_zeno(action, rest);
+}
+
+/// Whether the firings accumulate here; if not, how soon the next one may follow.
+void Instant::look_for_zeno(const Action& action, Rest& rest) {
+  gathered_.resize(static_cast<Index>(rest.states.size()));
+  for (std::size_t i = 0; i < rest.states.size(); ++i)
+    gathered_[static_cast<Index>(i)] = x_next_[rest.states[i]];
+  if (!rest.monitor.on() || !rest.monitor.accumulates()) {
+    rest.monitor.remember(gathered_);
+    const double gap = rest.monitor.gap();
+    if (std::isfinite(gap))
+      outcome_.horizon = std::min(outcome_.horizon, std::max(1.2 * gap, least_time()));
+    return;
+  }
+  rest.monitor.accumulate(gathered_);
+  for (std::size_t i = 0; i < rest.states.size(); ++i)
+    x_next_[rest.states[i]] = gathered_[static_cast<Index>(i)];
+  come_to_rest(rest, rest.monitor.accumulation_time(), true);
+  if (action.cause == Cause::edge && rest.monitor.holding)
+    rest_relations_of(plan().edges[static_cast<std::size_t>(action.index)]);
+}
+
+/// Within one leaf each reset map and update sees what the one before left; other leaves' values are
+/// those of x-. Returns whether continuous state was written.
 bool Instant::run_reset(const Action& action, const ResetMap& map) {
   const PlanLeaf& of = leaf(action.leaf);
   const auto number = static_cast<std::size_t>(action.leaf);
   At at = machine_->at(number, t_);
-  if (action.cause != Cause::time) {
-    new (&at.x) VectorView(x_next_.data() + of.x, of.nx);
-    new (&at.z) VectorView(z_next_.data() + of.z, of.nz);
-    at.mode = modes_next_[number];
-  }
+  if (action.cause == Cause::crossing) at.entry = slot_rests_[static_cast<std::size_t>(action.slot)].entry;
+  new (&at.x) VectorView(x_next_.data() + of.x, of.nx);
+  new (&at.z) VectorView(z_next_.data() + of.z, of.nz);
+  at.mode = modes_next_[number];
   Next next({x_next_.data() + of.x, of.nx}, {z_next_.data() + of.z, of.nz}, modes_next_[number],
             of.path);
   map(*of.system, at, next);
@@ -240,7 +251,7 @@ bool Instant::run_reset(const Action& action, const ResetMap& map) {
                                "' set a state that is not finite (NaN or Inf)"),
                           t_, of.path);
   }
-  if (next.wrote_continuous_state()) wrote_x_ = outcome_.restart = true;
+  if (next.wrote_continuous_state()) wrote_x_ = outcome_.restart = true, ++effects_;
   wrote_ = wrote_ || next.wrote_continuous_state() || next.wrote_discrete_state();
   const auto shows_z = [&](int i) {  // a held output that shows it is found by its value, one that
                                      // also reads x or t is not
@@ -255,6 +266,7 @@ bool Instant::run_reset(const Action& action, const ResetMap& map) {
 }
 
 void Instant::commit() {
+  if (holds_ > 0) release_kicked();
   machine_->x = x_next_;
   machine_->z = z_next_;
   if (modes_next_ != machine_->modes) {
@@ -277,15 +289,6 @@ void Instant::commit() {
                              options_->max_passes, " passes; the events set each other off: ... ",
                              causes, " ...; break the loop, or raise max_passes"),
                         t_, last.substr(0, last.rfind('.')));
-}
-
-/// "block.event" of a source.
-const std::string& Instant::name_of(int source) const {
-  const auto groups = static_cast<int>(plan().guards.size()),
-             edges = static_cast<int>(plan().edges.size());
-  if (source < groups) return plan().guards[static_cast<std::size_t>(source)].name;
-  if (source < groups + edges) return plan().edges[static_cast<std::size_t>(source - groups)].name;
-  return plan().schedule[static_cast<std::size_t>(source - groups - edges)].name;
 }
 
 }  // namespace saltus

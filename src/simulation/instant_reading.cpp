@@ -9,7 +9,7 @@ void Instant::read_again() {
   if (plan().guards.empty()) return;
   for (int round = 0; round < options_->max_passes; ++round) {
     bool flipped = false;
-    machine_->guards(t_, machine_->x.data(), g_.data());
+    machine_->guards_at(t_, machine_->x.data(), g_.data());
     for (int i : machine_->active_guards()) {
       const GuardGroup& group = plan().guards[static_cast<std::size_t>(i)];
       if (group.kind == GuardGroup::Kind::crossing) continue;
@@ -28,6 +28,7 @@ bool Instant::read_relation(const GuardGroup& group, Index slot) {
   const auto k = static_cast<std::size_t>(slot);
   GuardSlot& watched = watch_->slots[k];
   if (frozen_[k] || (resting_[k] && !reads_changed(group.index))) return false;
+  if (SurfaceContact* contact = contacts_.on(static_cast<int>(k)); contact && still_at_rest(*contact)) return false;
   const bool truth = machine_->signal(group.index)[slot - group.slot] != 0.0;
   const int crossed_to = fired_[k] ? -from_[k] : truth ? 1 : -1;
   int side = (g_[k] > 0.0) - (g_[k] < 0.0);
@@ -52,6 +53,7 @@ bool Instant::read_relation(const GuardGroup& group, Index slot) {
   watched.side = static_cast<signed char>(side);
   if ((side > 0) == truth) return false;
   resting_[k] = 0;
+  leave_contact(k);
   machine_->signal(group.index)[slot - group.slot] = side > 0 ? 1.0 : 0.0;
   return true;
 }
@@ -68,35 +70,20 @@ bool Instant::reads_changed(int node) const {
 
 /// Zero crossings that the commit moved across zero in their direction fire in the next pass.
 void Instant::find_next() {
-  for (int i : machine_->active_guards()) {
-    const GuardGroup& group = plan().guards[static_cast<std::size_t>(i)];
+  for (std::size_t k : watch_->active) {
+    const GuardGroup& group = group_of(k);
     if (group.kind != GuardGroup::Kind::crossing) continue;
-    const auto k = static_cast<std::size_t>(group.slot);
-    if (slot_monitors_[k].holding) {
-      if (!fired_now_[k]) look_at_held(group, k);  // else it has only just come to rest
+    GuardSlot& slot = watch_->slots[k];
+    if (slot_rests_[k].monitor.holding) {
+      if (!fired_now_[k]) look_at_held(k);  // else it has only just come to rest
     } else if (fired_now_[k]) {
-      watch_->slots[k].side = static_cast<signed char>((g_[k] > 0.0) - (g_[k] < 0.0));
-      watch_->slots[k].base = g_[k];
+      slot.side = static_cast<signed char>((g_[k] > 0.0) - (g_[k] < 0.0));
+      slot.base = g_[k];
     } else if (!group.monitor && watch_->crossed(k, g_[k])) {
-      firings_.push_back({static_cast<int>(k), watch_->slots[k].side});
+      firings_.push_back({static_cast<int>(k), slot.side});
     } else {
       watch_->follow(k, g_[k]);
     }
-  }
-}
-
-/// The guard of a leaf on hold: off to its armed side it lets go, beyond zero the reset map is
-/// applied again.
-void Instant::look_at_held(const GuardGroup& group, std::size_t k) {
-  GuardSlot& slot = watch_->slots[k];
-  const int now = watch_->sign(k, g_[k]);
-  if (now == 0) return;
-  if (now != slot.side) {
-    release(group.leaf, slot_monitors_[k], source_of(Cause::crossing, group_of_slot_[k]));
-    slot.side = static_cast<signed char>(now);
-    slot.direction = group.direction;
-  } else if (std::abs(g_[k]) > 1e3 * slot.band) {
-    firings_.push_back({static_cast<int>(k), -slot.side});
   }
 }
 

@@ -1,215 +1,25 @@
-// Simulator: the loop from instant to instant.
+// Simulator: the face of a run.
 #include "saltus/simulation/simulator.hpp"
+
+#include <utility>
+
+#include "saltus/simulation/run.hpp"
 
 namespace saltus {
 
-SimulatorOptions Simulator::checked(SimulatorOptions options) const {
-  detail::check(options);
-  return options;
-}
-
 Simulator::Simulator(const System& system, SimulatorOptions options)
-    : options_(checked(std::move(options))),
-      machine_(compile(system, options_.recorded_signals)),
-      instant_(machine_, watch_, options_, results_),
-      calendar_(machine_.plan()),
-      method_(method_from(options_.ode_solver_method)) {}
+    : run_(std::make_unique<Run>(system, std::move(options))) {}
+Simulator::~Simulator() = default;
+Simulator::Simulator(Simulator&&) noexcept = default;
+Simulator& Simulator::operator=(Simulator&&) noexcept = default;
 
-void Simulator::initialize(const Context& context) {
-  machine_.load(context);
-  begin_ = context;
-  time_ = context.time();
-  results_.time.clear(), results_.jump.clear();
-  results_.statistics = {}, results_.message.clear(), results_.cause = nullptr;
-  recorder_.reset();
-  if (!plan().taps.empty()) recorder_.emplace(machine_, results_);
-  calendar_.begin(time_, context.settled());
-  begun_ = solver_started_ = over_ = false;
-  next_save_ = 0, recent_events_ = ticks_ = 0, recent_since_ = time_;
-}
-
-Status Simulator::advance_to(double t_end) {
-  if (!(t_end >= time_)) {
-    throw ModelError(text("cannot run from t = ", time_, " s back to t = ", t_end,
-                          " s; the end has to be later"));
-  }
-  const auto start = std::chrono::steady_clock::now();
-  asked_ = start;
-  try {
-    results_.status = run_to(t_end);
-  } catch (const std::exception& error) {
-    results_.status = Status::failed, results_.message = error.what(),
-    results_.cause = std::current_exception();
-  } catch (...) {
-    results_.status = Status::failed, results_.message = "a function of the model threw",
-    results_.cause = std::current_exception();
-  }
-  results_.statistics.wall_time +=
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  finish();
-  if (ended_well(results_.status) || !options_.throw_errors) return results_.status;
-  const auto partial = std::make_shared<Results>(results_);
-  partial->cause = nullptr;  // else the error would hold itself
-  try {
-    if (results_.cause) std::rethrow_exception(results_.cause);
-    throw SimulationError(results_.message, time_);
-  } catch (SimulationError& error) {
-    error.attach(partial);
-    throw;
-  }
-}
-
-Status Simulator::run_to(double t_end) {
-  if (over_) return results_.status;
-  if (!begun_) {
-    begun_ = true;
-    instant_.begin(time_, recorder_ ? &*recorder_ : nullptr);
-    record(time_, machine_.x.data());
-    if (const Status status = settle(StopReason::stop_time, t_end, true); over_) return status;
-  }
-  while (time_ < t_end) {
-    if (options_.max_major_steps && results_.statistics.instants >= *options_.max_major_steps) {
-      return end(Status::step_limit,
-                 text("t = ", time_, " s: the run used its ", *options_.max_major_steps,
-                      " major steps before t = ", t_end, " s; raise max_major_steps"));
-    }
-    if (const Status status = step(t_end); over_) return status;
-    if ((++ticks_ & 15) == 0 && interrupted())
-      return end(Status::interrupted, text("t = ", time_, " s: interrupted"));
-  }
-  return Status::reached_end;
-}
-
-/// One minor step, and the instant at its end if there is one.
-Status Simulator::step(double t_end) {
-  const double t_stop =
-      std::min({t_end, calendar_.next(), last_instant_ + options_.max_major_step_length});
-  const double from = time_;
-  StopReason reason = StopReason::stop_time;
-  move_to(t_stop, reason);
-  for (const MonitorHit& hit : watch_.monitors) {
-    solver_->interpolate(hit.t, machine_.x.data());
-    instant_.log_monitor(hit, machine_.x.data());
-  }
-  record_step(from);
-  if (reason == StopReason::step) return Status::reached_end;
-  return settle(reason, t_end, false);
-}
-
-/// Lets the solver move, where something moves.
-void Simulator::move_to(double t_stop, StopReason& reason) {
-  watch_.monitors.clear();
-  if (plan().nx == 0 && !watch_.any()) {
-    time_ = t_stop;
-    return;
-  }
-  if (!solver_started_) {
-    if (!solver_)
-      solver_ = make_solver(plan().nx == 0 ? Method::dopri5 : method_, machine_, watch_,
-                            solver_options());
-    solver_->restart(time_, machine_.x, {.first = true});
-    solver_started_ = true;
-  }
-  reason = solver_->advance(t_stop);
-  time_ = solver_->time();
-}
-
-SolverOptions Simulator::solver_options() const {
-  return {options_.rtol, options_.atol, options_.min_minor_step_size, options_.max_minor_step_size};
-}
-
-/// The instant at time_, where there is one; restarts the solver if it has to forget.
-Status Simulator::settle(StopReason reason, double t_end, bool at_start) {
-  if (solver_started_) machine_.x = solver_->state();
-  machine_.at_home();
-  ++results_.statistics.instants;
-  last_instant_ = time_;
-  due_.clear();
-  if (calendar_.due(time_) || at_start) calendar_.take(time_, due_);
-  if (reason != StopReason::root && due_.empty() && !at_start)
-    return Status::reached_end;  // a major step's end only
-  if (recorder_ && !recorder_->has_row(time_, instant_.jump()))
-    recorder_->record(time_, instant_.jump(), machine_.x.data());
-  const Instant::Outcome outcome = instant_.run(time_, due_, t_end - time_, at_start);
-  if (outcome.terminal) return end(Status::terminal);
-  if (outcome.restart && solver_started_)
-    solver_->restart(time_, machine_.x, {.horizon = outcome.horizon});
-  if (outcome.chatters) recent_events_ = options_.max_passes, recent_since_ = time_;
-  if (outcome.chatters || (reason == StopReason::root && chatters())) {
-    const Event last =
-        results_.events.empty() ? Event{} : results_.events[results_.events.size() - 1];
-    return end(Status::chattering,
-               text("t = ", time_, " s: guard '", last.name, "' of block '", last.block, "' fired ",
-                    recent_events_, " times in ", time_ - recent_since_,
-                    " s: time does not advance. Give it hysteresis, a zeno_tolerance above 0 s, or "
-                    "a mode of its own for "
-                    "the motion along the switching surface"));
-  }
-  return Status::reached_end;
-}
-
-/// A thousand roots within what rounding leaves of time.
-bool Simulator::chatters() {
-  const double window = 1e6 * std::numeric_limits<double>::epsilon() * std::abs(time_);
-  if (++recent_events_ < 1000) return false;
-  if (time_ - recent_since_ <= window) return true;
-  recent_events_ = 0, recent_since_ = time_;
-  return false;
-}
-
-bool Simulator::interrupted() {
-  if (!options_.interrupt) return false;
-  const auto now = std::chrono::steady_clock::now();
-  if (now - asked_ < std::chrono::milliseconds(20)) return false;
-  asked_ = now;
-  return options_.interrupt();
-}
-
-void Simulator::record(double t, const double* x) {
-  if (recorder_ && !recorder_->has_row(t, instant_.jump()))
-    recorder_->record(t, instant_.jump(), x);
-}
-
-/// Rows of the step from `from` to now: those at asked-for times, then its end.
-void Simulator::record_step(double from) {
-  if (!recorder_) return;
-  const auto& wanted = options_.save_at;
-  while (next_save_ < wanted.size() && wanted[next_save_] < from) ++next_save_;
-  for (; next_save_ < wanted.size() && wanted[next_save_] <= time_; ++next_save_) {
-    const double t = wanted[next_save_];
-    if (solver_started_ && t < time_) solver_->interpolate(t, machine_.x.data());
-    record(t, t < time_ || !solver_started_ ? machine_.x.data() : solver_->state().data());
-  }
-  if (steps_recorded())
-    record(time_, solver_started_ ? solver_->state().data() : machine_.x.data());
-}
-
-Status Simulator::end(Status status, std::string message) {
-  over_ = true;
-  results_.status = status;
-  results_.message = std::move(message);
-  return status;
-}
-
-/// Context, last row and counts.
-void Simulator::finish() {
-  const bool mid_step = solver_started_ && results_.status != Status::terminal;
-  if (mid_step) machine_.x = solver_->state();
-  if (results_.status != Status::failed) record(time_, machine_.x.data());
-  machine_.at_home();
-  results_.context = machine_.save(begin_, time_);
-  Statistics& s = results_.statistics;
-  if (solver_started_) static_cast<SolverStatistics&>(s) = solver_->statistics();
-  s.method = solver_started_ ? solver_->method() : "none: no continuous state";
-  s.right_hand_side_calls = machine_.rhs_calls;
-  s.guard_calls = machine_.guard_calls;
-  s.jacobian_calls = machine_.jacobian_calls;
-  s.events_by_name = instant_.counts();
-}
-
-std::string Simulator::describe() const {
-  return plan().describe() + text("method: ", options_.ode_solver_method,
-                                  solver_ ? text(" (", solver_->method(), ")") : "", "\n");
-}
+void Simulator::initialize(const Context& context) { run_->initialize(context); }
+Status Simulator::advance_to(double t_end) { return run_->advance_to(t_end); }
+double Simulator::time() const noexcept { return run_->time(); }
+Context Simulator::context() const { return run_->context(); }
+const Results& Simulator::results() const noexcept { return run_->results(); }
+Results Simulator::take_results() { return run_->take_results(); }
+const Plan& Simulator::plan() const noexcept { return run_->plan(); }
+std::string Simulator::describe() const { return run_->describe(); }
 
 }  // namespace saltus

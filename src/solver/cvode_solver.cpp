@@ -6,8 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "saltus/solver/dopri5.hpp"
-#include "saltus/solver/runge_kutta.hpp"
+#include "saltus/solver/one_step.hpp"
 #include "saltus/solver/step_size.hpp"
 #include "saltus/solver/step_solver.hpp"
 #include "small_vector.hpp"
@@ -132,6 +131,12 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
 
   void step(double t_stop) {
     if (starting_ && t1_ >= starter_until_) start_cvode();
+    // CVODE takes no step within a few roundings of the time.
+    const double shortest = 64.0 * std::numeric_limits<double>::epsilon() * std::max(std::abs(t_stop), std::abs(t1_));
+    if (!starting_ && t_stop - t1_ < shortest) {
+      start_with_one_step(t1_, x1_, t_stop - t1_);
+      starter_until_ = t1_;
+    }
     if (!starting_) cvode_step(t_stop);
     if (!starting_) return;
     starter_.bare_step(t_stop);
@@ -225,8 +230,10 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
 
   double shown(std::size_t k, double t, double value) const {
     const GuardSlot& slot = watch_->slots[k];
-    constexpr double tiny = 1e-100;  // CVODE multiplies values to compare signs: nothing it sees may underflow then
+    constexpr double tiny =
+        1e-100;  // CVODE multiplies values to compare signs: nothing it sees may underflow then
     if (!slot.active || slot.monitor) return 1.0;
+    if (slot.leaving) return std::abs(value) > slot.band ? -tiny : tiny;
     if (slot.direction == Direction::edge_detection) return value == slot.base ? 1.0 : -1.0;
     const double side = slot.side < 0 ? -tiny : tiny;
     if (slot.fresh && t == begun_at_) return side;

@@ -541,6 +541,7 @@ def test_default_name_is_class_and_id():
         ),
         (
             lambda s: s.declare_zero_crossing(len, direction="crosses_zer0"),
+            "block 'block': zero crossing 'zero_crossing_0': "
             "unknown direction 'crosses_zer0'; did you mean 'crosses_zero'? "
             "Known: 'none', 'crosses_zero', "
             "'positive_then_non_positive', 'negative_then_non_negative', 'edge_detection'",

@@ -177,3 +177,16 @@ def test_a_thousand_diagrams_do_not_grow():
     for _ in range(200):
         make()
     assert objects() - before < 50
+
+
+def test_the_garbage_collector_may_come_while_a_block_is_made():
+    """Of a new class each, for which pybind11 makes objects of its own at the first block."""
+    before = gc.get_threshold()
+    gc.set_threshold(1)
+    gc.enable()
+    try:
+        for _ in range(100):
+            block = type("Block", (saltus.LeafSystem,), {})(name="block")
+    finally:
+        gc.set_threshold(*before)
+    assert block.create_context().time == 0.0

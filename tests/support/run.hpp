@@ -12,7 +12,7 @@
 
 namespace support {
 
-inline constexpr std::array methods{"dopri5", "adams", "bdf", "auto"};
+inline constexpr std::array methods{"dopri5", "dop853", "adams", "bdf", "auto"};
 
 inline constexpr double eps = std::numeric_limits<double>::epsilon();
 inline constexpr double infinite = std::numeric_limits<double>::infinity();

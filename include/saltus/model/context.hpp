@@ -11,6 +11,7 @@
 
 #include "saltus/base/error.hpp"
 #include "saltus/base/ids.hpp"
+#include "saltus/model/continuation.hpp"
 
 namespace saltus {
 
@@ -54,6 +55,8 @@ class Context {
 
   /// True where the events at exactly `time()` have happened already: a run that ended here.
   bool settled() const noexcept { return settled_; }
+  /// What the run that ended here knew beyond these values; null once they were changed by hand.
+  const Continuation* continuation() const noexcept { return continuation_.get(); }
 
   Context with_time(double t) const;
   Context with_continuous_state(const Eigen::VectorXd& x) const;
@@ -86,6 +89,12 @@ class Context {
   const Layout::Range& range(SystemId id) const;
   std::pair<const Layout::Leaf*, const Layout::Parameter*> find_parameter(
       std::string_view name) const;
+  /// A copy to be changed: what the run knew of the old values is not true of it.
+  Context changed() const {
+    Context next = *this;
+    next.continuation_.reset();
+    return next;
+  }
   static void replace(Eigen::VectorXd& values, const Eigen::VectorXd& with, std::string_view what);
 
   std::shared_ptr<const Layout> layout_;
@@ -93,6 +102,7 @@ class Context {
   Eigen::VectorXd x_, z_, p_;
   std::vector<int> modes_;
   bool settled_ = false;
+  std::shared_ptr<const Continuation> continuation_;
 };
 
 namespace detail {
@@ -124,20 +134,20 @@ inline int Context::mode() const {
 
 inline Context Context::with_time(double t) const {
   if (!std::isfinite(t)) throw ModelError(text("time: ", t, " is not finite"));
-  Context next = *this;
+  Context next = changed();
   next.time_ = t;
   next.settled_ = false;
   return next;
 }
 
 inline Context Context::with_continuous_state(const Eigen::VectorXd& x) const {
-  Context next = *this;
+  Context next = changed();
   replace(next.x_, x, "continuous state");
   return next;
 }
 
 inline Context Context::with_discrete_state(const Eigen::VectorXd& z) const {
-  Context next = *this;
+  Context next = changed();
   replace(next.z_, z, "discrete state");
   return next;
 }
@@ -145,7 +155,7 @@ inline Context Context::with_discrete_state(const Eigen::VectorXd& z) const {
 inline Context Context::with_mode(int mode) const {
   if (modes_.size() != 1)
     throw ModelError("with_mode: this is the context of several blocks; take context[id] first");
-  Context next = *this;
+  Context next = changed();
   next.modes_.front() = mode;
   return next;
 }
@@ -171,7 +181,7 @@ inline Context Context::with_parameter(std::string_view name, const Eigen::Vecto
     throw ModelError(text("parameter '", name, "': expected ", parameter->size, " values, found ",
                           value.size()));
   }
-  Context next = *this;
+  Context next = changed();
   for (Index i = 0; i < parameter->size; ++i) {
     next.p_[leaf->p + parameter->offset + i] = value[value.size() == 1 ? 0 : i];
   }

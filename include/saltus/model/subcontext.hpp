@@ -71,7 +71,7 @@ inline Context Context::with_subcontext(SystemId id, const Context& part) const 
                           " parameters and ", leaves, " modes, found ", part.x_.size(), ", ",
                           part.z_.size(), ", ", part.p_.size(), " and ", part.modes_.size()));
   }
-  Context next = *this;
+  Context next = changed();
   next.x_.segment(x, nx) = part.x_;
   next.z_.segment(z, nz) = part.z_;
   next.p_.segment(p, np) = part.p_;

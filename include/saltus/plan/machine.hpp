@@ -11,6 +11,16 @@
 
 namespace saltus {
 
+/// Puts the states of blocks that rest on a moving surface where the surface is.
+class Carrier {
+ public:
+  virtual ~Carrier() = default;
+  /// The states it carries, from t and all the others.
+  virtual void carry(double t, double* x) = 0;
+  /// In place of the guards of these blocks: below zero while they press on their surface.
+  virtual void lift(double t, const double* x, double* g) = 0;
+};
+
 /// x, z, p, modes and signals of one run. Threads share a plan; each has a machine of its own.
 /// Nothing here allocates after construction.
 class Machine {
@@ -22,18 +32,28 @@ class Machine {
   /// Copies a context in and computes the constant outputs.
   void load(const Context& context);
   /// The values of now, as a context of the same layout.
-  Context save(const Context& like, double t) const;
+  Context save(const Context& like, double t, std::shared_ptr<const Continuation> continuation) const;
 
   /// xdot(t, x), everything else held as it is.
   void derivative(double t, const double* state, double* xdot) {
+    flow(t, carried(t, state), xdot);
+  }
+  /// All guards that can fire now, into their slots of g.
+  void guards(double t, const double* state, double* g) {
+    const double* x_now = carried(t, state);
+    guards_at(t, x_now, g);
+    if (carrier != nullptr) [[unlikely]] carrier->lift(t, x_now, g);
+  }
+
+  /// The same two at exactly this state, whatever is carried.
+  void flow(double t, const double* state, double* xdot) {
     ++rhs_calls;
     bases_[0] = state;
     if (!derivative_calls_.empty()) run(derivative_calls_, t);
     for (const OdeCall& ode : odes_) ode_of(ode, t, xdot);
   }
 
-  /// All guards that can fire now, into their slots of g.
-  void guards(double t, const double* state, double* g) {
+  void guards_at(double t, const double* state, double* g) {
     ++guard_calls;
     bases_[0] = state;
     if (!guard_calls_list_.empty()) run(guard_calls_list_, t);
@@ -45,9 +65,14 @@ class Machine {
     at_home();
     run(instant_calls_, t);
   }
+  /// Of these what moves between instants too, at (t, x).
+  void evaluate_moving(double t, const double* state) {
+    bases_[0] = state;
+    run(moving_calls_, t);
+  }
   /// Computes what the recorded rows show, at (t, x).
   void evaluate_taps(double t, const double* state) {
-    bases_[0] = state;
+    bases_[0] = carried(t, state);
     run(tap_calls_, t);
   }
 
@@ -59,6 +84,10 @@ class Machine {
   /// Block-diagonal Jacobian d(xdot)/d(x) from the leaves' own, where the plan allows it.
   bool has_jacobian() const noexcept { return has_jacobian_; }
   void jacobian(double t, const double* state, MatrixRef out);
+
+  /// Entry i of x has zero derivative from now on, until `move` was called as often as `rest`.
+  void rest(Index i) { change_rest(i, 1); }
+  void move(Index i) { change_rest(i, -1); }
 
   /// Chooses the guards that can fire in the present modes.
   void select_guards();
@@ -76,7 +105,7 @@ class Machine {
 
   Eigen::VectorXd x, z, p, y;
   std::vector<int> modes;
-  std::vector<char> held;  ///< leaves on Zeno hold: zero derivative
+  Carrier* carrier = nullptr;  ///< while a block rests on a surface that moves
   std::int64_t rhs_calls = 0, guard_calls = 0, jacobian_calls = 0;
 
  private:
@@ -100,6 +129,11 @@ class Machine {
     bool opaque;
   };
 
+  const double* carried(double t, const double* state) {
+    return carrier == nullptr ? state : carry(t, state);
+  }
+  const double* carry(double t, const double* state);
+
   /// What leaf i sees now. Only what moves from call to call is set anew.
   const At& view(std::size_t leaf, double t) {
     At& at = views_[leaf];
@@ -120,12 +154,20 @@ class Machine {
   }
   void ode_of(const OdeCall& ode, double t, double* xdot) {
     const VectorRef out(xdot + x_offsets_[ode.leaf], views_[ode.leaf].x.size());
-    if (held[ode.leaf] || !*ode.function) {
+    const Index resting = resting_of_[ode.leaf];
+    if (resting == out.size() || !*ode.function) {
       VectorRef(out).setZero();
     } else {
       (*ode.function)(*ode.system, view(ode.leaf, t), out);
+      if (resting > 0) stop_resting(x_offsets_[ode.leaf], out);
     }
   }
+  void stop_resting(Index offset, VectorRef out) const {
+    for (Index i = 0; i < out.size(); ++i) {
+      if (rests_[static_cast<std::size_t>(offset + i)] > 0) out[i] = 0.0;
+    }
+  }
+  void change_rest(Index i, int by);
   void guard(const GroupCall& group, double t, double* g) {
     const VectorRef out(g + group.slot, group.size);
     (*group.function)(*group.system, view(group.leaf, t), out);
@@ -140,12 +182,16 @@ class Machine {
   std::vector<At> views_;  // one for each leaf
   std::vector<Index> x_offsets_;
   std::vector<const double*> relation_values_;
-  std::vector<Call> constant_calls_, instant_calls_, derivative_calls_, guard_calls_list_,
+  std::vector<Call> constant_calls_, instant_calls_, moving_calls_, derivative_calls_, guard_calls_list_,
       tap_calls_;
   std::vector<OdeCall> odes_;
   std::vector<GroupCall> groups_;
   std::vector<int> active_;
+  std::vector<int> rests_;          // entries of x: how many holds they are under
+  std::vector<Index> resting_of_;   // leaves: how many of their states are at rest
+  std::vector<std::size_t> leaf_of_state_;
   bool has_jacobian_ = false;
+  Eigen::VectorXd carried_x_;
   Eigen::VectorXd jacobian_block_;  // of one leaf
 };
 

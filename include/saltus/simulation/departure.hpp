@@ -12,7 +12,7 @@
 namespace saltus {
 
 /// Follows the flow from (t, x) for a short time d along x + d/2 (f(x) + f(x + d f)), right to
-/// second order, and lets d grow until the guard has left zero by more than rounding explains: that
+/// second order (to fourth where that shows nothing), and lets d grow until the guard has left zero by more than rounding explains: that
 /// is its side. A guard that stays within rounding has none. Rounding is measured, not guessed: how
 /// much the guard moves when x, and with it f, is disturbed by a known relative amount.
 class Departure {
@@ -34,32 +34,29 @@ class Departure {
 
   /// Sets the point to depart from; `longest` [s] bounds how far ahead it looks.
   void from(double t, const Eigen::VectorXd& x, double longest) {
-    t_ = t, x_ = &x, longest_ = longest;
+    t_ = t, x_ = &x;
     machine_->derivative(t, x.data(), f_.data());
+    longest_ = std::max(longest, std::min(1.0, 1e9 * quickest()));  // a run of no length has sides too
     disturbed_ = false;
     machine_->guards(t, x.data(), g0_.data());
+  }
+
+  /// Rounding of a guard where it stands.
+  double rounding(Index slot) {
+    x1_ = *x_;
+    return rounding_after(0.0, slot, g0_[slot]);
   }
 
   /// `hair`: a guard within it is at zero too, and is followed until it has left that as well.
   /// `expected`: a side that makes no difference to being at zero, so that its rounding need not be
   /// asked for.
   Side of(const GuardGroup& group, Index slot, double hair, int expected) {
-    Side result{.rounding = hair};
-    const bool opaque = group.kind == GuardGroup::Kind::opaque;
-    double d = first_time(group);
-    double g = guard_after(d, slot);
-    // Not much further than the tolerance sees: what lies behind is the solver's to find.
-    for (double furthest = std::min(longest_, std::max(3e5 * d, lift_time(group, d)));; g = guard_after(d, slot)) {
-      const int side = (g > 0.0) - (g < 0.0);
-      if (side != 0 && side == expected && std::abs(g) > hair) return result.side = side, result;
-      const double rounding = opaque ? 0.0 : rounding_after(d, slot, g);
-      result.rounding = std::max(hair, rounding);
-      if (std::abs(g) > result.rounding && (!opaque || has_moved(group)))
-        return result.side = side, result;
-      if (std::abs(g) > rounding && !opaque) furthest = longest_;
-      d *= 8.0;
-      if (d > furthest) return result;
-    }
+    const Side side = follow(group, slot, hair, expected);
+    if (side.side != 0 || group.kind == GuardGroup::Kind::opaque) return side;
+    fine_ = true;  // what a chain of more than two integrators does shows at higher order only
+    const Side finer = follow(group, slot, hair, expected);
+    fine_ = false;
+    return finer;
   }
 
   /// d g / d t along the flow at (t, x), by two forward differences over the time that `of` starts
@@ -87,6 +84,26 @@ class Departure {
       1e-7;  // of the disturbance: large against rounding, small against curvature
   static constexpr double eps = std::numeric_limits<double>::epsilon();
 
+  Side follow(const GuardGroup& group, Index slot, double hair, int expected) {
+    Side result{.rounding = hair};
+    const bool opaque = group.kind == GuardGroup::Kind::opaque;
+    double d = first_time(group);
+    double g = guard_after(d, slot);
+    // Not much further than the tolerance sees: what lies behind is the solver's to find.
+    for (double furthest = std::min(longest_, std::max(3e5 * d, lift_time(group, d)));;
+         g = guard_after(d, slot)) {
+      const int side = (g > 0.0) - (g < 0.0);
+      if (side != 0 && side == expected && std::abs(g) > hair) return result.side = side, result;
+      const double rounding = opaque ? 0.0 : rounding_after(d, slot, g);
+      result.rounding = std::max(hair, rounding);
+      if (std::abs(g) > result.rounding && (!opaque || has_moved(group)))
+        return result.side = side, result;
+      if (std::abs(g) > rounding && !opaque) furthest = longest_;
+      d *= 8.0;
+      if (d > furthest) return result;
+    }
+  }
+
   /// Weights without pattern, so that what cancels in a guard does not cancel in the disturbance.
   static void disturb(Eigen::VectorXd& x) {
     double weight = 0.618;
@@ -95,6 +112,15 @@ class Departure {
       weight += 0.618033988749895;
       if (weight >= 1.0) weight -= 1.0;
     }
+  }
+
+  /// [s] in which the fastest of all states moves by its tolerance: the scale where a run, or what
+  /// is left of it, is too short to say.
+  double quickest() const {
+    double time = std::numeric_limits<double>::infinity();
+    for (Index i = 0; i < f_.size(); ++i)
+      time = std::min(time, (rtol_ * std::abs((*x_)[i]) + atol_) / std::abs(f_[i]));
+    return time;
   }
 
   /// The time in which the fastest state the guard depends on moves by its tolerance. A state that
@@ -130,12 +156,27 @@ class Departure {
   }
 
   double guard_after(double d, Index slot) {
-    x1_ = *x_ + d * f_;
-    machine_->derivative(t_ + d, x1_.data(), f1_.data());
-    move_ = 0.5 * d * (f_ + f1_);
+    x1_ = *x_ + (fine_ ? 0.5 * d : d) * f_;
+    machine_->derivative(t_ + (fine_ ? 0.5 * d : d), x1_.data(), f1_.data());
+    if (fine_)
+      add_middle_and_end(d);
+    else
+      move_ = 0.5 * d * (f_ + f1_);
     x1_ = *x_ + move_;
     machine_->guards(t_ + d, x1_.data(), g_.data());
     return g_[slot];
+  }
+
+  /// The classical method of order 4 from its second stage, f1_, on (Hairer, Norsett, Wanner I, p.
+  /// 138, table 1.2).
+  void add_middle_and_end(double d) {
+    move_ = f_ + 2.0 * f1_;
+    x1_ = *x_ + 0.5 * d * f1_;
+    machine_->derivative(t_ + 0.5 * d, x1_.data(), f1_.data());
+    move_ += 2.0 * f1_;
+    x1_ = *x_ + d * f1_;
+    machine_->derivative(t_ + d, x1_.data(), f1_.data());
+    move_ = (d / 6.0) * (move_ + f1_);
   }
 
   /// Sixteen units of rounding in x and in f, carried through the guard.
@@ -171,6 +212,7 @@ class Departure {
   double rtol_, atol_;
   double t_ = 0.0, longest_ = 0.0;
   const Eigen::VectorXd* x_ = nullptr;
+  bool fine_ = false;       // follow the flow with order 4
   bool disturbed_ = false;  // f_disturbed_ is that of x_
   Eigen::VectorXd f_, f_disturbed_, f1_, x1_, move_, trial_, g_, g0_, g_disturbed_;
 };

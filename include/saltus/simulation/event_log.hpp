@@ -30,6 +30,7 @@ struct Event {
   double predicted =
       std::numeric_limits<double>::quiet_NaN();  ///< [s] accumulation time, of zeno_enter
   std::span<const double> before, after;
+  int entry = 0;  ///< which guard of a vector of them
 };
 
 /// Rows of numbers behind Event; grows by whole rows, keeps its memory from run to run.
@@ -49,7 +50,8 @@ class EventLog {
             name,
             row.predicted,
             std::span(states_).subspan(row.states, row.width),
-            std::span(states_).subspan(row.states + row.width, row.width)};
+            std::span(states_).subspan(row.states + row.width, row.width),
+            row.entry};
   }
 
   /// The times of the events of one name ("bounce" or "ball.bounce") and kind.
@@ -73,6 +75,7 @@ class EventLog {
     int source;
     double predicted;
     std::size_t states, width;
+    int entry = 0;
   };
 
   void begin(std::vector<std::string> names) { names_ = std::move(names), clear(); }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "saltus/simulation/contact.hpp"
 #include "saltus/simulation/departure.hpp"
 #include "saltus/simulation/recorder.hpp"
 #include "saltus/simulation/zeno.hpp"
@@ -22,6 +23,7 @@ class Instant {
     bool changed = false;  ///< some pass changed something
     bool restart = false;  ///< the solver's picture of f is no longer right
     bool terminal = false;
+    bool zeno_stop = false;  ///< a Zeno point of a guard that stops there
     bool chatters = false;  ///< it does not end, though no state was written
     double horizon =
         std::numeric_limits<double>::infinity();  ///< [s] within which an event may follow
@@ -31,6 +33,11 @@ class Instant {
 
   /// Clean monitors, relations and held signals for a run that begins at t. Nothing fires yet.
   void begin(double t, Recorder* recorder);
+  bool fits(const Continuation& from) const;
+  /// The same, as an earlier run left them; `longest` as in run.
+  void resume(double t, Recorder* recorder, const Continuation& from, double longest);
+  /// What a run that goes on from here has to know.
+  Continuation save() const;
 
   /// Runs the instant at t: the guards in watch.fired, and the time events in `due`. `longest` [s]:
   /// how far the run still goes.
@@ -40,53 +47,91 @@ class Instant {
   void log_monitor(const MonitorHit& hit, const double* x);
 
   int jump() const noexcept { return jump_; }
+  /// "block.event" of the last event; empty before there was one.
+  const std::string& last_event() const;
   /// How often each event happened, by name; those that did not are left out.
   std::vector<std::pair<std::string, std::int64_t>> counts() const;
 
  private:
-  enum class Cause { crossing, edge, time };
+  enum class Cause { crossing, edge, time, zeno };
   struct Action {
     int leaf;
     Cause cause;
-    int index;   // guard group, edge watch or scheduled event
+    int index;   // guard group, edge watch or scheduled event; of a Zeno point its source
     int slot;    // of a crossing
-    int from;    // side a crossing came from
+    int from;    // side a crossing came from; of a Zeno point the mode to enter
     bool carry;  // the reset map of a leaf on hold, applied again
   };
+  /// A guard or an edge with an effect: when its firings accumulate, and what rests then.
+  struct Rest {
+    ZenoMonitor monitor{};
+    int leaf = -1, source = -1;
+    Index entry = 0;
+    OnZeno on_zeno = {};
+    std::vector<Index> states = {};  // entries of x that rest on a hold
+  };
 
-  // instant_passes.hpp
+  // instant_setup.cpp
+  void add_rests();
+  void settle_relations(double t);
+  void select_guards();
+  void log(EventKind kind, int source, int leaf_index, int direction,
+           double predicted = std::numeric_limits<double>::quiet_NaN(), Index entry = 0);
+
+  // instant_passes.cpp
+  void open(double t, const std::vector<int>& due);
   bool flip_relations();
   bool collect_edges();
   void collect_carried(int edge);
   void add_crossings();
   void run_pass();
   void run_action(const Action& action);
+  void run_update(const Action& action);
+  void look_for_zeno(const Action& action, Rest& rest);
   bool run_reset(const Action& action, const ResetMap& map);
   void commit();
+  [[noreturn]] void throw_no_end() const;
 
-  // instant_reading.hpp
+  // instant_reading.cpp
   void read_again();
   bool read_relation(const GuardGroup& group, Index slot);
   bool reads_changed(int node) const;
   /// [s] shorter flights drown in the rounding of the time.
   double least_time() const { return 64.0 * std::numeric_limits<double>::epsilon() * std::abs(t_); }
   void find_next();
-  void look_at_held(const GuardGroup& group, std::size_t slot);
-  [[noreturn]] void throw_no_end() const;
-  const std::string& name_of(int source) const;
 
-  // instant_arming.hpp
+  // instant_arming.cpp
   void arm(bool at_start);
   void arm_crossing(const GuardGroup& group, std::size_t slot, bool at_start);
+  bool at_zero(const GuardGroup& group, std::size_t slot, bool entered);
+  void arm_at_zero(const GuardGroup& group, std::size_t slot, Departure::Side flow, bool at_start);
+  bool reset_turns(const GuardGroup& group, std::size_t slot, int from);
+  void arm_fired(const GuardGroup& group, std::size_t slot, int from, Departure::Side flow);
+  bool begin_on_firing_side(const GuardGroup& group, std::size_t slot);
   void arm_relation(const GuardGroup& group, std::size_t slot);
-  void arm_held(const GuardGroup& group, std::size_t slot);
   Departure::Side side_of(const GuardGroup& group, Index slot, double hair, int expected);
   bool rests(const GuardGroup& group, Index slot, int from);
-  bool turned_round(const GuardGroup& group, int side);
-  void hold(int leaf, ZenoMonitor& monitor, int source, double predicted);
+  bool turned_round(const GuardGroup& group, Index slot, int side);
+
+  // instant_holds.cpp
+  void come_to_rest(Rest& rest, double predicted, bool in_pass);
+  void hold(Rest& rest, double predicted);
+  void release(Rest& rest);
   bool sets_off(int node) const;
   bool hold_edges_of(int node);
-  void release(int leaf, ZenoMonitor& monitor, int source);
+  void rest_relations_of(const EdgeWatch& edge);
+  SurfaceContact* contact_of(std::size_t slot);
+  void touch_crossing(std::size_t slot);
+  void touch_relation(std::size_t slot);
+  void arm_contact(SurfaceContact& contact, double band);
+  bool look_at_firings();
+  bool goes_against(const Firing& firing);
+  void release_kicked();
+  bool wake(SurfaceContact& contact);
+  void let_go(SurfaceContact& contact);
+  void look_at_held(std::size_t slot);
+  bool still_at_rest(SurfaceContact& contact);
+  void leave_contact(std::size_t slot);
 
   // shared
   const Plan& plan() const { return machine_->plan(); }
@@ -97,6 +142,13 @@ class Instant {
   const EdgeReset& reset_of(const EdgeWatch& edge) const {
     return leaf(edge.leaf).declared().edge_resets[static_cast<std::size_t>(edge.index)];
   }
+  const GuardGroup& group_of(std::size_t slot) const {
+    return plan().guards[static_cast<std::size_t>(group_of_slot_[slot])];
+  }
+  bool has_effect(const GuardGroup& group) const {
+    return crossing_of(group).reset_map || crossing_of(group).end_mode;
+  }
+  const std::string& name_of(int source) const;
   int source_of(Cause cause, int index) const {
     const auto groups = static_cast<int>(plan().guards.size()),
                edges = static_cast<int>(plan().edges.size());
@@ -104,9 +156,6 @@ class Instant {
            : cause == Cause::edge   ? groups + index
                                     : groups + edges + index;
   }
-  void log(EventKind kind, int source, int leaf_index, int direction,
-           double predicted = std::numeric_limits<double>::quiet_NaN());
-  void select_guards();
   bool held_outputs_changed() const;
   bool changed(const Place& place) const;
 
@@ -116,14 +165,16 @@ class Instant {
   Results* results_;
   Recorder* recorder_ = nullptr;
   Departure departure_;
+  Contacts contacts_;
 
   std::vector<int> group_of_slot_;
-  std::vector<ZenoMonitor> slot_monitors_, edge_monitors_;
+  std::vector<Rest> slot_rests_, edge_rests_;
   std::vector<char> edge_values_, carried_;
 
   double t_ = 0.0, longest_ = 0.0;
   int jump_ = 0, pass_ = 0;
   int event_jump_ = 0;  // of the events logged now
+  int last_source_ = -1;
   Outcome outcome_;
   std::vector<Firing> firings_;  // for the pass to come
   std::vector<Action> actions_;
@@ -137,10 +188,16 @@ class Instant {
        wrote_x_ = false;  // some pass of this instant wrote states, continuous state
   bool entered_ = false;  // some pass of this instant entered a mode
   bool flowed_ = false;   // departure_ stands at the present (t, x)
+  std::vector<double> armed_at_;  // [s] slots: fresh since then after a firing; NaN if not
+  int effects_ = 0;  // reset maps that wrote continuous state in this instant
+  int holds_ = 0;
+  Eigen::VectorXd trial_, trial_z_;
+  Eigen::VectorXd gathered_;  // what rests, of one hold
   Eigen::VectorXd x_minus_, z_minus_, x_next_, z_next_, y_before_, flow_before_;
   std::vector<int> modes_next_, modes_before_;
   std::vector<double> g_, g_minus_;   // guards now, and what the location of a root left of them
-  std::vector<std::int64_t> counts_;  // events of each source
+  std::vector<std::int64_t> counts_;   // events of each source
+  std::vector<std::int64_t> earlier_;  // guards: how often they had fired before this run
   std::vector<int> chain_;            // sources of what happened in this instant
 };
 

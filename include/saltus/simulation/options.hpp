@@ -19,8 +19,9 @@ struct SimulatorOptions {
   double rtol = 1e-6;
   double atol = 1e-8;
 
-  /// "auto" (dopri5; BDF takes over where the scene looks stiff), "dopri5", "adams", "bdf".
-  /// Synonyms: "rk45" and "non-stiff" for dopri5, "stiff" for bdf.
+  /// "auto" (dopri5; BDF takes over where the scene looks stiff), "dopri5", "dop853", "adams",
+  /// "bdf". Synonyms: "rk45", "RK45" and "non-stiff" for dopri5, "DOP853" for dop853, "stiff" and
+  /// "BDF" for bdf.
   std::string ode_solver_method = "auto";
 
   /// Instants a run may have; more end it with the status step_limit. Not said: no limit.

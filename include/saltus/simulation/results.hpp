@@ -56,6 +56,7 @@ struct Results {
   Context context;  ///< the values at the end; a run can go on from here
   Status status = Status::reached_end;
   std::string message;       ///< why, where the status is none of the good ones
+  std::string block;         ///< where, if it was one block
   std::exception_ptr cause;  ///< what was thrown, where the status is failed
   Statistics statistics;
 

@@ -1,24 +1,28 @@
 // Simulator: a run that can be continued.
 #pragma once
 
-#include <chrono>
 #include <memory>
-#include <utility>
+#include <string>
 
-#include "saltus/simulation/calendar.hpp"
-#include "saltus/simulation/instant.hpp"
-#include "saltus/solver/choose.hpp"
+#include "saltus/simulation/options.hpp"
+#include "saltus/simulation/results.hpp"
 
 namespace saltus {
+
+class Run;
 
 /// Advances a context of a system from instant to instant. The system has to outlive it. One
 /// simulator serves one thread; it can be initialized again and keeps its memory.
 class Simulator {
  public:
+  /// Throws ModelError for a system, or an option, that makes no sense.
   explicit Simulator(const System& system, SimulatorOptions options = {});
+  ~Simulator();
+  Simulator(Simulator&&) noexcept;
+  Simulator& operator=(Simulator&&) noexcept;
 
-  /// Begins a run at the context's time. Throws ModelError if the context is not one of this
-  /// system.
+  /// Begins a run at the context's time; one that an earlier run ended with goes on where that one
+  /// stopped. Throws ModelError if the context is not one of this system.
   void initialize(const Context& context);
 
   /// Goes on to t_end [s], or to where the run ends before. In pieces or at once: the same events.
@@ -26,54 +30,20 @@ class Simulator {
   /// unless the option throw_errors is off.
   Status advance_to(double t_end);
 
-  double time() const noexcept { return time_; }
+  double time() const noexcept;
   /// The values of now.
-  Context context() const { return machine_.save(begin_, time_); }
+  Context context() const;
   /// All since initialize(); complete after each advance_to.
-  const Results& results() const noexcept { return results_; }
-  Results take_results() {
-    EventLog next = results_.events.emptied();
-    Results taken = std::move(results_);
-    results_.events = std::move(next);
-    return taken;
-  }
+  const Results& results() const noexcept;
+  /// The same, moved out.
+  Results take_results();
 
-  const Plan& plan() const noexcept { return machine_.plan(); }
+  const Plan& plan() const noexcept;
   /// What was kept, folded and dropped, and the method with the reason.
   std::string describe() const;
 
  private:
-  Status run_to(double t_end);
-  Status step(double t_end);
-  void move_to(double t_stop, StopReason& reason);
-  Status settle(StopReason reason, double t_end, bool at_start);
-  void record_step(double from);
-  void record(double t, const double* x);
-  bool steps_recorded() const { return options_.save_steps.value_or(options_.save_at.empty()); }
-  bool interrupted();
-  bool chatters();
-  SimulatorOptions checked(SimulatorOptions options) const;
-  SolverOptions solver_options() const;
-  Status end(Status status, std::string message = {});
-  void finish();
-
-  SimulatorOptions options_;
-  Machine machine_;
-  Watch watch_;
-  Results results_;
-  Instant instant_;
-  Calendar calendar_;
-  std::optional<Recorder> recorder_;
-  std::unique_ptr<Solver> solver_;
-  Method method_;
-  Context begin_;
-  double time_ = 0.0, last_instant_ = 0.0;
-  bool begun_ = false, solver_started_ = false, over_ = false;
-  std::vector<int> due_;
-  std::size_t next_save_ = 0;
-  std::int64_t recent_events_ = 0, ticks_ = 0;
-  double recent_since_ = 0.0;
-  std::chrono::steady_clock::time_point asked_{};
+  std::unique_ptr<Run> run_;
 };
 
 }  // namespace saltus

@@ -1,10 +1,13 @@
 // Zeno monitor: when a series of resets becomes a hold, and where it comes to rest.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <limits>
 
 #include <Eigen/Core>
+
+#include "saltus/model/continuation.hpp"
 
 namespace saltus {
 
@@ -17,41 +20,38 @@ class ZenoMonitor {
 
   bool on() const noexcept { return tolerance_ > 0.0; }
   double tolerance() const noexcept { return tolerance_; }
-  double gap() const noexcept {
-    return gap_[0];
-  }  ///< [s] between the last two firings; infinite before there were two
+  /// [s] between the last two firings; infinite before there were two.
+  double gap() const noexcept { return gap(0); }
   bool holding = false;
 
   /// Forgets all firings: after a release, a gap to the time before says nothing.
   void forget() {
-    last_ = nan;
-    gap_[0] = gap_[1] = gap_[2] = infinite;
+    times_.fill(nan);
     holding = false;
   }
 
   /// A firing at t.
   void fired(double t) {
-    gap_[2] = gap_[1], gap_[1] = gap_[0];
-    gap_[0] = std::isnan(last_) ? infinite : t - last_;
-    last_ = t;
+    std::copy_backward(times_.begin(), times_.end() - 1, times_.end());
+    times_[0] = t;
   }
 
   /// Whether the firings accumulate: within the tolerance, and three gaps in a row shrinking by
   /// more than the rounding of the event times explains. A steady fast rhythm does not.
   bool accumulates() const {
-    if (!(gap_[0] <= tolerance_) || !std::isfinite(gap_[2])) return false;
-    const double rounding = 8.0 * std::numeric_limits<double>::epsilon() * std::abs(last_);
-    return gap_[1] - gap_[0] > rounding && gap_[2] - gap_[1] > rounding;
+    if (!(gap(0) <= tolerance_) || !std::isfinite(gap(2))) return false;
+    const double rounding = 8.0 * std::numeric_limits<double>::epsilon() * std::abs(times_[0]);
+    return gap(1) - gap(0) > rounding && gap(2) - gap(1) > rounding;
   }
 
   /// q / (1 - q), by which the last gap, and the last change of state, is multiplied.
   double remainder() const {
     // A slow series amplifies the rounding of event times by 1 / (1 - q)^2: there the ratio of two
     // gaps further apart.
-    const double last = gap_[0] / gap_[1], q = last > 0.9 ? std::sqrt(gap_[0] / gap_[2]) : last;
+    const double last = gap(0) / gap(1), q = last > 0.9 ? std::sqrt(gap(0) / gap(2)) : last;
     return q / (1.0 - q);
   }
-  double accumulation_time() const { return last_ + gap_[0] * remainder(); }
+  double accumulation_time() const { return times_[0] + gap(0) * remainder(); }
 
   /// The state after this reset, in; the accumulation state, out.
   void accumulate(Eigen::Ref<Eigen::VectorXd> after) const {
@@ -59,12 +59,31 @@ class ZenoMonitor {
   }
   void remember(const Eigen::Ref<const Eigen::VectorXd>& after) { after_ = after; }
 
+  Continuation::Firings save() const {
+    Continuation::Firings saved{.holding = holding};
+    for (const double t : times_) {
+      if (!std::isnan(t)) saved.times.push_back(t);
+    }
+    saved.after.assign(after_.begin(), after_.end());
+    return saved;
+  }
+  void load(const Continuation::Firings& saved) {
+    forget();
+    std::copy_n(saved.times.begin(), std::min(saved.times.size(), times_.size()), times_.begin());
+    after_ = Eigen::Map<const Eigen::VectorXd>(saved.after.data(), static_cast<Eigen::Index>(saved.after.size()));
+    holding = saved.holding;
+  }
+
  private:
   static constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  static constexpr double infinite = std::numeric_limits<double>::infinity();
+  /// [s] gap i, counted from the last one back; infinite if there were not as many firings.
+  double gap(std::size_t i) const {
+    const double gap = times_[i] - times_[i + 1];
+    return std::isnan(gap) ? std::numeric_limits<double>::infinity() : gap;
+  }
+
   double tolerance_;
-  double last_ = nan;
-  double gap_[3] = {infinite, infinite, infinite};
+  std::array<double, 4> times_{nan, nan, nan, nan};  // [s] of the last firings, latest first
   Eigen::VectorXd after_;
 };
 

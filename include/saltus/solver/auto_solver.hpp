@@ -5,8 +5,7 @@
 #include <string>
 
 #include "saltus/solver/cvode.hpp"
-#include "saltus/solver/dopri5.hpp"
-#include "saltus/solver/runge_kutta.hpp"
+#include "saltus/solver/one_step.hpp"
 
 namespace saltus {
 

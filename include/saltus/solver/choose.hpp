@@ -12,14 +12,17 @@
 
 namespace saltus {
 
-enum class Method { automatic, dopri5, adams, bdf };
+enum class Method { automatic, dopri5, dop853, adams, bdf };
 
-inline constexpr std::array<std::pair<std::string_view, Method>, 8> method_names{{
+inline constexpr std::array<std::pair<std::string_view, Method>, 11> method_names{{
     {"auto", Method::automatic},
     {"dopri5", Method::dopri5},
+    {"dop853", Method::dop853},
     {"adams", Method::adams},
     {"bdf", Method::bdf},
     {"rk45", Method::dopri5},  // synonyms
+    {"RK45", Method::dopri5},
+    {"DOP853", Method::dop853},
     {"non-stiff", Method::dopri5},
     {"stiff", Method::bdf},
     {"BDF", Method::bdf},
@@ -30,7 +33,8 @@ inline Method method_from(std::string_view name) {
   return detail::value_of(method_names, "ode_solver_method", name);
 }
 
-/// The solver of a method for one run. CVODE is made only where it is asked for, or once "auto" needs it.
+/// The solver of a method for one run. CVODE is made only where it is asked for, or once "auto"
+/// needs it.
 std::unique_ptr<Solver> make_solver(Method method, Machine& machine, Watch& watch,
                                     const SolverOptions& options);
 

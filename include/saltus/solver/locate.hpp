@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -11,7 +12,8 @@
 
 namespace saltus {
 
-/// Looks at all guards in one vector call at a few interior points of a step (pairs of roots), then
+/// Looks at all guards in one vector call at a few interior points of a step, and where three looks
+/// say that a guard dips across zero and back (pairs of roots), then
 /// narrows the first interval in which one crosses by the Illinois variant of regula falsi, guarded
 /// by bisection (K. L. Hiebert and L. F. Shampine, "Implicitly defined output points for solutions
 /// of ODEs", Sandia report SAND80-0180, 1980: the vector form, earliest root first). The end that
@@ -24,7 +26,7 @@ class Locator {
   Locator(Machine& machine, Watch& watch)
       : machine_(&machine), watch_(&watch), x_(static_cast<std::size_t>(machine.plan().nx)) {
     const auto slots = static_cast<std::size_t>(machine.plan().guard_slots);
-    for (auto* values : {&low_, &high_, &middle_}) values->assign(slots, 1.0);
+    for (auto* values : {&low_, &high_, &middle_, &earlier_}) values->assign(slots, 1.0);
     crossed_.reserve(slots), limits_.reserve(slots);
   }
 
@@ -41,32 +43,105 @@ class Locator {
     for (int piece = 1; piece <= pieces; ++piece) {
       const bool last = piece == pieces;
       const double next = last ? to : std::min(to, from + piece_length);
-      if (!find_in(from, next, last ? end : nullptr, interpolate)) {
-        from = next;
-        continue;
-      }
-      return true;
+      if (find_in(from, next, last ? end : nullptr, interpolate)) return true;
+      from = next;
     }
+    earlier_at_ -= to;  // seen from the next step
     return false;
   }
+
+  /// Begins anew: what was seen of the guards before a restart says nothing.
+  void forget() { earlier_at_ = never; }
 
   double offset() const noexcept { return root_; }
 
  private:
-  /// The same without points in between; monitors are noted and passed.
+  /// The same without points in between, save where a guard seems to dip across zero and back;
+  /// monitors are noted and passed.
   template <class Interpolate>
   bool find_in(double from, double to, const double* end, const Interpolate& interpolate) {
     while (from < to) {
       look(to, end, interpolate, high_);
+      double high = to;
       if (!note_crossed(high_)) {
-        follow();
-        return false;
+        const double dip = watch_->scan_points > 0 ? find_dip(from, to, interpolate) : never;
+        if (dip == never) {
+          shift(from);
+          follow();
+          return false;
+        }
+        high = dip;
+        high_.swap(middle_);
+        if (!note_crossed(high_)) {  // to the side on which it does not fire
+          shift(from);
+          follow();
+          from = dip;
+          continue;
+        }
       }
-      from = narrow(from, to, interpolate);
+      from = narrow(from, high, interpolate);
+      forget();
       if (take(from)) return true;
     }
     return false;
   }
+
+  /// The look at `from` is the one before the next look.
+  void shift(double from) {
+    earlier_ = watch_->g;
+    earlier_at_ = from;
+  }
+
+  /// Where between two looks a guard seems to cross zero and come back: the vertex of the parabola
+  /// through three looks, moved by successive parabolic interpolation (R. P. Brent, "Algorithms for
+  /// Minimization without Derivatives", 1973, ch. 5) until the guard there is beyond zero.
+  /// `middle_` then holds the guards at that offset; `never` if there is no such place.
+  template <class Interpolate>
+  double find_dip(double from, double to, const Interpolate& interpolate) {
+    if (earlier_at_ == never) return never;
+    for (const std::size_t k : watch_->active) {
+      const GuardSlot& slot = watch_->slots[k];
+      if (slot.side == 0 || slot.fresh || slot.jumps || slot.leaving) continue;
+      Dip dip{{earlier_at_, from, to},
+              {slot.side * earlier_[k], slot.side * watch_->g[k], slot.side * high_[k]}};
+      // A touch within rounding is none; nor is a vertex far above zero.
+      const double size = std::max({dip.g[0], dip.g[1], dip.g[2]});
+      double u = dip.vertex(0.05 * size);
+      for (int round = 0; round < 4 && u > from && u < to; ++round) {
+        look(u, nullptr, interpolate, middle_);
+        const double g = slot.side * middle_[k];
+        if (g < -1e-12 * size) return u;
+        dip.replace(u, g);
+        u = dip.vertex(0.05 * dip.g[1]);
+      }
+    }
+    return never;
+  }
+
+  /// Three looks at one guard, all on its side.
+  struct Dip {
+    double u[3], g[3];
+
+    /// The vertex of the parabola through them; `never` if it opens downwards or stays above
+    /// `highest`.
+    double vertex(double highest) const {
+      if (!(g[0] > 0.0 && g[1] > 0.0 && g[2] > 0.0)) return never;
+      const double left = (g[1] - g[0]) / (u[1] - u[0]), right = (g[2] - g[1]) / (u[2] - u[1]);
+      const double bend = (right - left) / (u[2] - u[0]);
+      const double slope = left + bend * (u[1] - u[0]);
+      if (!(bend > 0.0) || g[1] - slope * slope / (4.0 * bend) > highest) return never;
+      const double at = u[1] - slope / (2.0 * bend);
+      return at == u[0] || at == u[1] || at == u[2] ? never : at;
+    }
+    /// Takes a new look in, in place of an outer one.
+    void replace(double at, double value) {
+      const bool behind = at > u[1], lower = value < g[1];
+      const int out = behind == lower ? 0 : 2;  // the outer one that is no neighbour of the lowest
+      const double inner = u[1], inner_g = g[1];
+      u[out] = lower ? inner : at, g[out] = lower ? inner_g : value;
+      if (lower) u[1] = at, g[1] = value;
+    }
+  };
 
   /// All guards at offset u.
   template <class Interpolate>
@@ -78,7 +153,7 @@ class Locator {
 
   bool fired(std::size_t i, const std::vector<double>& values) const {
     const double value = values[watch_->active[i]];
-    return value <= limits_[i].first || value >= limits_[i].second;
+    return !(value > limits_[i].first && value < limits_[i].second);  // so does what is not finite
   }
 
   /// Whether some guard has crossed at these values; if so, crossed_ says which.
@@ -103,21 +178,19 @@ class Locator {
           !slot.fresh && (slot.side > 0 ? high_[k] > 0.0 : slot.side < 0 && high_[k] < 0.0);
       watch_->g[k] = high_[k];
       if (stays) continue;
-      if (std::isnan(high_[k])) throw_not_a_number(k);
       slot.follow(high_[k]);
       limits_[i] = slot.limits();
     }
   }
 
-  [[noreturn]] void throw_not_a_number(std::size_t k) const {
+  [[noreturn]] void throw_not_finite(std::size_t k, double t) const {
     const auto holds = [k](const GuardGroup& g) {
       return static_cast<Index>(k) >= g.slot && static_cast<Index>(k) < g.slot + g.size;
     };
     const GuardGroup& group = *std::ranges::find_if(machine_->plan().guards, holds);
-    throw SimulationError(text("t = ", t0_, " s: guard '", group.name,
-                               "' is not finite (NaN) in the step that begins here; "
-                               "check it at this state"),
-                          t0_, machine_->plan().leaves[static_cast<std::size_t>(group.leaf)].path);
+    throw SimulationError(text("t = ", t, " s: guard '", group.name,
+                               "' is not finite (NaN or Inf); check it at this state"),
+                          t, machine_->plan().leaves[static_cast<std::size_t>(group.leaf)].path);
   }
 
   /// Narrows [low, high], where no guard has fired at low and `high_` shows that one has at high.
@@ -128,13 +201,19 @@ class Locator {
     int kept = 0;  // how often in a row the low (> 0) or high (< 0) end was kept: Illinois halves
                    // its value
     double weight = 1.0;
+    bool plateau = false;  // of exact zeros: its beginning is the root
     for (int count = 0; count < 200; ++count) {
       const double resolution = 2.0 * std::numeric_limits<double>::epsilon() * high;
-      if (high - low <= resolution || only_exact_zeros()) break;
-      const double u = next_point(low, high, weight, resolution, count);
+      const double width = high - low;
+      const bool zeros = only_exact_zeros();
+      if (width <= (zeros && !plateau ? 16.0 : 1.0) * resolution) break;
+      const double u = !zeros    ? next_point(low, high, weight, resolution, count)
+                       : plateau ? low + 0.5 * width
+                                 : high - std::max(8.0 * resolution, 1e-3 * width);
       if (!(u > low && u < high)) break;
       look(u, nullptr, interpolate, middle_);
       if (note_crossed(middle_)) {
+        plateau = plateau || zeros;
         high = u, high_.swap(middle_);
         kept = kept > 0 ? kept + 1 : 1;
       } else {
@@ -182,6 +261,7 @@ class Locator {
     watch_->fired.clear();
     for (std::size_t k : crossed_) {
       const GuardSlot& slot = watch_->slots[k];
+      if (!std::isfinite(high_[k])) throw_not_finite(k, t0_ + u);
       const Firing firing{static_cast<int>(k), slot.side};
       if (slot.monitor)
         watch_->monitors.push_back({t0_ + u, firing});
@@ -192,15 +272,19 @@ class Locator {
       const std::size_t k = watch_->active[i];
       GuardSlot& slot = watch_->slots[k];
       watch_->follow(k, high_[k]);
-      if (slot.crossed(high_[k])) slot.side = 0;  // exactly on zero: it takes the side it leaves to
+      if (!slot.leaving && slot.crossed(high_[k])) slot.side = 0;  // exactly on zero: it takes the side it leaves to
       limits_[i] = slot.limits();
     }
     return !watch_->fired.empty();
   }
 
+  static constexpr double never = std::numeric_limits<double>::infinity();
+
   Machine* machine_;
   Watch* watch_;
   std::vector<double> x_, low_, high_, middle_;
+  std::vector<double> earlier_;  // guards at the look before the last
+  double earlier_at_ = never;    // its offset, below zero if it was in the step before
   std::vector<std::size_t> crossed_;
   std::vector<std::pair<double, double>> limits_;  // of the active slots
   double t0_ = 0.0, root_ = 0.0;

@@ -20,15 +20,15 @@ class RungeKutta final : public StepSolver<RungeKutta<Method>> {
       : Base(machine, watch, options),
         x0_(n_),
         scratch_(n_),
-        k_(Eigen::MatrixXd::Zero(n_, static_cast<Index>(Method::stages))),
-        dense_(n_, 4) {}
+        k_(Eigen::MatrixXd::Zero(n_, static_cast<Index>(Method::rows))),
+        dense_(n_, static_cast<Index>(dense_terms)) {}
 
   void inside_step(double u, double* x) {
     if (!dense_ready_) prepare_dense();
     const double s = u / length_, r = 1.0 - s;
     const double *x0 = x0_.data(), *c = dense_.data();
     for (Index i = 0, n = n_; i < n; ++i)
-      x[i] = x0[i] + s * (c[i] + r * (c[n + i] + s * (c[2 * n + i] + r * c[3 * n + i])));
+      x[i] = x0[i] + s * detail::nested<0, dense_terms>(c + i, n, s, r);
   }
 
   std::string method() const override { return Method::name; }
@@ -42,12 +42,20 @@ class RungeKutta final : public StepSolver<RungeKutta<Method>> {
   using Base::machine_, Base::options_, Base::n_, Base::t0_, Base::t1_, Base::length_, Base::x1_,
       Base::statistics_;
   static constexpr std::size_t last = Method::stages - 1;
+  static constexpr std::size_t estimates = Method::e.size();
+  static constexpr std::size_t dense_terms = 3 + Method::d.size();
+  /// Whether the error estimate reads f(t1, x1); if not, a rejected step is spared that call.
+  static constexpr bool estimate_reads_end =
+      std::ranges::any_of(Method::e, [](const auto& row) { return row[last] != 0.0; });
   static constexpr double infinite = std::numeric_limits<double>::infinity();
 
+  static StepController controller() {
+    return {Method::error_order, Method::beta, Method::shortest, Method::longest};
+  }
   double* stage(std::size_t i) { return k_.data() + static_cast<Index>(i) * n_; }
 
   void begin(const Start& start) {
-    if (start.first) h_ = 0.0, controller_ = StepController(Method::error_order);
+    if (start.first) h_ = 0.0, controller_ = controller();
     machine_->derivative(t1_, x1_.data(), stage(last));
     dense_ready_ = false;
     horizon_ = start.horizon;
@@ -86,15 +94,29 @@ class RungeKutta final : public StepSolver<RungeKutta<Method>> {
 
   /// All stages of a step to t1; returns the scaled error, infinite if anything is not finite.
   double try_step(double h, double t1) {
-    [&]<std::size_t... I>(std::index_sequence<I...>) {
-      (run_stage<I + 1>(h), ...);
-    }(std::make_index_sequence<last - 1>{});
+    run_stages<1, last>(h);
     combine<last>(h, x1_.data());
     t1_ = t1;
+    double error = 0.0;
+    if constexpr (!estimate_reads_end) {
+      error = scaled_error(h);
+      if (error > 1.0) return error;
+    }
     machine_->derivative(t1, x1_.data(), stage(last));
-    const double error = scaled_error(h);
+    if constexpr (estimate_reads_end)
+      error = scaled_error(h);
+    else if (!VectorView(stage(last), n_).allFinite())
+      return infinite;
     stiff_.look(*this, h, error);
     return error;
+  }
+
+  /// Stages First to End - 1.
+  template <std::size_t First, std::size_t End>
+  void run_stages(double h) {
+    [&]<std::size_t... I>(std::index_sequence<I...>) {
+      (run_stage<First + I>(h), ...);
+    }(std::make_index_sequence<End - First>{});
   }
 
   template <std::size_t I>
@@ -107,48 +129,57 @@ class RungeKutta final : public StepSolver<RungeKutta<Method>> {
   template <std::size_t I>
   void combine(double h, double* out) const {
     const double *k = k_.data(), *x0 = x0_.data();
+    constexpr auto row = [] { return Method::a[I]; };
     for (Index i = 0, n = n_; i < n; ++i) {
-      out[i] =
-          x0[i] + h * dot<[] { return Method::a[I]; }>(k + i, n, std::make_index_sequence<I>{});
+      if constexpr (detail::cancels(row()))
+        out[i] = x0[i] + h * (Method::c[I] * k[i] + detail::dot_of_differences<row, I>(k + i, n));
+      else
+        out[i] = x0[i] + h * detail::dot<row, I>(k + i, n);
     }
-  }
-  /// sum_j row[j] k_j, without the terms that are zero.
-  template <auto Row, std::size_t... J>
-  static double dot(const double* k, Index n, std::index_sequence<J...>) {
-    double sum = 0.0;
-    ((Row()[J] != 0.0 ? void(sum += Row()[J] * k[static_cast<Index>(J) * n]) : void()), ...);
-    return sum;
   }
 
-  /// Root mean square of error / (atol + rtol max(|x0|, |x1|)).
+  /// The method's error from the mean squares of estimate / (atol + rtol max(|x0|, |x1|)).
   double scaled_error(double h) const {
+    if (n_ == 0) return 0.0;
     const double *k = k_.data(), *x0 = x0_.data(), *x1 = x1_.data();
     const double rtol = options_.rtol, atol = options_.atol;
-    double sum = 0.0;
+    std::array<double, estimates> squares{};
     for (Index i = 0, n = n_; i < n; ++i) {
-      const double scale = atol + rtol * std::max(std::abs(x0[i]), std::abs(x1[i]));
-      const double e =
-          h * dot<[] { return Method::e; }>(k + i, n, std::make_index_sequence<Method::stages>{}) /
-          scale;
-      sum += e * e;
+      const double scale = h / (atol + rtol * std::max(std::abs(x0[i]), std::abs(x1[i])));
+      add_squares(scale, k + i, squares, std::make_index_sequence<estimates>{});
     }
-    const double error = n_ > 0 ? std::sqrt(sum / static_cast<double>(n_)) : 0.0;
+    for (double& square : squares) square /= static_cast<double>(n_);
+    const double error = Method::error(squares);
     return std::isfinite(error) ? error : infinite;
+  }
+  template <std::size_t... M>
+  void add_squares(double scale, const double* k, std::array<double, estimates>& squares,
+                   std::index_sequence<M...>) const {
+    const auto square = [](double x) { return x * x; };
+    ((squares[M] +=
+      square(scale * detail::dot<[] { return Method::e[M]; }, Method::stages>(k, n_))),
+     ...);
   }
 
   void prepare_dense() {
     const double *k = k_.data(), *x0 = x0_.data(), *x1 = x1_.data();
-    double* c = dense_.data();
     const double h = length_;
+    run_stages<Method::stages, Method::rows>(h);
     for (Index i = 0, n = n_; i < n; ++i) {
+      double* c = dense_.data() + i;
       const double rise = x1[i] - x0[i], bend = h * k[i] - rise;
-      c[i] = rise;
-      c[n + i] = bend;
-      c[2 * n + i] = rise - h * k[static_cast<Index>(last) * n + i] - bend;
-      c[3 * n + i] =
-          h * dot<[] { return Method::d; }>(k + i, n, std::make_index_sequence<Method::stages>{});
+      c[0] = rise;
+      c[n] = bend;
+      c[2 * n] = rise - h * k[static_cast<Index>(last) * n + i] - bend;
+      add_dense(h, k + i, c + 3 * n, std::make_index_sequence<Method::d.size()>{});
     }
     dense_ready_ = true;
+  }
+  template <std::size_t... M>
+  void add_dense(double h, const double* k, double* c, std::index_sequence<M...>) const {
+    ((c[static_cast<Index>(M) * n_] =
+          h * detail::dot_of_differences<[] { return Method::d[M]; }, Method::rows>(k, n_)),
+     ...);
   }
 
   void require_finite_start() {
@@ -172,8 +203,8 @@ class RungeKutta final : public StepSolver<RungeKutta<Method>> {
   Eigen::VectorXd x0_, scratch_;
   Eigen::MatrixXd k_, dense_;
   bool dense_ready_ = false;
-  StepController controller_{Method::error_order};
-  StiffnessTest stiff_;
+  StepController controller_ = controller();
+  StiffnessTest stiff_{Method::stability};
 };
 
 }  // namespace saltus

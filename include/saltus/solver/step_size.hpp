@@ -11,19 +11,23 @@
 namespace saltus {
 
 /// Proportional-integral control of the step size (K. Gustafsson; Hairer, Wanner II, p. 28,
-/// (2.43c), with the constants of the code DOPRI5: beta 0.04, safety 0.9, factors within [0.2,
-/// 10]).
+/// (2.43c), safety 0.9; beta and the bounds of the factor are those of the codes DOPRI5, the
+/// default here, and DOP853).
 class StepController {
  public:
-  explicit StepController(double order)
-      : exponent_(1.0 / order - 0.75 * beta), plain_(1.0 / order) {}
+  StepController(double order, double beta = 0.04, double shortest = 0.2, double longest = 10.0)
+      : beta_(beta),
+        shortest_(shortest),
+        longest_(longest),
+        exponent_(1.0 / order - 0.75 * beta),
+        plain_(1.0 / order) {}
 
   double accept(double error, double h, bool after_rejection) {
-    // Below 1e-8 both powers together exceed 10 for every order up to 8: no need to ask.
+    // Below 1e-9 both powers together exceed the longest factor: no need to ask.
     const double factor =
-        error < 1e-8
-            ? 10.0
-            : std::clamp(safety * std::pow(error, -exponent_) * std::pow(before_, beta), 0.2, 10.0);
+        error < 1e-9 ? longest_
+                     : std::clamp(safety * std::pow(error, -exponent_) * std::pow(before_, beta_),
+                                  shortest_, longest_);
     before_ = std::max(error, 1e-4);
     return h * (after_rejection ? std::min(factor, 1.0) : factor);
   }
@@ -33,32 +37,33 @@ class StepController {
   }
 
  private:
-  static constexpr double beta = 0.04, safety = 0.9;
-  double exponent_, plain_, before_ = 1e-4;
+  static constexpr double safety = 0.9;
+  double beta_, shortest_, longest_, exponent_, plain_, before_ = 1e-4;
 };
 
-/// Stiffness by comparing h with the stability region: h |k7 - k6| / |x1 - X6| estimates h
-/// |lambda|, which lies beyond 3.25 when stability bounds the step (L. F. Shampine; Hairer, Wanner
-/// II, p. 21, (2.33)). Fifteen such steps, with no more than five other ones in a row between, are
-/// called stiff.
+/// Stiffness by comparing h with the stability region: h |f(x1) - f(X)| / |x1 - X|, X the argument
+/// of the last stage but one, also at t + h, estimates h |lambda|, which lies beyond `stability`
+/// when that bounds the step (L. F. Shampine; Hairer, Wanner II, p. 21, (2.33)). Fifteen such
+/// steps, with no more than five other ones in a row between, are called stiff.
 class StiffnessTest {
  public:
+  explicit StiffnessTest(double stability) : square_(stability * stability) {}
+
   bool detected() const noexcept { return stiff_ >= 15; }
   void forget() noexcept { stiff_ = calm_ = 0; }
 
   template <class Stepper>
   void look(Stepper& s, double h, double error) {
     if (error > 1.0) return;
-    const double* k6 = s.stage(s.last - 1);
-    const double* k7 = s.stage(s.last);
+    const double *f0 = s.stage(s.last - 1), *f1 = s.stage(s.last);
     double numerator = 0.0, denominator = 0.0;
-    const double *x1 = s.x1_.data(), *x6 = s.scratch_.data();  // scratch: the argument of stage 6
+    const double *x1 = s.x1_.data(), *x0 = s.scratch_.data();  // scratch: what stage last - 1 read
     for (Index i = 0, n = s.n_; i < n; ++i) {
-      const double f = k7[i] - k6[i], x = x1[i] - x6[i];
+      const double f = f1[i] - f0[i], x = x1[i] - x0[i];
       numerator += f * f, denominator += x * x;
     }
-    // Compared without division or root: h^2 f^2 > 3.25^2 x^2.
-    if (denominator > 0.0 && h * h * numerator > 3.25 * 3.25 * denominator) {
+    // Compared without division or root: h^2 f^2 > stability^2 x^2.
+    if (denominator > 0.0 && h * h * numerator > square_ * denominator) {
       ++stiff_, calm_ = 0;
     } else if (++calm_ == 6) {
       stiff_ = 0;
@@ -66,6 +71,7 @@ class StiffnessTest {
   }
 
  private:
+  double square_;
   int stiff_ = 0, calm_ = 0;
 };
 

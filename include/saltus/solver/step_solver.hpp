@@ -33,6 +33,7 @@ class StepSolver : public Solver {
     t0_ = t1_ = time_ = t;
     x1_ = state_ = x;
     delivered_ = true;
+    locator_.forget();
     self().begin(start);
   }
 

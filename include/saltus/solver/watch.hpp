@@ -20,6 +20,7 @@ struct GuardSlot {
       false;  ///< at zero when integration began: it fires only after leaving zero for `side`
   bool monitor = false;  ///< located and logged, stops nothing
   bool jumps = false;    ///< takes only two values: located by bisection
+  bool leaving = false;  ///< of a block at rest: fires on leaving the band, to either side
   double band = 0.0;     ///< a fresh guard within it is still at zero
   double base = 0.0;     ///< edge_detection: the value it had
 
@@ -30,6 +31,7 @@ struct GuardSlot {
 
   /// Whether it has fired when its guard has this value.
   bool crossed(double value) const {
+    if (leaving) return std::abs(value) > band;
     if (direction == Direction::edge_detection) return value != base;
     const int now = sign(value);
     // A fresh guard at zero has not left it: only the strict far side counts.
@@ -39,6 +41,7 @@ struct GuardSlot {
   /// Where it fires: at values <= first or >= second. The same as crossed(), for many values.
   std::pair<double, double> limits() const {
     constexpr double never = std::numeric_limits<double>::infinity();
+    if (leaving) return {-std::nextafter(band, never), std::nextafter(band, never)};
     if (direction == Direction::edge_detection)
       return {std::nextafter(base, -never), std::nextafter(base, never)};
     const double reach = fresh ? std::nextafter(band, never) : band;
@@ -50,6 +53,7 @@ struct GuardSlot {
   /// Takes over the side after a look at which it did not fire.
   void follow(double value) {
     base = value;
+    if (leaving) return;
     if (const int now = sign(value); now != 0) {
       side = static_cast<signed char>(now);
       fresh = false;

@@ -1,0 +1,100 @@
+#include "zero_crossing.hpp"
+
+#include <pybind11/stl.h>
+
+namespace saltus::python {
+
+namespace {
+
+/// The options of one zero crossing, as python/saltus/leaf_system.py passes them; messages name the
+/// block, the zero crossing and the option.
+class Options {
+ public:
+  Options(const py::dict& given, std::string whose) : given_(given), whose_(std::move(whose)) {}
+
+  template <class T>
+  T get(const char* name, std::string_view expected) const {
+    const py::object value = given_[name];
+    try {
+      return value.cast<T>();
+    } catch (const py::cast_error&) {
+      refuse(name, expected, value);
+    }
+  }
+
+  /// What stands under a word in a table.
+  template <class Table>
+  auto named(const char* name, const Table& table) const {
+    const auto found = get<std::string>(name, "a name");
+    std::vector<std::string> known;
+    for (const auto& [word, value] : table) {
+      if (word == found) return value;
+      known.emplace_back(word);
+    }
+    throw ModelError(text(whose_, "unknown ", name, " '", found, "'", known_names(found, known)));
+  }
+
+  std::optional<int> mode(const char* name) const {
+    return get<std::optional<int>>(name, "a mode, an integer");
+  }
+
+  OnZeno on_zeno() const {
+    const py::object value = given_["on_zeno"];
+    if (!py::isinstance<py::str>(value))
+      return OnZeno::enter(get<int>("on_zeno", "'hold', 'stop', 'error' or a mode, an integer"));
+    static const std::vector<std::pair<std::string_view, OnZeno>> names{
+        {"hold", OnZeno::hold()}, {"stop", OnZeno::stop()}, {"error", OnZeno::error()}};
+    return named("on_zeno", names);
+  }
+
+  std::vector<std::vector<int>> holds() const {
+    using Lists = std::optional<std::vector<std::vector<int>>>;
+    return get<Lists>("holds", "a list for each guard, of positions in the continuous state")
+        .value_or(std::vector<std::vector<int>>{});
+  }
+
+ private:
+  [[noreturn]] void refuse(const char* name, std::string_view expected, py::handle found) const {
+    throw ModelError(
+        text(whose_, name, ": expected ", expected, ", found ", std::string(py::repr(found))));
+  }
+
+  const py::dict& given_;
+  std::string whose_;
+};
+
+ZeroCrossing read(const Options& options) {
+  return {.direction = options.named("direction", direction_names),
+          .start_mode = options.mode("start_mode"),
+          .end_mode = options.mode("end_mode"),
+          .terminal = options.get<bool>("terminal", "True or False"),
+          .max_count = options.get<int>("max_count", "a count, 1 or more"),
+          .size = options.get<Index>("size", "a number of guards, 1 or more"),
+          .at_start = options.named("at_start", at_start_names),
+          .on_zeno = options.on_zeno(),
+          .zeno_tolerance = options.get<std::optional<double>>("zeno_tolerance", "a time [s]"),
+          .holds = options.holds(),
+          .inputs = options.get<InputList>("inputs", "True, False or a list of positions")};
+}
+
+}  // namespace
+
+void declare_zero_crossing(py::handle self, py::object guard, py::object reset_map,
+                           std::string name, const py::dict& given) {
+  auto& leaf = self.cast<PythonLeaf&>();
+  const std::string called =
+      name.empty() ? text("zero_crossing_", leaf.declarations().zero_crossings.size()) : name;
+  ZeroCrossing crossing =
+      read(Options(given, text("block '", leaf.name(), "': zero crossing '", called, "': ")));
+  crossing.name = std::move(name);
+  const auto add = [&](py::object function, std::string_view what) {
+    return leaf.add(self, std::move(function), crossing.inputs, text(what, " of '", called, "'"),
+                    Convention::state);
+  };
+  crossing.guard = leaf.vector_function(add(std::move(guard), "guard"));
+  if (!reset_map.is_none())
+    crossing.reset_map = leaf.reset_map(add(std::move(reset_map), "reset map"));
+  leaf.declare_zero_crossing(std::move(crossing));
+}
+
+}  // namespace saltus::python

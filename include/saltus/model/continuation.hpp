@@ -1,0 +1,38 @@
+// Continuation: what a run knows beyond the values of its context.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace saltus {
+
+/// With it a run that goes on from `results.context` has the events of the unbroken run: on which
+/// side every guard and relation stands, which firings the Zeno monitors have seen, what rests. It
+/// belongs to the values it was saved with: a context that is changed by hand has none.
+struct Continuation {
+  /// One guard.
+  struct Guard {
+    int side = 0, from = 0;
+    bool fresh = false, resting = false;
+    double band = 0.0, base = 0.0;
+    bool operator==(const Guard&) const = default;
+  };
+  /// One Zeno monitor.
+  struct Firings {
+    std::vector<double> times = {};  ///< [s] of the last firings, latest first; at most four
+    std::vector<double> after = {};  ///< the state after the latest
+    bool holding = false;
+    bool operator==(const Firings&) const = default;
+  };
+
+  int jump = 0;                             ///< j
+  std::vector<double> relations = {};       ///< truth of all relations that are held
+  std::vector<Guard> guards = {};
+  std::vector<Firings> firings = {};        ///< of the guards, then of the watched edges
+  std::vector<int> edges = {};              ///< watched signals: true (1) or false (0)
+  std::vector<std::int64_t> counts = {};    ///< firings of each guard, for max_count
+  bool operator==(const Continuation&) const = default;
+};
+
+}  // namespace saltus

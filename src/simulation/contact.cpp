@@ -1,0 +1,172 @@
+// Contacts on surfaces that move.
+#include "saltus/simulation/contact.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace saltus {
+
+namespace {
+
+constexpr double eps = std::numeric_limits<double>::epsilon();
+
+}  // namespace
+
+Contacts::Contacts(Machine& machine, const SimulatorOptions& options)
+    : machine_(&machine), absolute_(options.atol / options.rtol) {
+  for (auto* v : {&original_, &begun_, &once_, &twice_, &trial_, &f_, &f1_, &slow_, &stood_, &later_})
+    v->setZero(machine.plan().nx);
+  z_.setZero(machine.plan().nz);
+  g_.setOnes(machine.plan().guard_slots);
+}
+
+void Contacts::clear() {
+  list_.clear();
+  engage();
+}
+
+SurfaceContact* Contacts::on(int slot) {
+  const auto found = std::ranges::find(list_, slot, &SurfaceContact::slot);
+  return found == list_.end() ? nullptr : &*found;
+}
+
+SurfaceContact& Contacts::add(SurfaceContact contact) {
+  remove(contact.slot);
+  return list_.emplace_back(std::move(contact));
+}
+
+void Contacts::remove(int slot) {
+  std::erase_if(list_, [slot](const SurfaceContact& c) { return c.slot == slot; });
+  engage();
+}
+
+void Contacts::engage() {
+  machine_->carrier = std::ranges::any_of(list_, &SurfaceContact::carried) ? this : nullptr;
+}
+
+/// One application of all reset maps, each from the same state; only what rests is kept of it.
+void Contacts::reset(const SurfaceContact& contact, double t, const double* from, double* to) {
+  machine_->evaluate_moving(t, from);
+  std::copy_n(from, trial_.size(), to);
+  trial_ = VectorView(from, trial_.size());
+  for (const SurfaceContact::Member& member : contact.members) {
+    const PlanLeaf& leaf = machine_->plan().leaves[static_cast<std::size_t>(member.leaf)];
+    At at = machine_->at(static_cast<std::size_t>(member.leaf), t);
+    at.entry = member.entry;
+    z_.segment(leaf.z, leaf.nz) = at.z;
+    int mode = at.mode;
+    Next next({trial_.data() + leaf.x, leaf.nx}, {z_.data() + leaf.z, leaf.nz}, mode, leaf.path);
+    (*member.map)(*leaf.system, at, next);
+  }
+  for (const Index i : contact.states) to[i] = trial_[i];
+}
+
+/// Puts the fixed point that begun_, once_ and twice_ point to into x; returns how far, in units of
+/// rounding, the reset still moved.
+double Contacts::extrapolate(const SurfaceContact& contact, double* x) {
+  double furthest = 0.0;
+  for (const Index i : contact.states) {
+    const double first = once_[i] - begun_[i], second = twice_[i] - once_[i];
+    const double size = std::max({std::abs(begun_[i]), std::abs(once_[i]), std::abs(twice_[i])});
+    furthest = std::max(furthest, std::abs(first) / (64.0 * eps * size + 1e-300));
+    const double limit = begun_[i] - first * first / (second - first);
+    const bool told = std::abs(first) > 64.0 * eps * size && std::isfinite(limit);
+    x[i] = told ? limit : once_[i];
+  }
+  return furthest;
+}
+
+bool Contacts::settle(const SurfaceContact& contact, double t, double* x) {
+  constexpr int rounds = 6;  // one for an affine map, and one to see that it was
+  begun_ = VectorView(x, begun_.size());
+  original_ = begun_;
+  for (int round = 0; round < rounds; ++round) {
+    reset(contact, t, begun_.data(), once_.data());
+    reset(contact, t, once_.data(), twice_.data());
+    const double furthest = extrapolate(contact, begun_.data());
+    if (!(furthest > 1.0)) {
+      std::copy_n(begun_.data(), begun_.size(), x);
+      return begun_.allFinite();
+    }
+  }
+  std::copy_n(original_.data(), original_.size(), x);
+  return false;
+}
+
+/// While they are free, the blocks of a contact flow.
+void Contacts::free(const SurfaceContact& contact, bool yes) {
+  for (const Index i : contact.states) yes ? machine_->move(i) : machine_->rest(i);
+}
+
+/// Off the surface counts as above zero. f_ is the free flow at (t, x).
+double Contacts::guard_after(const SurfaceContact& contact, double t, const double* x, double d) {
+  const VectorView now(x, f_.size());
+  trial_ = now + d * f_;
+  machine_->flow(t + d, trial_.data(), f1_.data());
+  trial_ = now + 0.5 * d * (f_ + f1_);
+  machine_->guards_at(t + d, trial_.data(), g_.data());
+  return -contact.pressed * g_[contact.slot];
+}
+
+double Contacts::lift(const SurfaceContact& contact, double t, const double* x) {
+  free(contact, true);
+  machine_->guards_at(t, x, g_.data());
+  const double g = -contact.pressed * g_[contact.slot], d = contact.look_ahead;
+  machine_->flow(t, x, f_.data());
+  const double far = guard_after(contact, t, x, d);
+  const double lifted =
+      contact.opaque ? far : 8.0 * (guard_after(contact, t, x, 0.5 * d) - g) - (far - g);
+  free(contact, false);
+  return lifted;
+}
+
+void Contacts::choose_look_ahead(SurfaceContact& contact, double t, const double* x, double longest) {
+  const double brief = std::max(1e-9 * longest, 1024.0 * eps * std::abs(t));
+  free(contact, true);
+  machine_->flow(t, x, f_.data());
+  trial_ = VectorView(x, f_.size()) + brief * f_;
+  machine_->flow(t + brief, trial_.data(), f1_.data());
+  free(contact, false);
+  // A movement of 1e9 eps of a state leaves nine digits less its rounding to tell its sign by, and
+  // is as small as the square root of that.
+  double d = 1e-3 * longest;
+  for (const Index i : contact.states) {
+    const double bend = std::abs(f1_[i] - f_[i]) / brief, size = std::abs(x[i]) + absolute_;
+    if (bend > 0.0) d = std::min(d, std::sqrt(1e9 * eps * size / bend));
+  }
+  contact.look_ahead = std::max(d, brief);
+}
+
+bool Contacts::moves(const SurfaceContact& contact, double t, const double* x, double longest) {
+  const double lifted = lift(contact, t, x);
+  machine_->flow(t, x, slow_.data());
+  double d = contact.look_ahead;
+  for (int probe = 0; probe < 4 && d <= longest; ++probe, d *= 30.0) {
+    stood_ = later_ = VectorView(x, slow_.size()) + d * slow_;
+    if (!settle(contact, t + d, later_.data())) return false;
+    for (const Index i : contact.states) {
+      if (std::abs(later_[i] - stood_[i]) > 1e3 * eps * (std::abs(stood_[i]) + absolute_))
+        return true;
+    }
+    const double change = std::abs(lift(contact, t + d, later_.data()) - lifted);
+    if (!contact.opaque && change > 1e-5 * std::abs(lifted)) return true;
+  }
+  return false;
+}
+
+void Contacts::carry(double t, double* x) {
+  for (int sweep = 0; sweep < (list_.size() > 1 ? 2 : 1); ++sweep) {
+    for (const SurfaceContact& contact : list_) {
+      if (contact.carried) settle(contact, t, x);
+    }
+  }
+}
+
+void Contacts::lift(double t, const double* x, double* g) {
+  for (const SurfaceContact& contact : list_) {
+    if (contact.carried) g[contact.slot] = lift(contact, t, x);
+  }
+}
+
+}  // namespace saltus

@@ -1,0 +1,284 @@
+// Holds: blocks at rest, on surfaces that stand or move, and how they get off.
+#include <algorithm>
+#include <cmath>
+
+#include "saltus/simulation/instant.hpp"
+
+namespace saltus {
+
+/// A Zeno point: it means what the guard's author said.
+void Instant::come_to_rest(Rest& rest, double predicted, bool in_pass) {
+  using Kind = OnZeno::Kind;
+  const Kind kind = rest.on_zeno.kind();
+  if (kind == Kind::hold) return hold(rest, predicted);
+  const std::string& name = name_of(rest.source);
+  if (kind == Kind::error) {
+    throw SimulationError(
+        text("t = ", t_, " s: the firings of '", name, "' accumulate at t = ", predicted,
+             " s (a Zeno point), and its on_zeno is \"error\"; choose \"hold\", \"stop\" or a mode "
+             "to go on in"),
+        t_, leaf(rest.leaf).path);
+  }
+  log(EventKind::zeno_enter, rest.source, rest.leaf, 0, predicted, rest.entry);
+  rest.monitor.forget();
+  if (kind == Kind::stop) {
+    outcome_.zeno_stop = true;
+  } else {
+    const Action enter{rest.leaf, Cause::zeno, rest.source, -1, rest.on_zeno.mode(), false};
+    in_pass ? run_action(enter) : actions_.push_back(enter);
+  }
+}
+
+void Instant::hold(Rest& rest, double predicted) {
+  rest.monitor.holding = true, ++holds_;
+  outcome_.horizon = std::numeric_limits<double>::infinity();
+  for (const Index i : rest.states) machine_->rest(i);
+  outcome_.restart = true;
+  flowed_ = false;
+  log(EventKind::zeno_enter, rest.source, rest.leaf, 0, predicted, rest.entry);
+}
+
+void Instant::release(Rest& rest) {
+  rest.monitor.forget(), --holds_;
+  for (const Index i : rest.states) machine_->move(i);
+  outcome_.restart = true;
+  flowed_ = false;
+  log(EventKind::zeno_release, rest.source, rest.leaf, 0, std::numeric_limits<double>::quiet_NaN(),
+      rest.entry);
+}
+
+/// Whether a relation set off a reset in this instant, and still stands on the side that did.
+bool Instant::sets_off(int node) const {
+  return std::ranges::any_of(edges_fired_, [&](int e) {
+    const EdgeWatch& edge = plan().edges[static_cast<std::size_t>(e)];
+    const bool up = reset_of(edge).edge != Edge::falling;
+    return std::ranges::find(edge.relations, node) != edge.relations.end() &&
+           machine_->truth(edge.node) == up;
+  });
+}
+
+/// A relation at rest holds the blocks whose resets it set off in this instant; false if one of
+/// them has no monitor.
+bool Instant::hold_edges_of(int node) {
+  bool all = true;
+  for (int e : edges_fired_) {
+    const EdgeWatch& edge = plan().edges[static_cast<std::size_t>(e)];
+    Rest& rest = edge_rests_[static_cast<std::size_t>(e)];
+    if (rest.monitor.holding || std::ranges::find(edge.relations, node) == edge.relations.end())
+      continue;
+    if (rest.monitor.on())
+      come_to_rest(rest, t_, false);
+    else
+      all = false;
+  }
+  return all;
+}
+
+/// The relations behind an edge keep their side: at rest their own values are rounding.
+void Instant::rest_relations_of(const EdgeWatch& edge) {
+  for (int node : edge.relations) {
+    for (const GuardGroup& relation : plan().guards) {
+      if (relation.kind == GuardGroup::Kind::crossing || relation.index != node) continue;
+      for (auto k = static_cast<std::size_t>(relation.slot), s = k;
+           s < k + static_cast<std::size_t>(relation.size); ++s)
+        frozen_[s] = resting_[s] = 1;
+    }
+  }
+}
+
+/// The contact behind a guard at rest, made where there is none yet; null where nothing rests on it
+/// alone.
+SurfaceContact* Instant::contact_of(std::size_t k) {
+  const GuardGroup& group = group_of(k);
+  const bool crossing = group.kind == GuardGroup::Kind::crossing;
+  if (crossing ? !slot_rests_[k].monitor.holding : !resting_[k]) return nullptr;
+  SurfaceContact made{.slot = static_cast<int>(k), .opaque = group.kind == GuardGroup::Kind::opaque};
+  if (crossing) {
+    const Rest& rest = slot_rests_[k];
+    made.pressed = group.direction == Direction::negative_then_non_negative ? 1 : -1;
+    made.states = rest.states;
+    if (const ResetMap& map = crossing_of(group).reset_map)
+      made.members.push_back({rest.leaf, &map, rest.entry});
+  } else {
+    made.pressed = machine_->signal(group.index)[static_cast<Index>(k) - group.slot] != 0.0 ? 1 : -1;
+    for (std::size_t e = 0; e < plan().edges.size(); ++e) {
+      const EdgeWatch& edge = plan().edges[e];
+      if (!edge_rests_[e].monitor.holding || edge.relations != std::vector{group.index}) continue;
+      made.members.push_back({edge.leaf, &reset_of(edge).reset_map, 0});
+      made.states.insert(made.states.end(), edge_rests_[e].states.begin(), edge_rests_[e].states.end());
+    }
+  }
+  SurfaceContact* known = contacts_.on(static_cast<int>(k));
+  if (known && known->members.size() == made.members.size()) return known;
+  if (made.states.empty()) return nullptr;
+  return &contacts_.add(std::move(made));
+}
+
+void Instant::leave_contact(std::size_t k) {
+  if (contacts_.on(static_cast<int>(k)) == nullptr) return;
+  contacts_.remove(static_cast<int>(k));
+  GuardSlot& slot = watch_->slots[k];
+  slot.leaving = false;
+  slot.direction = group_of(k).direction;
+}
+
+/// On hold a guard is watched for leaving zero, to either side.
+void Instant::touch_crossing(std::size_t k) {
+  GuardSlot& slot = watch_->slots[k];
+  const Departure::Side flow = side_of(group_of(k), static_cast<Index>(k), 0.0, 0);
+  const double before = fired_[k] ? 4.0 * std::abs(g_minus_[k]) : contacts_.on(static_cast<int>(k)) ? contacts_.on(static_cast<int>(k))->band : slot.band;
+  if (SurfaceContact* contact = contact_of(k))
+    arm_contact(*contact, std::max({flow.rounding, std::abs(g_[k]), before}));
+}
+
+/// The same for a relation at rest. The value of an opaque boolean says nothing there.
+void Instant::touch_relation(std::size_t k) {
+  GuardSlot& slot = watch_->slots[k];
+  const bool opaque = group_of(k).kind == GuardGroup::Kind::opaque;
+  const SurfaceContact* known = contacts_.on(static_cast<int>(k));
+  double band = known ? known->band : 0.0;
+  if (!opaque && !(known && known->carried)) {
+    const Departure::Side flow = side_of(group_of(k), static_cast<Index>(k), 0.0, 0);
+    band = std::max({band, flow.rounding, std::abs(g_[k]), fired_[k] ? 4.0 * std::abs(g_minus_[k]) : 0.0});
+  }
+  slot.fresh = true, slot.band = band;
+  if (SurfaceContact* contact = contact_of(k))
+    arm_contact(*contact, band);
+  else if (opaque)
+    slot.side = 0;
+}
+
+/// Watches a contact: where its surface moves it is carried, and its guard is the lift off it.
+void Instant::arm_contact(SurfaceContact& contact, double band) {
+  GuardSlot& slot = watch_->slots[static_cast<std::size_t>(contact.slot)];
+  double* x = machine_->x.data();
+  contact.band = band;
+  if (contact.look_ahead == 0.0) contacts_.choose_look_ahead(contact, t_, x, longest_);
+  if (!contact.members.empty()) {
+    const bool moves = contact.carried || contacts_.moves(contact, t_, x, longest_);
+    if (moves && contacts_.settle(contact, t_, x) && contacts_.lift(contact, t_, x) < 0.0) contact.carried = true;
+    else contact.carried = false;
+  }
+  contacts_.engage();
+  slot.leaving = !contact.carried && !contact.opaque;
+  slot.fresh = !contact.carried;
+  slot.band = contact.carried ? 0.0 : band;
+  slot.side = static_cast<signed char>(contact.carried ? -1 : contact.opaque ? 0 : contact.pressed);
+  slot.direction = contact.carried ? Direction::negative_then_non_negative
+                                   : group_of(static_cast<std::size_t>(contact.slot)).direction;
+  if (contact.carried) watch_->g[static_cast<std::size_t>(contact.slot)] = contacts_.lift(contact, t_, x);
+}
+
+/// Takes out of the firings those of contacts, and those against the flow; true if a contact let
+/// go.
+bool Instant::look_at_firings() {
+  bool off = false;
+  std::erase_if(firings_, [&](const Firing& firing) {
+    SurfaceContact* contact = contacts_.empty() ? nullptr : contacts_.on(firing.slot);
+    if (contact == nullptr) return goes_against(firing);
+    off = wake(*contact) || off;
+    return true;
+  });
+  return off;
+}
+
+/// Whether the flow leads a guard that seems to have fired to its armed side. The first step after
+/// a restart, of order 1 or drowned in the rounding of its states, invents such roots while the
+/// ball still rises. Only guards that have been at zero since they were armed can be mistaken so.
+bool Instant::goes_against(const Firing& firing) {
+  const auto k = static_cast<std::size_t>(firing.slot);
+  const GuardGroup& group = group_of(k);
+  if (std::isnan(armed_at_[k]) || group.monitor || group.direction == Direction::edge_detection) return false;
+  departure_.from(t_, machine_->x, t_ - armed_at_[k]);
+  const double hair = 4.0 * std::abs(g_minus_[k]);
+  const Departure::Side flow = departure_.of(group, static_cast<Index>(k), hair, -firing.from);
+  if (flow.side != firing.from) return false;
+  GuardSlot& slot = watch_->slots[k];
+  slot.side = static_cast<signed char>(firing.from), slot.fresh = true;
+  slot.band = std::max({slot.band, hair, flow.rounding});
+  return true;
+}
+
+/// Holds whose state a reset map or an update of the same leaf has changed end: what was kicked is
+/// at rest no longer. Its guards are armed anew.
+void Instant::release_kicked() {
+  const auto kicked = [&](const Rest& rest) {
+    return rest.monitor.holding && std::ranges::any_of(rest.states, [&](Index i) {
+             return x_next_[i] != machine_->x[i];
+           });
+  };
+  for (std::size_t k = 0; k < slot_rests_.size(); ++k) {
+    if (!kicked(slot_rests_[k]) || fired_now_[k]) continue;
+    leave_contact(k);
+    release(slot_rests_[k]);
+    watch_->slots[k].side = 0;
+  }
+  for (std::size_t e = 0; e < edge_rests_.size(); ++e) {
+    const bool own = carried_[e] != 0 || std::ranges::find(edges_fired_, static_cast<int>(e)) != edges_fired_.end();
+    if (own || !kicked(edge_rests_[e])) continue;
+    release(edge_rests_[e]);
+    for (std::size_t k = 0; k < resting_.size(); ++k) {
+      const auto& relations = plan().edges[e].relations;
+      if (!resting_[k] || std::ranges::find(relations, group_of(k).index) == relations.end()) continue;
+      leave_contact(k);
+      resting_[k] = 0;
+    }
+  }
+}
+
+/// A contact whose surface begins to move, or whose flow leads off it: true if it lets go.
+bool Instant::wake(SurfaceContact& contact) {
+  const auto k = static_cast<std::size_t>(contact.slot);
+  double* x = machine_->x.data();
+  if (!contact.carried) {
+    machine_->guards_at(t_, x, g_.data());
+    const bool off = g_[k] * -contact.pressed > 0.0;
+    contact.carried = !contact.members.empty() && contacts_.settle(contact, t_, x) &&
+                      contacts_.lift(contact, t_, x) < 0.0;
+    if (contact.carried) return false;
+    if (!off) {
+      contact.band = std::max(contact.band, 2.0 * std::abs(g_[k]));
+      return false;
+    }
+  }
+  let_go(contact);
+  return true;
+}
+
+void Instant::let_go(SurfaceContact& contact) {
+  const auto k = static_cast<std::size_t>(contact.slot);
+  const GuardGroup& group = group_of(k);
+  const int armed = -contact.pressed;
+  GuardSlot& slot = watch_->slots[k];
+  const double band = contact.band;
+  leave_contact(k);
+  slot.side = static_cast<signed char>(armed), slot.fresh = true, slot.band = band;
+  if (group.kind == GuardGroup::Kind::crossing) return release(slot_rests_[k]);
+  resting_[k] = 0;
+  machine_->signal(group.index)[static_cast<Index>(k) - group.slot] = armed > 0 ? 1.0 : 0.0;
+}
+
+/// After a commit, the guard of a leaf on hold: off to its armed side it lets go, beyond zero the
+/// reset map is applied again.
+void Instant::look_at_held(std::size_t k) {
+  SurfaceContact* contact = contacts_.on(static_cast<int>(k));
+  const int pressed = group_of(k).direction == Direction::negative_then_non_negative ? 1 : -1;
+  const double band = contact ? contact->band : watch_->slots[k].band;
+  if (std::abs(g_[k]) <= band) return;
+  if (g_[k] * pressed < 0.0) {
+    leave_contact(k);
+    release(slot_rests_[k]);
+    watch_->slots[k].side = static_cast<signed char>(-pressed);
+  } else if (std::abs(g_[k]) > 1e3 * band) {
+    firings_.push_back({static_cast<int>(k), -pressed});
+  }
+}
+
+/// The same of a relation at rest: whether it still is.
+bool Instant::still_at_rest(SurfaceContact& contact) {
+  const auto k = static_cast<std::size_t>(contact.slot);
+  if (contact.opaque) return contacts_.lift(contact, t_, machine_->x.data()) < 0.0;
+  return std::abs(g_[k]) <= contact.band || g_[k] * contact.pressed > 0.0;
+}
+
+}  // namespace saltus

@@ -1,0 +1,4 @@
+// DOPRI5, compiled.
+#include "saltus/solver/one_step.hpp"
+
+template class saltus::RungeKutta<saltus::Dopri5>;

@@ -1,0 +1,151 @@
+"""6.1: diagrams that cannot be run are refused with the port, the block and what to do; the builder
+is as it was, and goes on.
+"""
+
+import pytest
+import saltus
+from saltus.library import Adder, Constant, Gain, Integrator, ReduceBlock
+
+
+def diagram(*wires, blocks):
+    builder = saltus.DiagramBuilder()
+    by_name = {block.name: block for block in blocks}
+    builder.add(*blocks)
+    for source, destination, port in wires:
+        builder.connect(by_name[source].output(), by_name[destination].input(port))
+    return builder
+
+
+def x_at_one(built):
+    results = saltus.simulate(built, built.create_context(), (0.0, 1.0))
+    return results.context.continuous_state
+
+
+def refused(call):
+    with pytest.raises(saltus.ModelError) as caught:
+        call()
+    return str(caught.value)
+
+
+def test_6_1_an_unconnected_input_is_named_and_can_be_connected_then():
+    one, x = Constant(1.0, name="one"), Integrator(name="x")
+    builder = diagram(blocks=[one, x])
+    message = "input 'in' of block 'x' is not connected; connect it or export it"
+    assert refused(builder.build) == message
+    builder.connect(one.output(), x.input())
+    assert x_at_one(builder.build()) == pytest.approx([1.0])
+
+
+def test_6_1_an_unconnected_input_of_a_block_that_is_run_alone():
+    x = Integrator(name="x")
+    message = "input 'in' of block 'x' is not connected; connect it to a block, for example a "
+    assert refused(lambda: saltus.simulate(x, x.create_context(), (0.0, 1.0))) == (
+        message + "Constant"
+    )
+
+
+def test_6_1_a_second_connection_to_an_input_leaves_the_first():
+    one, two, x = Constant(1.0, name="one"), Constant(2.0, name="two"), Integrator(name="x")
+    builder = diagram(("one", "x", 0), blocks=[one, two, x])
+    message = "input 'in' of block 'x' already has a source, block 'one'; an input takes one"
+    assert refused(lambda: builder.connect(two.output(), x.input())) == message
+    assert refused(lambda: builder.export_input(x.input())) == message
+    assert x_at_one(builder.build()) == pytest.approx([1.0])
+
+
+def test_6_1_an_algebraic_loop_is_printed_as_the_path_of_ports():
+    def blocks():
+        return [Adder("++", name="sum"), Gain(0.5, name="half"), Constant(1.0, name="one")]
+
+    wires = [("one", "sum", 0), ("half", "sum", 1), ("sum", "half", 0)]
+    looped = diagram(*wires, blocks=blocks()).build()
+    message = refused(lambda: saltus.simulate(looped, looped.create_context(), (0.0, 1.0)))
+    lines = [line.strip() for line in message.splitlines()]
+    assert "algebraic loop" in lines[0]
+    start = next(i for i, line in enumerate(lines) if line.startswith("'"))
+    assert {line.removesuffix(" reads") for line in lines[start : start + 3]} == {
+        "'sum.out'",
+        "'half.out'",
+    }
+    assert lines[start].split()[0] == lines[start + 2].split()[0]  # back where it began
+    x = Integrator(name="x")
+    broken = diagram(
+        ("one", "sum", 0), ("half", "sum", 1), ("sum", "x", 0), ("x", "half", 0),
+        blocks=[*blocks(), x],
+    ).build()  # fmt: skip
+    # dx/dt = 1 + x / 2
+    assert x_at_one(broken) == pytest.approx([2.0 * (2.718281828459045**0.5 - 1.0)], rel=1e-5)
+
+
+def test_6_1_a_name_used_twice_is_refused_and_the_first_stays():
+    one = Constant(1.0, name="one")
+    builder = diagram(blocks=[one])
+    assert refused(lambda: builder.add(Integrator(name="one"))) == (
+        "two blocks are called 'one'; give each block of a diagram its own name"
+    )
+    x = builder.add(Integrator(name="x"))
+    builder.connect(one.output(), x.input())
+    assert x_at_one(builder.build()) == pytest.approx([1.0])
+
+
+@pytest.mark.parametrize(
+    ("call", "message"),
+    [
+        (lambda d: d["gian"], "diagram 'root' has no block 'gian'; did you mean 'gain'? Known: "),
+        (
+            lambda d: d["gain"].input("inn"),
+            "block 'gain' has no input 'inn'; did you mean 'in'? Known: 'in'",
+        ),
+        (
+            lambda d: d["gain"].output("outt"),
+            "block 'gain' has no output 'outt'; did you mean 'out'? Known: 'out'",
+        ),
+        (lambda d: d["gain"].output(3), "block 'gain' has no output 3: it has 1 ('out')"),
+        (
+            lambda d: d["gain"].output(0.5),
+            "expected the position or the name of a port, found 0.5",
+        ),
+        (
+            lambda d: d.create_context().with_parameter("gain.gian", 1.0),
+            "unknown parameter 'gain.gian'; did you mean 'gain.gain'? Known: ",
+        ),
+        (lambda d: d.create_context()[99], "no system with id 99 in this context. Known: "),
+        (
+            lambda d: saltus.simulate(d, d.create_context(), (0, 1)).outputs["y"],
+            "nothing was recorded under 'y'; there are none",
+        ),
+    ],
+)
+def test_6_1_an_unknown_name_is_answered_with_the_nearest(call, message):
+    wires = [("one", "gain", 0), ("gain", "x", 0)]
+    blocks = [Constant(1.0, name="one"), Gain(2.0, name="gain"), Integrator(name="x")]
+    built = diagram(*wires, blocks=blocks).build()
+    assert refused(lambda: call(built)).startswith(message)
+    assert x_at_one(built) == pytest.approx([2.0])
+
+
+@pytest.mark.parametrize(
+    ("block", "message"),
+    [
+        (
+            Gain([1.0, 2.0], name="k"),
+            "block 'k': expected scalars and vectors of one width, found the widths 2, 3; bring "
+            "them to one width, for example with a Multiplexer",
+        ),
+        (
+            Integrator([0.0, 0.0], name="k"),
+            "input 'in' of block 'k': expected 2 values, found 3 from output 'v.out'",
+        ),
+        (
+            ReduceBlock(1, lambda u: u[0], shape=2, boolean=False, name="k"),
+            "block 'k': output 'out' returned 3 numbers, expected 2",
+        ),
+    ],
+)
+def test_6_1_a_signal_of_the_wrong_shape_is_refused(block, message):
+    blocks = [Constant([1.0, 2.0, 3.0], name="v"), block]
+    built = diagram(("v", "k", 0), blocks=blocks).build()
+    record = {"y": block.output()}
+    assert message == refused(
+        lambda: saltus.simulate(built, built.create_context(), (0.0, 1.0), recorded_signals=record)
+    )
