@@ -90,7 +90,7 @@ TEST_CASE("2.5 no ball falls through a floor: falling guard, any way to write th
 }
 
 TEST_CASE("2.5 no ball falls through a floor: default direction, any way to write the reset",
-          "[semantics][.engine]") {
+          "[semantics]") {
   all_rest(Direction::crosses_zero, GENERATE(Height::floor, Height::kept, Height::mirrored));
 }
 

@@ -23,8 +23,7 @@ std::vector<double> releases(const Results& results) {
 
 }  // namespace
 
-TEST_CASE("4.5 a floor that rises continuously under a resting ball carries it",
-          "[semantics][.engine]") {
+TEST_CASE("4.5 a floor that rises continuously under a resting ball carries it", "[semantics]") {
   const auto* method = GENERATE(from_range(methods));
   for (const Scene& scene : all_forms_over({.g = g, .e = 0.5}, [] { return ramp(0.5); })) {
     INFO(scene.form << ", method " << method);
