@@ -1,6 +1,7 @@
 // Context: a value. Its docstrings stand here, for Python gets it from C++ in many places.
 #include <pybind11/stl.h>
 
+#include "bindings.hpp"
 #include "numbers.hpp"
 #include "saltus/model/system.hpp"
 
@@ -79,12 +80,13 @@ std::string repr(const Context& context) {
 }  // namespace
 
 void bind_context(py::module_& module) {
-  py::class_<Context>(module, "Context",
+  py::class_<Context> context(module, "Context",
                       R"(All values of a system at one time. Made by `system.create_context()`.
 
 A context is a value: each `with_*` returns a new one, the old one and the system stay as they are. The states of a
 diagram are one vector, block after block in the order of `add`; `context[block.system_id]` is the context of one block.
-Wrong sizes, values that are not finite and unknown names are refused with a ModelError.)")
+Wrong sizes, values that are not finite and unknown names are refused with a ModelError.)");
+  context
       .def_property_readonly("time", &Context::time, "[s]")
       .def_property_readonly(
           "continuous_state", [](const Context& c) { return shown(c.continuous_state()); },
@@ -141,6 +143,8 @@ Wrong sizes, values that are not finite and unknown names are refused with a Mod
       .def("__copy__", [](const Context& c) { return c; })
       .def("__deepcopy__", [](const Context& c, const py::dict&) { return c; })
       .def("__repr__", &repr);
+  bind_context_saving(context);
+  bind_context_reading(module);
 }
 
 }  // namespace saltus::python

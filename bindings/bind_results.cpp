@@ -42,7 +42,7 @@ py::tuple event(const Results& results, std::size_t i) {
     throw py::index_error(text("event ", i, " of ", results.events.size()));
   const Event e = results.events[i];
   return py::make_tuple(e.time, e.jump, to_string(e.kind), e.direction, e.block, e.name,
-                        e.predicted, copy_of(e.before), copy_of(e.after));
+                        e.predicted, copy_of(e.before), copy_of(e.after), e.entry);
 }
 
 py::array event_times(const Results& results, std::string_view name, std::string_view kind) {
@@ -96,6 +96,7 @@ void bind_results(py::module_& module) {
       .def_readonly("context", &Results::context)
       .def_property_readonly("status", [](const Results& r) { return to_string(r.status); })
       .def_readonly("message", &Results::message)
+      .def_readonly("block", &Results::block)
       .def_property_readonly("statistics", &statistics)
       .def_property_readonly("event_count", [](const Results& r) { return r.events.size(); })
       .def("event", &event)

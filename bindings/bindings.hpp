@@ -4,12 +4,18 @@
 
 #include <pybind11/pybind11.h>
 
+namespace saltus {
+class Context;
+}
+
 namespace saltus::python {
 
 namespace py = pybind11;
 
 void bind_errors(py::module_& module);
 void bind_context(py::module_& module);
+void bind_context_saving(py::class_<Context>& context);
+void bind_context_reading(py::module_& module);
 void bind_system(py::module_& module);
 void bind_leaf_system(py::module_& module);
 void bind_sources(py::module_& module);

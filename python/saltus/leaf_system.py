@@ -71,6 +71,7 @@ class LeafSystem(System, _core.LeafSystem):
     `simulate` as it was.
     """
 
+    @refusing
     def __init__(self, name: str | None = None):
         super().__init__(name or _core.next_name(type(self).__name__))
 

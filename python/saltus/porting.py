@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import functools
 import inspect
+import re
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any, ParamSpec, TypeVar
 
@@ -64,21 +65,22 @@ def refusing(method: Callable[P, R]) -> Callable[P, R]:
     """
     code = method.__code__
     known = code.co_varnames[1 : code.co_argcount + code.co_kwonlyargcount]
+    where = method.__name__ if method.__name__ != "__init__" else method.__qualname__.split(".")[-2]
 
     @functools.wraps(method)
     def checked(*arguments: P.args, **options: P.kwargs) -> R:
-        refuse(method.__name__, options, known)
+        refuse(where, options, known)
         try:
             return method(*arguments, **options)
         except TypeError as error:
-            if WRONG_KIND not in str(error):
+            if not WRONG_KIND.search(str(error)):
                 raise
-        raise ModelError(_wrong_kind(method, arguments, options))
+        raise ModelError(f"{where}: {_wrong_kind(method, arguments, options)}")
 
     return checked
 
 
-WRONG_KIND = "incompatible function arguments"  # what the compiled module says
+WRONG_KIND = re.compile(r"incompatible (function|constructor) arguments")  # the compiled module's
 
 
 def _wrong_kind(method: Callable[..., Any], arguments: Any, options: Any) -> str:
@@ -87,4 +89,4 @@ def _wrong_kind(method: Callable[..., Any], arguments: Any, options: Any) -> str
     given = dict(list(signature.bind(*arguments, **options).arguments.items())[1:])  # not self
     expected = ", ".join(f"{name}: {signature.parameters[name].annotation}" for name in given)
     found = ", ".join(f"{name} = {value!r}" for name, value in given.items())
-    return f"{method.__name__}: expected {expected}; found {found}"
+    return f"expected {expected}; found {found}"

@@ -37,6 +37,8 @@ class Event(NamedTuple):
     """continuous state of the block before it"""
     after: np.ndarray
     """and after it"""
+    entry: int
+    """which guard of a vector of them fired; 0 if there is one"""
 
 
 class EventLog(Sequence[Event]):
@@ -128,6 +130,8 @@ class Results:
     """
     message: str
     """why, where the status is none of the first three"""
+    block: str
+    """path of the block at fault, where it was one"""
     cause: BaseException | None
     """what was raised, where the status is 'failed'"""
     statistics: Statistics
@@ -140,6 +144,7 @@ class Results:
         self.context = core.context
         self.status = core.status
         self.message = core.message
+        self.block = core.block
         self.cause = raised if core.status == "failed" else None
         self.statistics = Statistics(**core.statistics)
 

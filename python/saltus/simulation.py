@@ -177,7 +177,7 @@ class Simulator:
 
     def _raise(self, results: Results, error: BaseException | None) -> None:
         if error is None:
-            error = SimulationError(results.message, results.context.time)
+            error = SimulationError(results.message, results.context.time, results.block)
         if isinstance(error, (SimulationError, KeyboardInterrupt)):
             error.results = results  # type: ignore[union-attr]
         try:

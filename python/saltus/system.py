@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import operator
 from dataclasses import dataclass
 
@@ -77,6 +78,20 @@ class System:
     def output(self, port: int | str = 0) -> OutputPort:
         """One output, by position or by name. ModelError lists the names there are."""
         return OutputPort(self, _core.System.find_output(self, _key(port)))
+
+    def context_from_json(self, text: str) -> _core.Context:
+        """The context that `context.to_json()` wrote, of this system or one of the same blocks.
+
+        It has the same bits, and a run goes on from it as from the context in memory. ModelError
+        for text that is none, or of a system with other blocks.
+        """
+        try:
+            data = json.loads(text)
+        except json.JSONDecodeError as error:
+            raise ModelError(f"a context in JSON: {error}") from None
+        if not isinstance(data, dict):
+            raise ModelError(f"a context in JSON: expected an object, found {type(data).__name__}")
+        return _core.context_from_dict(self, data)
 
     def create_context(self, time: float = 0.0) -> _core.Context:
         """The values every block starts with, at `time` [s]. What you change in it changes no

@@ -52,7 +52,8 @@ bool Instant::begin_on_firing_side(const GuardGroup& group, std::size_t k) {
   if (!there) return false;
   if (wish == AtStart::error) {
     throw SimulationError(
-        text("t = ", t_, " s: guard '", group.name, "' begins ", g == 0.0 ? "at zero" : "beyond zero",
+        text("t = ", t_, " s: guard '", crossing_of(group).name, "' of block '",
+             leaf(group.leaf).path, "' begins ", g == 0.0 ? "at zero" : "beyond zero",
              " (", g_[k], "), and its at_start is \"error\"; begin on its armed side, or choose "
              "\"auto\", \"ignore\" or \"fire\""),
         t_, leaf(group.leaf).path);
@@ -142,7 +143,10 @@ void Instant::arm_fired(const GuardGroup& group, std::size_t k, int from, Depart
   Rest& rest = slot_rests_[k];
   slot.side = static_cast<signed char>(from);
   slot.band = std::abs(g_[k]);  // without a monitor it fires again as soon as it can
-  if (!rest.monitor.on()) return;
+  if (!rest.monitor.on()) {
+    outcome_.stuck = true;
+    return;
+  }
   come_to_rest(rest, t_, false);
   if (rest.monitor.holding) touch_crossing(k);
 }

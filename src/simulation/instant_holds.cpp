@@ -10,7 +10,10 @@ namespace saltus {
 void Instant::come_to_rest(Rest& rest, double predicted, bool in_pass) {
   using Kind = OnZeno::Kind;
   const Kind kind = rest.on_zeno.kind();
-  if (kind == Kind::hold) return hold(rest, predicted);
+  const bool there = kind == Kind::mode &&
+                     machine_->modes[static_cast<std::size_t>(rest.leaf)] == rest.on_zeno.mode();
+  if (kind == Kind::hold || there) return hold(rest, predicted);
+  if (kind == Kind::stop && outcome_.zeno_stop) return;
   const std::string& name = name_of(rest.source);
   if (kind == Kind::error) {
     throw SimulationError(
@@ -148,25 +151,35 @@ void Instant::touch_relation(std::size_t k) {
     slot.side = 0;
 }
 
-/// Watches a contact: where its surface moves it is carried, and its guard is the lift off it.
+/// Watches a contact: where its surface moves it is carried, and its guard is the lift off it. It
+/// ends where the flow, that led into the surface, now leads off it.
 void Instant::arm_contact(SurfaceContact& contact, double band) {
-  GuardSlot& slot = watch_->slots[static_cast<std::size_t>(contact.slot)];
+  const auto k = static_cast<std::size_t>(contact.slot);
+  GuardSlot& slot = watch_->slots[k];
   double* x = machine_->x.data();
   contact.band = band;
-  if (contact.look_ahead == 0.0) contacts_.choose_look_ahead(contact, t_, x, longest_);
+  double lift = 0.0;
   if (!contact.members.empty()) {
+    if (contact.look_ahead == 0.0) contacts_.choose_look_ahead(contact, t_, x, longest_);
     const bool moves = contact.carried || contacts_.moves(contact, t_, x, longest_);
-    if (moves && contacts_.settle(contact, t_, x) && contacts_.lift(contact, t_, x) < 0.0) contact.carried = true;
-    else contact.carried = false;
+    if (moves) contact.carried = contacts_.settle(contact, t_, x);
+    lift = contacts_.lift(contact, t_, x);
+    contact.carried = contact.carried && lift < 0.0;
+    if (contact.pressed_on && lift > 0.0) {
+      firings_.push_back({contact.slot, lifts_off});
+      return;
+    }
+    contact.pressed_on = lift < 0.0;
+    if (lift < 0.0 && !contact.carried && wrote_x_ && contacts_.settle(contact, t_, x))
+      outcome_.restart = true;  // exactly at rest; pushed into its surface it stays where it is
   }
   contacts_.engage();
   slot.leaving = !contact.carried && !contact.opaque;
   slot.fresh = !contact.carried;
   slot.band = contact.carried ? 0.0 : band;
   slot.side = static_cast<signed char>(contact.carried ? -1 : contact.opaque ? 0 : contact.pressed);
-  slot.direction = contact.carried ? Direction::negative_then_non_negative
-                                   : group_of(static_cast<std::size_t>(contact.slot)).direction;
-  if (contact.carried) watch_->g[static_cast<std::size_t>(contact.slot)] = contacts_.lift(contact, t_, x);
+  slot.direction = contact.carried ? Direction::negative_then_non_negative : group_of(k).direction;
+  if (contact.carried) watch_->g[k] = lift;
 }
 
 /// Takes out of the firings those of contacts, and those against the flow; true if a contact let
@@ -175,6 +188,11 @@ bool Instant::look_at_firings() {
   bool off = false;
   std::erase_if(firings_, [&](const Firing& firing) {
     SurfaceContact* contact = contacts_.empty() ? nullptr : contacts_.on(firing.slot);
+    if (firing.from == lifts_off) {
+      if (contact != nullptr) let_go(*contact), off = true;
+      return true;
+    }
+    if (pass_ > 0) return false;
     if (contact == nullptr) return goes_against(firing);
     off = wake(*contact) || off;
     return true;
@@ -199,8 +217,27 @@ bool Instant::goes_against(const Firing& firing) {
   return true;
 }
 
-/// Holds whose state a reset map or an update of the same leaf has changed end: what was kicked is
-/// at rest no longer. Its guards are armed anew.
+/// Whether an edge on hold rests on a relation alone, whose contact tells when it ends.
+bool Instant::rests_on_contact(std::size_t e) {
+  const auto& relations = plan().edges[e].relations;
+  return std::ranges::any_of(watch_->active, [&](std::size_t k) {
+    return group_of(k).kind != GuardGroup::Kind::crossing &&
+           relations == std::vector{group_of(k).index} && contacts_.on(static_cast<int>(k));
+  });
+}
+
+/// Holds of leaves that have entered a mode which does not see the guard of the hold.
+void Instant::release_unseen() {
+  for (std::size_t k = 0; k < slot_rests_.size(); ++k) {
+    Rest& rest = slot_rests_[k];
+    if (!rest.monitor.holding || fired_now_[k] || watch_->slots[k].active) continue;
+    leave_contact(k);
+    release(rest);
+  }
+}
+
+/// Holds whose state a reset map or an update of the same leaf has changed end, if there is no
+/// reset map to tell by whether what was kicked goes on resting: see arm_contact.
 void Instant::release_kicked() {
   const auto kicked = [&](const Rest& rest) {
     return rest.monitor.holding && std::ranges::any_of(rest.states, [&](Index i) {
@@ -208,14 +245,15 @@ void Instant::release_kicked() {
            });
   };
   for (std::size_t k = 0; k < slot_rests_.size(); ++k) {
-    if (!kicked(slot_rests_[k]) || fired_now_[k]) continue;
+    const SurfaceContact* contact = contacts_.on(static_cast<int>(k));
+    if (!kicked(slot_rests_[k]) || fired_now_[k] || (contact && !contact->members.empty())) continue;
     leave_contact(k);
     release(slot_rests_[k]);
     watch_->slots[k].side = 0;
   }
   for (std::size_t e = 0; e < edge_rests_.size(); ++e) {
     const bool own = carried_[e] != 0 || std::ranges::find(edges_fired_, static_cast<int>(e)) != edges_fired_.end();
-    if (own || !kicked(edge_rests_[e])) continue;
+    if (own || rests_on_contact(e) || !kicked(edge_rests_[e])) continue;
     release(edge_rests_[e]);
     for (std::size_t k = 0; k < resting_.size(); ++k) {
       const auto& relations = plan().edges[e].relations;

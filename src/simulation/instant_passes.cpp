@@ -13,6 +13,7 @@ void Instant::open(double t, const std::vector<int>& due) {
   t_ = t;
   outcome_ = {};
   std::ranges::fill(fired_, 0), std::ranges::fill(frozen_, 0), std::ranges::fill(carried_, 0);
+  std::ranges::fill(turned_, 0);
   edges_fired_.clear(), actions_.clear(), chain_.clear();
   wrote_ = wrote_x_ = flowed_ = entered_ = false;
   effects_ = 0;
@@ -40,7 +41,7 @@ Instant::Outcome Instant::run(double t, const std::vector<int>& due, double long
       break;
     }
     event_jump_ = jump_ + 1;
-    const bool let_go = pass_ == 0 && look_at_firings();
+    const bool let_go = look_at_firings();
     const bool flipped = flip_relations();
     machine_->evaluate_instant(t);
     const bool released = collect_edges() || let_go;
@@ -169,6 +170,7 @@ void Instant::add_crossings() {
 }
 
 void Instant::run_pass() {
+  wrote_ = false;
   x_next_ = machine_->x, z_next_ = machine_->z, modes_next_ = machine_->modes;
   for (const Action& action : actions_) run_action(action);
   actions_.clear();
@@ -233,16 +235,18 @@ void Instant::look_for_zeno(const Action& action, Rest& rest) {
     rest_relations_of(plan().edges[static_cast<std::size_t>(action.index)]);
 }
 
-/// Within one leaf each reset map and update sees what the one before left; other leaves' values are
-/// those of x-. Returns whether continuous state was written.
+/// Updates read x- z-. Within one leaf each reset map sees what they and the one before left; of
+/// other leaves it sees x-. Returns whether continuous state was written.
 bool Instant::run_reset(const Action& action, const ResetMap& map) {
   const PlanLeaf& of = leaf(action.leaf);
   const auto number = static_cast<std::size_t>(action.leaf);
   At at = machine_->at(number, t_);
   if (action.cause == Cause::crossing) at.entry = slot_rests_[static_cast<std::size_t>(action.slot)].entry;
-  new (&at.x) VectorView(x_next_.data() + of.x, of.nx);
-  new (&at.z) VectorView(z_next_.data() + of.z, of.nz);
-  at.mode = modes_next_[number];
+  if (action.cause != Cause::time) {
+    new (&at.x) VectorView(x_next_.data() + of.x, of.nx);
+    new (&at.z) VectorView(z_next_.data() + of.z, of.nz);
+    at.mode = modes_next_[number];
+  }
   Next next({x_next_.data() + of.x, of.nx}, {z_next_.data() + of.z, of.nz}, modes_next_[number],
             of.path);
   map(*of.system, at, next);
@@ -275,6 +279,7 @@ void Instant::commit() {
     entered_ = true;
     outcome_.restart = true;
     select_guards();
+    if (holds_ > 0) release_unseen();
   }
   flowed_ = false;
 }

@@ -35,7 +35,8 @@ bool Instant::read_relation(const GuardGroup& group, Index slot) {
   if (fired_[k] && !wrote_x_)
     side = crossed_to;  // nothing it reads was written: its value is rounding
   const bool opaque = group.kind == GuardGroup::Kind::opaque;
-  const bool unsure = wrote_x_ && fired_[k] && (!opaque || side != crossed_to);
+  const bool touched = fired_[k] || (turned_[k] && g_[k] == 0.0);
+  const bool unsure = wrote_x_ && touched && (!opaque || side != crossed_to);
   if (unsure) {
     const Departure::Side flow =
         side_of(group, slot, !opaque ? 4.0 * std::abs(g_minus_[k]) : 0.0, 0);
@@ -46,13 +47,14 @@ bool Instant::read_relation(const GuardGroup& group, Index slot) {
       if (hold_edges_of(group.index))
         resting_[k] = 1;
       else
-        side = -crossed_to;  // no monitor: it fires again as soon as it can
+        side = -crossed_to, outcome_.stuck = true;  // no monitor: it fires again as soon as it can
     }
   }
   if (side == 0) return false;
   watched.side = static_cast<signed char>(side);
   if ((side > 0) == truth) return false;
   resting_[k] = 0;
+  turned_[k] = 1;
   leave_contact(k);
   machine_->signal(group.index)[slot - group.slot] = side > 0 ? 1.0 : 0.0;
   return true;

@@ -17,7 +17,7 @@ Instant::Instant(Machine& machine, Watch& watch, const SimulatorOptions& options
   watch.slots.resize(slots), watch.g.assign(slots, 1.0), g_.assign(slots, 1.0),
       g_minus_.assign(slots, 0.0);
   watch.scan_points = options.event_scan_points;
-  for (auto* marks : {&fired_, &fired_now_, &frozen_, &resting_, &was_active_})
+  for (auto* marks : {&fired_, &fired_now_, &frozen_, &resting_, &turned_, &was_active_})
     marks->assign(slots, 0);
   group_of_slot_.resize(slots), from_.assign(slots, 0);
   armed_at_.assign(slots, std::numeric_limits<double>::quiet_NaN());
@@ -216,6 +216,7 @@ void Instant::resume(double t, Recorder* recorder, const Continuation& from, dou
 void Instant::log(EventKind kind, int source, int leaf_index, int direction, double predicted,
                   Index entry) {
   ++results_->statistics.events;
+  ++outcome_.events;
   last_source_ = source;
   if (kind != EventKind::zeno_enter && kind != EventKind::zeno_release)
     ++counts_[static_cast<std::size_t>(source)];

@@ -26,7 +26,8 @@ void Run::initialize(const Context& context) {
   if (!plan().taps.empty()) recorder_.emplace(machine_, results_);
   calendar_.begin(time_, context.settled());
   begun_ = solver_started_ = over_ = false;
-  next_save_ = 0, recent_events_ = many_events_ = ticks_ = 0, recent_since_ = many_since_ = time_;
+  next_save_ = 0, ticks_ = 0, stuck_ = {}, recent_ = idle_ = {0, time_};
+  at_root_ = machine_.x;
 }
 
 Results Run::take_results() {
@@ -151,7 +152,8 @@ Status Run::settle(StopReason reason, double t_end, bool at_start) {
     solver_->restart(time_, machine_.x, {.horizon = outcome.horizon});
   if (outcome.terminal) return end(Status::terminal);
   if (outcome.zeno_stop) return end(Status::zeno_stop);
-  if (outcome.chatters) recent_events_ = options_.max_passes, recent_since_ = time_;
+  if (outcome.chatters) told_ = {outcome.events, time_};
+  stuck_ = outcome.stuck ? Series{stuck_.count + 1, stuck_.count == 0 ? time_ : stuck_.since} : Series{};
   if (outcome.chatters || (reason == StopReason::root && chatters(t_end))) return chattering();
   return Status::reached_end;
 }
@@ -161,27 +163,33 @@ Status Run::chattering() {
   results_.block = name.substr(0, name.rfind('.'));
   return end(Status::chattering,
              text("t = ", time_, " s: guard '", name.substr(name.rfind('.') + 1), "' of block '",
-                  results_.block, "' fired ", recent_events_, " times in ", time_ - recent_since_,
+                  results_.block, "' fired ", told_.count, " times in ", time_ - told_.since,
                   " s: time does not advance. Give it hysteresis, a zeno_tolerance above 0 s, or a "
                   "mode of its own for the motion along the switching surface"));
 }
 
-/// A thousand roots within what rounding leaves of time; or so many in so small a part of the run
-/// that it would never end: ten thousand in 1e-7 of it are 1e11 in all.
+/// Events go on, and time does not: a thousand times at rest without a Zeno monitor; a thousand
+/// roots within what rounding leaves of time; ten thousand in 1e-7 of the run, which would be 1e11
+/// in all, between which no state moves by its tolerance.
 bool Run::chatters(double t_end) {
   const double rounding = 1e6 * std::numeric_limits<double>::epsilon() * std::abs(time_);
-  ++recent_events_, ++many_events_;
-  if (many_events_ >= 10'000) {
-    if (time_ - many_since_ <= 1e-7 * (t_end - begin_.time())) {
-      recent_events_ = many_events_, recent_since_ = many_since_;
-      return true;
-    }
-    many_events_ = 0, many_since_ = time_;
-  }
-  if (recent_events_ < 1000) return false;
-  if (time_ - recent_since_ <= rounding) return true;
-  recent_events_ = 0, recent_since_ = time_;
+  if (stuck_.count >= 1000) return chatters_as(stuck_);
+  if (recent_.full(1000, time_) && time_ - recent_.since <= rounding) return chatters_as(recent_);
+  if (moved()) idle_ = {0, time_};
+  if (idle_.full(10'000, time_) && time_ - idle_.since <= 1e-7 * (t_end - begin_.time()))
+    return chatters_as(idle_);
   return false;
+}
+
+/// Whether some state has moved by its tolerance since the last root.
+bool Run::moved() {
+  bool moved = false;
+  for (Index i = 0; i < at_root_.size(); ++i) {
+    const double tolerance = options_.atol + options_.rtol * std::abs(machine_.x[i]);
+    moved = moved || !(std::abs(machine_.x[i] - at_root_[i]) <= tolerance);
+  }
+  at_root_ = machine_.x;
+  return moved;
 }
 
 bool Run::interrupted() {
@@ -228,6 +236,7 @@ void Run::finish() {
   results_.context = context();
   Statistics& s = results_.statistics;
   if (solver_started_) static_cast<SolverStatistics&>(s) = solver_->statistics();
+  s.stretches = solver_started_ ? solver_->stretches() : std::vector<Stretch>{};
   s.method = solver_started_ ? solver_->method() : "none: no continuous state";
   s.right_hand_side_calls = machine_.rhs_calls;
   s.guard_calls = machine_.guard_calls;

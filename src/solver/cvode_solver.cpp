@@ -1,6 +1,7 @@
 // CVODE behind the seam: Adams with fixed-point iteration, BDF with Newton and a dense Jacobian.
 #include "saltus/solver/cvode.hpp"
 
+#include <algorithm>
 #include <exception>
 #include <limits>
 #include <string>
@@ -88,6 +89,7 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
       if (!first) add_counts(statistics_);
       if (CVodeReInit(cvode_.get(), t1_, y_.get()) < 0) fail(t1_);
     }
+    aim();
   }
 
   void create() {
@@ -113,20 +115,24 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
     started_ = true;
   }
 
-  /// Only a scene with guards that stop the solver has root-finding.
+  /// Only a scene with guards that stop the solver has root-finding. CVodeReInit would keep guards
+  /// switched off that were zero once; none is, since CVODE is never shown a zero: shown().
   void watch_guards() {
-    std::vector<int> directions;
-    bool stops = false;
-    for (const GuardSlot& slot : watch_->slots) {
-      stops = stops || !slot.monitor;
-      directions.push_back(slot.direction == Direction::positive_then_non_positive   ? -1
-                           : slot.direction == Direction::negative_then_non_negative ? 1
-                                                                                     : 0);
-    }
-    if (!stops) return;
-    CVodeRootInit(cvode_.get(), static_cast<int>(directions.size()), root_functions);
-    CVodeSetRootDirection(cvode_.get(), directions.data());
+    if (std::ranges::all_of(watch_->slots, &GuardSlot::monitor)) return;
+    directions_.resize(watch_->slots.size());
+    CVodeRootInit(cvode_.get(), static_cast<int>(directions_.size()), root_functions);
     CVodeSetNoInactiveRootWarn(cvode_.get());
+  }
+
+  /// The directions of now: a guard on Zeno hold is watched the other way round.
+  void aim() {
+    if (directions_.empty()) return;
+    std::ranges::transform(watch_->slots, directions_.begin(), [](const GuardSlot& slot) {
+      return slot.direction == Direction::positive_then_non_positive   ? -1
+             : slot.direction == Direction::negative_then_non_negative ? 1
+                                                                       : 0;
+    });
+    CVodeSetRootDirection(cvode_.get(), directions_.data());
   }
 
   void step(double t_stop) {
@@ -236,9 +242,9 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
     if (slot.leaving) return std::abs(value) > slot.band ? -tiny : tiny;
     if (slot.direction == Direction::edge_detection) return value == slot.base ? 1.0 : -1.0;
     const double side = slot.side < 0 ? -tiny : tiny;
-    if (slot.fresh && t == begun_at_) return side;
+    if (slot.waits() && t == begun_at_) return side;
     if (std::abs(value) > slot.band) return std::copysign(std::max(std::abs(value), tiny), value);
-    return slot.fresh || slot.side == 0 ? side : -side;
+    return slot.waits() || slot.side == 0 ? side : -side;
   }
 
   void note(const char* message) {
@@ -251,12 +257,13 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
     CVodeGetCurrentTime(cvode_.get(), &t);
     CVodeGetCurrentStep(cvode_.get(), &h);
     require_finite_near(*machine_, t, h, x1_.data());
+    const std::string block = fastest_block(*machine_, t, x1_.data(), options_);
     throw SimulationError(
         text("t = ", t, " s: CVODE (", method(), ") cannot go on, step ", h, " s: ", last_message_,
              "; the solution blows up in finite time, has a jump that no guard announces, or the "
-             "tolerance cannot be met; rtol = ",
+             "tolerance cannot be met; block '", block, "' moves fastest; rtol = ",
              options_.rtol, ", atol = ", options_.atol),
-        t);
+        t, block);
   }
 
   CvodeMethod method_;
@@ -269,6 +276,7 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
   sun::Matrix matrix_;
   sun::Linear linear_;
   sun::Cvode cvode_;
+  std::vector<int> directions_;  // of the guards; empty without root-finding
   RungeKutta<Dopri5> starter_;
   bool started_ = false, starting_ = false;
   double begun_at_ = 0.0, first_step_ = 0.0, starter_until_ = 0.0;

@@ -1,5 +1,6 @@
 // What is computed, and how often: unread blocks never, constants once a run, held values once an
 // instant.
+#include "saltus/plan/compile.hpp"
 #include "saltus/library/library.hpp"
 #include "support/leaves.hpp"
 

@@ -1,4 +1,5 @@
 // No guard, no root-finding; a guard is called only if it can fire.
+#include "saltus/plan/compile.hpp"
 #include "support/balls.hpp"
 #include "support/leaves.hpp"
 

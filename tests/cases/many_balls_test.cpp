@@ -40,8 +40,7 @@ std::shared_ptr<Leaf> balls(const Eigen::VectorXd& heights, double e) {
 
 }  // namespace
 
-// Not heeded yet: `size`, `At::entry`, `holds`.
-TEST_CASE("N balls in one leaf bounce each for itself", "[.engine][cases][ball]") {
+TEST_CASE("N balls in one leaf bounce each for itself", "[cases][ball]") {
   const auto* method = GENERATE(from_range(methods));
   const Eigen::VectorXd heights = vec({1.0, 2.0, 2.0, 0.5, 5.0});
   const double rtol = 1e-9, atol = 1e-11, end = 3.0, e = 0.9;
@@ -62,7 +61,7 @@ TEST_CASE("N balls in one leaf bounce each for itself", "[.engine][cases][ball]"
   }
 }
 
-TEST_CASE("of N balls in one leaf some rest while others bounce", "[.engine][cases][ball][zeno]") {
+TEST_CASE("of N balls in one leaf some rest while others bounce", "[cases][ball][zeno]") {
   const auto* method = GENERATE(from_range(methods));
   const Eigen::VectorXd heights = vec({0.0, 1e-3, 1.0, 20.0});
   const double rtol = 1e-9, atol = 1e-12, e = 0.5, end = 5.0;

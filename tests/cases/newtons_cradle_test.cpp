@@ -100,10 +100,7 @@ TEST_CASE("a ball that meets two that touch sends the last one off", "[cases]") 
   }
 }
 
-// In one leaf "second_pair" stands at zero, dormant, until the reset of "first_pair" sends the flow
-// across it.
-// What comes out: "first_pair" alone, and the second ball goes through the third.
-TEST_CASE("a ball that meets two that touch exactly sends the last one off", "[.engine][cases]") {
+TEST_CASE("a ball that meets two that touch exactly sends the last one off", "[cases]") {
   const Cradle c{.method = GENERATE(from_range(methods))};
   for (const Form& form : forms(cradle(vec({-1.0, 0.0, 0.0})))) {
     const auto results = c.run(*form.system, pi);
@@ -117,9 +114,7 @@ TEST_CASE("a ball that meets two that touch exactly sends the last one off", "[.
   }
 }
 
-// What comes out: two firings; the first pair stays at zero, heading across it, and goes through.
-TEST_CASE("two outer balls that meet the middle one at one instant bounce back",
-          "[.engine][cases]") {
+TEST_CASE("two outer balls that meet the middle one at one instant bounce back", "[cases]") {
   const Cradle c{.method = GENERATE(from_range(methods))};
   for (const Form& form : forms(cradle(vec({-1.0, 0.0, 1.0})))) {
     const auto results = c.run(*form.system, pi);

@@ -63,7 +63,7 @@ TEST_CASE("no ball as a leaf falls through its floor, with few digits left",
 
 // What comes out on floors from 1e5 m on: some fall through, leaf and blocks, where a ball is at
 // rest: its guard is within rounding of zero for longer than the engine looks ahead, has no side,
-// and is not armed. From 1e8 m on, and late in time, as in ball_far_test.cpp.
+// and is not armed. From 1e8 m on as in ball_far_test.cpp.
 TEST_CASE("no ball falls through its floor, with hardly a digit left",
           "[.engine][cases][ball][random]") {
   none_falls(GENERATE(from_range(methods)), GENERATE(false, true), 1e12, 1e9);

@@ -43,9 +43,7 @@ Diagram on_a_lift(double e, double speed) {
 
 }  // namespace
 
-// What comes out: the hold stays at the height of before, and the floor rises through the ball.
-TEST_CASE("a lift that starts under a ball at rest takes it along",
-          "[.engine][cases][ball][zeno]") {
+TEST_CASE("a lift that starts under a ball at rest takes it along", "[cases][ball][zeno]") {
   const auto* method = GENERATE(from_range(methods));
   const double speed = GENERATE(0.5, 1e-3);
   for (const double e : {0.0, 0.5}) {
@@ -61,9 +59,8 @@ TEST_CASE("a lift that starts under a ball at rest takes it along",
   }
 }
 
-// What comes out: as above. The reset map of the library's balls writes v+ = -e v: at rest 0.
 TEST_CASE("a floor that rises continuously under a held ball carries it, by every form",
-          "[.engine][cases][ball][zeno]") {
+          "[cases][ball][zeno]") {
   const auto* method = GENERATE(from_range(methods));
   const auto ramp = [] {
     return std::make_shared<Ramp>("floor", RampOptions{.slope = 0.5, .start_time = 1.0});
@@ -77,9 +74,8 @@ TEST_CASE("a floor that rises continuously under a held ball carries it, by ever
   }
 }
 
-// What comes out: held where the floor was.
 TEST_CASE("a floor that sinks slowly, slower than free fall, takes the ball down with it",
-          "[.engine][cases][ball][zeno]") {
+          "[cases][ball][zeno]") {
   const auto* method = GENERATE(from_range(methods));
   const Diagram lift = on_a_lift(0.5, -0.5);
   const auto results = simulate(lift, lift.create_context(), {0.0, 3.0},

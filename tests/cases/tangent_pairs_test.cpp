@@ -65,7 +65,7 @@ TEST_CASE("a guard below zero for a third of a second fires twice", "[cases][gua
 }
 
 // What comes out: both crossings missed where no look falls between them, by all methods at 1e-3,
-// by adams and bdf at 1e-2; and crossings_test.cpp's chattering where they are counted.
+// by adams and dop853 at 1e-2.
 TEST_CASE("a guard below zero for 1e-3 s fires twice", "[.engine][cases][guards]") {
   const auto* method = GENERATE(from_range(methods));
   const bool counts = GENERATE(true, false);

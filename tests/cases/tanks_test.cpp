@@ -71,9 +71,7 @@ TEST_CASE("water tanks switch when their closed form says", "[cases][zeno]") {
   }
 }
 
-// No reset map writes anything here: the mode change is what accumulates, over two guards in turn.
-// What comes out: reached_end, with one tank run dry below its mark as if nothing guarded it.
-TEST_CASE("past their Zeno time the tanks rest at their marks", "[.engine][cases][zeno]") {
+TEST_CASE("past their Zeno time the tanks rest at their marks", "[cases][zeno]") {
   const auto* method = GENERATE(from_range(methods));
   for (const Tanks& tanks : scenes) {
     for (const Form& form : forms(tanks.leaf())) {

@@ -1,4 +1,5 @@
 // The text of what is refused before a run: what was expected, what was found, where, what to do.
+#include "saltus/plan/compile.hpp"
 #include "saltus/library/library.hpp"
 #include "support/balls.hpp"
 #include "support/leaves.hpp"

@@ -1,4 +1,5 @@
 // Flattening: nested diagrams to leaves with paths and wires; shapes along the wires.
+#include "saltus/plan/compile.hpp"
 #include "saltus/library/library.hpp"
 #include "support/leaves.hpp"
 

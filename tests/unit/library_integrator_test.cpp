@@ -1,5 +1,7 @@
 // Integrator: its ports, derivative and reset map as the plan and the machine see them, and error
 // texts.
+#include "saltus/plan/machine.hpp"
+#include "saltus/plan/compile.hpp"
 #include "library_support.hpp"
 
 using namespace saltus;

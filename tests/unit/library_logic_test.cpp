@@ -1,4 +1,5 @@
 // Comparator, LogicalOperator, Switch: truth tables, what is located and held, and error texts.
+#include "saltus/plan/compile.hpp"
 #include "library_support.hpp"
 
 using namespace saltus;

@@ -1,4 +1,6 @@
 // Sources: their values, shapes, rates and time events.
+#include "saltus/plan/machine.hpp"
+#include "saltus/plan/compile.hpp"
 #include <cmath>
 #include <limits>
 

@@ -36,6 +36,15 @@ struct Layout {
   std::vector<Range> systems;
 };
 
+/// All values of a context, bare: to be written somewhere and read again.
+struct ContextValues {
+  double time = 0.0;  ///< [s]
+  Eigen::VectorXd continuous_state, discrete_state, parameters;
+  std::vector<int> modes;
+  bool settled = false;
+  std::shared_ptr<const Continuation> continuation = {};
+};
+
 /// Time t [s], continuous state x, discrete state z, a mode per leaf, parameters p. A value: every
 /// `with_*` returns a new context and leaves the old one, and the system, unchanged. Throws
 /// ModelError for a wrong size, a value that is not finite, an unknown parameter or an unknown
@@ -44,6 +53,8 @@ class Context {
  public:
   Context() = default;
   explicit Context(std::shared_ptr<const Layout> layout) : layout_(std::move(layout)) {}
+  /// All values zero, for values that were saved.
+  static Context zero(std::shared_ptr<const Layout> layout);
 
   double time() const noexcept { return time_; }
   const Eigen::VectorXd& continuous_state() const noexcept { return x_; }
@@ -57,6 +68,12 @@ class Context {
   bool settled() const noexcept { return settled_; }
   /// What the run that ended here knew beyond these values; null once they were changed by hand.
   const Continuation* continuation() const noexcept { return continuation_.get(); }
+
+  /// Everything that changes, for saving; and a context of this layout with values that were saved.
+  ContextValues values() const {
+    return {time_, x_, z_, p_, modes_, settled_, continuation_};
+  }
+  Context with_values(const ContextValues& values) const;
 
   Context with_time(double t) const;
   Context with_continuous_state(const Eigen::VectorXd& x) const;
@@ -126,10 +143,35 @@ inline void Context::replace(Eigen::VectorXd& values, const Eigen::VectorXd& wit
   values = with;
 }
 
+inline Context Context::zero(std::shared_ptr<const Layout> layout) {
+  Context context(std::move(layout));
+  Index nx = 0, nz = 0, np = 0;
+  for (const Layout::Leaf& leaf : context.layout().leaves)
+    nx += leaf.nx, nz += leaf.nz, np += leaf.np;
+  context.x_.setZero(nx), context.z_.setZero(nz), context.p_.setZero(np);
+  context.modes_.assign(context.layout().leaves.size(), 0);
+  return context;
+}
+
 inline int Context::mode() const {
   if (modes_.size() != 1)
     throw ModelError("mode(): this is the context of several blocks; take context[id] first");
   return modes_.front();
+}
+
+inline Context Context::with_values(const ContextValues& values) const {
+  if (!std::isfinite(values.time)) throw ModelError(text("time: ", values.time, " is not finite"));
+  Context next = *this;
+  replace(next.x_, values.continuous_state, "continuous state");
+  replace(next.z_, values.discrete_state, "discrete state");
+  replace(next.p_, values.parameters, "parameters");
+  if (values.modes.size() != modes_.size()) {
+    throw ModelError(
+        text("modes: expected ", modes_.size(), " values, found ", values.modes.size()));
+  }
+  next.modes_ = values.modes, next.time_ = values.time, next.settled_ = values.settled;
+  next.continuation_ = values.continuation;
+  return next;
 }
 
 inline Context Context::with_time(double t) const {

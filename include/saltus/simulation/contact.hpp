@@ -20,6 +20,7 @@ struct SurfaceContact {
   int pressed = -1;  // sign the guard takes where the flow presses on the surface
   bool opaque = false;
   bool carried = false;     // the surface moves, and the blocks with it
+  bool pressed_on = false;  // the flow led into the surface when it was last asked
   double band = 0.0;        // within it the guard is at zero
   double look_ahead = 0.0;  // [s] see lift
   std::vector<Member> members = {};

@@ -152,7 +152,7 @@ class Departure {
         if (bend > 0.0) time = std::max(time, std::sqrt(64.0 * eps * std::abs((*x_)[i]) / bend));
       }
     }
-    return std::min(16.0 * time, 1e-4 * longest_);
+    return std::min(16.0 * time, 1e-2 * longest_);
   }
 
   double guard_after(double d, Index slot) {

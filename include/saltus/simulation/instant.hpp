@@ -23,6 +23,8 @@ class Instant {
     bool changed = false;  ///< some pass changed something
     bool restart = false;  ///< the solver's picture of f is no longer right
     bool terminal = false;
+    bool stuck = false;      ///< a guard at rest, without monitor, fires again as soon as it can
+    int events = 0;          ///< how many there were
     bool zeno_stop = false;  ///< a Zeno point of a guard that stops there
     bool chatters = false;  ///< it does not end, though no state was written
     double horizon =
@@ -53,6 +55,8 @@ class Instant {
   std::vector<std::pair<std::string, std::int64_t>> counts() const;
 
  private:
+  static constexpr int lifts_off = 2;  // in place of the side a firing came from: a hold that ends
+
   enum class Cause { crossing, edge, time, zeno };
   struct Action {
     int leaf;
@@ -127,6 +131,8 @@ class Instant {
   bool look_at_firings();
   bool goes_against(const Firing& firing);
   void release_kicked();
+  bool rests_on_contact(std::size_t edge);
+  void release_unseen();
   bool wake(SurfaceContact& contact);
   void let_go(SurfaceContact& contact);
   void look_at_held(std::size_t slot);
@@ -182,6 +188,7 @@ class Instant {
   std::vector<char> was_active_;         // slots: for select_guards
   std::vector<char> frozen_,
       resting_;  // slots of relations: their side is kept in this instant, through the hold
+  std::vector<char> turned_;       // slots of relations: their side changed when they were read again
   std::vector<signed char> from_;  // slots: the side the last crossing came from
   std::vector<int> edges_fired_;   // in this instant
   bool wrote_ = false,

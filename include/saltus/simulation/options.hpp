@@ -19,8 +19,8 @@ struct SimulatorOptions {
   double rtol = 1e-6;
   double atol = 1e-8;
 
-  /// "auto" (dopri5; BDF takes over where the scene looks stiff), "dopri5", "dop853", "adams",
-  /// "bdf". Synonyms: "rk45", "RK45" and "non-stiff" for dopri5, "DOP853" for dop853, "stiff" and
+  /// "auto" (dopri5 or dop853 by tolerance, BDF while the scene is stiff), "dopri5", "dop853",
+  /// "adams", "bdf". Synonyms: "rk45", "RK45" and "non-stiff" for dopri5, "DOP853" for dop853, "stiff" and
   /// "BDF" for bdf.
   std::string ode_solver_method = "auto";
 
@@ -79,6 +79,7 @@ inline void check(const SimulatorOptions& o) {
   require(o.zeno_tolerance >= 0.0, "zeno_tolerance", o.zeno_tolerance, "a time >= 0 s");
   require(o.event_scan_points >= 0, "event_scan_points", o.event_scan_points, "0 or more");
   require(o.max_passes > 0, "max_passes", o.max_passes, "1 or more");
+  for (const double t : o.save_at) require(std::isfinite(t), "save_at", t, "increasing times");
   for (std::size_t i = 1; i < o.save_at.size(); ++i) {
     require(o.save_at[i] > o.save_at[i - 1], "save_at", o.save_at[i], "increasing times");
   }

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "saltus/simulation/event_log.hpp"
-#include "saltus/solver/solver.hpp"
+#include "saltus/solver/statistics.hpp"
 
 namespace saltus {
 
@@ -33,6 +33,7 @@ struct Statistics : SolverStatistics {
   std::vector<std::pair<std::string, std::int64_t>> events_by_name = {};
   double wall_time = 0.0;  ///< [s]
   std::string method = {};
+  std::vector<Stretch> stretches = {};  ///< which method when: more than one with "auto" only
 };
 
 /// One recorded signal: a row per time, row major.

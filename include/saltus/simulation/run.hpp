@@ -36,7 +36,22 @@ class Run {
   void record(double t, const double* x);
   bool steps_recorded() const { return options_.save_steps.value_or(options_.save_at.empty()); }
   bool interrupted();
+  /// Events in a row, since a time.
+  struct Series {
+    std::int64_t count = 0;
+    double since = 0.0;
+    /// Counts one more; true when that makes `size`, and then begins anew at t unless it is kept.
+    bool full(std::int64_t size, double t) {
+      if (count >= size) *this = {0, t};
+      return ++count >= size;
+    }
+  };
   bool chatters(double t_end);
+  bool chatters_as(const Series& series) {
+    told_ = series;
+    return true;
+  }
+  bool moved();
   Status chattering();
   SimulatorOptions checked(SimulatorOptions options) const;
   SolverOptions solver_options() const;
@@ -61,8 +76,10 @@ class Run {
   bool begun_ = false, solver_started_ = false, over_ = false;
   std::vector<int> due_;
   std::size_t next_save_ = 0;
-  std::int64_t recent_events_ = 0, many_events_ = 0, ticks_ = 0;
-  double recent_since_ = 0.0, many_since_ = 0.0;
+  std::int64_t ticks_ = 0;
+  Series stuck_, recent_, idle_;  // see chatters
+  Series told_;                   // what the message says
+  Eigen::VectorXd at_root_;       // x at the last root
   std::chrono::steady_clock::time_point asked_{};
 };
 

@@ -1,66 +1,161 @@
-// AutoSolver: the one-step method first, BDF where the scene proves stiff.
+// AutoSolver: a one-step method while the scene is not stiff, BDF while it is.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "saltus/solver/cvode.hpp"
 #include "saltus/solver/one_step.hpp"
+#include "saltus/solver/spectral_radius.hpp"
 
 namespace saltus {
 
-/// Starts with dopri5; when that looks stiff, BDF takes over at the present point. CVODE is made
-/// only then.
+/// Starts with the explicit method; when that looks stiff, BDF takes over at the present point, and
+/// hands back where |lambda| h < 1 for the steps h that BDF takes: the explicit method has room for
+/// them (L. Petzold, SIAM J. Sci. Stat. Comput. 4 (1983) 136). That is asked when a stretch of BDF
+/// is restarted, and every fifty of its steps, where it has to be so several times running: two at
+/// first, twice as often after each return that did not last, so that the two do not play ball.
+/// They share the Watch, so no guard notices. CVODE is made when it is first needed.
+template <class Method>
 class AutoSolver final : public Solver {
  public:
   AutoSolver(Machine& machine, Watch& watch, const SolverOptions& options)
-      : machine_(&machine), watch_(&watch), options_(options), first_(machine, watch, options) {}
+      : machine_(&machine),
+        watch_(&watch),
+        options_(options),
+        explicit_(machine, watch, options),
+        radius_(machine, options) {
+    explicit_.watch_stiffness();
+  }
 
   void restart(double t, const Eigen::VectorXd& x, const Start& start) override {
-    if (start.first) second_.reset();
+    if (start.first) begin_run(t);
+    if (stiff_ && radius_(t, x) * longest() < 1.0) change(t, false);
+    before_ = start.first ? 0.0 : longest();
+    forget_steps();
     now().restart(t, x, start);
   }
 
   StopReason advance(double t_stop) override {
-    if (!second_ && first_.looks_stiff()) {
-      switched_at_ = first_.time();
-      second_ = make_cvode(*machine_, *watch_, options_, CvodeMethod::bdf);
-      second_->restart(first_.time(), first_.state(), {.first = true});
-    }
-    return now().advance(t_stop);
+    if (now_at_step_end()) choose();
+    const double from = now().time();
+    const StopReason reason = now().advance(t_stop);
+    longest_ = std::max(longest_, now().time() - from);
+    ++steps_;
+    return reason;
   }
 
   void interpolate(double t, double* x) override { now().interpolate(t, x); }
   const std::vector<Firing>& roots() const override { return watch_->fired; }
   double time() const override { return now().time(); }
   const Eigen::VectorXd& state() const override { return now().state(); }
+  bool at_step_end() const override { return now().at_step_end(); }
 
   const SolverStatistics& statistics() const override {
-    sum_ = first_.statistics();
-    if (second_) {
-      const SolverStatistics& more = second_->statistics();
+    sum_ = explicit_.statistics();
+    if (bdf_) {
+      const SolverStatistics& more = bdf_->statistics();
       sum_.steps += more.steps, sum_.rejected += more.rejected;
       sum_.restarts += more.restarts, sum_.linear_setups += more.linear_setups;
     }
     return sum_;
   }
 
+  std::vector<Stretch> stretches() const override {
+    std::vector<Stretch> all = past_;
+    all.push_back(present());
+    return all;
+  }
+
   std::string method() const override {
-    return second_ ? text("dopri5, then bdf from t = ", switched_at_, " s: the scene looks stiff")
-                   : std::string("dopri5");
+    std::string all = past_.empty() ? present().method : past_.front().method;
+    constexpr std::size_t shown = 4;
+    const auto list = stretches();
+    for (std::size_t i = 1; i < std::min(list.size(), shown); ++i)
+      all += text(", then ", list[i].method, " from t = ", list[i].begin, " s: the scene ",
+                  list[i].method == "bdf" ? "looks stiff" : "no longer does");
+    return list.size() > shown ? text(all, "; ", list.size(), " stretches in all") : all;
   }
 
  private:
-  Solver& now() { return second_ ? *second_ : first_; }
-  const Solver& now() const { return second_ ? static_cast<const Solver&>(*second_) : first_; }
+  Solver& now() { return stiff_ ? *bdf_ : explicit_; }
+  const Solver& now() const { return stiff_ ? static_cast<const Solver&>(*bdf_) : explicit_; }
+  bool now_at_step_end() const { return now().at_step_end(); }
+
+  void begin_run(double t) {
+    stiff_ = false, bdf_.reset();
+    past_.clear(), begun_ = t, steps_before_ = 0;
+    longest_ = window_ = 0.0, patience_ = 2;
+  }
+  void forget_steps() { longest_ = window_ = 0.0, steps_ = calm_ = 0, fresh_ = true; }
+  double longest() const { return std::max(longest_, window_); }
+
+  /// At the end of a step: goes on with the other method if that is due.
+  void choose() {
+    const bool stiff = stiff_ ? !calm_again() : explicit_.looks_stiff() || collapsed();
+    if (stiff == stiff_) return;
+    const double t = now().time();
+    const Eigen::VectorXd x = now().state();
+    if (stiff && steps_ < 100 && !past_.empty()) patience_ = std::min(2 * patience_, 64);
+    change(t, stiff);
+    forget_steps(), before_ = 0.0;
+    now().restart(t, x, {.handover = true});
+  }
+
+  /// The first step after a restart a hundred times shorter than those before, and stability the
+  /// cause: fifteen more such steps need not be waited for.
+  bool collapsed() {
+    if (!fresh_ || steps_ == 0) return false;
+    fresh_ = false;
+    return longest_ < 0.01 * before_ &&
+           radius_(explicit_.time(), explicit_.state()) * before_ > 10.0 * Method::stability;
+  }
+
+  /// Every fifty steps of BDF; not in the first fifty, when its order and steps still rise.
+  bool calm_again() {
+    if (steps_ == 0 || steps_ % 50 != 0) return false;
+    window_ = std::exchange(longest_, 0.0);
+    if (steps_ < 100) return false;
+    calm_ = radius_(bdf_->time(), bdf_->state()) * window_ < 1.0 ? calm_ + 1 : 0;
+    return calm_ >= patience_;
+  }
+
+  void change(double t, bool stiff) {
+    past_.push_back(present());
+    past_.back().end = t;
+    begun_ = t;
+    stiff_ = stiff;
+    if (stiff && !bdf_) bdf_ = make_cvode(*machine_, *watch_, options_, CvodeMethod::bdf);
+    steps_before_ = now().statistics().steps;
+  }
+
+  Stretch present() const {
+    return {now().method(), begun_, now().time(), now().statistics().steps - steps_before_};
+  }
 
   Machine* machine_;
   Watch* watch_;
   SolverOptions options_;
-  RungeKutta<Dopri5> first_;
-  std::unique_ptr<Solver> second_;
-  double switched_at_ = 0.0;
+  RungeKutta<Method> explicit_;
+  std::unique_ptr<Solver> bdf_;
+  SpectralRadius radius_;
+  bool stiff_ = false;
+  double longest_ = 0.0;  // [s] of the steps since the last restart, change of method or check
+  double window_ = 0.0;   // [s] of the fifty before the last check
+  double before_ = 0.0;   // [s] the same before the last restart
+  bool fresh_ = true;     // no step looked at since then
+  int steps_ = 0;         // since then
+  int calm_ = 0, patience_ = 2;
+  std::vector<Stretch> past_;
+  double begun_ = 0.0;  // [s] the present stretch
+  std::int64_t steps_before_ = 0;
   mutable SolverStatistics sum_;
 };
+
+extern template class AutoSolver<Dopri5>;
+extern template class AutoSolver<Dop853>;
 
 }  // namespace saltus

@@ -175,7 +175,7 @@ class Locator {
       const std::size_t k = watch_->active[i];
       GuardSlot& slot = watch_->slots[k];
       const bool stays =
-          !slot.fresh && (slot.side > 0 ? high_[k] > 0.0 : slot.side < 0 && high_[k] < 0.0);
+          !slot.waits() && (slot.side > 0 ? high_[k] > 0.0 : slot.side < 0 && high_[k] < 0.0);
       watch_->g[k] = high_[k];
       if (stays) continue;
       slot.follow(high_[k]);
@@ -198,22 +198,22 @@ class Locator {
   template <class Interpolate>
   double narrow(double low, double high, const Interpolate& interpolate) {
     low_ = watch_->g;
-    int kept = 0;  // how often in a row the low (> 0) or high (< 0) end was kept: Illinois halves
-                   // its value
+    int kept = 0;   // how often in a row the low (> 0) or high (< 0) end was kept: Illinois halves
+                    // its value
+    int zeros = 0;  // looks in a row that found nothing but exact zeros
     double weight = 1.0;
-    bool plateau = false;  // of exact zeros: its beginning is the root
     for (int count = 0; count < 200; ++count) {
       const double resolution = 2.0 * std::numeric_limits<double>::epsilon() * high;
-      const double width = high - low;
-      const bool zeros = only_exact_zeros();
-      if (width <= (zeros && !plateau ? 16.0 : 1.0) * resolution) break;
-      const double u = !zeros    ? next_point(low, high, weight, resolution, count)
-                       : plateau ? low + 0.5 * width
-                                 : high - std::max(8.0 * resolution, 1e-3 * width);
+      if (high - low <= resolution) break;
+      zeros = only_exact_zeros() ? zeros + 1 : 0;
+      // A root hit exactly: one look just before it. If that is zero too, a plateau is halved down
+      // to its beginning.
+      const double u = zeros == 1  ? high - resolution
+                       : zeros > 1 ? low + 0.5 * (high - low)
+                                   : next_point(low, high, weight, resolution, count);
       if (!(u > low && u < high)) break;
       look(u, nullptr, interpolate, middle_);
       if (note_crossed(middle_)) {
-        plateau = plateau || zeros;
         high = u, high_.swap(middle_);
         kept = kept > 0 ? kept + 1 : 1;
       } else {
@@ -226,11 +226,11 @@ class Locator {
     return high;
   }
 
-  /// A fresh guard seen on its armed side is an ordinary one from there on.
+  /// A guard that waits, seen on its armed side, is an ordinary one from there on.
   void leave_zero() {
     for (std::size_t i = 0; i < limits_.size(); ++i) {
       GuardSlot& slot = watch_->slots[watch_->active[i]];
-      if (!slot.fresh || slot.sign(low_[watch_->active[i]]) != slot.side) continue;
+      if (!slot.waits() || slot.sign(low_[watch_->active[i]]) != slot.side) continue;
       slot.fresh = false, slot.band = 0.0;
       limits_[i] = slot.limits();
     }
@@ -248,7 +248,7 @@ class Locator {
     for (std::size_t k : crossed_) {
       const GuardSlot& slot = watch_->slots[k];
       const double a = std::abs(low_[k]) * weight, b = std::abs(high_[k]);
-      const bool blind = slot.jumps || slot.fresh || !(a > 0.0) ||
+      const bool blind = slot.jumps || slot.waits() || !(a > 0.0) ||
                          !(a + b < std::numeric_limits<double>::infinity());
       fraction = std::min(fraction, blind ? 0.5 : a / (a + b));
     }

@@ -9,6 +9,7 @@
 
 #include "saltus/solver/step_size.hpp"
 #include "saltus/solver/step_solver.hpp"
+#include "saltus/solver/stiffness.hpp"
 #include "saltus/solver/tableau.hpp"
 
 namespace saltus {
@@ -21,7 +22,8 @@ class RungeKutta final : public StepSolver<RungeKutta<Method>> {
         x0_(n_),
         scratch_(n_),
         k_(Eigen::MatrixXd::Zero(n_, static_cast<Index>(Method::rows))),
-        dense_(n_, static_cast<Index>(dense_terms)) {}
+        dense_(n_, static_cast<Index>(dense_terms)),
+        stiff_(Method::stability, static_cast<double>(last), options) {}
 
   void inside_step(double u, double* x) {
     if (!dense_ready_) prepare_dense();
@@ -33,6 +35,8 @@ class RungeKutta final : public StepSolver<RungeKutta<Method>> {
 
   std::string method() const override { return Method::name; }
 
+  /// Looks for stiffness from now on.
+  void watch_stiffness() noexcept { watches_stiffness_ = true; }
   /// Whether the last steps were bounded by stability rather than by accuracy.
   bool looks_stiff() const noexcept { return stiff_.detected(); }
 
@@ -52,10 +56,11 @@ class RungeKutta final : public StepSolver<RungeKutta<Method>> {
   static StepController controller() {
     return {Method::error_order, Method::beta, Method::shortest, Method::longest};
   }
+  VectorView view(const double* x) const { return {x, n_}; }
   double* stage(std::size_t i) { return k_.data() + static_cast<Index>(i) * n_; }
 
   void begin(const Start& start) {
-    if (start.first) h_ = 0.0, controller_ = controller();
+    if (start.first || start.handover) h_ = 0.0, controller_ = controller();
     machine_->derivative(t1_, x1_.data(), stage(last));
     dense_ready_ = false;
     horizon_ = start.horizon;
@@ -107,7 +112,9 @@ class RungeKutta final : public StepSolver<RungeKutta<Method>> {
       error = scaled_error(h);
     else if (!VectorView(stage(last), n_).allFinite())
       return infinite;
-    stiff_.look(*this, h, error);
+    if (watches_stiffness_ && error <= 1.0)  // scratch_: what the last stage but one read
+      stiff_.look(h, view(x1_.data()), view(scratch_.data()), view(stage(last - 1)), view(stage(0)),
+                  view(stage(last)));
     return error;
   }
 
@@ -196,15 +203,14 @@ class RungeKutta final : public StepSolver<RungeKutta<Method>> {
     if (!(h > smallest)) throw_step_too_small(*machine_, t0_, h, x0_.data(), options_);
   }
 
-  friend class StiffnessTest;
-
   double h_ = 0.0;
   double horizon_ = infinite;
   Eigen::VectorXd x0_, scratch_;
   Eigen::MatrixXd k_, dense_;
   bool dense_ready_ = false;
   StepController controller_ = controller();
-  StiffnessTest stiff_{Method::stability};
+  bool watches_stiffness_ = false;
+  StiffnessTest stiff_;
 };
 
 }  // namespace saltus

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "saltus/plan/machine.hpp"
+#include "saltus/solver/statistics.hpp"
 #include "saltus/solver/watch.hpp"
 
 namespace saltus {
@@ -14,14 +15,6 @@ enum class StopReason {
   step,       ///< one accepted minor step, nothing else
   stop_time,  ///< exactly the time that was asked for
   root        ///< a guard fired: see Watch::fired
-};
-
-/// Counts, summed across restarts.
-struct SolverStatistics {
-  std::int64_t steps = 0;  ///< accepted
-  std::int64_t rejected = 0;
-  std::int64_t restarts = 0;
-  std::int64_t linear_setups = 0;
 };
 
 /// What a solver needs to know beyond the scene.
@@ -36,7 +29,8 @@ struct SolverOptions {
 struct Start {
   double horizon = std::numeric_limits<double>::infinity();  ///< [s] within which an event may
                                                              ///< follow: resolve it
-  bool first = false;  ///< a new run: step size and counts are forgotten too
+  bool first = false;     ///< a new run: step size and counts are forgotten too
+  bool handover = false;  ///< another method was at work: no restart of the scene, and none counted
 };
 
 /// Advances the continuous state of a machine. Between two calls of `restart` the machine's
@@ -56,8 +50,13 @@ class Solver {
   virtual const std::vector<Firing>& roots() const = 0;
   virtual const SolverStatistics& statistics() const = 0;
 
+  /// Which method was used when, in order of time.
+  virtual std::vector<Stretch> stretches() const = 0;
+
   virtual double time() const = 0;
   virtual const Eigen::VectorXd& state() const = 0;
+  /// False if a root stopped the last step inside and the rest of it is still to be delivered.
+  virtual bool at_step_end() const = 0;
   /// Method in use now, for the statistics.
   virtual std::string method() const = 0;
 };

@@ -1,10 +1,11 @@
-// Step sizes of the one-step methods: the first one, the next one, the stiffness test, and what to
-// say when none is small enough.
+// Step sizes of the one-step methods: the first one, the next one, and what to say when none is
+// small enough.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include "saltus/solver/solver.hpp"
 
@@ -31,48 +32,16 @@ class StepController {
     before_ = std::max(error, 1e-4);
     return h * (after_rejection ? std::min(factor, 1.0) : factor);
   }
+  /// The codes shorten to a tenth at most; after a change of mode a thousandth may be right, and an
+  /// error of 1e10 says so.
   double reject(double error, double h) const {
     return h *
-           (std::isfinite(error) ? std::clamp(safety * std::pow(error, -plain_), 0.1, 0.9) : 0.1);
+           (std::isfinite(error) ? std::clamp(safety * std::pow(error, -plain_), 1e-3, 0.9) : 0.1);
   }
 
  private:
   static constexpr double safety = 0.9;
   double beta_, shortest_, longest_, exponent_, plain_, before_ = 1e-4;
-};
-
-/// Stiffness by comparing h with the stability region: h |f(x1) - f(X)| / |x1 - X|, X the argument
-/// of the last stage but one, also at t + h, estimates h |lambda|, which lies beyond `stability`
-/// when that bounds the step (L. F. Shampine; Hairer, Wanner II, p. 21, (2.33)). Fifteen such
-/// steps, with no more than five other ones in a row between, are called stiff.
-class StiffnessTest {
- public:
-  explicit StiffnessTest(double stability) : square_(stability * stability) {}
-
-  bool detected() const noexcept { return stiff_ >= 15; }
-  void forget() noexcept { stiff_ = calm_ = 0; }
-
-  template <class Stepper>
-  void look(Stepper& s, double h, double error) {
-    if (error > 1.0) return;
-    const double *f0 = s.stage(s.last - 1), *f1 = s.stage(s.last);
-    double numerator = 0.0, denominator = 0.0;
-    const double *x1 = s.x1_.data(), *x0 = s.scratch_.data();  // scratch: what stage last - 1 read
-    for (Index i = 0, n = s.n_; i < n; ++i) {
-      const double f = f1[i] - f0[i], x = x1[i] - x0[i];
-      numerator += f * f, denominator += x * x;
-    }
-    // Compared without division or root: h^2 f^2 > stability^2 x^2.
-    if (denominator > 0.0 && h * h * numerator > square_ * denominator) {
-      ++stiff_, calm_ = 0;
-    } else if (++calm_ == 6) {
-      stiff_ = 0;
-    }
-  }
-
- private:
-  double square_;
-  int stiff_ = 0, calm_ = 0;
 };
 
 /// First step by the size of x, f and f' (Hairer, Norsett, Wanner I, p. 169, "Starting step size").
@@ -109,29 +78,54 @@ inline double first_step(Machine& machine, double t, const Eigen::VectorXd& x, c
       t, block);
 }
 
-/// Throws if a derivative is not finite at (t, x), or just behind t, where no step could end.
+/// Throws if a derivative is not finite at (t, x), or just ahead on the flow, where no step could
+/// end.
 inline void require_finite_near(Machine& machine, double t, double h, const double* x) {
-  for (const double ahead :
-       {0.0, std::max(16.0 * h, 64.0 * std::numeric_limits<double>::epsilon() * std::abs(t))}) {
-    if (!machine.not_finite(t + ahead, x).empty()) throw_not_finite(machine, t + ahead, x);
+  const double ahead =
+      std::max(16.0 * h, 64.0 * std::numeric_limits<double>::epsilon() * std::abs(t));
+  const VectorView here(x, machine.plan().nx);
+  Eigen::VectorXd there = here;
+  if (!machine.not_finite(t, x).empty()) throw_not_finite(machine, t, x);
+  if (!machine.not_finite(t + ahead, x).empty()) throw_not_finite(machine, t + ahead, x);
+  machine.derivative(t, x, there.data());
+  there = here + ahead * there;
+  if (!machine.not_finite(t + ahead, there.data()).empty())
+    throw_not_finite(machine, t + ahead, there.data());
+}
+
+/// The block whose state moves fastest, measured by the tolerance: where a solution blows up.
+inline std::string fastest_block(Machine& machine, double t, const double* x,
+                                 const SolverOptions& options) {
+  Eigen::VectorXd f(machine.plan().nx);
+  machine.derivative(t, x, f.data());
+  std::string block;
+  double most = -1.0;
+  for (const PlanLeaf& leaf : machine.plan().leaves) {
+    for (Index i = leaf.x; i < leaf.x + leaf.nx; ++i) {
+      const double speed = std::abs(f[i]) / (options.atol + options.rtol * std::abs(x[i]));
+      if (speed > most) most = speed, block = leaf.path;
+    }
   }
+  return block;
 }
 
 [[noreturn]] inline void throw_step_too_small(Machine& machine, double t, double h, const double* x,
                                               const SolverOptions& options) {
   require_finite_near(machine, t, h, x);
+  const std::string block = fastest_block(machine, t, x, options);
   if (options.min_step > 0.0 && h <= options.min_step) {
     throw SimulationError(text("t = ", t, " s: the tolerance needs a step of ", h,
                                " s, below min_minor_step_size = ", options.min_step,
-                               " s; lower that, or loosen rtol and atol"),
-                          t);
+                               " s; lower that, or loosen rtol and atol; block '", block,
+                               "' moves fastest"),
+                          t, block);
   }
   throw SimulationError(
       text("t = ", t, " s: the step size underflows (", h,
            " s): the solution blows up in finite time, has a jump that no guard announces, or the "
-           "tolerance cannot be met; rtol = ",
-           options.rtol, ", atol = ", options.atol),
-      t);
+           "tolerance cannot be met; block '",
+           block, "' moves fastest; rtol = ", options.rtol, ", atol = ", options.atol),
+      t, block);
 }
 
 }  // namespace saltus

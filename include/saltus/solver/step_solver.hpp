@@ -28,8 +28,9 @@ class StepSolver : public Solver {
   void restart(double t, const Eigen::VectorXd& x, const Start& start) final {
     if (start.first)
       statistics_ = {};
-    else
+    else if (!start.handover)
       ++statistics_.restarts;
+    if (start.first) run_begun_ = t;
     t0_ = t1_ = time_ = t;
     x1_ = state_ = x;
     delivered_ = true;
@@ -66,6 +67,10 @@ class StepSolver : public Solver {
 
   const std::vector<Firing>& roots() const final { return watch_->fired; }
   const SolverStatistics& statistics() const override { return statistics_; }
+  std::vector<Stretch> stretches() const final {
+    return {{this->method(), run_begun_, time_, this->statistics().steps}};
+  }
+  bool at_step_end() const final { return delivered_; }
   double time() const final { return time_; }
   const Eigen::VectorXd& state() const final { return state_; }
 
@@ -103,7 +108,7 @@ class StepSolver : public Solver {
   }
 
   Locator locator_;
-  double time_ = 0.0, offset_ = 0.0;
+  double time_ = 0.0, offset_ = 0.0, run_begun_ = 0.0;
   bool delivered_ = true;  // the last step, to its end
   Eigen::VectorXd state_;
 };

@@ -21,7 +21,7 @@ struct GuardSlot {
   bool monitor = false;  ///< located and logged, stops nothing
   bool jumps = false;    ///< takes only two values: located by bisection
   bool leaving = false;  ///< of a block at rest: fires on leaving the band, to either side
-  double band = 0.0;     ///< a fresh guard within it is still at zero
+  double band = 0.0;     ///< a guard within it is still at zero, and waits like a fresh one
   double base = 0.0;     ///< edge_detection: the value it had
 
   int sign(double value) const {
@@ -29,13 +29,17 @@ struct GuardSlot {
     return (value > 0.0) - (value < 0.0);
   }
 
+  /// Whether it has to be clearly off zero before it can fire. Not only a fresh one: one that fires
+  /// within its band would fire early, by the whole band, or again at once.
+  bool waits() const noexcept { return fresh || band > 0.0; }
+
   /// Whether it has fired when its guard has this value.
   bool crossed(double value) const {
     if (leaving) return std::abs(value) > band;
     if (direction == Direction::edge_detection) return value != base;
     const int now = sign(value);
-    // A fresh guard at zero has not left it: only the strict far side counts.
-    return side != 0 && (now != 0 || !fresh) && fires(direction, side, now);
+    // A guard at zero that waits has not left it: only the strict far side counts.
+    return side != 0 && (now != 0 || !waits()) && fires(direction, side, now);
   }
 
   /// Where it fires: at values <= first or >= second. The same as crossed(), for many values.
@@ -44,10 +48,10 @@ struct GuardSlot {
     if (leaving) return {-std::nextafter(band, never), std::nextafter(band, never)};
     if (direction == Direction::edge_detection)
       return {std::nextafter(base, -never), std::nextafter(base, never)};
-    const double reach = fresh ? std::nextafter(band, never) : band;
+    const double reach = waits() ? std::nextafter(band, never) : 0.0;
     const bool falls = side > 0 && fires(direction, 1, -1),
                rises = side < 0 && fires(direction, -1, 1);
-    return {falls ? (fresh ? -reach : reach) : -never, rises ? (fresh ? reach : -reach) : never};
+    return {falls ? -reach : -never, rises ? reach : never};
   }
 
   /// Takes over the side after a look at which it did not fire.

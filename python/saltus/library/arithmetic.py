@@ -13,6 +13,7 @@ from saltus import _core
 from saltus.errors import ModelError
 from saltus.leaf_system import LeafSystem
 from saltus.library.block import Block
+from saltus.porting import refusing
 
 
 class Gain(Block, _core.Gain):
@@ -97,6 +98,7 @@ class ReduceBlock(LeafSystem):
     would not.
     """
 
+    @refusing
     def __init__(
         self,
         n_inputs: int,
@@ -119,6 +121,7 @@ class FunctionBlock(LeafSystem):
     `ReduceBlock`.
     """
 
+    @refusing
     def __init__(
         self,
         function: Callable[..., ArrayLike],

@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 import saltus
+from saltus import library
 from troubles import Everything, check_works
 
 
@@ -181,3 +182,37 @@ def test_6_1_a_context_that_is_none_or_of_another_system_is_refused(system):
 def test_6_1_a_declaration_that_is_refused_leaves_the_block_as_it_was(system, declare, message):
     assert refused(lambda: declare(system)).startswith(message)
     check_works(system)
+
+
+@pytest.mark.parametrize(
+    ("make", "message"),
+    [
+        (
+            lambda: library.Pulse(period="often"),
+            "Pulse: expected period: float; found period = 'often'",
+        ),
+        (
+            lambda: library.Gain(2.0, name=3),
+            "Gain: expected gain: ArrayLike, name: str | None; found gain = 2.0, name = 3",
+        ),
+        (
+            lambda: library.Integrator(initial=1.0),
+            "Integrator: unknown option 'initial'; Known: 'initial_state', 'enable_reset', ",
+        ),
+        (
+            lambda: library.Integrator(initial_sate=1.0),
+            "Integrator: unknown option 'initial_sate'; did you mean 'initial_state'? Known: ",
+        ),
+        (
+            lambda: library.ReduceBlock(2, max, shap=1),
+            "ReduceBlock: unknown option 'shap'; did you mean 'shape'? Known: ",
+        ),
+        (
+            lambda: saltus.LeafSystem(nam="x"),
+            "LeafSystem: unknown option 'nam'; did you mean 'name'? Known: 'name'",
+        ),
+        (lambda: saltus.LeafSystem(3), "LeafSystem: expected name: str | None; found name = 3"),
+    ],
+)
+def test_6_1_an_argument_of_a_block_that_makes_no_sense_is_refused(make, message):
+    assert refused(make).startswith(message)

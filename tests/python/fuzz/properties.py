@@ -37,9 +37,11 @@ def check_rows(scene: Scene, results: saltus.Results) -> None:
     is there.
     """
     t, j = results.time, results.jump
+    if results.status == "failed" and len(t) == 0:
+        return  # at the start already
     assert t[0] == scene.span[0]
     assert j[0] == 0
-    assert t[-1] == results.context.time
+    assert t[-1] == results.context.time or results.status == "failed"
     passes = np.diff(j) == 1
     steps = np.diff(t)
     assert np.all((np.diff(j) == 0) | passes)
@@ -60,11 +62,15 @@ def check_events(results: saltus.Results) -> None:
     when = [(e.time, e.jump) for e in events]
     assert when == sorted(when)
     rows = list(zip(results.time.tolist(), results.jump.tolist(), strict=True))
+    if not rows:
+        return
     after = {row for row, one in zip(rows[1:], np.diff(results.jump), strict=True) if one == 1}
     assert after <= set(when), "a pass without a cause"
     first = {jump: time for time, jump in reversed(rows)}
     last = {jump: time for time, jump in rows}
     for e in events:
+        if results.status == "failed" and e.time > rows[-1][0]:
+            continue  # an output of the next row is not finite
         assert e.jump in first, e
         assert first[e.jump] <= e.time <= last[e.jump], e
         assert e.kind == "zeno_enter" or math.isnan(e.predicted)

@@ -118,23 +118,19 @@ def at_start(choice, start):
     )
 
 
-todo = pytest.mark.xfail(strict=True, reason="at_start is declared and not heeded yet")
-
-
 @pytest.mark.parametrize(
     ("choice", "start", "times"),
     [
-        pytest.param("ignore", 0.0, [], marks=todo),
+        ("ignore", 0.0, []),
         ("ignore", 1.0, []),
         ("fire", 0.0, [0.0]),
-        pytest.param("fire", 1.0, [0.0], marks=todo),
+        ("fire", 1.0, [0.0]),
     ],
 )
 def test_2_4_at_start_decides_both_cases(choice, start, times):
     assert go(at_start(choice, start), 1.0).events.times("cross").tolist() == times
 
 
-@todo
 @pytest.mark.parametrize("start", [0.0, 1.0])
 def test_2_4_at_start_may_be_an_error(start):
     with pytest.raises(saltus.SimulationError, match=r"t = 0 s: .*block.cross"):
