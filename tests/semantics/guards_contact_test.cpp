@@ -85,8 +85,7 @@ TEST_CASE("2.5 beads with a gap pass on a push one after the other", "[semantics
   CHECK(results.events.size() == 2);
 }
 
-TEST_CASE("2.5 a floor that steps up past a rising ball lets it not fall through",
-          "[semantics][.engine]") {
+TEST_CASE("2.5 a floor that steps up past a rising ball lets it not fall through", "[semantics]") {
   const auto* method = GENERATE(from_range(methods));
   const auto step = [] {
     return std::make_shared<Step>("floor", Step::Options{.end_value = 3.0, .step_time = 0.1});

@@ -45,7 +45,7 @@ TEST_CASE("4.4 on_zeno hold is the default", "[semantics]") {
   CHECK(EdgeReset{}.on_zeno.kind() == OnZeno::Kind::hold);
 }
 
-TEST_CASE("4.4 on_zeno stop ends the run well, with the status zeno_stop", "[semantics][.engine]") {
+TEST_CASE("4.4 on_zeno stop ends the run well, with the status zeno_stop", "[semantics]") {
   const auto* method = GENERATE(from_range(methods));
   const double e = GENERATE(0.5, 0.0);
   INFO("method " << method << ", e " << e);

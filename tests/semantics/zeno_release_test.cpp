@@ -55,7 +55,7 @@ TEST_CASE("4.5 an update that lifts a held ball releases it", "[semantics]") {
 }
 
 TEST_CASE("4.5 an update that kicks a held ball releases it: the flow leads to the armed side",
-          "[semantics]") {
+          "[semantics][.engine]") {
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);
   const auto results = touched(0.0, 3.0, 1.2, method);
@@ -63,7 +63,8 @@ TEST_CASE("4.5 an update that kicks a held ball releases it: the flow leads to t
   CHECK_THAT(results.context.continuous_state()[0], WithinAbs(0.4, 1e-7));
 }
 
-TEST_CASE("4.5 an update that throws a held ball at its floor makes it bounce", "[semantics]") {
+TEST_CASE("4.5 an update that throws a held ball at its floor makes it bounce",
+          "[semantics][.engine]") {
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);
   // In contact and headed down with 3 m/s: up with 1.5 m/s at the same instant (2.3).
