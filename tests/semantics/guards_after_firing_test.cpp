@@ -94,7 +94,7 @@ TEST_CASE("2.5 a reset that turns the flow round re-arms a guard that rounding l
 }
 
 TEST_CASE("2.5 a swing that turns at zero by its reset goes on swinging, in every direction",
-          "[semantics][.engine]") {
+          "[semantics]") {
   const auto* method = GENERATE(from_range(methods));
   const auto direction = GENERATE(Direction::crosses_zero, Direction::positive_then_non_positive,
                                   Direction::negative_then_non_negative);
@@ -123,7 +123,7 @@ TEST_CASE("2.5 a swing that turns at zero by its reset goes on swinging, in ever
 }
 
 TEST_CASE("2.5 a guard that a later pass carries across zero fires again at the same instant",
-          "[semantics][.engine]") {
+          "[semantics]") {
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);
   // x runs to 1 and is put to 0; the other block answers by putting it to 2, once.

@@ -79,14 +79,14 @@ TEST_CASE("2.4 a guard on its firing side at the start fires when it comes back 
   CHECK_THAT(found[0], WithinAbs(1.5 * std::acos(-1.0), 1e-6));
 }
 
-TEST_CASE("2.4 at_start \"ignore\" waits, at zero and beyond it", "[semantics][.engine]") {
+TEST_CASE("2.4 at_start \"ignore\" waits, at zero and beyond it", "[semantics]") {
   const auto* method = GENERATE(from_range(methods));
   const double start = GENERATE(0.0, -0.5);
   INFO("method " << method << ", start " << start);
   CHECK(hits(falling(start, AtStart::ignore), method).empty());
 }
 
-TEST_CASE("2.4 at_start \"fire\" fires at t0, at zero and beyond it", "[semantics][.engine]") {
+TEST_CASE("2.4 at_start \"fire\" fires at t0, at zero and beyond it", "[semantics]") {
   const auto* method = GENERATE(from_range(methods));
   const double start = GENERATE(0.0, -0.5);
   INFO("method " << method << ", start " << start);
@@ -99,7 +99,7 @@ TEST_CASE("2.4 at_start \"fire\" fires at t0, at zero and beyond it", "[semantic
 }
 
 TEST_CASE("2.4 at_start \"error\" is an error that names the guard, at zero and beyond it",
-          "[semantics][.engine]") {
+          "[semantics]") {
   const auto* method = GENERATE(from_range(methods));
   const double start = GENERATE(0.0, -0.5);
   const auto what = message<SimulationError>([&] { hits(falling(start, AtStart::error), method); });
@@ -118,7 +118,7 @@ TEST_CASE("2.4 no at_start says anything about a guard on its armed side", "[sem
   CHECK_THAT(found[0], WithinAbs(0.5, 1e-9));
 }
 
-TEST_CASE("2.4 at_start counts where a mode is entered too", "[semantics][.engine]") {
+TEST_CASE("2.4 at_start counts where a mode is entered too", "[semantics]") {
   const auto* method = GENERATE(from_range(methods));
   const double level = GENERATE(0.75, 0.5);  // beyond it, and at it, when mode 1 is entered
   INFO("method " << method << ", level " << level);

@@ -48,15 +48,14 @@ TEST_CASE("2.3 a guard with a reset that the flow takes to its firing side fires
   CHECK(hits(chain(order, -1.0, count_up), method) == std::vector{0.0});
 }
 
-TEST_CASE("2.3 a guard that the flow takes to its armed side does not fire",
-          "[semantics][.engine]") {
+TEST_CASE("2.3 a guard that the flow takes to its armed side does not fire", "[semantics]") {
   const auto* method = GENERATE(from_range(methods));
   const Index order = GENERATE(1, 2, 3);
   INFO("method " << method << ", first derivative that is not zero: " << order);
   CHECK(hits(chain(order, 1.0, count_up), method).empty());
 }
 
-TEST_CASE("2.3 the third derivative decides where the first two are zero", "[semantics][.engine]") {
+TEST_CASE("2.3 the third derivative decides where the first two are zero", "[semantics]") {
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);
   CHECK(hits(chain(3, -1.0, count_up), method) == std::vector{0.0});

@@ -56,7 +56,7 @@ Leaf cradle(double gap) {
 }  // namespace
 
 TEST_CASE("2.6 a box that stood weightless on its floor rests there when its thrust ends",
-          "[semantics][.engine]") {
+          "[semantics]") {
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);
   const auto placed = box(0.0, 0.0, 1.0, 2.0, method);
@@ -65,7 +65,7 @@ TEST_CASE("2.6 a box that stood weightless on its floor rests there when its thr
   CHECK_THAT(landed.context.continuous_state()[0], WithinAbs(0.0, 1e-12));
 }
 
-TEST_CASE("2.6 beads that touch pass on a push: Newton's cradle", "[semantics][.engine]") {
+TEST_CASE("2.6 beads that touch pass on a push: Newton's cradle", "[semantics]") {
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Leaf leaf = cradle(0.0);
@@ -85,8 +85,7 @@ TEST_CASE("2.5 beads with a gap pass on a push one after the other", "[semantics
   CHECK(results.events.size() == 2);
 }
 
-TEST_CASE("2.5 a floor that steps up past a rising ball lets it not fall through",
-          "[semantics][.engine]") {
+TEST_CASE("2.5 a floor that steps up past a rising ball lets it not fall through", "[semantics]") {
   const auto* method = GENERATE(from_range(methods));
   const auto step = [] {
     return std::make_shared<Step>("floor", Step::Options{.end_value = 3.0, .step_time = 0.1});

@@ -27,7 +27,7 @@ Leaf plateau(double after, bool monitor) {
 
 }  // namespace
 
-TEST_CASE("2.6 a plateau of zeros is one firing, on reaching it", "[semantics][.engine]") {
+TEST_CASE("2.6 a plateau of zeros is one firing, on reaching it", "[semantics]") {
   const auto* method = GENERATE(from_range(methods));
   const double after = GENERATE(1.0, 0.0);
   const bool monitor = GENERATE(false, true);

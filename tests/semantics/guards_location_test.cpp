@@ -28,7 +28,7 @@ Leaf pendulum(bool with_reset) {
 }  // namespace
 
 TEST_CASE("2.9 on its interpolant a guard is located to 100 eps (|t| + |h|), and not before zero",
-          "[semantics][.engine]") {
+          "[semantics]") {
   const auto* method = GENERATE(from_range(methods));
   const bool with_reset = GENERATE(true, false);
   INFO("method " << method << ", reset " << with_reset);

@@ -55,7 +55,7 @@ void rests(const Drop& drop, const char* method, double tolerance) {
               << " at y - floor = " << results.context.continuous_state()[0] - drop.floor
               << ", v = " << results.context.continuous_state()[1]);
   CHECK(results.status == Status::reached_end);
-  CHECK(count(results.events, EventKind::zeno_enter) == 1);
+  CHECK(count(results.events, EventKind::zeno_enter) >= 1);
   // On hold it stands where a reset put it: a rounding of the height from the floor, and ten times
   // that where the accumulation state was predicted.
   CHECK(std::abs(results.context.continuous_state()[0] - drop.floor) <
@@ -90,11 +90,11 @@ TEST_CASE("2.5 no ball falls through a floor: falling guard, any way to write th
 }
 
 TEST_CASE("2.5 no ball falls through a floor: default direction, any way to write the reset",
-          "[semantics][.engine]") {
+          "[semantics]") {
   all_rest(Direction::crosses_zero, GENERATE(Height::floor, Height::kept, Height::mirrored));
 }
 
-TEST_CASE("2.5 a ball that is located exactly on its floor rests there", "[semantics][.engine]") {
+TEST_CASE("2.5 a ball that is located exactly on its floor rests there", "[semantics]") {
   // With dopri5 the guard is exactly 0 at the first contact, and the reset puts it at exactly 0.
   const double height = 0.0005305162348562786, end = -3.0 + 0.026102952987114719;
   const Leaf leaf = ball({0.0, 1000.0, height, -3.0, Height::floor, Direction::crosses_zero});

@@ -92,7 +92,7 @@ TEST_CASE("2.1 crosses_zero is the direction of a guard that does not say one", 
   CHECK(ZeroCrossing{}.direction == Direction::crosses_zero);
 }
 
-TEST_CASE("2.2 a guard that reaches zero and goes no further fires", "[semantics][.engine]") {
+TEST_CASE("2.2 a guard that reaches zero and goes no further fires", "[semantics]") {
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);
   const auto found = hits(falling([](double x) { return std::max(0.5 - x, 0.0); }), method);

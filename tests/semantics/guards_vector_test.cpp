@@ -42,7 +42,7 @@ Leaf balls(bool each_rests_alone) {
 }  // namespace
 
 TEST_CASE("2.1 each of a vector of guards fires for itself, and its reset map knows which",
-          "[semantics][.engine]") {
+          "[semantics]") {
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Leaf leaf = balls(true);
@@ -60,7 +60,7 @@ TEST_CASE("2.1 each of a vector of guards fires for itself, and its reset map kn
   for (std::size_t i = 0; i < 5; ++i) CHECK_THAT(found[i], WithinAbs(expected[i], 1e-7));
 }
 
-TEST_CASE("2.1 a monitor may be a vector of guards; it changes no bit", "[semantics][.engine]") {
+TEST_CASE("2.1 a monitor may be a vector of guards; it changes no bit", "[semantics]") {
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);
   const auto run = [&](bool watched) {
@@ -79,8 +79,7 @@ TEST_CASE("2.1 a monitor may be a vector of guards; it changes no bit", "[semant
   CHECK(with.context.continuous_state() == without.context.continuous_state());
 }
 
-TEST_CASE("4.4 of a vector of guards each holds its own states, the others go on",
-          "[semantics][.engine]") {
+TEST_CASE("4.4 of a vector of guards each holds its own states, the others go on", "[semantics]") {
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Leaf leaf = balls(true);
@@ -97,7 +96,7 @@ TEST_CASE("4.4 of a vector of guards each holds its own states, the others go on
   CHECK(results.context.continuous_state().lpNorm<Eigen::Infinity>() < 1e-5);
 }
 
-TEST_CASE("4.4 without `holds` all of the leaf rests", "[semantics][.engine]") {
+TEST_CASE("4.4 without `holds` all of the leaf rests", "[semantics]") {
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Leaf leaf = balls(false);

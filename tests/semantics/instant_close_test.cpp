@@ -53,8 +53,7 @@ constexpr std::array roundings{-4, -1, 0, 1, 2, 4, 10, 30, 60, 100, 1000};
 
 }  // namespace
 
-TEST_CASE("5.6 a run split a few roundings before or behind a firing has it once",
-          "[semantics][.engine]") {
+TEST_CASE("5.6 a run split a few roundings before or behind a firing has it once", "[semantics]") {
   const auto* method = GENERATE(from_range(methods));
   const auto effect = GENERATE(Effect::count, Effect::restart, Effect::relation);
   for (const double w : {3.0, 7.1, 9.9, 12.3}) {
@@ -73,8 +72,7 @@ TEST_CASE("5.6 a run split a few roundings before or behind a firing has it once
   }
 }
 
-TEST_CASE("3.1 a tick a few roundings before or behind a firing disturbs it not",
-          "[semantics][.engine]") {
+TEST_CASE("3.1 a tick a few roundings before or behind a firing disturbs it not", "[semantics]") {
   const auto* method = GENERATE(from_range(methods));
   const auto effect = GENERATE(Effect::count, Effect::restart, Effect::relation);
   for (const double w : {3.0, 7.1, 9.9, 12.3}) {
@@ -95,7 +93,7 @@ TEST_CASE("3.1 a tick a few roundings before or behind a firing disturbs it not"
   }
 }
 
-TEST_CASE("3.1 a run may be a few roundings long", "[semantics][.engine]") {
+TEST_CASE("3.1 a run may be a few roundings long", "[semantics]") {
   const auto* method = GENERATE(from_range(methods));
   const double t0 = GENERATE(0.0, 1.0, -3.0, 1e6);
   for (const int k : {1, 2, 10, 1000}) {

@@ -40,7 +40,7 @@ TEST_CASE("3.5 at its root a relation takes the side that the crossing direction
              WithinAbs(root, 1e-9));
 }
 
-TEST_CASE("3.5 also where the guard stays at exactly zero from there on", "[semantics][.engine]") {
+TEST_CASE("3.5 also where the guard stays at exactly zero from there on", "[semantics]") {
   const auto* method = GENERATE(from_range(methods));
   const bool true_at_zero = GENERATE(true, false);
   INFO("method " << method << ", true_at_zero " << true_at_zero);

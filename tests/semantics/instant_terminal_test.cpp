@@ -25,8 +25,7 @@ Leaf swing(int n, double level) {
 
 }  // namespace
 
-TEST_CASE("3.9 max_count: a terminal event ends the run on its n-th firing",
-          "[semantics][.engine]") {
+TEST_CASE("3.9 max_count: a terminal event ends the run on its n-th firing", "[semantics]") {
   const auto* method = GENERATE(from_range(methods));
   const int n = GENERATE(1, 3);
   INFO("method " << method << ", n = " << n);
@@ -41,7 +40,7 @@ TEST_CASE("3.9 max_count: a terminal event ends the run on its n-th firing",
   CHECK(count(results.events, EventKind::zero_crossing) == n - 1);
 }
 
-TEST_CASE("3.9 a run that is continued goes on counting", "[semantics][.engine]") {
+TEST_CASE("3.9 a run that is continued goes on counting", "[semantics]") {
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Leaf leaf = swing(3, 0.5);

@@ -27,7 +27,7 @@ Pieces in_pieces(const System& system, Context context, const std::vector<double
 
 }  // namespace
 
-TEST_CASE("5.6 a relation at exactly zero keeps its side across a split", "[semantics][.engine]") {
+TEST_CASE("5.6 a relation at exactly zero keeps its side across a split", "[semantics]") {
   const auto* method = GENERATE(from_range(methods));
   const bool rises = GENERATE(true, false);
   INFO("method " << method << ", rises " << rises);
@@ -49,7 +49,7 @@ TEST_CASE("5.6 a relation at exactly zero keeps its side across a split", "[sema
   CHECK_THAT(split.context.continuous_state()[0], WithinAbs(rises ? 1.0 : -1.0, 1e-9));
 }
 
-TEST_CASE("5.6 a hold is known after a split, not found again", "[semantics][.engine]") {
+TEST_CASE("5.6 a hold is known after a split, not found again", "[semantics]") {
   const auto* method = GENERATE(from_range(methods));
   for (const Scene& scene : all_forms({.e = 0.5})) {
     INFO(scene.form << ", method " << method);
@@ -57,12 +57,13 @@ TEST_CASE("5.6 a hold is known after a split, not found again", "[semantics][.en
     const auto whole = in_pieces(*scene.system, scene.context(1.0, 0.0), {5.0}, options);
     const auto split = in_pieces(*scene.system, scene.context(1.0, 0.0), {2.0, 3.0, 5.0}, options);
     CHECK(split.kinds == whole.kinds);
-    CHECK(split.context.continuous_state() == whole.context.continuous_state());
+    // Each piece accumulates anew from states that differ in their last digits.
+    CHECK((split.context.continuous_state() - whole.context.continuous_state()).norm() < 1e-9);
   }
 }
 
 TEST_CASE("5.6 a hold that was split is released by the floor that would have released it",
-          "[semantics][.engine]") {
+          "[semantics]") {
   const auto* method = GENERATE(from_range(methods));
   const auto drop = [] {
     return std::make_shared<Step>("floor", Step::Options{.end_value = -2.0, .step_time = 3.0});
@@ -79,7 +80,7 @@ TEST_CASE("5.6 a hold that was split is released by the floor that would have re
 }
 
 TEST_CASE("5.6 gaps are remembered across a split: the hold begins at the same bounce",
-          "[semantics][.engine]") {
+          "[semantics]") {
   const double before_rest = GENERATE(1e-3, 1e-5, 3e-6, 1.5e-6);  // [s]
   for (const Scene& scene : all_forms({.g = 10.0, .e = 0.5})) {
     INFO(scene.form << ", split " << before_rest << " s before rest");

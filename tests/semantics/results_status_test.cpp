@@ -69,7 +69,8 @@ TEST_CASE("5.5 every run ends in one status, and only the good ones end without 
       CHECK(!ended_well(ending.status));
       REQUIRE(error.results());
       CHECK(error.results()->status == ending.status);
-      CHECK(error.results()->context.time() == error.time());
+      // A step that fails does so a rounding behind the last one that did not.
+      CHECK(std::abs(error.results()->context.time() - error.time()) < 1e-9);
       CHECK(contains(error.what(), text("t = ", error.time())));
     }
   }
@@ -85,7 +86,7 @@ TEST_CASE("5.5 the names of the seven statuses", "[semantics]") {
 }
 
 TEST_CASE("6.2 a derivative that is NaN from some state on is named with its block",
-          "[semantics][.engine]") {
+          "[semantics]") {
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Leaf leaf = ramp(false, 0.5);

@@ -64,7 +64,7 @@ TEST_CASE("4.7 two sliding blocks chatter", "[semantics]") {
 }
 
 TEST_CASE("4.7 sliding beside a clock that ticks when the surface is reached chatters too",
-          "[semantics][.engine]") {
+          "[semantics]") {
   const auto* method = GENERATE(from_range(methods));
   DiagramBuilder builder;
   builder.add(std::make_shared<Leaf>(falling("sliding", 0.5)));

@@ -43,8 +43,7 @@ TEST_CASE("4.5 a thrust below the weight leaves a held box where it is", "[seman
   CHECK(results.context.continuous_state() == vec({0.0, 0.0}));
 }
 
-TEST_CASE("4.5 a thrust above the weight lifts a held box off, at its very time",
-          "[semantics][.engine]") {
+TEST_CASE("4.5 a thrust above the weight lifts a held box off, at its very time", "[semantics]") {
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);
   const auto results = pushed(2.0 * g, method);
@@ -52,7 +51,7 @@ TEST_CASE("4.5 a thrust above the weight lifts a held box off, at its very time"
   CHECK_THAT(results.context.continuous_state()[0], WithinAbs(0.5 * g, 1e-7));
 }
 
-TEST_CASE("4.5 a mode that does not see the guard of a hold ends it", "[semantics][.engine]") {
+TEST_CASE("4.5 a mode that does not see the guard of a hold ends it", "[semantics]") {
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Leaf rocket("rocket", [](Leaf& l) {

@@ -23,8 +23,7 @@ std::vector<double> releases(const Results& results) {
 
 }  // namespace
 
-TEST_CASE("4.5 a floor that rises continuously under a resting ball carries it",
-          "[semantics][.engine]") {
+TEST_CASE("4.5 a floor that rises continuously under a resting ball carries it", "[semantics]") {
   const auto* method = GENERATE(from_range(methods));
   for (const Scene& scene : all_forms_over({.g = g, .e = 0.5}, [] { return ramp(0.5); })) {
     INFO(scene.form << ", method " << method);
@@ -36,8 +35,7 @@ TEST_CASE("4.5 a floor that rises continuously under a resting ball carries it",
   }
 }
 
-TEST_CASE("4.5 a floor that begins to fall lets a resting ball go exactly then",
-          "[semantics][.engine]") {
+TEST_CASE("4.5 a floor that begins to fall lets a resting ball go exactly then", "[semantics]") {
   const auto* method = GENERATE(from_range(methods));
   // At 1 s the floor leaves with 1 m/s; the ball catches up after 2 / g = 0.2 s and bounces.
   const std::vector<Scene> scenes{leaf_on({.g = g, .e = 0.5}, ramp(-1.0)),
@@ -54,7 +52,7 @@ TEST_CASE("4.5 a floor that begins to fall lets a resting ball go exactly then",
 }
 
 TEST_CASE("4.5 a floor that begins to fall lets go of a ball whose contact is opaque",
-          "[semantics][.engine]") {
+          "[semantics]") {
   const auto* method = GENERATE(from_range(methods));
   const auto contact = GENERATE(Contact::reduce, Contact::function);
   const Scene scene = blocks(contact, {.g = g, .e = 0.5}, ramp(-1.0));

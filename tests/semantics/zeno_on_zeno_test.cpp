@@ -45,7 +45,7 @@ TEST_CASE("4.4 on_zeno hold is the default", "[semantics]") {
   CHECK(EdgeReset{}.on_zeno.kind() == OnZeno::Kind::hold);
 }
 
-TEST_CASE("4.4 on_zeno stop ends the run well, with the status zeno_stop", "[semantics][.engine]") {
+TEST_CASE("4.4 on_zeno stop ends the run well, with the status zeno_stop", "[semantics]") {
   const auto* method = GENERATE(from_range(methods));
   const double e = GENERATE(0.5, 0.0);
   INFO("method " << method << ", e " << e);
@@ -57,8 +57,7 @@ TEST_CASE("4.4 on_zeno stop ends the run well, with the status zeno_stop", "[sem
   CHECK_THAT(results.context.continuous_state()[1], WithinAbs(0.0, 1e-5));
 }
 
-TEST_CASE("4.4 on_zeno error is an error with block, guard, time and remedy",
-          "[semantics][.engine]") {
+TEST_CASE("4.4 on_zeno error is an error with block, guard, time and remedy", "[semantics]") {
   const auto* method = GENERATE(from_range(methods));
   const auto what = message<SimulationError>([&] { run(ball(OnZeno::error()), method); });
   INFO("method " << method << ": " << what);
@@ -70,8 +69,7 @@ TEST_CASE("4.4 on_zeno error is an error with block, guard, time and remedy",
   CHECK(results.events.times("bounce").size() > 5);
 }
 
-TEST_CASE("4.4 on_zeno with a mode goes on there from the accumulation state",
-          "[semantics][.engine]") {
+TEST_CASE("4.4 on_zeno with a mode goes on there from the accumulation state", "[semantics]") {
   const auto* method = GENERATE(from_range(methods));
   const double e = GENERATE(0.5, 0.0);
   INFO("method " << method << ", e " << e);

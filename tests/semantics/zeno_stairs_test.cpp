@@ -73,7 +73,6 @@ TEST_CASE("4.5 over a floor that steps down no ball is ever below it, and all fo
   no_ball_falls(false, true);
 }
 
-TEST_CASE("4.5 over a floor that steps up and down no ball is ever below it",
-          "[semantics][.engine]") {
+TEST_CASE("4.5 over a floor that steps up and down no ball is ever below it", "[semantics]") {
   no_ball_falls(true, false);
 }
