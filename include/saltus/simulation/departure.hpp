@@ -47,8 +47,8 @@ class Departure {
     return rounding_after(0.0, slot, g0_[slot]);
   }
 
-  /// What the tolerance of the states leaves uncertain of a guard where it stands.
-  double tolerance(Index slot) { return rounding(slot) * rtol_ / (16.0 * eps) + atol_; }
+  /// What ten tolerances of the states leave uncertain of a guard where it stands.
+  double tolerance(Index slot) { return 10.0 * (rounding(slot) * rtol_ / (16.0 * eps) + atol_); }
 
   /// `hair`: a guard within it is at zero too, and is followed until it has left that as well.
   /// `expected`: a side that makes no difference to being at zero, so that its rounding need not be

@@ -26,7 +26,7 @@ class Locator {
   Locator(Machine& machine, Watch& watch)
       : machine_(&machine), watch_(&watch), x_(static_cast<std::size_t>(machine.plan().nx)) {
     const auto slots = static_cast<std::size_t>(machine.plan().guard_slots);
-    for (auto* values : {&low_, &high_, &middle_, &earlier_}) values->assign(slots, 1.0);
+    for (auto* values : {&low_, &high_, &middle_, &earlier_, &at_root_, &noise_}) values->assign(slots, 1.0);
     crossed_.reserve(slots), limits_.reserve(slots);
   }
 
@@ -59,7 +59,8 @@ class Locator {
   /// The same without points in between, save where a guard seems to dip across zero and back;
   /// monitors are noted and passed.
   template <class Interpolate>
-  bool find_in(double from, double to, const double* end, const Interpolate& interpolate) {
+  bool find_in(double from, double to, const double* end, const Interpolate& interpolate,
+               bool between = true) {
     while (from < to) {
       look(to, end, interpolate, high_);
       double high = to;
@@ -79,11 +80,32 @@ class Locator {
           continue;
         }
       }
+      const double before = from;
       from = narrow(from, high, interpolate);
+      if (between && watch_->active.size() > 1 && watch_->scan_points > 0) {
+        if (find_before(before, from, interpolate)) return true;
+      }
       forget();
       if (take(from)) return true;
       leave_zero_of_monitors(from, to, interpolate);
     }
+    return false;
+  }
+
+  /// The same for what lies before a root: it cuts the step, and what was looked at were points of
+  /// the longer one. Afterwards `high_` and crossed_ are those of the root again.
+  template <class Interpolate>
+  bool find_before(double from, double root, const Interpolate& interpolate) {
+    at_root_ = high_;
+    const double piece = (root - from) / (watch_->scan_points + 1);
+    for (int i = 1; i <= watch_->scan_points; ++i) {
+      const double next = std::min(root, from + piece);
+      if (find_in(from, next, nullptr, interpolate, false)) return true;
+      from = next;
+    }
+    low_ = watch_->g;
+    high_ = at_root_;
+    note_crossed(high_);
     return false;
   }
 
@@ -240,6 +262,8 @@ class Locator {
       }
       weight = kept > 1 ? weight * 0.5 : kept < -1 ? weight * 2.0 : 1.0;
     }
+    for (const std::size_t k : crossed_)
+      noise_[k] = 4.0 * std::max(std::abs(low_[k]), std::abs(high_[k]));
     return high;
   }
 
@@ -272,16 +296,25 @@ class Locator {
     return std::clamp(low + fraction * (high - low), low + resolution, high - resolution);
   }
 
+  /// A monitor goes over to the other side, and is at zero until it is clearly off.
+  void pass_monitor(GuardSlot& slot, const Firing& firing, double u) {
+    const auto k = static_cast<std::size_t>(firing.slot);
+    watch_->monitors.push_back({t0_ + u, firing});
+    if (slot.direction == Direction::edge_detection) return;
+    slot.side = static_cast<signed char>((high_[k] > 0.0) - (high_[k] < 0.0));
+    slot.fresh = true, slot.band = noise_[k];
+  }
+
   /// Notes what fired at offset u; true if one of them is no monitor.
   bool take(double u) {
     root_ = u;
     watch_->fired.clear();
     for (std::size_t k : crossed_) {
-      const GuardSlot& slot = watch_->slots[k];
+      GuardSlot& slot = watch_->slots[k];
       if (!std::isfinite(high_[k])) throw_not_finite(k, t0_ + u);
       const Firing firing{static_cast<int>(k), slot.side};
       if (slot.monitor)
-        watch_->monitors.push_back({t0_ + u, firing});
+        pass_monitor(slot, firing, u);
       else
         watch_->fired.push_back(firing);
     }
@@ -289,7 +322,8 @@ class Locator {
       const std::size_t k = watch_->active[i];
       GuardSlot& slot = watch_->slots[k];
       watch_->follow(k, high_[k]);
-      if (!slot.leaving && slot.crossed(high_[k])) slot.side = 0;  // exactly on zero: it takes the side it leaves to
+      // Exactly on zero it takes the side it leaves to.
+      if (!slot.leaving && slot.crossed(high_[k])) slot.side = 0;
       limits_[i] = slot.limits();
     }
     return !watch_->fired.empty();
@@ -300,6 +334,8 @@ class Locator {
   Machine* machine_;
   Watch* watch_;
   std::vector<double> x_, low_, high_, middle_;
+  std::vector<double> at_root_;
+  std::vector<double> noise_;    // of guards about their root: interpolants waver by a rounding
   std::vector<double> earlier_;  // guards at the look before the last
   double earlier_at_ = never;    // its offset, below zero if it was in the step before
   std::vector<std::size_t> crossed_;
