@@ -68,7 +68,8 @@ double Contacts::extrapolate(const SurfaceContact& contact, double* x) {
   double furthest = 0.0;
   for (const Index i : contact.states) {
     const double first = once_[i] - begun_[i], second = twice_[i] - once_[i];
-    const double size = std::max({std::abs(begun_[i]), std::abs(once_[i]), std::abs(twice_[i])});
+    const double size = std::max({std::abs(original_[i]), std::abs(begun_[i]), std::abs(once_[i]),
+                                  std::abs(twice_[i])});
     furthest = std::max(furthest, std::abs(first) / (64.0 * eps * size + 1e-300));
     const double limit = begun_[i] - first * first / (second - first);
     const bool told = std::abs(first) > 64.0 * eps * size && std::isfinite(limit);

@@ -79,7 +79,8 @@ void Instant::arm_crossing(const GuardGroup& group, std::size_t k, bool at_start
   const bool either = group.direction == Direction::crosses_zero;
   const int falls = firing_side(group.direction);
   const int from = fired_[k] ? from_[k] : !either ? -falls : slot.side != 0 ? slot.side : -falls;
-  const double hair = std::max(fired_[k] ? 4.0 * std::abs(g_minus_[k]) : 0.0, entered || slot.fresh ? std::abs(g_[k]) : 0.0);
+  const double hair =
+      std::max(fired_[k] ? hair_of(k) : 0.0, entered || slot.fresh ? std::abs(g_[k]) : 0.0);
   const Departure::Side flow = side_of(group, number, hair, fired_[k] ? from : 0);
   slot.band = flow.rounding;
   const bool its_side = either ? flow.side != 0 : flow.side == falls;
@@ -91,6 +92,12 @@ void Instant::arm_crossing(const GuardGroup& group, std::size_t k, bool at_start
   } else {
     arm_at_zero(group, k, flow, at_start);
   }
+}
+
+/// How far the location of a root left a guard from zero. Not where it fired on leaving its band:
+/// bands made of bands would grow without end.
+double Instant::hair_of(std::size_t k) const {
+  return in_band_[k] ? 1.01 * std::abs(g_[k]) : 4.0 * std::abs(g_minus_[k]);
 }
 
 /// Whether a guard that has not fired in this instant stands at zero; in a mode just entered also
@@ -131,14 +138,14 @@ void Instant::arm_fired(const GuardGroup& group, std::size_t k, int from, Depart
   slot.fresh = true;
   // What a passed-through guard leaves a plateau to is no matter; a reset that wrote keeps it armed.
   slot.side = static_cast<signed char>(flow.side != 0 ? flow.side : reset && wrote_x_ ? from : 0);
-  const bool back = reset && flow.side == -from && std::abs(g_[k]) <= slot.band;
+  const bool back = reset && (flow.side == -from || too_low(group, k)) && std::abs(g_[k]) <= slot.band;
   if (!back) return;
   if (effects_ > 1 && reset_turns(group, k, from)) {
     // another reset sent it back: it fires again
     firings_.push_back({static_cast<int>(k), from});
     return;
   }
-  if (!rests(group, static_cast<Index>(k), from)) return;
+  if (!too_low(group, k) && !rests(group, static_cast<Index>(k), from)) return;
   Rest& rest = slot_rests_[k];
   slot.side = static_cast<signed char>(from);
   slot.band = std::abs(g_[k]);  // without a monitor it fires again as soon as it can
@@ -148,6 +155,15 @@ void Instant::arm_fired(const GuardGroup& group, std::size_t k, int from, Depart
   }
   come_to_rest(rest, t_, false);
   if (rest.monitor.holding) touch_crossing(k);
+}
+
+/// Whether the flight that ended here was too low to be told from rest: its height, slope times a
+/// quarter of its time for a parabola, is within the band.
+bool Instant::too_low(const GuardGroup& group, std::size_t k) {
+  if (!in_band_[k] || !wrote_x_) return false;
+  departure_.from(t_, x_minus_, longest_);
+  flowed_ = false;
+  return std::abs(departure_.slope(group, static_cast<Index>(k))) * flight_[k] <= 4.0 * watch_->slots[k].band;
 }
 
 /// Whether the guard's own reset map, applied to the state now, sends the flow off to its armed
@@ -183,7 +199,7 @@ void Instant::arm_relation(const GuardGroup& group, std::size_t k) {
     return;
   }
   const Departure::Side flow =
-      side_of(group, static_cast<Index>(k), fired_[k] ? 4.0 * std::abs(g_minus_[k]) : 0.0, 0);
+      side_of(group, static_cast<Index>(k), fired_[k] ? hair_of(k) : 0.0, 0);
   slot.fresh = true;
   slot.band = flow.rounding;
   if (flow.side != 0 && flow.side != slot.side)
@@ -195,6 +211,7 @@ void Instant::arm_relation(const GuardGroup& group, std::size_t k) {
 /// went the same way.
 bool Instant::rests(const GuardGroup& group, Index slot, int from) {
   if (!wrote_x_) return false;
+  if (!flowed_) departure_.from(t_, machine_->x, longest_);
   const double onward = -from * departure_.slope(group, slot);
   if (!(onward > 0.0)) return true;
   departure_.from(t_, x_minus_, longest_);

@@ -129,7 +129,7 @@ void Instant::leave_contact(std::size_t k) {
 void Instant::touch_crossing(std::size_t k) {
   GuardSlot& slot = watch_->slots[k];
   const Departure::Side flow = side_of(group_of(k), static_cast<Index>(k), 0.0, 0);
-  const double before = fired_[k] ? 4.0 * std::abs(g_minus_[k]) : contacts_.on(static_cast<int>(k)) ? contacts_.on(static_cast<int>(k))->band : slot.band;
+  const double before = fired_[k] ? hair_of(k) : contacts_.on(static_cast<int>(k)) ? contacts_.on(static_cast<int>(k))->band : slot.band;
   if (SurfaceContact* contact = contact_of(k))
     arm_contact(*contact, std::max({flow.rounding, std::abs(g_[k]), before}));
 }
@@ -142,7 +142,7 @@ void Instant::touch_relation(std::size_t k) {
   double band = known ? known->band : 0.0;
   if (!opaque && !(known && known->carried)) {
     const Departure::Side flow = side_of(group_of(k), static_cast<Index>(k), 0.0, 0);
-    band = std::max({band, flow.rounding, std::abs(g_[k]), fired_[k] ? 4.0 * std::abs(g_minus_[k]) : 0.0});
+    band = std::max({band, flow.rounding, std::abs(g_[k]), fired_[k] ? hair_of(k) : 0.0});
   }
   slot.fresh = true, slot.band = band;
   if (SurfaceContact* contact = contact_of(k))
@@ -160,7 +160,11 @@ void Instant::arm_contact(SurfaceContact& contact, double band) {
   contact.band = band;
   double lift = 0.0;
   if (!contact.members.empty()) {
-    if (contact.look_ahead == 0.0) contacts_.choose_look_ahead(contact, t_, x, longest_);
+    if (contact.look_ahead == 0.0) {
+      // Exactly at rest: what the last reset left is a flight too short to be seen.
+      if (wrote_x_ && contacts_.settle(contact, t_, x)) outcome_.restart = true;
+      contacts_.choose_look_ahead(contact, t_, x, longest_);
+    }
     const bool moves = contact.carried || contacts_.moves(contact, t_, x, longest_);
     if (moves) contact.carried = contacts_.settle(contact, t_, x);
     lift = contacts_.lift(contact, t_, x);
@@ -170,8 +174,6 @@ void Instant::arm_contact(SurfaceContact& contact, double band) {
       return;
     }
     contact.pressed_on = lift < 0.0;
-    if (lift < 0.0 && !contact.carried && wrote_x_ && contacts_.settle(contact, t_, x))
-      outcome_.restart = true;  // exactly at rest; pushed into its surface it stays where it is
   }
   contacts_.engage();
   slot.leaving = !contact.carried && !contact.opaque;

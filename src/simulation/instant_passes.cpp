@@ -21,8 +21,12 @@ void Instant::open(double t, const std::vector<int>& due) {
   watch_->fired.clear();
   x_minus_ = x_next_ = machine_->x, z_minus_ = machine_->z, y_before_ = machine_->y;
   std::ranges::fill(g_minus_, 0.0);
-  for (const Firing& root : firings_)
-    g_minus_[static_cast<std::size_t>(root.slot)] = watch_->g[static_cast<std::size_t>(root.slot)];
+  for (const Firing& root : firings_) {
+    const auto k = static_cast<std::size_t>(root.slot);
+    g_minus_[k] = watch_->g[k];
+    in_band_[k] = root.fresh && !std::isnan(armed_at_[k]);
+    flight_[k] = t - armed_at_[k];
+  }
   for (int event : due) {
     const ScheduledEvent& scheduled = plan().schedule[static_cast<std::size_t>(event)];
     actions_.push_back({scheduled.leaf, Cause::time, event, -1, 0, false});

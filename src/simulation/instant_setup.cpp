@@ -17,10 +17,10 @@ Instant::Instant(Machine& machine, Watch& watch, const SimulatorOptions& options
   watch.slots.resize(slots), watch.g.assign(slots, 1.0), g_.assign(slots, 1.0),
       g_minus_.assign(slots, 0.0);
   watch.scan_points = options.event_scan_points;
-  for (auto* marks : {&fired_, &fired_now_, &frozen_, &resting_, &turned_, &was_active_})
+  for (auto* marks : {&fired_, &fired_now_, &frozen_, &resting_, &turned_, &was_active_, &in_band_})
     marks->assign(slots, 0);
   group_of_slot_.resize(slots), from_.assign(slots, 0);
-  armed_at_.assign(slots, std::numeric_limits<double>::quiet_NaN());
+  armed_at_.assign(slots, std::numeric_limits<double>::quiet_NaN()), flight_.assign(slots, 0.0);
   std::vector<std::string> names;
   for (std::size_t i = 0; i < plan().guards.size(); ++i) {
     const GuardGroup& group = plan().guards[i];

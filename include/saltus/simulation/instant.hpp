@@ -107,8 +107,10 @@ class Instant {
   // instant_arming.cpp
   void arm(bool at_start);
   void arm_crossing(const GuardGroup& group, std::size_t slot, bool at_start);
+  double hair_of(std::size_t slot) const;
   bool at_zero(const GuardGroup& group, std::size_t slot, bool entered);
   void arm_at_zero(const GuardGroup& group, std::size_t slot, Departure::Side flow, bool at_start);
+  bool too_low(const GuardGroup& group, std::size_t slot);
   bool reset_turns(const GuardGroup& group, std::size_t slot, int from);
   void arm_fired(const GuardGroup& group, std::size_t slot, int from, Departure::Side flow);
   bool begin_on_firing_side(const GuardGroup& group, std::size_t slot);
@@ -194,6 +196,8 @@ class Instant {
        wrote_x_ = false;  // some pass of this instant wrote states, continuous state
   bool entered_ = false;  // some pass of this instant entered a mode
   bool flowed_ = false;   // departure_ stands at the present (t, x)
+  std::vector<double> flight_;       // [s] slots: since they were armed
+  std::vector<char> in_band_;        // slots: fired again without having been clearly off zero
   std::vector<double> armed_at_;  // [s] slots: fresh since then after a firing; NaN if not
   int effects_ = 0;  // reset maps that wrote continuous state in this instant
   int holds_ = 0;

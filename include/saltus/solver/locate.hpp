@@ -312,7 +312,7 @@ class Locator {
     for (std::size_t k : crossed_) {
       GuardSlot& slot = watch_->slots[k];
       if (!std::isfinite(high_[k])) throw_not_finite(k, t0_ + u);
-      const Firing firing{static_cast<int>(k), slot.side};
+      const Firing firing{static_cast<int>(k), slot.side, slot.fresh};
       if (slot.monitor)
         pass_monitor(slot, firing, u);
       else

@@ -70,6 +70,7 @@ struct GuardSlot {
 struct Firing {
   int slot = -1;
   int from = 0;
+  bool fresh = false;  ///< it had not been clearly off zero since integration began
 };
 
 /// A monitor's crossing inside the last step.
