@@ -26,7 +26,7 @@ class Locator {
   Locator(Machine& machine, Watch& watch)
       : machine_(&machine), watch_(&watch), x_(static_cast<std::size_t>(machine.plan().nx)) {
     const auto slots = static_cast<std::size_t>(machine.plan().guard_slots);
-    for (auto* values : {&low_, &high_, &middle_, &earlier_, &at_root_, &noise_}) values->assign(slots, 1.0);
+    for (auto* values : {&low_, &high_, &middle_, &earlier_, &at_root_, &before_, &noise_}) values->assign(slots, 1.0);
     crossed_.reserve(slots), limits_.reserve(slots);
   }
 
@@ -81,11 +81,14 @@ class Locator {
         }
       }
       const double before = from;
+      before_ = watch_->g;
       from = narrow(from, high, interpolate);
       if (between && watch_->active.size() > 1 && watch_->scan_points > 0) {
         if (find_before(before, from, interpolate)) return true;
+      } else if (from - before > 1e-3 * (to - before)) {
+        earlier_.swap(before_);
+        earlier_at_ = before;
       }
-      forget();
       if (take(from)) return true;
       leave_zero_of_monitors(from, to, interpolate);
     }
@@ -334,7 +337,7 @@ class Locator {
   Machine* machine_;
   Watch* watch_;
   std::vector<double> x_, low_, high_, middle_;
-  std::vector<double> at_root_;
+  std::vector<double> at_root_, before_;
   std::vector<double> noise_;    // of guards about their root: interpolants waver by a rounding
   std::vector<double> earlier_;  // guards at the look before the last
   double earlier_at_ = never;    // its offset, below zero if it was in the step before
