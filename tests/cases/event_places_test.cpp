@@ -101,7 +101,7 @@ TEST_CASE("a run that is cut at an event has it once, in the piece before or the
 }
 
 // What comes out with adams and bdf at t0 = 0: an error, "tout too close to t0".
-TEST_CASE("a run of one rounding error's length runs", "[.engine][cases][events]") {
+TEST_CASE("a run of one rounding error's length runs", "[cases][events]") {
   const auto* method = GENERATE(from_range(methods));
   const double t0 = GENERATE(0.0, 0.5, -5.0, 1e8);
   for (const Form& form : forms(clock(0.5))) {

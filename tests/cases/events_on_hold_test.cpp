@@ -76,7 +76,7 @@ TEST_CASE("a terminal guard ends a run on a hold", "[cases][zeno]") {
 }
 
 // What comes out, here and below: the hold goes on to the end, with whatever state was written.
-TEST_CASE("a change of mode that lifts the ball ends its hold", "[.engine][cases][zeno]") {
+TEST_CASE("a change of mode that lifts the ball ends its hold", "[cases][zeno]") {
   const auto* method = GENERATE(from_range(methods));
   const bool by_tick = GENERATE(false, true);
   const auto ball = resting_ball([=](Leaf& l) {
@@ -111,7 +111,7 @@ TEST_CASE("a guard on time that throws the ball up ends its hold", "[cases][zeno
   }
 }
 
-TEST_CASE("a force that comes on lifts a ball at rest off its hold", "[.engine][cases][zeno]") {
+TEST_CASE("a force that comes on lifts a ball at rest off its hold", "[cases][zeno]") {
   const auto* method = GENERATE(from_range(methods));
   const auto ball = make_leaf("ball", [](Leaf& l) {
     const int in = l.declare_input_port({.name = "thrust", .shape = Shape::scalar()});

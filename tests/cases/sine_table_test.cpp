@@ -89,7 +89,7 @@ TEST_CASE("a ball bounces on a vibrating table as its reference says", "[cases][
 // another end; dopri5 is right.
 TEST_CASE(
     "a ball at rest on a table that falls away faster than gravity lifts off, lands, lifts off",
-    "[.engine][cases][ball][zeno]") {
+    "[cases][ball][zeno]") {
   const auto* method = GENERATE(from_range(methods));
   // A w^2 = 1.5 g. Put down at t = 0, moving with the table, restitution 0: lift-off where the
   // acceleration of the table is -g, landing where the parabola meets it; there it pushes up.

@@ -66,7 +66,7 @@ TEST_CASE("a guard below zero for a third of a second fires twice", "[cases][gua
 
 // What comes out: both crossings missed where no look falls between them, by all methods at 1e-3,
 // by adams and dop853 at 1e-2.
-TEST_CASE("a guard below zero for 1e-3 s fires twice", "[.engine][cases][guards]") {
+TEST_CASE("a guard below zero for 1e-3 s fires twice", "[cases][guards]") {
   const auto* method = GENERATE(from_range(methods));
   const bool counts = GENERATE(true, false);
   const double width = GENERATE(0.3, 1e-1, 1e-2, 1e-3);
@@ -75,7 +75,7 @@ TEST_CASE("a guard below zero for 1e-3 s fires twice", "[.engine][cases][guards]
 
 // What comes out: both missed, with adams and bdf at 1e-2, with all at 1e-4 and 1e-6.
 TEST_CASE("a ball that rises a hair above a level passes it twice",
-          "[.engine][cases][ball][guards]") {
+          "[cases][ball][guards]") {
   const auto* method = GENERATE(from_range(methods));
   const double hair = GENERATE(1e-2, 1e-4, 1e-6);
   // Thrown up with 10 m/s under g = 10: the apex of 5 m at 1 s. `hair` is crossed in 2

@@ -43,7 +43,7 @@ std::vector<std::size_t> crossings(const std::vector<double>& levels, bool peaks
 }  // namespace
 
 TEST_CASE("2.8 crossings between two bounces are found, though the trial step went far beyond both",
-          "[semantics][.engine]") {
+          "[semantics]") {
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);
   // A one-step method is exact on parabolas, so its steps have no bound but the end of the run;
@@ -58,7 +58,7 @@ TEST_CASE("2.8 crossings between two bounces are found, though the trial step we
   }
 }
 
-TEST_CASE("2.10 a monitor logs each crossing once", "[semantics][.engine]") {
+TEST_CASE("2.10 a monitor logs each crossing once", "[semantics]") {
   // Here the interpolant of dopri5 wavers by a rounding at the first level, at 0.7481 s.
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);

@@ -76,7 +76,7 @@ TEST_CASE("6.3 t1 == t0 has the rows of the start instant, with what happens at 
 }
 
 TEST_CASE("6.4 an interrupt ends a run within 0.2 s, also in an instant after instant",
-          "[semantics][.engine]") {
+          "[semantics]") {
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);
   using Clock = std::chrono::steady_clock;

@@ -26,10 +26,12 @@ Leaf falling(std::string name, double start) {
       [](const At&, bool on, VectorRef xdot) { xdot << (on ? -1.0 : 1.0); }, std::move(name));
 }
 
-void chatters(const System& system, const char* method) {
+void chatters(const System& system, const char* method, double zeno_tolerance = 1e-6) {
   const auto begin = std::chrono::steady_clock::now();
   const auto results = simulate(system, system.create_context(), {0.0, 20.0},
-                                {.ode_solver_method = method, .throw_errors = false});
+                                {.ode_solver_method = method,
+                                 .zeno_tolerance = zeno_tolerance,
+                                 .throw_errors = false});
   INFO("method " << method << ", t = " << results.context.time() << ": " << results.message);
   CHECK(results.status == Status::chattering);
   CHECK(results.events.size() < 10000);
@@ -75,8 +77,8 @@ TEST_CASE("4.7 sliding beside a clock that ticks when the surface is reached cha
   chatters(builder.build(), method);
 }
 
-TEST_CASE("4.7 switching that accumulates without a reset map is not slipped through",
-          "[semantics][.engine]") {
+TEST_CASE("4.7 switching that accumulates is not slipped through where no monitor holds it",
+          "[semantics]") {
   const auto* method = GENERATE(from_range(methods));
   // Two leaking tanks and one hose; modes only. All switching accumulates at 2 s, with both empty.
   const Leaf tanks("tanks", [](Leaf& l) {
@@ -93,5 +95,5 @@ TEST_CASE("4.7 switching that accumulates without a reset map is not slipped thr
                                .end_mode = i});
     }
   });
-  chatters(tanks, method);
+  chatters(tanks, method, 0.0);
 }

@@ -50,7 +50,7 @@ Leaf fixed_frame(double e) {
 }  // namespace
 
 TEST_CASE("4.5 a ball lifts off a table at the moment it falls away faster than gravity",
-          "[semantics][.engine]") {
+          "[semantics]") {
   const auto* method = GENERATE(from_range(methods));
   const bool frame_moves = GENERATE(true, false);
   const double e = GENERATE(0.0, 0.2);

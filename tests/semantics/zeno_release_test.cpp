@@ -55,7 +55,7 @@ TEST_CASE("4.5 an update that lifts a held ball releases it", "[semantics]") {
 }
 
 TEST_CASE("4.5 an update that kicks a held ball releases it: the flow leads to the armed side",
-          "[semantics][.engine]") {
+          "[semantics]") {
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);
   const auto results = touched(0.0, 3.0, 1.2, method);
@@ -64,7 +64,7 @@ TEST_CASE("4.5 an update that kicks a held ball releases it: the flow leads to t
 }
 
 TEST_CASE("4.5 an update that throws a held ball at its floor makes it bounce",
-          "[semantics][.engine]") {
+          "[semantics]") {
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);
   // In contact and headed down with 3 m/s: up with 1.5 m/s at the same instant (2.3).

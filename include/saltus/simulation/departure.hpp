@@ -47,8 +47,8 @@ class Departure {
     return rounding_after(0.0, slot, g0_[slot]);
   }
 
-  /// What ten tolerances of the states leave uncertain of a guard where it stands.
-  double tolerance(Index slot) { return 10.0 * (rounding(slot) * rtol_ / (16.0 * eps) + atol_); }
+  /// What thirty tolerances of the states leave uncertain of a guard where it stands.
+  double tolerance(Index slot) { return 30.0 * (rounding(slot) * rtol_ / (16.0 * eps) + atol_); }
 
   /// `hair`: a guard within it is at zero too, and is followed until it has left that as well.
   /// `expected`: a side that makes no difference to being at zero, so that its rounding need not be
@@ -70,7 +70,7 @@ class Departure {
     const double near = (guard_after(0.5 * d, slot) - g0_[slot]) / (0.5 * d);
     const double g = guard_after(d, slot), far = (g - g0_[slot]) / d,
                  extrapolated = 2.0 * near - far;
-    const double noise = std::max(1e-6 * std::abs(far - near), rounding_after(d, slot, g) / d);
+    const double noise = std::max(1e-6 * std::abs(far - near), 4.0 * rounding_after(d, slot, g) / d);
     return std::abs(extrapolated) > noise ? extrapolated : 0.0;
   }
 
