@@ -107,7 +107,11 @@ bool Instant::at_zero(const GuardGroup& group, std::size_t k, bool entered) {
   if (g_[k] == 0.0 || (slot.fresh && std::abs(g_[k]) <= slot.band)) return true;
   if (!entered) return false;
   if (!flowed_) departure_.from(t_, machine_->x, longest_), flowed_ = true;
-  return std::abs(g_[k]) <= departure_.rounding(static_cast<Index>(k)) && group.kind == GuardGroup::Kind::crossing;
+  // As far as it gets within the rounding of the time cannot be told from zero either.
+  const auto slot_number = static_cast<Index>(k);
+  const double time = 8.0 * std::numeric_limits<double>::epsilon() * std::abs(t_);
+  const double moved = time * std::abs(departure_.slope(group, slot_number));
+  return std::abs(g_[k]) <= departure_.rounding(slot_number) + moved;
 }
 
 /// At zero without having fired. A guard with an effect that the flow takes to its firing side is

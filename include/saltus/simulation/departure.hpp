@@ -96,7 +96,9 @@ class Departure {
     for (double furthest = std::min(longest_, std::max(3e5 * d, lift_time(group, d)));;
          g = guard_after(d, slot)) {
       const int side = (g > 0.0) - (g < 0.0);
-      if (side != 0 && side == expected && std::abs(g) > hair) return result.side = side, result;
+      // A guard that moves as the states do is beyond doubt.
+      if (side != 0 && side == expected && std::abs(g) > std::max(hair, 1e-3 * largest_move()))
+        return result.side = side, result;
       const double rounding = opaque ? 0.0 : rounding_after(d, slot, g);
       result.rounding = std::max(hair, rounding);
       if (std::abs(g) > result.rounding && (!opaque || has_moved(group)))
@@ -106,6 +108,8 @@ class Departure {
       if (d > furthest) return result;
     }
   }
+
+  double largest_move() const { return move_.size() > 0 ? move_.cwiseAbs().maxCoeff() : 0.0; }
 
   /// Weights without pattern, so that what cancels in a guard does not cancel in the disturbance.
   static void disturb(Eigen::VectorXd& x) {
