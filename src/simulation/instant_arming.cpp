@@ -79,8 +79,9 @@ void Instant::arm_crossing(const GuardGroup& group, std::size_t k, bool at_start
   const bool either = group.direction == Direction::crosses_zero;
   const int falls = firing_side(group.direction);
   const int from = fired_[k] ? from_[k] : !either ? -falls : slot.side != 0 ? slot.side : -falls;
-  const double hair =
-      std::max(fired_[k] ? hair_of(k) : 0.0, entered || slot.fresh ? std::abs(g_[k]) : 0.0);
+  const double hair = fired_[k]                ? hair_of(k)
+                      : entered || slot.fresh ? std::abs(g_[k])
+                                              : 0.0;
   const Departure::Side flow = side_of(group, number, hair, fired_[k] ? from : 0);
   slot.band = flow.rounding;
   const bool its_side = either ? flow.side != 0 : flow.side == falls;

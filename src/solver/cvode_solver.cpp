@@ -259,6 +259,7 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
     CVodeGetCurrentTime(cvode_.get(), &t);
     CVodeGetCurrentStep(cvode_.get(), &h);
     require_finite_near(*machine_, t, h, x1_.data());
+    if (options_.min_step > 0.0) throw_step_too_small(*machine_, t, h, x1_.data(), options_);
     const std::string block = fastest_block(*machine_, t, x1_.data(), options_);
     throw SimulationError(
         text("t = ", t, " s: CVODE (", method(), ") cannot go on, step ", h, " s: ", last_message_,

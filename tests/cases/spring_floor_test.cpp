@@ -78,7 +78,9 @@ TEST_CASE("a ball on a springy floor lands and leaves when the half turns say", 
     // An error of y below is one of speed w times as large, and of the time after it by 2 w / g;
     // the errors of y there are rtol of a depth v / w and atol. Those of v are rtol v. n contacts,
     // each carried on through the flights after it.
-    const double made = allowed(method, rtol, atol * w, v) * 2.0 / g;
+    // "auto" may take BDF on so stiff a spring, and then has its tolerance.
+    const bool bdf = results.statistics.method.find("bdf") != std::string::npos;
+    const double made = allowed(bdf ? "bdf" : method, rtol, atol * w, v) * 2.0 / g;
     within(text("springy floor k=", k, ", ", form.name), method,
            worst(firing_times(results.events), expected), n * n * made);
   }

@@ -71,7 +71,7 @@ def test_reprs(ball_results):
     assert "6 events" in repr(ball_results)
     assert repr(ball_results.events).splitlines()[0] == "6 events"
     assert "ball.bounce" in repr(ball_results.events)
-    assert "method='dopri5'" in repr(ball_results.statistics)
+    assert "method='dop" in repr(ball_results.statistics)
 
 
 def test_statistics_count(ball_results):

@@ -76,6 +76,7 @@ class RungeKutta final : public StepSolver<RungeKutta<Method>> {
     if (h_ == 0.0)
       h_ = first_step(*machine_, t0_, x0_, stage(0), scratch_, stage(1), options_,
                       Method::error_order, t_stop);
+    h_ = std::max(h_, options_.min_step);  // a guess is no need
     double wish = std::min({h_, options_.max_step, std::exchange(horizon_, infinite)});
     const double left = t_stop - t0_;
     for (bool rejected = false;; rejected = true) {
@@ -198,9 +199,8 @@ class RungeKutta final : public StepSolver<RungeKutta<Method>> {
       throw_not_finite(*machine_, t0_, x0_.data());
   }
   void require_room(double h) {
-    const double smallest =
-        std::max(options_.min_step, 16.0 * std::numeric_limits<double>::epsilon() * std::abs(t0_));
-    if (!(h > smallest)) throw_step_too_small(*machine_, t0_, h, x0_.data(), options_);
+    const double smallest = 16.0 * std::numeric_limits<double>::epsilon() * std::abs(t0_);
+    if (!(h > smallest && h >= options_.min_step)) throw_step_too_small(*machine_, t0_, h, x0_.data(), options_);
   }
 
   double h_ = 0.0;

@@ -101,7 +101,6 @@ def test_6_1_an_option_that_makes_no_sense_is_refused(system, options, message):
     check_works(system)
 
 
-@pytest.mark.xfail(strict=True, reason="only the differences of the times are looked at")
 def test_6_1_a_time_to_save_at_that_is_not_finite_is_refused(system):
     refused(
         lambda: saltus.simulate(system, system.create_context(), (0.0, 1.0), save_at=[math.nan])

@@ -33,7 +33,6 @@ def test_3_1_equal_times_are_one_instant():
     assert [e.jump for e in results.events] == [1, 1, 2]
 
 
-@pytest.mark.xfail(strict=True, reason="the second reads what the first one wrote")
 def test_3_3_two_updates_of_one_block_at_one_time_both_read_the_state_before():
     assert go(counter(0.5, 0.5), 1.0).context.discrete_state.tolist() == [1.0]
 
