@@ -80,6 +80,8 @@ class Statistics:
 
     method: str
     """the method that was used"""
+    stretches: list[tuple[str, float, float, int]]
+    """which method when, as (method, begin [s], end [s], steps): more than one with 'auto' only"""
     steps: int
     """accepted minor steps"""
     rejected: int

@@ -44,8 +44,8 @@ class SimulatorOptions:
     atol: float = 1e-8
     """absolute tolerance, in the unit of the states"""
     ode_solver_method: str = "auto"
-    """'auto' (dopri5; BDF takes over where the scene looks stiff), 'dopri5', 'adams', 'bdf'; also
-    'rk45', 'non-stiff', 'stiff'
+    """'auto' (dopri5 or dop853 by tolerance, BDF while the scene is stiff), 'dopri5', 'dop853',
+    'adams', 'bdf'; also 'rk45', 'RK45', 'DOP853', 'non-stiff', 'stiff', 'BDF'
     """
     max_major_steps: int | None = None
     """instants a run may have; more end it with the status 'step_limit'"""
