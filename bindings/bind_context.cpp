@@ -80,14 +80,14 @@ std::string repr(const Context& context) {
 }  // namespace
 
 void bind_context(py::module_& module) {
-  py::class_<Context> context(module, "Context",
-                      R"(All values of a system at one time. Made by `system.create_context()`.
+  py::class_<Context> context(
+      module, "Context",
+      R"(All values of a system at one time. Made by `system.create_context()`.
 
 A context is a value: each `with_*` returns a new one, the old one and the system stay as they are. The states of a
 diagram are one vector, block after block in the order of `add`; `context[block.system_id]` is the context of one block.
 Wrong sizes, values that are not finite and unknown names are refused with a ModelError.)");
-  context
-      .def_property_readonly("time", &Context::time, "[s]")
+  context.def_property_readonly("time", &Context::time, "[s]")
       .def_property_readonly(
           "continuous_state", [](const Context& c) { return shown(c.continuous_state()); },
           "All continuous states, as one read-only vector.")

@@ -75,7 +75,8 @@ Context filled(const Context& blank, const py::dict& data) {
   const auto& leaves = blank.layout().leaves;
   ContextValues v = blank.values();
   if (data["format"].cast<std::string>() != format)
-    throw ModelError(text("expected format '", format, "', found ", std::string(py::repr(data["format"]))));
+    throw ModelError(
+        text("expected format '", format, "', found ", std::string(py::repr(data["format"]))));
   const auto blocks = data["blocks"].cast<std::vector<py::dict>>();
   if (blocks.size() != leaves.size()) {
     throw ModelError(text("the context is not one of this system: expected ", leaves.size(),
@@ -114,8 +115,10 @@ py::tuple layout_data(const Layout& layout) {
   py::list leaves, systems;
   for (const Layout::Leaf& leaf : layout.leaves) {
     py::list parameters;
-    for (const auto& p : leaf.parameters) parameters.append(py::make_tuple(p.name, p.offset, p.size));
-    leaves.append(py::make_tuple(leaf.path, leaf.x, leaf.nx, leaf.z, leaf.nz, leaf.p, leaf.np, parameters));
+    for (const auto& p : leaf.parameters)
+      parameters.append(py::make_tuple(p.name, p.offset, p.size));
+    leaves.append(
+        py::make_tuple(leaf.path, leaf.x, leaf.nx, leaf.z, leaf.nz, leaf.p, leaf.np, parameters));
   }
   for (const Layout::Range& r : layout.systems)
     systems.append(py::make_tuple(r.id.value, r.path, r.first, r.last));
@@ -126,8 +129,12 @@ std::shared_ptr<const Layout> layout_from(const py::tuple& data) {
   auto layout = std::make_shared<Layout>();
   for (const py::handle item : data[0]) {
     const auto l = item.cast<py::tuple>();
-    Layout::Leaf leaf{.path = l[0].cast<std::string>(), .x = l[1].cast<Index>(), .nx = l[2].cast<Index>(),
-                      .z = l[3].cast<Index>(), .nz = l[4].cast<Index>(), .p = l[5].cast<Index>(),
+    Layout::Leaf leaf{.path = l[0].cast<std::string>(),
+                      .x = l[1].cast<Index>(),
+                      .nx = l[2].cast<Index>(),
+                      .z = l[3].cast<Index>(),
+                      .nz = l[4].cast<Index>(),
+                      .p = l[5].cast<Index>(),
                       .np = l[6].cast<Index>()};
     for (const py::handle p : l[7]) {
       const auto parameter = p.cast<py::tuple>();
@@ -150,27 +157,32 @@ Context blank_of(const std::shared_ptr<const Layout>& layout) { return Context::
 }  // namespace
 
 void bind_context_saving(py::class_<Context>& context) {
-  context.def("to_dict", [](const Context& c) { return data_of(c); },
-              "Everything in it as plain data, block by block: for JSON or the like.")
-      .def("to_json",
-           [](const Context& c) {
-             return py::module_::import("json").attr("dumps")(data_of(c), "indent"_a = 1);
-           },
-           "The same as text; `system.context_from_json(text)` reads it, to the last bit.")
+  context
+      .def(
+          "to_dict", [](const Context& c) { return data_of(c); },
+          "Everything in it as plain data, block by block: for JSON or the like.")
+      .def(
+          "to_json",
+          [](const Context& c) {
+            return py::module_::import("json").attr("dumps")(data_of(c), "indent"_a = 1);
+          },
+          "The same as text; `system.context_from_json(text)` reads it, to the last bit.")
       .def(py::pickle(
           [](const Context& c) { return py::make_tuple(layout_data(c.layout()), data_of(c)); },
           [](const py::tuple& state) {
-            return from_data(blank_of(layout_from(state[0].cast<py::tuple>())), state[1].cast<py::dict>());
+            return from_data(blank_of(layout_from(state[0].cast<py::tuple>())),
+                             state[1].cast<py::dict>());
           }));
 }
 
 void bind_context_reading(py::module_& module) {
-  module.def("context_from_dict",
-             [](const System& system, const py::dict& data) {
-               return from_data(system.create_context(), data);
-             },
-             py::arg("system"), py::arg("data"),
-             "The context of `system` that Context.to_dict gave. Raises ModelError for other data.");
+  module.def(
+      "context_from_dict",
+      [](const System& system, const py::dict& data) {
+        return from_data(system.create_context(), data);
+      },
+      py::arg("system"), py::arg("data"),
+      "The context of `system` that Context.to_dict gave. Raises ModelError for other data.");
 }
 
 }  // namespace saltus::python

@@ -64,8 +64,9 @@ py::dict statistics(const Results& results) {
   py::list stretches;
   for (const Stretch& part : s.stretches)
     stretches.append(py::make_tuple(part.method, part.begin, part.end, part.steps));
-  return py::dict("method"_a = s.method, "stretches"_a = stretches, "steps"_a = s.steps, "rejected"_a = s.rejected,
-                  "restarts"_a = s.restarts, "right_hand_side_calls"_a = s.right_hand_side_calls,
+  return py::dict("method"_a = s.method, "stretches"_a = stretches, "steps"_a = s.steps,
+                  "rejected"_a = s.rejected, "restarts"_a = s.restarts,
+                  "right_hand_side_calls"_a = s.right_hand_side_calls,
                   "guard_calls"_a = s.guard_calls, "jacobian_calls"_a = s.jacobian_calls,
                   "linear_setups"_a = s.linear_setups, "instants"_a = s.instants,
                   "events"_a = s.events, "events_by_name"_a = by_name, "wall_time"_a = s.wall_time);

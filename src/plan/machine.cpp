@@ -42,9 +42,8 @@ Machine::Machine(std::shared_ptr<const Plan> plan) : plan_(std::move(plan)) {
   constant_calls_ = calls_of(plan_->constants);
   instant_calls_ = calls_of(plan_->instants);
   std::vector<int> moving;
-  std::ranges::copy_if(plan_->instants, std::back_inserter(moving), [&](int i) {
-    return plan_->node(i).rate == Rate::continuous;
-  });
+  std::ranges::copy_if(plan_->instants, std::back_inserter(moving),
+                       [&](int i) { return plan_->node(i).rate == Rate::continuous; });
   moving_calls_ = calls_of(moving);
   derivative_calls_ = calls_of(plan_->derivatives);
   guard_calls_list_ = calls_of(plan_->guard_needs);
@@ -163,7 +162,8 @@ void Machine::jacobian(double t, const double* state, MatrixRef out) {
                             t, path);
     }
     for (Index i = 0; i < n; ++i) {
-      if (rests_[static_cast<std::size_t>(at_x + i)] == 0) out.row(at_x + i).segment(at_x, n) = block.row(i);
+      if (rests_[static_cast<std::size_t>(at_x + i)] == 0)
+        out.row(at_x + i).segment(at_x, n) = block.row(i);
     }
   }
 }

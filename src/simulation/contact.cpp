@@ -15,7 +15,8 @@ constexpr double eps = std::numeric_limits<double>::epsilon();
 
 Contacts::Contacts(Machine& machine, const SimulatorOptions& options)
     : machine_(&machine), absolute_(options.atol / options.rtol) {
-  for (auto* v : {&original_, &begun_, &once_, &twice_, &trial_, &f_, &f1_, &slow_, &stood_, &later_})
+  for (auto* v :
+       {&original_, &begun_, &once_, &twice_, &trial_, &f_, &f1_, &slow_, &stood_, &later_})
     v->setZero(machine.plan().nx);
   z_.setZero(machine.plan().nz);
   g_.setOnes(machine.plan().guard_slots);
@@ -68,8 +69,8 @@ double Contacts::extrapolate(const SurfaceContact& contact, double* x) {
   double furthest = 0.0;
   for (const Index i : contact.states) {
     const double first = once_[i] - begun_[i], second = twice_[i] - once_[i];
-    const double size = std::max({std::abs(original_[i]), std::abs(begun_[i]), std::abs(once_[i]),
-                                  std::abs(twice_[i])});
+    const double size = std::max(
+        {std::abs(original_[i]), std::abs(begun_[i]), std::abs(once_[i]), std::abs(twice_[i])});
     furthest = std::max(furthest, std::abs(first) / (64.0 * eps * size + 1e-300));
     const double limit = begun_[i] - first * first / (second - first);
     const bool told = std::abs(first) > 64.0 * eps * size && std::isfinite(limit);
@@ -122,7 +123,8 @@ double Contacts::lift(const SurfaceContact& contact, double t, const double* x) 
   return lifted;
 }
 
-void Contacts::choose_look_ahead(SurfaceContact& contact, double t, const double* x, double longest) {
+void Contacts::choose_look_ahead(SurfaceContact& contact, double t, const double* x,
+                                 double longest) {
   const double brief = std::max(1e-9 * longest, 1024.0 * eps * std::abs(t));
   free(contact, true);
   machine_->flow(t, x, f_.data());

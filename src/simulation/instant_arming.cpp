@@ -18,8 +18,7 @@ int firing_side(Direction direction) {
 }  // namespace
 
 /// `hair`: how far the location left the guard from zero; nothing within it counts as off zero.
-Departure::Side Instant::side_of(const GuardGroup& group, Index slot, double hair,
-                                        int expected) {
+Departure::Side Instant::side_of(const GuardGroup& group, Index slot, double hair, int expected) {
   if (!flowed_) departure_.from(t_, machine_->x, longest_);
   flowed_ = true;
   return departure_.of(group, slot, hair, expected);
@@ -52,8 +51,9 @@ bool Instant::begin_on_firing_side(const GuardGroup& group, std::size_t k) {
   if (!there) return false;
   if (wish == AtStart::error) {
     throw SimulationError(
-        text("t = ", t_, " s: guard '", group.name, "' begins ", g == 0.0 ? "at zero" : "beyond zero",
-             " (", g_[k], "), and its at_start is \"error\"; begin on its armed side, or choose "
+        text("t = ", t_, " s: guard '", group.name, "' begins ",
+             g == 0.0 ? "at zero" : "beyond zero", " (", g_[k],
+             "), and its at_start is \"error\"; begin on its armed side, or choose "
              "\"auto\", \"ignore\" or \"fire\""),
         t_, leaf(group.leaf).path);
   }
@@ -79,9 +79,7 @@ void Instant::arm_crossing(const GuardGroup& group, std::size_t k, bool at_start
   const bool either = group.direction == Direction::crosses_zero;
   const int falls = firing_side(group.direction);
   const int from = fired_[k] ? from_[k] : !either ? -falls : slot.side != 0 ? slot.side : -falls;
-  const double hair = fired_[k]                ? hair_of(k)
-                      : entered || slot.fresh ? std::abs(g_[k])
-                                              : 0.0;
+  const double hair = fired_[k] ? hair_of(k) : entered || slot.fresh ? std::abs(g_[k]) : 0.0;
   const Departure::Side flow = side_of(group, number, hair, fired_[k] ? from : 0);
   slot.band = flow.rounding;
   const bool its_side = either ? flow.side != 0 : flow.side == falls;
@@ -130,7 +128,8 @@ void Instant::arm_at_zero(const GuardGroup& group, std::size_t k, Departure::Sid
   const bool starts = at_start && flow.side == falls &&
                       (!either || departure_.slope(group, static_cast<Index>(k)) == 0.0);
   const bool turned = wrote_x_ && across && (either || slot.side != falls);
-  if (has_effect(group) && (starts || turned)) firings_.push_back({static_cast<int>(k), -flow.side});
+  if (has_effect(group) && (starts || turned))
+    firings_.push_back({static_cast<int>(k), -flow.side});
   const bool dormant = flow.side == 0 && has_effect(group) && (either || slot.side != falls);
   slot.side = static_cast<signed char>(dormant ? armed : flow.side);
   slot.fresh = true;
@@ -141,9 +140,11 @@ void Instant::arm_fired(const GuardGroup& group, std::size_t k, int from, Depart
   GuardSlot& slot = watch_->slots[k];
   const bool reset = static_cast<bool>(crossing_of(group).reset_map);
   slot.fresh = true;
-  // What a passed-through guard leaves a plateau to is no matter; a reset that wrote keeps it armed.
+  // What a passed-through guard leaves a plateau to is no matter; a reset that wrote keeps it
+  // armed.
   slot.side = static_cast<signed char>(flow.side != 0 ? flow.side : reset && wrote_x_ ? from : 0);
-  const bool back = reset && (flow.side == -from || too_low(group, k)) && std::abs(g_[k]) <= slot.band;
+  const bool back =
+      reset && (flow.side == -from || too_low(group, k)) && std::abs(g_[k]) <= slot.band;
   if (!back) return;
   if (effects_ > 1 && reset_turns(group, k, from)) {
     // another reset sent it back: it fires again
@@ -168,7 +169,8 @@ bool Instant::too_low(const GuardGroup& group, std::size_t k) {
   if (!in_band_[k] || !wrote_x_) return false;
   departure_.from(t_, x_minus_, longest_);
   flowed_ = false;
-  return std::abs(departure_.slope(group, static_cast<Index>(k))) * flight_[k] <= 4.0 * watch_->slots[k].band;
+  return std::abs(departure_.slope(group, static_cast<Index>(k))) * flight_[k] <=
+         4.0 * watch_->slots[k].band;
 }
 
 /// Whether the guard's own reset map, applied to the state now, sends the flow off to its armed

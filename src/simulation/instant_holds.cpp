@@ -95,7 +95,8 @@ SurfaceContact* Instant::contact_of(std::size_t k) {
   const GuardGroup& group = group_of(k);
   const bool crossing = group.kind == GuardGroup::Kind::crossing;
   if (crossing ? !slot_rests_[k].monitor.holding : !resting_[k]) return nullptr;
-  SurfaceContact made{.slot = static_cast<int>(k), .opaque = group.kind == GuardGroup::Kind::opaque};
+  SurfaceContact made{.slot = static_cast<int>(k),
+                      .opaque = group.kind == GuardGroup::Kind::opaque};
   if (crossing) {
     const Rest& rest = slot_rests_[k];
     made.pressed = group.direction == Direction::negative_then_non_negative ? 1 : -1;
@@ -103,12 +104,14 @@ SurfaceContact* Instant::contact_of(std::size_t k) {
     if (const ResetMap& map = crossing_of(group).reset_map)
       made.members.push_back({rest.leaf, &map, rest.entry});
   } else {
-    made.pressed = machine_->signal(group.index)[static_cast<Index>(k) - group.slot] != 0.0 ? 1 : -1;
+    made.pressed =
+        machine_->signal(group.index)[static_cast<Index>(k) - group.slot] != 0.0 ? 1 : -1;
     for (std::size_t e = 0; e < plan().edges.size(); ++e) {
       const EdgeWatch& edge = plan().edges[e];
       if (!edge_rests_[e].monitor.holding || edge.relations != std::vector{group.index}) continue;
       made.members.push_back({edge.leaf, &reset_of(edge).reset_map, 0});
-      made.states.insert(made.states.end(), edge_rests_[e].states.begin(), edge_rests_[e].states.end());
+      made.states.insert(made.states.end(), edge_rests_[e].states.begin(),
+                         edge_rests_[e].states.end());
     }
   }
   SurfaceContact* known = contacts_.on(static_cast<int>(k));
@@ -129,7 +132,10 @@ void Instant::leave_contact(std::size_t k) {
 void Instant::touch_crossing(std::size_t k) {
   GuardSlot& slot = watch_->slots[k];
   const Departure::Side flow = side_of(group_of(k), static_cast<Index>(k), 0.0, 0);
-  const double before = fired_[k] ? hair_of(k) : contacts_.on(static_cast<int>(k)) ? contacts_.on(static_cast<int>(k))->band : slot.band;
+  const double before = fired_[k] ? hair_of(k)
+                        : contacts_.on(static_cast<int>(k))
+                            ? contacts_.on(static_cast<int>(k))->band
+                            : slot.band;
   if (SurfaceContact* contact = contact_of(k))
     arm_contact(*contact, std::max({flow.rounding, std::abs(g_[k]), before}));
 }
@@ -208,7 +214,8 @@ bool Instant::look_at_firings() {
 bool Instant::goes_against(const Firing& firing) {
   const auto k = static_cast<std::size_t>(firing.slot);
   const GuardGroup& group = group_of(k);
-  if (std::isnan(armed_at_[k]) || group.monitor || group.direction == Direction::edge_detection) return false;
+  if (std::isnan(armed_at_[k]) || group.monitor || group.direction == Direction::edge_detection)
+    return false;
   departure_.from(t_, machine_->x, t_ - armed_at_[k]);
   const double hair = 4.0 * std::abs(g_minus_[k]);
   const Departure::Side flow = departure_.of(group, static_cast<Index>(k), hair, -firing.from);
@@ -233,9 +240,8 @@ void Instant::release_unseen() {
 /// at rest no longer. Its guards are armed anew.
 void Instant::release_kicked() {
   const auto kicked = [&](const Rest& rest) {
-    return rest.monitor.holding && std::ranges::any_of(rest.states, [&](Index i) {
-             return x_next_[i] != machine_->x[i];
-           });
+    return rest.monitor.holding &&
+           std::ranges::any_of(rest.states, [&](Index i) { return x_next_[i] != machine_->x[i]; });
   };
   for (std::size_t k = 0; k < slot_rests_.size(); ++k) {
     if (!kicked(slot_rests_[k]) || fired_now_[k]) continue;
@@ -244,12 +250,14 @@ void Instant::release_kicked() {
     watch_->slots[k].side = 0;
   }
   for (std::size_t e = 0; e < edge_rests_.size(); ++e) {
-    const bool own = carried_[e] != 0 || std::ranges::find(edges_fired_, static_cast<int>(e)) != edges_fired_.end();
+    const bool own = carried_[e] != 0 ||
+                     std::ranges::find(edges_fired_, static_cast<int>(e)) != edges_fired_.end();
     if (own || !kicked(edge_rests_[e])) continue;
     release(edge_rests_[e]);
     for (std::size_t k = 0; k < resting_.size(); ++k) {
       const auto& relations = plan().edges[e].relations;
-      if (!resting_[k] || std::ranges::find(relations, group_of(k).index) == relations.end()) continue;
+      if (!resting_[k] || std::ranges::find(relations, group_of(k).index) == relations.end())
+        continue;
       leave_contact(k);
       resting_[k] = 0;
     }
@@ -284,7 +292,8 @@ void Instant::let_go(SurfaceContact& contact) {
   // more than the tolerance, it is at zero.
   departure_.from(t_, machine_->x, longest_);
   flowed_ = false;
-  const double band = std::max(contact.band, contact.opaque ? 0.0 : departure_.tolerance(contact.slot));
+  const double band =
+      std::max(contact.band, contact.opaque ? 0.0 : departure_.tolerance(contact.slot));
   leave_contact(k);
   slot.side = static_cast<signed char>(armed), slot.fresh = true, slot.band = band;
   if (group.kind == GuardGroup::Kind::crossing) return release(slot_rests_[k]);

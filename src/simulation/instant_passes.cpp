@@ -156,16 +156,19 @@ void Instant::add_crossings() {
     const Rest& rest = slot_rests_[slot];
     const bool last = earlier_[group] + counts_[group] + 1 >= crossing.max_count;
     if (!has_effect(of) && !(crossing.terminal && last))  // a monitor, or terminal only later
-      log(EventKind::zero_crossing, static_cast<int>(group), of.leaf, -firing.from, std::numeric_limits<double>::quiet_NaN(), firing.slot - of.slot);
+      log(EventKind::zero_crossing, static_cast<int>(group), of.leaf, -firing.from,
+          std::numeric_limits<double>::quiet_NaN(), firing.slot - of.slot);
     else
-      actions_.push_back({of.leaf, Cause::crossing, static_cast<int>(group), firing.slot, firing.from,
-                          rest.monitor.holding});
+      actions_.push_back({of.leaf, Cause::crossing, static_cast<int>(group), firing.slot,
+                          firing.from, rest.monitor.holding});
   }
   firings_.clear();
   if (actions_.size() < 2) return;
   // Within a leaf updates come first: they read x- z-, and what they write is not lost to a reset.
   const auto before = [](const Action& a, const Action& b) {
-    const auto rank = [](Cause cause) { return cause == Cause::time ? -1 : static_cast<int>(cause); };
+    const auto rank = [](Cause cause) {
+      return cause == Cause::time ? -1 : static_cast<int>(cause);
+    };
     return a.leaf != b.leaf ? a.leaf < b.leaf : rank(a.cause) < rank(b.cause);
   };
   for (auto a = actions_.begin(); a != actions_.end(); ++a) {  // stable, and allocates nothing
@@ -187,8 +190,10 @@ void Instant::run_pass() {
 }
 
 void Instant::run_update(const Action& action) {
-  const auto& event = leaf(action.leaf).declared().time_events[static_cast<std::size_t>(
-      plan().schedule[static_cast<std::size_t>(action.index)].index)];
+  const auto& event = leaf(action.leaf)
+                          .declared()
+                          .time_events[static_cast<std::size_t>(
+                              plan().schedule[static_cast<std::size_t>(action.index)].index)];
   if (event.update) run_reset(action, event.update);
   log(EventKind::time, source_of(action.cause, action.index), action.leaf, 0);
 }
@@ -211,8 +216,8 @@ void Instant::run_action(const Action& action) {
   bool wrote = map && run_reset(action, map);
   if (crossing && crossing->end_mode)
     modes_next_[static_cast<std::size_t>(action.leaf)] = *crossing->end_mode, wrote = true;
-  const bool last = crossing && crossing->terminal &&
-                    earlier_[index] + counts_[index] + 1 >= crossing->max_count;
+  const bool last =
+      crossing && crossing->terminal && earlier_[index] + counts_[index] + 1 >= crossing->max_count;
   outcome_.terminal = outcome_.terminal || last;
   log(last ? EventKind::terminal : EventKind::zero_crossing, source, action.leaf, -action.from,
       std::numeric_limits<double>::quiet_NaN(), rest.entry);
@@ -245,7 +250,8 @@ bool Instant::run_reset(const Action& action, const ResetMap& map) {
   const PlanLeaf& of = leaf(action.leaf);
   const auto number = static_cast<std::size_t>(action.leaf);
   At at = machine_->at(number, t_);
-  if (action.cause == Cause::crossing) at.entry = slot_rests_[static_cast<std::size_t>(action.slot)].entry;
+  if (action.cause == Cause::crossing)
+    at.entry = slot_rests_[static_cast<std::size_t>(action.slot)].entry;
   if (action.cause != Cause::time) {
     new (&at.x) VectorView(x_next_.data() + of.x, of.nx);
     new (&at.z) VectorView(z_next_.data() + of.z, of.nz);

@@ -28,7 +28,9 @@ bool Instant::read_relation(const GuardGroup& group, Index slot) {
   const auto k = static_cast<std::size_t>(slot);
   GuardSlot& watched = watch_->slots[k];
   if (frozen_[k] || (resting_[k] && !reads_changed(group.index))) return false;
-  if (SurfaceContact* contact = contacts_.on(static_cast<int>(k)); contact && still_at_rest(*contact)) return false;
+  if (SurfaceContact* contact = contacts_.on(static_cast<int>(k));
+      contact && still_at_rest(*contact))
+    return false;
   const bool truth = machine_->signal(group.index)[slot - group.slot] != 0.0;
   const int crossed_to = fired_[k] ? -from_[k] : truth ? 1 : -1;
   int side = (g_[k] > 0.0) - (g_[k] < 0.0);

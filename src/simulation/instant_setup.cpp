@@ -1,4 +1,5 @@
-// An instant's memory: made once, cleaned for each run, saved and loaded between runs; the event log.
+// An instant's memory: made once, cleaned for each run, saved and loaded between runs; the event
+// log.
 #include "saltus/simulation/instant.hpp"
 
 #include <algorithm>
@@ -156,7 +157,8 @@ Continuation Instant::save() const {
   }
   for (std::size_t k = 0; k < watch_->slots.size(); ++k) {
     const GuardSlot& slot = watch_->slots[k];
-    saved.guards.push_back({slot.side, from_[k], slot.fresh, resting_[k] != 0, slot.band, slot.base});
+    saved.guards.push_back(
+        {slot.side, from_[k], slot.fresh, resting_[k] != 0, slot.band, slot.base});
   }
   for (const auto* rests : {&slot_rests_, &edge_rests_}) {
     for (const Rest& rest : *rests) saved.firings.push_back(rest.monitor.save());
@@ -203,7 +205,8 @@ void Instant::resume(double t, Recorder* recorder, const Continuation& from, dou
   for (std::size_t k = 0; k < watch_->slots.size(); ++k) {
     GuardSlot& slot = watch_->slots[k];
     const Continuation::Guard& saved = from.guards[k];
-    slot.side = static_cast<signed char>(saved.side), from_[k] = static_cast<signed char>(saved.from);
+    slot.side = static_cast<signed char>(saved.side),
+    from_[k] = static_cast<signed char>(saved.from);
     slot.fresh = saved.fresh, slot.band = saved.band, slot.base = saved.base;
     resting_[k] = saved.resting;
     watch_->g[k] = g_[k];

@@ -78,10 +78,13 @@ Status Run::run_to(double t_end) {
     Recorder* recorder = recorder_ ? &*recorder_ : nullptr;
     const Continuation* earlier = begin_.continuation();
     const bool resumes = earlier != nullptr && instant_.fits(*earlier);
-    resumes ? instant_.resume(time_, recorder, *earlier, t_end - time_) : instant_.begin(time_, recorder);
+    resumes ? instant_.resume(time_, recorder, *earlier, t_end - time_)
+            : instant_.begin(time_, recorder);
     record(time_, machine_.x.data());
-    if (resumes) last_instant_ = time_;
-    else if (const Status status = settle(StopReason::stop_time, t_end, true); over_) return status;
+    if (resumes)
+      last_instant_ = time_;
+    else if (const Status status = settle(StopReason::stop_time, t_end, true); over_)
+      return status;
   }
   while (time_ < t_end) {
     if (options_.max_major_steps && results_.statistics.instants >= *options_.max_major_steps) {
@@ -154,8 +157,10 @@ Status Run::settle(StopReason reason, double t_end, bool at_start) {
   if (outcome.terminal) return end(Status::terminal);
   if (outcome.zeno_stop) return end(Status::zeno_stop);
   if (outcome.chatters) told_ = {outcome.events, time_};
-  stuck_ = outcome.stuck ? Series{stuck_.count + 1, stuck_.count == 0 ? time_ : stuck_.since} : Series{};
-  if (outcome.chatters || (reason == StopReason::root && chatters(t_end, idle))) return chattering();
+  stuck_ =
+      outcome.stuck ? Series{stuck_.count + 1, stuck_.count == 0 ? time_ : stuck_.since} : Series{};
+  if (outcome.chatters || (reason == StopReason::root && chatters(t_end, idle)))
+    return chattering();
   return Status::reached_end;
 }
 

@@ -264,8 +264,8 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
     throw SimulationError(
         text("t = ", t, " s: CVODE (", method(), ") cannot go on, step ", h, " s: ", last_message_,
              "; the solution blows up in finite time, has a jump that no guard announces, or the "
-             "tolerance cannot be met; block '", block, "' moves fastest; rtol = ",
-             options_.rtol, ", atol = ", options_.atol),
+             "tolerance cannot be met; block '",
+             block, "' moves fastest; rtol = ", options_.rtol, ", atol = ", options_.atol),
         t, block);
   }
 

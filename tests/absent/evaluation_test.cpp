@@ -1,7 +1,7 @@
 // What is computed, and how often: unread blocks never, constants once a run, held values once an
 // instant.
-#include "saltus/plan/compile.hpp"
 #include "saltus/library/library.hpp"
+#include "saltus/plan/compile.hpp"
 #include "support/leaves.hpp"
 
 using namespace saltus;

@@ -74,8 +74,7 @@ TEST_CASE("a guard below zero for 1e-3 s fires twice", "[cases][guards]") {
 }
 
 // What comes out: both missed, with adams and bdf at 1e-2, with all at 1e-4 and 1e-6.
-TEST_CASE("a ball that rises a hair above a level passes it twice",
-          "[cases][ball][guards]") {
+TEST_CASE("a ball that rises a hair above a level passes it twice", "[cases][ball][guards]") {
   const auto* method = GENERATE(from_range(methods));
   const double hair = GENERATE(1e-2, 1e-4, 1e-6);
   // Thrown up with 10 m/s under g = 10: the apex of 5 m at 1 s. `hair` is crossed in 2

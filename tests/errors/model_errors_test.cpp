@@ -1,6 +1,6 @@
 // The text of what is refused before a run: what was expected, what was found, where, what to do.
-#include "saltus/plan/compile.hpp"
 #include "saltus/library/library.hpp"
+#include "saltus/plan/compile.hpp"
 #include "support/balls.hpp"
 #include "support/leaves.hpp"
 

@@ -139,7 +139,9 @@ def test_bad_calls():
         saltus.simulate(3, context, (0.0, 1.0))
 
 
-@pytest.mark.parametrize("method", ["auto", "dopri5", "dop853", "rk45", "DOP853", "non-stiff", "adams", "bdf", "stiff"])
+@pytest.mark.parametrize(
+    "method", ["auto", "dopri5", "dop853", "rk45", "DOP853", "non-stiff", "adams", "bdf", "stiff"]
+)
 def test_methods(method):
     # 1e-9 a step, at most a few hundred steps of a contracting equation
     assert flow(

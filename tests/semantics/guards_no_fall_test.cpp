@@ -56,8 +56,8 @@ void rests(const Drop& drop, const char* method, double tolerance) {
               << ", v = " << results.context.continuous_state()[1]);
   CHECK(results.status == Status::reached_end);
   CHECK(count(results.events, EventKind::zeno_enter) >= 1);
-  // On hold it stands where a reset put it: as far from the floor as the tolerance leaves the height
-  // uncertain, which is all that a reset that keeps the height can do.
+  // On hold it stands where a reset put it: as far from the floor as the tolerance leaves the
+  // height uncertain, which is all that a reset that keeps the height can do.
   CHECK(std::abs(results.context.continuous_state()[0] - drop.floor) <
         std::max(1e-9, tolerance) + 100.0 * eps * std::abs(drop.floor));
   // Flights that rise less than 1e4 atol are not seen by a multistep method.

@@ -63,8 +63,7 @@ TEST_CASE("4.5 an update that kicks a held ball releases it: the flow leads to t
   CHECK_THAT(results.context.continuous_state()[0], WithinAbs(0.4, 1e-7));
 }
 
-TEST_CASE("4.5 an update that throws a held ball at its floor makes it bounce",
-          "[semantics]") {
+TEST_CASE("4.5 an update that throws a held ball at its floor makes it bounce", "[semantics]") {
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);
   // In contact and headed down with 3 m/s: up with 1.5 m/s at the same instant (2.3).

@@ -1,6 +1,6 @@
 // Flattening: nested diagrams to leaves with paths and wires; shapes along the wires.
-#include "saltus/plan/compile.hpp"
 #include "saltus/library/library.hpp"
+#include "saltus/plan/compile.hpp"
 #include "support/leaves.hpp"
 
 using namespace saltus;

@@ -1,8 +1,8 @@
 // Integrator: its ports, derivative and reset map as the plan and the machine see them, and error
 // texts.
-#include "saltus/plan/machine.hpp"
-#include "saltus/plan/compile.hpp"
 #include "library_support.hpp"
+#include "saltus/plan/compile.hpp"
+#include "saltus/plan/machine.hpp"
 
 using namespace saltus;
 using namespace library_test;

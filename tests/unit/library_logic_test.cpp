@@ -1,6 +1,6 @@
 // Comparator, LogicalOperator, Switch: truth tables, what is located and held, and error texts.
-#include "saltus/plan/compile.hpp"
 #include "library_support.hpp"
+#include "saltus/plan/compile.hpp"
 
 using namespace saltus;
 using namespace library_test;

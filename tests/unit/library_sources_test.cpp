@@ -1,8 +1,8 @@
 // Sources: their values, shapes, rates and time events.
-#include "saltus/plan/machine.hpp"
-#include "saltus/plan/compile.hpp"
 #include <cmath>
 #include <limits>
+#include "saltus/plan/compile.hpp"
+#include "saltus/plan/machine.hpp"
 
 #include "library_support.hpp"
 

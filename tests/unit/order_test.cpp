@@ -1,6 +1,6 @@
 // Order: every output after what it reads; an algebraic loop is printed as the path it is.
-#include "saltus/plan/compile.hpp"
 #include "saltus/library/library.hpp"
+#include "saltus/plan/compile.hpp"
 #include "support/leaves.hpp"
 
 using namespace saltus;

@@ -1,7 +1,7 @@
 // Rates, and the lists they make: what is constant, held, continuous; what the derivatives, guards
 // and taps need.
-#include "saltus/plan/compile.hpp"
 #include "saltus/library/library.hpp"
+#include "saltus/plan/compile.hpp"
 #include "support/leaves.hpp"
 
 using namespace saltus;

@@ -59,12 +59,12 @@ class At {
      const double* const* relations)
       : time(t), x(state), z(discrete), p(parameters), u(inputs), mode(m), relations_(relations) {}
 
-  double time;   ///< [s]
-  VectorView x;  ///< continuous state of this leaf
-  VectorView z;  ///< discrete state of this leaf
-  VectorView p;  ///< parameters of this leaf, one after the other
-  Inputs u;      ///< inputs of this leaf
-  int mode;      ///< mode of this leaf
+  double time;      ///< [s]
+  VectorView x;     ///< continuous state of this leaf
+  VectorView z;     ///< discrete state of this leaf
+  VectorView p;     ///< parameters of this leaf, one after the other
+  Inputs u;         ///< inputs of this leaf
+  int mode;         ///< mode of this leaf
   Index entry = 0;  ///< in a reset map: which guard of a vector of them fired
 
   /// A vector parameter.

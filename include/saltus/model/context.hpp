@@ -70,9 +70,7 @@ class Context {
   const Continuation* continuation() const noexcept { return continuation_.get(); }
 
   /// Everything that changes, for saving; and a context of this layout with values that were saved.
-  ContextValues values() const {
-    return {time_, x_, z_, p_, modes_, settled_, continuation_};
-  }
+  ContextValues values() const { return {time_, x_, z_, p_, modes_, settled_, continuation_}; }
   Context with_values(const ContextValues& values) const;
 
   Context with_time(double t) const;

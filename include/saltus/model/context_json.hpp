@@ -27,8 +27,8 @@ inline Json json_of(const Continuation& c) {
     guards.push_back({g.side, g.from, g.fresh, g.resting, g.band, g.base});
   for (const auto& f : c.firings)
     firings.push_back({{"times", f.times}, {"after", f.after}, {"holding", f.holding}});
-  return {{"jump", c.jump},       {"relations", c.relations}, {"guards", guards},
-          {"firings", firings},   {"edges", c.edges},         {"counts", c.counts}};
+  return {{"jump", c.jump},     {"relations", c.relations}, {"guards", guards},
+          {"firings", firings}, {"edges", c.edges},         {"counts", c.counts}};
 }
 
 inline Continuation continuation_from(const Json& json) {
@@ -37,8 +37,12 @@ inline Continuation continuation_from(const Json& json) {
                  .edges = json.at("edges"),
                  .counts = json.at("counts")};
   for (const Json& g : json.at("guards")) {
-    c.guards.push_back({.side = g.at(0), .from = g.at(1), .fresh = g.at(2), .resting = g.at(3),
-                        .band = g.at(4), .base = g.at(5)});
+    c.guards.push_back({.side = g.at(0),
+                        .from = g.at(1),
+                        .fresh = g.at(2),
+                        .resting = g.at(3),
+                        .band = g.at(4),
+                        .base = g.at(5)});
   }
   for (const Json& f : json.at("firings"))
     c.firings.push_back(
@@ -74,10 +78,8 @@ inline std::string to_json(const Context& context) {
          {"parameters", detail::json_of(v.parameters.segment(leaf.p, leaf.np))},
          {"mode", v.modes[i]}});
   }
-  detail::Json json{{"format", "saltus context 1"},
-                    {"time", v.time},
-                    {"settled", v.settled},
-                    {"blocks", blocks}};
+  detail::Json json{
+      {"format", "saltus context 1"}, {"time", v.time}, {"settled", v.settled}, {"blocks", blocks}};
   if (v.continuation) json["continuation"] = detail::json_of(*v.continuation);
   return json.dump(1);
 }
@@ -91,7 +93,8 @@ inline Context context_from_json(const System& system, std::string_view json_tex
   try {
     const detail::Json json = detail::Json::parse(json_text);
     if (json.at("format") != "saltus context 1")
-      throw ModelError(text("expected format 'saltus context 1', found ", json.at("format").dump()));
+      throw ModelError(
+          text("expected format 'saltus context 1', found ", json.at("format").dump()));
     const detail::Json& blocks = json.at("blocks");
     if (blocks.size() != leaves.size()) {
       throw ModelError(text("the context is not one of this system: expected ", leaves.size(),
@@ -104,7 +107,8 @@ inline Context context_from_json(const System& system, std::string_view json_tex
       if (found != leaf.path)
         throw ModelError(text("expected block '", leaf.path, "', found '", found, "'"));
       using detail::read_numbers;
-      read_numbers(blocks[i], "continuous_state", v.continuous_state.segment(leaf.x, leaf.nx), found);
+      read_numbers(blocks[i], "continuous_state", v.continuous_state.segment(leaf.x, leaf.nx),
+                   found);
       read_numbers(blocks[i], "discrete_state", v.discrete_state.segment(leaf.z, leaf.nz), found);
       read_numbers(blocks[i], "parameters", v.parameters.segment(leaf.p, leaf.np), found);
       v.modes[i] = blocks[i].at("mode");

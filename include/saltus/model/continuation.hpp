@@ -26,12 +26,12 @@ struct Continuation {
     bool operator==(const Firings&) const = default;
   };
 
-  int jump = 0;                             ///< j
-  std::vector<double> relations = {};       ///< truth of all relations that are held
+  int jump = 0;                        ///< j
+  std::vector<double> relations = {};  ///< truth of all relations that are held
   std::vector<Guard> guards = {};
-  std::vector<Firings> firings = {};        ///< of the guards, then of the watched edges
-  std::vector<int> edges = {};              ///< watched signals: true (1) or false (0)
-  std::vector<std::int64_t> counts = {};    ///< firings of each guard, for max_count
+  std::vector<Firings> firings = {};      ///< of the guards, then of the watched edges
+  std::vector<int> edges = {};            ///< watched signals: true (1) or false (0)
+  std::vector<std::int64_t> counts = {};  ///< firings of each guard, for max_count
   bool operator==(const Continuation&) const = default;
 };
 

@@ -129,12 +129,12 @@ inline void require_sound(const ZeroCrossing& c, const Declarations& declared,
   refuse(!c.guard, "has no guard");
   refuse(c.size < 1, "has ", c.size, " guards; expected 1 or more");
   refuse(c.max_count < 1, "has max_count ", c.max_count, "; expected 1 or more");
-  refuse(c.max_count > 1 && !c.terminal,
-         "has max_count ", c.max_count, " but is not terminal; set terminal too");
-  refuse(c.zeno_tolerance && !(*c.zeno_tolerance >= 0.0),
-         "has zeno_tolerance ", c.zeno_tolerance.value_or(0.0), "; expected a time >= 0 s");
-  refuse(!c.holds.empty() && static_cast<Index>(c.holds.size()) != c.size,
-         "has ", c.size, " guards and ", c.holds.size(), " lists of states to hold; give one list for each guard");
+  refuse(c.max_count > 1 && !c.terminal, "has max_count ", c.max_count,
+         " but is not terminal; set terminal too");
+  refuse(c.zeno_tolerance && !(*c.zeno_tolerance >= 0.0), "has zeno_tolerance ",
+         c.zeno_tolerance.value_or(0.0), "; expected a time >= 0 s");
+  refuse(!c.holds.empty() && static_cast<Index>(c.holds.size()) != c.size, "has ", c.size,
+         " guards and ", c.holds.size(), " lists of states to hold; give one list for each guard");
   const Index n = declared.continuous.initial.size();
   for (const auto& states : c.holds) {
     for (int i : states)

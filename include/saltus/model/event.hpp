@@ -76,14 +76,14 @@ constexpr bool fires(Direction direction, int side, int now) {
   return false;
 }
 
-/// What becomes of a guard that is exactly at zero, or on its firing side already, when a run starts
-/// or its mode is entered.
+/// What becomes of a guard that is exactly at zero, or on its firing side already, when a run
+/// starts or its mode is entered.
 enum class AtStart {
-  automatic,  ///< at zero, headed for its firing side: with a reset map or a mode change it fires at
-              ///< once (contact), without it waits; on its firing side: it waits to leave it
-  ignore,     ///< it waits, in either case
-  fire,       ///< it fires at once, in either case
-  error       ///< a SimulationError, in either case
+  automatic,  ///< at zero, headed for its firing side: with a reset map or a mode change it fires
+              ///< at once (contact), without it waits; on its firing side: it waits to leave it
+  ignore,  ///< it waits, in either case
+  fire,    ///< it fires at once, in either case
+  error    ///< a SimulationError, in either case
 };
 
 inline constexpr std::array<std::pair<std::string_view, AtStart>, 4> at_start_names{{
@@ -128,11 +128,11 @@ struct ZeroCrossing {
   VectorFunction guard = {};  ///< g(t, x, z, m, u, p), `size` numbers
   ResetMap reset_map = {};    ///< x+ from x-; optional
   Direction direction = Direction::crosses_zero;
-  std::optional<int> start_mode = {};         ///< seen in this mode only
-  std::optional<int> end_mode = {};           ///< mode after it fired
-  bool terminal = false;                      ///< ends the run, after its reset map
-  int max_count = 1;                          ///< of a terminal one: it ends the run when it fires this often
-  Index size = 1;                             ///< number of guards
+  std::optional<int> start_mode = {};  ///< seen in this mode only
+  std::optional<int> end_mode = {};    ///< mode after it fired
+  bool terminal = false;               ///< ends the run, after its reset map
+  int max_count = 1;  ///< of a terminal one: it ends the run when it fires this often
+  Index size = 1;     ///< number of guards
   AtStart at_start = AtStart::automatic;      ///< at zero, or beyond it, when integration begins
   OnZeno on_zeno = OnZeno::hold();            ///< what its Zeno points mean
   std::optional<double> zeno_tolerance = {};  ///< [s] overrides SimulatorOptions::zeno_tolerance

@@ -34,19 +34,22 @@ class Machine {
   /// Copies a context in and computes the constant outputs.
   void load(const Context& context);
   /// The values of now, as a context of the same layout.
-  Context save(const Context& like, double t, std::shared_ptr<const Continuation> continuation) const;
+  Context save(const Context& like, double t,
+               std::shared_ptr<const Continuation> continuation) const;
 
   /// xdot(t, x), everything else held as it is.
   void derivative(double t, const double* state, double* xdot) {
     const double* x_now = carried(t, state);
     flow(t, x_now, xdot);
-    if (carrier != nullptr) [[unlikely]] carrier->rates(t, x_now, xdot);
+    if (carrier != nullptr) [[unlikely]]
+      carrier->rates(t, x_now, xdot);
   }
   /// All guards that can fire now, into their slots of g.
   void guards(double t, const double* state, double* g) {
     const double* x_now = carried(t, state);
     guards_at(t, x_now, g);
-    if (carrier != nullptr) [[unlikely]] carrier->lift(t, x_now, g);
+    if (carrier != nullptr) [[unlikely]]
+      carrier->lift(t, x_now, g);
   }
 
   /// The same two at exactly this state, whatever is carried.
@@ -186,13 +189,13 @@ class Machine {
   std::vector<At> views_;  // one for each leaf
   std::vector<Index> x_offsets_;
   std::vector<const double*> relation_values_;
-  std::vector<Call> constant_calls_, instant_calls_, moving_calls_, derivative_calls_, guard_calls_list_,
-      tap_calls_;
+  std::vector<Call> constant_calls_, instant_calls_, moving_calls_, derivative_calls_,
+      guard_calls_list_, tap_calls_;
   std::vector<OdeCall> odes_;
   std::vector<GroupCall> groups_;
   std::vector<int> active_;
-  std::vector<int> rests_;          // entries of x: how many holds they are under
-  std::vector<Index> resting_of_;   // leaves: how many of their states are at rest
+  std::vector<int> rests_;         // entries of x: how many holds they are under
+  std::vector<Index> resting_of_;  // leaves: how many of their states are at rest
   std::vector<std::size_t> leaf_of_state_;
   bool has_jacobian_ = false;
   Eigen::VectorXd carried_x_;

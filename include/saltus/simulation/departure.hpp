@@ -12,9 +12,10 @@
 namespace saltus {
 
 /// Follows the flow from (t, x) for a short time d along x + d/2 (f(x) + f(x + d f)), right to
-/// second order (to fourth where that shows nothing), and lets d grow until the guard has left zero by more than rounding explains: that
-/// is its side. A guard that stays within rounding has none. Rounding is measured, not guessed: how
-/// much the guard moves when x, and with it f, is disturbed by a known relative amount.
+/// second order (to fourth where that shows nothing), and lets d grow until the guard has left zero
+/// by more than rounding explains: that is its side. A guard that stays within rounding has none.
+/// Rounding is measured, not guessed: how much the guard moves when x, and with it f, is disturbed
+/// by a known relative amount.
 class Departure {
  public:
   Departure(Machine& machine, const SimulatorOptions& options)
@@ -36,7 +37,8 @@ class Departure {
   void from(double t, const Eigen::VectorXd& x, double longest) {
     t_ = t, x_ = &x;
     machine_->derivative(t, x.data(), f_.data());
-    longest_ = std::max(longest, std::min(1.0, 1e9 * quickest()));  // a run of no length has sides too
+    longest_ =
+        std::max(longest, std::min(1.0, 1e9 * quickest()));  // a run of no length has sides too
     disturbed_ = false;
     machine_->guards(t, x.data(), g0_.data());
   }
@@ -70,7 +72,8 @@ class Departure {
     const double near = (guard_after(0.5 * d, slot) - g0_[slot]) / (0.5 * d);
     const double g = guard_after(d, slot), far = (g - g0_[slot]) / d,
                  extrapolated = 2.0 * near - far;
-    const double noise = std::max(1e-6 * std::abs(far - near), 4.0 * rounding_after(d, slot, g) / d);
+    const double noise =
+        std::max(1e-6 * std::abs(far - near), 4.0 * rounding_after(d, slot, g) / d);
     return std::abs(extrapolated) > noise ? extrapolated : 0.0;
   }
 
@@ -148,8 +151,8 @@ class Departure {
     return std::max(d, 64.0 * eps * std::abs(t_));
   }
 
-  /// The time after which curvature has lifted the states off their own rounding, from f and f1 after d: at a tight
-  /// tolerance that is longer than the tolerance sees.
+  /// The time after which curvature has lifted the states off their own rounding, from f and f1
+  /// after d: at a tight tolerance that is longer than the tolerance sees.
   double lift_time(const GuardGroup& group, double d) const {
     double time = 0.0;
     for (int leaf : group.leaves) {

@@ -26,7 +26,7 @@ class Instant {
     bool stuck = false;      ///< a guard at rest, without monitor, fires again as soon as it can
     int events = 0;          ///< how many there were
     bool zeno_stop = false;  ///< a Zeno point of a guard that stops there
-    bool chatters = false;  ///< it does not end, though no state was written
+    bool chatters = false;   ///< it does not end, though no state was written
     double horizon =
         std::numeric_limits<double>::infinity();  ///< [s] within which an event may follow
   };
@@ -189,27 +189,26 @@ class Instant {
   std::vector<char> was_active_;         // slots: for select_guards
   std::vector<char> frozen_,
       resting_;  // slots of relations: their side is kept in this instant, through the hold
-  std::vector<char> turned_;       // slots of relations: their side changed when they were read again
+  std::vector<char> turned_;  // slots of relations: their side changed when they were read again
   std::vector<signed char> from_;  // slots: the side the last crossing came from
   std::vector<int> edges_fired_;   // in this instant
   bool wrote_ = false,
-       wrote_x_ = false;  // some pass of this instant wrote states, continuous state
-  bool entered_ = false;  // some pass of this instant entered a mode
-  bool flowed_ = false;   // departure_ stands at the present (t, x)
-  std::vector<double> flight_;       // [s] slots: since they were armed
-  std::vector<char> in_band_;        // slots: fired again without having been clearly off zero
+       wrote_x_ = false;          // some pass of this instant wrote states, continuous state
+  bool entered_ = false;          // some pass of this instant entered a mode
+  bool flowed_ = false;           // departure_ stands at the present (t, x)
+  std::vector<double> flight_;    // [s] slots: since they were armed
+  std::vector<char> in_band_;     // slots: fired again without having been clearly off zero
   std::vector<double> armed_at_;  // [s] slots: fresh since then after a firing; NaN if not
-  int effects_ = 0;  // reset maps that wrote continuous state in this instant
+  int effects_ = 0;               // reset maps that wrote continuous state in this instant
   int holds_ = 0;
   Eigen::VectorXd trial_, trial_z_;
   Eigen::VectorXd gathered_;  // what rests, of one hold
   Eigen::VectorXd x_minus_, z_minus_, x_next_, z_next_, y_before_, flow_before_;
   std::vector<int> modes_next_, modes_before_;
-  std::vector<double> g_, g_minus_;   // guards now, and what the location of a root left of them
+  std::vector<double> g_, g_minus_;    // guards now, and what the location of a root left of them
   std::vector<std::int64_t> counts_;   // events of each source
   std::vector<std::int64_t> earlier_;  // guards: how often they had fired before this run
-  std::vector<int> chain_;            // sources of what happened in this instant
+  std::vector<int> chain_;             // sources of what happened in this instant
 };
 
 }  // namespace saltus
-

@@ -70,7 +70,8 @@ class ZenoMonitor {
   void load(const Continuation::Firings& saved) {
     forget();
     std::copy_n(saved.times.begin(), std::min(saved.times.size(), times_.size()), times_.begin());
-    after_ = Eigen::Map<const Eigen::VectorXd>(saved.after.data(), static_cast<Eigen::Index>(saved.after.size()));
+    after_ = Eigen::Map<const Eigen::VectorXd>(saved.after.data(),
+                                               static_cast<Eigen::Index>(saved.after.size()));
     holding = saved.holding;
   }
 

@@ -26,7 +26,8 @@ class Locator {
   Locator(Machine& machine, Watch& watch)
       : machine_(&machine), watch_(&watch), x_(static_cast<std::size_t>(machine.plan().nx)) {
     const auto slots = static_cast<std::size_t>(machine.plan().guard_slots);
-    for (auto* values : {&low_, &high_, &middle_, &earlier_, &at_root_, &before_, &noise_}) values->assign(slots, 1.0);
+    for (auto* values : {&low_, &high_, &middle_, &earlier_, &at_root_, &before_, &noise_})
+      values->assign(slots, 1.0);
     crossed_.reserve(slots), limits_.reserve(slots);
   }
 
@@ -122,7 +123,8 @@ class Locator {
          middle_);
     for (const std::size_t k : crossed_) {
       GuardSlot& slot = watch_->slots[k];
-      if (slot.side == 0) slot.side = static_cast<signed char>((middle_[k] > 0.0) - (middle_[k] < 0.0));
+      if (slot.side == 0)
+        slot.side = static_cast<signed char>((middle_[k] > 0.0) - (middle_[k] < 0.0));
     }
     for (std::size_t i = 0; i < limits_.size(); ++i)
       limits_[i] = watch_->slots[watch_->active[i]].limits();

@@ -200,7 +200,8 @@ class RungeKutta final : public StepSolver<RungeKutta<Method>> {
   }
   void require_room(double h) {
     const double smallest = 16.0 * std::numeric_limits<double>::epsilon() * std::abs(t0_);
-    if (!(h > smallest && h >= options_.min_step)) throw_step_too_small(*machine_, t0_, h, x0_.data(), options_);
+    if (!(h > smallest && h >= options_.min_step))
+      throw_step_too_small(*machine_, t0_, h, x0_.data(), options_);
   }
 
   double h_ = 0.0;

@@ -116,11 +116,11 @@ inline std::string fastest_block(Machine& machine, double t, const double* x,
   require_finite_near(machine, t, h, x);
   const std::string block = fastest_block(machine, t, x, options);
   if (options.min_step > 0.0 && h <= 1.01 * options.min_step) {
-    throw SimulationError(text("t = ", t, " s: the tolerance needs a step of ", h,
-                               " s, below min_minor_step_size = ", options.min_step,
-                               " s; lower that, or loosen rtol and atol; block '", block,
-                               "' moves fastest"),
-                          t, block);
+    throw SimulationError(
+        text("t = ", t, " s: the tolerance needs a step of ", h,
+             " s, below min_minor_step_size = ", options.min_step,
+             " s; lower that, or loosen rtol and atol; block '", block, "' moves fastest"),
+        t, block);
   }
   throw SimulationError(
       text("t = ", t, " s: the step size underflows (", h,
