@@ -81,9 +81,9 @@ constexpr bool fires(Direction direction, int side, int now) {
 enum class AtStart {
   automatic,  ///< at zero, headed for its firing side: with a reset map or a mode change it fires
               ///< at once (contact), without it waits; on its firing side: it waits to leave it
-  ignore,  ///< it waits, in either case
-  fire,    ///< it fires at once, in either case
-  error    ///< a SimulationError, in either case
+  ignore,     ///< it waits, in either case
+  fire,       ///< it fires at once, in either case
+  error       ///< a SimulationError, in either case
 };
 
 inline constexpr std::array<std::pair<std::string_view, AtStart>, 4> at_start_names{{

@@ -126,19 +126,21 @@ class Instant {
   bool sets_off(int node) const;
   bool hold_edges_of(int node);
   void rest_relations_of(const EdgeWatch& edge);
-  SurfaceContact* contact_of(std::size_t slot);
-  void touch_crossing(std::size_t slot);
-  void touch_relation(std::size_t slot);
-  void arm_contact(SurfaceContact& contact, double band);
   bool look_at_firings();
   bool goes_against(const Firing& firing);
   void release_kicked();
   void release_unseen();
+
+  // instant_contacts.cpp
+  SurfaceContact* contact_of(std::size_t slot);
+  void leave_contact(std::size_t slot);
+  void touch_crossing(std::size_t slot);
+  void touch_relation(std::size_t slot);
+  void arm_contact(SurfaceContact& contact, double band);
   bool wake(SurfaceContact& contact);
   void let_go(SurfaceContact& contact);
   void look_at_held(std::size_t slot);
   bool still_at_rest(SurfaceContact& contact);
-  void leave_contact(std::size_t slot);
 
   // shared
   const Plan& plan() const { return machine_->plan(); }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "saltus/plan/machine.hpp"
+#include "saltus/solver/dip.hpp"
 #include "saltus/solver/watch.hpp"
 
 namespace saltus {
@@ -161,31 +162,6 @@ class Locator {
     }
     return never;
   }
-
-  /// Three looks at one guard, all on its side.
-  struct Dip {
-    double u[3], g[3];
-
-    /// The vertex of the parabola through them; `never` if it opens downwards or stays above
-    /// `highest`.
-    double vertex(double highest) const {
-      if (!(g[0] > 0.0 && g[1] > 0.0 && g[2] > 0.0)) return never;
-      const double left = (g[1] - g[0]) / (u[1] - u[0]), right = (g[2] - g[1]) / (u[2] - u[1]);
-      const double bend = (right - left) / (u[2] - u[0]);
-      const double slope = left + bend * (u[1] - u[0]);
-      if (!(bend > 0.0) || g[1] - slope * slope / (4.0 * bend) > highest) return never;
-      const double at = u[1] - slope / (2.0 * bend);
-      return at == u[0] || at == u[1] || at == u[2] ? never : at;
-    }
-    /// Takes a new look in, in place of an outer one.
-    void replace(double at, double value) {
-      const bool behind = at > u[1], lower = value < g[1];
-      const int out = behind == lower ? 0 : 2;  // the outer one that is no neighbour of the lowest
-      const double inner = u[1], inner_g = g[1];
-      u[out] = lower ? inner : at, g[out] = lower ? inner_g : value;
-      if (lower) u[1] = at, g[1] = value;
-    }
-  };
 
   /// All guards at offset u.
   template <class Interpolate>
