@@ -13,7 +13,7 @@ void Instant::open(double t, const std::vector<int>& due) {
   t_ = t;
   outcome_ = {};
   std::ranges::fill(fired_, 0), std::ranges::fill(frozen_, 0), std::ranges::fill(carried_, 0);
-  std::ranges::fill(turned_, 0);
+  std::ranges::fill(turned_, 0), std::ranges::fill(flips_, 0);
   edges_fired_.clear(), actions_.clear(), chain_.clear();
   wrote_ = wrote_x_ = flowed_ = entered_ = false;
   effects_ = 0;
@@ -94,6 +94,7 @@ bool Instant::flip_relations() {
     fired_[slot] = fired_now_[slot] = 1;
     from_[slot] = static_cast<signed char>(firing.from);
     if (group.kind == GuardGroup::Kind::crossing) continue;
+    if (++flips_[slot] == 3) outcome_.flutters = true;
     machine_->signal(group.index)[firing.slot - group.slot] = firing.from < 0 ? 1.0 : 0.0;
     watch_->slots[slot].side = static_cast<signed char>(firing.from < 0 ? 1 : -1);
     log(EventKind::zero_crossing, source_of(Cause::crossing, group_of_slot_[slot]), group.leaf,

@@ -20,6 +20,7 @@ Instant::Instant(Machine& machine, Watch& watch, const SimulatorOptions& options
   watch.scan_points = options.event_scan_points;
   for (auto* marks : {&fired_, &fired_now_, &frozen_, &resting_, &turned_, &was_active_, &in_band_})
     marks->assign(slots, 0);
+  flips_.assign(slots, 0);
   group_of_slot_.resize(slots), from_.assign(slots, 0);
   armed_at_.assign(slots, std::numeric_limits<double>::quiet_NaN()), flight_.assign(slots, 0.0);
   std::vector<std::string> names;

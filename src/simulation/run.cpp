@@ -26,7 +26,7 @@ void Run::initialize(const Context& context) {
   if (!plan().taps.empty()) recorder_.emplace(machine_, results_);
   calendar_.begin(time_, context.settled());
   begun_ = solver_started_ = over_ = false;
-  next_save_ = 0, ticks_ = 0, stuck_ = {}, recent_ = idle_ = {0, time_};
+  next_save_ = 0, ticks_ = 0, stuck_ = fluttering_ = {}, recent_ = idle_ = {0, time_};
   at_root_ = machine_.x;
 }
 
@@ -157,8 +157,11 @@ Status Run::settle(StopReason reason, double t_end, bool at_start) {
   if (outcome.terminal) return end(Status::terminal);
   if (outcome.zeno_stop) return end(Status::zeno_stop);
   if (outcome.chatters) told_ = {outcome.events, time_};
-  stuck_ =
-      outcome.stuck ? Series{stuck_.count + 1, stuck_.count == 0 ? time_ : stuck_.since} : Series{};
+  const auto next = [&](Series& series, bool again) {
+    series = again ? Series{series.count + 1, series.count == 0 ? time_ : series.since} : Series{};
+  };
+  next(stuck_, outcome.stuck);
+  next(fluttering_, outcome.flutters);
   if (outcome.chatters || (reason == StopReason::root && chatters(t_end, idle)))
     return chattering();
   return Status::reached_end;
@@ -174,12 +177,14 @@ Status Run::chattering() {
                   "mode of its own for the motion along the switching surface"));
 }
 
-/// Events go on, and time does not: a thousand times at rest without a Zeno monitor; a thousand
+/// Events go on, and time does not: a thousand times at rest without a Zeno monitor; two hundred
+/// times in a row a relation whose both sides lead back to its surface; a thousand
 /// roots within what rounding leaves of time; ten thousand in 1e-7 of the run, which would be 1e11
 /// in all, between which no state moves by its tolerance.
 bool Run::chatters(double t_end, bool idle) {
   const double rounding = 1e6 * std::numeric_limits<double>::epsilon() * std::abs(time_);
   if (stuck_.count >= 1000) return chatters_as(stuck_);
+  if (fluttering_.count >= 200) return chatters_as(fluttering_);
   if (recent_.full(1000, time_) && time_ - recent_.since <= rounding) return chatters_as(recent_);
   at_root_ = machine_.x;
   if (!idle) idle_ = {0, time_};

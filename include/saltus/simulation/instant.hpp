@@ -24,6 +24,7 @@ class Instant {
     bool restart = false;  ///< the solver's picture of f is no longer right
     bool terminal = false;
     bool stuck = false;      ///< a guard at rest, without monitor, fires again as soon as it can
+    bool flutters = false;   ///< a relation flipped three times or more: both sides lead back
     int events = 0;          ///< how many there were
     bool zeno_stop = false;  ///< a Zeno point of a guard that stops there
     bool chatters = false;   ///< it does not end, though no state was written
@@ -191,6 +192,7 @@ class Instant {
   std::vector<char> was_active_;         // slots: for select_guards
   std::vector<char> frozen_,
       resting_;  // slots of relations: their side is kept in this instant, through the hold
+  std::vector<int> flips_;    // slots of relations: how often in this instant
   std::vector<char> turned_;  // slots of relations: their side changed when they were read again
   std::vector<signed char> from_;  // slots: the side the last crossing came from
   std::vector<int> edges_fired_;   // in this instant

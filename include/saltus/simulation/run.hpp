@@ -77,9 +77,9 @@ class Run {
   std::vector<int> due_;
   std::size_t next_save_ = 0;
   std::int64_t ticks_ = 0;
-  Series stuck_, recent_, idle_;  // see chatters
-  Series told_;                   // what the message says
-  Eigen::VectorXd at_root_;       // x at the last root
+  Series stuck_, fluttering_, recent_, idle_;  // see chatters
+  Series told_;                                // what the message says
+  Eigen::VectorXd at_root_;                    // x at the last root
   std::chrono::steady_clock::time_point asked_{};
 };
 
