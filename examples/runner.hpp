@@ -6,6 +6,7 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <saltus/report/table.hpp>
+#include <saltus/solver/choose.hpp>
 #include <set>
 #include <string>
 #include <vector>
