@@ -34,7 +34,7 @@ void Instant::arm(bool at_start) {
     if (group.kind != GuardGroup::Kind::crossing)
       arm_relation(group, k);
     else if (slot_rests_[k].monitor.holding)
-      touch_crossing(k);
+      arm_crossing_at_rest(k);
     else
       arm_crossing(group, k, at_start);
     if (fired_[k] && watch_->slots[k].fresh) armed_at_[k] = t_;
@@ -160,7 +160,7 @@ void Instant::arm_fired(const GuardGroup& group, std::size_t k, int from, Depart
     return;
   }
   come_to_rest(rest, t_, false);
-  if (rest.monitor.holding) touch_crossing(k);
+  if (rest.monitor.holding) arm_crossing_at_rest(k);
 }
 
 /// Whether the flight that ended here was too low to be told from rest: its height, slope times a
@@ -192,7 +192,7 @@ bool Instant::reset_turns(const GuardGroup& group, std::size_t k, int from) {
 /// A relation near its zero may only leave it, not cross it, until it has been clearly off.
 void Instant::arm_relation(const GuardGroup& group, std::size_t k) {
   GuardSlot& slot = watch_->slots[k];
-  if (resting_[k]) return touch_relation(k);
+  if (resting_[k]) return arm_relation_at_rest(k);
   const int now = (g_[k] > 0.0) - (g_[k] < 0.0);
   if (group.kind == GuardGroup::Kind::opaque) {
     const bool truth = machine_->signal(group.index)[static_cast<Index>(k) - group.slot] != 0.0;

@@ -46,19 +46,17 @@ void Instant::leave_contact(std::size_t k) {
 }
 
 /// On hold a guard is watched for leaving zero, to either side.
-void Instant::touch_crossing(std::size_t k) {
+void Instant::arm_crossing_at_rest(std::size_t k) {
   GuardSlot& slot = watch_->slots[k];
   const Departure::Side flow = side_of(group_of(k), static_cast<Index>(k), 0.0, 0);
-  const double before = fired_[k] ? hair_of(k)
-                        : contacts_.on(static_cast<int>(k))
-                            ? contacts_.on(static_cast<int>(k))->band
-                            : slot.band;
+  const SurfaceContact* known = contacts_.on(static_cast<int>(k));
+  const double before = fired_[k] ? hair_of(k) : known ? known->band : slot.band;
   if (SurfaceContact* contact = contact_of(k))
     arm_contact(*contact, std::max({flow.rounding, std::abs(g_[k]), before}));
 }
 
 /// The same for a relation at rest. The value of an opaque boolean says nothing there.
-void Instant::touch_relation(std::size_t k) {
+void Instant::arm_relation_at_rest(std::size_t k) {
   GuardSlot& slot = watch_->slots[k];
   const bool opaque = group_of(k).kind == GuardGroup::Kind::opaque;
   const SurfaceContact* known = contacts_.on(static_cast<int>(k));

@@ -135,8 +135,8 @@ class Instant {
   // instant_contacts.cpp
   SurfaceContact* contact_of(std::size_t slot);
   void leave_contact(std::size_t slot);
-  void touch_crossing(std::size_t slot);
-  void touch_relation(std::size_t slot);
+  void arm_crossing_at_rest(std::size_t slot);
+  void arm_relation_at_rest(std::size_t slot);
   void arm_contact(SurfaceContact& contact, double band);
   bool wake(SurfaceContact& contact);
   void let_go(SurfaceContact& contact);
