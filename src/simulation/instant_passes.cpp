@@ -13,7 +13,7 @@ void Instant::open(double t, const std::vector<int>& due) {
   t_ = t;
   outcome_ = {};
   std::ranges::fill(fired_, 0), std::ranges::fill(frozen_, 0), std::ranges::fill(carried_, 0);
-  std::ranges::fill(turned_, 0), std::ranges::fill(flips_, 0);
+  std::ranges::fill(turned_, 0), std::ranges::fill(flips_, 0), std::ranges::fill(in_band_, 0);
   edges_fired_.clear(), actions_.clear(), chain_.clear();
   wrote_ = wrote_x_ = flowed_ = entered_ = false;
   effects_ = 0;
