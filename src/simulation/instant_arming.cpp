@@ -10,11 +10,6 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-/// The side a guard fires on reaching; for either direction the lower one.
-int firing_side(Direction direction) {
-  return direction == Direction::negative_then_non_negative ? 1 : -1;
-}
-
 }  // namespace
 
 /// `hair`: how far the location left the guard from zero; nothing within it counts as off zero.
@@ -96,7 +91,7 @@ void Instant::arm_crossing(const GuardGroup& group, std::size_t k, bool at_start
 /// How far the location of a root left a guard from zero. Not where it fired on leaving its band:
 /// bands made of bands would grow without end.
 double Instant::hair_of(std::size_t k) const {
-  return in_band_[k] ? 1.01 * std::abs(g_[k]) : 4.0 * std::abs(g_minus_[k]);
+  return std::isnan(flight_[k]) ? 4.0 * std::abs(g_minus_[k]) : 1.01 * std::abs(g_[k]);
 }
 
 /// Whether a guard that has not fired in this instant stands at zero; in a mode just entered also
@@ -143,15 +138,15 @@ void Instant::arm_fired(const GuardGroup& group, std::size_t k, int from, Depart
   // What a passed-through guard leaves a plateau to is no matter; a reset that wrote keeps it
   // armed.
   slot.side = static_cast<signed char>(flow.side != 0 ? flow.side : reset && wrote_x_ ? from : 0);
-  const bool back =
-      reset && (flow.side == -from || too_low(group, k)) && std::abs(g_[k]) <= slot.band;
+  const bool low = reset && too_low(group, k);
+  const bool back = reset && (flow.side == -from || low) && std::abs(g_[k]) <= slot.band;
   if (!back) return;
   if (effects_ > 1 && reset_turns(group, k, from)) {
     // another reset sent it back: it fires again
     firings_.push_back({static_cast<int>(k), from});
     return;
   }
-  if (!too_low(group, k) && !rests(group, static_cast<Index>(k), from)) return;
+  if (!low && !rests(group, static_cast<Index>(k), from)) return;
   Rest& rest = slot_rests_[k];
   slot.side = static_cast<signed char>(from);
   slot.band = std::abs(g_[k]);  // without a monitor it fires again as soon as it can
@@ -166,7 +161,7 @@ void Instant::arm_fired(const GuardGroup& group, std::size_t k, int from, Depart
 /// Whether the flight that ended here was too low to be told from rest: its height, slope times a
 /// quarter of its time for a parabola, is within the band.
 bool Instant::too_low(const GuardGroup& group, std::size_t k) {
-  if (!in_band_[k] || !wrote_x_) return false;
+  if (std::isnan(flight_[k]) || !wrote_x_) return false;
   departure_.from(t_, x_minus_, longest_);
   flowed_ = false;
   return std::abs(departure_.slope(group, static_cast<Index>(k))) * flight_[k] <=
@@ -195,8 +190,7 @@ void Instant::arm_relation(const GuardGroup& group, std::size_t k) {
   if (resting_[k]) return arm_relation_at_rest(k);
   const int now = (g_[k] > 0.0) - (g_[k] < 0.0);
   if (group.kind == GuardGroup::Kind::opaque) {
-    const bool truth = machine_->signal(group.index)[static_cast<Index>(k) - group.slot] != 0.0;
-    slot.side = static_cast<signed char>(truth ? 1 : -1);
+    slot.side = static_cast<signed char>(truth_of(k) != 0.0 ? 1 : -1);
     return;
   }
   if (now == slot.side && !fired_[k]) return;

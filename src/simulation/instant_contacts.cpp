@@ -9,32 +9,46 @@ namespace saltus {
 /// The contact behind a guard at rest, made where there is none yet; null where nothing rests on it
 /// alone.
 SurfaceContact* Instant::contact_of(std::size_t k) {
-  const GuardGroup& group = group_of(k);
-  const bool crossing = group.kind == GuardGroup::Kind::crossing;
+  const bool crossing = group_of(k).kind == GuardGroup::Kind::crossing;
   if (crossing ? !slot_rests_[k].monitor.holding : !resting_[k]) return nullptr;
-  SurfaceContact made{.slot = static_cast<int>(k),
-                      .opaque = group.kind == GuardGroup::Kind::opaque};
-  if (crossing) {
-    const Rest& rest = slot_rests_[k];
-    made.pressed = group.direction == Direction::negative_then_non_negative ? 1 : -1;
-    made.states = rest.states;
-    if (const ResetMap& map = crossing_of(group).reset_map)
-      made.members.push_back({rest.leaf, &map, rest.entry});
-  } else {
-    made.pressed =
-        machine_->signal(group.index)[static_cast<Index>(k) - group.slot] != 0.0 ? 1 : -1;
-    for (std::size_t e = 0; e < plan().edges.size(); ++e) {
-      const EdgeWatch& edge = plan().edges[e];
-      if (!edge_rests_[e].monitor.holding || edge.relations != std::vector{group.index}) continue;
-      made.members.push_back({edge.leaf, &reset_of(edge).reset_map, 0});
-      made.states.insert(made.states.end(), edge_rests_[e].states.begin(),
-                         edge_rests_[e].states.end());
-    }
-  }
-  SurfaceContact* known = contacts_.on(static_cast<int>(k));
-  if (known && known->members.size() == made.members.size()) return known;
-  if (made.states.empty()) return nullptr;
+  return crossing ? contact_of_crossing(k) : contact_of_relation(k);
+}
+
+SurfaceContact* Instant::contact_of_crossing(std::size_t k) {
+  if (SurfaceContact* known = contacts_.on(static_cast<int>(k))) return known;
+  const GuardGroup& group = group_of(k);
+  const Rest& rest = slot_rests_[k];
+  if (rest.states.empty()) return nullptr;
+  SurfaceContact made{
+      .slot = static_cast<int>(k), .pressed = firing_side(group.direction), .states = rest.states};
+  if (const ResetMap& map = crossing_of(group).reset_map)
+    made.members.push_back({rest.leaf, &map, rest.entry});
   return &contacts_.add(std::move(made));
+}
+
+/// Made anew when another block has come to rest on it.
+SurfaceContact* Instant::contact_of_relation(std::size_t k) {
+  const GuardGroup& group = group_of(k);
+  const auto rests_here = [&](std::size_t e) {
+    const auto& relations = plan().edges[e].relations;
+    return edge_rests_[e].monitor.holding && relations.size() == 1 &&
+           relations.front() == group.index;
+  };
+  std::size_t count = 0;
+  for (std::size_t e = 0; e < plan().edges.size(); ++e) count += rests_here(e);
+  SurfaceContact* known = contacts_.on(static_cast<int>(k));
+  if (known && known->members.size() == count) return known;
+  SurfaceContact made{.slot = static_cast<int>(k),
+                      .pressed = truth_of(k) != 0.0 ? 1 : -1,
+                      .opaque = group.kind == GuardGroup::Kind::opaque};
+  for (std::size_t e = 0; e < plan().edges.size(); ++e) {
+    if (!rests_here(e)) continue;
+    const EdgeWatch& edge = plan().edges[e];
+    const std::vector<Index>& states = edge_rests_[e].states;
+    made.members.push_back({edge.leaf, &reset_of(edge).reset_map, 0});
+    made.states.insert(made.states.end(), states.begin(), states.end());
+  }
+  return made.states.empty() ? nullptr : &contacts_.add(std::move(made));
 }
 
 void Instant::leave_contact(std::size_t k) {
@@ -139,14 +153,14 @@ void Instant::let_go(SurfaceContact& contact) {
   slot.side = static_cast<signed char>(armed), slot.fresh = true, slot.band = band;
   if (group.kind == GuardGroup::Kind::crossing) return release(slot_rests_[k]);
   resting_[k] = 0;
-  machine_->signal(group.index)[static_cast<Index>(k) - group.slot] = armed > 0 ? 1.0 : 0.0;
+  truth_of(k) = armed > 0 ? 1.0 : 0.0;
 }
 
 /// After a commit, the guard of a leaf on hold: off to its armed side it lets go, beyond zero the
 /// reset map is applied again.
 void Instant::look_at_held(std::size_t k) {
   SurfaceContact* contact = contacts_.on(static_cast<int>(k));
-  const int pressed = group_of(k).direction == Direction::negative_then_non_negative ? 1 : -1;
+  const int pressed = firing_side(group_of(k).direction);
   const double band = contact ? contact->band : watch_->slots[k].band;
   if (std::abs(g_[k]) <= band) return;
   if (g_[k] * pressed < 0.0) {

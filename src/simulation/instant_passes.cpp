@@ -13,7 +13,8 @@ void Instant::open(double t, const std::vector<int>& due) {
   t_ = t;
   outcome_ = {};
   std::ranges::fill(fired_, 0), std::ranges::fill(frozen_, 0), std::ranges::fill(carried_, 0);
-  std::ranges::fill(turned_, 0), std::ranges::fill(flips_, 0), std::ranges::fill(in_band_, 0);
+  std::ranges::fill(turned_, 0), std::ranges::fill(flips_, 0);
+  std::ranges::fill(flight_, std::numeric_limits<double>::quiet_NaN());
   edges_fired_.clear(), actions_.clear(), chain_.clear();
   wrote_ = wrote_x_ = flowed_ = entered_ = false;
   effects_ = 0;
@@ -24,8 +25,7 @@ void Instant::open(double t, const std::vector<int>& due) {
   for (const Firing& root : firings_) {
     const auto k = static_cast<std::size_t>(root.slot);
     g_minus_[k] = watch_->g[k];
-    in_band_[k] = root.fresh && !std::isnan(armed_at_[k]);
-    flight_[k] = t - armed_at_[k];
+    if (root.fresh) flight_[k] = t - armed_at_[k];
   }
   for (int event : due) {
     const ScheduledEvent& scheduled = plan().schedule[static_cast<std::size_t>(event)];
@@ -90,12 +90,12 @@ bool Instant::flip_relations() {
   std::ranges::fill(fired_now_, 0);
   for (const Firing& firing : firings_) {
     const auto slot = static_cast<std::size_t>(firing.slot);
-    const GuardGroup& group = plan().guards[static_cast<std::size_t>(group_of_slot_[slot])];
+    const GuardGroup& group = group_of(slot);
     fired_[slot] = fired_now_[slot] = 1;
     from_[slot] = static_cast<signed char>(firing.from);
     if (group.kind == GuardGroup::Kind::crossing) continue;
     if (++flips_[slot] == 3) outcome_.flutters = true;
-    machine_->signal(group.index)[firing.slot - group.slot] = firing.from < 0 ? 1.0 : 0.0;
+    truth_of(slot) = firing.from < 0 ? 1.0 : 0.0;
     watch_->slots[slot].side = static_cast<signed char>(firing.from < 0 ? 1 : -1);
     log(EventKind::zero_crossing, source_of(Cause::crossing, group_of_slot_[slot]), group.leaf,
         -firing.from);
@@ -153,15 +153,12 @@ void Instant::add_crossings() {
     const GuardGroup& of = group_of(slot);
     if (of.kind != GuardGroup::Kind::crossing) continue;
     const auto group = static_cast<std::size_t>(group_of_slot_[slot]);
-    const ZeroCrossing& crossing = crossing_of(of);
-    const Rest& rest = slot_rests_[slot];
-    const bool last = earlier_[group] + counts_[group] + 1 >= crossing.max_count;
-    if (!has_effect(of) && !(crossing.terminal && last))  // a monitor, or terminal only later
+    if (!has_effect(of) && !ends_run(group))  // a monitor, or terminal only later
       log(EventKind::zero_crossing, static_cast<int>(group), of.leaf, -firing.from,
           std::numeric_limits<double>::quiet_NaN(), firing.slot - of.slot);
     else
       actions_.push_back({of.leaf, Cause::crossing, static_cast<int>(group), firing.slot,
-                          firing.from, rest.monitor.holding});
+                          firing.from, slot_rests_[slot].monitor.holding});
   }
   firings_.clear();
   if (actions_.size() < 2) return;
@@ -185,7 +182,6 @@ void Instant::run_pass() {
   commit();
   read_again();
   find_next();
-  outcome_.changed = true;
   ++jump_;
   if (recorder_ != nullptr) recorder_->record(t_, jump_, machine_->x.data());
 }
@@ -217,8 +213,7 @@ void Instant::run_action(const Action& action) {
   bool wrote = map && run_reset(action, map);
   if (crossing && crossing->end_mode)
     modes_next_[static_cast<std::size_t>(action.leaf)] = *crossing->end_mode, wrote = true;
-  const bool last =
-      crossing && crossing->terminal && earlier_[index] + counts_[index] + 1 >= crossing->max_count;
+  const bool last = crossing && ends_run(index);
   outcome_.terminal = outcome_.terminal || last;
   log(last ? EventKind::terminal : EventKind::zero_crossing, source, action.leaf, -action.from,
       std::numeric_limits<double>::quiet_NaN(), rest.entry);

@@ -31,7 +31,7 @@ bool Instant::read_relation(const GuardGroup& group, Index slot) {
   if (SurfaceContact* contact = contacts_.on(static_cast<int>(k));
       contact && still_at_rest(*contact))
     return false;
-  const bool truth = machine_->signal(group.index)[slot - group.slot] != 0.0;
+  const bool truth = truth_of(k) != 0.0;
   const int crossed_to = fired_[k] ? -from_[k] : truth ? 1 : -1;
   int side = (g_[k] > 0.0) - (g_[k] < 0.0);
   if (fired_[k] && !wrote_x_)
@@ -58,7 +58,7 @@ bool Instant::read_relation(const GuardGroup& group, Index slot) {
   resting_[k] = 0;
   turned_[k] = 1;
   leave_contact(k);
-  machine_->signal(group.index)[slot - group.slot] = side > 0 ? 1.0 : 0.0;
+  truth_of(k) = side > 0 ? 1.0 : 0.0;
   return true;
 }
 

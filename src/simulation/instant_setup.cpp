@@ -18,7 +18,7 @@ Instant::Instant(Machine& machine, Watch& watch, const SimulatorOptions& options
   watch.slots.resize(slots), watch.g.assign(slots, 1.0), g_.assign(slots, 1.0),
       g_minus_.assign(slots, 0.0);
   watch.scan_points = options.event_scan_points;
-  for (auto* marks : {&fired_, &fired_now_, &frozen_, &resting_, &turned_, &was_active_, &in_band_})
+  for (auto* marks : {&fired_, &fired_now_, &frozen_, &resting_, &turned_, &was_active_})
     marks->assign(slots, 0);
   flips_.assign(slots, 0);
   group_of_slot_.resize(slots), from_.assign(slots, 0);

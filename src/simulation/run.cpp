@@ -47,14 +47,12 @@ Status Run::advance_to(double t_end) {
   try {
     results_.status = run_to(t_end);
   } catch (const SimulationError& error) {
-    results_.status = Status::failed, results_.message = error.what();
-    results_.block = error.block(), results_.cause = std::current_exception();
+    fail(error.what());
+    results_.block = error.block();
   } catch (const std::exception& error) {
-    results_.status = Status::failed, results_.message = error.what(),
-    results_.cause = std::current_exception();
+    fail(error.what());
   } catch (...) {
-    results_.status = Status::failed, results_.message = "a function of the model threw",
-    results_.cause = std::current_exception();
+    fail("a function of the model threw");
   }
   results_.statistics.wall_time +=
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -148,8 +146,7 @@ Status Run::settle(StopReason reason, double t_end, bool at_start) {
   if (calendar_.due(time_) || at_start) calendar_.take(time_, due_);
   if (reason != StopReason::root && due_.empty() && !at_start)
     return Status::reached_end;  // a major step's end only
-  if (recorder_ && !recorder_->has_row(time_, instant_.jump()))
-    recorder_->record(time_, instant_.jump(), machine_.x.data());
+  record(time_, machine_.x.data());
   const bool idle = reason == StopReason::root && !moved();
   const Instant::Outcome outcome = instant_.run(time_, due_, t_end - time_, at_start);
   if (outcome.restart && solver_started_)
@@ -157,11 +154,8 @@ Status Run::settle(StopReason reason, double t_end, bool at_start) {
   if (outcome.terminal) return end(Status::terminal);
   if (outcome.zeno_stop) return end(Status::zeno_stop);
   if (outcome.chatters) told_ = {outcome.events, time_};
-  const auto next = [&](Series& series, bool again) {
-    series = again ? Series{series.count + 1, series.count == 0 ? time_ : series.since} : Series{};
-  };
-  next(stuck_, outcome.stuck);
-  next(fluttering_, outcome.flutters);
+  stuck_.next(outcome.stuck, time_);
+  fluttering_.next(outcome.flutters, time_);
   if (outcome.chatters || (reason == StopReason::root && chatters(t_end, idle)))
     return chattering();
   return Status::reached_end;
@@ -227,6 +221,13 @@ void Run::record_step(double from) {
   }
   if (steps_recorded())
     record(time_, solver_started_ ? solver_->state().data() : machine_.x.data());
+}
+
+/// In a handler: what was thrown is the cause.
+void Run::fail(std::string message) {
+  results_.status = Status::failed;
+  results_.message = std::move(message);
+  results_.cause = std::current_exception();
 }
 
 Status Run::end(Status status, std::string message) {

@@ -37,8 +37,8 @@ class Departure {
   void from(double t, const Eigen::VectorXd& x, double longest) {
     t_ = t, x_ = &x;
     machine_->derivative(t, x.data(), f_.data());
-    longest_ =
-        std::max(longest, std::min(1.0, 1e9 * quickest()));  // a run of no length has sides too
+    longest_ = longest;  // a run of no length has sides too
+    if (longest < 1.0) longest_ = std::max(longest, std::min(1.0, 1e9 * quickest()));
     disturbed_ = false;
     machine_->guards(t, x.data(), g0_.data());
   }

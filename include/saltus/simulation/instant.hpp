@@ -20,7 +20,6 @@ namespace saltus {
 class Instant {
  public:
   struct Outcome {
-    bool changed = false;  ///< some pass changed something
     bool restart = false;  ///< the solver's picture of f is no longer right
     bool terminal = false;
     bool stuck = false;      ///< a guard at rest, without monitor, fires again as soon as it can
@@ -134,6 +133,8 @@ class Instant {
 
   // instant_contacts.cpp
   SurfaceContact* contact_of(std::size_t slot);
+  SurfaceContact* contact_of_crossing(std::size_t slot);
+  SurfaceContact* contact_of_relation(std::size_t slot);
   void leave_contact(std::size_t slot);
   void arm_crossing_at_rest(std::size_t slot);
   void arm_relation_at_rest(std::size_t slot);
@@ -154,6 +155,16 @@ class Instant {
   }
   const GuardGroup& group_of(std::size_t slot) const {
     return plan().guards[static_cast<std::size_t>(group_of_slot_[slot])];
+  }
+  /// The held truth of a relation, by its slot.
+  double& truth_of(std::size_t slot) {
+    const GuardGroup& group = group_of(slot);
+    return machine_->signal(group.index)[static_cast<Index>(slot) - group.slot];
+  }
+  /// Whether this firing of a terminal guard is the one that ends the run.
+  bool ends_run(std::size_t group) const {
+    const ZeroCrossing& crossing = crossing_of(plan().guards[group]);
+    return crossing.terminal && earlier_[group] + counts_[group] + 1 >= crossing.max_count;
   }
   bool has_effect(const GuardGroup& group) const {
     return crossing_of(group).reset_map || crossing_of(group).end_mode;
@@ -196,12 +207,12 @@ class Instant {
   std::vector<char> turned_;  // slots of relations: their side changed when they were read again
   std::vector<signed char> from_;  // slots: the side the last crossing came from
   std::vector<int> edges_fired_;   // in this instant
-  bool wrote_ = false,
-       wrote_x_ = false;          // some pass of this instant wrote states, continuous state
-  bool entered_ = false;          // some pass of this instant entered a mode
-  bool flowed_ = false;           // departure_ stands at the present (t, x)
-  std::vector<double> flight_;    // [s] slots: since they were armed
-  std::vector<char> in_band_;     // slots: fired again without having been clearly off zero
+  bool wrote_ = false;             // the last pass wrote states
+  bool wrote_x_ = false;           // some pass of this instant wrote continuous state
+  bool entered_ = false;           // some pass of this instant entered a mode
+  bool flowed_ = false;            // departure_ stands at the present (t, x)
+  std::vector<double> flight_;    // [s] slots: from one firing to the next, where the guard was not
+                                  // seen clearly off zero in between; else NaN
   std::vector<double> armed_at_;  // [s] slots: fresh since then after a firing; NaN if not
   int effects_ = 0;               // reset maps that wrote continuous state in this instant
   int holds_ = 0;

@@ -40,6 +40,10 @@ class Run {
   struct Series {
     std::int64_t count = 0;
     double since = 0.0;
+    /// Counts one more that follows at t; forgets them where none does.
+    void next(bool follows, double t) {
+      *this = follows ? Series{count + 1, count == 0 ? t : since} : Series{};
+    }
     /// Counts one more; true when that makes `size`, and then begins anew at t unless it is kept.
     bool full(std::int64_t size, double t) {
       if (count >= size) *this = {0, t};
@@ -56,6 +60,7 @@ class Run {
   SimulatorOptions checked(SimulatorOptions options) const;
   SolverOptions solver_options() const;
   Status end(Status status, std::string message = {});
+  void fail(std::string message);
   void finish();
   /// Puts what rests on a moving surface where that is at t.
   void carry(double t) {

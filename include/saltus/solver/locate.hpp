@@ -108,7 +108,6 @@ class Locator {
       if (find_in(from, next, nullptr, interpolate, false)) return true;
       from = next;
     }
-    low_ = watch_->g;
     high_ = at_root_;
     note_crossed(high_);
     return false;

@@ -12,14 +12,15 @@
 namespace saltus {
 
 /// Coefficients of one method, all constexpr:
-///   stages            number of stages; the last is f(t + h, x1), the first of the next step
-///   rows              stages, and those that only the dense output needs: computed when it is
-///   asked a[i][j], c[i]     stage i reads x0 + h sum_j a[i][j] k_j at t + c[i] h; row stages-1
-///   gives x1 e[m][j]           error estimate m: h sum_j e[m][j] k_j error(squares)    the error
-///   from the mean squares of the estimates error_order       it shrinks as h^error_order d[m][j]
-///   dense output of degree 3 + m: h sum_j d[m][j] k_j stability         h |lambda| beyond which
-///   stability, not accuracy, bounds the step beta, shortest, longest   of the step size control:
-///   StepController
+/// - stages: how many; the last is f(t + h, x1), the first of the next step
+/// - rows: stages, and those that only the dense output needs, computed when it is asked for
+/// - a[i][j], c[i]: stage i reads x0 + h sum_j a[i][j] k_j at t + c[i] h; row stages - 1 gives x1
+/// - e[m][j]: error estimate m is h sum_j e[m][j] k_j
+/// - error(squares): the error, from the mean squares of the estimates
+/// - error_order: the error shrinks as h^error_order
+/// - d[m][j]: dense output of degree 3 + m, h sum_j d[m][j] k_j
+/// - stability: h |lambda| beyond which stability, not accuracy, bounds the step
+/// - beta, shortest, longest: of the step size control, see StepController
 template <class T>
 concept Tableau = requires {
   { T::stages } -> std::convertible_to<std::size_t>;

@@ -11,6 +11,11 @@
 
 namespace saltus {
 
+/// The side a guard fires on reaching; for either direction the lower one.
+constexpr int firing_side(Direction direction) {
+  return direction == Direction::negative_then_non_negative ? 1 : -1;
+}
+
 /// One guard as the solver sees it.
 struct GuardSlot {
   Direction direction = Direction::crosses_zero;
