@@ -1,13 +1,22 @@
 // Scene: a system with all that a run of it needs, and what is known about the outcome.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "saltus/report/exact.hpp"
 #include "saltus/simulation/simulate.hpp"
 
 namespace saltus {
+
+/// What does not change along the true solution. `value(t, row)` takes one row of the recorded
+/// signals, one after the other; its drift is max |value - value at the start|.
+struct Invariant {
+  std::string name;  ///< "energy"
+  std::function<double(double t, const Eigen::VectorXd& row)> value;
+};
 
 struct Scene {
   std::string name;
@@ -16,6 +25,13 @@ struct Scene {
   TimeSpan span;
   SimulatorOptions options = {};  ///< with recorded_signals in the order of Exact::state
   Exact exact = {};
+  std::vector<Invariant> invariants = {};
+  /// Distance to the surface that the trajectory must not pass, of one row; the penetration depth
+  /// is max(-gap). Empty: no surface.
+  std::function<double(double t, const Eigen::VectorXd& row)> gap = {};
+  std::vector<std::string> methods = {"dopri5", "dop853", "adams", "bdf",
+                                      "auto"};  ///< those that suit the scene
+  double growth = 1.0;  ///< by how much the problem enlarges an error made on its way; >= 1
 };
 
 /// Runs a scene with its own options.
