@@ -67,9 +67,10 @@ void compare(const char* scene, const Ball& ball, const char* method, double rto
         std::abs(ends_only.outcome().y - logged.outcome().y));
 }
 
-/// For a profiler: one runner only, again and again.
-int only(const char* who, int runs) {
-  const Ball ball{.k = 9.81 / 400.0};
+/// For a profiler: one runner only, again and again, on the ball with drag; with a third argument
+/// on the one without.
+int only(const char* who, int runs, bool parabola) {
+  const Ball ball{.k = parabola ? 0.0 : 9.81 / 400.0};
   bench::FloorDopri5 dopri5(ball, 1e-8, 1e-10);
   bench::FloorCvode cvode(ball, 1e-8, 1e-10);
   SaltusRun saltus_dopri5(ball, with("dopri5", 1e-8, true, 3)),
@@ -95,7 +96,7 @@ int only(const char* who, int runs) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc == 3) return only(argv[1], std::atoi(argv[2]));
+  if (argc > 2) return only(argv[1], std::atoi(argv[2]), argc > 3);
   std::printf(
       "SUNDIALS %s. Errors are those of the worst event time [s]; without a log, the difference in "
       "y at the end [m].\n",

@@ -6,14 +6,24 @@
 
 namespace saltus {
 
-std::vector<Machine::Call> Machine::calls_of(const std::vector<int>& nodes) const {
-  std::vector<Call> calls;
+namespace {
+
+/// Of a leaf whose states only reset maps move.
+const VectorFunction& still() {
+  static const VectorFunction zero([](const At&, VectorRef xdot) { xdot.setZero(); });
+  return zero;
+}
+
+}  // namespace
+
+std::vector<Machine::OutputCall> Machine::calls_of(const std::vector<int>& nodes) {
+  std::vector<OutputCall> calls;
   for (int i : nodes) {
     const Node& node = plan_->node(i);
     const VectorFunction& function =
         node.relation ? plan_->relation_of(node).guard : plan_->output_of(node).calc;
-    calls.push_back({&function, plan_->leaf_of(node).system, static_cast<std::size_t>(node.leaf),
-                     node.place.offset, node.place.size, node.relation,
+    calls.push_back({call_of(function, static_cast<std::size_t>(node.leaf)), node.place.offset,
+                     node.place.size, node.relation,
                      node.relation && plan_->relation_of(node).true_at_zero});
   }
   return calls;
@@ -36,7 +46,6 @@ Machine::Machine(std::shared_ptr<const Plan> plan) : plan_(std::move(plan)) {
                         &bases_);
     views_.push_back(At(0.0, {x.data() + leaf.x, leaf.nx}, {z.data() + leaf.z, leaf.nz},
                         {p.data() + leaf.p, leaf.np}, 0, inputs, relations));
-    x_offsets_.push_back(leaf.x);
     relations += leaf.relations.size();
   }
   constant_calls_ = calls_of(plan_->constants);
@@ -49,8 +58,9 @@ Machine::Machine(std::shared_ptr<const Plan> plan) : plan_(std::move(plan)) {
   guard_calls_list_ = calls_of(plan_->guard_needs);
   tap_calls_ = calls_of(plan_->tap_needs);
   for (int leaf : plan_->odes) {
-    const PlanLeaf& of = plan_->leaves[static_cast<std::size_t>(leaf)];
-    odes_.push_back({&of.declared().continuous.ode, of.system, static_cast<std::size_t>(leaf)});
+    const auto number = static_cast<std::size_t>(leaf);
+    const VectorFunction& ode = plan_->leaves[number].declared().continuous.ode;
+    odes_.push_back(call_of(ode ? ode : still(), number));
   }
   for (const GuardGroup& group : plan_->guards) {
     const PlanLeaf& leaf = plan_->leaves[static_cast<std::size_t>(group.leaf)];
@@ -60,9 +70,11 @@ Machine::Machine(std::shared_ptr<const Plan> plan) : plan_(std::move(plan)) {
         : group.kind == GuardGroup::Kind::relation
             ? plan_->relation_of(plan_->node(group.index)).guard
             : plan_->output_of(plan_->node(group.index)).calc;
-    groups_.push_back({&function, leaf.system, static_cast<std::size_t>(group.leaf), group.slot,
+    groups_.push_back({call_of(function, static_cast<std::size_t>(group.leaf)), group.slot,
                        group.size, group.kind == GuardGroup::Kind::opaque});
   }
+  if (odes_.size() == 1 && derivative_calls_.empty() && plan_->nx == odes_.front().size)
+    lone_ode_ = &odes_.front();
   find_jacobian();
   select_guards();
 }
@@ -80,13 +92,63 @@ void Machine::load(const Context& context) {
   z = context.discrete_state();
   p = context.parameters();
   modes = context.modes();
-  std::ranges::fill(rests_, 0), std::ranges::fill(resting_of_, 0);
+  std::ranges::fill(rests_, 0), std::ranges::fill(resting_of_, 0), at_rest_ = 0;
   y.setZero();
   carrier = nullptr;
   rhs_calls = guard_calls = jacobian_calls = 0;
   at_home();
   run(constant_calls_, context.time());
   select_guards();
+}
+
+void Machine::carried_derivative(double t, const double* state, double* xdot) {
+  const double* x_now = carried(t, state);
+  flow(t, x_now, xdot);
+  if (carrier != nullptr) carrier->rates(t, x_now, xdot);
+}
+
+void Machine::carried_guards(double t, const double* state, double* g) {
+  const double* x_now = carried(t, state);
+  guards_at(t, x_now, g);
+  if (carrier != nullptr) carrier->lift(t, x_now, g);
+}
+
+void Machine::flow(double t, const double* state, double* xdot) {
+  ++rhs_calls;
+  bases_[0] = state;
+  run(derivative_calls_, t);
+  for (const Call& ode : odes_) ode_of(ode, t, xdot);
+}
+
+void Machine::guards_at(double t, const double* state, double* g) {
+  ++guard_calls;
+  bases_[0] = state;
+  run(guard_calls_list_, t);
+  for (int i : active_) guard(groups_[static_cast<std::size_t>(i)], t, g);
+}
+
+void Machine::ode_of(const Call& ode, double t, double* xdot) {
+  const VectorRef out(xdot + ode.x, ode.size);
+  const Index resting = at_rest_ == 0 ? 0 : resting_of_[ode.leaf];
+  if (resting == ode.size) {
+    VectorRef(out).setZero();
+  } else {
+    (*ode.function)(*ode.system, seen_by(ode, t), out);
+    if (resting > 0) stop_resting(ode.x, out);
+  }
+}
+
+void Machine::stop_resting(Index offset, VectorRef out) const {
+  for (Index i = 0; i < out.size(); ++i) {
+    if (rests_[static_cast<std::size_t>(offset + i)] > 0) out[i] = 0.0;
+  }
+}
+
+void Machine::guard(const GuardCall& call, double t, double* g) {
+  const VectorRef out(g + call.slot, call.width);
+  (*call.function)(*call.system, seen_by(call, t), out);
+  if (!call.opaque) return;
+  for (double& value : VectorRef(out)) value = value != 0.0 ? 1.0 : -1.0;
 }
 
 const double* Machine::carry(double t, const double* state) {
@@ -119,6 +181,10 @@ void Machine::select_guards() {
     }
     active_.push_back(static_cast<int>(i));
   }
+  const GuardCall* first =
+      active_.empty() ? nullptr : &groups_[static_cast<std::size_t>(active_.front())];
+  const bool lone = active_.size() == 1 && guard_calls_list_.empty() && !first->opaque;
+  lone_guard_ = lone ? first : nullptr;
 }
 
 void Machine::change_rest(Index i, int by) {
@@ -126,7 +192,8 @@ void Machine::change_rest(Index i, int by) {
   const bool before = count > 0;
   count += by;
   const std::size_t leaf = leaf_of_state_[static_cast<std::size_t>(i)];
-  resting_of_[leaf] += static_cast<Index>(count > 0) - static_cast<Index>(before);
+  const Index change = static_cast<Index>(count > 0) - static_cast<Index>(before);
+  resting_of_[leaf] += change, at_rest_ += change;
 }
 
 /// The leaves' Jacobians make up the whole one if no derivative depends on another leaf's
@@ -149,12 +216,12 @@ void Machine::jacobian(double t, const double* state, MatrixRef out) {
   ++jacobian_calls;
   bases_[0] = carried(t, state);
   out.setZero();
-  for (const OdeCall& ode : odes_) {
-    const Index at_x = x_offsets_[ode.leaf], n = views_[ode.leaf].x.size();
+  for (const Call& ode : odes_) {
+    const Index at_x = ode.x, n = ode.size;
     if (resting_of_[ode.leaf] == n) continue;
     jacobian_block_.head(n * n).setZero();
     const MatrixRef block(jacobian_block_.data(), n, n);
-    plan_->leaves[ode.leaf].declared().continuous.jacobian(*ode.system, view(ode.leaf, t), block);
+    plan_->leaves[ode.leaf].declared().continuous.jacobian(*ode.system, seen_by(ode, t), block);
     if (!block.allFinite()) {
       const std::string& path = plan_->leaves[ode.leaf].path;
       throw SimulationError(text("t = ", t, " s: the Jacobian of block '", path,
@@ -170,16 +237,15 @@ void Machine::jacobian(double t, const double* state, MatrixRef out) {
 
 std::string Machine::not_finite(double t, const double* state) {
   bases_[0] = carried(t, state);
-  for (const Call& call : derivative_calls_) {
-    const VectorRef out(y.data() + call.offset, call.size);
-    (*call.function)(*call.system, view(call.leaf, t), out);
+  for (const OutputCall& call : derivative_calls_) {
+    const VectorRef out(y.data() + call.to, call.width);
+    (*call.function)(*call.system, seen_by(call, t), out);
     if (!out.allFinite()) return plan_->leaves[call.leaf].path;
   }
   Eigen::VectorXd xdot(plan_->nx);
-  for (const OdeCall& ode : odes_) {
+  for (const Call& ode : odes_) {
     ode_of(ode, t, xdot.data());
-    if (!xdot.segment(x_offsets_[ode.leaf], views_[ode.leaf].x.size()).allFinite())
-      return plan_->leaves[ode.leaf].path;
+    if (!xdot.segment(ode.x, ode.size).allFinite()) return plan_->leaves[ode.leaf].path;
   }
   return {};
 }

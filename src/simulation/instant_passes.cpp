@@ -11,6 +11,7 @@ namespace saltus {
 /// What stands before the first pass.
 void Instant::open(double t, const std::vector<int>& due) {
   t_ = t;
+  ++watch_->version;
   outcome_ = {};
   std::ranges::fill(fired_, 0), std::ranges::fill(frozen_, 0), std::ranges::fill(carried_, 0);
   std::ranges::fill(turned_, 0), std::ranges::fill(flips_, 0);

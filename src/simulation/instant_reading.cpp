@@ -59,6 +59,7 @@ bool Instant::read_relation(const GuardGroup& group, Index slot) {
   turned_[k] = 1;
   leave_contact(k);
   truth_of(k) = side > 0 ? 1.0 : 0.0;
+  flowed_ = false;
   return true;
 }
 

@@ -81,6 +81,7 @@ void Instant::add_rests() {
 
 void Instant::begin(double t, Recorder* recorder) {
   t_ = t, jump_ = 0, recorder_ = recorder, last_source_ = -1;
+  ++watch_->version;
   std::ranges::fill(counts_, 0), std::ranges::fill(earlier_, 0);
   wrote_x_ = flowed_ = false;
   std::ranges::fill(fired_, 0), std::ranges::fill(frozen_, 0), std::ranges::fill(resting_, 0);

@@ -150,7 +150,7 @@ Status Run::settle(StopReason reason, double t_end, bool at_start) {
   const bool idle = reason == StopReason::root && !moved();
   const Instant::Outcome outcome = instant_.run(time_, due_, t_end - time_, at_start);
   if (outcome.restart && solver_started_)
-    solver_->restart(time_, machine_.x, {.horizon = outcome.horizon});
+    solver_->restart(time_, machine_.x, {.horizon = outcome.horizon, .flow = instant_.flow()});
   if (outcome.terminal) return end(Status::terminal);
   if (outcome.zeno_stop) return end(Status::zeno_stop);
   if (outcome.chatters) told_ = {outcome.events, time_};

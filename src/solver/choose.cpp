@@ -25,13 +25,14 @@ std::unique_ptr<Solver> make_solver(Method method, Machine& machine, Watch& watc
                                     const SolverOptions& options) {
   switch (method) {
     case Method::automatic:
-      if (options.rtol <= order_8_pays(watch))
-        return std::make_unique<AutoSolver<Dop853>>(machine, watch, options);
-      return std::make_unique<AutoSolver<Dopri5>>(machine, watch, options);
+      return std::make_unique<AutoSolver>(machine, watch, options,
+                                          options.rtol <= order_8_pays(watch)
+                                              ? make_dop853(machine, watch, options)
+                                              : make_dopri5(machine, watch, options));
     case Method::dopri5:
-      return std::make_unique<RungeKutta<Dopri5>>(machine, watch, options);
+      return make_dopri5(machine, watch, options);
     case Method::dop853:
-      return std::make_unique<RungeKutta<Dop853>>(machine, watch, options);
+      return make_dop853(machine, watch, options);
     case Method::adams:
       return make_cvode(machine, watch, options, CvodeMethod::adams);
     case Method::bdf:

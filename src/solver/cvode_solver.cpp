@@ -7,13 +7,16 @@
 #include <string>
 #include <vector>
 
-#include "saltus/solver/one_step.hpp"
+#include "saltus/solver/dopri5.hpp"
+#include "saltus/solver/runge_kutta.hpp"
 #include "saltus/solver/step_size.hpp"
 #include "saltus/solver/step_solver.hpp"
 #include "small_vector.hpp"
 #include "sundials_compat.hpp"
 
 namespace saltus {
+
+extern template class RungeKutta<Dopri5>;  // dopri5_solver.cpp
 
 namespace {
 

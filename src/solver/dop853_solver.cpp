@@ -1,4 +1,14 @@
 // DOP853, compiled.
-#include "saltus/solver/one_step.hpp"
+#include "one_step_sizes.hpp"
+#include "saltus/solver/dop853.hpp"
 
-template class saltus::RungeKutta<saltus::Dop853>;
+namespace saltus {
+
+template class RungeKutta<Dop853>;
+
+std::unique_ptr<OneStepSolver> make_dop853(Machine& machine, Watch& watch,
+                                           const SolverOptions& options) {
+  return make_one_step<Dop853>(machine, watch, options);
+}
+
+}  // namespace saltus

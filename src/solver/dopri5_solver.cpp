@@ -1,4 +1,14 @@
 // DOPRI5, compiled.
-#include "saltus/solver/one_step.hpp"
+#include "one_step_sizes.hpp"
+#include "saltus/solver/dopri5.hpp"
 
-template class saltus::RungeKutta<saltus::Dopri5>;
+namespace saltus {
+
+template class RungeKutta<Dopri5>;
+
+std::unique_ptr<OneStepSolver> make_dopri5(Machine& machine, Watch& watch,
+                                           const SolverOptions& options) {
+  return make_one_step<Dopri5>(machine, watch, options);
+}
+
+}  // namespace saltus

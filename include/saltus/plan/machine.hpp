@@ -38,34 +38,26 @@ class Machine {
                std::shared_ptr<const Continuation> continuation) const;
 
   /// xdot(t, x), everything else held as it is.
-  void derivative(double t, const double* state, double* xdot) {
-    const double* x_now = carried(t, state);
-    flow(t, x_now, xdot);
-    if (carrier != nullptr) [[unlikely]]
-      carrier->rates(t, x_now, xdot);
+  [[gnu::always_inline]] void derivative(double t, const double* state, double* xdot) {
+    if (lone_ode_ == nullptr || at_rest_ > 0 || carrier != nullptr)
+      return carried_derivative(t, state, xdot);
+    ++rhs_calls;
+    bases_[0] = state;
+    const VectorRef out(xdot, lone_ode_->size);
+    (*lone_ode_->function)(*lone_ode_->system, seen_by(*lone_ode_, t), out);
   }
   /// All guards that can fire now, into their slots of g.
   void guards(double t, const double* state, double* g) {
-    const double* x_now = carried(t, state);
-    guards_at(t, x_now, g);
-    if (carrier != nullptr) [[unlikely]]
-      carrier->lift(t, x_now, g);
+    if (lone_guard_ == nullptr || carrier != nullptr) return carried_guards(t, state, g);
+    ++guard_calls;
+    bases_[0] = state;
+    const VectorRef out(g + lone_guard_->slot, lone_guard_->width);
+    (*lone_guard_->function)(*lone_guard_->system, seen_by(*lone_guard_, t), out);
   }
 
   /// The same two at exactly this state, whatever is carried.
-  void flow(double t, const double* state, double* xdot) {
-    ++rhs_calls;
-    bases_[0] = state;
-    if (!derivative_calls_.empty()) run(derivative_calls_, t);
-    for (const OdeCall& ode : odes_) ode_of(ode, t, xdot);
-  }
-
-  void guards_at(double t, const double* state, double* g) {
-    ++guard_calls;
-    bases_[0] = state;
-    if (!guard_calls_list_.empty()) run(guard_calls_list_, t);
-    for (int i : active_) guard(groups_[static_cast<std::size_t>(i)], t, g);
-  }
+  void flow(double t, const double* state, double* xdot);
+  void guards_at(double t, const double* state, double* g);
 
   /// Computes the held outputs and what resets, updates and edges read, at (t, x) of the machine.
   void evaluate_instant(double t) {
@@ -84,7 +76,10 @@ class Machine {
   }
 
   /// What leaf i sees at time t; its continuous state from the last (t, x) asked for.
-  At at(std::size_t leaf, double t) { return view(leaf, t); }
+  At at(std::size_t leaf, double t) {
+    const PlanLeaf& of = plan_->leaves[leaf];
+    return seen_by({nullptr, of.system, leaf, &views_[leaf], of.x, of.nx}, t);
+  }
   /// Makes `at` see the machine's own x again.
   void at_home() { bases_[0] = x.data(); }
 
@@ -116,86 +111,74 @@ class Machine {
   std::int64_t rhs_calls = 0, guard_calls = 0, jacobian_calls = 0;
 
  private:
+  /// A function of a leaf, with all that a call needs at hand: it is called some ten times a step.
   struct Call {
     const VectorFunction* function;
     const LeafSystem* system;
     std::size_t leaf;
-    Index offset, size;
+    At* at;         // what the leaf sees, in views_
+    Index x, size;  // where its states begin, and how many there are
+  };
+  struct OutputCall : Call {
+    Index to, width;  // in y
     bool relation, true_at_zero;
   };
-  struct OdeCall {
-    const VectorFunction* function;
-    const LeafSystem* system;
-    std::size_t leaf;
-  };
-  struct GroupCall {
-    const VectorFunction* function;
-    const LeafSystem* system;
-    std::size_t leaf;
-    Index slot, size;
+  struct GuardCall : Call {
+    Index slot, width;
     bool opaque;
   };
 
+  void carried_derivative(double t, const double* state, double* xdot);
+  void carried_guards(double t, const double* state, double* g);
   const double* carried(double t, const double* state) {
     return carrier == nullptr ? state : carry(t, state);
   }
   const double* carry(double t, const double* state);
 
   /// What leaf i sees now. Only what moves from call to call is set anew.
-  const At& view(std::size_t leaf, double t) {
-    At& at = views_[leaf];
+  const At& seen_by(const Call& call, double t) {
+    At& at = *call.at;
     at.time = t;
-    new (&at.x) VectorView(bases_[0] + x_offsets_[leaf], at.x.size());
-    at.mode = modes[leaf];
+    new (&at.x) VectorView(bases_[0] + call.x, call.size);
+    at.mode = modes[call.leaf];
     return at;
   }
-  void run(const std::vector<Call>& calls, double t) {
-    for (const Call& call : calls) {
-      const VectorRef out(y.data() + call.offset, call.size);
-      (*call.function)(*call.system, view(call.leaf, t), out);
+  Call call_of(const VectorFunction& function, std::size_t leaf) {
+    const PlanLeaf& of = plan_->leaves[leaf];
+    return {&function, of.system, leaf, &views_[leaf], of.x, of.nx};
+  }
+  void run(const std::vector<OutputCall>& calls, double t) {
+    for (const OutputCall& call : calls) {
+      const VectorRef out(y.data() + call.to, call.width);
+      (*call.function)(*call.system, seen_by(call, t), out);
       if (call.relation) make_truth(out, call.true_at_zero);
     }
   }
   static void make_truth(VectorRef values, bool at_zero) {
     for (double& value : values) value = value > 0.0 || (at_zero && value == 0.0) ? 1.0 : 0.0;
   }
-  void ode_of(const OdeCall& ode, double t, double* xdot) {
-    const VectorRef out(xdot + x_offsets_[ode.leaf], views_[ode.leaf].x.size());
-    const Index resting = resting_of_[ode.leaf];
-    if (resting == out.size() || !*ode.function) {
-      VectorRef(out).setZero();
-    } else {
-      (*ode.function)(*ode.system, view(ode.leaf, t), out);
-      if (resting > 0) stop_resting(x_offsets_[ode.leaf], out);
-    }
-  }
-  void stop_resting(Index offset, VectorRef out) const {
-    for (Index i = 0; i < out.size(); ++i) {
-      if (rests_[static_cast<std::size_t>(offset + i)] > 0) out[i] = 0.0;
-    }
-  }
+  void ode_of(const Call& ode, double t, double* xdot);
+  void stop_resting(Index offset, VectorRef out) const;
   void change_rest(Index i, int by);
-  void guard(const GroupCall& group, double t, double* g) {
-    const VectorRef out(g + group.slot, group.size);
-    (*group.function)(*group.system, view(group.leaf, t), out);
-    if (!group.opaque) return;
-    for (double& value : VectorRef(out)) value = value != 0.0 ? 1.0 : -1.0;
-  }
-  std::vector<Call> calls_of(const std::vector<int>& nodes) const;
+  void guard(const GuardCall& call, double t, double* g);
+  std::vector<OutputCall> calls_of(const std::vector<int>& nodes);
   void find_jacobian();
 
   std::shared_ptr<const Plan> plan_;
   Bases bases_{};
   std::vector<At> views_;  // one for each leaf
-  std::vector<Index> x_offsets_;
   std::vector<const double*> relation_values_;
-  std::vector<Call> constant_calls_, instant_calls_, moving_calls_, derivative_calls_,
+  std::vector<OutputCall> constant_calls_, instant_calls_, moving_calls_, derivative_calls_,
       guard_calls_list_, tap_calls_;
-  std::vector<OdeCall> odes_;
-  std::vector<GroupCall> groups_;
+  std::vector<Call> odes_;  // of leaves that have one
+  std::vector<GuardCall> groups_;
+  /// Where it is the only one, and nothing has to be computed for it, it is called without a walk.
+  const Call* lone_ode_ = nullptr;
+  const GuardCall* lone_guard_ = nullptr;
   std::vector<int> active_;
   std::vector<int> rests_;         // entries of x: how many holds they are under
   std::vector<Index> resting_of_;  // leaves: how many of their states are at rest
+  Index at_rest_ = 0;              // all in all
   std::vector<std::size_t> leaf_of_state_;
   bool has_jacobian_ = false;
   Eigen::VectorXd carried_x_;

@@ -39,14 +39,16 @@ class Departure {
     machine_->derivative(t, x.data(), f_.data());
     longest_ = longest;  // a run of no length has sides too
     if (longest < 1.0) longest_ = std::max(longest, std::min(1.0, 1e9 * quickest()));
-    disturbed_ = false;
-    machine_->guards(t, x.data(), g0_.data());
+    disturbed_ = looked_ = false;
   }
+
+  /// f at the point it departs from.
+  const Eigen::VectorXd& flow() const noexcept { return f_; }
 
   /// Rounding of a guard where it stands.
   double rounding(Index slot) {
     x1_ = *x_;
-    return rounding_after(0.0, slot, g0_[slot]);
+    return rounding_after(0.0, slot, g0(slot));
   }
 
   /// What thirty tolerances of the states leave uncertain of a guard where it stands.
@@ -69,8 +71,8 @@ class Departure {
   /// rounding counts as zero.
   double slope(const GuardGroup& group, Index slot) {
     const double d = first_time(group);
-    const double near = (guard_after(0.5 * d, slot) - g0_[slot]) / (0.5 * d);
-    const double g = guard_after(d, slot), far = (g - g0_[slot]) / d,
+    const double near = (guard_after(0.5 * d, slot) - g0(slot)) / (0.5 * d);
+    const double g = guard_after(d, slot), far = (g - g0(slot)) / d,
                  extrapolated = 2.0 * near - far;
     const double noise =
         std::max(1e-6 * std::abs(far - near), 4.0 * rounding_after(d, slot, g) / d);
@@ -82,7 +84,7 @@ class Departure {
     const double d = first_time(group);
     x1_ = *x_ + d * f;
     machine_->guards(t_ + d, x1_.data(), g_.data());
-    return (g_[slot] - g0_[slot]) / d;
+    return (g_[slot] - g0(slot)) / d;
   }
 
  private:
@@ -110,6 +112,13 @@ class Departure {
       d *= 8.0;
       if (d > furthest) return result;
     }
+  }
+
+  /// The guard where it departs from; few ask for it.
+  double g0(Index slot) {
+    if (!looked_) machine_->guards(t_, x_->data(), g0_.data());
+    looked_ = true;
+    return g0_[slot];
   }
 
   double largest_move() const { return move_.size() > 0 ? move_.cwiseAbs().maxCoeff() : 0.0; }
@@ -226,6 +235,7 @@ class Departure {
   const Eigen::VectorXd* x_ = nullptr;
   bool fine_ = false;       // follow the flow with order 4
   bool disturbed_ = false;  // f_disturbed_ is that of x_
+  bool looked_ = false;     // g0_ is
   Eigen::VectorXd f_, f_disturbed_, f1_, x1_, move_, trial_, g_, g0_, g_disturbed_;
 };
 

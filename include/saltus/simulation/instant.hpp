@@ -49,6 +49,8 @@ class Instant {
   void log_monitor(const MonitorHit& hit, const double* x);
 
   int jump() const noexcept { return jump_; }
+  /// f at the end of the last instant, if that is known.
+  const Eigen::VectorXd* flow() const noexcept { return flowed_ ? &departure_.flow() : nullptr; }
   /// "block.event" of the last event; empty before there was one.
   const std::string& last_event() const;
   /// How often each event happened, by name; those that did not are left out.

@@ -19,16 +19,16 @@ namespace saltus {
 /// is restarted, and every fifty of its steps, where it has to be so several times running: two at
 /// first, twice as often after each return that did not last, so that the two do not play ball.
 /// They share the Watch, so no guard notices. CVODE is made when it is first needed.
-template <class Method>
 class AutoSolver final : public Solver {
  public:
-  AutoSolver(Machine& machine, Watch& watch, const SolverOptions& options)
+  AutoSolver(Machine& machine, Watch& watch, const SolverOptions& options,
+             std::unique_ptr<OneStepSolver> one_step)
       : machine_(&machine),
         watch_(&watch),
         options_(options),
-        explicit_(machine, watch, options),
+        explicit_(std::move(one_step)),
         radius_(machine, options) {
-    explicit_.watch_stiffness();
+    explicit_->watch_stiffness();
   }
 
   void restart(double t, const Eigen::VectorXd& x, const Start& start) override {
@@ -55,7 +55,7 @@ class AutoSolver final : public Solver {
   bool at_step_end() const override { return now().at_step_end(); }
 
   const SolverStatistics& statistics() const override {
-    sum_ = explicit_.statistics();
+    sum_ = explicit_->statistics();
     if (bdf_) {
       const SolverStatistics& more = bdf_->statistics();
       sum_.steps += more.steps, sum_.rejected += more.rejected;
@@ -81,8 +81,8 @@ class AutoSolver final : public Solver {
   }
 
  private:
-  Solver& now() { return stiff_ ? *bdf_ : explicit_; }
-  const Solver& now() const { return stiff_ ? static_cast<const Solver&>(*bdf_) : explicit_; }
+  Solver& now() { return stiff_ ? *bdf_ : static_cast<Solver&>(*explicit_); }
+  const Solver& now() const { return stiff_ ? static_cast<const Solver&>(*bdf_) : *explicit_; }
   bool now_at_step_end() const { return now().at_step_end(); }
 
   void begin_run(double t) {
@@ -95,7 +95,7 @@ class AutoSolver final : public Solver {
 
   /// At the end of a step: goes on with the other method if that is due.
   void choose() {
-    const bool stiff = stiff_ ? !calm_again() : explicit_.looks_stiff() || collapsed();
+    const bool stiff = stiff_ ? !calm_again() : explicit_->looks_stiff() || collapsed();
     if (stiff == stiff_) return;
     const double t = now().time();
     const Eigen::VectorXd x = now().state();
@@ -111,7 +111,7 @@ class AutoSolver final : public Solver {
     if (!fresh_ || steps_ == 0) return false;
     fresh_ = false;
     return longest_ < 0.01 * before_ &&
-           radius_(explicit_.time(), explicit_.state()) * before_ > 10.0 * Method::stability;
+           radius_(explicit_->time(), explicit_->state()) * before_ > 10.0 * explicit_->stability();
   }
 
   /// Every fifty steps of BDF; not in the first fifty, when its order and steps still rise.
@@ -139,7 +139,7 @@ class AutoSolver final : public Solver {
   Machine* machine_;
   Watch* watch_;
   SolverOptions options_;
-  RungeKutta<Method> explicit_;
+  std::unique_ptr<OneStepSolver> explicit_;
   std::unique_ptr<Solver> bdf_;
   SpectralRadius radius_;
   bool stiff_ = false;
@@ -154,8 +154,5 @@ class AutoSolver final : public Solver {
   std::int64_t steps_before_ = 0;
   mutable SolverStatistics sum_;
 };
-
-extern template class AutoSolver<Dopri5>;
-extern template class AutoSolver<Dop853>;
 
 }  // namespace saltus

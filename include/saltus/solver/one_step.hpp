@@ -1,14 +1,27 @@
-// The one-step methods, each compiled once and in a file of its own: together in one, the compiler
-// inlines less of either.
+// The explicit one-step methods: what "auto" asks of one, and where they are made.
 #pragma once
 
-#include "saltus/solver/dop853.hpp"
-#include "saltus/solver/dopri5.hpp"
-#include "saltus/solver/runge_kutta.hpp"
+#include <memory>
+
+#include "saltus/solver/solver.hpp"
 
 namespace saltus {
 
-extern template class RungeKutta<Dopri5>;
-extern template class RungeKutta<Dop853>;
+class OneStepSolver : public Solver {
+ public:
+  /// Looks for stiffness from now on.
+  virtual void watch_stiffness() = 0;
+  /// Whether the last steps were bounded by stability rather than by accuracy.
+  virtual bool looks_stiff() const = 0;
+  /// h |lambda| beyond which stability bounds the step.
+  virtual double stability() const = 0;
+};
+
+/// Each is compiled once for one to four states, where the whole arithmetic of a step unrolls, and
+/// once for any number; each in a file of its own: together in one, the compiler inlines less.
+std::unique_ptr<OneStepSolver> make_dopri5(Machine& machine, Watch& watch,
+                                           const SolverOptions& options);
+std::unique_ptr<OneStepSolver> make_dop853(Machine& machine, Watch& watch,
+                                           const SolverOptions& options);
 
 }  // namespace saltus

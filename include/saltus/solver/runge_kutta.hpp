@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "saltus/solver/one_step.hpp"
 #include "saltus/solver/step_size.hpp"
 #include "saltus/solver/step_solver.hpp"
 #include "saltus/solver/stiffness.hpp"
@@ -14,34 +15,37 @@
 
 namespace saltus {
 
-template <Tableau Method>
-class RungeKutta final : public StepSolver<RungeKutta<Method>> {
+/// N: how many states there are, or 0 for a number that is known at run time only.
+template <Tableau Method, int N = 0>
+class RungeKutta final : public StepSolver<RungeKutta<Method, N>, OneStepSolver> {
  public:
   RungeKutta(Machine& machine, Watch& watch, const SolverOptions& options)
       : Base(machine, watch, options),
         x0_(n_),
         scratch_(n_),
-        k_(Eigen::MatrixXd::Zero(n_, static_cast<Index>(Method::rows))),
-        dense_(n_, static_cast<Index>(dense_terms)),
+        k_(n_),
+        dense_(n_),
         stiff_(Method::stability, static_cast<double>(last), options) {}
 
   void inside_step(double u, double* x) {
     if (!dense_ready_) prepare_dense();
     const double s = u / length_, r = 1.0 - s;
     const double *x0 = x0_.data(), *c = dense_.data();
-    for (Index i = 0, n = n_; i < n; ++i)
-      x[i] = x0[i] + s * detail::nested<0, dense_terms>(c + i, n, s, r);
+    detail::for_lanes<N>(size(), [&](Index i) {
+      detail::store<N>(x + i, detail::load<N>(x0 + i) +
+                                  s * detail::nested<0, dense_terms, N>(c + i, size(), s, r));
+    });
   }
 
   std::string method() const override { return Method::name; }
 
-  /// Looks for stiffness from now on.
-  void watch_stiffness() noexcept { watches_stiffness_ = true; }
-  /// Whether the last steps were bounded by stability rather than by accuracy.
-  bool looks_stiff() const noexcept { return stiff_.detected(); }
+  void watch_stiffness() override { watches_stiffness_ = true; }
+  bool looks_stiff() const override { return stiff_.detected(); }
+  double stability() const override { return Method::stability; }
 
  private:
-  using Base = StepSolver<RungeKutta<Method>>;
+  using Base = StepSolver<RungeKutta<Method, N>, OneStepSolver>;
+  using Lane = detail::Lane<N>;
   friend Base;
   using Base::machine_, Base::options_, Base::n_, Base::t0_, Base::t1_, Base::length_, Base::x1_,
       Base::statistics_;
@@ -56,12 +60,21 @@ class RungeKutta final : public StepSolver<RungeKutta<Method>> {
   static StepController controller() {
     return {Method::error_order, Method::beta, Method::shortest, Method::longest};
   }
-  VectorView view(const double* x) const { return {x, n_}; }
-  double* stage(std::size_t i) { return k_.data() + static_cast<Index>(i) * n_; }
+  Index size() const {
+    if constexpr (N == 0)
+      return n_;
+    else
+      return N;
+  }
+  VectorView view(const double* x) const { return {x, size()}; }
+  double* stage(std::size_t i) { return k_.data() + static_cast<Index>(i) * size(); }
 
   void begin(const Start& start) {
     if (start.first || start.handover) h_ = 0.0, controller_ = controller();
-    machine_->derivative(t1_, x1_.data(), stage(last));
+    if (start.flow != nullptr)
+      std::copy_n(start.flow->data(), size(), stage(last));
+    else
+      machine_->derivative(t1_, x1_.data(), stage(last));
     dense_ready_ = false;
     horizon_ = start.horizon;
     stiff_.forget();
@@ -70,7 +83,7 @@ class RungeKutta final : public StepSolver<RungeKutta<Method>> {
   /// Tries steps until one is accepted.
   void step(double t_stop) {
     x0_.swap(x1_);
-    std::copy_n(stage(last), n_, stage(0));
+    std::copy_n(stage(last), size(), stage(0));
     dense_ready_ = false;
     require_finite_start();
     if (h_ == 0.0)
@@ -111,7 +124,7 @@ class RungeKutta final : public StepSolver<RungeKutta<Method>> {
     machine_->derivative(t1, x1_.data(), stage(last));
     if constexpr (estimate_reads_end)
       error = scaled_error(h);
-    else if (!VectorView(stage(last), n_).allFinite())
+    else if (!view(stage(last)).allFinite())
       return infinite;
     if (watches_stiffness_ && error <= 1.0)  // scratch_: what the last stage but one read
       stiff_.look(h, view(x1_.data()), view(scratch_.data()), view(stage(last - 1)), view(stage(0)),
@@ -138,34 +151,37 @@ class RungeKutta final : public StepSolver<RungeKutta<Method>> {
   void combine(double h, double* out) const {
     const double *k = k_.data(), *x0 = x0_.data();
     constexpr auto row = [] { return Method::a[I]; };
-    for (Index i = 0, n = n_; i < n; ++i) {
+    detail::for_lanes<N>(size(), [&](Index i) {
+      Lane sum = detail::zero<N>();
       if constexpr (detail::cancels(row()))
-        out[i] = x0[i] + h * (Method::c[I] * k[i] + detail::dot_of_differences<row, I>(k + i, n));
+        sum = Method::c[I] * detail::load<N>(k + i) +
+              detail::dot_of_differences<row, I, N>(k + i, size());
       else
-        out[i] = x0[i] + h * detail::dot<row, I>(k + i, n);
-    }
+        sum = detail::dot<row, I, N>(k + i, size());
+      detail::store<N>(out + i, detail::load<N>(x0 + i) + h * sum);
+    });
   }
 
   /// The method's error from the mean squares of estimate / (atol + rtol max(|x0|, |x1|)).
   double scaled_error(double h) const {
-    if (n_ == 0) return 0.0;
+    if (size() == 0) return 0.0;
     const double *k = k_.data(), *x0 = x0_.data(), *x1 = x1_.data();
     const double rtol = options_.rtol, atol = options_.atol;
     std::array<double, estimates> squares{};
-    for (Index i = 0, n = n_; i < n; ++i) {
-      const double scale = h / (atol + rtol * std::max(std::abs(x0[i]), std::abs(x1[i])));
+    detail::for_lanes<N>(size(), [&](Index i) {
+      const Lane largest = detail::larger(detail::load<N>(x0 + i), detail::load<N>(x1 + i));
+      const Lane scale = h / (atol + rtol * largest);
       add_squares(scale, k + i, squares, std::make_index_sequence<estimates>{});
-    }
-    for (double& square : squares) square /= static_cast<double>(n_);
+    });
+    for (double& square : squares) square /= static_cast<double>(size());
     const double error = Method::error(squares);
     return std::isfinite(error) ? error : infinite;
   }
   template <std::size_t... M>
-  void add_squares(double scale, const double* k, std::array<double, estimates>& squares,
+  void add_squares(const Lane& scale, const double* k, std::array<double, estimates>& squares,
                    std::index_sequence<M...>) const {
-    const auto square = [](double x) { return x * x; };
-    ((squares[M] +=
-      square(scale * detail::dot<[] { return Method::e[M]; }, Method::stages>(k, n_))),
+    ((squares[M] += detail::sum_of_squares(
+          Lane(scale * detail::dot<[] { return Method::e[M]; }, Method::stages, N>(k, size())))),
      ...);
   }
 
@@ -173,20 +189,24 @@ class RungeKutta final : public StepSolver<RungeKutta<Method>> {
     const double *k = k_.data(), *x0 = x0_.data(), *x1 = x1_.data();
     const double h = length_;
     run_stages<Method::stages, Method::rows>(h);
-    for (Index i = 0, n = n_; i < n; ++i) {
+    const Index n = size();
+    detail::for_lanes<N>(n, [&](Index i) {
       double* c = dense_.data() + i;
-      const double rise = x1[i] - x0[i], bend = h * k[i] - rise;
-      c[0] = rise;
-      c[n] = bend;
-      c[2 * n] = rise - h * k[static_cast<Index>(last) * n + i] - bend;
+      const Lane rise = detail::load<N>(x1 + i) - detail::load<N>(x0 + i),
+                 bend = h * detail::load<N>(k + i) - rise,
+                 end = detail::load<N>(k + i + static_cast<Index>(last) * n);
+      detail::store<N>(c, rise);
+      detail::store<N>(c + n, bend);
+      detail::store<N>(c + 2 * n, rise - h * end - bend);
       add_dense(h, k + i, c + 3 * n, std::make_index_sequence<Method::d.size()>{});
-    }
+    });
     dense_ready_ = true;
   }
   template <std::size_t... M>
   void add_dense(double h, const double* k, double* c, std::index_sequence<M...>) const {
-    ((c[static_cast<Index>(M) * n_] =
-          h * detail::dot_of_differences<[] { return Method::d[M]; }, Method::rows>(k, n_)),
+    (detail::store<N>(
+         c + static_cast<Index>(M) * size(),
+         h * detail::dot_of_differences<[] { return Method::d[M]; }, Method::rows, N>(k, size())),
      ...);
   }
 
@@ -194,8 +214,8 @@ class RungeKutta final : public StepSolver<RungeKutta<Method>> {
     // A sum is finite if all of its terms are, short of overflow: then the terms are asked one by
     // one.
     double sum = 0.0;
-    for (Index i = 0; i < n_; ++i) sum += stage(0)[i];
-    if (!std::isfinite(sum) && !VectorView(stage(0), n_).allFinite())
+    for (Index i = 0; i < size(); ++i) sum += stage(0)[i];
+    if (!std::isfinite(sum) && !view(stage(0)).allFinite())
       throw_not_finite(*machine_, t0_, x0_.data());
   }
   void require_room(double h) {
@@ -207,7 +227,8 @@ class RungeKutta final : public StepSolver<RungeKutta<Method>> {
   double h_ = 0.0;
   double horizon_ = infinite;
   Eigen::VectorXd x0_, scratch_;
-  Eigen::MatrixXd k_, dense_;
+  detail::Columns<N, Method::rows> k_;
+  detail::Columns<N, dense_terms> dense_;
   bool dense_ready_ = false;
   StepController controller_ = controller();
   bool watches_stiffness_ = false;

@@ -29,7 +29,8 @@ struct SolverOptions {
 struct Start {
   double horizon = std::numeric_limits<double>::infinity();  ///< [s] within which an event may
                                                              ///< follow: resolve it
-  bool first = false;     ///< a new run: step size and counts are forgotten too
+  const Eigen::VectorXd* flow = nullptr;  ///< f(t, x), where the engine had to ask for it anyway
+  bool first = false;                     ///< a new run: step size and counts are forgotten too
   bool handover = false;  ///< another method was at work: no restart of the scene, and none counted
 };
 

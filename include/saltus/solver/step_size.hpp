@@ -25,11 +25,12 @@ class StepController {
 
   double accept(double error, double h, bool after_rejection) {
     // Below 1e-9 both powers together exceed the longest factor: no need to ask.
-    const double factor =
-        error < 1e-9 ? longest_
-                     : std::clamp(safety * std::pow(error, -exponent_) * std::pow(before_, beta_),
-                                  shortest_, longest_);
-    before_ = std::max(error, 1e-4);
+    const double size = error < 1e-9 ? tiny : std::log2(error);
+    const double factor = error < 1e-9
+                              ? longest_
+                              : std::clamp(safety * std::exp2(beta_ * before_ - exponent_ * size),
+                                           shortest_, longest_);
+    before_ = std::max(size, tiny);
     return h * (after_rejection ? std::min(factor, 1.0) : factor);
   }
   /// The codes shorten to a tenth at most; after a change of mode a thousandth may be right, and an
@@ -41,7 +42,9 @@ class StepController {
 
  private:
   static constexpr double safety = 0.9;
-  double beta_, shortest_, longest_, exponent_, plain_, before_ = 1e-4;
+  static constexpr double tiny = -13.287712379549449;  // log2(1e-4)
+  double beta_, shortest_, longest_, exponent_, plain_;
+  double before_ = tiny;  // log2 of the error of the step before
 };
 
 /// First step by the size of x, f and f' (Hairer, Norsett, Wanner I, p. 169, "Starting step size").

@@ -13,8 +13,8 @@ namespace saltus {
 ///   0 <= u <= length_
 /// The rest, roots included, stands here. After a root that changes nothing continuous, the rest of
 /// the same step is delivered: the trajectory stays what it was.
-template <class Method>
-class StepSolver : public Solver {
+template <class Method, class Interface = Solver>
+class StepSolver : public Interface {
  public:
   StepSolver(Machine& machine, Watch& watch, const SolverOptions& options)
       : machine_(&machine),
@@ -32,7 +32,7 @@ class StepSolver : public Solver {
       ++statistics_.restarts;
     if (start.first) run_begun_ = t;
     t0_ = t1_ = time_ = t;
-    x1_ = state_ = x;
+    x1_ = x;
     delivered_ = true;
     locator_.forget();
     self().begin(start);
@@ -46,15 +46,11 @@ class StepSolver : public Solver {
       offset_ = locator_.offset();
       delivered_ = offset_ >= length_;
       time_ = delivered_ ? t1_ : t0_ + offset_;
-      if (delivered_)
-        state_ = x1_;
-      else
-        self().inside_step(offset_, state_.data());
+      if (!delivered_) self().inside_step(offset_, state_.data());
       return StopReason::root;
     }
     delivered_ = true;
     time_ = t1_;
-    state_ = x1_;
     return t1_ >= t_stop ? StopReason::stop_time : StopReason::step;
   }
 
@@ -72,7 +68,7 @@ class StepSolver : public Solver {
   }
   bool at_step_end() const final { return delivered_; }
   double time() const final { return time_; }
-  const Eigen::VectorXd& state() const final { return state_; }
+  const Eigen::VectorXd& state() const final { return delivered_ ? x1_ : state_; }
 
   // --- one step without a look at the guards, for a method that lets another one start for it
   // --------------------
@@ -110,7 +106,7 @@ class StepSolver : public Solver {
   Locator locator_;
   double time_ = 0.0, offset_ = 0.0, run_begun_ = 0.0;
   bool delivered_ = true;  // the last step, to its end
-  Eigen::VectorXd state_;
+  Eigen::VectorXd state_;  // where a root cut the last step
 };
 
 }  // namespace saltus

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <utility>
 
-#include "saltus/base/view.hpp"
+#include "saltus/solver/lane.hpp"
 
 namespace saltus {
 
@@ -40,26 +40,27 @@ concept Tableau = requires {
 
 namespace detail {
 
-template <auto Row, std::size_t J>
-void add_term(double& sum, const double* k, Index n) {
+template <auto Row, std::size_t J, int N>
+void add_term(Lane<N>& sum, const double* k, Index n) {
   constexpr double weight = Row()[J];
-  if constexpr (weight != 0.0) sum += weight * k[static_cast<Index>(J) * n];
+  if constexpr (weight != 0.0) sum += weight * load<N>(k + static_cast<Index>(J) * n);
 }
 
 /// sum_j Row[j] k[j n], j < Count; terms that are zero are not there.
-template <auto Row, std::size_t Count>
-double dot(const double* k, Index n) {
-  double sum = 0.0;
+template <auto Row, std::size_t Count, int N>
+Lane<N> dot(const double* k, Index n) {
+  Lane<N> sum = zero<N>();
   [&]<std::size_t... J>(std::index_sequence<J...>) {
-    (add_term<Row, J>(sum, k, n), ...);
+    (add_term<Row, J, N>(sum, k, n), ...);
   }(std::make_index_sequence<Count>{});
   return sum;
 }
 
-template <auto Row, std::size_t J>
-void add_difference(double& sum, const double* k, Index n) {
+template <auto Row, std::size_t J, int N>
+void add_difference(Lane<N>& sum, const double* k, Index n) {
   constexpr double weight = Row()[J];
-  if constexpr (weight != 0.0) sum += weight * (k[static_cast<Index>(J) * n] - k[0]);
+  if constexpr (weight != 0.0)
+    sum += weight * (load<N>(k + static_cast<Index>(J) * n) - load<N>(k));
 }
 
 /// Whether weights this large lose digits when they cancel: DOP853 has some of 20 to 44.
@@ -70,23 +71,23 @@ constexpr bool cancels(const Row& row) {
 
 /// sum_j Row[j] (k[j n] - k[0]): the same but for k[0] times the sum of the row. Where k hardly
 /// varies, large weights cancel exactly and not only but for rounding.
-template <auto Row, std::size_t Count>
-double dot_of_differences(const double* k, Index n) {
-  double sum = 0.0;
+template <auto Row, std::size_t Count, int N>
+Lane<N> dot_of_differences(const double* k, Index n) {
+  Lane<N> sum = zero<N>();
   [&]<std::size_t... J>(std::index_sequence<0, J...>) {
-    (add_difference<Row, J>(sum, k, n), ...);
+    (add_difference<Row, J, N>(sum, k, n), ...);
   }(std::make_index_sequence<Count>{});
   return sum;
 }
 
 /// c_J + r (c_J+1 + s (c_J+2 + ...)), r and s in turns, J even first: c[j] stands at c[j n].
-template <std::size_t J, std::size_t Count>
-double nested(const double* c, Index n, double s, double r) {
-  const double here = c[static_cast<Index>(J) * n];
+template <std::size_t J, std::size_t Count, int N>
+Lane<N> nested(const double* c, Index n, double s, double r) {
+  const Lane<N> here = load<N>(c + static_cast<Index>(J) * n);
   if constexpr (J + 1 == Count)
     return here;
   else
-    return here + (J % 2 == 0 ? r : s) * nested<J + 1, Count>(c, n, s, r);
+    return here + (J % 2 == 0 ? r : s) * nested<J + 1, Count, N>(c, n, s, r);
 }
 
 }  // namespace detail

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -59,6 +60,12 @@ struct GuardSlot {
     return {falls ? -reach : -never, rises ? reach : never};
   }
 
+  /// The side of a guard of which there is nothing to know but whether it stays there; else 0.
+  double plain_side() const noexcept {
+    const bool plain = !waits() && !leaving && direction != Direction::edge_detection;
+    return plain ? side : 0;
+  }
+
   /// Takes over the side after a look at which it did not fire.
   void follow(double value) {
     base = value;
@@ -91,6 +98,7 @@ struct Watch {
   std::vector<double> g;             ///< values at the last time looked at
   std::vector<Firing> fired;         ///< what crossed at the last root
   std::vector<MonitorHit> monitors;  ///< hits in the last advance
+  std::int64_t version = 0;          ///< counts up whenever the engine changes slots
   int scan_points = 3;               ///< interior points of a step at which guards are looked at
 
   bool any() const noexcept { return !active.empty(); }

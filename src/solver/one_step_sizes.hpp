@@ -1,0 +1,25 @@
+// The stepper that is unrolled for the size of a scene, or the general one.
+#pragma once
+
+#include "saltus/solver/runge_kutta.hpp"
+
+namespace saltus {
+
+template <Tableau Method>
+std::unique_ptr<OneStepSolver> make_one_step(Machine& machine, Watch& watch,
+                                             const SolverOptions& options) {
+  switch (machine.plan().nx) {
+    case 1:
+      return std::make_unique<RungeKutta<Method, 1>>(machine, watch, options);
+    case 2:
+      return std::make_unique<RungeKutta<Method, 2>>(machine, watch, options);
+    case 3:
+      return std::make_unique<RungeKutta<Method, 3>>(machine, watch, options);
+    case 4:
+      return std::make_unique<RungeKutta<Method, 4>>(machine, watch, options);
+    default:
+      return std::make_unique<RungeKutta<Method>>(machine, watch, options);
+  }
+}
+
+}  // namespace saltus
