@@ -134,6 +134,11 @@ void Instant::arm_at_zero(const GuardGroup& group, std::size_t k, Departure::Sid
 void Instant::arm_fired(const GuardGroup& group, std::size_t k, int from, Departure::Side flow) {
   GuardSlot& slot = watch_->slots[k];
   const bool reset = static_cast<bool>(crossing_of(group).reset_map);
+  if (reset && flow.side == -from && from * g_[k] > slot.band) {
+    // Clearly on its armed side, where another reset may have put it: about to cross, not at zero.
+    slot.side = static_cast<signed char>(from), slot.fresh = false, slot.band = 0.0;
+    return;
+  }
   slot.fresh = true;
   // What a passed-through guard leaves a plateau to is no matter; a reset that wrote keeps it
   // armed.

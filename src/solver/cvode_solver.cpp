@@ -138,6 +138,8 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
     CVodeSetRootDirection(cvode_.get(), directions_.data());
   }
 
+  void undo() { t1_ = t0_; }
+
   void step(double t_stop) {
     if (starting_ && t1_ >= starter_until_) start_cvode();
     // CVODE takes no step within a few roundings of the time.

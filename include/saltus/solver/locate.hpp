@@ -18,7 +18,8 @@ class Locator : private Narrower {
  public:
   Locator(Machine& machine, Watch& watch) : Narrower(machine, watch) {
     const auto slots = static_cast<std::size_t>(machine.plan().guard_slots);
-    for (auto* values : {&earlier_, &at_root_, &before_}) values->assign(slots, 1.0);
+    for (auto* values : {&earlier_, &at_root_, &before_, &end_, &speed_})
+      values->assign(slots, 1.0);
     plain_.reserve(slots);
   }
 
@@ -31,22 +32,29 @@ class Locator : private Narrower {
     if (version_ != watch_->version) look_up_slots();
     const int pieces = watch_->scan_points + 1;
     const double piece_length = (to - from) / pieces;
-    for (int piece = 1; piece <= pieces; ++piece) {
+    look(to, end, interpolate, high_);
+    const bool skips = pieces > 1 && out_of_reach(from, to);
+    if (!skips) end_.swap(high_);
+    for (int piece = skips ? pieces : 1; piece <= pieces; ++piece) {
       const bool last = piece == pieces;
       const double next = last ? to : std::min(to, from + piece_length);
-      look(next, last ? end : nullptr, interpolate, high_);
+      if (!last)
+        look(next, nullptr, interpolate, high_);
+      else if (!skips)
+        high_.swap(end_);
       if (calm(from, next))
-        shift_all(from);
+        shift_all(from, next);
       else if (from < next && find_in(from, next, last ? end : nullptr, interpolate))
         return true;
       from = next;
     }
+    skipped_ = skips ? skipped_ + 1 : 0;
     earlier_at_ -= to;  // seen from the next step
     return false;
   }
 
   /// Begins anew: what was seen of the guards before a restart says nothing.
-  void forget() { earlier_at_ = never, version_ = -1; }
+  void forget() { earlier_at_ = never, version_ = -1, skipped_ = most_skipped; }
 
   double offset() const noexcept { return root_; }
 
@@ -55,7 +63,26 @@ class Locator : private Narrower {
     version_ = watch_->version;
     set_limits();
     plain_.clear();
-    for (const std::size_t k : watch_->active) plain_.push_back(watch_->slots[k].plain_side());
+    jumps_ = false;
+    for (const std::size_t k : watch_->active) {
+      plain_.push_back(watch_->slots[k].plain_side());
+      jumps_ = jumps_ || watch_->slots[k].jumps;
+    }
+  }
+
+  /// Whether a step, high_ looked at at its end, needs no look inside: no guard could get to zero
+  /// and back even if it moved eight times as fast as it was seen to of late (the bound of B. O.
+  /// Shubert, "A sequential method seeking the global maximum of a function", SIAM J. Numer. Anal.
+  /// 9 (1972) 379). Every eighth step is looked into all the same.
+  bool out_of_reach(double from, double to) const {
+    if (skipped_ >= most_skipped || jumps_) return false;
+    for (std::size_t i = 0; i < plain_.size(); ++i) {
+      const std::size_t k = watch_->active[i];
+      const double now = plain_[i] * high_[k], before = plain_[i] * watch_->g[k];
+      const double moves = std::max(std::abs(now - before), speed_[k] * (to - from));
+      if (!(now > 0.0 && now + before > 8.0 * moves)) return false;
+    }
+    return true;
   }
 
   /// Whether nothing can have happened between the look at `from` and high_, at `to`: each guard is
@@ -68,7 +95,7 @@ class Locator : private Narrower {
       const double side = plain_[i];
       const std::size_t k = watch_->active[i];
       const double now = side * high_[k], before = side * watch_->g[k];
-      if (!(now > 0.0)) return false;
+      if (!(now > 0.0 && now < never)) return false;  // never is infinite
       if (!dips) continue;
       const double rise = now - before, earlier_rise = before - side * earlier_[k];
       // The parabola falls at `from` and rises at `to`.
@@ -77,8 +104,11 @@ class Locator : private Narrower {
     }
     return true;
   }
-  void shift_all(double from) {
-    for (const std::size_t k : watch_->active) earlier_[k] = watch_->g[k], watch_->g[k] = high_[k];
+  void shift_all(double from, double to) {
+    for (const std::size_t k : watch_->active) {
+      speed_[k] = std::max(0.5 * speed_[k], std::abs(high_[k] - watch_->g[k]) / (to - from));
+      earlier_[k] = watch_->g[k], watch_->g[k] = high_[k];
+    }
     earlier_at_ = from;
   }
 
@@ -108,7 +138,8 @@ class Locator : private Narrower {
       }
       const double before = from;
       before_ = watch_->g;
-      third_ = earlier_, third_at_ = earlier_at_;
+      // Not a look of the step before: which ones there were depends on the other guards, too.
+      third_ = earlier_, third_at_ = earlier_at_ < 0.0 ? never : earlier_at_;
       from = narrow(from, high, interpolate);
       if (between && watch_->active.size() > 1 && watch_->scan_points > 0) {
         if (find_before(before, from, interpolate)) return true;
@@ -252,6 +283,11 @@ class Locator : private Narrower {
   std::vector<double> plain_;    // of the active slots: see GuardSlot::plain_side
   std::int64_t version_ = -1;    // of the slots that limits_ and plain_ tell of
   double root_ = 0.0;
+  static constexpr int most_skipped = 7;
+  std::vector<double> end_;     // guards at the end of the step
+  std::vector<double> speed_;   // [1/s] how fast each guard was seen to move of late
+  int skipped_ = most_skipped;  // steps in a row not looked into
+  bool jumps_ = false;          // an active guard takes two values only
 };
 
 }  // namespace saltus

@@ -80,6 +80,8 @@ class RungeKutta final : public StepSolver<RungeKutta<Method, N>, OneStepSolver>
     stiff_.forget();
   }
 
+  void undo() { x1_ = x0_, t1_ = t0_; }
+
   /// Tries steps until one is accepted.
   void step(double t_stop) {
     x0_.swap(x1_);

@@ -8,6 +8,7 @@ namespace saltus {
 
 /// A method derives from it and says
 ///   begin(start)       start at (t1_, x1_)
+///   undo()             after a step that threw: t1_ and x1_ as before it
 ///   step(t_stop)       go from t1_ to a new t1_ <= t_stop; x1_ becomes the state there, length_
 ///   the size of the step inside_step(u, x)  the state at offset u from the beginning of the step,
 ///   0 <= u <= length_
@@ -98,7 +99,12 @@ class StepSolver : public Interface {
 
   void take_step(double t_stop) {
     t0_ = t1_;
-    self().step(t_stop);
+    try {
+      self().step(t_stop);
+    } catch (...) {
+      self().undo();
+      throw;
+    }
     offset_ = 0.0;
     delivered_ = false;
   }
