@@ -10,6 +10,7 @@ from saltus.diagram import Diagram, DiagramBuilder
 from saltus.errors import Error, ModelError, SimulationError
 from saltus.leaf_system import LeafSystem
 from saltus.results import Event, EventLog, Results, Statistics
+from saltus.scenes import Scene, scene, shelf
 from saltus.simulation import Simulator, SimulatorOptions, simulate
 from saltus.system import InputPort, OutputPort, System
 
@@ -25,6 +26,7 @@ __all__ = [
     "ModelError",
     "OutputPort",
     "Results",
+    "Scene",
     "SimulationError",
     "Simulator",
     "SimulatorOptions",
@@ -33,6 +35,8 @@ __all__ = [
     "System",
     "__version__",
     "library",
+    "scene",
+    "shelf",
     "simulate",
     "simulation",
 ]
