@@ -44,8 +44,7 @@ void bind_report(py::module_& module) {
   py::class_<SharedSystem, System>(module, "SharedSystem")
       .def(py::init<const SystemHandle&>())
       .def_property_readonly(
-          "system_id",
-          [](const SharedSystem& shared) { return shared.shared().system_id().value; })
+          "system_id", [](const SharedSystem& shared) { return shared.shared().system_id().value; })
       .def_property_readonly("block_names", &SharedSystem::block_names)
       .def("block", &SharedSystem::block);
 
@@ -62,9 +61,8 @@ void bind_report(py::module_& module) {
       .def_property_readonly("invariants", &invariant_names);
 
   module.def("shelf", &shelf);
-  module.def("scene", [](const std::string& name) {
-    return std::make_shared<Scene>(models::scene(name));
-  });
+  module.def("scene",
+             [](const std::string& name) { return std::make_shared<Scene>(models::scene(name)); });
 }
 
 }  // namespace saltus::python
