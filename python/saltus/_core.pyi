@@ -236,3 +236,29 @@ class Scene:
 
 def shelf() -> list[tuple[str, str]]: ...
 def scene(name: str, /) -> Scene: ...
+
+class WorkOptions:
+    methods: list[str]
+    rtols: list[float]
+    atol_over_rtol: float
+    time_limit: float
+    least_time: float
+    most_repeats: int
+
+def user_scene(
+    system: AnySystem, context: Context, span: tuple[float, float], options: SimulatorOptions, /
+) -> Scene: ...
+def set_samples(
+    scene: Scene,
+    times: Sequence[float],
+    rows: Sequence[ArrayLike],
+    exact: bool,
+    provenance: str,
+    /,
+) -> None: ...
+def set_event_times(scene: Scene, all: Sequence[tuple[str, ArrayLike]], /) -> None: ...
+def add_invariant(
+    scene: Scene, name: str, value: Callable[[float, NDArray[np.float64]], float], /
+) -> None: ...
+def set_gap(scene: Scene, gap: Callable[[float, NDArray[np.float64]], float], /) -> None: ...
+def work_precision(scene: Scene, options: WorkOptions, name: str, title: str, /) -> str: ...

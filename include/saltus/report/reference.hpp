@@ -1,6 +1,9 @@
 // Reference: what the rows of a report are compared with, and how good it is.
 #pragma once
 
+#include <array>
+#include <cmath>
+#include <cstdio>
 #include <optional>
 #include <string>
 #include <utility>
@@ -43,9 +46,19 @@ struct ReferenceOptions {
   double atol_over_rtol = 1e-2;
   int points = 100;         ///< output times, where the scene's save_at is empty
   double time_limit = 5.0;  ///< [s] wall time of one run
+  /// Called after each run; what it throws ends the search.
+  std::function<void(const Results*)> between = {};
 };
 
 namespace detail {
+
+/// Two digits: what an error, or a time, is good for. "-" where nothing is known.
+inline std::string short_number(double value) {
+  if (std::isnan(value)) return "-";
+  std::array<char, 32> buffer{};
+  std::snprintf(buffer.data(), buffer.size(), "%.1e", value);
+  return buffer.data();
+}
 
 inline bool is_known(const Exact& exact) { return exact.state || !exact.samples.empty(); }
 
@@ -94,7 +107,8 @@ inline Exact answer_of(const Scene& scene, const Results& results,
 /// A run that comes to its end: two orders tighter than asked, or one where the method refuses
 /// that.
 inline std::optional<ReferenceRun> reference_run(const Scene& scene, const std::string& method,
-                                                 const ReferenceOptions& with) {
+                                                 const ReferenceOptions& with,
+                                                 std::string& reasons) {
   for (const double tighter : {1e-2, 1e-1}) {
     SimulatorOptions options = scene.options;
     options.ode_solver_method = method;
@@ -103,10 +117,15 @@ inline std::optional<ReferenceRun> reference_run(const Scene& scene, const std::
     options.record_events = true;
     const Results results =
         simulate(*scene.system, scene.context, scene.span, bounded(options, with.time_limit));
+    if (with.between) with.between(&results);
     if (ended_well(results.status)) {
       return ReferenceRun{method, options.rtol, options.atol,
                           answer_of(scene, results, guard_names(scene, options))};
     }
+    reasons += text("\n  ", method, ", rtol ", options.rtol, ": ",
+                    results.message.empty()
+                        ? text(to_string(results.status), " at t = ", results.context.time(), " s")
+                        : results.message);
     if (results.status == Status::interrupted) return std::nullopt;
   }
   return std::nullopt;
@@ -161,47 +180,56 @@ inline std::string name_of(const ReferenceRun& run) {
 inline void judge(Reference& reference, const Scene& scene) {
   const ReferenceRun& first = reference.runs.front();
   const double held = 10.0 * (first.rtol * largest_state(first.answer) + first.atol) * scene.growth;
-  if (reference.runs.size() < 2) {
-    reference.provenance = text("a run of ", name_of(first),
-                                "; no second method came to the end, so nothing confirms it");
-    return;
+  std::string says = text("a run of ", name_of(first),
+                          "; no second method came to the end, so nothing confirms it");
+  if (reference.runs.size() == 2) {
+    const auto [states, events] = difference(scene, first, reference.runs[1]);
+    const double eps = std::numeric_limits<double>::epsilon();
+    if (!std::isnan(states) && reference.kind == ReferenceKind::run)
+      reference.bound = std::max(2.0 * states, held);
+    if (!std::isnan(events))
+      reference.event_bound = std::max(2.0 * events, 200.0 * eps * std::abs(scene.span.end));
+    const double agree = reference.kind == ReferenceKind::run ? states : events;
+    says = text("runs of ", name_of(first), " and of ", name_of(reference.runs[1]),
+                std::isnan(agree) ? "; they do not agree about the events"
+                                  : text("; they agree to ", short_number(agree)));
   }
-  const auto [states, events] = difference(scene, first, reference.runs[1]);
-  const double eps = std::numeric_limits<double>::epsilon();
-  reference.bound = std::isnan(states) ? states : std::max(2.0 * states, held);
-  reference.event_bound =
-      std::isnan(events) ? events : std::max(2.0 * events, 200.0 * eps * std::abs(scene.span.end));
-  reference.provenance = text(
-      "runs of ", name_of(first), " and of ", name_of(reference.runs[1]),
-      std::isnan(states) ? "; they disagree about the events" : text("; they agree to ", states));
+  if (reference.kind != ReferenceKind::run)
+    says = text("states: ", reference.provenance, "; event times: ", says);
+  else if (!scene.exact.events.empty())
+    says = text("event times: ", scene.exact.provenance, "; states: ", says);
+  reference.provenance = says;
 }
 
 }  // namespace detail
 
-/// What is known about a scene, or what runs of it say: two runs by different methods at the output
-/// times, so that each method is compared with another one. Throws ModelError where nothing is
-/// known and no method comes to the end.
+/// What is known about a scene; and where states, or the event times of a scene with guards, are
+/// not, what runs of it say: two runs by different methods at the output times, so that each method
+/// is compared with another one. Throws ModelError where no state is known and no method comes to
+/// the end.
 inline Reference reference_for(const Scene& scene, const ReferenceOptions& with) {
-  Reference reference{
-      .kind = scene.exact.samples.empty() ? ReferenceKind::exact : ReferenceKind::stored,
-      .provenance = scene.exact.provenance};
-  if (detail::is_known(scene.exact)) return reference;
-  reference.kind = ReferenceKind::run;
+  const Exact& exact = scene.exact;
+  const bool closed = exact.state || exact.samples_are_exact;
+  Reference reference{.kind = !detail::is_known(exact) ? ReferenceKind::run
+                              : closed                 ? ReferenceKind::exact
+                                                       : ReferenceKind::stored,
+                      .provenance = exact.provenance};
+  const bool states = detail::is_known(exact);
+  const bool events = !exact.events.empty() || detail::guard_names(scene, scene.options).empty();
+  if (states && events) return reference;
+  std::string reasons;
   for (const std::string& method : detail::reference_methods(scene)) {
-    if (auto run = detail::reference_run(scene, method, with)) reference.runs.push_back(*run);
+    if (auto run = detail::reference_run(scene, method, with, reasons))
+      reference.runs.push_back(*run);
     if (reference.runs.size() == 2) break;
   }
-  if (reference.runs.empty()) {
+  if (reference.runs.empty() && !states) {
     throw ModelError(text("no reference for '", scene.name,
-                          "': nothing is known about it, and no "
-                          "method came to the end at rtol ",
-                          with.rtol * 1e-2, " within ", with.time_limit,
-                          " s; give a known answer, or looser tolerances"));
+                          "': nothing is known about it, and no method came to the end within ",
+                          with.time_limit, " s; give a known answer, or looser tolerances",
+                          reasons));
   }
-  detail::judge(reference, scene);
-  if (!scene.exact.events.empty())
-    reference.provenance =
-        text("event times: ", scene.exact.provenance, "; states: ", reference.provenance);
+  if (!reference.runs.empty()) detail::judge(reference, scene);
   return reference;
 }
 

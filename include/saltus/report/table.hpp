@@ -15,14 +15,6 @@ namespace saltus {
 
 namespace detail {
 
-/// Two digits: what an error, or a time, is good for. "-" where nothing is known.
-inline std::string short_number(double value) {
-  if (std::isnan(value)) return "-";
-  std::array<char, 32> buffer{};
-  std::snprintf(buffer.data(), buffer.size(), "%.1e", value);
-  return buffer.data();
-}
-
 inline std::string short_time(double seconds) {
   if (std::isnan(seconds)) return "-";
   std::array<char, 32> buffer{};

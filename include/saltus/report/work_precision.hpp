@@ -146,8 +146,10 @@ inline WorkRow measure(Scene scene, const SimulatorOptions& options, const Refer
         reference.runs, [&](const ReferenceRun& run) { return run.method != row.method; });
     const ReferenceRun& run = other != reference.runs.end() ? *other : reference.runs.front();
     if (scene.exact.events.empty()) scene.exact.events = run.answer.events;
-    scene.exact.samples = run.answer.samples;
-    row.against = run.method;
+    if (reference.kind == ReferenceKind::run) {
+      scene.exact.samples = run.answer.samples;
+      row.against = run.method;
+    }
   }
   detail::fill(row, scene, options, work);
   return row;
@@ -165,8 +167,10 @@ inline WorkReport work_precision(Scene scene, const WorkOptions& work = {}) {
                     .growth = scene.growth,
                     .environment = environment()};
   for (const Invariant& invariant : scene.invariants) report.invariants.push_back(invariant.name);
-  report.reference = reference_for(
-      scene, {.rtol = tightest, .atol_over_rtol = ratio, .time_limit = 4.0 * work.time_limit});
+  report.reference = reference_for(scene, {.rtol = tightest,
+                                           .atol_over_rtol = ratio,
+                                           .time_limit = 4.0 * work.time_limit,
+                                           .between = work.between});
   const auto& methods = work.methods.empty() ? scene.methods : work.methods;
   for (const std::string& method : methods) {
     for (const double rtol : work.rtols) {
