@@ -15,4 +15,6 @@ PYBIND11_MODULE(_core, module) {
   bind_state(module);
   bind_results(module);
   bind_simulation(module);
+  bind_shelf(module);
+  bind_report(module);
 }

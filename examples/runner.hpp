@@ -6,8 +6,7 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <saltus/report/table.hpp>
-#include <saltus/solver/choose.hpp>
-#include <set>
+#include <saltus/report/written.hpp>
 #include <string>
 #include <vector>
 
@@ -20,29 +19,27 @@ struct Settings {
   std::string method = "auto";
   std::string csv = {}, json = {};
   bool report = false;
+  std::vector<std::string> methods = {};  // of the report; none: those that suit the scene
+  std::vector<double> rtols = saltus::WorkOptions().rtols;
 };
 
-inline void add_settings(CLI::App& app, Settings& settings, double& t_end) {
-  app.add_option("--t-end", t_end, "end of the run [s]")->capture_default_str();
+inline void add_settings(CLI::App& app, Settings& settings) {
   app.add_option("--rtol", settings.rtol, "relative tolerance")->capture_default_str();
   app.add_option("--atol", settings.atol, "absolute tolerance")->capture_default_str();
-  app.add_option("--method", settings.method, "auto, dopri5, adams, bdf")->capture_default_str();
+  app.add_option("--method", settings.method, "auto, dopri5, dop853, adams, bdf")
+      ->capture_default_str();
   app.add_option("--csv", settings.csv, "write the recorded rows, or the report, to FILE")
       ->option_text("FILE");
   app.add_option("--json", settings.json, "write events and statistics, or the report, to FILE")
       ->option_text("FILE");
   app.add_flag("--report", settings.report,
-               "error against run time: each method at rtol 1e-4 ... 1e-12");
-}
-
-/// Every method once, under its first name.
-inline std::vector<std::string> all_methods() {
-  std::vector<std::string> names;
-  std::set<saltus::Method> seen;
-  for (const auto& [name, method] : saltus::method_names) {
-    if (seen.insert(method).second) names.emplace_back(name);
-  }
-  return names;
+               "error against run time: each method that suits the scene, at rtol 1e-4 ... 1e-12");
+  app.add_option("--methods", settings.methods, "methods of the report, such as dopri5,bdf")
+      ->delimiter(',')
+      ->option_text("NAMES");
+  app.add_option("--rtols", settings.rtols, "relative tolerances of the report")
+      ->delimiter(',')
+      ->option_text("NUMBERS");
 }
 
 inline std::ofstream opened(const std::string& file) {
@@ -151,19 +148,19 @@ inline void run_once(saltus::Scene scene, const Settings& settings) {
 // --- the report
 // -----------------------------------------------------------------------------------------------------
 
-inline void run_report(const saltus::Scene& scene, const Settings& settings) {
-  const auto rows = saltus::work_precision(scene, {.methods = all_methods(),
-                                                   .atol_over_rtol = settings.atol / settings.rtol,
-                                                   .time_limit = 1.0});
-  std::cout << scene.name << ", errors against: " << scene.exact.provenance << "\n";
-  write_text(std::cout, rows);
+inline void run_report(const saltus::Scene& scene, const Settings& settings,
+                       const std::string& title = {}) {
+  saltus::WorkReport report =
+      saltus::work_precision(scene, {.methods = settings.methods, .rtols = settings.rtols});
+  report.title = title;
+  write_text(std::cout, report);
   if (!settings.csv.empty()) {
     auto out = opened(settings.csv);
-    write_csv(out, rows);
+    write_csv(out, report);
   }
   if (!settings.json.empty()) {
     auto out = opened(settings.json);
-    write_json(out, rows);
+    write_json(out, report);
   }
 }
 
@@ -201,7 +198,8 @@ int run(int argc, char** argv, const std::string& name, const std::string& about
       .rtol = defaults.rtol, .atol = defaults.atol, .method = defaults.ode_solver_method};
   CLI::App app(about, name);
   add(app, parameters);
-  add_settings(app, settings, parameters.t_end);
+  app.add_option("--t-end", parameters.t_end, "end of the run [s]")->capture_default_str();
+  add_settings(app, settings);
   return guarded(app, argc, argv, [&] {
     saltus::method_from(settings.method);  // before any work
     if (!(parameters.t_end >= 0.0)) {

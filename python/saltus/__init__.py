@@ -9,7 +9,9 @@ from saltus._core import Context, State, __version__
 from saltus.diagram import Diagram, DiagramBuilder
 from saltus.errors import Error, ModelError, SimulationError
 from saltus.leaf_system import LeafSystem
+from saltus.report import WorkPrecision, work_precision
 from saltus.results import Event, EventLog, Results, Statistics
+from saltus.scenes import Scene, scene, shelf
 from saltus.simulation import Simulator, SimulatorOptions, simulate
 from saltus.system import InputPort, OutputPort, System
 
@@ -25,14 +27,19 @@ __all__ = [
     "ModelError",
     "OutputPort",
     "Results",
+    "Scene",
     "SimulationError",
     "Simulator",
     "SimulatorOptions",
     "State",
     "Statistics",
     "System",
+    "WorkPrecision",
     "__version__",
     "library",
+    "scene",
+    "shelf",
     "simulate",
     "simulation",
+    "work_precision",
 ]

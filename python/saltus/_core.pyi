@@ -215,3 +215,50 @@ class Simulator:
     def advance_to(self, t_end: float, /) -> None: ...
     def results(self, take: bool, /) -> tuple[Results, BaseException | None]: ...
     def describe(self) -> str: ...
+
+class SystemHandle: ...
+
+class SharedSystem(System):
+    block_names: list[str]
+    def __init__(self, handle: SystemHandle, /) -> None: ...
+    def block(self, name: str, /) -> SystemHandle: ...
+
+class Scene:
+    system: SystemHandle
+    context: Context
+    t_span: tuple[float, float]
+    options: SimulatorOptions
+    recorded_signals: list[tuple[str, SystemHandle, int]]
+    provenance: str
+    methods: list[str]
+    growth: float
+    invariants: list[str]
+
+def shelf() -> list[tuple[str, str]]: ...
+def scene(name: str, /) -> Scene: ...
+
+class WorkOptions:
+    methods: list[str]
+    rtols: list[float]
+    atol_over_rtol: float
+    time_limit: float
+    least_time: float
+    most_repeats: int
+
+def user_scene(
+    system: AnySystem, context: Context, span: tuple[float, float], options: SimulatorOptions, /
+) -> Scene: ...
+def set_samples(
+    scene: Scene,
+    times: Sequence[float],
+    rows: Sequence[ArrayLike],
+    exact: bool,
+    provenance: str,
+    /,
+) -> None: ...
+def set_event_times(scene: Scene, all: Sequence[tuple[str, ArrayLike]], /) -> None: ...
+def add_invariant(
+    scene: Scene, name: str, value: Callable[[float, NDArray[np.float64]], float], /
+) -> None: ...
+def set_gap(scene: Scene, gap: Callable[[float, NDArray[np.float64]], float], /) -> None: ...
+def work_precision(scene: Scene, options: WorkOptions, name: str, title: str, /) -> str: ...

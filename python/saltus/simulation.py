@@ -100,7 +100,7 @@ def _ports(signals: Mapping[str, OutputPort] | None) -> list[tuple[str, System, 
     return [(name, port.system, port.index) for name, port in (signals or {}).items()]
 
 
-def _core_options(options: SimulatorOptions) -> _core.SimulatorOptions:
+def core_options(options: SimulatorOptions) -> _core.SimulatorOptions:
     core = _core.SimulatorOptions()
     for field in fields(options):
         value = getattr(options, field.name)
@@ -122,7 +122,7 @@ def _core_options(options: SimulatorOptions) -> _core.SimulatorOptions:
     return core
 
 
-def _context(context: object) -> _core.Context:
+def core_context(context: object) -> _core.Context:
     if not isinstance(context, _core.Context):
         raise ModelError(f"expected a context, such as system.create_context(), found {context!r}")
     return context
@@ -145,12 +145,12 @@ class Simulator:
         refuse(type(self).__name__, overrides, (field.name for field in fields(options)), OPTIONS)
         self.options = replace(options, **overrides)
         self.system = system  # the engine refers to it
-        self._core = _core.Simulator(system, _core_options(self.options))
+        self._core = _core.Simulator(system, core_options(self.options))
         self._failed: Results | None = None
 
     def initialize(self, context: _core.Context) -> None:
         """Begins a run with these values, at their time."""
-        self._core.initialize(_context(context))
+        self._core.initialize(core_context(context))
         self._failed = None
 
     def advance_to(self, time: float) -> str:
@@ -233,7 +233,7 @@ def simulate(
     if recorded_signals is not None:
         option_overrides["recorded_signals"] = recorded_signals
     simulator = Simulator(system, options, **option_overrides)
-    context = _context(context)
+    context = core_context(context)
     # one that ended another run at this time knows what of it has happened already
     simulator.initialize(context if context.time == begin else context.with_time(begin))
     return simulator._advance(end, take=True)

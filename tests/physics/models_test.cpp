@@ -1,8 +1,7 @@
 // The ready scenes against what is known of them, with every method that suits them; and the report
 // that compares them.
 #include <saltus/models/models.hpp>
-#include <saltus/report/table.hpp>
-#include <sstream>
+#include <saltus/report/achieved.hpp>
 
 #include "support/catch.hpp"
 
@@ -195,33 +194,4 @@ TEST_CASE("rows at an event are compared on their own side", "[physics][report]"
   const Scene scene = at_tolerance(models::bouncing_ball(), "adams", 1e-6, 1e-8);
   const Achieved a = achieved(scene, simulate(scene));
   CHECK(a.error < 1e-3);
-}
-
-TEST_CASE("a method that does not come to the end is shown as such", "[physics][report]") {
-  const Scene scene = at_tolerance(models::robertson(), "dopri5", 1e-6, 1e-10);
-  const WorkRow row = measure(scene, scene.options, {.time_limit = 0.05});
-  CHECK(row.status == Status::interrupted);
-  CHECK(std::isnan(row.seconds));
-  CHECK(row.message.find("run time") != std::string::npos);
-}
-
-TEST_CASE("a work-precision report has a row for each method and tolerance, in three formats",
-          "[physics][report]") {
-  const auto rows =
-      work_precision(models::bouncing_ball(),
-                     {.methods = {"dopri5", "adams"}, .rtols = {1e-4, 1e-8}, .least_time = 0.0});
-  REQUIRE(rows.size() == 4);
-  CHECK(rows[3].method == "adams");
-  CHECK(rows[3].rtol == 1e-8);
-  CHECK(rows[3].seconds > 0.0);
-  CHECK(rows[3].statistics.events == 6);
-  CHECK(rows[2].achieved.error > rows[3].achieved.error);
-  std::ostringstream words, csv, json;
-  write_text(words, rows);
-  write_csv(csv, rows);
-  write_json(json, rows);
-  CHECK(words.str().find("max error") != std::string::npos);
-  CHECK(std::ranges::count(csv.str(), '\n') == 5);
-  CHECK(csv.str().starts_with("method,rtol,atol,error,"));
-  CHECK(json.str().find("\"accumulation_error\": null") != std::string::npos);
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <vector>
 
 #include "saltus/report/observed.hpp"
 #include "saltus/report/scene.hpp"
@@ -14,13 +15,17 @@ namespace saltus {
 struct Achieved {
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-  double error = unknown;  ///< max over rows and components of |x - exact|
-  double scaled =
-      unknown;  ///< the same over atol + rtol |exact|; large where a component passes zero
+  double error = unknown;        ///< max over rows and components of |x - exact|
+  double scaled = unknown;       ///< the same over atol + rtol |exact|; large where a component
+                                 ///< passes zero
   double event_error = unknown;  ///< [s] over events, matched by index
-  std::int64_t event_mismatch =
-      0;  ///< events too many or too few; holds not entered or not released count as one
+  /// Events too many or too few; holds not entered or not released count as one.
+  std::int64_t event_mismatch = 0;
+  double penetration = unknown;         ///< max(-gap) over rows, 0 where the gap stays positive
+  double invariant_drift = unknown;     ///< the largest of `drifts`
+  std::vector<double> drifts = {};      ///< max |value - value at the start|, for each invariant
   double accumulation_error = unknown;  ///< [s] of the predicted Zeno times
+  double rest_error = unknown;          ///< as `error`, over the rows within Zeno holds
   double release_error = unknown;       ///< [s] of the ends of Zeno holds
 };
 
@@ -74,6 +79,10 @@ inline Eigen::VectorXd row_of(const Results& results, std::size_t row) {
 
 inline void compare_row(Achieved& a, const Eigen::VectorXd& x, const Eigen::VectorXd& exact,
                         const SimulatorOptions& o) {
+  if (x.size() != exact.size()) {
+    throw ModelError(text("a known answer: expected ", x.size(),
+                          " numbers, as many as the recorded signals have, found ", exact.size()));
+  }
   for (Index i = 0; i < exact.size(); ++i) {
     const double error = std::abs(x[i] - exact[i]);
     raise(a.error, error);
@@ -87,20 +96,56 @@ inline void compare_states(Achieved& a, const Exact& exact, const Results& resul
                   exact.events.empty() ? std::string_view() : exact.events.front().guard);
   for (std::size_t row = 0; row < results.time.size(); ++row) {
     const double t = results.time[row];
-    compare_row(a, row_of(results, row), exact.state(t, walk.at(t, results.jump[row])), options);
+    const Branch branch = walk.at(t, results.jump[row]);
+    const Eigen::VectorXd x = row_of(results, row), expected = exact.state(t, branch);
+    compare_row(a, x, expected, options);
+    if (branch.rest) raise(a.rest_error, (x - expected).lpNorm<Eigen::Infinity>());
   }
+}
+
+/// Whether an event of the known answer lies so near that the two trajectories may stand on
+/// different sides of it: within twice the worst event error, but for at most a hundredth of the
+/// span, or a run that misses an event would be spared.
+inline bool near_event(const Exact& exact, double t, double event_error, double span) {
+  if (std::isnan(event_error)) return false;
+  const double reach = std::min(2.0 * event_error, 0.01 * span);
+  return std::ranges::any_of(exact.events, [&](const EventTimes& events) {
+    return std::ranges::any_of(events.series, [&](const EventSeries& series) {
+      const auto next = std::ranges::lower_bound(series.times, t - reach);
+      return next != series.times.end() && *next <= t + reach;
+    });
+  });
 }
 
 /// A sample that the run has no row for is not compared: a run that ended early says so in its
 /// status.
-inline void compare_samples(Achieved& a, const Exact& exact, const Results& results,
+inline void compare_samples(Achieved& a, const Scene& scene, const Results& results,
                             const SimulatorOptions& options) {
-  for (const Sample& sample : exact.samples) {
+  const double span = scene.span.end - scene.span.begin;
+  for (const Sample& sample : scene.exact.samples) {
     const auto row = std::ranges::lower_bound(results.time, sample.time);
     if (row == results.time.end() || *row != sample.time) continue;
+    if (near_event(scene.exact, sample.time, a.event_error, span)) continue;
     compare_row(a, row_of(results, static_cast<std::size_t>(row - results.time.begin())),
                 sample.state, options);
   }
+}
+
+/// What needs no known answer: how deep the rows are under a surface, how far invariants drift.
+inline void judge_rows(Achieved& a, const Scene& scene, const Results& results) {
+  if (!scene.gap && scene.invariants.empty()) return;
+  std::vector<double> start;
+  for (std::size_t row = 0; row < results.time.size(); ++row) {
+    const double t = results.time[row];
+    const Eigen::VectorXd x = row_of(results, row);
+    if (scene.gap) raise(a.penetration, std::max(0.0, -scene.gap(t, x)));
+    for (std::size_t k = 0; k < scene.invariants.size(); ++k) {
+      const double value = scene.invariants[k].value(t, x);
+      if (start.size() <= k) start.push_back(value), a.drifts.push_back(0.0);
+      raise(a.drifts[k], std::abs(value - start[k]));
+    }
+  }
+  for (const double drift : a.drifts) raise(a.invariant_drift, drift);
 }
 
 }  // namespace detail
@@ -113,7 +158,8 @@ inline Achieved achieved(const Scene& scene, const Results& results,
   for (const EventTimes& events : scene.exact.events)
     detail::compare_events(a, events, results, scene.span.end);
   if (scene.exact.state) detail::compare_states(a, scene.exact, results, options);
-  detail::compare_samples(a, scene.exact, results, options);
+  detail::compare_samples(a, scene, results, options);
+  detail::judge_rows(a, scene, results);
   return a;
 }
 inline Achieved achieved(const Scene& scene, const Results& results) {

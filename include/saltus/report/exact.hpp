@@ -50,6 +50,7 @@ struct Exact {
       {};  ///< empty: no closed form
   std::vector<Sample> samples =
       {};  ///< instead of a closed form: times ascending, each in the scene's save_at
+  bool samples_are_exact = false;  ///< whether they are values of a closed form
 };
 
 }  // namespace saltus

@@ -1,15 +1,12 @@
-// Table: rows of a work-precision report as text for people, as CSV and as JSON for programs.
+// Table: a work-precision report as text for people. CSV and JSON are in written.hpp.
 #pragma once
 
 #include <array>
 #include <cmath>
-#include <cstdint>
 #include <cstdio>
 #include <iomanip>
 #include <ostream>
 #include <string>
-#include <string_view>
-#include <variant>
 #include <vector>
 
 #include "saltus/report/work_precision.hpp"
@@ -18,91 +15,103 @@ namespace saltus {
 
 namespace detail {
 
-/// Two digits: what an error, or a time, is good for. "-" where nothing is known.
-inline std::string short_number(double value) {
-  if (std::isnan(value)) return "-";
-  std::array<char, 32> buffer{};
-  std::snprintf(buffer.data(), buffer.size(), "%.1e", value);
-  return buffer.data();
-}
-
 inline std::string short_time(double seconds) {
   if (std::isnan(seconds)) return "-";
   std::array<char, 32> buffer{};
   const bool micro = seconds < 1e-3, milli = seconds < 1.0;
-  std::snprintf(buffer.data(), buffer.size(), "%.3g %s",
-                seconds * (micro   ? 1e6
-                           : milli ? 1e3
-                                   : 1.0),
+  const double factor = micro ? 1e6 : milli ? 1e3 : 1.0;
+  std::snprintf(buffer.data(), buffer.size(), "%.3g %s", seconds * factor,
                 micro   ? "us"
                 : milli ? "ms"
                         : "s");
   return buffer.data();
 }
 
-/// What stands in one column, for programs.
-struct Cell {
-  std::string_view name;
-  std::variant<double, std::int64_t, std::string> value;
-};
-
-inline std::vector<Cell> cells_of(const WorkRow& row) {
-  const Statistics& s = row.statistics;
-  return {{"method", row.method},
-          {"rtol", row.rtol},
-          {"atol", row.atol},
-          {"error", row.achieved.error},
-          {"scaled_error", row.achieved.scaled},
-          {"event_error", row.achieved.event_error},
-          {"event_mismatch", row.achieved.event_mismatch},
-          {"accumulation_error", row.achieved.accumulation_error},
-          {"release_error", row.achieved.release_error},
-          {"seconds", row.seconds},
-          {"steps", s.steps},
-          {"rejected", s.rejected},
-          {"restarts", s.restarts},
-          {"right_hand_side_calls", s.right_hand_side_calls},
-          {"guard_calls", s.guard_calls},
-          {"jacobian_calls", s.jacobian_calls},
-          {"status", std::string(to_string(row.status))},
-          {"message", row.message}};
+/// How far the quartiles are apart, as a part of the median.
+inline std::string spread(const Timing& timing) {
+  if (std::isnan(timing.warm)) return "-";
+  std::array<char, 32> buffer{};
+  std::snprintf(buffer.data(), buffer.size(), "%.0f%%",
+                100.0 * (timing.quartile3 - timing.quartile1) / timing.warm);
+  return buffer.data();
 }
 
-/// The value as CSV or JSON has it: `escape` stands before a quote within quotes, `unknown` for a
-/// number nobody knows.
-inline std::string written(const Cell& cell, char escape, std::string_view unknown) {
-  if (const auto* number = std::get_if<double>(&cell.value)) {
-    return std::isfinite(*number) ? text(*number) : std::string(unknown);
+/// A column of a table: it is left out where nobody knows anything.
+struct Column {
+  std::string title;
+  std::vector<std::string> cells;
+
+  bool empty() const {
+    return std::ranges::all_of(cells, [](const std::string& cell) { return cell == "-"; });
   }
-  if (const auto* count = std::get_if<std::int64_t>(&cell.value)) return text(*count);
-  std::string out = "\"";
-  for (const char c : std::get<std::string>(cell.value)) {
-    if (c == '"' || c == escape) out += escape;
-    out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+  int width() const {
+    std::size_t most = title.size();
+    for (const std::string& cell : cells) most = std::max(most, cell.size());
+    return static_cast<int>(most);
   }
-  return out + "\"";
+};
+
+template <class Show>
+Column column(const std::vector<WorkRow>& rows, std::string title, Show&& show) {
+  Column made{std::move(title), {}};
+  for (const WorkRow& row : rows) made.cells.emplace_back(show(row));
+  return made;
+}
+
+inline std::vector<Column> columns_of(const std::vector<WorkRow>& rows) {
+  const auto error = [&rows](std::string title, double Achieved::*value) {
+    return column(rows, std::move(title),
+                  [&](const WorkRow& row) { return short_number(row.achieved.*value); });
+  };
+  const auto count = [&rows](std::string title, auto value) {
+    return column(rows, std::move(title),
+                  [&](const WorkRow& row) { return text(row.statistics.*value); });
+  };
+  const auto time = [&rows](std::string title, double Timing::*value) {
+    return column(rows, std::move(title),
+                  [&](const WorkRow& row) { return short_time(row.timing.*value); });
+  };
+  return {column(rows, "method", [](const WorkRow& row) { return row.method; }),
+          column(rows, "rtol", [](const WorkRow& row) { return short_number(row.rtol); }),
+          error("max error", &Achieved::error),
+          error("event error", &Achieved::event_error),
+          column(rows, "off", [](const WorkRow& row) { return text(row.achieved.event_mismatch); }),
+          error("depth", &Achieved::penetration),
+          error("drift", &Achieved::invariant_drift),
+          error("Zeno time", &Achieved::accumulation_error),
+          error("rest", &Achieved::rest_error),
+          error("release", &Achieved::release_error),
+          time("warm", &Timing::warm),
+          column(rows, "spread", [](const WorkRow& row) { return spread(row.timing); }),
+          time("cold", &Timing::cold),
+          count("steps", &Statistics::steps),
+          count("rejected", &Statistics::rejected),
+          count("restarts", &Statistics::restarts),
+          count("rhs", &Statistics::right_hand_side_calls),
+          count("guards", &Statistics::guard_calls),
+          count("Jac", &Statistics::jacobian_calls),
+          column(rows, "status",
+                 [](const WorkRow& row) { return std::string(to_string(row.status)); })};
 }
 
 }  // namespace detail
 
-/// For reading. Errors are absolute, times in seconds; "off" counts events too many or too few.
+/// Rows for reading. Errors are absolute, times in seconds; "off" counts events too many or too
+/// few. Columns in which nothing is known are left out.
 inline void write_text(std::ostream& out, const std::vector<WorkRow>& rows) {
-  const auto line = [&out](const auto&... cells) {
-    const std::array<std::string, sizeof...(cells)> all{std::string(cells)...};
-    constexpr std::array<int, 10> widths{8, 9, 11, 13, 5, 10, 9, 9, 9, 2};
-    for (std::size_t i = 0; i + 1 < all.size(); ++i)
-      out << (i == 0 ? std::left : std::right) << std::setw(widths[i]) << all[i];
-    out << "  " << all.back() << "\n";
+  std::vector<detail::Column> columns = detail::columns_of(rows);
+  std::erase_if(columns, [](const detail::Column& column) { return column.empty(); });
+  const auto line = [&](auto&& cell) {
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+      const bool words = k == 0 || k + 1 == columns.size();
+      out << (k == 0 ? "" : "  ") << (words ? std::left : std::right)
+          << std::setw(k + 1 == columns.size() ? 0 : columns[k].width()) << cell(columns[k]);
+    }
+    out << std::right << "\n";
   };
-  line("method", "rtol", "max error", "event error", "off", "run time", "steps", "rhs", "guards",
-       "status");
-  for (const WorkRow& row : rows) {
-    const Statistics& s = row.statistics;
-    line(row.method, detail::short_number(row.rtol), detail::short_number(row.achieved.error),
-         detail::short_number(row.achieved.event_error), text(row.achieved.event_mismatch),
-         detail::short_time(row.seconds), text(s.steps), text(s.right_hand_side_calls),
-         text(s.guard_calls), to_string(row.status));
-  }
+  line([](const detail::Column& column) { return column.title; });
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    line([i](const detail::Column& column) { return column.cells[i]; });
   for (const WorkRow& row : rows) {
     if (!row.message.empty())
       out << row.method << ", rtol " << detail::short_number(row.rtol) << ": " << row.message
@@ -110,32 +119,21 @@ inline void write_text(std::ostream& out, const std::vector<WorkRow>& rows) {
   }
 }
 
-/// One line of names, then one line for each row; unknown values are empty.
-inline void write_csv(std::ostream& out, const std::vector<WorkRow>& rows) {
-  const auto names = detail::cells_of(WorkRow());
-  for (std::size_t k = 0; k < names.size(); ++k) out << (k == 0 ? "" : ",") << names[k].name;
-  out << "\n";
-  for (const WorkRow& row : rows) {
-    const auto cells = detail::cells_of(row);
-    for (std::size_t k = 0; k < cells.size(); ++k)
-      out << (k == 0 ? "" : ",") << detail::written(cells[k], '"', "");
-    out << "\n";
+/// The rows, with what they were compared with above and the visible orders below.
+inline void write_text(std::ostream& out, const WorkReport& report) {
+  out << report.scene << ", t = " << report.span.begin << " to " << report.span.end
+      << " s\nerrors against (" << to_string(report.reference.kind)
+      << "): " << report.reference.provenance << "\n";
+  if (!std::isnan(report.reference.bound))
+    out << "which may itself be wrong by " << detail::short_number(report.reference.bound) << "\n";
+  write_text(out, report.rows);
+  for (const auto& [method, order] : report.orders) {
+    if (!std::isnan(order))
+      out << method << ": error falls with steps^-" << std::round(10.0 * order) / 10.0 << "\n";
   }
-}
-
-/// An array of objects; unknown values are null.
-inline void write_json(std::ostream& out, const std::vector<WorkRow>& rows) {
-  out << "[";
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    out << (i == 0 ? "\n  {" : ",\n  {");
-    const auto cells = detail::cells_of(rows[i]);
-    for (std::size_t k = 0; k < cells.size(); ++k) {
-      out << (k == 0 ? "\"" : ", \"") << cells[k].name
-          << "\": " << detail::written(cells[k], '\\', "null");
-    }
-    out << "}";
-  }
-  out << "\n]\n";
+  const Environment& e = report.environment;
+  out << e.cpu << ", " << e.cores << " cores; " << e.compiler << " (" << e.build << "), SUNDIALS "
+      << e.sundials << ", Saltus " << e.saltus << "\n";
 }
 
 }  // namespace saltus

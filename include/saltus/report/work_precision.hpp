@@ -1,12 +1,15 @@
 // Work and precision: what error a method achieves at a tolerance, and what that costs.
 #pragma once
 
-#include <chrono>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "saltus/report/achieved.hpp"
+#include "saltus/report/environment.hpp"
+#include "saltus/report/order.hpp"
+#include "saltus/report/reference.hpp"
+#include "saltus/solver/choose.hpp"
 
 namespace saltus {
 
@@ -14,100 +17,172 @@ namespace saltus {
 struct WorkRow {
   std::string method = {};
   double rtol = 0.0, atol = 0.0;
+  std::string against = {};  ///< "exact", "stored", or the method of the reference run
   Achieved achieved = {};
-  double seconds = std::numeric_limits<double>::quiet_NaN();  ///< [s] median of a warm run that
-                                                              ///< records no signals
+  Timing timing = {};
   Statistics statistics = {};
+  double largest = 0.0;  ///< largest number recorded
   Status status = Status::reached_end;
   std::string message = {};  ///< why, where the status is none of the good ones
 };
 
 struct WorkOptions {
-  std::vector<std::string> methods = {"dopri5", "adams", "bdf", "auto"};
+  std::vector<std::string> methods = {};  ///< none: those that suit the scene
   std::vector<double> rtols = {1e-4, 1e-6, 1e-8, 1e-10, 1e-12};
-  double atol_over_rtol = 1e-2;
-  double least_time = 0.1;  ///< [s] a row is timed for at least this long, in repeated runs
-  int most_repeats = 10000;
-  double time_limit =
-      5.0;  ///< [s] a single run that takes longer is stopped, and shown as interrupted
+  double atol_over_rtol = 0.0;  ///< 0: that of the scene's own options
+  TimingOptions timing = {};
+  double time_limit = 5.0;  ///< [s] a longer run is stopped, and shown as interrupted
+  /// Called after each run and between timed ones; what it throws ends the report.
+  std::function<void(const Results*)> between = {};
+};
+
+/// All rows, what they were compared with, and where they were measured.
+struct WorkReport {
+  std::string scene = {}, title = {};
+  TimeSpan span = {};
+  double growth = 1.0;
+  Reference reference = {};
+  std::vector<std::string> invariants = {};  ///< names, in the order of Achieved::drifts
+  std::vector<WorkRow> rows = {};
+  std::map<std::string, double> orders = {};  ///< visible order by method; NaN if none is
+  Environment environment = {};
 };
 
 namespace detail {
 
-inline double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+inline void between(const WorkOptions& work, const Results* results) {
+  if (work.between) work.between(results);
 }
 
-inline double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
+inline double largest_of(const Results& results) {
+  double largest = 0.0;
+  for (const RecordedSignal& signal : results.signals) {
+    for (const double value : signal.values) largest = std::max(largest, std::abs(value));
+  }
+  return largest;
 }
 
-/// Options of a run that gives up after `limit` seconds of wall time.
-inline SimulatorOptions bounded(SimulatorOptions options, double limit) {
-  options.interrupt = [limit, start = std::chrono::steady_clock::now()] {
-    return seconds_since(start) > limit;
-  };
-  options.throw_errors = false;
-  return options;
+/// A run, or the reason why there is none: a tolerance that the method refuses, for example.
+inline std::optional<Results> attempt(WorkRow& row, const Scene& scene,
+                                      const SimulatorOptions& options, double limit) {
+  try {
+    return simulate(*scene.system, scene.context, scene.span, bounded(options, limit));
+  } catch (const ModelError& error) {
+    row.status = Status::failed;
+    row.message = error.what();
+    return std::nullopt;
+  }
 }
 
-/// Median of the time of one run, first run not counted. The simulator is re-used, nothing but
-/// events is recorded.
-inline double time_of_run(const Scene& scene, SimulatorOptions options, const WorkOptions& work) {
-  options.recorded_signals.clear();
-  options.save_at.clear();
-  options.interrupt = {};
-  Simulator simulator(*scene.system, options);
-  const auto run = [&] {
-    const auto start = std::chrono::steady_clock::now();
-    simulator.initialize(scene.context);
-    simulator.advance_to(scene.span.end);
-    return seconds_since(start);
-  };
-  run();
-  std::vector<double> times;
-  const auto start = std::chrono::steady_clock::now();
-  do times.push_back(run());
-  while (seconds_since(start) < work.least_time &&
-         static_cast<int>(times.size()) < work.most_repeats);
-  return median(std::move(times));
+/// Compares, counts and times one run that may fail.
+inline void fill(WorkRow& row, const Scene& scene, const SimulatorOptions& options,
+                 const WorkOptions& work) {
+  const auto results = attempt(row, scene, options, work.time_limit);
+  if (!results) return;
+  between(work, &*results);
+  row.achieved = achieved(scene, *results, options);
+  row.statistics = results->statistics;
+  row.largest = largest_of(*results);
+  row.status = results->status;
+  row.message = row.status == Status::interrupted
+                    ? text("stopped at t = ", results->context.time(), " s, after ",
+                           work.time_limit, " s of run time")
+                    : results->message;
+  if (!ended_well(row.status)) return;
+  row.timing = time_of_run(scene, options, work.timing, [&] { between(work, nullptr); });
+}
+
+/// Where rounding takes over: sums of `steps` roundings of the largest state, enlarged as the scene
+/// enlarges errors, ten times that to be sure; or three times what the reference may be wrong.
+inline double rounding_floor(const WorkReport& report, double largest, double steps) {
+  const double eps = std::numeric_limits<double>::epsilon();
+  const double rounding = 10.0 * eps * largest * std::sqrt(steps) * report.growth;
+  const double bound = report.reference.bound;
+  return std::max(rounding, std::isnan(bound) ? 0.0 : 3.0 * bound);
+}
+
+/// Of the methods whose order is fixed; the others change it with the tolerance.
+inline double visible_order(const WorkReport& report, const std::string& method) {
+  const Method which = method_from(method);
+  if (which != Method::dopri5 && which != Method::dop853) return Achieved::unknown;
+  std::vector<OrderPoint> runs;
+  double most = 1.0, largest = 0.0;
+  for (const WorkRow& row : report.rows) {
+    if (row.method != method || !ended_well(row.status)) continue;
+    const auto steps = static_cast<double>(row.statistics.steps);
+    runs.push_back({steps, row.achieved.error});
+    most = std::max(most, steps), largest = std::max(largest, row.largest);
+  }
+  return saltus::visible_order(std::move(runs), rounding_floor(report, largest, most));
+}
+
+/// The scene as a report runs it: with output times, where it is compared at those.
+inline Scene prepared(Scene scene, const WorkOptions& work) {
+  ReferenceOptions defaults;
+  if (!is_known(scene.exact) && scene.options.save_at.empty())
+    scene.options.save_at = even_times(scene.span, defaults.points);
+  if (scene.gap || !scene.invariants.empty() || scene.options.save_at.empty())
+    scene.options.save_steps = true;
+  for (const std::string& method : work.methods) method_from(method);  // before any work
+  if (scene.options.recorded_signals.empty() &&
+      (scene.exact.state || !scene.exact.samples.empty() || !scene.invariants.empty())) {
+    throw ModelError(text("'", scene.name,
+                          "': a known answer speaks of the recorded signals, and "
+                          "nothing is recorded; give recorded_signals"));
+  }
+  return scene;
 }
 
 }  // namespace detail
 
-/// Runs the scene once for the errors, then again and again for the time. A run that fails gives a
-/// row that says so.
-inline WorkRow measure(const Scene& scene, const SimulatorOptions& options,
+/// Runs the scene once for the errors, then again and again for the time. A run that fails, or that
+/// is refused, gives a row that says so.
+inline WorkRow measure(Scene scene, const SimulatorOptions& options, const Reference& reference,
                        const WorkOptions& work = {}) {
   WorkRow row{.method = options.ode_solver_method, .rtol = options.rtol, .atol = options.atol};
-  const Results results =
-      simulate(*scene.system, scene.context, scene.span, detail::bounded(options, work.time_limit));
-  row.achieved = achieved(scene, results, options);
-  row.statistics = results.statistics;
-  row.status = results.status;
-  row.message = results.status == Status::interrupted
-                    ? text("stopped at t = ", results.context.time(), " s, after ", work.time_limit,
-                           " s of run time")
-                    : results.message;
-  if (ended_well(row.status)) row.seconds = detail::time_of_run(scene, options, work);
+  row.against = to_string(reference.kind);
+  if (!reference.runs.empty()) {
+    const auto other = std::ranges::find_if(
+        reference.runs, [&](const ReferenceRun& run) { return run.method != row.method; });
+    const ReferenceRun& run = other != reference.runs.end() ? *other : reference.runs.front();
+    if (scene.exact.events.empty()) scene.exact.events = run.answer.events;
+    if (reference.kind == ReferenceKind::run) {
+      scene.exact.samples = run.answer.samples;
+      row.against = run.method;
+    }
+  }
+  detail::fill(row, scene, options, work);
   return row;
 }
 
-/// A row for each method at each tolerance; the scene's other options stay as they are.
-inline std::vector<WorkRow> work_precision(const Scene& scene, const WorkOptions& work = {}) {
-  std::vector<WorkRow> rows;
-  for (const std::string& method : work.methods) {
+/// A row for each method at each tolerance; the scene's other options stay as they are. Throws
+/// ModelError for a method that does not exist, and where there is nothing to compare with.
+inline WorkReport work_precision(Scene scene, const WorkOptions& work = {}) {
+  scene = detail::prepared(std::move(scene), work);
+  const double ratio =
+      work.atol_over_rtol > 0.0 ? work.atol_over_rtol : scene.options.atol / scene.options.rtol;
+  const double tightest = work.rtols.empty() ? 1e-6 : *std::ranges::min_element(work.rtols);
+  WorkReport report{.scene = scene.name,
+                    .span = scene.span,
+                    .growth = scene.growth,
+                    .environment = environment()};
+  for (const Invariant& invariant : scene.invariants) report.invariants.push_back(invariant.name);
+  report.reference = reference_for(scene, {.rtol = tightest,
+                                           .atol_over_rtol = ratio,
+                                           .time_limit = 4.0 * work.time_limit,
+                                           .between = work.between});
+  const auto& methods = work.methods.empty() ? scene.methods : work.methods;
+  for (const std::string& method : methods) {
     for (const double rtol : work.rtols) {
       SimulatorOptions options = scene.options;
       options.ode_solver_method = method;
       options.rtol = rtol;
-      options.atol = rtol * work.atol_over_rtol;
-      rows.push_back(measure(scene, options, work));
+      options.atol = rtol * ratio;
+      report.rows.push_back(measure(scene, options, report.reference, work));
     }
+    report.orders[method] = detail::visible_order(report, method);
   }
-  return rows;
+  return report;
 }
 
 }  // namespace saltus

@@ -1,0 +1,55 @@
+// SharedSystem: a system that C++ made, such as one of the shelf, in Python's hands.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "saltus/model/diagram.hpp"
+
+namespace saltus::python {
+
+/// What Python passes around until it makes a SharedSystem of it. Several may mean one system.
+struct SystemHandle {
+  std::shared_ptr<const System> system;
+};
+
+/// Keeps a system alive and is, to the engine, that system: the same leaves, ports and contexts.
+/// It is a System of its own only because a Python object has to own the C++ object it stands for.
+class SharedSystem final : public System {
+ public:
+  explicit SharedSystem(const SystemHandle& handle)
+      : System(handle.system->name()), system_(handle.system) {}
+
+  const System& shared() const { return *system_; }
+  /// A block of a diagram by name. Throws ModelError, with the names there are.
+  SystemHandle block(std::string_view name) const;
+  /// The names of the blocks of a diagram; of a leaf none.
+  std::vector<std::string> block_names() const;
+
+  std::vector<std::string> input_names() const override { return system_->input_names(); }
+  std::vector<std::string> output_names() const override { return system_->output_names(); }
+  void collect(Structure& out, const std::string& path) const override {
+    system_->collect(out, path);
+  }
+  LeafPort output_source(int index) const override { return system_->output_source(index); }
+  LeafPort input_target(int index) const override { return system_->input_target(index); }
+
+ private:
+  std::shared_ptr<const System> system_;
+};
+
+inline SystemHandle SharedSystem::block(std::string_view name) const {
+  const auto* diagram = dynamic_cast<const Diagram*>(system_.get());
+  if (diagram == nullptr)
+    throw ModelError(text("block '", system_->name(), "' is no diagram: it has no blocks in it"));
+  return {{system_, &(*diagram)[name]}};  // as long as the diagram
+}
+
+inline std::vector<std::string> SharedSystem::block_names() const {
+  const auto* diagram = dynamic_cast<const Diagram*>(system_.get());
+  return diagram == nullptr ? std::vector<std::string>{} : detail::names_of(diagram->children());
+}
+
+}  // namespace saltus::python

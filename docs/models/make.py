@@ -1,0 +1,190 @@
+"""A picture of each scene of the shelf, from a run: `python docs/models/make.py [NAME ...]`."""
+
+import argparse
+import io
+import re
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use("svg")
+import matplotlib.pyplot as plt
+import numpy as np
+
+import saltus
+
+INK, MID, PALE, SHADE = "black", "0.45", "0.75", "0.9"
+LINES = ("black", "tab:blue", "tab:red", "tab:green", "tab:orange", "tab:purple", "tab:brown")
+LONG = 1e5  # [s] spans longer than this have a logarithmic time axis
+MANY = 24  # more components than this are points in space
+# scenes that an orbit shows better than its coordinates do: columns (x, y) of each curve
+ORBITS = {
+    "kepler": [(0, 1)],
+    "lorenz": [(0, 2)],
+    "pleiades": [(i, i + 7) for i in range(7)],
+    "rocking-block": [(0, 1)],
+}
+plt.rcParams.update(
+    {
+        "font.size": 8,
+        "axes.spines.top": False,
+        "axes.spines.right": False,
+        "axes.titlesize": 8,
+        "axes.titlelocation": "left",
+        "axes.prop_cycle": plt.cycler(color=LINES),
+        "lines.linewidth": 1.0,
+        "legend.frameon": False,
+        "svg.hashsalt": "saltus",  # the same bits each time it is drawn
+        "savefig.facecolor": "white",
+    }
+)
+
+
+def run(scene, rows=600):
+    """A run with as many rows as a picture can show, evenly over its time axis."""
+    begin, end = scene.t_span
+    steps = scene.simulate(save_at=[], save_steps=True, throw=False)
+    first = steps.time[steps.time > begin][0]
+    even = np.geomspace(first, end, rows) if end > LONG else np.linspace(begin, end, rows)
+    even[-1] = end  # not a rounding beyond it
+    few = len(steps.time) < 5 * rows  # then they show what is quicker than the even rows
+    return scene.simulate(save_at=even, save_steps=few, throw=False)
+
+
+def columns(results):
+    """Every recorded number as a column, and its name."""
+    arrays = {name: a.reshape(len(results.time), -1) for name, a in results.outputs.items()}
+    names = [
+        name if a.shape[1] == 1 else f"{name}[{i}]"
+        for name, a in arrays.items()
+        for i in range(a.shape[1])
+    ]
+    return np.hstack(list(arrays.values())).astype(float), names
+
+
+def with_gaps(results, values):
+    """Times and values with a row of NaN at each jump, over which no line is drawn."""
+    jumps = 1 + np.flatnonzero(np.diff(results.jump) > 0)
+    jumps = [j for j in jumps if not np.allclose(values[j], values[j - 1], rtol=1e-6, atol=0)]
+    times = np.insert(results.time, jumps, np.nan)
+    return times, np.insert(values, jumps, np.nan, axis=0)
+
+
+def mark_events(axis, results):
+    """A tick on the time axis for each event, holds shaded."""
+    events = results.events
+    times = [e.time for e in events if e.kind in ("zero_crossing", "terminal")]
+    marks = {"color": "tab:red", "ms": 5, "mew": 0.7, "clip_on": False}
+    axis.plot(
+        np.unique(np.round(times, 12)), 0 * np.unique(np.round(times, 12)), "|",
+        transform=axis.get_xaxis_transform(), **marks,
+    )  # fmt: skip
+    begins = [e.time for e in events if e.kind == "zeno_enter"]
+    ends = [e.time for e in events if e.kind == "zeno_release"]
+    for begin in begins[:50]:
+        end = min([t for t in ends if t > begin], default=results.time[-1])
+        axis.axvspan(begin, end, color=SHADE, lw=0)
+
+
+def scaled(values, names):
+    """Components of very different size, each over its largest value."""
+    most = np.nanmax(np.abs(values), axis=0)
+    most[most == 0] = 1
+    if most.max() < 50 * most.min():
+        return values, names
+    return values / most, [f"{name} / {m:.1e}" for name, m in zip(names, most, strict=True)]
+
+
+def time_axis(axis, scene):
+    if scene.t_span[1] > LONG:
+        axis.set_xscale("log")
+    axis.set_xlabel("time t [s]")
+
+
+def over_time(scene, results):
+    values, names = columns(results)
+    split = values.shape[1] <= 3  # a panel for each component
+    panels = values.shape[1] if split else 1
+    figure, axes = plt.subplots(
+        panels, 1, figsize=(6.4, 0.7 + 1.15 * panels if split else 2.8), sharex=True,
+        squeeze=False, layout="constrained",
+    )  # fmt: skip
+    if not split:
+        values, names = scaled(values, names)
+    times, values = with_gaps(results, values)
+    if scene.t_span[1] > LONG:  # no logarithm of the begin
+        times, values = times[~(times <= 0)], values[~(times <= 0)]
+    for k, axis in enumerate(axes[:, 0]):
+        mark_events(axis, results)
+        axis.plot(times, values[:, k] if split else values)
+        axis.set_ylabel(names[k] if split else "")
+    if not split and len(names) <= 12:
+        axis.legend(axis.get_lines()[1:], names, loc="center left", bbox_to_anchor=(1, 0.5))
+    time_axis(axes[-1, 0], scene)
+    return figure
+
+
+def in_space(scene, results):
+    """Time across, place along the grid upwards; of two fields on one grid, the first."""
+    values, _ = columns(results)
+    field = values[:: max(1, len(values) // 200)]
+    times = results.time[:: max(1, len(values) // 200)]
+    figure, axis = plt.subplots(figsize=(6.4, 2.6), layout="constrained")
+    place = np.arange(1, field.shape[1] + 1)
+    image = axis.pcolormesh(
+        times, place, field.T, shading="nearest", cmap="viridis", rasterized=True
+    )
+    figure.colorbar(image, ax=axis, pad=0.01)
+    axis.set_ylabel("component")
+    time_axis(axis, scene)
+    return figure
+
+
+def orbit(scene, results, pairs):
+    values, names = columns(results)
+    _, values = with_gaps(results, values)
+    figure, axis = plt.subplots(figsize=(4.2, 3.2), layout="constrained")
+    for x, y in pairs:
+        axis.plot(values[:, x], values[:, y], lw=0.7)
+    if len(pairs) > 1 or scene.name == "kepler":
+        axis.set_aspect("equal", adjustable="datalim")
+    axis.set_xlabel(names[pairs[0][0]] if len(pairs) == 1 else "x")
+    axis.set_ylabel(names[pairs[0][1]] if len(pairs) == 1 else "y")
+    return figure
+
+
+def picture(name):
+    scene = saltus.scene(name)
+    results = run(scene, 3000 if name in ORBITS else 600)
+    if name in ORBITS:
+        figure = orbit(scene, results, ORBITS[name])
+    elif columns(results)[0].shape[1] > MANY:
+        figure = in_space(scene, results)
+    else:
+        figure = over_time(scene, results)
+    figure.axes[0].set_title(f"{name}: {scene.title}", wrap=True)
+    return figure
+
+
+def save(figure, path):
+    """As SVG with two digits of a pixel, which is more than is seen."""
+    text = io.StringIO()
+    figure.savefig(text, format="svg", metadata={"Date": None, "Creator": None}, dpi=110)
+    plt.close(figure)
+    path.write_text(re.sub(r"(\d\.\d\d)\d+", r"\1", text.getvalue()))
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("names", nargs="*", help="scenes; all if none is given")
+    parser.add_argument("--out", type=Path, default=Path(__file__).parent)
+    arguments = parser.parse_args()
+    arguments.out.mkdir(parents=True, exist_ok=True)
+    for name in arguments.names or saltus.shelf():
+        path = arguments.out / f"{name}.svg"
+        save(picture(name), path)
+        print(f"{path} {path.stat().st_size / 1000:.0f} kB", flush=True)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,236 @@
+// Reference: what the rows of a report are compared with, and how good it is.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "saltus/report/achieved.hpp"
+#include "saltus/report/timing.hpp"
+
+namespace saltus {
+
+enum class ReferenceKind {
+  exact,   ///< a closed form
+  stored,  ///< numbers computed elsewhere, with their provenance
+  run      ///< runs of this scene, made by the report, two orders tighter and by another method
+};
+
+inline std::string_view to_string(ReferenceKind kind) {
+  constexpr std::string_view names[] = {"exact", "stored", "run"};
+  return names[static_cast<std::size_t>(kind)];
+}
+
+/// A run that others are compared with.
+struct ReferenceRun {
+  std::string method;
+  double rtol = 0.0, atol = 0.0;
+  Exact answer;
+};
+
+struct Reference {
+  ReferenceKind kind = ReferenceKind::exact;
+  std::string provenance = {};
+  /// Of kind run: how wrong it may be, in states and [s] in event times. NaN of the other kinds,
+  /// whose provenance says it.
+  double bound = Achieved::unknown, event_bound = Achieved::unknown;
+  std::vector<ReferenceRun> runs = {};  ///< one, or two by different methods
+};
+
+struct ReferenceOptions {
+  double rtol = 1e-12;  ///< the tightest of the report
+  double atol_over_rtol = 1e-2;
+  int points = 100;         ///< output times, where the scene's save_at is empty
+  double time_limit = 5.0;  ///< [s] wall time of one run
+  /// Called after each run; what it throws ends the search.
+  std::function<void(const Results*)> between = {};
+};
+
+namespace detail {
+
+/// Two digits: what an error, or a time, is good for. "-" where nothing is known.
+inline std::string short_number(double value) {
+  if (std::isnan(value)) return "-";
+  std::array<char, 32> buffer{};
+  std::snprintf(buffer.data(), buffer.size(), "%.1e", value);
+  return buffer.data();
+}
+
+inline bool is_known(const Exact& exact) { return exact.state || !exact.samples.empty(); }
+
+/// Options of a run that gives up after `limit` seconds of wall time, or when `asked` says so.
+inline SimulatorOptions bounded(SimulatorOptions options, double limit) {
+  options.interrupt = [limit, asked = std::move(options.interrupt),
+                       start = std::chrono::steady_clock::now()] {
+    return seconds_since(start) > limit || (asked && asked());
+  };
+  options.throw_errors = false;
+  return options;
+}
+
+inline std::vector<double> even_times(TimeSpan span, int points) {
+  std::vector<double> times;
+  for (int i = 1; i < points; ++i)
+    times.push_back(span.begin + (span.end - span.begin) * i / points);
+  times.push_back(span.end);
+  return times;
+}
+
+/// Names of all events that a run can log but those of the clock.
+inline std::vector<std::string> guard_names(const Scene& scene, const SimulatorOptions& options) {
+  const Simulator simulator(*scene.system, options);
+  std::vector<std::string> names;
+  for (const auto& group : simulator.plan().guards) names.push_back(group.name);
+  for (const auto& edge : simulator.plan().edges) names.push_back(edge.name);
+  return names;
+}
+
+/// What a run says, in the terms of a known answer.
+inline Exact answer_of(const Scene& scene, const Results& results,
+                       const std::vector<std::string>& guards) {
+  Exact answer;
+  for (const std::string& guard : guards)
+    answer.events.push_back({guard, observed_series(results.events, guard)});
+  for (const double t : scene.options.save_at) {
+    const auto row = std::ranges::lower_bound(results.time, t);
+    if (row == results.time.end() || *row != t) continue;
+    answer.samples.push_back(
+        {t, row_of(results, static_cast<std::size_t>(row - results.time.begin()))});
+  }
+  return answer;
+}
+
+/// A run that comes to its end: two orders tighter than asked, or one where the method refuses
+/// that.
+inline std::optional<ReferenceRun> reference_run(const Scene& scene, const std::string& method,
+                                                 const ReferenceOptions& with,
+                                                 std::string& reasons) {
+  for (const double tighter : {1e-2, 1e-1}) {
+    SimulatorOptions options = scene.options;
+    options.ode_solver_method = method;
+    options.rtol = std::max(with.rtol * tighter, 1e-14);
+    options.atol = options.rtol * with.atol_over_rtol;
+    options.record_events = true;
+    const Results results =
+        simulate(*scene.system, scene.context, scene.span, bounded(options, with.time_limit));
+    if (with.between) with.between(&results);
+    if (ended_well(results.status)) {
+      return ReferenceRun{method, options.rtol, options.atol,
+                          answer_of(scene, results, guard_names(scene, options))};
+    }
+    reasons += text("\n  ", method, ", rtol ", options.rtol, ": ",
+                    results.message.empty()
+                        ? text(to_string(results.status), " at t = ", results.context.time(), " s")
+                        : results.message);
+    if (results.status == Status::interrupted) return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+/// Methods in the order in which they are tried: those that suit the scene, those that are exacter
+/// at one tolerance first; then one that does not suit, which may come to the end all the same.
+inline std::vector<std::string> reference_methods(const Scene& scene) {
+  std::vector<std::string> suit, others;
+  for (const char* method : {"dop853", "dopri5", "adams", "bdf"}) {
+    const bool suits = std::ranges::find(scene.methods, method) != scene.methods.end();
+    (suits ? suit : others).emplace_back(method);
+  }
+  if (!others.empty()) suit.push_back(others.front());
+  return suit;
+}
+
+/// The largest differences of two answers, in states and in event times.
+inline std::pair<double, double> difference(const Scene& scene, const ReferenceRun& a,
+                                            const ReferenceRun& b) {
+  Achieved worst;
+  for (std::size_t i = 0; i < std::min(a.answer.events.size(), b.answer.events.size()); ++i) {
+    const auto &left = a.answer.events[i].series, &right = b.answer.events[i].series;
+    for (std::size_t s = 0; s < std::min(left.size(), right.size()); ++s)
+      compare_series(worst, left[s], right[s], scene.span.end);
+  }
+  if (worst.event_mismatch != 0) return {Achieved::unknown, Achieved::unknown};
+  const double span = scene.span.end - scene.span.begin;
+  for (std::size_t i = 0; i < std::min(a.answer.samples.size(), b.answer.samples.size()); ++i) {
+    const Sample& sample = a.answer.samples[i];
+    if (!near_event(a.answer, sample.time, worst.event_error, span))
+      compare_row(worst, b.answer.samples[i].state, sample.state, scene.options);
+  }
+  return {worst.error, worst.event_error};
+}
+
+inline double largest_state(const Exact& answer) {
+  double largest = 0.0;
+  for (const Sample& sample : answer.samples)
+    largest = std::max(largest, sample.state.lpNorm<Eigen::Infinity>());
+  return largest;
+}
+
+inline std::string name_of(const ReferenceRun& run) {
+  return text(run.method, " at rtol ", run.rtol, ", atol ", run.atol);
+}
+
+/// How wrong the runs may be: twice the difference of two methods, for the better of two so
+/// different ones is hardly more than half as wrong as the other. But no less than what every
+/// method is held to here: 10 (rtol |x| + atol) times the growth; and 100 eps (|t| + h) of an event
+/// time, h <= |t|.
+inline void judge(Reference& reference, const Scene& scene) {
+  const ReferenceRun& first = reference.runs.front();
+  const double held = 10.0 * (first.rtol * largest_state(first.answer) + first.atol) * scene.growth;
+  std::string says = text("a run of ", name_of(first),
+                          "; no second method came to the end, so nothing confirms it");
+  if (reference.runs.size() == 2) {
+    const auto [states, events] = difference(scene, first, reference.runs[1]);
+    const double eps = std::numeric_limits<double>::epsilon();
+    if (!std::isnan(states) && reference.kind == ReferenceKind::run)
+      reference.bound = std::max(2.0 * states, held);
+    if (!std::isnan(events))
+      reference.event_bound = std::max(2.0 * events, 200.0 * eps * std::abs(scene.span.end));
+    const double agree = reference.kind == ReferenceKind::run ? states : events;
+    says = text("runs of ", name_of(first), " and of ", name_of(reference.runs[1]),
+                std::isnan(agree) ? "; they do not agree about the events"
+                                  : text("; they agree to ", short_number(agree)));
+  }
+  if (reference.kind != ReferenceKind::run)
+    says = text("states: ", reference.provenance, "; event times: ", says);
+  else if (!scene.exact.events.empty())
+    says = text("event times: ", scene.exact.provenance, "; states: ", says);
+  reference.provenance = says;
+}
+
+}  // namespace detail
+
+/// What is known about a scene; and where states, or the event times of a scene with guards, are
+/// not, what runs of it say: two runs by different methods at the output times, so that each method
+/// is compared with another one. Throws ModelError where no state is known and no method comes to
+/// the end.
+inline Reference reference_for(const Scene& scene, const ReferenceOptions& with) {
+  const Exact& exact = scene.exact;
+  const bool closed = exact.state || exact.samples_are_exact;
+  Reference reference{.kind = !detail::is_known(exact) ? ReferenceKind::run
+                              : closed                 ? ReferenceKind::exact
+                                                       : ReferenceKind::stored,
+                      .provenance = exact.provenance};
+  const bool states = detail::is_known(exact);
+  const bool events = !exact.events.empty() || detail::guard_names(scene, scene.options).empty();
+  if (states && events) return reference;
+  std::string reasons;
+  for (const std::string& method : detail::reference_methods(scene)) {
+    if (auto run = detail::reference_run(scene, method, with, reasons))
+      reference.runs.push_back(*run);
+    if (reference.runs.size() == 2) break;
+  }
+  if (reference.runs.empty() && !states) {
+    throw ModelError(text("no reference for '", scene.name,
+                          "': nothing is known about it, and no method came to the end within ",
+                          with.time_limit, " s; give a known answer, or looser tolerances",
+                          reasons));
+  }
+  if (!reference.runs.empty()) detail::judge(reference, scene);
+  return reference;
+}
+
+}  // namespace saltus

@@ -1,0 +1,178 @@
+"""`work_precision`: what error each method achieves at each tolerance, and what that costs."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from saltus import _core
+from saltus.errors import ModelError
+from saltus.report.table import WorkPrecision
+from saltus.results import Results
+from saltus.scenes import Scene
+from saltus.simulation import SimulatorOptions, core_context, core_options
+from saltus.system import OutputPort, System
+
+__all__ = ["work_precision"]
+
+Row = NDArray[np.float64]
+RowFunction = Callable[[float, Row], float]
+POINTS = 100  # output times of a known answer, where save_at does not say them
+
+
+def work_precision(
+    system: System | Scene,
+    context: _core.Context | None = None,
+    t_span: tuple[float, float] | None = None,
+    *,
+    methods: Sequence[str] | None = None,
+    rtols: Sequence[float] = (1e-4, 1e-6, 1e-8, 1e-10, 1e-12),
+    atol_over_rtol: float | None = None,
+    recorded_signals: Mapping[str, OutputPort] | None = None,
+    exact: Callable[[float], ArrayLike] | None = None,
+    reference: Results | tuple[ArrayLike, ArrayLike] | None = None,
+    provenance: str = "",
+    event_times: Mapping[str, ArrayLike] | None = None,
+    invariants: Mapping[str, RowFunction] | None = None,
+    gap: RowFunction | None = None,
+    least_time: float = 0.1,
+    most_repeats: int = 10000,
+    time_limit: float = 5.0,
+    **options: Any,
+) -> WorkPrecision:
+    """Runs a scene by each method at each tolerance and compares what comes out.
+
+    `system` is one of your own, with its `context` and its span (begin, end) in seconds; or a
+    `Scene` of the shelf, which brings these and its known answer along. A *row* is one vector: the
+    numbers of `recorded_signals` one after the other, by default those of the first output.
+
+    What is known comes, in this order, from
+
+    - `exact(t)`: the true row at time t [s], judged at `save_at`, or at 100 even times;
+    - `reference`: rows computed elsewhere, as (times, rows) or as the `Results` of a better run,
+      with `provenance` saying where they come from;
+    - else from two runs by different methods, two orders tighter than the tightest of `rtols`,
+      which the report makes itself; each method is compared with the one that is not itself.
+
+    `event_times` gives the true times [s] of guards by name; without it they come from the same
+    two runs. `invariants` names functions f(t, row) of what does not change; `gap(t, row)` is the
+    distance to a surface that must not be passed.
+
+    `methods` are by default those that suit the scene; `atol` is `atol_over_rtol` times each rtol
+    (by default the ratio of the options). Warm runs, of a simulator used before, are repeated for
+    `least_time` [s], at most `most_repeats` times. A run longer than `time_limit` [s] is stopped:
+    like every run that fails, it is a row with its reason. Other options of `simulate` can be
+    given by name.
+
+    Raises ModelError for what makes no sense, and where nothing is known about the scene and no
+    method comes to its end.
+
+    >>> table = saltus.work_precision(saltus.scene("bouncing-ball"), methods=["dopri5", "bdf"])
+    >>> table.plot("ball.svg")
+    """
+    work = _core.WorkOptions()
+    work.rtols = [float(rtol) for rtol in rtols]
+    work.atol_over_rtol = atol_over_rtol or 0.0
+    work.least_time, work.most_repeats, work.time_limit = least_time, most_repeats, time_limit
+    if isinstance(system, Scene):
+        own = (context, t_span, recorded_signals, exact, reference, event_times, invariants, gap)
+        if options or any(value is not None for value in own):
+            raise ModelError(
+                "work_precision: a scene brings its context, span, options and known answer along; "
+                "give its system, context and span to change one of them"
+            )
+        work.methods = list(system.methods if methods is None else methods)
+        return _run(system._core, work, system.name, system.title)
+    work.methods = list(methods or ())
+    known = _known(exact, reference, provenance, _span(t_span), options.get("save_at", ()))
+    if len(known.times):
+        options["save_at"] = list(known.times)
+    scene = _scene(system, context, _span(t_span), recorded_signals, options)
+    if len(known.times):
+        _core.set_samples(scene, list(known.times), known.rows, exact is not None, known.provenance)
+    if event_times is None and isinstance(reference, Results):
+        event_times = _events_of(reference)
+    if event_times is not None:
+        times = [(name, np.atleast_1d(t).astype(float)) for name, t in event_times.items()]
+        _core.set_event_times(scene, times)
+    for name, value in (invariants or {}).items():
+        _core.add_invariant(scene, name, value)
+    if gap is not None:
+        _core.set_gap(scene, gap)
+    return _run(scene, work, system.name, "")
+
+
+def _run(scene: _core.Scene, work: _core.WorkOptions, name: str, title: str) -> WorkPrecision:
+    return WorkPrecision.from_json(_core.work_precision(scene, work, name, title))
+
+
+def _scene(
+    system: object,
+    context: object,
+    span: tuple[float, float],
+    signals: Mapping[str, OutputPort] | None,
+    options: dict[str, Any],
+) -> _core.Scene:
+    if not isinstance(system, System):
+        raise ModelError(f"work_precision: expected a system or a scene, found {system!r}")
+    if signals is None:
+        signals = {system.output_names[0]: system.output(0)} if system.output_names else {}
+    chosen = SimulatorOptions(recorded_signals=signals, **options)
+    return _core.user_scene(system, core_context(context), span, core_options(chosen))
+
+
+class _Known(NamedTuple):
+    """Times, the true rows there, and where they come from; empty where nothing is known."""
+
+    times: Row
+    rows: list[Row]
+    provenance: str
+
+
+def _span(t_span: tuple[float, float] | None) -> tuple[float, float]:
+    try:
+        begin, end = map(float, t_span)  # type: ignore[arg-type]
+    except (TypeError, ValueError):
+        raise ModelError(
+            f"work_precision: expected a span (begin, end) in seconds, found {t_span!r}"
+        ) from None
+    if not end > begin:
+        raise ModelError(f"work_precision: expected begin < end, found {begin} s to {end} s")
+    return begin, end
+
+
+def _known(
+    exact: Callable[[float], ArrayLike] | None,
+    reference: Results | tuple[ArrayLike, ArrayLike] | None,
+    provenance: str,
+    span: tuple[float, float],
+    save_at: Sequence[float],
+) -> _Known:
+    if exact is not None and reference is not None:
+        raise ModelError("work_precision: exact and reference are given; one of them is meant")
+    if exact is not None:
+        times = np.asarray(save_at if len(save_at) else np.linspace(*span, POINTS + 1)[1:], float)
+        name = getattr(exact, "__name__", "exact")
+        rows = [np.ravel(np.asarray(exact(float(t)), float)) for t in times]
+        return _Known(times, rows, provenance or f"the function {name}")
+    if isinstance(reference, Results):
+        times, first = np.unique(reference.time, return_index=True)
+        arrays = [a.reshape(len(reference.time), -1) for a in reference.outputs.values()]
+        rows = list(np.hstack(arrays)[first].astype(float))
+        return _Known(times, rows, provenance or f"a run of {reference.statistics.method}")
+    if reference is not None:
+        times = np.atleast_1d(np.asarray(reference[0], float))
+        rows = [np.ravel(row) for row in np.asarray(reference[1], float).reshape(len(times), -1)]
+        return _Known(times, rows, provenance or "rows given by the caller")
+    return _Known(np.empty(0), [], "")
+
+
+def _events_of(results: Results) -> dict[str, list[float]]:
+    times: dict[str, list[float]] = {}
+    for event in results.events:
+        if event.kind in ("zero_crossing", "terminal"):
+            times.setdefault(f"{event.block}.{event.name}", []).append(event.time)
+    return times
