@@ -1,9 +1,21 @@
 // All ready scenes, each with what is known about its outcome.
 #pragma once
 
+#include "saltus/models/ball_drag.hpp"
+#include "saltus/models/ball_table.hpp"
 #include "saltus/models/bouncing_ball.hpp"
 #include "saltus/models/bouncing_ball_diagram.hpp"
+#include "saltus/models/buck_converter.hpp"
+#include "saltus/models/integrate_and_fire.hpp"
+#include "saltus/models/newtons_cradle.hpp"
+#include "saltus/models/rimless_wheel.hpp"
 #include "saltus/models/robertson.hpp"
+#include "saltus/models/rocking_block.hpp"
 #include "saltus/models/shelf.hpp"
+#include "saltus/models/stick_slip.hpp"
+#include "saltus/models/stiff_contact.hpp"
+#include "saltus/models/thermostat.hpp"
 #include "saltus/models/tutorial.hpp"
+#include "saltus/models/two_walls.hpp"
 #include "saltus/models/van_der_pol.hpp"
+#include "saltus/models/water_tanks.hpp"

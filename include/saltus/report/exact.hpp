@@ -20,7 +20,8 @@ struct EventSeries {
   double release = never;  ///< [s] where the rest after that ends, and the next series begins
 };
 
-/// All event times of one guard, "bounce" or "ball.bounce", up to the end of the span.
+/// All event times of one guard, "bounce" or "ball.bounce", or of all of a block, "ball.*", up to
+/// the end of the span.
 struct EventTimes {
   std::string guard;
   std::vector<EventSeries> series;

@@ -9,9 +9,11 @@
 
 namespace saltus {
 
-/// Whether an event is one of the guard "bounce", or "ball.bounce".
+/// Whether an event is one of the guard "bounce", or "ball.bounce"; "ball.*" is any event of the
+/// block, its time events too.
 inline bool is_of(const Event& event, std::string_view guard) {
   if (event.name == guard) return true;
+  if (guard.ends_with(".*")) return event.block == guard.substr(0, guard.size() - 2);
   return guard.size() == event.block.size() + 1 + event.name.size() &&
          guard.starts_with(event.block) && guard[event.block.size()] == '.' &&
          guard.ends_with(event.name);

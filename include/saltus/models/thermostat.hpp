@@ -1,0 +1,102 @@
+// A room that a thermostat keeps between two temperatures.
+//   dT/dt = (T_heater - T) / tau  in mode `on`,  off when T rises to `high`
+//   dT/dt = (T_outside - T) / tau in mode `off`, on when T falls to `low`
+// State: temperature T [degC]. Two exponentials and two modes; what is hard is only that it goes
+// on: errors of time add up from switch to switch. T. A. Henzinger, "The theory of hybrid
+// automata", LICS 1996, figure 1.
+#pragma once
+
+#include "saltus/models/pieces.hpp"
+#include "saltus/report/scene.hpp"
+
+namespace saltus::models {
+
+struct ThermostatParameters {
+  double low = 19.0, high = 21.0;  ///< [degC] between them it is kept
+  double outside = 10.0;           ///< [degC] below low
+  double heater = 40.0;            ///< [degC] above high
+  double tau = 1800.0;             ///< [s]
+  double start = 19.0;             ///< [degC] from low up to below high, with the heater on
+  double t_end = 43200.0;          ///< [s] half a day
+};
+
+class Thermostat final : public LeafSystem {
+ public:
+  enum Mode { off, on };
+
+  explicit Thermostat(const ThermostatParameters& with) : LeafSystem("room"), with_(with) {
+    declare_continuous_state(
+        {.initial = Eigen::VectorXd::Constant(1, with.start),
+         .ode = &Thermostat::ode,
+         .jacobian = [this](const At&, MatrixRef out) { out << -1.0 / with_.tau; }});
+    declare_continuous_state_output("temperature");
+    declare_default_mode(on);
+    declare_zero_crossing({.name = "warm",
+                           .guard = [this](const At& at) { return at.x[0] - with_.high; },
+                           .direction = Direction::negative_then_non_negative,
+                           .start_mode = on,
+                           .end_mode = off});
+    declare_zero_crossing({.name = "cold",
+                           .guard = [this](const At& at) { return at.x[0] - with_.low; },
+                           .direction = Direction::positive_then_non_positive,
+                           .start_mode = off,
+                           .end_mode = on});
+  }
+
+ private:
+  void ode(const At& at, VectorRef xdot) const {
+    xdot << ((at.mode == on ? with_.heater : with_.outside) - at.x[0]) / with_.tau;
+  }
+
+  ThermostatParameters with_;
+};
+
+struct Exponential {
+  Real begin, from, towards, tau;
+
+  Eigen::VectorXd state(Real t) const {
+    return Eigen::VectorXd::Constant(
+        1, static_cast<double>(towards + (from - towards) * std::exp(-(t - begin) / tau)));
+  }
+};
+
+inline Pieces<Exponential> switches(const ThermostatParameters& with) {
+  insist(with.low < with.high, "thermostat", "low below high", with.low);
+  insist(with.outside < with.low, "thermostat", "outside below low", with.outside);
+  insist(with.heater > with.high, "thermostat", "heater above high", with.heater);
+  insist(with.start >= with.low && with.start < with.high, "thermostat", "low <= start < high",
+         with.start);
+  insist(with.tau > 0, "thermostat", "tau > 0", with.tau);
+  Pieces<Exponential> all{.pieces = {{0, with.start, with.heater, with.tau}}};
+  for (bool heats = true;; heats = !heats) {
+    const Exponential now = all.pieces.back();
+    const Real level = heats ? with.high : with.low,
+               t = now.begin + now.tau * std::log((now.towards - now.from) / (now.towards - level));
+    if (t > with.t_end) return all;
+    all.times.push_back(static_cast<double>(t));
+    all.pieces.push_back({t, level, heats ? with.outside : with.heater, with.tau});
+  }
+}
+
+/// 160 switches with the defaults. Records the temperature.
+///
+/// Growth: an error dT moves the switch by tau dT over the rate there, 19 or 9 degrees, and the
+/// temperature behind it by the rates' ratio, 2.1 or 1; so it is carried on through all switches,
+/// and those of 160 pieces add up to 1.6 of 160.
+inline Scene thermostat(const ThermostatParameters& with = {}) {
+  const auto room = std::make_shared<const Thermostat>(with);
+  return {
+      .name = "thermostat",
+      .system = room,
+      .context = room->create_context(),
+      .span = {0.0, with.t_end},
+      .options = {.recorded_signals = {{"temperature", room->output(0)}}},
+      .exact = pieces_answer("closed form: exponentials and logarithms", "room.*", switches(with)),
+      .gap =
+          [with](double, const Eigen::VectorXd& row) {
+            return std::min(row[0] - with.low, with.high - row[0]);
+          },
+      .growth = 260.0};
+}
+
+}  // namespace saltus::models
