@@ -88,13 +88,20 @@ class Machine {
   /// Makes `at` see the machine's own x again.
   void at_home() { bases_[0] = x.data(); }
 
-  /// Block-diagonal Jacobian d(xdot)/d(x) from the leaves' own, where the plan allows it.
-  bool has_jacobian() const noexcept { return has_jacobian_; }
-  void jacobian(double t, const double* state, MatrixRef out);
+  /// The state as it is seen: with what rests on a moving surface put there.
+  const double* carried(double t, const double* state) {
+    return carrier == nullptr ? state : carry(t, state);
+  }
+  /// Computes what the derivatives read at (t, x), so that `at` shows it.
+  void evaluate_derivative_needs(double t, const double* state) {
+    bases_[0] = state;
+    run(derivative_calls_, t);
+  }
 
   /// Entry i of x has zero derivative from now on, until `move` was called as often as `rest`.
   void rest(Index i) { change_rest(i, 1); }
   void move(Index i) { change_rest(i, -1); }
+  bool rests(Index i) const { return rests_[static_cast<std::size_t>(i)] > 0; }
 
   /// Chooses the guards that can fire in the present modes.
   void select_guards();
@@ -136,9 +143,6 @@ class Machine {
     bool opaque;
   };
 
-  const double* carried(double t, const double* state) {
-    return carrier == nullptr ? state : carry(t, state);
-  }
   const double* carry(double t, const double* state);
 
   /// What leaf i sees now. Only what moves from call to call is set anew.
@@ -182,7 +186,6 @@ class Machine {
     for (double& value : VectorRef(out)) value = value != 0.0 ? 1.0 : -1.0;
   }
   std::vector<Call> calls_of(const std::vector<int>& nodes) const;
-  void find_jacobian();
 
   std::shared_ptr<const Plan> plan_;
   Bases bases_{};
@@ -197,9 +200,7 @@ class Machine {
   std::vector<int> rests_;         // entries of x: how many holds they are under
   std::vector<Index> resting_of_;  // leaves: how many of their states are at rest
   std::vector<std::size_t> leaf_of_state_;
-  bool has_jacobian_ = false;
   Eigen::VectorXd carried_x_;
-  Eigen::VectorXd jacobian_block_;  // of one leaf
 };
 
 }  // namespace saltus
