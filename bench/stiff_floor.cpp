@@ -36,7 +36,7 @@ class Ours {
 double compare(const StiffProblem& problem, double rtol, double atol, double before, double size) {
   FloorStiff floor(problem, rtol, atol);
   Ours ours(problem, rtol, atol);
-  const auto times = bench::interleave({[&] { floor(); }, [&] { ours(); }}, 15, 5e-3);
+  const auto times = bench::interleave({[&] { floor(); }, [&] { ours(); }}, 31, 3e-3);
   const auto& s = ours.results().statistics;
   const double apart =
       (ours.results().context.continuous_state() - floor.state()).cwiseAbs().maxCoeff();

@@ -12,52 +12,52 @@ namespace saltus {
 namespace {
 
 /// In place, column by column (G. H. Golub, C. F. Van Loan, Matrix Computations, 4th ed., algorithm
-/// 3.4.1). The diagonal keeps the reciprocals of the pivots.
+/// 3.4.1). The diagonal keeps the reciprocals of the pivots. With a fixed size the compiler
+/// unrolls; 0: known when it is made.
+template <int fixed>
 class SmallDense final : public Factorisation {
  public:
-  explicit SmallDense(Index n) : n_(n), pivots_(static_cast<std::size_t>(n)) {}
+  explicit SmallDense(int n) : n_(n), pivots_(static_cast<std::size_t>(n)) {}
 
   bool factor(double* a) override {
     a_ = a;
-    for (Index k = 0; k < n_; ++k) {
-      double* column = a + k * n_;
-      Index best = k;
-      for (Index i = k + 1; i < n_; ++i)
+    for (int k = 0; k < n(); ++k) {
+      double* column = a + k * n();
+      int best = k;
+      for (int i = k + 1; i < n(); ++i)
         if (std::abs(column[i]) > std::abs(column[best])) best = i;
       pivots_[static_cast<std::size_t>(k)] = best;
       if (!(std::abs(column[best]) > 0.0)) return false;
       if (best != k)
-        for (Index j = 0; j < n_; ++j) std::swap(a[k + j * n_], a[best + j * n_]);
+        for (int j = 0; j < n(); ++j) std::swap(a[k + j * n()], a[best + j * n()]);
       column[k] = 1.0 / column[k];
-      for (Index i = k + 1; i < n_; ++i) column[i] *= column[k];
-      for (Index j = k + 1; j < n_; ++j) subtract(column, a[k + j * n_], k + 1, a + j * n_);
+      for (int i = k + 1; i < n(); ++i) column[i] *= column[k];
+      for (int j = k + 1; j < n(); ++j) {
+        double* other = a + j * n();
+        const double factor = other[k];
+        for (int i = k + 1; i < n(); ++i) other[i] -= factor * column[i];
+      }
     }
     return true;
   }
 
   void solve(double* b) override {
-    for (Index k = 0; k < n_; ++k) {
-      const Index pivot = pivots_[static_cast<std::size_t>(k)];
-      if (pivot != k) std::swap(b[k], b[pivot]);
+    for (int k = 0; k < n(); ++k) std::swap(b[k], b[pivots_[static_cast<std::size_t>(k)]]);
+    for (int k = 0; k < n(); ++k) {
+      for (int i = k + 1; i < n(); ++i) b[i] -= a_[i + k * n()] * b[k];
     }
-    for (Index k = 0; k < n_; ++k) subtract(a_ + k * n_, b[k], k + 1, b);
-    for (Index k = n_ - 1; k >= 0; --k) {
-      const double* column = a_ + k * n_;
-      b[k] *= column[k];
-      for (Index i = 0; i < k; ++i) b[i] -= column[i] * b[k];
+    for (int k = n() - 1; k >= 0; --k) {
+      b[k] *= a_[k + k * n()];
+      for (int i = 0; i < k; ++i) b[i] -= a_[i + k * n()] * b[k];
     }
   }
 
  private:
-  /// y -= factor x from entry `first` on.
-  void subtract(const double* x, double factor, Index first, double* y) const {
-    if (factor == 0.0) return;
-    for (Index i = first; i < n_; ++i) y[i] -= factor * x[i];
-  }
+  constexpr int n() const { return fixed > 0 ? fixed : n_; }
 
-  Index n_;
+  int n_;
   double* a_ = nullptr;
-  std::vector<Index> pivots_;
+  std::vector<int> pivots_;
 };
 
 class LargeDense final : public Factorisation {
@@ -97,7 +97,20 @@ MatrixLayout dense_layout(const Sparsity& places) {
 }
 
 std::unique_ptr<Factorisation> make_dense(Index n) {
-  if (n < large) return std::make_unique<SmallDense>(n);
+  const auto small = static_cast<int>(n);
+  switch (n) {
+    case 1:
+      return std::make_unique<SmallDense<1>>(small);
+    case 2:
+      return std::make_unique<SmallDense<2>>(small);
+    case 3:
+      return std::make_unique<SmallDense<3>>(small);
+    case 4:
+      return std::make_unique<SmallDense<4>>(small);
+    default:
+      break;
+  }
+  if (n < large) return std::make_unique<SmallDense<0>>(small);
   return std::make_unique<LargeDense>(n);
 }
 
