@@ -44,7 +44,7 @@ endfunction()
 
 unset(SUNDIALS_DIR CACHE)  # so that a build directory can change its mind
 set(cvode cvode)
-set(solvers nvecserial sunmatrixdense sunlinsoldense sunnonlinsolfixedpoint sunnonlinsolnewton)
+set(solvers nvecserial sunlinsolspgmr sunnonlinsolfixedpoint sunnonlinsolnewton)
 set(SALTUS_SUNDIALS_WHEEL "")  # where it is, if that is what we use
 if(NOT SALTUS_SUNDIALS STREQUAL "system")
   saltus_fetch_sundials(unpacked error)

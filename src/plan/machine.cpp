@@ -1,4 +1,4 @@
-// Machine: construction, loading and saving a context, the Jacobian, and the search for what is not
+// Machine: construction, loading and saving a context, and the search for what is not
 // finite.
 #include "saltus/plan/machine.hpp"
 
@@ -75,7 +75,6 @@ Machine::Machine(std::shared_ptr<const Plan> plan) : plan_(std::move(plan)) {
   }
   if (odes_.size() == 1 && derivative_calls_.empty() && plan_->nx == odes_.front().size)
     lone_ode_ = &odes_.front();
-  find_jacobian();
   select_guards();
 }
 
@@ -194,45 +193,6 @@ void Machine::change_rest(Index i, int by) {
   const std::size_t leaf = leaf_of_state_[static_cast<std::size_t>(i)];
   const Index change = static_cast<Index>(count > 0) - static_cast<Index>(before);
   resting_of_[leaf] += change, at_rest_ += change;
-}
-
-/// The leaves' Jacobians make up the whole one if no derivative depends on another leaf's
-/// continuous state.
-void Machine::find_jacobian() {
-  has_jacobian_ = !plan_->odes.empty() && plan_->derivatives.empty();
-  Index widest = 0;
-  for (int leaf : plan_->odes) {
-    const PlanLeaf& of = plan_->leaves[static_cast<std::size_t>(leaf)];
-    has_jacobian_ = has_jacobian_ && static_cast<bool>(of.declared().continuous.jacobian);
-    widest = std::max(widest, of.nx);
-    for (int input : detail::read_inputs(of.declared().continuous.inputs, of)) {
-      has_jacobian_ = has_jacobian_ && plan_->node(input).rate != Rate::continuous;
-    }
-  }
-  if (has_jacobian_) jacobian_block_.setZero(widest * widest);
-}
-
-void Machine::jacobian(double t, const double* state, MatrixRef out) {
-  ++jacobian_calls;
-  bases_[0] = carried(t, state);
-  out.setZero();
-  for (const Call& ode : odes_) {
-    const Index at_x = ode.x, n = ode.size;
-    if (resting_of_[ode.leaf] == n) continue;
-    jacobian_block_.head(n * n).setZero();
-    const MatrixRef block(jacobian_block_.data(), n, n);
-    plan_->leaves[ode.leaf].declared().continuous.jacobian(*ode.system, seen_by(ode, t), block);
-    if (!block.allFinite()) {
-      const std::string& path = plan_->leaves[ode.leaf].path;
-      throw SimulationError(text("t = ", t, " s: the Jacobian of block '", path,
-                                 "' is not finite (NaN or Inf); check its function at this state"),
-                            t, path);
-    }
-    for (Index i = 0; i < n; ++i) {
-      if (rests_[static_cast<std::size_t>(at_x + i)] == 0)
-        out.row(at_x + i).segment(at_x, n) = block.row(i);
-    }
-  }
 }
 
 std::string Machine::not_finite(double t, const double* state) {

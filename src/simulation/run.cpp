@@ -5,6 +5,7 @@ namespace saltus {
 
 SimulatorOptions Run::checked(SimulatorOptions options) const {
   detail::check(options);
+  require_linear_solver(options.linear_solver, options.ode_solver_method);
   return options;
 }
 
@@ -133,7 +134,8 @@ void Run::move_to(double t_stop, StopReason& reason) {
 }
 
 SolverOptions Run::solver_options() const {
-  return {options_.rtol, options_.atol, options_.min_minor_step_size, options_.max_minor_step_size};
+  return {options_.rtol, options_.atol, options_.min_minor_step_size, options_.max_minor_step_size,
+          linear_solver_from(options_.linear_solver)};
 }
 
 /// The instant at time_, where there is one; restarts the solver if it has to forget.
@@ -263,8 +265,11 @@ Context Run::context() const {
 }
 
 std::string Run::describe() const {
-  return plan().describe() + text("method: ", options_.ode_solver_method,
-                                  solver_ ? text(" (", solver_->method(), ")") : "", "\n");
+  const std::string linear = solver_ ? solver_->statistics().linear_solver : "";
+  return plan().describe() +
+         text("method: ", options_.ode_solver_method,
+              solver_ ? text(" (", solver_->method(), ")") : "", "\n") +
+         (linear.empty() ? "" : text("linear solver: ", linear, "\n"));
 }
 
 }  // namespace saltus

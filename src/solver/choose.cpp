@@ -21,6 +21,17 @@ double order_8_pays(const Watch& watch) {
 
 }  // namespace
 
+void require_linear_solver(std::string_view linear_solver, std::string_view method) {
+  const Method by = method_from(method);
+  const bool stiff = by == Method::automatic || by == Method::bdf;
+  if (linear_solver_from(linear_solver) != LinearSolver::automatic && !stiff) {
+    throw ModelError(text("option linear_solver = '", linear_solver, "': ode_solver_method '",
+                          method,
+                          "' solves no linear systems; leave it at 'auto', or take the "
+                          "method 'bdf' or 'auto'"));
+  }
+}
+
 std::unique_ptr<Solver> make_solver(Method method, Machine& machine, Watch& watch,
                                     const SolverOptions& options) {
   switch (method) {

@@ -1,12 +1,15 @@
-// CVODE behind the seam: Adams with fixed-point iteration, BDF with Newton and a dense Jacobian.
+// CVODE behind the seam: Adams with fixed-point iteration, BDF with Newton and the
+// linear solver that suits the scene.
 #include "saltus/solver/cvode.hpp"
 
 #include <algorithm>
 #include <exception>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "linear/linear_system.hpp"
 #include "saltus/solver/dopri5.hpp"
 #include "saltus/solver/runge_kutta.hpp"
 #include "saltus/solver/step_size.hpp"
@@ -46,6 +49,7 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
   const SolverStatistics& statistics() const override {
     sum_ = statistics_;
     add_counts(sum_);
+    if (linear_) sum_.linear_solver = linear_->describe();
     return sum_;
   }
 
@@ -108,11 +112,8 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
       nonlinear_.reset(SUNNonlinSol_FixedPoint(y_.get(), 0, context_.get()));
       CVodeSetNonlinearSolver(cvode, nonlinear_.get());
     } else {
-      const auto n = static_cast<sunindextype>(n_);
-      matrix_.reset(SUNDenseMatrix(n, n, context_.get()));
-      linear_.reset(SUNLinSol_Dense(y_.get(), matrix_.get(), context_.get()));
-      CVodeSetLinearSolver(cvode, linear_.get(), matrix_.get());
-      if (machine_->has_jacobian()) CVodeSetJacFn(cvode, jacobian);
+      linear_.emplace(*machine_, options_, error_);
+      linear_->attach(cvode, y_.get(), context_.get(), {jacobian, prepare, precondition});
     }
     watch_guards();
     started_ = true;
@@ -220,14 +221,25 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
     });
   }
 
-  static int jacobian(double t, N_Vector x, N_Vector, SUNMatrix out, void* user, N_Vector, N_Vector,
-                      N_Vector) {
+  static int jacobian(double t, N_Vector x, N_Vector xdot, SUNMatrix out, void* user, N_Vector,
+                      N_Vector, N_Vector) {
+    auto* self = static_cast<CvodeSolver*>(user);
+    return self->guarded([&] { return self->linear_->jacobian(t, x, xdot, out); });
+  }
+  static int prepare(double t, N_Vector x, N_Vector xdot, sunbooleantype keep,
+                     sunbooleantype* renewed, double gamma, void* user) {
     auto* self = static_cast<CvodeSolver*>(user);
     return self->guarded([&] {
-      self->machine_->jacobian(t, N_VGetArrayPointer(x),
-                               {SUNDenseMatrix_Data(out), self->n_, self->n_});
-      return 0;
+      bool fresh = false;
+      const int flag = self->linear_->prepare(t, x, xdot, keep != 0, fresh, gamma);
+      *renewed = static_cast<sunbooleantype>(fresh);
+      return flag;
     });
+  }
+  static int precondition(double, N_Vector, N_Vector, N_Vector r, N_Vector z, double, double, int,
+                          void* user) {
+    auto* self = static_cast<CvodeSolver*>(user);
+    return self->guarded([&] { return self->linear_->precondition(r, z); });
   }
 
   /// CVODE only wakes us; the locator judges. So it never sees an exact zero at the start of a
@@ -281,8 +293,7 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
   sun::Context context_;
   sun::Vector y_, dky_;
   sun::Nonlinear nonlinear_;
-  sun::Matrix matrix_;
-  sun::Linear linear_;
+  std::optional<LinearSystem> linear_;  // of BDF
   sun::Cvode cvode_;
   std::vector<int> directions_;  // of the guards; empty without root-finding
   RungeKutta<Dopri5> starter_;

@@ -1,65 +1,67 @@
-// Vector operations written out for small systems. A call of SUNDIALS' serial vectors goes through
-// two tables and a general loop; for a few states that costs more than the arithmetic. The content
-// stays that of the serial vector.
+// Vector operations written out for small systems, one set for each length. A call of SUNDIALS'
+// serial vectors goes through two tables and a general loop; for a few states that costs more than
+// the arithmetic. The content stays that of the serial vector.
 #pragma once
 
 #include <cmath>
+#include <utility>
 
 #include "sundials_compat.hpp"
 
 namespace saltus::sun {
 
-/// The operations for N states, or for as many as the vector says with N = 0. Of known size they
-/// are straight lines of code: a loop over two numbers costs more than what it does.
-template <int N>
+inline double* data(N_Vector v) { return static_cast<N_VectorContent_Serial>(v->content)->data; }
+
+/// The operations on vectors of length n: the compiler knows it and unrolls.
+template <int n>
 struct Small {
-  static double* data(N_Vector v) { return static_cast<N_VectorContent_Serial>(v->content)->data; }
-  static sunindextype size(N_Vector v) {
-    return N > 0 ? N : static_cast<N_VectorContent_Serial>(v->content)->length;
-  }
-
-  /// z[i] = f(i)
-  template <class F>
-  static void fill(N_Vector z, F f) {
-    double* out = data(z);
-    for (sunindextype i = 0, n = size(z); i < n; ++i) out[i] = f(i);
-  }
-
   static void linear_sum(double a, N_Vector x, double b, N_Vector y, N_Vector z) {
-    fill(z, [a, b, p = data(x), q = data(y)](sunindextype i) { return a * p[i] + b * q[i]; });
+    const double *p = data(x), *q = data(y);
+    double* out = data(z);
+    for (int i = 0; i < n; ++i) out[i] = a * p[i] + b * q[i];
+  }
+  /// z[i] = f(x[i])
+  template <class F>
+  static void map(N_Vector x, N_Vector z, F f) {
+    const double* p = data(x);
+    double* out = data(z);
+    for (int i = 0; i < n; ++i) out[i] = f(p[i]);
   }
   static void scale(double c, N_Vector x, N_Vector z) {
-    fill(z, [c, p = data(x)](sunindextype i) { return c * p[i]; });
+    map(x, z, [c](double value) { return c * value; });
   }
   static void constant(double c, N_Vector z) {
-    fill(z, [c](sunindextype) { return c; });
+    map(z, z, [c](double) { return c; });
   }
   static void absolute(N_Vector x, N_Vector z) {
-    fill(z, [p = data(x)](sunindextype i) { return std::abs(p[i]); });
+    map(x, z, [](double value) { return std::abs(value); });
   }
   static void add_constant(N_Vector x, double b, N_Vector z) {
-    fill(z, [b, p = data(x)](sunindextype i) { return p[i] + b; });
+    map(x, z, [b](double value) { return value + b; });
   }
   static void inverse(N_Vector x, N_Vector z) {
-    fill(z, [p = data(x)](sunindextype i) { return 1.0 / p[i]; });
+    map(x, z, [](double value) { return 1.0 / value; });
   }
 
   /// sqrt(sum (x w)^2 / n)
   static double weighted_rms(N_Vector x, N_Vector w) {
     const double *p = data(x), *q = data(w);
     double sum = 0.0;
-    for (sunindextype i = 0, n = size(x); i < n; ++i) sum += (p[i] * q[i]) * (p[i] * q[i]);
-    return std::sqrt(sum / static_cast<double>(size(x)));
+    for (int i = 0; i < n; ++i) sum += p[i] * q[i] * p[i] * q[i];
+    return std::sqrt(sum / n);
   }
 
   /// z = sum_j c[j] x_j
   static int linear_combination(int count, double* c, N_Vector* x, N_Vector z) {
-    double* out = data(z);
-    for (sunindextype i = 0, n = size(z); i < n; ++i) {
-      double sum = c[0] * data(x[0])[i];
-      for (int j = 1; j < count; ++j) sum += c[j] * data(x[j])[i];
-      out[i] = sum;
+    double sum[n];
+    const double* first = data(x[0]);
+    for (int i = 0; i < n; ++i) sum[i] = c[0] * first[i];
+    for (int j = 1; j < count; ++j) {
+      const double* p = data(x[j]);
+      for (int i = 0; i < n; ++i) sum[i] += c[j] * p[i];
     }
+    double* out = data(z);
+    for (int i = 0; i < n; ++i) out[i] = sum[i];
     return 0;
   }
 
@@ -70,12 +72,8 @@ struct Small {
   }
 
   static void put_into(N_Vector v) {
-    v->ops->nvlinearsum = linear_sum;
-    v->ops->nvscale = scale;
-    v->ops->nvconst = constant;
-    v->ops->nvabs = absolute;
-    v->ops->nvaddconst = add_constant;
-    v->ops->nvinv = inverse;
+    v->ops->nvlinearsum = linear_sum, v->ops->nvscale = scale, v->ops->nvconst = constant;
+    v->ops->nvabs = absolute, v->ops->nvaddconst = add_constant, v->ops->nvinv = inverse;
     v->ops->nvwrmsnorm = weighted_rms;
     v->ops->nvlinearcombination = linear_combination;
     v->ops->nvscaleaddmulti = scale_add_multi;
@@ -83,22 +81,14 @@ struct Small {
 };
 
 /// From sixteen states on the general operations are as fast.
-constexpr sunindextype small_size = 16;
+constexpr int small_size = 16;
 
 /// Puts them into a vector; its clones inherit them.
 inline void use_small_operations(N_Vector v) {
-  switch (const sunindextype n = Small<0>::size(v); n) {
-    case 1:
-      return Small<1>::put_into(v);
-    case 2:
-      return Small<2>::put_into(v);
-    case 3:
-      return Small<3>::put_into(v);
-    case 4:
-      return Small<4>::put_into(v);
-    default:
-      if (n <= small_size) Small<0>::put_into(v);
-  }
+  const auto n = N_VGetLength(v);
+  [n, v]<int... i>(std::integer_sequence<int, i...>) {
+    (void)((n == i + 1 && (Small<i + 1>::put_into(v), true)) || ...);
+  }(std::make_integer_sequence<int, small_size>());
 }
 
 }  // namespace saltus::sun

@@ -15,8 +15,6 @@
 #include <cvode/cvode_ls.h>
 #endif
 #include <nvector/nvector_serial.h>
-#include <sunlinsol/sunlinsol_dense.h>
-#include <sunmatrix/sunmatrix_dense.h>
 #include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
 
 #if !defined(SUNDIALS_VERSION_MAJOR) || SUNDIALS_VERSION_MAJOR * 100 + SUNDIALS_VERSION_MINOR < 602

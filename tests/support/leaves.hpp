@@ -33,11 +33,13 @@ class Leaf : public saltus::LeafSystem {
   using LeafSystem::declare_edge_reset;
   using LeafSystem::declare_input_port;
   using LeafSystem::declare_jacobian;
+  using LeafSystem::declare_jacobian_sparsity;
   using LeafSystem::declare_mode_output;
   using LeafSystem::declare_one_shot;
   using LeafSystem::declare_output_port;
   using LeafSystem::declare_periodic_update;
   using LeafSystem::declare_relation;
+  using LeafSystem::declare_sparse_jacobian;
   using LeafSystem::declare_zero_crossing;
 };
 

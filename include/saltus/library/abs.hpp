@@ -19,7 +19,8 @@ class Abs final : public LeafSystem {
                          .calc = &Abs::magnitude,
                          .shape = {},
                          .shape_rule = elementwise,
-                         .reads = Reads::inputs | Reads::relations});
+                         .reads = Reads::inputs | Reads::relations,
+                         .entries = entry_by_entry});
   }
 
  private:

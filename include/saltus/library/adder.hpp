@@ -23,7 +23,8 @@ class Adder final : public LeafSystem {
                          .calc = &Adder::sum,
                          .shape = {},
                          .shape_rule = detail::stretch(this->name()),
-                         .reads = Reads::inputs});
+                         .reads = Reads::inputs,
+                         .entries = entry_by_entry});
   }
 
  private:

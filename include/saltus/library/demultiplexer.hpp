@@ -23,7 +23,15 @@ class Demultiplexer final : public LeafSystem {
       const auto cut = [k](const At& at, VectorRef out) {
         out = at.u[0].segment(k * out.size(), out.size());
       };
-      declare_output_port({.calc = cut, .shape = {}, .shape_rule = part, .reads = Reads::inputs});
+      const auto entries = [k, n_outputs](Index i, int, std::span<const Index> widths) {
+        const Index at = k * (widths[0] / n_outputs) + i;
+        return EntryRange{at, at + 1};
+      };
+      declare_output_port({.calc = cut,
+                           .shape = {},
+                           .shape_rule = part,
+                           .reads = Reads::inputs,
+                           .entries = entries});
     }
   }
 };

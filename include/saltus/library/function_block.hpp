@@ -21,7 +21,8 @@ class FunctionBlock final : public LeafSystem {
                          .shape = {},
                          .shape_rule = elementwise,
                          .reads = Reads::inputs,
-                         .boolean = detail::Truth<Result>});
+                         .boolean = detail::Truth<Result>,
+                         .entries = entry_by_entry});
   }
 };
 

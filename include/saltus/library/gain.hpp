@@ -15,7 +15,8 @@ class Gain final : public LeafSystem {
                          .calc = &Gain::scale,
                          .shape = {},
                          .shape_rule = detail::stretch(this->name(), {gain.shape()}),
-                         .reads = Reads::inputs});
+                         .reads = Reads::inputs,
+                         .entries = entry_by_entry});
   }
 
  private:

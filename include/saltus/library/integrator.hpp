@@ -146,9 +146,9 @@ inline void Integrator::declare_state(const Options& options) {
   declare_continuous_state({.initial = options.initial_state.values,
                             .ode = limits ? VectorFunction(&Integrator::limited_flow)
                                           : VectorFunction(&Integrator::flow),
-                            .jacobian = [](const At&, MatrixRef jacobian) { jacobian.setZero(); },
                             .reads = limits ? Reads::inputs | Reads::relations : Reads::inputs,
-                            .inputs = std::move(inputs)});
+                            .inputs = std::move(inputs),
+                            .entries = entry_by_entry});
   const Shape shape = options.initial_state.shape();
   declare_output_port({.name = "out",
                        .shape = shape,

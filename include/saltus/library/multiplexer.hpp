@@ -15,7 +15,8 @@ class Multiplexer final : public LeafSystem {
                          .calc = &Multiplexer::join,
                          .shape = {},
                          .shape_rule = &Multiplexer::total,
-                         .reads = Reads::inputs});
+                         .reads = Reads::inputs,
+                         .entries = &Multiplexer::entries});
   }
 
  private:
@@ -23,6 +24,10 @@ class Multiplexer final : public LeafSystem {
     Index size = 0;
     for (const Shape& shape : inputs) size += shape.size;
     return Shape::of(size);
+  }
+  static EntryRange entries(Index i, int k, std::span<const Index> widths) {
+    for (int before = 0; before < k; ++before) i -= widths[static_cast<std::size_t>(before)];
+    return i >= 0 && i < widths[static_cast<std::size_t>(k)] ? EntryRange{i, i + 1} : EntryRange{};
   }
   void join(const At& at, VectorRef out) const {
     Index offset = 0;

@@ -15,7 +15,8 @@ class Offset final : public LeafSystem {
                          .calc = &Offset::shift,
                          .shape = {},
                          .shape_rule = detail::stretch(this->name(), {offset.shape()}),
-                         .reads = Reads::inputs});
+                         .reads = Reads::inputs,
+                         .entries = entry_by_entry});
   }
 
  private:

@@ -23,7 +23,8 @@ class Product final : public LeafSystem {
                          .calc = &Product::product,
                          .shape = {},
                          .shape_rule = detail::stretch(this->name()),
-                         .reads = Reads::inputs});
+                         .reads = Reads::inputs,
+                         .entries = entry_by_entry});
   }
 
  private:

@@ -43,7 +43,8 @@ class Saturate final : public LeafSystem {
                          .calc = &Saturate::limited,
                          .shape = {},
                          .shape_rule = detail::stretch(this->name(), limits),
-                         .reads = Reads::inputs | Reads::relations});
+                         .reads = Reads::inputs | Reads::relations,
+                         .entries = entry_by_entry});
   }
 
  private:

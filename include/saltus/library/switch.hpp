@@ -36,7 +36,8 @@ class Switch final : public LeafSystem {
          .calc = &Switch::chosen,
          .shape = {},
          .shape_rule = detail::stretch(this->name()),
-         .reads = options.threshold ? Reads::inputs | Reads::relations : Reads::inputs});
+         .reads = options.threshold ? Reads::inputs | Reads::relations : Reads::inputs,
+         .entries = entry_by_entry});
   }
 
  private:

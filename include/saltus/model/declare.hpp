@@ -50,7 +50,12 @@ inline void LeafSystem::declare_continuous_state(ContinuousState state) {
              "': the continuous state is declared twice; declare it once, as one vector"));
   }
   detail::require_finite(state.initial, text("block '", name(), "': initial continuous state"));
-  if (!state.jacobian) state.jacobian = declared_.continuous.jacobian;
+  const ContinuousState& before = declared_.continuous;
+  if (!state.jacobian) state.jacobian = before.jacobian;
+  if (!state.sparsity) {
+    state.sparsity = before.sparsity;
+    state.sparse_jacobian = before.sparse_jacobian;
+  }
   declared_.continuous = std::move(state);
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "saltus/model/event.hpp"
+#include "saltus/model/matrix_entry.hpp"
 #include "saltus/model/system.hpp"
 
 namespace saltus {
@@ -20,6 +21,10 @@ struct ContinuousState {
   MatrixFunction jacobian = {};  ///< d(xdot)/d(x), optional; used by a stiff method
   Reads reads = Reads::everything;
   std::optional<std::vector<int>> inputs = {};  ///< the inputs the ode reads; all if not said
+  /// Where d(xdot)/d(x) may differ from zero, in every mode; everywhere if not said.
+  std::optional<std::vector<MatrixEntry>> sparsity = {};
+  VectorFunction sparse_jacobian = {};  ///< the values of those entries, in their order; optional
+  EntryRule entries = {};               ///< which entries of the inputs each xdot[i] reads
 };
 
 /// All that a leaf has declared, in the order in which it did.
@@ -62,9 +67,22 @@ class LeafSystem : public System {
     declare_continuous_state({.initial = Eigen::VectorXd::Zero(n), .ode = std::move(ode)});
   }
   void declare_continuous_state(ContinuousState state);
-  /// d(xdot)/d(x), n by n, for stiff methods.
+  /// d(xdot)/d(x), n by n, for stiff methods; inputs count as constants.
   void declare_jacobian(MatrixFunction jacobian) {
     declared_.continuous.jacobian = std::move(jacobian);
+  }
+  /// The entries of d(xdot)/d(x) that may differ from zero, in every mode: a stiff method then
+  /// needs neither the memory nor the calls for the others. Each entry once, in any order, or
+  /// `band_entries(n, lower, upper)`. Name too many rather than too few: Newton's iteration judges
+  /// itself by this matrix, so a missing entry costs steps and may cost digits. When a stiff method
+  /// starts, an entry outside the n by n matrix, or one named twice, is a ModelError.
+  void declare_jacobian_sparsity(std::vector<MatrixEntry> entries) {
+    declared_.continuous.sparsity = std::move(entries);
+  }
+  /// The same with a function of their values: `values(at, out)` puts entry k into out[k].
+  void declare_sparse_jacobian(std::vector<MatrixEntry> entries, VectorFunction values) {
+    declare_jacobian_sparsity(std::move(entries));
+    declared_.continuous.sparse_jacobian = std::move(values);
   }
   void declare_discrete_state(const Eigen::VectorXd& initial);
   /// The mode the leaf starts in.

@@ -36,6 +36,21 @@ inline Shape elementwise(std::span<const Shape> inputs) {
   return result;
 }
 
+/// Entries first to last - 1 of a signal.
+struct EntryRange {
+  Index first = 0, last = 0;
+};
+
+/// Which entries of input k entry i of an output, or of a derivative, reads; `widths` are those of
+/// all inputs. It may name too many, never too few: a stiff method takes what is not named for zero
+/// in its Jacobian. Not said: all of them.
+using EntryRule = std::function<EntryRange(Index i, int k, std::span<const Index> widths)>;
+
+/// Entry i reads entry i of each input, of a scalar the only one: Gain, Adder, Abs.
+inline EntryRange entry_by_entry(Index i, int k, std::span<const Index> widths) {
+  return widths[static_cast<std::size_t>(k)] == 1 ? EntryRange{0, 1} : EntryRange{i, i + 1};
+}
+
 /// What a value depends on. It decides how often it is computed: see `Rate`.
 enum class Reads : unsigned {
   parameters = 0,  ///< nothing that changes during a run
@@ -70,6 +85,7 @@ struct OutputDeclaration {
       {};                          ///< feedthrough: the inputs it reads; all if not said
   bool boolean = false;            ///< 0 or 1; held by bisection where it reaches a derivative
   std::optional<Place> view = {};  ///< a state or parameter shown as it is, never copied
+  EntryRule entries = {};          ///< which entries of the inputs each of its entries reads
 };
 
 /// An output port of a system, to connect or to record.

@@ -83,13 +83,20 @@ class Machine {
   /// Makes `at` see the machine's own x again.
   void at_home() { bases_[0] = x.data(); }
 
-  /// Block-diagonal Jacobian d(xdot)/d(x) from the leaves' own, where the plan allows it.
-  bool has_jacobian() const noexcept { return has_jacobian_; }
-  void jacobian(double t, const double* state, MatrixRef out);
+  /// The state as it is seen: with what rests on a moving surface put there.
+  const double* carried(double t, const double* state) {
+    return carrier == nullptr ? state : carry(t, state);
+  }
+  /// Computes what the derivatives read at (t, x), so that `at` shows it.
+  void evaluate_derivative_needs(double t, const double* state) {
+    bases_[0] = state;
+    run(derivative_calls_, t);
+  }
 
   /// Entry i of x has zero derivative from now on, until `move` was called as often as `rest`.
   void rest(Index i) { change_rest(i, 1); }
   void move(Index i) { change_rest(i, -1); }
+  bool rests(Index i) const { return rests_[static_cast<std::size_t>(i)] > 0; }
 
   /// Chooses the guards that can fire in the present modes.
   void select_guards();
@@ -130,9 +137,6 @@ class Machine {
 
   void carried_derivative(double t, const double* state, double* xdot);
   void carried_guards(double t, const double* state, double* g);
-  const double* carried(double t, const double* state) {
-    return carrier == nullptr ? state : carry(t, state);
-  }
   const double* carry(double t, const double* state);
 
   /// What leaf i sees now. Only what moves from call to call is set anew.
@@ -162,7 +166,6 @@ class Machine {
   void change_rest(Index i, int by);
   void guard(const GuardCall& call, double t, double* g);
   std::vector<OutputCall> calls_of(const std::vector<int>& nodes);
-  void find_jacobian();
 
   std::shared_ptr<const Plan> plan_;
   Bases bases_{};
@@ -180,9 +183,7 @@ class Machine {
   std::vector<Index> resting_of_;  // leaves: how many of their states are at rest
   Index at_rest_ = 0;              // all in all
   std::vector<std::size_t> leaf_of_state_;
-  bool has_jacobian_ = false;
   Eigen::VectorXd carried_x_;
-  Eigen::VectorXd jacobian_block_;  // of one leaf
 };
 
 }  // namespace saltus

@@ -24,6 +24,10 @@ struct SimulatorOptions {
   /// "stiff" and "BDF" for bdf.
   std::string ode_solver_method = "auto";
 
+  /// How a stiff method solves its linear systems: "auto" (by number of states and places of the
+  /// Jacobian), "dense", "band", "sparse" or "gmres". The statistics say what was chosen, and why.
+  std::string linear_solver = "auto";
+
   /// Instants a run may have; more end it with the status step_limit. Not said: no limit.
   std::optional<std::int64_t> max_major_steps = {};
   /// [s] longest time from one instant to the next.

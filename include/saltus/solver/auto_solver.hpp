@@ -60,6 +60,7 @@ class AutoSolver final : public Solver {
       const SolverStatistics& more = bdf_->statistics();
       sum_.steps += more.steps, sum_.rejected += more.rejected;
       sum_.restarts += more.restarts, sum_.linear_setups += more.linear_setups;
+      sum_.linear_solver = more.linear_solver;
     }
     return sum_;
   }

@@ -33,6 +33,9 @@ inline Method method_from(std::string_view name) {
   return detail::value_of(method_names, "ode_solver_method", name);
 }
 
+/// Refuses a linear solver that there is not, or that the method would not use; ModelError.
+void require_linear_solver(std::string_view linear_solver, std::string_view method);
+
 /// The solver of a method for one run. CVODE is made only where it is asked for, or once "auto"
 /// needs it.
 std::unique_ptr<Solver> make_solver(Method method, Machine& machine, Watch& watch,

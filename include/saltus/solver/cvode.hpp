@@ -9,8 +9,7 @@ namespace saltus {
 
 enum class CvodeMethod {
   adams,  ///< Adams-Moulton, orders 1 to 12, fixed-point iteration: long smooth stretches
-  bdf  ///< backward differentiation, orders 1 to 5, Newton iteration with a dense Jacobian: stiff
-       ///< scenes
+  bdf     ///< backward differentiation, orders 1 to 5, Newton iteration: stiff scenes
 };
 
 /// A. C. Hindmarsh et al., "SUNDIALS: Suite of nonlinear and differential/algebraic equation

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "saltus/plan/machine.hpp"
+#include "saltus/solver/linear_solver.hpp"
 #include "saltus/solver/statistics.hpp"
 #include "saltus/solver/watch.hpp"
 
@@ -23,6 +24,7 @@ struct SolverOptions {
   double atol = 1e-8;
   double min_step = 0.0;                                      ///< [s]
   double max_step = std::numeric_limits<double>::infinity();  ///< [s]
+  LinearSolver linear_solver = LinearSolver::automatic;       ///< of BDF
 };
 
 /// How a stretch begins.

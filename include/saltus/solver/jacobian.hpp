@@ -1,0 +1,74 @@
+// d(xdot)/d(x) of a machine: from the leaves' own Jacobians where they have one, else by
+// differences.
+#pragma once
+
+#include "saltus/plan/machine.hpp"
+#include "saltus/solver/colouring.hpp"
+
+namespace saltus {
+
+/// How far a difference moves a state.
+struct Increments {
+  double rtol = 1e-6, atol = 1e-8;
+  double h = 0.0;  ///< [s] the step the Jacobian is for
+};
+
+/// One for each run; nothing here allocates after construction.
+class Jacobian {
+ public:
+  /// Throws what jacobian_pattern throws.
+  explicit Jacobian(Machine& machine);
+
+  const JacobianPattern& pattern() const { return pattern_; }
+  /// Calls of the right-hand side that one evaluation costs.
+  Index colours() const { return colouring_.colours(); }
+
+  /// Takes every place for one that may differ from zero, where the pattern overflowed.
+  void fill_up();
+  /// Entry k of the pattern will go to out[places[k]]; without it, to out[k].
+  void store_at(std::vector<Index> places) { places_ = std::move(places); }
+
+  /// Writes the entries at (t, x), where the derivative is `xdot`; those of states at rest are
+  /// zero. False if the derivative nearby is not finite. Throws SimulationError if a leaf's own
+  /// Jacobian is not finite, or not zero outside its declared sparsity, and what a user's function
+  /// throws.
+  ///
+  /// Column j is (f(x + d e_j) - f(x)) / d, columns of one colour together, with the increment of
+  /// CVODE's own differences, d = max(sqrt(eps) |x_j|, s (rtol |x_j| + atol)) where
+  /// s = 1000 |h| eps n |f| and |f| the weighted root mean square (A. C. Hindmarsh, R. Serban, User
+  /// Documentation for CVODE, "Direct linear solvers", (2.9)). While a block rests on a moving
+  /// surface, what it carries counts as constant.
+  bool operator()(double t, const double* x, const double* xdot, const Increments& by, double* out);
+
+ private:
+  /// Entry `entry` of the pattern is value `from` of a leaf's own Jacobian.
+  struct Copy {
+    Index entry, from;
+    int row;
+  };
+  struct Own {
+    int leaf;
+    Index size;  // of its values
+    std::vector<Copy> copies;
+  };
+
+  void prepare();
+  void add_own(int leaf);
+  bool differences(double t, const double* x, const double* xdot, const Increments& by,
+                   double* out);
+  double least_increment(const double* x, const double* xdot, const Increments& by) const;
+  void take(const Own& own, double t, double* out);
+  [[noreturn]] void refuse(const Own& own, double t, const char* what) const;
+  Index place(Index entry) const {
+    return places_.empty() ? entry : places_[static_cast<std::size_t>(entry)];
+  }
+
+  Machine* machine_;
+  JacobianPattern pattern_;
+  Colouring colouring_;
+  std::vector<Index> places_;
+  std::vector<Own> own_;
+  Eigen::VectorXd x_, f_, base_, moved_, block_;
+};
+
+}  // namespace saltus

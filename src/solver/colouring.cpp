@@ -1,0 +1,105 @@
+// Greedy colouring of the columns of a Jacobian.
+#include "saltus/solver/colouring.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace saltus {
+
+namespace {
+
+/// The rows that differences have to find, with all their columns; and the columns to colour.
+class Meetings {
+ public:
+  explicit Meetings(const JacobianPattern& pattern) : columns_of_(rows_of(pattern)) {
+    const Sparsity& places = pattern.places;
+    for (Index j = 0; j < places.columns(); ++j) {
+      const auto first = places.start[static_cast<std::size_t>(j)],
+                 last = places.start[static_cast<std::size_t>(j) + 1];
+      if (std::any_of(pattern.differences.begin() + first, pattern.differences.begin() + last,
+                      [](char differs) { return differs != 0; }))
+        to_colour_.push_back(static_cast<int>(j));
+    }
+  }
+
+  const std::vector<int>& to_colour() const { return to_colour_; }
+  std::size_t fullest() const {
+    std::size_t most = 0;
+    for (const auto& row : columns_of_) most = std::max(most, row.size());
+    return most;
+  }
+
+  /// Colour of each column, -1 where there is none, taken greedily in this order.
+  std::vector<int> greedy(const Sparsity& places, const std::vector<int>& order) const {
+    std::vector<int> colour(static_cast<std::size_t>(places.columns()), -1);
+    std::vector<int> taken_by(order.size() + 1, -1);  // colour: the column that met it last
+    for (const int j : order) {
+      for (const int row : places.column(j)) {
+        for (const int other : columns_of_[static_cast<std::size_t>(row)]) {
+          const int seen = colour[static_cast<std::size_t>(other)];
+          if (seen >= 0) taken_by[static_cast<std::size_t>(seen)] = j;
+        }
+      }
+      const auto free = std::ranges::find_if(taken_by, [j](int by) { return by != j; });
+      colour[static_cast<std::size_t>(j)] = static_cast<int>(free - taken_by.begin());
+    }
+    return colour;
+  }
+
+ private:
+  static std::vector<std::vector<int>> rows_of(const JacobianPattern& pattern) {
+    const Sparsity& places = pattern.places;
+    std::vector<std::vector<int>> rows(static_cast<std::size_t>(places.columns()));
+    std::vector<char> sought(rows.size());
+    for (std::size_t k = 0; k < places.rows.size(); ++k)
+      if (pattern.differences[k]) sought[static_cast<std::size_t>(places.rows[k])] = 1;
+    for (Index j = 0; j < places.columns(); ++j) {
+      for (const int row : places.column(j))
+        if (sought[static_cast<std::size_t>(row)])
+          rows[static_cast<std::size_t>(row)].push_back(static_cast<int>(j));
+    }
+    return rows;
+  }
+
+  std::vector<std::vector<int>> columns_of_;
+  std::vector<int> to_colour_;
+};
+
+Colouring by_colour(const std::vector<int>& colours) {
+  Colouring result;
+  const int most = colours.empty() ? -1 : *std::ranges::max_element(colours);
+  std::vector<std::vector<int>> lists(static_cast<std::size_t>(most + 1));
+  for (std::size_t j = 0; j < colours.size(); ++j)
+    if (colours[j] >= 0) lists[static_cast<std::size_t>(colours[j])].push_back(static_cast<int>(j));
+  for (const auto& list : lists) {
+    result.columns.insert(result.columns.end(), list.begin(), list.end());
+    result.start.push_back(static_cast<Index>(result.columns.size()));
+  }
+  return result;
+}
+
+Colouring one_each(const std::vector<int>& columns) {
+  Colouring result;
+  for (const int j : columns) {
+    result.columns.push_back(j);
+    result.start.push_back(static_cast<Index>(result.columns.size()));
+  }
+  return result;
+}
+
+}  // namespace
+
+Colouring colour(const JacobianPattern& pattern) {
+  const Meetings meetings(pattern);
+  std::vector<int> order = meetings.to_colour();
+  const std::size_t fullest = meetings.fullest();
+  if (2 * fullest > order.size()) return one_each(order);
+  Colouring natural = by_colour(meetings.greedy(pattern.places, order));
+  if (natural.colours() <= static_cast<Index>(fullest)) return natural;
+  std::ranges::stable_sort(order, std::greater{},
+                           [&](int j) { return pattern.places.column(j).size(); });
+  Colouring largest_first = by_colour(meetings.greedy(pattern.places, order));
+  return largest_first.colours() < natural.colours() ? largest_first : natural;
+}
+
+}  // namespace saltus

@@ -1,0 +1,107 @@
+// Gaussian elimination with partial pivoting within a band.
+#include <algorithm>
+#include <cmath>
+
+#include "factorisation.hpp"
+
+namespace saltus {
+
+namespace {
+
+/// Entry (i, j) stands at offset lower + upper + i - j of column j; `lower` rows above the band
+/// take what pivoting brings in (LAPACK's layout and dgbtf2: E. Anderson et al., LAPACK Users'
+/// Guide, 3rd ed., 1999, section 5.3.3). The diagonal keeps the reciprocals of the pivots.
+class Band final : public Factorisation {
+ public:
+  Band(Index n, Bandwidth band, std::vector<int> position)
+      : n_(n),
+        lower_(band.lower),
+        reach_(band.lower + band.upper),
+        height_(reach_ + band.lower + 1),
+        upper_(band.upper),
+        pivots_(static_cast<std::size_t>(n)),
+        position_(std::move(position)),
+        moved_(position_.size()) {}
+
+  bool factor(double* a) override {
+    a_ = a;
+    Index last = 0;  // column that the rows met so far reach to
+    for (Index j = 0; j < n_; ++j) {
+      double* column = diagonal(j);
+      const Index below = std::min(lower_, n_ - 1 - j);
+      Index best = 0;
+      for (Index i = 1; i <= below; ++i)
+        if (std::abs(column[i]) > std::abs(column[best])) best = i;
+      pivots_[static_cast<std::size_t>(j)] = best;
+      if (!(std::abs(column[best]) > 0.0)) return false;
+      last = std::max(last, std::min(j + upper_ + best, n_ - 1));
+      if (best != 0)
+        for (Index k = j; k <= last; ++k) std::swap(diagonal(k)[j - k], diagonal(k)[j - k + best]);
+      column[0] = 1.0 / column[0];
+      for (Index i = 1; i <= below; ++i) column[i] *= column[0];
+      for (Index k = j + 1; k <= last; ++k) {
+        double* other = diagonal(k) + (j - k);
+        const double factor = other[0];
+        for (Index i = 1; i <= below; ++i) other[i] -= factor * column[i];
+      }
+    }
+    return true;
+  }
+
+  void solve(double* b) override {
+    if (position_.empty()) return solve_in_place(b);
+    for (std::size_t i = 0; i < moved_.size(); ++i)
+      moved_[static_cast<std::size_t>(position_[i])] = b[i];
+    solve_in_place(moved_.data());
+    for (std::size_t i = 0; i < moved_.size(); ++i)
+      b[i] = moved_[static_cast<std::size_t>(position_[i])];
+  }
+
+ private:
+  double* diagonal(Index j) const { return a_ + j * height_ + reach_; }
+
+  void solve_in_place(double* b) const {
+    for (Index j = 0; j < n_; ++j) {
+      const Index pivot = pivots_[static_cast<std::size_t>(j)];
+      if (pivot != 0) std::swap(b[j], b[j + pivot]);
+      const double* column = diagonal(j);
+      const Index below = std::min(lower_, n_ - 1 - j);
+      for (Index i = 1; i <= below; ++i) b[j + i] -= column[i] * b[j];
+    }
+    for (Index j = n_ - 1; j >= 0; --j) {
+      const double* column = diagonal(j);
+      b[j] *= column[0];
+      const Index above = std::min(reach_, j);
+      for (Index i = 1; i <= above; ++i) b[j - i] -= column[-i] * b[j];
+    }
+  }
+
+  Index n_, lower_, reach_, height_, upper_;
+  double* a_ = nullptr;
+  std::vector<Index> pivots_;
+  std::vector<int> position_;  // of each state; empty: as it is
+  std::vector<double> moved_;
+};
+
+}  // namespace
+
+MatrixLayout band_layout(const Sparsity& places, Bandwidth band, const std::vector<int>& position) {
+  const Index n = places.columns(), reach = band.lower + band.upper,
+              height = reach + band.lower + 1;
+  const auto at = [&](Index i) {
+    return position.empty() ? i : Index{position[static_cast<std::size_t>(i)]};
+  };
+  MatrixLayout layout{.size = n * height, .places = {}, .diagonal = {}};
+  for (Index j = 0; j < n; ++j) {
+    const Index diagonal = at(j) * height + reach;
+    for (const int i : places.column(j)) layout.places.push_back(diagonal + at(i) - at(j));
+    layout.diagonal.push_back(diagonal);
+  }
+  return layout;
+}
+
+std::unique_ptr<Factorisation> make_band(Index n, Bandwidth band, std::vector<int> position) {
+  return std::make_unique<Band>(n, band, std::move(position));
+}
+
+}  // namespace saltus

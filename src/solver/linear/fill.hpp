@@ -1,0 +1,20 @@
+// What a sparse factorisation would cost, before it is made.
+#pragma once
+
+#include "saltus/plan/sparsity.hpp"
+
+namespace saltus {
+
+struct Fill {
+  double entries = 0.0;     ///< of L and U
+  double operations = 0.0;  ///< multiplications and additions
+};
+
+/// By the elimination tree of the matrix plus its transpose, in the order of minimum degree, as if
+/// no row had to be exchanged (J. W. H. Liu, "A compact row storage scheme for Cholesky factors
+/// using elimination trees", ACM TOMS 12 (1986) 127; P. R. Amestoy, T. A. Davis, I. S. Duff, "An
+/// approximate minimum degree ordering algorithm", SIAM J. Matrix Anal. Appl. 17 (1996) 886).
+/// Linear in the entries of L; stops counting, with infinite operations, at `most` of them.
+Fill predicted_fill(const Sparsity& places, double most);
+
+}  // namespace saltus

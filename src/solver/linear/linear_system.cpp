@@ -1,0 +1,89 @@
+// Choice, set-up and callbacks of the linear solver.
+#include "linear_system.hpp"
+
+#include <sunlinsol/sunlinsol_spgmr.h>
+
+namespace saltus {
+
+LinearSystem::LinearSystem(Machine& machine, const SolverOptions& options,
+                           std::exception_ptr& error)
+    : machine_(&machine),
+      options_(options),
+      error_(&error),
+      jacobian_(machine),
+      choice_(choose_linear_solver(jacobian_, machine.plan().nx, options.linear_solver)) {
+  if (choice_.solver != LinearSolver::gmres)
+    make_factorisation();
+  else if (!jacobian_.pattern().overflow)
+    preconditioner_.emplace(jacobian_.pattern().places);
+}
+
+void LinearSystem::make_factorisation() {
+  const Index n = machine_->plan().nx;
+  if (jacobian_.pattern().overflow) jacobian_.fill_up();
+  const Sparsity& places = jacobian_.pattern().places;
+  if (choice_.solver == LinearSolver::dense) {
+    layout_ = dense_layout(places);
+    factorisation_ = make_dense(n);
+  } else if (choice_.solver == LinearSolver::band) {
+    layout_ = band_layout(places, choice_.band, choice_.position);
+    factorisation_ = make_band(n, choice_.band, choice_.position);
+  } else {
+    layout_ = sparse_layout(places);
+    factorisation_ = make_sparse(places);
+  }
+  jacobian_.store_at(std::move(layout_.places));
+}
+
+void LinearSystem::attach(void* cvode, N_Vector y, SUNContext context, const Callbacks& callbacks) {
+  cvode_ = cvode;
+  if (factorisation_) {
+    matrix_ = sun::make_matrix(layout_, context);
+    linear_ = sun::make_direct(*factorisation_, *error_, context);
+    CVodeSetLinearSolver(cvode, linear_.get(), matrix_.get());
+    CVodeSetJacFn(cvode, callbacks.jacobian);
+    return;
+  }
+  // On the right, so that GMRES judges the residual itself: seen through a preconditioner on the
+  // left that is far off, a step without any correction looks converged.
+  constexpr int directions = 20;  // of the Krylov space, before it is left
+  linear_.reset(
+      SUNLinSol_SPGMR(y, preconditioner_ ? SUN_PREC_RIGHT : SUN_PREC_NONE, directions, context));
+  if (!linear_) throw Error("SUNDIALS: out of memory");
+  CVodeSetLinearSolver(cvode, linear_.get(), nullptr);
+  if (preconditioner_) CVodeSetPreconditioner(cvode, callbacks.prepare, callbacks.precondition);
+}
+
+Increments LinearSystem::increments() const {
+  Increments by{options_.rtol, options_.atol, 0.0};
+  CVodeGetCurrentStep(cvode_, &by.h);
+  return by;
+}
+
+int LinearSystem::jacobian(double t, N_Vector x, N_Vector xdot, SUNMatrix out) {
+  return jacobian_(t, N_VGetArrayPointer(x), N_VGetArrayPointer(xdot), increments(),
+                   sun::values_of(out))
+             ? 0
+             : 1;
+}
+
+int LinearSystem::prepare(double t, N_Vector x, N_Vector xdot, bool keep, bool& renewed,
+                          double gamma) {
+  renewed = !keep;
+  if (!keep && !jacobian_(t, N_VGetArrayPointer(x), N_VGetArrayPointer(xdot), increments(),
+                          preconditioner_->jacobian()))
+    return 1;
+  return preconditioner_->factor(gamma) ? 0 : 1;
+}
+
+int LinearSystem::precondition(N_Vector r, N_Vector z) {
+  preconditioner_->solve(N_VGetArrayPointer(r), N_VGetArrayPointer(z));
+  return 0;
+}
+
+std::string LinearSystem::describe() const {
+  return text(linear_solver_names[static_cast<std::size_t>(choice_.solver)].first, ": ",
+              choice_.why);
+}
+
+}  // namespace saltus

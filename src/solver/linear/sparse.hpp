@@ -1,0 +1,26 @@
+// A pattern as Eigen's matrix of columns.
+#pragma once
+
+#include <algorithm>
+
+#include <Eigen/SparseCore>
+
+#include "saltus/plan/sparsity.hpp"
+
+namespace saltus {
+
+using SparseColumns = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
+
+/// The matrix of these places, all ones; its values stand in the order of the pattern.
+inline SparseColumns sparse_matrix(const Sparsity& places) {
+  const auto n = places.columns();
+  SparseColumns matrix(n, n);
+  matrix.resizeNonZeros(places.size());
+  std::ranges::transform(places.start, matrix.outerIndexPtr(),
+                         [](Index k) { return static_cast<int>(k); });
+  std::ranges::copy(places.rows, matrix.innerIndexPtr());
+  std::fill_n(matrix.valuePtr(), places.size(), 1.0);
+  return matrix;
+}
+
+}  // namespace saltus

@@ -1,0 +1,96 @@
+// Bandwidth and the reverse Cuthill-McKee order.
+#include "saltus/solver/ordering.hpp"
+
+#include <algorithm>
+
+namespace saltus {
+
+namespace {
+
+/// Who stands in a row or column with whom.
+class Graph {
+ public:
+  explicit Graph(const Sparsity& places) : neighbours_(static_cast<std::size_t>(places.columns())) {
+    for (int j = 0; j < places.columns(); ++j) {
+      for (const int i : places.column(j)) {
+        if (i == j) continue;
+        neighbours_[static_cast<std::size_t>(i)].push_back(j);
+        neighbours_[static_cast<std::size_t>(j)].push_back(i);
+      }
+    }
+    for (auto& list : neighbours_) {
+      std::ranges::sort(list);
+      list.erase(std::unique(list.begin(), list.end()), list.end());
+    }
+  }
+
+  std::size_t size() const { return neighbours_.size(); }
+  const std::vector<int>& of(int i) const { return neighbours_[static_cast<std::size_t>(i)]; }
+  std::size_t degree(int i) const { return of(i).size(); }
+
+ private:
+  std::vector<std::vector<int>> neighbours_;
+};
+
+/// Breadth first from `root`, neighbours by rising degree; what is met is appended to `order`.
+/// Returns where the last level begins in it.
+std::size_t search(const Graph& graph, int root, std::vector<char>& met, std::vector<int>& order) {
+  std::size_t level = order.size(), next = order.size();
+  order.push_back(root), met[static_cast<std::size_t>(root)] = 1;
+  for (std::size_t level_end = order.size(); next < order.size(); level_end = order.size()) {
+    level = next;
+    for (; next < level_end; ++next) {
+      const std::size_t first = order.size();
+      for (const int neighbour : graph.of(order[next])) {
+        if (std::exchange(met[static_cast<std::size_t>(neighbour)], 1)) continue;
+        order.push_back(neighbour);
+      }
+      std::stable_sort(order.begin() + static_cast<std::ptrdiff_t>(first), order.end(),
+                       [&](int a, int b) { return graph.degree(a) < graph.degree(b); });
+    }
+  }
+  return level;
+}
+
+/// A state at the rim of the component of `root`: the least connected of those furthest away.
+int rim(const Graph& graph, int root, std::vector<char>& met, std::vector<int>& order) {
+  for (int rounds = 0; rounds < 2; ++rounds) {
+    const auto begin = order.size();
+    const auto level = static_cast<std::ptrdiff_t>(search(graph, root, met, order));
+    root = *std::min_element(order.begin() + level, order.end(),
+                             [&](int a, int b) { return graph.degree(a) < graph.degree(b); });
+    for (std::size_t k = begin; k < order.size(); ++k) met[static_cast<std::size_t>(order[k])] = 0;
+    order.resize(begin);
+  }
+  return root;
+}
+
+}  // namespace
+
+Bandwidth bandwidth(const Sparsity& places, const std::vector<int>& position) {
+  Bandwidth band;
+  const auto at = [&](int i) {
+    return position.empty() ? i : position[static_cast<std::size_t>(i)];
+  };
+  for (int j = 0; j < places.columns(); ++j) {
+    for (const int i : places.column(j)) {
+      const Index below = at(i) - at(j);
+      band.lower = std::max(band.lower, below), band.upper = std::max(band.upper, -below);
+    }
+  }
+  return band;
+}
+
+std::vector<int> reverse_cuthill_mckee(const Sparsity& places) {
+  const Graph graph(places);
+  std::vector<char> met(graph.size());
+  std::vector<int> order;
+  for (int i = 0; i < static_cast<int>(graph.size()); ++i)
+    if (!met[static_cast<std::size_t>(i)]) search(graph, rim(graph, i, met, order), met, order);
+  std::vector<int> position(order.size());
+  for (std::size_t k = 0; k < order.size(); ++k)
+    position[static_cast<std::size_t>(order[k])] = static_cast<int>(order.size() - 1 - k);
+  return position;
+}
+
+}  // namespace saltus
