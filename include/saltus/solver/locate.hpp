@@ -35,6 +35,7 @@ class Locator : private Narrower {
     look(to, end, interpolate, high_);
     const bool skips = pieces > 1 && out_of_reach(from, to);
     if (!skips) end_.swap(high_);
+    end_at_ = skips ? 0.0 : to;
     for (int piece = skips ? pieces : 1; piece <= pieces; ++piece) {
       const bool last = piece == pieces;
       const double next = last ? to : std::min(to, from + piece_length);
@@ -138,8 +139,8 @@ class Locator : private Narrower {
       }
       const double before = from;
       before_ = watch_->g;
-      // Not a look of the step before: which ones there were depends on the other guards, too.
-      third_ = earlier_, third_at_ = earlier_at_ < 0.0 ? never : earlier_at_;
+      // A look that does not depend on the other guards: no monitor may change a bit of a root.
+      third_ = end_, third_at_ = high < end_at_ ? end_at_ : never;
       from = narrow(from, high, interpolate);
       if (between && watch_->active.size() > 1 && watch_->scan_points > 0) {
         if (find_before(before, from, interpolate)) return true;
@@ -284,7 +285,8 @@ class Locator : private Narrower {
   std::int64_t version_ = -1;    // of the slots that limits_ and plain_ tell of
   double root_ = 0.0;
   static constexpr int most_skipped = 7;
-  std::vector<double> end_;     // guards at the end of the step
+  std::vector<double> end_;     // guards at the end of the step, until its last piece is looked at
+  double end_at_ = 0.0;
   std::vector<double> speed_;   // [1/s] how fast each guard was seen to move of late
   int skipped_ = most_skipped;  // steps in a row not looked into
   bool jumps_ = false;          // an active guard takes two values only
