@@ -75,8 +75,11 @@ void Instant::arm_crossing(const GuardGroup& group, std::size_t k, bool at_start
   const int falls = firing_side(group.direction);
   const int from = fired_[k] ? from_[k] : !either ? -falls : slot.side != 0 ? slot.side : -falls;
   const double hair = fired_[k] ? hair_of(k) : entered || slot.fresh ? std::abs(g_[k]) : 0.0;
-  const Departure::Side flow = side_of(group, number, hair, fired_[k] ? from : 0);
+  Departure::Side flow = side_of(group, number, hair, fired_[k] ? from : 0);
   slot.band = flow.rounding;
+  // A hop lower than the tolerance begins on the other side than the one it was seen to end on.
+  if (entered && !fired_[k] && flow.side * departure_.slope(group, number) < 0.0)
+    flow.side = -flow.side;
   const bool its_side = either ? flow.side != 0 : flow.side == falls;
   if (entered && has_effect(group) && its_side && turned_round(group, number, flow.side)) {
     // sliding: both modes lead to the surface

@@ -107,12 +107,14 @@ class AutoSolver final : public Solver {
   }
 
   /// The first step after a restart a hundred times shorter than those before, and stability the
-  /// cause: fifteen more such steps need not be waited for.
+  /// cause: fifteen more such steps need not be waited for. An oscillation that begins bounds it
+  /// too, but by the error, far below what stability allows.
   bool collapsed() {
     if (!fresh_ || steps_ == 0) return false;
     fresh_ = false;
-    return longest_ < 0.01 * before_ &&
-           radius_(explicit_->time(), explicit_->state()) * before_ > 10.0 * explicit_->stability();
+    if (!(longest_ < 0.01 * before_)) return false;
+    const double radius = radius_(explicit_->time(), explicit_->state());
+    return radius * before_ > 10.0 * explicit_->stability() && radius * longest_ > 0.25;
   }
 
   /// Every fifty steps of BDF; not in the first fifty, when its order and steps still rise.

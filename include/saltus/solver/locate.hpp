@@ -285,7 +285,7 @@ class Locator : private Narrower {
   std::int64_t version_ = -1;    // of the slots that limits_ and plain_ tell of
   double root_ = 0.0;
   static constexpr int most_skipped = 7;
-  std::vector<double> end_;     // guards at the end of the step, until its last piece is looked at
+  std::vector<double> end_;  // guards at the end of the step, until its last piece is looked at
   double end_at_ = 0.0;
   std::vector<double> speed_;   // [1/s] how fast each guard was seen to move of late
   int skipped_ = most_skipped;  // steps in a row not looked into

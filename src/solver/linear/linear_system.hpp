@@ -35,7 +35,9 @@ class LinearSystem {
   std::string describe() const;
 
  private:
+  static constexpr Index small = 16;  // states: see refresh_often
   void make_factorisation();
+  void refresh_often();
   Increments increments() const;
 
   Machine* machine_;
