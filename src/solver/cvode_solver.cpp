@@ -123,7 +123,7 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
   /// switched off that were zero once; none is, since CVODE is never shown a zero: shown().
   void watch_guards() {
     if (std::ranges::all_of(watch_->slots, &GuardSlot::monitor)) return;
-    directions_.resize(watch_->slots.size());
+    directions_.resize(watch_->slots.size()), asked_.resize(watch_->slots.size());
     CVodeRootInit(cvode_.get(), static_cast<int>(directions_.size()), root_functions);
     CVodeSetNoInactiveRootWarn(cvode_.get());
   }
@@ -140,6 +140,11 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
   }
 
   void undo() { t1_ = t0_; }
+
+  /// CVODE has looked at the end of its step just now.
+  const double* end_guards() const {
+    return !starting_ && !asked_.empty() && asked_at_ == t1_ ? asked_.data() : nullptr;
+  }
 
   void step(double t_stop) {
     if (starting_ && t1_ >= starter_until_) start_cvode();
@@ -248,6 +253,8 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
     auto* self = static_cast<CvodeSolver*>(user);
     return self->guarded([&] {
       self->machine_->guards(t, N_VGetArrayPointer(x), g);
+      std::copy_n(g, self->asked_.size(), self->asked_.data());
+      self->asked_at_ = t;
       for (std::size_t k = 0; k < self->watch_->slots.size(); ++k) g[k] = self->shown(k, t, g[k]);
       return 0;
     });
@@ -296,6 +303,8 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
   std::optional<LinearSystem> linear_;  // of BDF
   sun::Cvode cvode_;
   std::vector<int> directions_;  // of the guards; empty without root-finding
+  std::vector<double> asked_;    // the guards when CVODE last asked for them
+  double asked_at_ = 0.0;
   RungeKutta<Dopri5> starter_;
   bool started_ = false, starting_ = false;
   double begun_at_ = 0.0, first_step_ = 0.0, starter_until_ = 0.0;

@@ -25,14 +25,18 @@ class Locator : private Narrower {
 
   /// The first offset in (from, to] at which a guard that is no monitor fires; false if there is
   /// none. The step begins at `t0`; `interpolate(u, x)` gives the state inside it, `end` is the
-  /// state at `to` exactly.
+  /// state at `to` exactly, `guards` are the guards there if they are known, else null.
   template <class Interpolate>
-  bool find(double t0, double from, double to, const double* end, const Interpolate& interpolate) {
+  bool find(double t0, double from, double to, const double* end, const double* guards,
+            const Interpolate& interpolate) {
     t0_ = t0;
     if (version_ != watch_->version) look_up_slots();
     const int pieces = watch_->scan_points + 1;
     const double piece_length = (to - from) / pieces;
-    look(to, end, interpolate, high_);
+    if (guards != nullptr)
+      std::copy_n(guards, high_.size(), high_.data());
+    else
+      look(to, end, interpolate, high_);
     const bool skips = pieces > 1 && out_of_reach(from, to);
     if (!skips) end_.swap(high_);
     end_at_ = skips ? 0.0 : to;

@@ -43,7 +43,9 @@ class StepSolver : public Interface {
     watch_->monitors.clear();
     if (delivered_) take_step(t_stop);
     const auto inside = [this](double u, double* x) { self().inside_step(u, x); };
-    if (watch_->any() && locator_.find(t0_, offset_, length_, x1_.data(), inside)) {
+    if (watch_->any() &&
+        locator_.find(t0_, offset_, length_, x1_.data(),
+                      offset_ == 0.0 ? self().end_guards() : nullptr, inside)) {
       offset_ = locator_.offset();
       delivered_ = offset_ >= length_;
       time_ = delivered_ ? t1_ : t0_ + offset_;
@@ -86,6 +88,8 @@ class StepSolver : public Interface {
   const Eigen::VectorXd& step_state() const noexcept { return x1_; }
 
  protected:
+  const double* end_guards() const { return nullptr; }
+
   Machine* machine_;
   Watch* watch_;
   SolverOptions options_;
