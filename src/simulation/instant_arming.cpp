@@ -32,7 +32,7 @@ void Instant::arm(bool at_start) {
       arm_crossing_at_rest(k);
     else
       arm_crossing(group, k, at_start);
-    if (fired_[k] && watch_->slots[k].fresh) armed_at_[k] = t_;
+    if (now_[k].fired && watch_->slots[k].fresh) armed_at_[k] = t_;
   }
 }
 
@@ -67,24 +67,27 @@ bool Instant::begin_on_firing_side(const GuardGroup& group, std::size_t k) {
 void Instant::arm_crossing(const GuardGroup& group, std::size_t k, bool at_start) {
   GuardSlot& slot = watch_->slots[k];
   const bool entered = entered_ && !was_active_[k];
-  if (!fired_[k] && (at_start || entered) && begin_on_firing_side(group, k)) return;
-  if (!fired_[k] && !at_zero(group, k, entered)) return;
-  if (slot.fresh && !fired_[k] && !wrote_x_) return;  // dormant since before
+  if (!now_[k].fired && (at_start || entered) && begin_on_firing_side(group, k)) return;
+  if (!now_[k].fired && !at_zero(group, k, entered)) return;
+  if (slot.fresh && !now_[k].fired && !wrote_x_) return;  // dormant since before
   const auto number = static_cast<Index>(k);
   const bool either = group.direction == Direction::crosses_zero;
   const int falls = firing_side(group.direction);
-  const int from = fired_[k] ? from_[k] : !either ? -falls : slot.side != 0 ? slot.side : -falls;
-  const double hair = fired_[k] ? hair_of(k) : entered || slot.fresh ? std::abs(g_[k]) : 0.0;
-  Departure::Side flow = side_of(group, number, hair, fired_[k] ? from : 0);
+  const int from = now_[k].fired    ? from_[k]
+                   : !either        ? -falls
+                   : slot.side != 0 ? slot.side
+                                    : -falls;
+  const double hair = now_[k].fired ? hair_of(k) : entered || slot.fresh ? std::abs(g_[k]) : 0.0;
+  Departure::Side flow = side_of(group, number, hair, now_[k].fired ? from : 0);
   slot.band = flow.rounding;
   // A hop lower than the tolerance begins on the other side than the one it was seen to end on.
-  if (entered && !fired_[k] && flow.side * departure_.slope(group, number) < 0.0)
+  if (entered && !now_[k].fired && flow.side * departure_.slope(group, number) < 0.0)
     flow.side = -flow.side;
   const bool its_side = either ? flow.side != 0 : flow.side == falls;
   if (entered && has_effect(group) && its_side && turned_round(group, number, flow.side)) {
     // sliding: both modes lead to the surface
     firings_.push_back({static_cast<int>(k), -flow.side});
-  } else if (fired_[k]) {
+  } else if (now_[k].fired) {
     arm_fired(group, k, from, flow);
   } else {
     arm_at_zero(group, k, flow, at_start);
@@ -94,7 +97,7 @@ void Instant::arm_crossing(const GuardGroup& group, std::size_t k, bool at_start
 /// How far the location of a root left a guard from zero. Not where it fired on leaving its band:
 /// bands made of bands would grow without end.
 double Instant::hair_of(std::size_t k) const {
-  return std::isnan(flight_[k]) ? 4.0 * std::abs(g_minus_[k]) : 1.01 * std::abs(g_[k]);
+  return std::isnan(now_[k].flight) ? 4.0 * std::abs(now_[k].g_minus) : 1.01 * std::abs(g_[k]);
 }
 
 /// Whether a guard that has not fired in this instant stands at zero; in a mode just entered also
@@ -169,10 +172,10 @@ void Instant::arm_fired(const GuardGroup& group, std::size_t k, int from, Depart
 /// Whether the flight that ended here was too low to be told from rest: its height, slope times a
 /// quarter of its time for a parabola, is within the band.
 bool Instant::too_low(const GuardGroup& group, std::size_t k) {
-  if (std::isnan(flight_[k]) || !wrote_x_) return false;
+  if (std::isnan(now_[k].flight) || !wrote_x_) return false;
   departure_.from(t_, x_minus_, longest_);
   flowed_ = false;
-  return std::abs(departure_.slope(group, static_cast<Index>(k))) * flight_[k] <=
+  return std::abs(departure_.slope(group, static_cast<Index>(k))) * now_[k].flight <=
          4.0 * watch_->slots[k].band;
 }
 
@@ -201,14 +204,14 @@ void Instant::arm_relation(const GuardGroup& group, std::size_t k) {
     slot.side = static_cast<signed char>(truth_of(k) != 0.0 ? 1 : -1);
     return;
   }
-  if (now == slot.side && !fired_[k]) return;
-  if (frozen_[k]) {
+  if (now == slot.side && !now_[k].fired) return;
+  if (now_[k].frozen) {
     slot.fresh = true;
     slot.band = std::abs(g_[k]);
     return;
   }
   const Departure::Side flow =
-      side_of(group, static_cast<Index>(k), fired_[k] ? hair_of(k) : 0.0, 0);
+      side_of(group, static_cast<Index>(k), now_[k].fired ? hair_of(k) : 0.0, 0);
   slot.fresh = true;
   slot.band = flow.rounding;
   if (flow.side != 0 && flow.side != slot.side)

@@ -64,7 +64,7 @@ void Instant::arm_crossing_at_rest(std::size_t k) {
   GuardSlot& slot = watch_->slots[k];
   const Departure::Side flow = side_of(group_of(k), static_cast<Index>(k), 0.0, 0);
   const SurfaceContact* known = contacts_.on(static_cast<int>(k));
-  const double before = fired_[k] ? hair_of(k) : known ? known->band : slot.band;
+  const double before = now_[k].fired ? hair_of(k) : known ? known->band : slot.band;
   if (SurfaceContact* contact = contact_of(k))
     arm_contact(*contact, std::max({flow.rounding, std::abs(g_[k]), before}));
 }
@@ -77,7 +77,7 @@ void Instant::arm_relation_at_rest(std::size_t k) {
   double band = known ? known->band : 0.0;
   if (!opaque && !(known && known->carried)) {
     const Departure::Side flow = side_of(group_of(k), static_cast<Index>(k), 0.0, 0);
-    band = std::max({band, flow.rounding, std::abs(g_[k]), fired_[k] ? hair_of(k) : 0.0});
+    band = std::max({band, flow.rounding, std::abs(g_[k]), now_[k].fired ? hair_of(k) : 0.0});
   }
   slot.fresh = true, slot.band = band;
   if (SurfaceContact* contact = contact_of(k))

@@ -84,7 +84,7 @@ void Instant::rest_relations_of(const EdgeWatch& edge) {
       if (relation.kind == GuardGroup::Kind::crossing || relation.index != node) continue;
       for (auto k = static_cast<std::size_t>(relation.slot), s = k;
            s < k + static_cast<std::size_t>(relation.size); ++s)
-        frozen_[s] = resting_[s] = 1;
+        now_[s].frozen = true, resting_[s] = 1;
     }
   }
 }
@@ -118,7 +118,7 @@ bool Instant::goes_against(const Firing& firing) {
   // A zero crossing that was seen clearly off zero in between is beyond doubt.
   if (group.kind == GuardGroup::Kind::crossing && !firing.fresh) return false;
   departure_.from(t_, machine_->x, t_ - armed_at_[k]);
-  const double hair = 4.0 * std::abs(g_minus_[k]);
+  const double hair = 4.0 * std::abs(now_[k].g_minus);
   const Departure::Side flow = departure_.of(group, static_cast<Index>(k), hair, -firing.from);
   if (flow.side != firing.from) return false;
   GuardSlot& slot = watch_->slots[k];

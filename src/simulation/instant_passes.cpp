@@ -13,20 +13,17 @@ void Instant::open(double t, const std::vector<int>& due) {
   t_ = t;
   ++watch_->version;
   outcome_ = {};
-  std::ranges::fill(fired_, 0), std::ranges::fill(frozen_, 0), std::ranges::fill(carried_, 0);
-  std::ranges::fill(turned_, 0), std::ranges::fill(flips_, 0);
-  std::ranges::fill(flight_, std::numeric_limits<double>::quiet_NaN());
+  std::ranges::fill(now_, SlotNow{}), std::ranges::fill(carried_, 0);
   edges_fired_.clear(), actions_.clear(), chain_.clear();
   wrote_ = wrote_x_ = flowed_ = entered_ = false;
   effects_ = 0;
   firings_ = watch_->fired;
   watch_->fired.clear();
   x_minus_ = x_next_ = machine_->x, z_minus_ = machine_->z, y_before_ = machine_->y;
-  std::ranges::fill(g_minus_, 0.0);
   for (const Firing& root : firings_) {
     const auto k = static_cast<std::size_t>(root.slot);
-    g_minus_[k] = watch_->g[k];
-    if (root.fresh) flight_[k] = t - armed_at_[k];
+    now_[k].g_minus = watch_->g[k];
+    if (root.fresh) now_[k].flight = t - armed_at_[k];
   }
   for (int event : due) {
     const ScheduledEvent& scheduled = plan().schedule[static_cast<std::size_t>(event)];
@@ -92,10 +89,10 @@ bool Instant::flip_relations() {
   for (const Firing& firing : firings_) {
     const auto slot = static_cast<std::size_t>(firing.slot);
     const GuardGroup& group = group_of(slot);
-    fired_[slot] = fired_now_[slot] = 1;
+    now_[slot].fired = true, fired_now_[slot] = 1;
     from_[slot] = static_cast<signed char>(firing.from);
     if (group.kind == GuardGroup::Kind::crossing) continue;
-    if (++flips_[slot] == 3) outcome_.flutters = true;
+    if (++now_[slot].flips == 3) outcome_.flutters = true;
     truth_of(slot) = firing.from < 0 ? 1.0 : 0.0;
     watch_->slots[slot].side = static_cast<signed char>(firing.from < 0 ? 1 : -1);
     log(EventKind::zero_crossing, source_of(Cause::crossing, group_of_slot_[slot]), group.leaf,

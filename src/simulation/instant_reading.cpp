@@ -27,25 +27,25 @@ void Instant::read_again() {
 bool Instant::read_relation(const GuardGroup& group, Index slot) {
   const auto k = static_cast<std::size_t>(slot);
   GuardSlot& watched = watch_->slots[k];
-  if (frozen_[k] || (resting_[k] && !reads_changed(group.index))) return false;
+  if (now_[k].frozen || (resting_[k] && !reads_changed(group.index))) return false;
   if (SurfaceContact* contact = contacts_.on(static_cast<int>(k));
       contact && still_at_rest(*contact))
     return false;
   const bool truth = truth_of(k) != 0.0;
-  const int crossed_to = fired_[k] ? -from_[k] : truth ? 1 : -1;
+  const int crossed_to = now_[k].fired ? -from_[k] : truth ? 1 : -1;
   int side = (g_[k] > 0.0) - (g_[k] < 0.0);
-  if (fired_[k] && !wrote_x_)
+  if (now_[k].fired && !wrote_x_)
     side = crossed_to;  // nothing it reads was written: its value is rounding
   const bool opaque = group.kind == GuardGroup::Kind::opaque;
-  const bool touched = fired_[k] || (turned_[k] && g_[k] == 0.0);
+  const bool touched = now_[k].fired || (now_[k].turned && g_[k] == 0.0);
   const bool unsure = wrote_x_ && touched && (!opaque || side != crossed_to);
   if (unsure) {
     const Departure::Side flow =
-        side_of(group, slot, !opaque ? 4.0 * std::abs(g_minus_[k]) : 0.0, 0);
+        side_of(group, slot, !opaque ? 4.0 * std::abs(now_[k].g_minus) : 0.0, 0);
     side = flow.side != 0 ? flow.side : crossed_to;
     const bool back = side == crossed_to && flow.side != 0;
     if (back && sets_off(group.index) && (opaque || rests(group, slot, -crossed_to))) {
-      frozen_[k] = 1;
+      now_[k].frozen = true;
       if (hold_edges_of(group.index))
         resting_[k] = 1;
       else
@@ -56,7 +56,7 @@ bool Instant::read_relation(const GuardGroup& group, Index slot) {
   watched.side = static_cast<signed char>(side);
   if ((side > 0) == truth) return false;
   resting_[k] = 0;
-  turned_[k] = 1;
+  now_[k].turned = true;
   leave_contact(k);
   truth_of(k) = side > 0 ? 1.0 : 0.0;
   flowed_ = false;

@@ -15,14 +15,12 @@ Instant::Instant(Machine& machine, Watch& watch, const SimulatorOptions& options
       departure_(machine, options),
       contacts_(machine, options) {
   const auto slots = static_cast<std::size_t>(plan().guard_slots);
-  watch.slots.resize(slots), watch.g.assign(slots, 1.0), g_.assign(slots, 1.0),
-      g_minus_.assign(slots, 0.0);
+  watch.slots.resize(slots), watch.g.assign(slots, 1.0), g_.assign(slots, 1.0);
+  now_.resize(slots);
   watch.scan_points = options.event_scan_points;
-  for (auto* marks : {&fired_, &fired_now_, &frozen_, &resting_, &turned_, &was_active_})
-    marks->assign(slots, 0);
-  flips_.assign(slots, 0);
+  for (auto* marks : {&fired_now_, &resting_, &was_active_}) marks->assign(slots, 0);
   group_of_slot_.resize(slots), from_.assign(slots, 0);
-  armed_at_.assign(slots, std::numeric_limits<double>::quiet_NaN()), flight_.assign(slots, 0.0);
+  armed_at_.assign(slots, std::numeric_limits<double>::quiet_NaN());
   std::vector<std::string> names;
   for (std::size_t i = 0; i < plan().guards.size(); ++i) {
     const GuardGroup& group = plan().guards[i];
@@ -84,7 +82,7 @@ void Instant::begin(double t, Recorder* recorder) {
   ++watch_->version;
   std::ranges::fill(counts_, 0), std::ranges::fill(earlier_, 0);
   wrote_x_ = flowed_ = false;
-  std::ranges::fill(fired_, 0), std::ranges::fill(frozen_, 0), std::ranges::fill(resting_, 0);
+  std::ranges::fill(now_, SlotNow{}), std::ranges::fill(resting_, 0);
   for (auto* rests : {&slot_rests_, &edge_rests_}) {
     for (Rest& rest : *rests) rest.monitor.forget();
   }

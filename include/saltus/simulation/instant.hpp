@@ -68,6 +68,17 @@ class Instant {
     int from;    // side a crossing came from; of a Zeno point the mode to enter
     bool carry;  // the reset map of a leaf on hold, applied again
   };
+  /// What the present instant knows of one guard.
+  struct SlotNow {
+    double g_minus = 0.0;  // what the location of its root left of it
+    /// [s] From one firing to the next, where it was not seen clearly off zero in between; else
+    /// NaN.
+    double flight = std::numeric_limits<double>::quiet_NaN();
+    int flips = 0;  // of a relation
+    bool fired = false;
+    bool frozen = false;  // a relation: it keeps its side
+    bool turned = false;  // a relation: its side changed when it was read again
+  };
   /// A guard or an edge with an effect: when its firings accumulate, and what rests then.
   struct Rest {
     ZenoMonitor monitor{};
@@ -201,28 +212,24 @@ class Instant {
   Outcome outcome_;
   std::vector<Firing> firings_;  // for the pass to come
   std::vector<Action> actions_;
-  std::vector<char> fired_, fired_now_;  // slots: in this instant, in this pass
-  std::vector<char> was_active_;         // slots: for select_guards
-  std::vector<char> frozen_,
-      resting_;  // slots of relations: their side is kept in this instant, through the hold
-  std::vector<int> flips_;    // slots of relations: how often in this instant
-  std::vector<char> turned_;  // slots of relations: their side changed when they were read again
+  std::vector<SlotNow> now_;
+  std::vector<char> fired_now_;    // slots: in this pass
+  std::vector<char> was_active_;   // slots: for select_guards
+  std::vector<char> resting_;      // slots of relations: their side is kept through the hold
   std::vector<signed char> from_;  // slots: the side the last crossing came from
   std::vector<int> edges_fired_;   // in this instant
   bool wrote_ = false;             // the last pass wrote states
   bool wrote_x_ = false;           // some pass of this instant wrote continuous state
   bool entered_ = false;           // some pass of this instant entered a mode
   bool flowed_ = false;            // departure_ stands at the present (t, x)
-  std::vector<double> flight_;    // [s] slots: from one firing to the next, where the guard was not
-                                  // seen clearly off zero in between; else NaN
-  std::vector<double> armed_at_;  // [s] slots: fresh since then after a firing; NaN if not
-  int effects_ = 0;               // reset maps that wrote continuous state in this instant
+  std::vector<double> armed_at_;   // [s] slots: fresh since then after a firing; NaN if not
+  int effects_ = 0;                // reset maps that wrote continuous state in this instant
   int holds_ = 0;
   Eigen::VectorXd trial_, trial_z_;
   Eigen::VectorXd gathered_;  // what rests, of one hold
   Eigen::VectorXd x_minus_, z_minus_, x_next_, z_next_, y_before_, flow_before_;
   std::vector<int> modes_next_, modes_before_;
-  std::vector<double> g_, g_minus_;    // guards now, and what the location of a root left of them
+  std::vector<double> g_;              // guards now
   std::vector<std::int64_t> counts_;   // events of each source
   std::vector<std::int64_t> earlier_;  // guards: how often they had fired before this run
   std::vector<int> chain_;             // sources of what happened in this instant
