@@ -38,11 +38,10 @@ class BallTable final : public LeafSystem {
                               .ode = &BallTable::ode,
                               .reads = Reads::continuous_state});
     declare_continuous_state_output("state");
-    declare_zero_crossing(
-        {.name = "bounce",
-         .guard = [this](const At& at) { return at.x[0] - with_.height(at.time); },
-         .reset_map = &BallTable::bounce,
-         .direction = Direction::positive_then_non_positive});
+    declare_zero_crossing({.name = "bounce",
+                           .guard = [with](const At& at) { return at.x[0] - with.height(at.time); },
+                           .reset_map = &BallTable::bounce,
+                           .direction = Direction::positive_then_non_positive});
   }
 
  private:

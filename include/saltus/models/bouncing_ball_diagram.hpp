@@ -77,9 +77,10 @@ inline Scene bouncing_ball_diagram(const BouncingBallDiagramParameters& with = {
           .options = {.recorded_signals = {{"y", y.output()},
                                            {"v", (*diagram)["integrator_v"].output()}}},
           .exact = std::move(exact),
-          .gap = [with](double t, const Eigen::VectorXd& row) {
-            return row[0] - (t <= with.drop_time ? with.floor : with.dropped);
-          },
+          .gap =
+              [with](double t, const Eigen::VectorXd& row) {
+                return row[0] - (t <= with.drop_time ? with.floor : with.dropped);
+              },
           .methods = {"dopri5", "dop853", "auto"},
           .growth = 700.0};
 }

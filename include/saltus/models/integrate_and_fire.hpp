@@ -32,12 +32,12 @@ class IntegrateAndFire final : public LeafSystem {
     declare_continuous_state(
         {.initial = Eigen::VectorXd::Constant(1, with.reset),
          .ode = &IntegrateAndFire::ode,
-         .jacobian = [this](const At&, MatrixRef out) { out << -1.0 / with_.tau; }});
+         .jacobian = [with](const At&, MatrixRef out) { out << -1.0 / with.tau; }});
     declare_continuous_state_output("potential");
     declare_zero_crossing(
         {.name = "spike",
-         .guard = [this](const At& at) { return at.x[0] - with_.threshold; },
-         .reset_map = [this](const At&, Next& next) { next.set_continuous_state({with_.reset}); },
+         .guard = [with](const At& at) { return at.x[0] - with.threshold; },
+         .reset_map = [with](const At&, Next& next) { next.set_continuous_state({with.reset}); },
          .direction = Direction::negative_then_non_negative});
   }
 

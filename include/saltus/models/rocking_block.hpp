@@ -34,8 +34,8 @@ class RockingBlock final : public LeafSystem {
       declare_zero_crossing(
           {.name = edge == right ? "right_to_left" : "left_to_right",
            .guard = [sign = double(edge)](const At& at) { return sign * at.x[0]; },
-           .reset_map = [this](const At& at,
-                               Next& next) { next.set_continuous_state({0.0, with_.r * at.x[1]}); },
+           .reset_map = [with](const At& at,
+                               Next& next) { next.set_continuous_state({0.0, with.r * at.x[1]}); },
            .direction = Direction::positive_then_non_positive,
            .start_mode = edge,
            .end_mode = -edge});

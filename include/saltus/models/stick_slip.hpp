@@ -30,12 +30,12 @@ class StickSlip final : public LeafSystem {
     declare_continuous_state_output("state");
     declare_default_mode(stick);
     declare_zero_crossing({.name = "slips",
-                           .guard = [this](const At& at) { return with_.k * at.x[0] - with_.fs; },
+                           .guard = [with](const At& at) { return with.k * at.x[0] - with.fs; },
                            .direction = Direction::negative_then_non_negative,
                            .start_mode = stick,
                            .end_mode = slip});
     declare_zero_crossing({.name = "sticks",
-                           .guard = [this](const At& at) { return at.x[1] - with_.belt; },
+                           .guard = [with](const At& at) { return at.x[1] - with.belt; },
                            .reset_map = &StickSlip::catch_on,
                            .direction = Direction::negative_then_non_negative,
                            .start_mode = slip,

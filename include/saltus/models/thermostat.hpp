@@ -28,16 +28,16 @@ class Thermostat final : public LeafSystem {
     declare_continuous_state(
         {.initial = Eigen::VectorXd::Constant(1, with.start),
          .ode = &Thermostat::ode,
-         .jacobian = [this](const At&, MatrixRef out) { out << -1.0 / with_.tau; }});
+         .jacobian = [with](const At&, MatrixRef out) { out << -1.0 / with.tau; }});
     declare_continuous_state_output("temperature");
     declare_default_mode(on);
     declare_zero_crossing({.name = "warm",
-                           .guard = [this](const At& at) { return at.x[0] - with_.high; },
+                           .guard = [with](const At& at) { return at.x[0] - with.high; },
                            .direction = Direction::negative_then_non_negative,
                            .start_mode = on,
                            .end_mode = off});
     declare_zero_crossing({.name = "cold",
-                           .guard = [this](const At& at) { return at.x[0] - with_.low; },
+                           .guard = [with](const At& at) { return at.x[0] - with.low; },
                            .direction = Direction::positive_then_non_positive,
                            .start_mode = off,
                            .end_mode = on});

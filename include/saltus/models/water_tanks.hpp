@@ -33,12 +33,12 @@ class WaterTanks final : public LeafSystem {
     declare_continuous_state_output("volumes");
     declare_default_mode(first);
     declare_zero_crossing({.name = "second_low",
-                           .guard = [this](const At& at) { return at.x[1] - with_.r2; },
+                           .guard = [with](const At& at) { return at.x[1] - with.r2; },
                            .direction = Direction::positive_then_non_positive,
                            .start_mode = first,
                            .end_mode = second});
     declare_zero_crossing({.name = "first_low",
-                           .guard = [this](const At& at) { return at.x[0] - with_.r1; },
+                           .guard = [with](const At& at) { return at.x[0] - with.r1; },
                            .direction = Direction::positive_then_non_positive,
                            .start_mode = second,
                            .end_mode = first});
