@@ -6,8 +6,8 @@
 // State: temperatures u_i [K] above the surroundings at x_i = i L / (N + 1), L = 1 m; both ends are
 // held at 0; u(0) = 0 and the coil is on. Parameters kappa [m^2/s] and power [K/s] in the context,
 // N, low, high in the block. The event "switch" is either change: its guard is high - u while
-// heating and u - low while cooling. The model problem of J. Crank, The Mathematics of Diffusion,
-// chapter 8; the thermostat on it is the usual one of hybrid systems.
+// heating and u - low while cooling. The equation: J. Crank, The Mathematics of Diffusion; the
+// thermostat on it is the usual one of hybrid systems.
 #pragma once
 
 #include "saltus/models/heat_rod_modes.hpp"
@@ -21,6 +21,7 @@ class HeatRod final : public LeafSystem {
 
   explicit HeatRod(const HeatRodProblem& with = {}) : LeafSystem("rod"), with_(with) {
     declare_continuous_state(with.n, &HeatRod::ode);
+    declare_jacobian_sparsity(band_entries(with.n, 1, 1));
     declare_continuous_state_output("u");
     declare_default_mode(heating);
     declare_mode_output("heating");
@@ -60,13 +61,14 @@ class HeatRod final : public LeafSystem {
 /// 127 it is alike. Errors of one sign are the worst, by the maximum principle. Conduction alone
 /// enlarges none: an early switch is what they turn into.
 inline Scene heat_rod(const HeatRodProblem& with = {}) {
+  Exact exact = detail::heat_rod_answer(with, "rod.switch");
   const auto rod = std::make_shared<const HeatRod>(with);
   return {.name = "heated rod",
           .system = rod,
           .context = rod->create_context(),
           .span = {0.0, with.t_end},
           .options = {.rtol = 1e-6, .atol = 1e-6, .recorded_signals = {{"u", rod->output(0)}}},
-          .exact = detail::heat_rod_answer(with, "rod.switch"),
+          .exact = std::move(exact),
           .methods = {"bdf", "auto"},
           .growth = 10.5};
 }
