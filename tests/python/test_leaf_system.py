@@ -1,5 +1,7 @@
 """Blocks written in Python: what their callbacks get and give."""
 
+import re
+
 import numpy as np
 import pytest
 import saltus

@@ -98,12 +98,11 @@ Leaf star(Index n) {
     for (Index i = 1; i < n; ++i)
       for (const MatrixEntry& entry : {MatrixEntry{i, i}, MatrixEntry{i, 0}, MatrixEntry{0, i}})
         entries.push_back(entry);
-    l.declare_continuous_state(
-        {.initial = Eigen::VectorXd::LinSpaced(n, 0.0, 1.0),
-         .ode = [n](const At& at, VectorRef xdot) {
-           xdot = Eigen::VectorXd::Constant(n, at.x[0]) - at.x;
-           xdot[0] = at.x.sum() - static_cast<double>(n) * at.x[0];
-         }});
+    l.declare_continuous_state({.initial = Eigen::VectorXd::LinSpaced(n, 0.0, 1.0),
+                                .ode = [n](const At& at, VectorRef xdot) {
+                                  xdot = Eigen::VectorXd::Constant(n, at.x[0]) - at.x;
+                                  xdot[0] = at.x.sum() - static_cast<double>(n) * at.x[0];
+                                }});
     l.declare_sparse_jacobian(entries, [n](const At&, VectorRef out) {
       out[0] = 1.0 - static_cast<double>(n);
       for (Index i = 1; i < n; ++i) out.segment<3>(3 * i - 2) << -1.0, 1.0, 1.0;
