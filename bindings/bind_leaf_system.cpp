@@ -47,7 +47,7 @@ using Places = std::vector<std::pair<Index, Index>>;
 
 void declare_continuous_state(py::handle self, py::handle initial, py::object ode,
                               const InputList& inputs, py::object jacobian,
-                              const std::optional<Places>& sparsity, py::object values) {
+                              const std::optional<Places>& sparsity, py::object sparse_jacobian) {
   PythonLeaf& leaf = leaf_of(self);
   const Array values = to_array(initial, text("block '", leaf.name(), "': continuous state"));
   ContinuousState state{.initial = as_vector(values), .inputs = inputs};
@@ -62,9 +62,9 @@ void declare_continuous_state(py::handle self, py::handle initial, py::object od
     state.sparsity.emplace();
     for (const auto& [row, column] : *sparsity) state.sparsity->push_back({row, column});
   }
-  if (!values.is_none()) {
+  if (!sparse_jacobian.is_none()) {
     state.sparse_jacobian = leaf.vector_function(
-        leaf.add(self, std::move(values), inputs, "sparse_jacobian", Convention::state));
+        leaf.add(self, std::move(sparse_jacobian), inputs, "sparse_jacobian", Convention::state));
   }
   leaf.declare_continuous_state(std::move(state));
   leaf.set_state_dimensions(dimensions_of(values));
