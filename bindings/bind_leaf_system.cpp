@@ -42,8 +42,12 @@ std::optional<Shape> shape_from(const std::optional<Dimensions>& dimensions) {
   return Shape::of(size);
 }
 
+/// (row, column) of entries of a Jacobian.
+using Places = std::vector<std::pair<Index, Index>>;
+
 void declare_continuous_state(py::handle self, py::handle initial, py::object ode,
-                              const InputList& inputs, py::object jacobian) {
+                              const InputList& inputs, py::object jacobian,
+                              const std::optional<Places>& sparsity, py::object sparse_jacobian) {
   PythonLeaf& leaf = leaf_of(self);
   const Array values = to_array(initial, text("block '", leaf.name(), "': continuous state"));
   ContinuousState state{.initial = as_vector(values), .inputs = inputs};
@@ -53,6 +57,14 @@ void declare_continuous_state(py::handle self, py::handle initial, py::object od
   if (!jacobian.is_none()) {
     state.jacobian = leaf.matrix_function(
         leaf.add(self, std::move(jacobian), inputs, "jacobian", Convention::state));
+  }
+  if (sparsity) {
+    state.sparsity.emplace();
+    for (const auto& [row, column] : *sparsity) state.sparsity->push_back({row, column});
+  }
+  if (!sparse_jacobian.is_none()) {
+    state.sparse_jacobian = leaf.vector_function(
+        leaf.add(self, std::move(sparse_jacobian), inputs, "sparse_jacobian", Convention::state));
   }
   leaf.declare_continuous_state(std::move(state));
   leaf.set_state_dimensions(dimensions_of(values));

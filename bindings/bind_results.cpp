@@ -68,8 +68,9 @@ py::dict statistics(const Results& results) {
                   "rejected"_a = s.rejected, "restarts"_a = s.restarts,
                   "right_hand_side_calls"_a = s.right_hand_side_calls,
                   "guard_calls"_a = s.guard_calls, "jacobian_calls"_a = s.jacobian_calls,
-                  "linear_setups"_a = s.linear_setups, "instants"_a = s.instants,
-                  "events"_a = s.events, "events_by_name"_a = by_name, "wall_time"_a = s.wall_time);
+                  "linear_setups"_a = s.linear_setups, "linear_solver"_a = s.linear_solver,
+                  "instants"_a = s.instants, "events"_a = s.events, "events_by_name"_a = by_name,
+                  "wall_time"_a = s.wall_time);
 }
 
 }  // namespace

@@ -40,6 +40,20 @@ def _initial(what: str, shape: Any, default_value: ArrayLike | None) -> ArrayLik
     return np.zeros(shape) if isinstance(shape, (int, np.integer, tuple)) else shape
 
 
+def _places(what: str, sparsity: Any) -> list[tuple[int, int]]:
+    """(row, column) of each entry that may differ from zero."""
+    if not isinstance(sparsity, tuple):
+        sparsity = (sparsity if hasattr(sparsity, "nonzero") else np.asarray(sparsity)).nonzero()
+    try:
+        rows, columns = ([operator.index(i) for i in part] for part in sparsity)
+        return list(zip(rows, columns, strict=True))
+    except (TypeError, ValueError):
+        raise ModelError(
+            f"{what}: jacobian_sparsity: expected an n by n array, a sparse matrix or a pair "
+            "(rows, columns) of equally many integers"
+        ) from None
+
+
 def _shape(shape: Any, default_value: ArrayLike | None = None) -> list[int] | None:
     if shape is None:
         return None if default_value is None else list(np.shape(default_value))
@@ -83,6 +97,8 @@ class LeafSystem(System, _core.LeafSystem):
         ode: Callable[..., ArrayLike] | None = None,
         requires_inputs: RequiresInputs = True,
         jacobian: Callable[..., ArrayLike] | None = None,
+        jacobian_sparsity: Any = None,
+        sparse_jacobian: Callable[..., ArrayLike] | None = None,
     ) -> None:
         """The continuous state x, with dx/dt = ode(time, state, *inputs, **parameters), in units of
         x per second.
@@ -91,9 +107,21 @@ class LeafSystem(System, _core.LeafSystem):
         of the shape) says where it starts. Without `ode` it stands still between resets. `jacobian`
         gives the n by n matrix d(ode)/dx, row by row, for a stiff method; without it differences
         are used. Once a block.
+
+        `jacobian_sparsity` says where d(ode)/dx may differ from zero, in every mode: an n by n array
+        or a scipy.sparse matrix, not zero there, or a pair (rows, columns), each place once; a stiff
+        method then needs neither memory nor calls for the others. Name too many rather than too few.
+        `sparse_jacobian` gives the values there, in that order (for a matrix that of its
+        `nonzero()`).
         """
-        initial = _initial(f"block '{self.name}': continuous state", shape, default_value)
-        super().declare_continuous_state(initial, ode, _inputs(requires_inputs), jacobian)
+        what = f"block '{self.name}': continuous state"
+        initial = _initial(what, shape, default_value)
+        places = None if jacobian_sparsity is None else _places(what, jacobian_sparsity)
+        if sparse_jacobian is not None and places is None:
+            raise ModelError(f"{what}: sparse_jacobian without jacobian_sparsity; give both")
+        super().declare_continuous_state(
+            initial, ode, _inputs(requires_inputs), jacobian, places, sparse_jacobian
+        )
 
     @refusing
     def declare_discrete_state(

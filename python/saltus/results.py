@@ -92,6 +92,8 @@ class Statistics:
     """of all guards at once"""
     jacobian_calls: int
     linear_setups: int
+    linear_solver: str
+    """which one a stiff method used, for what size, and why; empty without a stiff method"""
     instants: int
     """major steps"""
     events: int

@@ -47,6 +47,10 @@ class SimulatorOptions:
     """'auto' (dopri5 or dop853 by tolerance, BDF while the scene is stiff), 'dopri5', 'dop853',
     'adams', 'bdf'; also 'rk45', 'RK45', 'DOP853', 'non-stiff', 'stiff', 'BDF'
     """
+    linear_solver: str = "auto"
+    """how a stiff method solves its linear systems: 'auto' (by number of states and places of the
+    Jacobian), 'dense', 'band', 'sparse', 'gmres'; `statistics.linear_solver` says what was chosen
+    """
     max_major_steps: int | None = None
     """instants a run may have; more end it with the status 'step_limit'"""
     max_major_step_length: float | None = math.inf

@@ -33,6 +33,23 @@ TEST_CASE("a scene that is not stiff has no Jacobian and no linear solver", "[ab
   CHECK(!contains(results.statistics.method, "bdf"));
 }
 
+TEST_CASE("a method that is not stiff looks at no sparsity, colours nothing, has no linear solver",
+          "[absent]") {
+  const auto* method = GENERATE("dopri5", "dop853", "adams", "auto");
+  INFO("method " << method);
+  const Leaf leaf("leaf", [](Leaf& l) {
+    l.declare_continuous_state(
+        {.initial = vec({1.0, 0.0}),
+         .ode = [](const At& at, VectorRef xdot) { xdot << at.x[1], -at.x[0]; },
+         .sparsity = std::vector<MatrixEntry>{{7, 7}}});  // an error for who looks
+  });
+  const auto results =
+      simulate(leaf, leaf.create_context(), {0.0, 10.0}, {.ode_solver_method = method});
+  CHECK(results.statistics.linear_solver.empty());
+  CHECK_THROWS_AS(simulate(leaf, leaf.create_context(), {0.0, 10.0}, {.ode_solver_method = "bdf"}),
+                  ModelError);
+}
+
 TEST_CASE("BDF asks the leaf for its Jacobian where there is one, and makes no differences",
           "[absent]") {
   int calls = 0;

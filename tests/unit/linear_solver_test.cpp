@@ -91,6 +91,25 @@ std::string chosen(const System& system) {
   return run(system, 1e-3, "auto", 1e-3).statistics.linear_solver;
 }
 
+/// x_0 pulls at all others, and they at it: no order of the states makes that a band.
+Leaf star(Index n) {
+  return Leaf("star", [=](Leaf& l) {
+    std::vector<MatrixEntry> entries{{0, 0}};
+    for (Index i = 1; i < n; ++i)
+      for (const MatrixEntry& entry : {MatrixEntry{i, i}, MatrixEntry{i, 0}, MatrixEntry{0, i}})
+        entries.push_back(entry);
+    l.declare_continuous_state({.initial = Eigen::VectorXd::LinSpaced(n, 0.0, 1.0),
+                                .ode = [n](const At& at, VectorRef xdot) {
+                                  xdot = Eigen::VectorXd::Constant(n, at.x[0]) - at.x;
+                                  xdot[0] = at.x.sum() - static_cast<double>(n) * at.x[0];
+                                }});
+    l.declare_sparse_jacobian(entries, [n](const At&, VectorRef out) {
+      out[0] = 1.0 - static_cast<double>(n);
+      for (Index i = 1; i < n; ++i) out.segment<3>(3 * i - 2) << -1.0, 1.0, 1.0;
+    });
+  });
+}
+
 /// n scalar integrators, each pulled to its neighbours in a shuffled order: a band, well hidden.
 Diagram hidden_band(int n) {
   DiagramBuilder builder;
@@ -117,6 +136,7 @@ TEST_CASE("every linear solver gives the same trajectory", "[linear]") {
   all_agree(heat(9, false), 0.1);
   all_agree(heat(9, true), 0.1);
   all_agree(hidden_band(50), 3.0);
+  all_agree(star(30), 2.0);
 }
 
 TEST_CASE("the choice fits the scene and says why", "[linear]") {
@@ -133,7 +153,13 @@ TEST_CASE("the choice fits the scene and says why", "[linear]") {
   CHECK(contains(hidden, "after reordering"));
   const std::string square = chosen(heat(60, true));
   INFO(square);
-  CHECK(square.starts_with("sparse: n = 3600, 17760 places, none by differences"));
+  CHECK(square.starts_with("band: n = 3600, 17760 places, none by differences, band 60 + 1 + 60"));
+  const std::string large = chosen(heat(150, true));
+  INFO(large);
+  CHECK(large.starts_with("gmres: n = 22500, 111900 places, none by differences; factors would"));
+  const std::string hub = chosen(star(500));
+  INFO(hub);
+  CHECK(hub.starts_with("sparse: n = 500, 1498 places, none by differences"));
 }
 
 TEST_CASE("an unknown pattern of many states is left to GMRES, which says what would help",

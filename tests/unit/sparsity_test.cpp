@@ -2,6 +2,8 @@
 #include "saltus/plan/sparsity.hpp"
 
 #include "saltus/library/library.hpp"
+#include "saltus/models/brusselator.hpp"
+#include "saltus/models/heat_rod.hpp"
 #include "saltus/plan/machine.hpp"
 #include "support/leaves.hpp"
 
@@ -141,6 +143,13 @@ TEST_CASE("a leaf is dense unless it declares otherwise", "[sparsity]") {
   nothing_is_missed(leaf(false)), nothing_is_missed(leaf(true));
   CHECK(pattern_of(leaf(false)).places.size() == 25);
   CHECK(pattern_of(leaf(true)).places.size() == 9);
+}
+
+TEST_CASE("the scenes that declare a band read no more than that", "[sparsity]") {
+  for (const Index n : {1, 2, 3, 9}) {
+    nothing_is_missed(models::Brusselator(n));
+    nothing_is_missed(models::HeatRod({.n = n}));
+  }
 }
 
 TEST_CASE("a leaf's own Jacobian serves its block unless its input leads back to it",

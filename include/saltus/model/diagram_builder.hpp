@@ -2,8 +2,11 @@
 #pragma once
 
 #include <concepts>
+#include <map>
 #include <memory>
 #include <string>
+#include <unordered_map>
+#include <unordered_set>
 #include <utility>
 
 #include "saltus/model/diagram.hpp"
@@ -30,19 +33,19 @@ class DiagramBuilder {
     require_unspent();
     std::string name =
         block->name().empty() ? text("block_", block->system_id().value) : block->name();
-    for (const auto& other : diagram_.children_) {
-      if (other.system == block) throw ModelError(text("block '", name, "' is added twice"));
-      if (other.name == name) {
-        throw ModelError(
-            text("two blocks are called '", name, "'; give each block of a diagram its own name"));
-      }
+    if (mine_.contains(block.get())) throw ModelError(text("block '", name, "' is added twice"));
+    if (!names_.insert(name).second) {
+      throw ModelError(
+          text("two blocks are called '", name, "'; give each block of a diagram its own name"));
     }
+    mine_.emplace(block.get(), diagram_.children_.size());
     diagram_.children_.push_back({std::move(block), std::move(name)});
   }
 
   void connect(OutputPort from, InputPort to) {
     require_mine(from.system);
     require_free(to);
+    sources_.emplace(std::pair(to.system, to.index), diagram_.wires_.size());
     diagram_.wires_.push_back({from, to});
   }
 
@@ -96,8 +99,7 @@ class DiagramBuilder {
 
   void require_mine(const System* system) const {
     require_unspent();
-    const auto mine = [&](const Diagram::Child& child) { return child.system.get() == system; };
-    if (std::ranges::none_of(diagram_.children_, mine)) {
+    if (!mine_.contains(system)) {
       throw ModelError(text("block '", system->name(),
                             "' was not added to this diagram; its blocks: ",
                             quoted_list(detail::names_of(diagram_.children_))));
@@ -114,10 +116,8 @@ class DiagramBuilder {
 
   /// What feeds an input, in words; empty if nothing does.
   std::string source_of(InputPort to) const {
-    for (const auto& wire : diagram_.wires_) {
-      if (wire.to.system == to.system && wire.to.index == to.index)
-        return text("block '", name_of(wire.from.system), "'");
-    }
+    if (const auto wire = sources_.find({to.system, to.index}); wire != sources_.end())
+      return text("block '", name_of(diagram_.wires_[wire->second].from.system), "'");
     for (const auto& input : diagram_.inputs_) {
       if (input.port.system == to.system && input.port.index == to.index)
         return text("the exported input '", input.name, "'");
@@ -126,9 +126,7 @@ class DiagramBuilder {
   }
 
   std::string name_of(const System* system) const {
-    return std::ranges::find_if(diagram_.children_,
-                                [&](const auto& child) { return child.system.get() == system; })
-        ->name;
+    return diagram_.children_[mine_.at(system)].name;
   }
   static std::string port_name(InputPort port) {
     return port.system->input_names()[static_cast<std::size_t>(port.index)];
@@ -136,6 +134,10 @@ class DiagramBuilder {
 
   Diagram diagram_{""};
   bool spent_ = false;
+  // For ten thousand blocks: where to look, not what to look through.
+  std::unordered_map<const System*, std::size_t> mine_;           // place in children_
+  std::unordered_set<std::string> names_;                         // of children_
+  std::map<std::pair<const System*, int>, std::size_t> sources_;  // inputs: place in wires_
 };
 
 }  // namespace saltus
