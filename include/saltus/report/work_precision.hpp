@@ -42,6 +42,7 @@ struct WorkReport {
   TimeSpan span = {};
   double growth = 1.0;
   Reference reference = {};
+  bool cold_makes_system = false;  ///< whether cold runs begin before the system, or with its plan
   std::vector<std::string> invariants = {};  ///< names, in the order of Achieved::drifts
   std::vector<WorkRow> rows = {};
   std::map<std::string, double> orders = {};  ///< visible order by method; NaN if none is
@@ -165,6 +166,7 @@ inline WorkReport work_precision(Scene scene, const WorkOptions& work = {}) {
   WorkReport report{.scene = scene.name,
                     .span = scene.span,
                     .growth = scene.growth,
+                    .cold_makes_system = bool(scene.build),
                     .environment = environment()};
   for (const Invariant& invariant : scene.invariants) report.invariants.push_back(invariant.name);
   report.reference = reference_for(scene, {.rtol = tightest,
