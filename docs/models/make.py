@@ -24,6 +24,7 @@ ORBITS = {
     "pleiades": [(i, i + 7) for i in range(7)],
     "rocking-block": [(0, 1)],
 }
+EVERY = {"brusselator": 2}  # of states (u_1, v_1, u_2, v_2, ...) the field u
 plt.rcParams.update(
     {
         "font.size": 8,
@@ -125,17 +126,18 @@ def over_time(scene, results):
 
 
 def in_space(scene, results):
-    """Time across, place along the grid upwards; of two fields on one grid, the first."""
-    values, _ = columns(results)
-    field = values[:: max(1, len(values) // 200)]
-    times = results.time[:: max(1, len(values) // 200)]
+    """Time across, place along the grid upwards; of several signals the first."""
+    name, field = next(iter(results.outputs.items()))
+    field = field[:, :: EVERY.get(scene.name, 1)]
+    seen = np.flatnonzero(results.time > 0) if scene.t_span[1] > LONG else np.arange(len(field))
+    seen = seen[:: max(1, len(seen) // 300)]
     figure, axis = plt.subplots(figsize=(6.4, 2.6), layout="constrained")
     place = np.arange(1, field.shape[1] + 1)
     image = axis.pcolormesh(
-        times, place, field.T, shading="nearest", cmap="viridis", rasterized=True
+        results.time[seen], place, field[seen].T, shading="nearest", cmap="viridis", rasterized=True
     )
-    figure.colorbar(image, ax=axis, pad=0.01)
-    axis.set_ylabel("component")
+    figure.colorbar(image, ax=axis, pad=0.01, label=name)
+    axis.set_ylabel("node")
     time_axis(axis, scene)
     return figure
 
