@@ -59,7 +59,8 @@ def draw(table: WorkPrecision) -> Figure:
         for axis, (key, label, bound) in zip(axes, panels, strict=True):
             _panel(axis, table, key, table.reference.get(bound, math.nan))
             axis.set_xlabel(label)
-        axes[0].set_ylabel("run time, warm [s]")
+        axes[0].set_ylabel("run time, warm")
+        _times(axes[0])
         _legend(figure, table)
         _words(figure, table, failures)
     return figure
@@ -96,6 +97,18 @@ def _panel(axis: Any, table: WorkPrecision, key: str, bound: float) -> None:
         axis.axvspan(left, bound, color="0.93", lw=0, zorder=0)
         axis.set_xlim(left, max(right, 2 * bound))
     _margin(axis, table)
+
+
+def _times(axis: Any) -> None:
+    """Run times in their own units; between decades too, where there are few."""
+    from matplotlib.ticker import (  # type: ignore[import-not-found,unused-ignore]
+        EngFormatter,
+        LogLocator,
+    )
+
+    low, high = axis.get_ylim()
+    axis.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5) if high < 200 * low else (1,)))
+    axis.yaxis.set_major_formatter(EngFormatter(unit="s"))
 
 
 def _point(axis: Any, table: WorkPrecision, error: float, row: dict[str, Any], colour: str) -> None:
