@@ -71,8 +71,10 @@ inline void print_summary(std::ostream& out, const saltus::Scene& scene,
       << results.events.size() << " events\n";
   print_events(out, results.events);
   out << "max error " << short_number(a.error) << ", worst event time "
-      << short_number(a.event_error) << " s, events off " << a.event_mismatch
-      << "\n  against: " << scene.exact.provenance << "\n";
+      << short_number(a.event_error) << " s, events off " << a.event_mismatch << "\n  against: "
+      << (scene.exact.provenance.empty() ? "nothing, the answer is not known"
+                                         : scene.exact.provenance)
+      << "\n";
   out << s.steps << " steps, " << s.rejected << " rejected, " << s.restarts << " restarts, "
       << s.right_hand_side_calls << " right-hand-side, " << s.guard_calls << " guard and "
       << s.jacobian_calls << " Jacobian calls, " << short_time(s.wall_time) << "\n";

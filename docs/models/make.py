@@ -3,6 +3,7 @@
 import argparse
 import io
 import re
+import textwrap
 from pathlib import Path
 
 import matplotlib
@@ -24,6 +25,9 @@ ORBITS = {
     "pleiades": [(i, i + 7) for i in range(7)],
     "rocking-block": [(0, 1)],
 }
+SHOWN = {"ring-modulator": [0, 1, 6]}  # columns, where all would be too many to tell apart
+LOG_FROM = {"hires": 1e-3, "pollu": 1e-4, "stiff-contact": 5e-3}  # [s] short spans seen better so
+EVERY = {"brusselator": 2}  # of states (u_1, v_1, u_2, v_2, ...) the field u
 plt.rcParams.update(
     {
         "font.size": 8,
@@ -34,18 +38,23 @@ plt.rcParams.update(
         "axes.prop_cycle": plt.cycler(color=LINES),
         "lines.linewidth": 1.0,
         "legend.frameon": False,
+        "svg.fonttype": "none",  # words stay words
         "svg.hashsalt": "saltus",  # the same bits each time it is drawn
         "savefig.facecolor": "white",
     }
 )
 
 
+def logarithmic(scene):
+    return scene.t_span[1] > LONG or scene.name in LOG_FROM
+
+
 def run(scene, rows=600):
     """A run with as many rows as a picture can show, evenly over its time axis."""
     begin, end = scene.t_span
     steps = scene.simulate(save_at=[], save_steps=True, throw=False)
-    first = steps.time[steps.time > begin][0]
-    even = np.geomspace(first, end, rows) if end > LONG else np.linspace(begin, end, rows)
+    first = LOG_FROM.get(scene.name, steps.time[steps.time > begin][0])
+    even = np.geomspace(first, end, rows) if logarithmic(scene) else np.linspace(begin, end, rows)
     even[-1] = end  # not a rounding beyond it
     few = len(steps.time) < 5 * rows  # then they show what is quicker than the even rows
     return scene.simulate(save_at=even, save_steps=few, throw=False)
@@ -73,12 +82,14 @@ def with_gaps(results, values):
 def mark_events(axis, results):
     """A tick on the time axis for each event, holds shaded."""
     events = results.events
-    times = [e.time for e in events if e.kind in ("zero_crossing", "terminal")]
-    marks = {"color": "tab:red", "ms": 5, "mew": 0.7, "clip_on": False}
-    axis.plot(
-        np.unique(np.round(times, 12)), 0 * np.unique(np.round(times, 12)), "|",
-        transform=axis.get_xaxis_transform(), **marks,
-    )  # fmt: skip
+    times = np.unique(
+        [round(e.time, 12) for e in events if e.kind in ("zero_crossing", "terminal")]
+    )
+    if len(times):
+        axis.plot(
+            times, 0 * times, "|", transform=axis.get_xaxis_transform(),
+            color="tab:red", ms=5, mew=0.7, clip_on=False,
+        )  # fmt: skip
     begins = [e.time for e in events if e.kind == "zeno_enter"]
     ends = [e.time for e in events if e.kind == "zeno_release"]
     for begin in begins[:50]:
@@ -96,13 +107,16 @@ def scaled(values, names):
 
 
 def time_axis(axis, scene):
-    if scene.t_span[1] > LONG:
+    if logarithmic(scene):
         axis.set_xscale("log")
+        axis.set_xlim(LOG_FROM.get(scene.name))
     axis.set_xlabel("time t [s]")
 
 
 def over_time(scene, results):
     values, names = columns(results)
+    if scene.name in SHOWN:
+        values, names = values[:, SHOWN[scene.name]], [names[k] for k in SHOWN[scene.name]]
     split = values.shape[1] <= 3  # a panel for each component
     panels = values.shape[1] if split else 1
     figure, axes = plt.subplots(
@@ -112,30 +126,33 @@ def over_time(scene, results):
     if not split:
         values, names = scaled(values, names)
     times, values = with_gaps(results, values)
-    if scene.t_span[1] > LONG:  # no logarithm of the begin
+    if logarithmic(scene):  # no logarithm of the begin
         times, values = times[~(times <= 0)], values[~(times <= 0)]
     for k, axis in enumerate(axes[:, 0]):
         mark_events(axis, results)
         axis.plot(times, values[:, k] if split else values)
         axis.set_ylabel(names[k] if split else "")
     if not split and len(names) <= 12:
-        axis.legend(axis.get_lines()[1:], names, loc="center left", bbox_to_anchor=(1, 0.5))
+        axis.legend(
+            axis.get_lines()[-len(names) :], names, loc="center left", bbox_to_anchor=(1, 0.5)
+        )
     time_axis(axes[-1, 0], scene)
     return figure
 
 
 def in_space(scene, results):
-    """Time across, place along the grid upwards; of two fields on one grid, the first."""
-    values, _ = columns(results)
-    field = values[:: max(1, len(values) // 200)]
-    times = results.time[:: max(1, len(values) // 200)]
+    """Time across, place along the grid upwards; of several signals the first."""
+    name, field = next(iter(results.outputs.items()))
+    field = field[:, :: EVERY.get(scene.name, 1)]
+    seen = np.flatnonzero(results.time > 0) if logarithmic(scene) else np.arange(len(field))
+    seen = seen[:: max(1, len(seen) // 300)]
     figure, axis = plt.subplots(figsize=(6.4, 2.6), layout="constrained")
     place = np.arange(1, field.shape[1] + 1)
     image = axis.pcolormesh(
-        times, place, field.T, shading="nearest", cmap="viridis", rasterized=True
+        results.time[seen], place, field[seen].T, shading="nearest", cmap="viridis", rasterized=True
     )
-    figure.colorbar(image, ax=axis, pad=0.01)
-    axis.set_ylabel("component")
+    figure.colorbar(image, ax=axis, pad=0.01, label=name)
+    axis.set_ylabel("node")
     time_axis(axis, scene)
     return figure
 
@@ -162,7 +179,8 @@ def picture(name):
         figure = in_space(scene, results)
     else:
         figure = over_time(scene, results)
-    figure.axes[0].set_title(f"{name}: {scene.title}", wrap=True)
+    width = 15 * figure.get_figwidth()  # in letters
+    figure.axes[0].set_title(textwrap.fill(f"{name}: {scene.title}", int(width)))
     return figure
 
 

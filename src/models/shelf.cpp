@@ -16,7 +16,11 @@ const std::vector<ShelfEntry>& shelf() {
 
 Scene scene(std::string_view name) {
   const auto found = std::ranges::find(shelf(), name, &ShelfEntry::name);
-  if (found != shelf().end()) return found->make();
+  if (found != shelf().end()) {
+    Scene made = found->make();
+    if (!made.build) made.build = [make = found->make] { return make().system; };
+    return made;
+  }
   std::string names;
   for (const ShelfEntry& entry : shelf()) names += (names.empty() ? "" : ", ") + entry.name;
   throw ModelError(text("no scene '", name, "' on the shelf; there are ", names));

@@ -230,6 +230,11 @@ TEST_CASE("run times are measured, cold and warm", "[physics][report]") {
   CHECK(t.warm <= t.quartile3);
   CHECK(t.quartile1 > 0.0);
   CHECK(t.cold > 0.0);
+  int made = 0;
+  Scene scene = models::bouncing_ball();
+  scene.build = [&made, system = scene.system] { return ++made, system; };
+  CHECK(quick(scene, {"dopri5"}, {1e-6}).cold_makes_system);
+  CHECK(made == 1);
   CHECK(t.repeats >= 1);
 }
 

@@ -58,9 +58,8 @@ def test_a_shared_system_is_a_system():
     diagram = builder.build()
     state = diagram.create_context().with_subcontext(scene.system, scene.context)
     assert np.array_equal(state[scene.system].continuous_state, scene.context.continuous_state)
-    results = saltus.simulate(
-        diagram, state, scene.t_span, recorded_signals={"y": scene.system.output_ports[0]}
-    )
+    signals = {"y": scene.system.output_ports[0]}
+    results = saltus.simulate(diagram, state, scene.t_span, scene.options, recorded_signals=signals)
     alone = scene.simulate()
     assert np.array_equal(results.outputs["y"], alone.outputs["y"])
 

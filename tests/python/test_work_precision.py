@@ -155,6 +155,8 @@ def test_a_scene_of_the_shelf():
     table = saltus.work_precision(scene, methods=["dopri5", "bdf"], rtols=[1e-6], **QUICK)
     assert table.scene == "bouncing-ball"
     assert table.title == scene.title
+    assert table.cold == "system, plan and first run"
+    assert all(row["cold_seconds"] > 0 for row in table)
     assert table.methods == ["dopri5", "bdf"]
     assert table[0]["event_error"] < table[1]["event_error"]
     assert [row["event_mismatch"] for row in table] == [0, 0]

@@ -32,6 +32,8 @@ struct Scene {
   std::vector<std::string> methods = {"dopri5", "dop853", "adams", "bdf",
                                       "auto"};  ///< those that suit the scene
   double growth = 1.0;  ///< by how much the problem enlarges an error made on its way; >= 1
+  /// Makes the system anew, for the time of a cold run. Empty: that begins with `system`.
+  std::function<std::shared_ptr<const System>()> build = {};
 };
 
 /// Runs a scene with its own options.

@@ -42,6 +42,7 @@ struct WorkReport {
   TimeSpan span = {};
   double growth = 1.0;
   Reference reference = {};
+  bool cold_makes_system = false;  ///< whether cold runs begin before the system, or with its plan
   std::vector<std::string> invariants = {};  ///< names, in the order of Achieved::drifts
   std::vector<WorkRow> rows = {};
   std::map<std::string, double> orders = {};  ///< visible order by method; NaN if none is
@@ -101,7 +102,9 @@ inline double rounding_floor(const WorkReport& report, double largest, double st
   return std::max(rounding, std::isnan(bound) ? 0.0 : 3.0 * bound);
 }
 
-/// Of the methods whose order is fixed; the others change it with the tolerance.
+/// Of the methods whose order is fixed; the others change it with the tolerance. Runs that begin
+/// anew in more than one step of ten do not count, for there events decide how long steps are; nor
+/// do those with a wrong number of events.
 inline double visible_order(const WorkReport& report, const std::string& method) {
   const Method which = method_from(method);
   if (which != Method::dopri5 && which != Method::dop853) return Achieved::unknown;
@@ -109,6 +112,8 @@ inline double visible_order(const WorkReport& report, const std::string& method)
   double most = 1.0, largest = 0.0;
   for (const WorkRow& row : report.rows) {
     if (row.method != method || !ended_well(row.status)) continue;
+    const Statistics& s = row.statistics;
+    if (10 * s.restarts > s.steps || row.achieved.event_mismatch != 0) continue;
     const auto steps = static_cast<double>(row.statistics.steps);
     runs.push_back({steps, row.achieved.error});
     most = std::max(most, steps), largest = std::max(largest, row.largest);
@@ -165,6 +170,7 @@ inline WorkReport work_precision(Scene scene, const WorkOptions& work = {}) {
   WorkReport report{.scene = scene.name,
                     .span = scene.span,
                     .growth = scene.growth,
+                    .cold_makes_system = bool(scene.build),
                     .environment = environment()};
   for (const Invariant& invariant : scene.invariants) report.invariants.push_back(invariant.name);
   report.reference = reference_for(scene, {.rtol = tightest,

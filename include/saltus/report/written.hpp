@@ -126,12 +126,15 @@ inline void write_json(std::ostream& out, const WorkReport& report) {
   using detail::cells_of, detail::object_of;
   std::vector<detail::Cell> orders;
   for (const auto& [method, order] : report.orders) orders.push_back({method, order});
-  const std::string head = object_of({{"format", std::string("saltus work-precision 1")},
-                                      {"scene", report.scene},
-                                      {"title", report.title},
-                                      {"begin", report.span.begin},
-                                      {"end", report.span.end},
-                                      {"growth", report.growth}});
+  const std::string head =
+      object_of({{"format", std::string("saltus work-precision 1")},
+                 {"scene", report.scene},
+                 {"title", report.title},
+                 {"begin", report.span.begin},
+                 {"end", report.span.end},
+                 {"growth", report.growth},
+                 {"cold", std::string(report.cold_makes_system ? "system, plan and first run"
+                                                               : "plan and first run")}});
   out << head.substr(0, head.size() - 1)
       << ",\n \"reference\": " << object_of(cells_of(report.reference))
       << ",\n \"environment\": " << object_of(cells_of(report.environment))

@@ -54,6 +54,8 @@ class WorkPrecision(Sequence[dict[str, Any]]):
     """[s]"""
     growth: float
     """by how much the problem enlarges an error made on its way"""
+    cold: str
+    """what 'cold_seconds' covers: 'plan and first run', of a ready scene also the system"""
     reference: dict[str, Any]
     """'kind' ('exact', 'stored' or 'run'), 'provenance', and of a run the 'bound' of its own error
     and the 'event_bound' [s]
@@ -67,6 +69,7 @@ class WorkPrecision(Sequence[dict[str, Any]]):
     def __init__(self, data: dict[str, Any]):
         self.scene, self.title = data["scene"], data["title"]
         self.t_span, self.growth = (data["begin"], data["end"]), data["growth"]
+        self.cold = data["cold"]
         self.reference = _known(data["reference"])
         self.environment = data["environment"]
         self.orders = _known(data["orders"])
@@ -94,7 +97,7 @@ class WorkPrecision(Sequence[dict[str, Any]]):
         begin, end = self.t_span
         data = {
             "format": FORMAT, "scene": self.scene, "title": self.title, "begin": begin, "end": end,
-            "growth": self.growth, "reference": _null(self.reference),
+            "growth": self.growth, "cold": self.cold, "reference": _null(self.reference),
             "environment": self.environment, "orders": _null(self.orders),
             "rows": [_null(row) for row in self.rows],
         }  # fmt: skip
