@@ -78,7 +78,7 @@ inline Pieces<Exponential> switches(const ThermostatParameters& with) {
   }
 }
 
-/// 160 switches with the defaults. Records the temperature.
+/// 159 switches with the defaults. Records the temperature.
 ///
 /// Growth: an error dT moves the switch by tau dT over the rate there, 19 or 9 degrees, and the
 /// temperature behind it by the rates' ratio, 2.1 or 1; so it is carried on through all switches,
