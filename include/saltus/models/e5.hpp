@@ -56,8 +56,7 @@ namespace detail {
 /// is not used: it breaks y2 = y3 + y4 in its third digit. From t = 1e11 on y1 and y4 are nothing,
 /// y2 = y3 and dy2/dt = -M C y2^2, so that 1 / y2 grows by M C (1e13 - 1e11): from the value here
 /// at 1e11 to 0.88612335212910847e-22, all digits of what stands here. Nor is its y1 = 1.2e-291
-/// used: y1 < 1.76e-3 exp(-A t) is 1e-3429. From
-/// t = 1e12 on y1 and y4 are nearer to 0 than to any other double.
+/// used: y1 < 1.76e-3 exp(-A t) is 1e-3429. From t = 1e12 on y1 and y4 are 0 to a double.
 inline Exact e5_reference() {
   return {.provenance =
               "Radau IIA of order 13 in 34 digits, agrees with order 9 to 14 digits"

@@ -60,13 +60,14 @@ class HeatRod final : public LeafSystem {
 /// 127 it is alike. Errors of one sign are the worst, by the maximum principle. Conduction alone
 /// enlarges none: an early switch is what they turn into.
 inline Scene heat_rod(const HeatRodProblem& with = {}) {
+  Exact exact = detail::heat_rod_answer(with, "rod.switch");
   const auto rod = std::make_shared<const HeatRod>(with);
   return {.name = "heated rod",
           .system = rod,
           .context = rod->create_context(),
           .span = {0.0, with.t_end},
           .options = {.rtol = 1e-6, .atol = 1e-6, .recorded_signals = {{"u", rod->output(0)}}},
-          .exact = detail::heat_rod_answer(with, "rod.switch"),
+          .exact = std::move(exact),
           .methods = {"bdf", "auto"},
           .growth = 10.5};
 }
