@@ -1,4 +1,4 @@
-// E5: pyrolysis of a substance into a chain of two, the hardest of the STIFF DETEST set: sixteen
+// E5: pyrolysis of a substance into a chain of two, the hardest of the STIFF DETEST set: eighteen
 // decades between the rates, all but one concentration below 1e-9, thirteen decades of time.
 //   dy1/dt = -A y1 - B y1 y3
 //   dy2/dt =  A y1 - M C y2 y3

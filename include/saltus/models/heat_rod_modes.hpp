@@ -1,8 +1,8 @@
 // The heated rod exactly: the difference operator has the eigenvectors sin(k pi x_i) with the
 // eigenvalues -4 kappa (N + 1)^2 sin^2(k pi / (2 (N + 1))), so that between two switches each
 // coefficient a_k relaxes by itself: a_k(t) = r_k + (a_k - r_k) exp(lambda_k (t - begin)), r_k =
-// -s_k / lambda_k with the source s_k, or 0. J. W. Thomas, Numerical Partial Differential
-// Equations: Finite Difference Methods, section 2.4, has the eigenvalues.
+// -s_k / lambda_k with the source s_k, or 0. The eigenvalues are in any text on finite
+// differences, such as J. W. Thomas, Numerical Partial Differential Equations.
 #pragma once
 
 #include <cmath>

@@ -2,9 +2,9 @@
 //   dy/dt = sum over reactions of k (product of what reacts) (what comes - what goes)
 // State: concentrations [ppm], in the order of the source: NO2, NO, O(3P), O3, HO2, OH, HCHO, CO,
 // ALD, MEO2, C2O3, CO2, PAN, CH3O, HNO3, O(1D), SO2, SO4, NO3, N2O5; time in minutes. Rates are the
-// parameter k [1/min or 1/(ppm min)]. Radicals follow the rest within 1e-9 min and are as scarce as
-// 4e-18 ppm. Nitrogen, sulphur and carbon are conserved. J. G. Verwer, SIAM J. Sci. Comput. 15
-// (1994) 1243; Test Set for IVP Solvers, POLLU.
+// parameter k [1/min or 1/(ppm min)]. The fastest radicals follow the rest within 1e-11 min and are
+// as scarce as 4e-18 ppm. Nitrogen, sulphur and carbon are conserved. J. G. Verwer, SIAM J. Sci.
+// Comput. 15 (1994) 1243; Test Set for IVP Solvers, POLLU.
 #pragma once
 
 #include <array>

@@ -78,7 +78,8 @@ namespace detail {
 inline Exact ring_modulator_reference() {
   return {
       .provenance =
-          "Radau IIA of order 13 in 34 digits; the end agrees with Test Set for IVP Solvers, "
+          "Radau IIA of order 13 in 34 digits, agrees with order 9 to 13 up to 5e-4 s; the end "
+          "agrees with Test Set for IVP Solvers, "
           "ringmod, to 9",
       .samples = {
           {0.00025,
