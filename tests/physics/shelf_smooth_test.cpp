@@ -97,7 +97,7 @@ TEST_CASE("references keep the invariants of their equations", "[physics][models
       for (const Sample& sample : known(scene)) {
         INFO(invariant.name << ", t " << sample.time);
         // Entries are rounded to 17 digits. The sums have up to 28 terms; bodies up to 8 apart, of
-        // mass 7, that come as near as 0.2, enlarge a rounding by less than a hundred.
+        // mass 7, at these times no nearer than 0.4, enlarge a rounding by less than a hundred.
         const double size = sample.state.lpNorm<Eigen::Infinity>();
         CHECK(std::abs(invariant.value(sample.time, sample.state) - value) <=
               28 * 100 * 2.3e-16 * size);

@@ -6,8 +6,8 @@
 // State: temperatures u_i [K] above the surroundings at x_i = i L / (N + 1), L = 1 m; both ends are
 // held at 0; u(0) = 0 and the coil is on. Parameters kappa [m^2/s] and power [K/s] in the context,
 // N, low, high in the block. The event "switch" is either change: its guard is high - u while
-// heating and u - low while cooling. The equation: J.
-// Crank, The Mathematics of Diffusion; the thermostat on it is the usual one of hybrid systems.
+// heating and u - low while cooling. The equation: J. Crank, The Mathematics of Diffusion; the
+// thermostat on it is the usual one of hybrid systems.
 #pragma once
 
 #include "saltus/models/heat_rod_modes.hpp"
