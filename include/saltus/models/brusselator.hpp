@@ -26,6 +26,7 @@ class Brusselator final : public LeafSystem {
       start[2 * i + 1] = 3.0;
     }
     declare_continuous_state({.initial = std::move(start), .ode = &Brusselator::ode});
+    declare_jacobian_sparsity(band_entries(2 * n, 2, 2));
     declare_continuous_state_output("y");
     alpha_ = declare_dynamic_parameter("alpha", alpha);
     declare_zero_crossing({.name = "threshold", .guard = [this](const At& at) {

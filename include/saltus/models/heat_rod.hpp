@@ -21,6 +21,7 @@ class HeatRod final : public LeafSystem {
 
   explicit HeatRod(const HeatRodProblem& with = {}) : LeafSystem("rod"), with_(with) {
     declare_continuous_state(with.n, &HeatRod::ode);
+    declare_jacobian_sparsity(band_entries(with.n, 1, 1));
     declare_continuous_state_output("u");
     declare_default_mode(heating);
     declare_mode_output("heating");
