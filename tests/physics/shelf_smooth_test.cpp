@@ -1,5 +1,5 @@
 // The stiff and smooth half of the shelf against its references, with every method that suits a
-// scene; and the references against the equations.
+// scene; and the references against the equations. The references come from shelf_radau/.
 #include <saltus/models/models.hpp>
 #include <saltus/plan/compile.hpp>
 #include <saltus/plan/machine.hpp>
