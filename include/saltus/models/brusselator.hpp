@@ -29,8 +29,8 @@ class Brusselator final : public LeafSystem {
     declare_jacobian_sparsity(band_entries(2 * n, 2, 2));
     declare_continuous_state_output("y");
     alpha_ = declare_dynamic_parameter("alpha", alpha);
-    declare_zero_crossing({.name = "threshold", .guard = [this](const At& at) {
-                             return at.x[2 * ((n_ + 1) / 2 - 1)] - 2.0;
+    declare_zero_crossing({.name = "threshold", .guard = [u = 2 * ((n + 1) / 2 - 1)](const At& at) {
+                             return at.x[u] - 2.0;
                            }});
   }
 
