@@ -42,9 +42,10 @@ def _initial(what: str, shape: Any, default_value: ArrayLike | None) -> ArrayLik
 
 def _places(what: str, sparsity: Any) -> list[tuple[int, int]]:
     """(row, column) of each entry that may differ from zero."""
-    if not isinstance(sparsity, tuple):
-        sparsity = (sparsity if hasattr(sparsity, "nonzero") else np.asarray(sparsity)).nonzero()
     try:
+        if not isinstance(sparsity, tuple):
+            matrix = sparsity if hasattr(sparsity, "nonzero") else np.asarray(sparsity)
+            sparsity = matrix.nonzero()
         rows, columns = ([operator.index(i) for i in part] for part in sparsity)
         return list(zip(rows, columns, strict=True))
     except (TypeError, ValueError):
