@@ -42,9 +42,10 @@ def _initial(what: str, shape: Any, default_value: ArrayLike | None) -> ArrayLik
 
 def _places(what: str, sparsity: Any) -> list[tuple[int, int]]:
     """(row, column) of each entry that may differ from zero."""
-    if not isinstance(sparsity, tuple):
-        sparsity = (sparsity if hasattr(sparsity, "nonzero") else np.asarray(sparsity)).nonzero()
     try:
+        if not isinstance(sparsity, tuple):
+            matrix = sparsity if hasattr(sparsity, "nonzero") else np.asarray(sparsity)
+            sparsity = matrix.nonzero()
         rows, columns = ([operator.index(i) for i in part] for part in sparsity)
         return list(zip(rows, columns, strict=True))
     except (TypeError, ValueError):
@@ -108,10 +109,10 @@ class LeafSystem(System, _core.LeafSystem):
         gives the n by n matrix d(ode)/dx, row by row, for a stiff method; without it differences
         are used. Once a block.
 
-        `jacobian_sparsity` says where d(ode)/dx may differ from zero, in every mode: an n by n array
-        or a scipy.sparse matrix, not zero there, or a pair (rows, columns), each place once; a stiff
-        method then needs neither memory nor calls for the others. Name too many rather than too few.
-        `sparse_jacobian` gives the values there, in that order (for a matrix that of its
+        `jacobian_sparsity` says where d(ode)/dx may differ from zero, in every mode: an n by n
+        array or a scipy.sparse matrix, not zero there, or a pair (rows, columns), each place once;
+        a stiff method then needs neither memory nor calls for the others. Name too many rather than
+        too few. `sparse_jacobian` gives the values there, in that order (for a matrix that of its
         `nonzero()`).
         """
         what = f"block '{self.name}': continuous state"
