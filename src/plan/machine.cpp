@@ -101,9 +101,10 @@ void Machine::load(const Context& context) {
 }
 
 void Machine::carried_derivative(double t, const double* state, double* xdot) {
+  if (carrier == nullptr) return flow(t, state, xdot);
   const double* x_now = carried(t, state);
   flow(t, x_now, xdot);
-  if (carrier != nullptr) carrier->rates(t, x_now, xdot);
+  carrier->rates(t, x_now, xdot);
 }
 
 void Machine::carried_guards(double t, const double* state, double* g) {
@@ -116,6 +117,10 @@ void Machine::flow(double t, const double* state, double* xdot) {
   ++rhs_calls;
   bases_[0] = state;
   run(derivative_calls_, t);
+  if (at_rest_ > 0) {
+    for (const Call& ode : odes_) ode_with_rest(ode, t, xdot);
+    return;
+  }
   for (const Call& ode : odes_) ode_of(ode, t, xdot);
 }
 
@@ -126,20 +131,15 @@ void Machine::guards_at(double t, const double* state, double* g) {
   for (int i : active_) guard(groups_[static_cast<std::size_t>(i)], t, g);
 }
 
-void Machine::ode_of(const Call& ode, double t, double* xdot) {
-  const VectorRef out(xdot + ode.x, ode.size);
-  const Index resting = at_rest_ == 0 ? 0 : resting_of_[ode.leaf];
-  if (resting == ode.size) {
-    VectorRef(out).setZero();
-  } else {
-    (*ode.function)(*ode.system, seen_by(ode, t), out);
-    if (resting > 0) stop_resting(ode.x, out);
+void Machine::ode_with_rest(const Call& ode, double t, double* xdot) {
+  VectorRef out(xdot + ode.x, ode.size);
+  if (resting_of_[ode.leaf] == ode.size) {
+    out.setZero();
+    return;
   }
-}
-
-void Machine::stop_resting(Index offset, VectorRef out) const {
-  for (Index i = 0; i < out.size(); ++i) {
-    if (rests_[static_cast<std::size_t>(offset + i)] > 0) out[i] = 0.0;
+  ode_of(ode, t, xdot);
+  for (Index i = 0; i < ode.size; ++i) {
+    if (rests(ode.x + i)) out[i] = 0.0;
   }
 }
 
@@ -204,7 +204,7 @@ std::string Machine::not_finite(double t, const double* state) {
   }
   Eigen::VectorXd xdot(plan_->nx);
   for (const Call& ode : odes_) {
-    ode_of(ode, t, xdot.data());
+    ode_with_rest(ode, t, xdot.data());
     if (!xdot.segment(ode.x, ode.size).allFinite()) return plan_->leaves[ode.leaf].path;
   }
   return {};

@@ -211,7 +211,7 @@ void Instant::arm_relation(const GuardGroup& group, std::size_t k) {
     return;
   }
   const Departure::Side flow =
-      side_of(group, static_cast<Index>(k), now_[k].fired ? hair_of(k) : 0.0, 0);
+      side_of(group, static_cast<Index>(k), now_[k].fired ? hair_of(k) : 0.0, slot.side);
   slot.fresh = true;
   slot.band = flow.rounding;
   if (flow.side != 0 && flow.side != slot.side)

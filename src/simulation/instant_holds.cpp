@@ -115,8 +115,8 @@ bool Instant::goes_against(const Firing& firing) {
   const GuardGroup& group = group_of(k);
   if (std::isnan(armed_at_[k]) || group.monitor || group.direction == Direction::edge_detection)
     return false;
-  // A zero crossing that was seen clearly off zero in between is beyond doubt.
-  if (group.kind == GuardGroup::Kind::crossing && !firing.fresh) return false;
+  // One that was seen clearly off zero in between is beyond doubt.
+  if (group.kind != GuardGroup::Kind::opaque && !firing.fresh) return false;
   departure_.from(t_, machine_->x, t_ - armed_at_[k]);
   const double hair = 4.0 * std::abs(now_[k].g_minus);
   const Departure::Side flow = departure_.of(group, static_cast<Index>(k), hair, -firing.from);

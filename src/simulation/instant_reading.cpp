@@ -41,7 +41,8 @@ bool Instant::read_relation(const GuardGroup& group, Index slot) {
   const bool unsure = wrote_x_ && touched && (!opaque || side != crossed_to);
   if (unsure) {
     const Departure::Side flow =
-        side_of(group, slot, !opaque ? 4.0 * std::abs(now_[k].g_minus) : 0.0, 0);
+        side_of(group, slot, !opaque ? 4.0 * std::abs(now_[k].g_minus) : 0.0,
+                opaque ? 0 : Departure::either_side);
     side = flow.side != 0 ? flow.side : crossed_to;
     const bool back = side == crossed_to && flow.side != 0;
     if (back && sets_off(group.index) && (opaque || rests(group, slot, -crossed_to))) {
@@ -59,7 +60,7 @@ bool Instant::read_relation(const GuardGroup& group, Index slot) {
   now_[k].turned = true;
   leave_contact(k);
   truth_of(k) = side > 0 ? 1.0 : 0.0;
-  flowed_ = false;
+  if (!plan().restarting.empty()) flowed_ = false;
   return true;
 }
 

@@ -41,10 +41,9 @@ class Integrator final : public LeafSystem {
 
   bool on_hold(const At& at) const { return hold_ && at.u(*hold_) != 0.0; }
   void flow(const At& at, VectorRef xdot) const {
-    if (on_hold(at))
-      xdot.setZero();
-    else
-      xdot = at.u[0];
+    const VectorView u = at.u[0];
+    const bool held = on_hold(at);
+    for (Index i = 0; i < xdot.size(); ++i) xdot[i] = held ? 0.0 : u[i];
   }
   void limited_flow(const At& at, VectorRef xdot) const {
     flow(at, xdot);

@@ -161,8 +161,11 @@ class Machine {
   static void make_truth(VectorRef values, bool at_zero) {
     for (double& value : values) value = value > 0.0 || (at_zero && value == 0.0) ? 1.0 : 0.0;
   }
-  void ode_of(const Call& ode, double t, double* xdot);
-  void stop_resting(Index offset, VectorRef out) const;
+  void ode_of(const Call& ode, double t, double* xdot) {
+    const VectorRef out(xdot + ode.x, ode.size);
+    (*ode.function)(*ode.system, seen_by(ode, t), out);
+  }
+  void ode_with_rest(const Call& ode, double t, double* xdot);
   void change_rest(Index i, int by);
   void guard(const GuardCall& call, double t, double* g);
   std::vector<OutputCall> calls_of(const std::vector<int>& nodes);

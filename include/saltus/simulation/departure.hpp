@@ -56,7 +56,8 @@ class Departure {
 
   /// `hair`: a guard within it is at zero too, and is followed until it has left that as well.
   /// `expected`: a side that makes no difference to being at zero, so that its rounding need not be
-  /// asked for.
+  /// asked for; `either_side` where only the side matters.
+  static constexpr int either_side = 2;
   Side of(const GuardGroup& group, Index slot, double hair, int expected) {
     const Side side = follow(group, slot, hair, expected);
     if (side.side != 0 || group.kind == GuardGroup::Kind::opaque) return side;
@@ -102,7 +103,8 @@ class Departure {
          g = guard_after(d, slot)) {
       const int side = (g > 0.0) - (g < 0.0);
       // A guard that moves as the states do is beyond doubt.
-      if (side != 0 && side == expected && std::abs(g) > std::max(hair, 1e-3 * largest_move()))
+      if (side != 0 && (side == expected || expected == either_side) &&
+          std::abs(g) > std::max(hair, 1e-3 * largest_move()))
         return result.side = side, result;
       const double rounding = opaque ? 0.0 : rounding_after(d, slot, g);
       result.rounding = std::max(hair, rounding);
