@@ -38,14 +38,14 @@ const std::vector<Timing> timings{
 };
 
 /// A scene of the shelf by one method, atol in the ratio of its own options.
-Scene at_tolerance(Scene scene, const std::string& method, double rtol) {
+Scene at_tolerance(saltus::Scene scene, const std::string& method, double rtol) {
   scene.options.atol *= rtol / scene.options.rtol;
   scene.options.rtol = rtol;
   scene.options.ode_solver_method = method;
   return scene;
 }
 
-double penetration(const Scene& scene, const Results& results) {
+double penetration(const saltus::Scene& scene, const Results& results) {
   double deepest = 0.0;
   for (std::size_t row = 0; scene.gap && row < results.time.size(); ++row)
     deepest = std::max(deepest, -scene.gap(results.time[row], detail::row_of(results, row)));
@@ -58,10 +58,10 @@ TEST_CASE("each hybrid scene of the shelf meets its answer with each method that
           "[physics][shelf]") {
   const Timing timing = GENERATE(from_range(timings));
   const double rtol = GENERATE(1e-6, 1e-9);
-  const Scene scene = models::scene(timing.name);
+  const saltus::Scene scene = models::scene(timing.name);
   for (const std::string& method : scene.methods) {
     INFO(timing.name << " by " << method << " at rtol " << rtol);
-    const Scene run = at_tolerance(scene, method, rtol);
+    const saltus::Scene run = at_tolerance(scene, method, rtol);
     const Results results = simulate(run);
     const Achieved a = achieved(run, results);
     CHECK(results.status == Status::reached_end);
@@ -82,7 +82,7 @@ TEST_CASE("each hybrid scene of the shelf meets its answer with each method that
 
 TEST_CASE("what no event changes of a hybrid scene stays as it was", "[physics][shelf]") {
   struct Kept {
-    Scene scene;
+    saltus::Scene scene;
     double size;  // largest |d value / d state|, with the weights of the state
   };
   // Energies: v dv per unit of mass. Each impact adds an error of ten tolerances at most.
@@ -93,7 +93,7 @@ TEST_CASE("what no event changes of a hybrid scene stays as it was", "[physics][
     REQUIRE(scene.invariants.size() == 1);
     for (const std::string& method : scene.methods) {
       INFO(scene.name << " by " << method);
-      const Scene run = at_tolerance(scene, method, 1e-9);
+      const saltus::Scene run = at_tolerance(scene, method, 1e-9);
       const Results results = simulate(run);
       const auto value = [&](std::size_t row) {
         return scene.invariants[0].value(results.time[row], detail::row_of(results, row));

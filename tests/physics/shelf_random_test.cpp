@@ -65,7 +65,7 @@ Scene drawn_block(Draw& draw) {
 
 /// Whether an event of the answer comes so close to the end that an error of its time decides on
 /// which side of it: then nothing can be said of the count.
-bool close_call(const Scene& scene, double within) {
+bool close_call(const saltus::Scene& scene, double within) {
   for (const EventSeries& series : scene.exact.events[0].series) {
     for (const double t : series.times) {
       if (std::abs(t - scene.span.end) < within) return true;
@@ -84,7 +84,7 @@ TEST_CASE("with drawn parameters each event of the shelf's scenes comes, once, a
   Draw draw(seed);
   for (const auto make :
        {drawn_drag, drawn_walls, drawn_cradle, drawn_tanks, drawn_blocks, drawn_block}) {
-    Scene scene = make(draw);
+    saltus::Scene scene = make(draw);
     scene.options.atol *= rtol / scene.options.rtol;
     scene.options.rtol = rtol;
     // The drag of 0.2 and e = 0.9 are twice and twice as sensitive as what the law is stated for,

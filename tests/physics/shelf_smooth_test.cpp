@@ -16,7 +16,7 @@ const std::vector<std::string> smooth_scenes{
     "robertson", "hires",  "orego",          "van-der-pol", "vdpol",    "vdpol-1e6", "e5",
     "pollu",     "kepler", "ring-modulator", "brusselator", "heat-rod", "pleiades",  "lorenz"};
 
-Scene at_tolerance(Scene scene, const std::string& method, double rtol) {
+Scene at_tolerance(saltus::Scene scene, const std::string& method, double rtol) {
   scene.options.atol *= rtol / scene.options.rtol;
   scene.options.rtol = rtol;
   scene.options.ode_solver_method = method;
@@ -26,7 +26,7 @@ Scene at_tolerance(Scene scene, const std::string& method, double rtol) {
 /// How many local errors of the tolerance an achieved error may be. Ten for one-step methods and
 /// Adams. BDF takes hundreds to thousands of steps within the memory of a stiff scene, and its
 /// local errors, each up to the tolerance and of either sign, add up like the root of their number.
-double allowed(const Scene& scene, const Results& results) {
+double allowed(const saltus::Scene& scene, const Results& results) {
   const bool bdf = results.statistics.method.find("bdf") != std::string::npos;
   const double multiple =
       bdf ? std::max(10.0, std::sqrt(static_cast<double>(results.statistics.steps))) : 10.0;
@@ -34,7 +34,7 @@ double allowed(const Scene& scene, const Results& results) {
 }
 
 void check_scene(const std::string& name, const std::string& method, double rtol) {
-  const Scene scene = at_tolerance(models::scene(name), method, rtol);
+  const saltus::Scene scene = at_tolerance(models::scene(name), method, rtol);
   INFO(name << ", " << method << ", rtol " << rtol);
   const Results results = simulate(scene);
   const Achieved a = achieved(scene, results);
@@ -44,7 +44,7 @@ void check_scene(const std::string& name, const std::string& method, double rtol
 }
 
 /// The rows at which a reference stands, or 20 of a closed form.
-std::vector<Sample> known(const Scene& scene) {
+std::vector<Sample> known(const saltus::Scene& scene) {
   if (!scene.exact.state) return scene.exact.samples;
   std::vector<Sample> samples;
   for (int i = 1; i <= 20; ++i) {
@@ -96,7 +96,7 @@ TEST_CASE("each smooth scene meets its reference with each method that suits it"
 
 TEST_CASE("a rod of any number of nodes meets its closed form", "[physics][models]") {
   const Index n = GENERATE(5, 20, 200);
-  const Scene scene = at_tolerance(models::heat_rod({.n = n}), "bdf", 1e-6);
+  const saltus::Scene scene = at_tolerance(models::heat_rod({.n = n}), "bdf", 1e-6);
   INFO("n " << n);
   const Results results = simulate(scene);
   const Achieved a = achieved(scene, results);
@@ -106,7 +106,7 @@ TEST_CASE("a rod of any number of nodes meets its closed form", "[physics][model
 
 TEST_CASE("references keep the invariants of their equations", "[physics][models]") {
   for (const std::string& name : smooth_scenes) {
-    const Scene scene = models::scene(name);
+    const saltus::Scene scene = models::scene(name);
     INFO(name);
     for (const Invariant& invariant : scene.invariants) {
       const Eigen::VectorXd start = scene.context.continuous_state();
@@ -125,7 +125,7 @@ TEST_CASE("references keep the invariants of their equations", "[physics][models
 
 TEST_CASE("closed forms satisfy the equations they are of", "[physics][models]") {
   const auto* name = GENERATE("kepler", "heat-rod");
-  const Scene scene = models::scene(name);
+  const saltus::Scene scene = models::scene(name);
   Machine machine(compile(*scene.system));
   for (const Sample& sample : known(scene)) {
     Context context = scene.context;
@@ -150,7 +150,7 @@ TEST_CASE("closed forms satisfy the equations they are of", "[physics][models]")
 
 TEST_CASE("the Jacobians of stiff scenes are those of their equations", "[physics][models]") {
   const auto* name = GENERATE("robertson", "hires", "orego", "van-der-pol", "vdpol", "e5", "pollu");
-  const Scene scene = models::scene(name);
+  const saltus::Scene scene = models::scene(name);
   Machine machine(compile(*scene.system));
   machine.load(scene.context);
   for (const Sample& sample : scene.exact.samples) {
