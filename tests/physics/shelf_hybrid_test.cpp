@@ -38,7 +38,7 @@ const std::vector<Timing> timings{
 };
 
 /// A scene of the shelf by one method, atol in the ratio of its own options.
-Scene at_tolerance(saltus::Scene scene, const std::string& method, double rtol) {
+saltus::Scene at_tolerance(saltus::Scene scene, const std::string& method, double rtol) {
   scene.options.atol *= rtol / scene.options.rtol;
   scene.options.rtol = rtol;
   scene.options.ode_solver_method = method;

@@ -17,28 +17,28 @@ double between(Draw& draw, double a, double b) {
   return std::uniform_real_distribution<double>(a, b)(draw);
 }
 
-Scene drawn_drag(Draw& draw) {
+saltus::Scene drawn_drag(Draw& draw) {
   return models::ball_drag({.c = between(draw, 1e-3, 0.2),
                             .e = between(draw, 0.3, 0.9),
                             .y0 = between(draw, 1.0, 20.0),
                             .v0 = between(draw, -4.0, 10.0)});
 }
 
-Scene drawn_walls(Draw& draw) {
+saltus::Scene drawn_walls(Draw& draw) {
   return models::two_walls({.length = between(draw, 0.01, 2.0),
                             .e = between(draw, 0.9, 1.0),
                             .x0 = 0.005,
                             .v0 = between(draw, 0.1, 2.0)});
 }
 
-Scene drawn_cradle(Draw& draw) {
+saltus::Scene drawn_cradle(Draw& draw) {
   return models::newtons_cradle({.balls = 2 + static_cast<int>(between(draw, 0.0, 5.99)),
                                  .gap = between(draw, 1e-4, 3e-3),
                                  .w = between(draw, 2.0, 8.0),
                                  .amplitude = between(draw, 0.05, 0.2)});
 }
 
-Scene drawn_tanks(Draw& draw) {
+saltus::Scene drawn_tanks(Draw& draw) {
   const double v1 = between(draw, 0.2, 0.8), v2 = between(draw, 0.2, 0.8);
   return models::water_tanks({.w = between(draw, std::max(v1, v2) + 0.01, v1 + v2 - 0.01),
                               .v1 = v1,
@@ -49,14 +49,14 @@ Scene drawn_tanks(Draw& draw) {
                               .x2 = between(draw, 0.6, 2.0)});
 }
 
-Scene drawn_blocks(Draw& draw) {
+saltus::Scene drawn_blocks(Draw& draw) {
   return models::bouncing_ball_diagram({.e = between(draw, 0.2, 0.9),
                                         .y0 = between(draw, 1e-4, 2e-3),
                                         .dropped = -between(draw, 1e-4, 2e-3),
                                         .drop_time = between(draw, 0.01, 1.0)});
 }
 
-Scene drawn_block(Draw& draw) {
+saltus::Scene drawn_block(Draw& draw) {
   return models::rocking_block({.p = between(draw, 1.0, 4.0),
                                 .alpha = between(draw, 0.1, 0.3),
                                 .r = between(draw, 0.5, 0.95),

@@ -16,7 +16,7 @@ const std::vector<std::string> smooth_scenes{
     "robertson", "hires",  "orego",          "van-der-pol", "vdpol",    "vdpol-1e6", "e5",
     "pollu",     "kepler", "ring-modulator", "brusselator", "heat-rod", "pleiades",  "lorenz"};
 
-Scene at_tolerance(saltus::Scene scene, const std::string& method, double rtol) {
+saltus::Scene at_tolerance(saltus::Scene scene, const std::string& method, double rtol) {
   scene.options.atol *= rtol / scene.options.rtol;
   scene.options.rtol = rtol;
   scene.options.ode_solver_method = method;
