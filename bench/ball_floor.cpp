@@ -1,13 +1,14 @@
 // How far is Saltus from hand-written code? The leaf ball and the ball with drag, e = 0.9, 12 s,
-// six bounces: dopri5 against the same method inlined for two states, adams against a plain loop
-// over the same CVODE. First line of each group is the floor. Times are medians of interleaved
-// batches, ratios are within one run.
-#include <cstdio>
+// six bounces: dopri5 and dop853 against the same methods inlined for two states, adams against a
+// plain loop over the same CVODE. Errors are those of the worst event time [s]; without a log, the
+// difference in y at the end [m]. First line of each group is the floor. Times are medians of
+// interleaved batches, ratios are within one run.
 #include <cstring>
 
 #include "floor_cvode.hpp"
-#include "floor_dopri5.hpp"
+#include "floor_one_step.hpp"
 #include "interleave.hpp"
+#include "sheet.hpp"
 
 namespace {
 
@@ -29,23 +30,31 @@ double worst(const Outcome& a, const Outcome& b) {
   return worst;
 }
 
-void print(const char* scene, double rtol, const char* who, const bench::Timing& timing,
-           const Outcome& o, double error) {
-  std::printf("%-5s %7.0e  %-28s %8.2f us  %5.2f  %7zu %6ld %5ld %7ld  %8.1e\n", scene, rtol, who,
-              timing.time * 1e6, timing.ratio, o.bounces, o.steps, o.right_hand_side_calls,
-              o.guard_calls, error);
+bench::Row row(const char* scene, double rtol, const std::string& who, const bench::Timing& timing,
+               const Outcome& o, double error) {
+  return {{"scene", scene},
+          {"rtol", rtol},
+          {"who", who},
+          {"time [us]", timing.time * 1e6},
+          {"ratio", timing.ratio},
+          {"bounces", o.bounces},
+          {"steps", o.steps},
+          {"rhs", o.right_hand_side_calls},
+          {"guards", o.guard_calls},
+          {"error", error}};
 }
 
 /// The event times everyone is compared with: the floor at its tightest.
 Outcome reference(const Ball& ball) {
-  bench::FloorDopri5 floor(ball, 1e-14, 1e-16);
+  bench::FloorDop853 floor(ball, 1e-14, 1e-16);
   floor();
   return floor.outcome();
 }
 
+/// Returns the ratio with the event log on, as it is by default.
 template <class Floor>
-void compare(const char* scene, const Ball& ball, const char* method, double rtol,
-             const char* floor_name) {
+double compare(bench::Sheet& sheet, const char* scene, const Ball& ball, const char* method,
+               double rtol, const char* floor_name) {
   const Outcome exact = reference(ball);
   Floor floor(ball, rtol, 1e-2 * rtol);
   SaltusRun logged(ball, with(method, rtol, true, 3)), silent(ball, with(method, rtol, false, 3));
@@ -58,13 +67,15 @@ void compare(const char* scene, const Ball& ball, const char* method, double rto
     o.bounces = logged.outcome().bounces, o.times = logged.outcome().times;
     return o;
   };
-  print(scene, rtol, floor_name, timings[0], floor.outcome(), worst(floor.outcome(), exact));
-  print(scene, rtol, saltus::text("saltus ", method).c_str(), timings[1], logged.outcome(),
-        worst(logged.outcome(), exact));
-  print(scene, rtol, "  no event log", timings[2], without_log(silent),
-        std::abs(silent.outcome().y - logged.outcome().y));
-  print(scene, rtol, "  nor a look inside steps", timings[3], without_log(ends_only),
-        std::abs(ends_only.outcome().y - logged.outcome().y));
+  const auto add = [&](const std::string& who, std::size_t i, const Outcome& o, double error) {
+    sheet.add(row(scene, rtol, who, timings[i], o, error));
+  };
+  add(floor_name, 0, floor.outcome(), worst(floor.outcome(), exact));
+  add(saltus::text("saltus ", method), 1, logged.outcome(), worst(logged.outcome(), exact));
+  add("  no event log", 2, without_log(silent), std::abs(silent.outcome().y - logged.outcome().y));
+  add("  nor a look inside steps", 3, without_log(ends_only),
+      std::abs(ends_only.outcome().y - logged.outcome().y));
+  return timings[1].ratio;
 }
 
 /// For a profiler: one runner only, again and again, on the ball with drag; with a third argument
@@ -72,6 +83,7 @@ void compare(const char* scene, const Ball& ball, const char* method, double rto
 int only(const char* who, int runs, bool parabola) {
   const Ball ball{.k = parabola ? 0.0 : 9.81 / 400.0};
   bench::FloorDopri5 dopri5(ball, 1e-8, 1e-10);
+  bench::FloorDop853 dop853(ball, 1e-8, 1e-10);
   bench::FloorCvode cvode(ball, 1e-8, 1e-10);
   SaltusRun saltus_dopri5(ball, with("dopri5", 1e-8, true, 3)),
       saltus_dop853(ball, with("dop853", 1e-8, true, 3)),
@@ -79,6 +91,8 @@ int only(const char* who, int runs, bool parabola) {
   for (int i = 0; i < runs; ++i) {
     if (std::strcmp(who, "floor_dopri5") == 0)
       dopri5();
+    else if (std::strcmp(who, "floor_dop853") == 0)
+      dop853();
     else if (std::strcmp(who, "floor_cvode") == 0)
       cvode();
     else if (std::strcmp(who, "dopri5") == 0)
@@ -97,18 +111,20 @@ int only(const char* who, int runs, bool parabola) {
 
 int main(int argc, char** argv) {
   if (argc > 2) return only(argv[1], std::atoi(argv[2]), argc > 3);
-  std::printf(
-      "SUNDIALS %s. Errors are those of the worst event time [s]; without a log, the difference in "
-      "y at the end [m].\n",
-      SUNDIALS_VERSION);
-  std::printf(
-      "scene    rtol  who                              time  ratio  bounces  steps   rhs  guards   "
-      "  error\n");
+  bench::Sheet sheet("ball_floor", "How far is Saltus from hand-written code?");
   const Ball parabola, drag{.k = 9.81 / 400.0};  // terminal velocity 20 m/s
-  for (const double rtol : {1e-4, 1e-6, 1e-8, 1e-10, 1e-12}) {
-    for (const auto& [name, ball] : {std::pair("ball", parabola), std::pair("drag", drag)}) {
-      compare<bench::FloorDopri5>(name, ball, "dopri5", rtol, "inlined DP5");
-      compare<bench::FloorCvode>(name, ball, "adams", rtol, "plain CVODE loop");
+  for (const auto& [name, ball] : {std::pair("ball", parabola), std::pair("drag", drag)}) {
+    std::array<double, 3> most{};
+    for (const double rtol : {1e-4, 1e-6, 1e-8, 1e-10, 1e-12}) {
+      const std::array now{
+          compare<bench::FloorDopri5>(sheet, name, ball, "dopri5", rtol, "inlined DOPRI5"),
+          compare<bench::FloorDop853>(sheet, name, ball, "dop853", rtol, "inlined DOP853"),
+          compare<bench::FloorCvode>(sheet, name, ball, "adams", rtol, "plain CVODE loop")};
+      for (std::size_t i = 0; i < now.size(); ++i) most[i] = std::max(most[i], now[i]);
     }
+    const std::string worst = saltus::text(name, ", worst of five tolerances: ");
+    sheet.target(worst + "dopri5 against inlined DOPRI5", most[0], 1.5);
+    sheet.target(worst + "dop853 against inlined DOP853", most[1], 1.5);
+    sheet.target(worst + "adams against a plain CVODE loop", most[2], 1.1);
   }
 }

@@ -1,0 +1,127 @@
+// What does a diagram of blocks cost, against the same equations in one leaf? The ball, the ball
+// with drag, both with six bounces, and Van der Pol's oscillator; same method, same tolerance.
+#include <saltus/library/library.hpp>
+
+#include "ball.hpp"
+#include "interleave.hpp"
+#include "runner.hpp"
+#include "sheet.hpp"
+
+namespace {
+
+using bench::Ball, bench::Runner;
+using namespace saltus;
+
+SimulatorOptions with(const std::string& method) {
+  return {.rtol = 1e-6, .atol = 1e-8, .ode_solver_method = method};
+}
+
+Runner ball_leaf(const Ball& ball, const std::string& method) {
+  const auto leaf = std::make_shared<bench::BallLeaf>(ball);
+  return {leaf, leaf->create_context().with_continuous_state(Eigen::Vector2d(ball.y0, 0.0)),
+          ball.t_end, with(method)};
+}
+
+/// Two integrators in a row, reset where y falls below 0; drag is one block, v -> -k v |v|.
+Runner ball_blocks(const Ball& ball, const std::string& method) {
+  DiagramBuilder builder;
+  const Integrator::Options reset{.enable_reset = true, .enable_external_reset = true};
+  auto& v = builder.add<Integrator>("v", reset);
+  auto& y = builder.add<Integrator>("y", reset);
+  auto& below = builder.add<Comparator>("below", "<");
+  auto& rebound = builder.add<Gain>("rebound", -ball.e);
+  auto& gravity = builder.add<Constant>("gravity", -ball.g);
+  auto& floor = builder.add<Constant>("floor", 0.0);
+  if (ball.k > 0.0) {
+    auto& drag = builder.add<FunctionBlock>(
+        "drag", [k = ball.k](double speed) { return -k * speed * std::abs(speed); });
+    auto& sum = builder.add<Adder>("sum", "++");
+    builder.connect(v.output(), drag.input());
+    builder.connect(gravity.output(), sum.input(0));
+    builder.connect(drag.output(), sum.input(1));
+    builder.connect(sum.output(), v.input());
+  } else {
+    builder.connect(gravity.output(), v.input());
+  }
+  builder.connect(v.output(), y.input());
+  builder.connect(y.output(), below.input(0));
+  builder.connect(floor.output(), below.input(1));
+  builder.connect(below.output(), v.input("reset_trigger"));
+  builder.connect(below.output(), y.input("reset_trigger"));
+  builder.connect(v.output(), rebound.input());
+  builder.connect(rebound.output(), v.input("reset_value"));
+  builder.connect(floor.output(), y.input("reset_value"));
+  const auto diagram = std::make_shared<const Diagram>(builder.build("ball"));
+  const Context start = diagram->create_context();
+  const System& height = (*diagram)["y"];
+  const auto high =
+      start[height.system_id()].with_continuous_state(Eigen::VectorXd::Constant(1, ball.y0));
+  return {diagram, start.with_subcontext(height.system_id(), high), ball.t_end, with(method)};
+}
+
+/// x' = v, v' = (1 - x^2) v - x.
+class VanDerPol final : public LeafSystem {
+ public:
+  VanDerPol() : LeafSystem("van_der_pol") {
+    declare_continuous_state(
+        {.initial = Eigen::Vector2d(2.0, 0.0), .ode = [](const At& at, VectorRef xdot) {
+           xdot << at.x[1], (1.0 - at.x[0] * at.x[0]) * at.x[1] - at.x[0];
+         }});
+  }
+};
+
+Runner van_der_pol_blocks(const std::string& method) {
+  DiagramBuilder builder;
+  auto& x = builder.add<Integrator>("x", Integrator::Options{.initial_state = 2.0});
+  auto& v = builder.add<Integrator>("v", Integrator::Options{});
+  auto& one = builder.add<Constant>("one", 1.0);
+  auto& square = builder.add<Product>("square", "**");
+  auto& factor = builder.add<Adder>("factor", "+-");
+  auto& damping = builder.add<Product>("damping", "**");
+  auto& sum = builder.add<Adder>("sum", "+-");
+  builder.connect(v.output(), x.input());
+  builder.connect(x.output(), square.input(0));
+  builder.connect(x.output(), square.input(1));
+  builder.connect(one.output(), factor.input(0));
+  builder.connect(square.output(), factor.input(1));
+  builder.connect(factor.output(), damping.input(0));
+  builder.connect(v.output(), damping.input(1));
+  builder.connect(damping.output(), sum.input(0));
+  builder.connect(x.output(), sum.input(1));
+  builder.connect(sum.output(), v.input());
+  const auto diagram = std::make_shared<const Diagram>(builder.build("van_der_pol"));
+  return {diagram, diagram->create_context(), 100.0, with(method)};
+}
+
+Runner van_der_pol_leaf(const std::string& method) {
+  const auto leaf = std::make_shared<VanDerPol>();
+  return {leaf, leaf->create_context(), 100.0, with(method)};
+}
+
+void compare(bench::Sheet& sheet, const std::string& scene, const std::string& method, Runner leaf,
+             Runner blocks) {
+  const auto times = bench::interleave({[&] { leaf(); }, [&] { blocks(); }}, 51);
+  const auto &a = leaf.statistics(), &b = blocks.statistics();
+  sheet.add({{"scene", scene},
+             {"method", method},
+             {"leaf [us]", times[0].time * 1e6},
+             {"blocks [us]", times[1].time * 1e6},
+             {"ratio", times[1].ratio},
+             {"steps of leaf", a.steps},
+             {"steps of blocks", b.steps}});
+  sheet.target(text(scene, ", ", method, ": blocks against the leaf"), times[1].ratio, 1.6);
+  sheet.target(text(scene, ", ", method, ": steps that blocks add"),
+               static_cast<double>(b.steps - a.steps), 0.0);
+}
+
+}  // namespace
+
+int main() {
+  bench::Sheet sheet("diagram", "What does a diagram of blocks cost, against one leaf?");
+  const Ball parabola, drag{.k = 9.81 / 400.0};
+  for (const std::string method : {"dopri5", "dop853"}) {
+    compare(sheet, "ball", method, ball_leaf(parabola, method), ball_blocks(parabola, method));
+    compare(sheet, "drag", method, ball_leaf(drag, method), ball_blocks(drag, method));
+    compare(sheet, "van der pol", method, van_der_pol_leaf(method), van_der_pol_blocks(method));
+  }
+}
