@@ -29,6 +29,12 @@ class Adder final : public LeafSystem {
 
  private:
   void sum(const At& at, VectorRef out) const {
+    if (out.size() == 1) {  // most signals are scalars, and this is called in each step
+      double sum = 0.0;
+      for (int k = 0; k < at.u.size(); ++k) sum += signs_[static_cast<std::size_t>(k)] * at.u(k);
+      out[0] = sum;
+      return;
+    }
     out.setZero();
     for (int k = 0; k < at.u.size(); ++k) {
       const VectorView u = at.u[k];

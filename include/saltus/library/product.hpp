@@ -29,6 +29,14 @@ class Product final : public LeafSystem {
 
  private:
   void product(const At& at, VectorRef out) const {
+    if (out.size() == 1) {  // most signals are scalars, and this is called in each step
+      double product = 1.0;
+      for (int k = 0; k < at.u.size(); ++k)
+        product = operators_[static_cast<std::size_t>(k)] == '/' ? product / at.u(k)
+                                                                  : product * at.u(k);
+      out[0] = product;
+      return;
+    }
     out.setOnes();
     for (int k = 0; k < at.u.size(); ++k) {
       const VectorView u = at.u[k];
