@@ -21,15 +21,14 @@ inline Law rests(const Ball& ball) {
     std::vector<double> found = firing_times(results.events);
     found.erase(std::unique(found.begin(), found.end()), found.end());  // two integrators: twice
     const std::vector<double> exact = ball.contacts(2.8 * ball.first());
-    Finding finding{.error = std::max(std::abs(x[0]) / unit,
-                                      x[1] * x[1] / (2.0 * ball.g * unit)),
+    Finding finding{.error = std::max(std::abs(x[0]) / unit, x[1] * x[1] / (2.0 * ball.g * unit)),
                     .allowed = allowed(with.ode_solver_method),
                     .events = text(std::min(found.size(), exact.size()), " of ", exact.size()),
                     .events_right = found.size() >= exact.size()};
     for (std::size_t i = 0; i < std::min(found.size(), exact.size()); ++i) {
       const double tolerance = with.rtol + with.atol / ball.speed() + with.atol / ball.y0;
-      finding.error = std::max(finding.error, std::abs(found[i] - exact[i]) /
-                                                  (8.0 * tolerance * ball.first()));
+      finding.error =
+          std::max(finding.error, std::abs(found[i] - exact[i]) / (8.0 * tolerance * ball.first()));
     }
     return finding;
   };
@@ -102,8 +101,9 @@ inline Case hardly_damped(double y0, int contacts) {
 inline Group balls() {
   using namespace detail;
   Group group{.title = "Balls over 15 decades",
-              .text = "The run goes on to twice the Zeno time: height and speed have to be those of "
-                      "a ball at rest, and the first four contacts (e = 0: one) in time.",
+              .text =
+                  "The run goes on to twice the Zeno time: height and speed have to be those of "
+                  "a ball at rest, and the first four contacts (e = 0: one) in time.",
               .cases = {}};
   for (const double e : {0.0, 0.5}) {
     group.cases.push_back(grid(e, false, every));

@@ -70,7 +70,7 @@ struct Case {
   Expected expected = Expected::answer;
   std::string error_says = {};  ///< a part of the message, where an error is expected
   double error_time = std::numeric_limits<double>::quiet_NaN();  ///< [s] when, to 1e-3 of it
-  bool quick = true;  ///< short enough for the tests
+  bool quick = true;                                             ///< short enough for the tests
 };
 
 struct Group {

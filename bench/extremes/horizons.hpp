@@ -8,7 +8,8 @@ namespace extremes {
 
 namespace detail {
 
-inline Case turning(std::string name, double w, TimeSpan span, Expected expected = Expected::answer) {
+inline Case turning(std::string name, double w, TimeSpan span,
+                    Expected expected = Expected::answer) {
   return {.name = std::move(name),
           .methods = every,
           .trials = one([=] {
@@ -22,7 +23,9 @@ inline Case turning(std::string name, double w, TimeSpan span, Expected expected
 
 /// x' = 1 from t0: monitors or resets every `step` seconds.
 inline Case ticking(std::string name, double t0, double step, bool stop) {
-  return {.name = std::move(name), .methods = every, .trials = one([=] {
+  return {.name = std::move(name),
+          .methods = every,
+          .trials = one([=] {
             constexpr int n = 100;
             std::vector<double> times = spaced(t0 + step, step, n);
             const TimeSpan span{t0, t0 + (n + 0.5) * step};
@@ -39,8 +42,9 @@ inline Case long_ramp(bool stop) {
   return {.name = text("x' = 1 for 1e12 s, ", stop ? "resets" : "monitors", " each 1e11 s"),
           .methods = every,
           .trials = one([stop] {
-            return trial(ramp(1.0, spaced(1e11, 1e11, 9), stop), {0.0, 1e12}, {},
-                         meets({.end = vec({1e12}), .times = spaced(1e11, 1e11, 9), .events = true}));
+            return trial(
+                ramp(1.0, spaced(1e11, 1e11, 9), stop), {0.0, 1e12}, {},
+                meets({.end = vec({1e12}), .times = spaced(1e11, 1e11, 9), .events = true}));
           })};
 }
 
@@ -51,14 +55,14 @@ inline Group horizons() {
   const auto slow_ball = [] { return to_rest({9.81e-24, 0.5, 1.0}, false); };
   return {
       .title = "Horizons",
-      .text = "A scene whose clock runs 2^40 times faster or slower has to give the same bits.",
+      .text =
+          "A scene whose clock runs 2^40 times faster or slower (2^-40 s = 9e-13 s, 2^40 s = 1e12 "
+          "s) has to give the same bits.",
       .cases = {
-          to_the_bit("oscillator, times divided by 2^40 (1e-11 s), to the bit", scaled_oscillator,
-                     -40, 0),
-          to_the_bit("oscillator, times multiplied by 2^40 (1e13 s), to the bit", scaled_oscillator,
-                     40, 0),
-          to_the_bit("ball, times divided by 2^40, to the bit", scaled_ball, -40, 0),
-          to_the_bit("ball, times multiplied by 2^40, to the bit", scaled_ball, 40, 0),
+          slower("oscillator", scaled_oscillator, -40, 2),
+          slower("oscillator", scaled_oscillator, 40, 2),
+          slower("thermostat", scaled_room, -40, 1),
+          slower("thermostat", scaled_room, 40, 1),
           turning("x'' = -x for 1e-12 s", 1.0, {0.0, 1e-12}),
           turning("10 radians in 1e-12 s", 1e13, {0.0, 1e-12}),
           turning("10 radians in 1e12 s", 1e-11, {0.0, 1e12}),
@@ -66,8 +70,8 @@ inline Group horizons() {
           turning("x'' = -x for 5e-320 s, all steps subnormal", 1.0, {0.0, 5e-320},
                   Expected::either),
           turning("10 radians in 1e-3 s, from t = 1e9 s", 1e4, {1e9, 1e9 + 1e-3}),
-          turning("10 radians in 1e-5 s, 84 roundings of t, from t = 1e9 s", 1e6,
-                  {1e9, 1e9 + 1e-5}, Expected::either),
+          turning("10 radians in 1e-5 s, 84 roundings of t, from t = 1e9 s", 1e6, {1e9, 1e9 + 1e-5},
+                  Expected::either),
           long_ramp(false),
           long_ramp(true),
           ticking("100 monitors 1e-3 s apart, from t = 1e9 s", 1e9, 1e-3, false),
@@ -79,11 +83,13 @@ inline Group horizons() {
            .trials = one(slow_ball)},
           {.name = "x' = -x from 1 for 1e12 s",
            .methods = stiff_ones,
-           .trials = one([] { return trial(decay(1.0, 1.0), {0.0, 1e12}, {}, meets({.end = vec({0.0})})); })},
+           .trials = one(
+               [] { return trial(decay(1.0, 1.0), {0.0, 1e12}, {}, meets({.end = vec({0.0})})); })},
           {.name = "x' = -1e-12 x from 1 for 1e12 s",
            .methods = every,
            .trials = one([] {
-             return trial(decay(1e-12, 1.0), {0.0, 1e12}, {}, meets({.end = vec({std::exp(-1.0)})}));
+             return trial(decay(1e-12, 1.0), {0.0, 1e12}, {},
+                          meets({.end = vec({std::exp(-1.0)})}));
            })},
       }};
 }

@@ -23,13 +23,13 @@ inline double allowed(const std::string& method) { return method == "bdf" ? 100.
 
 /// What is known of a run.
 struct Exact {
-  Eigen::VectorXd end = {};    ///< the state at the end; not compared if empty
-  Eigen::VectorXd size = {};   ///< of each state on the way, for rtol; that at the end if not said
-  double growth = 1.0;         ///< what a local error of one tolerance makes at the end
+  Eigen::VectorXd end = {};   ///< the state at the end; not compared if empty
+  Eigen::VectorXd size = {};  ///< of each state on the way, for rtol; that at the end if not said
+  double growth = 1.0;        ///< what a local error of one tolerance makes at the end
   std::vector<double> times = {};  ///< [s] of all firings
-  bool events = false;         ///< whether the times are compared
-  double speed = 1.0;          ///< |dg/dt| of the guards, slowest, for errors of time
-  double power = 0.0;          ///< the unit of event k = 1, 2, ... grows as k^power
+  bool events = false;             ///< whether the times are compared
+  double speed = 1.0;              ///< |dg/dt| of the guards, slowest, for errors of time
+  double power = 0.0;              ///< the unit of event k = 1, 2, ... grows as k^power
 };
 
 /// The root mean square over the states of error / unit, the norm in which steps are controlled.

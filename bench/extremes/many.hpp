@@ -8,7 +8,9 @@ namespace extremes {
 namespace detail {
 
 /// Oscillator i of n turns at 1 + i / n.
-inline double rate(Index i, Index n) { return 1.0 + static_cast<double>(i) / static_cast<double>(n); }
+inline double rate(Index i, Index n) {
+  return 1.0 + static_cast<double>(i) / static_cast<double>(n);
+}
 
 inline Eigen::VectorXd turned(Index n, double t) {
   Eigen::VectorXd x(2 * n);
@@ -26,8 +28,7 @@ inline std::shared_ptr<const System> oscillators(Index n) {
                                   }
                                 }});
     std::vector<saltus::MatrixEntry> entries;
-    for (int i = 0; i < 2 * n; i += 2)
-      entries.push_back({i, i + 1}), entries.push_back({i + 1, i});
+    for (int i = 0; i < 2 * n; i += 2) entries.push_back({i, i + 1}), entries.push_back({i + 1, i});
     l.declare_jacobian_sparsity(std::move(entries));
   });
 }
@@ -43,20 +44,18 @@ std::shared_ptr<const System> of_leaves(Index n, Declare declare) {
 inline std::shared_ptr<const System> oscillator_leaves(Index n) {
   return of_leaves(n, [n](Leaf& l, Index i) {
     l.declare_continuous_state(
-        {.initial = vec({1.0, 0.0}), .ode = [w = rate(i, n)](const At& at, VectorRef d) {
-           d << w * at.x[1], -w * at.x[0];
-         }});
+        {.initial = vec({1.0, 0.0}),
+         .ode = [w = rate(i, n)](const At& at, VectorRef d) { d << w * at.x[1], -w * at.x[0]; }});
   });
 }
 
 /// Two states a leaf, pulled to cos t and to sin t at 1e6 / s.
 inline std::shared_ptr<const System> stiff_leaves(Index n) {
   return of_leaves(n, [](Leaf& l, Index) {
-    l.declare_continuous_state(
-        {.initial = vec({1.0, 0.0}), .ode = [](const At& at, VectorRef d) {
-           const double c = std::cos(at.time), s = std::sin(at.time);
-           d << -1e6 * (at.x[0] - c) - s, -1e6 * (at.x[1] - s) + c;
-         }});
+    l.declare_continuous_state({.initial = vec({1.0, 0.0}), .ode = [](const At& at, VectorRef d) {
+                                  const double c = std::cos(at.time), s = std::sin(at.time);
+                                  d << -1e6 * (at.x[0] - c) - s, -1e6 * (at.x[1] - s) + c;
+                                }});
   });
 }
 
@@ -93,32 +92,36 @@ inline Trial many_stiff(Index n) {
 }
 
 /// One guard in each of n leaves; leaf i resets at (i + 1) / n.
-inline Trial guards_in_leaves(int n) {
+inline Trial guards_in_leaves(int n, int fire) {
   const auto system = of_leaves(n, [n](Leaf& l, Index i) {
     l.declare_continuous_state({.initial = vec({0.0}), .ode = [](const At&) { return 1.0; }});
     const double level = (static_cast<double>(i) + 1.0) / n;
-    l.declare_zero_crossing({.name = "level",
-                             .guard = [level](const At& at) { return at.x[0] - level; },
-                             .reset_map = [](const At&, Next& next) { next.set_continuous_state({-9.0}); },
-                             .direction = Direction::negative_then_non_negative});
+    l.declare_zero_crossing(
+        {.name = "level",
+         .guard = [level](const At& at) { return at.x[0] - level; },
+         .reset_map = [](const At&, Next& next) { next.set_continuous_state({-9.0}); },
+         .direction = Direction::negative_then_non_negative});
   });
-  return trial(system, {0.0, 1.5}, {},
-               meets({.times = spaced(1.0 / n, 1.0 / n, n), .events = true}));
+  return trial(system, {0.0, (fire + 0.5) / n}, {},
+               meets({.times = spaced(1.0 / n, 1.0 / n, fire), .events = true}));
 }
 
-inline Trial guards(int n, bool stop) {
-  return trial(ramp(1.0, spaced(1.0 / n, 1.0 / n, n), stop), {0.0, 1.5}, {},
-               meets({.end = vec({1.5}), .times = spaced(1.0 / n, 1.0 / n, n), .events = true}));
+/// n guards at (i + 1) / n, of which the first `fire` do.
+inline Trial guards(int n, int fire, bool stop) {
+  const double end = (fire + 0.5) / n;
+  return trial(ramp(1.0, spaced(1.0 / n, 1.0 / n, n), stop), {0.0, end}, {},
+               meets({.end = vec({end}), .times = spaced(1.0 / n, 1.0 / n, fire), .events = true}));
 }
 
 /// x' = 1, back to 0 at 1: n times. Each restart may be late by a location.
 inline Trial sawtooth(int n) {
   const auto leaf = make_leaf([](Leaf& l) {
     l.declare_continuous_state({.initial = vec({0.0}), .ode = [](const At&) { return 1.0; }});
-    l.declare_zero_crossing({.name = "top",
-                             .guard = [](const At& at) { return 1.0 - at.x[0]; },
-                             .reset_map = [](const At&, Next& next) { next.set_continuous_state({0.0}); },
-                             .direction = Direction::positive_then_non_positive});
+    l.declare_zero_crossing(
+        {.name = "top",
+         .guard = [](const At& at) { return 1.0 - at.x[0]; },
+         .reset_map = [](const At&, Next& next) { next.set_continuous_state({0.0}); },
+         .direction = Direction::positive_then_non_positive});
   });
   return trial(leaf, {0.0, n + 0.5}, {.rtol = 1e-9, .atol = 1e-11},
                meets({.end = vec({0.5}),
@@ -144,7 +147,8 @@ inline Trial elastic(int n) {
 /// n updates 1e-3 s apart turn the sign of x' = z.
 inline Trial updates(int n, double t0, double step) {
   const auto leaf = make_leaf([=](Leaf& l) {
-    l.declare_continuous_state({.initial = vec({0.0}), .ode = [](const At& at) { return at.z[0]; }});
+    l.declare_continuous_state(
+        {.initial = vec({0.0}), .ode = [](const At& at) { return at.z[0]; }});
     l.declare_discrete_state(vec({1.0}));
     l.declare_periodic_update(
         [](const At& at, Next& next) { next.set_discrete_state(Eigen::VectorXd(-at.z)); }, step,
@@ -180,19 +184,23 @@ inline Group many() {
                 [] { return many_oscillators(oscillator_leaves(half), half); }),
           scene("1e5 states in a leaf: heat, h |lambda| to 4e9, band declared", stiff_ones,
                 [] { return rod(100'000, true); }),
-          scene("1e4 states in a leaf: heat, nothing declared", stiff_ones,
-                [] { return rod(10'000, false); }, false, Expected::either),
+          scene(
+              "1e4 states in a leaf: heat, nothing declared", stiff_ones,
+              [] { return rod(10'000, false); }, false, Expected::either),
           scene("1e5 states in 5e4 stiff leaves", stiff_ones, [] { return many_stiff(half); }),
-          scene("1e4 guards of a leaf, monitors", every, [] { return guards(10'000, false); }),
-          scene("1e4 guards of a leaf, resets", runge_kutta, [] { return guards(10'000, true); }),
-          scene("1e3 guards of a leaf, resets", every, [] { return guards(1000, true); }),
-          scene("1e4 leaves with a guard each, resets", runge_kutta,
-                [] { return guards_in_leaves(10'000); }),
-          scene("300 leaves with a guard each, resets", every,
-                [] { return guards_in_leaves(300); }, true),
+          scene("1e4 guards of a leaf, monitors, all fire", every,
+                [] { return guards(10'000, 10'000, false); }),
+          scene("1e4 guards of a leaf, 300 of them reset", every,
+                [] { return guards(10'000, 300, true); }),
+          scene("1e4 leaves with a guard each, 100 of them reset", runge_kutta,
+                [] { return guards_in_leaves(10'000, 100); }),
+          scene(
+              "300 leaves with a guard each, all reset", every,
+              [] { return guards_in_leaves(300, 300); }, true),
           scene("1e6 resets of a sawtooth", every, [] { return sawtooth(1'000'000); }),
           scene("1e6 contacts of a ball, e = 1", runge_kutta, [] { return elastic(1'000'000); }),
-          scene("1e4 contacts of a ball, e = 1", every, [] { return elastic(10'000); }, true),
+          scene(
+              "1e4 contacts of a ball, e = 1", every, [] { return elastic(10'000); }, true),
           scene("1e6 updates that turn x' = z", every,
                 [] { return updates(1'000'000, 0.0, 1e-3); }),
       }};

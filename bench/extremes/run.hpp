@@ -29,7 +29,8 @@ namespace detail {
 
 /// An error that comes when it should, and says what it should.
 inline Verdict verdict_of_error(const Case& c, const std::string& message, double time) {
-  if (c.expected == Expected::answer) return message.empty() ? Verdict::wrong : Verdict::clear_error;
+  if (c.expected == Expected::answer)
+    return message.empty() ? Verdict::wrong : Verdict::clear_error;
   const bool says = !message.empty() && message.find(c.error_says) != std::string::npos;
   const bool in_time = !(std::abs(time - c.error_time) > 1e-3 * std::abs(c.error_time));
   return says && in_time ? Verdict::clear_error : Verdict::wrong;
@@ -62,8 +63,7 @@ inline Row run(const Case& c, Trial trial, const std::string& method) {
   trial.options.throw_errors = false;
   trial.options.interrupt = [passed] { return passed() > limit; };
   try {
-    const Results results =
-        saltus::simulate(*trial.system, trial.start, trial.span, trial.options);
+    const Results results = saltus::simulate(*trial.system, trial.start, trial.span, trial.options);
     row.seconds = passed();
     detail::judge(c, trial, results, row);
   } catch (const saltus::ModelError& error) {  // refused before it began

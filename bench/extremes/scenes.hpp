@@ -35,17 +35,15 @@ inline std::shared_ptr<const System> decay(double rate, double x0) {
 /// write what is there.
 inline std::shared_ptr<const System> ramp(double rate, std::vector<double> levels, bool stop) {
   return make_leaf([=](Leaf& l) {
-    l.declare_continuous_state(
-        {.initial = vec({0.0}), .ode = [rate](const At&) { return rate; }});
-    saltus::ZeroCrossing crossing{
-        .name = "level",
-        .guard =
-            [levels](const At& at, VectorRef g) {
-              for (std::size_t i = 0; i < levels.size(); ++i)
-                g[static_cast<Index>(i)] = at.x[0] - levels[i];
-            },
-        .direction = Direction::negative_then_non_negative,
-        .size = static_cast<Index>(levels.size())};
+    l.declare_continuous_state({.initial = vec({0.0}), .ode = [rate](const At&) { return rate; }});
+    saltus::ZeroCrossing crossing{.name = "level",
+                                  .guard =
+                                      [levels](const At& at, VectorRef g) {
+                                        for (std::size_t i = 0; i < levels.size(); ++i)
+                                          g[static_cast<Index>(i)] = at.x[0] - levels[i];
+                                      },
+                                  .direction = Direction::negative_then_non_negative,
+                                  .size = static_cast<Index>(levels.size())};
     if (stop)
       crossing.reset_map = [](const At& at, Next& next) { next.set_continuous_state(at.x); };
     l.declare_zero_crossing(std::move(crossing));
@@ -63,8 +61,8 @@ inline std::vector<double> spaced(double first, double step, int n) {
 struct Ball {
   double g = 9.81, e = 0.5, y0 = 1.0;
 
-  double first() const { return std::sqrt(2.0 * y0 / g); }  ///< [s] of contact 1
-  double speed() const { return std::sqrt(2.0 * y0 * g); }  ///< [m/s] at contact 1
+  double first() const { return std::sqrt(2.0 * y0 / g); }         ///< [s] of contact 1
+  double speed() const { return std::sqrt(2.0 * y0 * g); }         ///< [m/s] at contact 1
   double rest() const { return first() * (1.0 + e) / (1.0 - e); }  ///< [s] Zeno time
   /// The contacts until `end`, in extended precision.
   std::vector<double> contacts(double end) const {
@@ -80,14 +78,13 @@ struct Ball {
   std::shared_ptr<const System> leaf() const {
     return make_leaf([g = g, e = e, y0 = y0](Leaf& l) {
       l.declare_continuous_state(
-          {.initial = vec({y0, 0.0}),
-           .ode = [g](const At& at, VectorRef d) { d << at.x[1], -g; }});
-      l.declare_zero_crossing({.name = "bounce",
-                               .guard = [](const At& at) { return at.x[0]; },
-                               .reset_map = [e](const At& at, Next& next) {
-                                 next.set_continuous_state({0.0, -e * at.x[1]});
-                               },
-                               .direction = Direction::positive_then_non_positive});
+          {.initial = vec({y0, 0.0}), .ode = [g](const At& at, VectorRef d) { d << at.x[1], -g; }});
+      l.declare_zero_crossing(
+          {.name = "bounce",
+           .guard = [](const At& at) { return at.x[0]; },
+           .reset_map = [e](const At& at,
+                            Next& next) { next.set_continuous_state({0.0, -e * at.x[1]}); },
+           .direction = Direction::positive_then_non_positive});
     });
   }
 };

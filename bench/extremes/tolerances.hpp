@@ -16,11 +16,10 @@ inline Case at_tolerance(double rtol) {
               l.declare_continuous_state(
                   {.initial = vec({1.0, 0.0}),
                    .ode = [](const At& at, VectorRef d) { d << at.x[1], -at.x[0]; }});
-              l.declare_zero_crossing({.name = "zero",
-                                       .guard = [](const At& at) { return at.x[0]; },
-                                       .reset_map = [](const At& at, Next& next) {
-                                         next.set_continuous_state(at.x);
-                                       }});
+              l.declare_zero_crossing(
+                  {.name = "zero",
+                   .guard = [](const At& at) { return at.x[0]; },
+                   .reset_map = [](const At& at, Next& next) { next.set_continuous_state(at.x); }});
             });
             constexpr double pi = std::numbers::pi;
             return trial(leaf, {0.0, 10.0}, {.rtol = rtol, .atol = rtol},
@@ -69,8 +68,7 @@ inline Group tolerances() {
               .cases = {}};
   for (const double rtol : {1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-13, 1e-14, 1e-15})
     group.cases.push_back(at_tolerance(rtol));
-  for (const double rtol : {1e-2, 1e-6, 1e-10, 1e-13, 1e-15})
-    group.cases.push_back(stiff_at(rtol));
+  for (const double rtol : {1e-2, 1e-6, 1e-10, 1e-13, 1e-15}) group.cases.push_back(stiff_at(rtol));
   group.cases.push_back(refused("rtol = 1e-16", 1e-16, 1e-8, "rtol"));
   group.cases.push_back(refused("rtol = 0", 0.0, 1e-8, "rtol"));
   group.cases.push_back(refused("atol = 0", 1e-6, 0.0, "atol"));
