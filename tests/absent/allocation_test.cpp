@@ -2,6 +2,7 @@
 // a short one.
 #include "support/allocations.hpp"
 #include "support/balls.hpp"
+#include "support/cases.hpp"
 #include "support/leaves.hpp"
 
 using namespace saltus;
@@ -84,7 +85,7 @@ TEST_CASE("changes of mode allocate nothing", "[absent][allocation]") {
 }
 
 TEST_CASE("ticks and monitors allocate nothing", "[absent][allocation]") {
-  const auto* method = GENERATE("dopri5", "adams", "auto");
+  const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);
   DiagramBuilder builder;
   auto& sine = builder.add<Sine>("sine");
@@ -99,4 +100,138 @@ TEST_CASE("ticks and monitors allocate nothing", "[absent][allocation]") {
   builder.connect(integrator.output(), above.input());
   const Diagram diagram = builder.build();
   loop_is_free(diagram, diagram.create_context(), 50.0, 51.0, 150.0, {.ode_solver_method = method});
+}
+
+namespace {
+
+/// A ball over a floor that drops by 0.1 m each second: contacts, a hold and a release in each.
+std::shared_ptr<Leaf> hopper() {
+  return make_leaf("hopper", [](Leaf& l) {
+    l.declare_continuous_state(
+        {.initial = vec({0.1, 0.0}),
+         .ode = [](const At& at, VectorRef xdot) { xdot << at.x[1], -9.81; }});
+    l.declare_discrete_state(vec({0.0}));
+    l.declare_zero_crossing(
+        {.name = "bounce",
+         .guard = [](const At& at) { return at.x[0] - at.z[0]; },
+         .reset_map = [](const At& at,
+                         Next& next) { next.set_continuous_state({at.z[0], -0.3 * at.x[1]}); },
+         .direction = Direction::positive_then_non_positive});
+    l.declare_periodic_update(
+        [](const At& at, Next& next) { next.set_discrete_state({at.z[0] - 0.1}); }, 1.0, 1.0);
+  });
+}
+
+/// An oscillator with five guards of one call that reset, and a monitor; a mode that changes at
+/// each multiple of pi and makes the third state stiff.
+std::shared_ptr<Leaf> all_at_once() {
+  return make_leaf("all", [](Leaf& l) {
+    l.declare_continuous_state(
+        {.initial = vec({1.0, 0.0, 1.0}), .ode = [](const At& at, VectorRef xdot) {
+           const double rate = at.mode == 1 ? 1e5 : 1.0;
+           xdot << at.x[1], -at.x[0], rate * (std::cos(at.time) - at.x[2]);
+         }});
+    l.declare_default_mode(0);
+    l.declare_zero_crossing(
+        {.name = "levels",
+         .guard =
+             [](const At& at, VectorRef g) {
+               for (Index k = 0; k < 5; ++k) g[k] = at.x[0] - 0.2 * (static_cast<double>(k) - 2.0);
+             },
+         .reset_map = [](const At& at, Next& next) { next.set_continuous_state(at.x); },
+         .size = 5});
+    l.declare_zero_crossing({.name = "monitor", .guard = [](const At& at) { return at.x[1]; }});
+    for (const int mode : {0, 1})
+      l.declare_zero_crossing(
+          {.name = mode == 0 ? "stiffen" : "relax",
+           .guard = [mode](const At& at) { return std::sin(at.time) * (mode == 0 ? 1.0 : -1.0); },
+           .direction = Direction::negative_then_non_negative,
+           .start_mode = mode,
+           .end_mode = 1 - mode});
+  });
+}
+
+}  // namespace
+
+// Instant::contact_of_crossing makes two vectors for each hold of a leaf, the one for the edges two
+// for each of an Integrator; the same below.
+TEST_CASE("holds and releases allocate nothing, in a leaf and in a diagram",
+          "[.engine][absent][allocation]") {
+  const auto* method = GENERATE(from_range(methods));
+  for (const Form& form : forms(hopper())) {
+    INFO(form.name << ", method " << method);
+    loop_is_free(*form.system, form.context(), 10.5, 12.5, 60.5, {.ode_solver_method = method});
+  }
+}
+
+TEST_CASE("holds and releases of balls from blocks allocate nothing",
+          "[.engine][absent][allocation]") {
+  const auto* method = GENERATE(from_range(methods));
+  for (const Contact contact : contacts) {
+    const Scene scene =
+        blocks(contact, {.e = 0.3},
+               std::make_shared<Pulse>("floor", Pulse::Options{.amplitude = 0.1, .period = 2.0}));
+    INFO(scene.form << ", method " << method);
+    loop_is_free(*scene.system, scene.context(0.2, 0.0), 10.5, 12.5, 60.5,
+                 {.ode_solver_method = method});
+  }
+}
+
+TEST_CASE("guards, resets, monitors and modes at once allocate nothing, in a leaf and in a diagram",
+          "[absent][allocation]") {
+  const auto* method = GENERATE("dopri5", "dop853", "adams", "bdf");
+  for (const Form& form : forms(all_at_once())) {
+    INFO(form.name << ", method " << method);
+    loop_is_free(*form.system, form.context(), 13.0, 19.5, 60.0, {.ode_solver_method = method});
+  }
+}
+
+// AutoSolver::change adds a Stretch to the statistics.
+TEST_CASE("changes between stiff and not allocate nothing", "[.engine][absent][allocation]") {
+  for (const Form& form : forms(all_at_once())) {
+    INFO(form.name);
+    loop_is_free(*form.system, form.context(), 13.0, 19.5, 60.0, {.ode_solver_method = "auto"});
+  }
+}
+
+namespace {
+
+/// Heat in a rod of 30 points, fed in the middle by cos t; a reset at each zero there.
+std::shared_ptr<Leaf> rod() {
+  constexpr Index n = 30;
+  return make_leaf("rod", [](Leaf& l) {
+    l.declare_continuous_state(
+        {.initial = Eigen::VectorXd::Ones(n), .ode = [](const At& at, VectorRef xdot) {
+           xdot = -2.0 * at.x;
+           xdot.head(n - 1) += at.x.tail(n - 1);
+           xdot.tail(n - 1) += at.x.head(n - 1);
+           xdot *= 1e4;
+           xdot[n / 2] += 1e4 * std::cos(at.time);
+         }});
+    l.declare_jacobian_sparsity(band_entries(n, 1, 1));
+    l.declare_zero_crossing(
+        {.name = "half",
+         .guard = [](const At& at) { return at.x[n / 2]; },
+         .reset_map = [](const At& at, Next& next) { next.set_continuous_state(at.x); }});
+  });
+}
+
+void solves_free(const std::string& solver) {
+  const auto* method = GENERATE("bdf", "auto");
+  for (const Form& form : forms(rod())) {
+    INFO(form.name << ", method " << method << ", " << solver);
+    loop_is_free(*form.system, form.context(), 20.0, 30.0, 100.0,
+                 {.ode_solver_method = method, .linear_solver = solver});
+  }
+}
+
+}  // namespace
+
+TEST_CASE("elimination, dense and banded, allocates nothing", "[absent][allocation]") {
+  solves_free(GENERATE("dense", "band"));
+}
+
+// Eigen's SparseLU and IncompleteLUT ask for memory in each factorisation.
+TEST_CASE("sparse factors allocate nothing", "[.engine][absent][allocation]") {
+  solves_free(GENERATE("sparse", "gmres"));
 }

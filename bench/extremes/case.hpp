@@ -1,0 +1,118 @@
+// An extreme case: a scene, how it is run, and the law that what comes out has to meet.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <saltus/saltus.hpp>
+
+namespace extremes {
+
+using saltus::At;
+using saltus::Context;
+using saltus::Direction;
+using saltus::Index;
+using saltus::LeafSystem;
+using saltus::Next;
+using saltus::Results;
+using saltus::SimulatorOptions;
+using saltus::System;
+using saltus::text;
+using saltus::TimeSpan;
+using saltus::VectorRef;
+
+inline constexpr double infinite = std::numeric_limits<double>::infinity();
+inline constexpr double eps = std::numeric_limits<double>::epsilon();
+
+using Methods = std::vector<std::string>;
+inline const Methods every{"dopri5", "dop853", "adams", "bdf", "auto"};
+inline const Methods explicit_ones{"dopri5", "dop853", "adams", "auto"};
+inline const Methods stiff_ones{"bdf", "auto"};
+inline const Methods runge_kutta{"dopri5", "dop853", "auto"};
+
+/// How far a run is from what is exact.
+struct Finding {
+  double error = 0.0;        ///< in units of the tolerance, see laws.hpp
+  double allowed = 10.0;     ///< in the same
+  std::string events = {};   ///< "12 of 12", where the law says when there are events
+  bool events_right = true;  ///< their number; their times are part of the error
+};
+
+/// The method is `options.ode_solver_method`.
+using Law = std::function<Finding(const Results&, const SimulatorOptions& options)>;
+
+/// One run.
+struct Trial {
+  std::shared_ptr<const System> system;
+  Context start;
+  TimeSpan span;
+  SimulatorOptions options = {};
+  Law law = {};
+};
+
+/// What has to come out.
+enum class Expected {
+  answer,  ///< the right one
+  error,   ///< a clear error: there is no answer, or none in double precision
+  either   ///< one of them: at the edge of what double precision holds
+};
+
+/// A row of the table for each method; of a sweep of several trials the worst counts.
+struct Case {
+  std::string name;
+  Methods methods;
+  std::function<std::vector<Trial>()> trials;  ///< made when they are run: some are large
+  Expected expected = Expected::answer;
+  std::string error_says = {};  ///< a part of the message, where an error is expected
+  double error_time = std::numeric_limits<double>::quiet_NaN();  ///< [s] when, to 1e-3 of it
+  bool quick = true;                                             ///< short enough for the tests
+};
+
+struct Group {
+  std::string title, text;
+  std::vector<Case> cases;
+};
+
+/// A leaf that is declared where it is used.
+class Leaf final : public LeafSystem {
+ public:
+  template <class Declare>
+  Leaf(std::string name, Declare declare) : LeafSystem(std::move(name)) {
+    declare(*this);
+  }
+  using LeafSystem::declare_continuous_state;
+  using LeafSystem::declare_default_mode;
+  using LeafSystem::declare_discrete_state;
+  using LeafSystem::declare_jacobian;
+  using LeafSystem::declare_jacobian_sparsity;
+  using LeafSystem::declare_one_shot;
+  using LeafSystem::declare_periodic_update;
+  using LeafSystem::declare_zero_crossing;
+};
+
+template <class Declare>
+std::shared_ptr<const Leaf> make_leaf(Declare declare) {
+  return std::make_shared<const Leaf>("leaf", declare);
+}
+
+inline Eigen::VectorXd vec(std::initializer_list<double> values) {
+  return Eigen::Map<const Eigen::VectorXd>(values.begin(), static_cast<Index>(values.size()));
+}
+
+/// A run from the values that the system declares.
+inline Trial trial(const std::shared_ptr<const System>& system, TimeSpan span,
+                   SimulatorOptions options, Law law = {}) {
+  return {system, system->create_context(span.begin), span, std::move(options), std::move(law)};
+}
+
+/// The cases of one trial each need no list.
+inline std::function<std::vector<Trial>()> one(std::function<Trial()> make) {
+  return [make] { return std::vector<Trial>{make()}; };
+}
+
+}  // namespace extremes

@@ -1,0 +1,88 @@
+// The page: docs/stability.md.
+#pragma once
+
+#include <cstdio>
+#include <map>
+#include <ostream>
+
+#include "extremes/run.hpp"
+
+namespace extremes {
+
+namespace detail {
+
+/// Classes of time, so that the page changes only when something did.
+inline std::string_view time_class(double seconds) {
+  constexpr std::pair<double, std::string_view> classes[] = {
+      {1e-3, "< 1 ms"}, {1e-2, "< 10 ms"}, {0.1, "< 0.1 s"}, {1.0, "< 1 s"}, {10.0, "< 10 s"}};
+  for (const auto& [most, name] : classes)
+    if (seconds < most) return name;
+  return "> 10 s";
+}
+
+inline std::string error_text(const Row& row) {
+  if (row.verdict == Verdict::clear_error || !row.finding.events_right) return "";
+  const double error = row.finding.error;
+  if (error == 0.0 || !std::isfinite(error)) return error == 0.0 ? "0" : "infinite";
+  char digits[32];
+  std::snprintf(digits, sizeof digits, error < 0.01 ? "< 0.01" : "%.2g", error);
+  return digits;
+}
+
+/// The first line of a message, without what would end a cell, 100 characters of it.
+inline std::string cell(std::string message) {
+  message = message.substr(0, message.find('\n'));
+  std::erase(message, '|');
+  constexpr std::size_t most = 100;
+  if (message.size() > most) message = message.substr(0, message.rfind(' ', most)) + " ...";
+  return message;
+}
+
+}  // namespace detail
+
+/// One row a method.
+inline void write(std::ostream& out, const Case& c, const std::string& method, const Row& row) {
+  out << "| " << (method == c.methods.front() ? c.name : std::string{}) << " | " << method << " | "
+      << detail::cell(row.happened) << " | " << detail::error_text(row) << " | "
+      << row.finding.events << " | " << row.steps << " | " << detail::time_class(row.seconds)
+      << " | " << (row.verdict == Verdict::wrong ? "**WRONG**" : to_string(row.verdict)) << " |\n";
+}
+
+inline void write_head(std::ostream& out, const Group& group) {
+  out << "\n## " << group.title << "\n\n";
+  if (!group.text.empty()) out << group.text << "\n\n";
+  out << "| scene | method | what happened | error | events | steps | time | verdict |\n"
+         "| --- | --- | --- | --- | --- | --- | --- | --- |\n";
+}
+
+inline void write_introduction(std::ostream& out) {
+  out << R"(# Extreme scenes
+
+States of 1e-300 and 1e300, horizons of 1e-12 s and 1e12 s, a hundred thousand states, a million events, solutions that end: what
+comes out, by every method that makes sense. Every row is right or a clear error; a silent wrong answer would be the one thing
+that must not be, and stands here as **WRONG** as long as there is one.
+
+**How an error is counted.** Against a closed form, or for a scaled scene against the unscaled one. The unit is the tolerance,
+(rtol |x| + atol) times the growth of the problem (what local errors of one tolerance make at the end: the radians of an oscillator,
+the time constants of a decay), and one rounding of |x| for each step. Over the states it is the root mean square, the norm in which steps are
+controlled; times of events count in units of what a unit of the state makes of them, beyond the 100 eps t with which they are located
+([semantics](semantics.md), 2.9). Right is an error up to 10, for `bdf` up to 100, with the exact number of events.
+A clear error is a `ModelError` or a `SimulationError`; where a solution ends it has to come at that time. A run that takes longer
+than 10 s is stopped, and counts as wrong.
+
+**What is not here:** a pulse of 1e-9 s that no guard, no source and no `max_minor_step_size` announces. No method that looks at f
+at the points of its steps can see it.
+
+Of a sweep of several runs the worst is shown, with the steps and the time of all. `./dev stability` makes this page again.
+)";
+}
+
+using Tally = std::map<Verdict, int>;
+
+inline void write_sum(std::ostream& out, const Tally& tally) {
+  out << "\n## Sum\n\n| verdict | rows |\n| --- | --- |\n";
+  for (const auto& [verdict, rows] : tally)
+    out << "| " << to_string(verdict) << " | " << rows << " |\n";
+}
+
+}  // namespace extremes
