@@ -19,8 +19,9 @@ SurfaceContact* Instant::contact_of_crossing(std::size_t k) {
   const GuardGroup& group = group_of(k);
   const Rest& rest = slot_rests_[k];
   if (rest.states.empty()) return nullptr;
-  SurfaceContact made{
-      .slot = static_cast<int>(k), .pressed = firing_side(group.direction), .states = rest.states};
+  SurfaceContact made{.slot = static_cast<int>(k),
+                      .pressed = firing_side(group.direction),
+                      .states = {rest.states.begin(), rest.states.end()}};
   if (const ResetMap& map = crossing_of(group).reset_map)
     made.members.push_back({rest.leaf, &map, rest.entry});
   return &contacts_.add(std::move(made));
@@ -44,7 +45,7 @@ SurfaceContact* Instant::contact_of_relation(std::size_t k) {
   for (std::size_t e = 0; e < plan().edges.size(); ++e) {
     if (!rests_here(e)) continue;
     const EdgeWatch& edge = plan().edges[e];
-    const std::vector<Index>& states = edge_rests_[e].states;
+    const std::span<const Index> states = edge_rests_[e].states;
     made.members.push_back({edge.leaf, &reset_of(edge).reset_map, 0});
     made.states.insert(made.states.end(), states.begin(), states.end());
   }

@@ -3,6 +3,7 @@
 #include "saltus/simulation/instant.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 namespace saltus {
@@ -42,10 +43,11 @@ Instant::Instant(Machine& machine, Watch& watch, const SimulatorOptions& options
 
 /// The Zeno monitors: one for each guard with an effect, one for each edge.
 void Instant::add_rests() {
+  states_.resize(static_cast<std::size_t>(plan().nx));
+  std::iota(states_.begin(), states_.end(), Index{0});
   const auto whole = [&](const PlanLeaf& of) {
-    std::vector<Index> states;
-    for (Index i = 0; i < of.nx; ++i) states.push_back(of.x + i);
-    return states;
+    return std::span<const Index>(states_).subspan(static_cast<std::size_t>(of.x),
+                                                   static_cast<std::size_t>(of.nx));
   };
   slot_rests_.resize(watch_->slots.size());
   for (std::size_t k = 0; k < slot_rests_.size(); ++k) {
@@ -61,8 +63,10 @@ void Instant::add_rests() {
     if (crossing.holds.empty()) {
       rest.states = whole(leaf(group.leaf));
     } else {
+      std::vector<Index>& held = held_.emplace_back();
       for (int i : crossing.holds[static_cast<std::size_t>(rest.entry)])
-        rest.states.push_back(leaf(group.leaf).x + i);
+        held.push_back(leaf(group.leaf).x + i);
+      rest.states = held;
     }
   }
   for (std::size_t e = 0; e < plan().edges.size(); ++e) {

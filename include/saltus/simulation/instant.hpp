@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cmath>
+#include <deque>
 #include <limits>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -85,7 +87,7 @@ class Instant {
     int leaf = -1, source = -1;
     Index entry = 0;
     OnZeno on_zeno = {};
-    std::vector<Index> states = {};  // entries of x that rest on a hold
+    std::span<const Index> states = {};  // entries of x that rest on a hold
   };
 
   // instant_setup.cpp
@@ -202,6 +204,8 @@ class Instant {
   Contacts contacts_;
 
   std::vector<int> group_of_slot_;
+  std::vector<Index> states_;            // all entries of x: what a whole leaf rests with
+  std::deque<std::vector<Index>> held_;  // what guards with `holds` rest with
   std::vector<Rest> slot_rests_, edge_rests_;
   std::vector<char> edge_values_, carried_;
 
