@@ -2,7 +2,6 @@
 //   extremes [--quick] [--out FILE] [WORDS]    only the scenes whose name contains WORDS
 #include <fstream>
 #include <iostream>
-#include <sstream>
 #include <string_view>
 
 #include "extremes/all.hpp"
@@ -30,29 +29,36 @@ Asked asked(int argc, char** argv) {
   return all;
 }
 
+extremes::Table run_group(const extremes::Group& group, const Asked& what) {
+  using namespace extremes;
+  Table table{group.title, group.text, {}};
+  for (const Case& c : group.cases) {
+    if ((what.quick && !c.quick) || c.name.find(what.words) == std::string::npos) continue;
+    for (const std::string& method : c.methods) {
+      const Row row = run(c, method);
+      std::cout << to_string(row.verdict) << '\t' << method << '\t' << c.name << '\t'
+                << row.finding.error << '\t' << row.finding.events << '\t' << row.seconds << " s\t"
+                << row.happened << std::endl;
+      table.lines.push_back({c.name, method, row});
+    }
+  }
+  return table;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   using namespace extremes;
   const Asked what = asked(argc, argv);
-  std::ostringstream page;
-  Tally tally;
-  write_introduction(page);
+  std::vector<Table> tables;
   for (const Group& group : all_groups()) {
-    write_head(page, group);
-    for (const Case& c : group.cases) {
-      if ((what.quick && !c.quick) || c.name.find(what.words) == std::string::npos) continue;
-      for (const std::string& method : c.methods) {
-        const Row row = run(c, method);
-        write(page, c, method, row);
-        ++tally[row.verdict];
-        std::cout << to_string(row.verdict) << '\t' << method << '\t' << c.name << '\t'
-                  << row.finding.error << '\t' << row.finding.events << '\t' << row.seconds
-                  << " s\t" << row.happened << std::endl;
-      }
-    }
+    tables.push_back(run_group(group, what));
+    if (tables.back().lines.empty()) tables.pop_back();
   }
-  write_sum(page, tally);
-  if (!what.file.empty()) std::ofstream(what.file) << page.str();
-  for (const auto& [verdict, rows] : tally) std::cout << to_string(verdict) << ": " << rows << '\n';
+  write_sum(std::cout, tables);
+  if (what.file.empty()) return 0;
+  std::ofstream page(what.file);
+  write_introduction(page);
+  write_sum(page, tables);
+  for (const Table& table : tables) write(page, table);
 }

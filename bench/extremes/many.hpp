@@ -186,8 +186,11 @@ inline Group many() {
                 [] { return rod(100'000, true); }),
           scene(
               "1e4 states in a leaf: heat, nothing declared", stiff_ones,
-              [] { return rod(10'000, false); }, false, Expected::either),
+              [] { return rod(10'000, false); }, true, Expected::either),
           scene("1e5 states in 5e4 stiff leaves", stiff_ones, [] { return many_stiff(half); }),
+          scene(
+              "2e3 guards of a leaf, monitors, all fire", every,
+              [] { return guards(2000, 2000, false); }, true),
           scene("1e4 guards of a leaf, monitors, all fire", every,
                 [] { return guards(10'000, 10'000, false); }),
           scene("1e4 guards of a leaf, 300 of them reset", every,

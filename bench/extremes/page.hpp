@@ -1,8 +1,8 @@
 // The page: docs/stability.md.
 #pragma once
 
+#include <algorithm>
 #include <cstdio>
-#include <map>
 #include <ostream>
 
 #include "extremes/run.hpp"
@@ -40,19 +40,37 @@ inline std::string cell(std::string message) {
 
 }  // namespace detail
 
-/// One row a method.
-inline void write(std::ostream& out, const Case& c, const std::string& method, const Row& row) {
-  out << "| " << (method == c.methods.front() ? c.name : std::string{}) << " | " << method << " | "
-      << detail::cell(row.happened) << " | " << detail::error_text(row) << " | "
-      << row.finding.events << " | " << row.steps << " | " << detail::time_class(row.seconds)
-      << " | " << (row.verdict == Verdict::wrong ? "**WRONG**" : to_string(row.verdict)) << " |\n";
-}
+/// What one method made of one case.
+struct Line {
+  std::string scene, method;
+  Row row;
+};
 
-inline void write_head(std::ostream& out, const Group& group) {
-  out << "\n## " << group.title << "\n\n";
-  if (!group.text.empty()) out << group.text << "\n\n";
+/// A group, run.
+struct Table {
+  std::string title, text;
+  std::vector<Line> lines;
+
+  auto count(Verdict verdict) const {
+    return std::ranges::count(lines, verdict, [](const Line& line) { return line.row.verdict; });
+  }
+};
+
+/// A scene is named once, before its first method.
+inline void write(std::ostream& out, const Table& table) {
+  out << "\n## " << table.title << "\n\n";
+  if (!table.text.empty()) out << table.text << "\n\n";
   out << "| scene | method | what happened | error | events | steps | time | verdict |\n"
          "| --- | --- | --- | --- | --- | --- | --- | --- |\n";
+  std::string before;
+  for (const auto& [scene, method, row] : table.lines) {
+    out << "| " << (scene == before ? "" : scene) << " | " << method << " | "
+        << detail::cell(row.happened) << " | " << detail::error_text(row) << " | "
+        << row.finding.events << " | " << row.steps << " | " << detail::time_class(row.seconds)
+        << " | " << (row.verdict == Verdict::wrong ? "**WRONG**" : to_string(row.verdict))
+        << " |\n";
+    before = scene;
+  }
 }
 
 inline void write_introduction(std::ostream& out) {
@@ -73,16 +91,27 @@ than 10 s is stopped, and counts as wrong.
 **What is not here:** a pulse of 1e-9 s that no guard, no source and no `max_minor_step_size` announces. No method that looks at f
 at the points of its steps can see it.
 
+**Bits.** Multiplied by a power of two a scene has to give the same run, multiplied, to the last bit. That is more than a tolerance
+asks for: such a row is WRONG with an error far below 10 too.
+
 Of a sweep of several runs the worst is shown, with the steps and the time of all. `./dev stability` makes this page again.
 )";
 }
 
-using Tally = std::map<Verdict, int>;
-
-inline void write_sum(std::ostream& out, const Tally& tally) {
-  out << "\n## Sum\n\n| verdict | rows |\n| --- | --- |\n";
-  for (const auto& [verdict, rows] : tally)
-    out << "| " << to_string(verdict) << " | " << rows << " |\n";
+/// How many rows of each verdict a group has.
+inline void write_sum(std::ostream& out, const std::vector<Table>& tables) {
+  constexpr std::array verdicts{Verdict::right, Verdict::clear_error, Verdict::wrong};
+  out << "\n| group | right | clear error | WRONG |\n| --- | --- | --- | --- |\n";
+  std::array<std::ptrdiff_t, 3> sum{};
+  const auto row = [&out](const std::string& name, const auto& counts) {
+    out << "| " << name << " | " << counts[0] << " | " << counts[1] << " | " << counts[2] << " |\n";
+  };
+  for (const Table& table : tables) {
+    std::array<std::ptrdiff_t, 3> counts{};
+    for (std::size_t i = 0; i < counts.size(); ++i) sum[i] += counts[i] = table.count(verdicts[i]);
+    row(table.title, counts);
+  }
+  row("sum", sum);
 }
 
 }  // namespace extremes

@@ -153,8 +153,8 @@ std::shared_ptr<Leaf> all_at_once() {
 
 }  // namespace
 
-// Instant::contact_of_crossing makes two vectors for each hold of a leaf, the one for the edges two
-// for each of an Integrator; the same below.
+// Instant::contact_of_crossing makes a SurfaceContact, two vectors, each time a guard comes to
+// rest.
 TEST_CASE("holds and releases allocate nothing, in a leaf and in a diagram",
           "[.engine][absent][allocation]") {
   const auto* method = GENERATE(from_range(methods));
@@ -186,7 +186,7 @@ TEST_CASE("guards, resets, monitors and modes at once allocate nothing, in a lea
   }
 }
 
-// AutoSolver::change adds a Stretch to the statistics.
+// AutoSolver::change describes the linear solver in words, for the statistics, at each change.
 TEST_CASE("changes between stiff and not allocate nothing", "[.engine][absent][allocation]") {
   for (const Form& form : forms(all_at_once())) {
     INFO(form.name);
