@@ -174,18 +174,17 @@ class RungeKutta final : public StepSolver<RungeKutta<Method, N>, OneStepSolver>
     std::array<double, estimates> squares{};
     detail::for_lanes<N>(size(), [&](Index i) {
       const Lane largest = detail::larger(detail::load<N>(x0 + i), detail::load<N>(x1 + i));
-      const Lane scale = h / (atol + rtol * largest);
-      add_squares(scale, k + i, squares, std::make_index_sequence<estimates>{});
+      add_squares(h, atol + rtol * largest, k + i, squares, std::make_index_sequence<estimates>{});
     });
     for (double& square : squares) square /= static_cast<double>(size());
     const double error = Method::error(squares);
     return std::isfinite(error) ? error : infinite;
   }
   template <std::size_t... M>
-  void add_squares(const Lane& scale, const double* k, std::array<double, estimates>& squares,
-                   std::index_sequence<M...>) const {
-    ((squares[M] += detail::sum_of_squares(
-          Lane(scale * detail::dot<[] { return Method::e[M]; }, Method::stages, N>(k, size())))),
+  void add_squares(double h, const Lane& tolerance, const double* k,
+                   std::array<double, estimates>& squares, std::index_sequence<M...>) const {
+    ((squares[M] += detail::sum_of_squares(Lane(
+          h * detail::dot<[] { return Method::e[M]; }, Method::stages, N>(k, size()) / tolerance))),
      ...);
   }
 

@@ -5,6 +5,19 @@
 
 namespace saltus {
 
+namespace {
+
+/// CVODE takes a residual that was reduced, but not to its tolerance, for a solution in the first
+/// iteration of Newton's method; the correction is too small then, and the test of convergence,
+/// which looks at its size, passes. Here the step is tried again, shorter.
+int solve_or_fail(SUNLinearSolver solver, SUNMatrix matrix, N_Vector x, N_Vector b,
+                  double tolerance) {
+  const int flag = SUNLinSolSolve_SPGMR(solver, matrix, x, b, tolerance);
+  return flag == SUNLS_RES_REDUCED ? SUNLS_CONV_FAIL : flag;
+}
+
+}  // namespace
+
 LinearSystem::LinearSystem(Machine& machine, const SolverOptions& options,
                            std::exception_ptr& error)
     : machine_(&machine),
@@ -51,6 +64,7 @@ void LinearSystem::attach(void* cvode, N_Vector y, SUNContext context, const Cal
   linear_.reset(
       SUNLinSol_SPGMR(y, preconditioner_ ? SUN_PREC_RIGHT : SUN_PREC_NONE, directions, context));
   if (!linear_) throw Error("SUNDIALS: out of memory");
+  linear_->ops->solve = solve_or_fail;
   CVodeSetLinearSolver(cvode, linear_.get(), nullptr);
   if (preconditioner_) CVodeSetPreconditioner(cvode, callbacks.prepare, callbacks.precondition);
 }
