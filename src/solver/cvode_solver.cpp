@@ -141,12 +141,6 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
 
   void undo() { t1_ = t0_; }
 
-  int degree() const {
-    if (starting_) return starter_.degree();
-    int order = 0;
-    CVodeGetLastOrder(cvode_.get(), &order);
-    return order;
-  }
   /// CVODE has looked at the end of its step just now.
   const double* end_guards() const {
     return !starting_ && !asked_.empty() && asked_at_ == t1_ ? asked_.data() : nullptr;

@@ -25,15 +25,13 @@ class Locator : private Narrower {
 
   /// The first offset in (from, to] at which a guard that is no monitor fires; false if there is
   /// none. The step begins at `t0`; `interpolate(u, x)` gives the state inside it, `end` is the
-  /// state at `to` exactly, `guards` are the guards there if they are known, else null; `degree` is
-  /// that of the interpolant: a parabola shows in one point all that three would.
+  /// state at `to` exactly, `guards` are the guards there if they are known, else null.
   template <class Interpolate>
-  bool find(double t0, double from, double to, const double* end, const double* guards, int degree,
+  bool find(double t0, double from, double to, const double* end, const double* guards,
             const Interpolate& interpolate) {
     t0_ = t0;
     if (version_ != watch_->version) look_up_slots();
-    const int points = jumps_ ? watch_->scan_points : std::min(watch_->scan_points, degree - 1);
-    const int pieces = std::max(points, std::min(watch_->scan_points, 1)) + 1;
+    const int pieces = watch_->scan_points + 1;
     const double piece_length = (to - from) / pieces;
     if (guards != nullptr)
       std::copy_n(guards, high_.size(), high_.data());

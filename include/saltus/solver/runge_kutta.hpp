@@ -37,8 +37,6 @@ class RungeKutta final : public StepSolver<RungeKutta<Method, N>, OneStepSolver>
     });
   }
 
-  static constexpr int degree() noexcept { return static_cast<int>(dense_terms); }
-
   std::string method() const override { return Method::name; }
 
   void watch_stiffness() override { watches_stiffness_ = true; }

@@ -45,7 +45,7 @@ class StepSolver : public Interface {
     const auto inside = [this](double u, double* x) { self().inside_step(u, x); };
     if (watch_->any() &&
         locator_.find(t0_, offset_, length_, x1_.data(),
-                      offset_ == 0.0 ? self().end_guards() : nullptr, self().degree(), inside)) {
+                      offset_ == 0.0 ? self().end_guards() : nullptr, inside)) {
       offset_ = locator_.offset();
       delivered_ = offset_ >= length_;
       time_ = delivered_ ? t1_ : t0_ + offset_;
