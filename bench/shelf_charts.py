@@ -66,7 +66,9 @@ def small(axis, report):
     key, bound = ("error", "bound") if known else ("event_error", "event_bound")
     chart.panel(axis, report, key, report.reference.get(bound, math.nan))
     low, high = axis.get_ylim()
-    axis.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5) if high < 30 * low else (1,)))
+    axis.yaxis.set_major_locator(
+        LogLocator(subs=(1, 2, 5) if high < 30 * low else (1,), numticks=9)
+    )
     axis.yaxis.set_major_formatter(EngFormatter(unit="s"))
     axis.xaxis.set_major_locator(LogLocator(numticks=5))
     axis.set_title(report.scene if known else f"{report.scene} (event times)", loc="left")
