@@ -78,7 +78,7 @@ def judged(report):
     for row in report:
         times = row["scaled_error"] / report.growth
         if row["status"] in ("failed", "interrupted", "step_limit"):
-            yield row, row["message"] or row["status"]
+            yield row, row["message"].split(": the solution")[0] or row["status"]
         elif row["event_mismatch"]:
             yield row, f"{row['event_mismatch']} events too many or too few"
         elif row["scaled_error"] > limit and not row["error"] <= bound:
@@ -140,8 +140,8 @@ scenes.
 
 Measured on: {machine}.
 
-Run times are processor time, ratios are taken within one run, with the runners taking turns, and medians are given. On a busy
-machine ratios vary by some percent, single times by more. Steps, calls, instructions and errors do not depend on the machine.
+Ratios are of processor time, taken within one run, with the runners taking turns, and medians are given; the charts show run time by
+the clock. On a busy machine ratios vary by some percent, single times by more. Steps, calls, instructions and errors do not depend on the machine.
 
 ## Targets of speed
 

@@ -17,7 +17,7 @@ from matplotlib.figure import Figure  # type: ignore[import-not-found,unused-ign
 if TYPE_CHECKING:
     from saltus.report.table import WorkPrecision
 
-__all__ = ["draw", "save"]
+__all__ = ["draw", "panel", "save"]
 
 # one colour a method in every chart (Okabe and Ito: told apart by the colour-blind as well)
 COLOURS = {
@@ -57,7 +57,7 @@ def draw(table: WorkPrecision) -> Figure:
         figure = Figure(figsize=(1.7 + 3.4 * len(panels), height), layout="constrained")
         axes = figure.subplots(1, len(panels), sharey=True, squeeze=False)[0]
         for axis, (key, label, bound) in zip(axes, panels, strict=True):
-            _panel(axis, table, key, table.reference.get(bound, math.nan))
+            panel(axis, table, key, table.reference.get(bound, math.nan))
             axis.set_xlabel(label)
         axes[0].set_ylabel("run time, warm")
         _times(axes[0])
@@ -79,7 +79,10 @@ def save(figure: Figure, path: str | PathLike[str]) -> None:
     Path(path).write_text(re.sub(r"(\d\.\d\d)\d+", r"\1", text.getvalue()))
 
 
-def _panel(axis: Any, table: WorkPrecision, key: str, bound: float) -> None:
+def panel(axis: Any, table: WorkPrecision, key: str, bound: float) -> None:
+    """Into axes of matplotlib: `key` ("error", "event_error", ...) across, warm run time up, a line
+    for each method. Below `bound`, grey, the reference itself may be wrong.
+    """
     axis.set_xscale("log")
     axis.set_yscale("log")
     axis.minorticks_off()
