@@ -84,15 +84,8 @@ inline Case hardly_damped(double y0, int contacts) {
   return {.name = text("ball, e = 1 - 1e-9, y0 = ", y0, " m, ", contacts, " contacts"),
           .methods = every,
           .trials = one([=] {
-            const double end = 2.0 * ball.first() * contacts;
             const double in_time = std::min(ball.y0, ball.speed());
-            return trial(ball.leaf(), {0.0, end}, {.rtol = 1e-9, .atol = 1e-10 * in_time},
-                         meets({.size = vec({ball.y0, ball.speed()}),
-                                .growth = 4.0,
-                                .times = ball.contacts(end),
-                                .events = true,
-                                .speed = ball.speed(),
-                                .power = 2.0}));
+            return contacts_of(ball, contacts, {.rtol = 1e-9, .atol = 1e-10 * in_time});
           })};
 }
 

@@ -133,15 +133,7 @@ inline Trial sawtooth(int n) {
 
 /// Contacts of a ball that loses nothing.
 inline Trial elastic(int n) {
-  const Ball ball{9.81, 1.0, 1.0};
-  const double end = 2.0 * ball.first() * n;
-  return trial(ball.leaf(), {0.0, end}, {.rtol = 1e-9, .atol = 1e-11},
-               meets({.size = vec({ball.y0, ball.speed()}),
-                      .growth = 4.0,
-                      .times = ball.contacts(end),
-                      .events = true,
-                      .speed = ball.speed(),
-                      .power = 2.0}));
+  return contacts_of({9.81, 1.0, 1.0}, n, {.rtol = 1e-9, .atol = 1e-11});
 }
 
 /// n updates 1e-3 s apart turn the sign of x' = z.

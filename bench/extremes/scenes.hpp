@@ -89,4 +89,17 @@ struct Ball {
   }
 };
 
+/// About n contacts of a ball that loses little or nothing. An impact wrong by one tolerance delays
+/// all later ones: they add up as n^2.
+inline Trial contacts_of(const Ball& ball, int n, const SimulatorOptions& options) {
+  const double end = 2.0 * ball.first() * n;
+  return trial(ball.leaf(), {0.0, end}, options,
+               meets({.size = vec({ball.y0, ball.speed()}),
+                      .growth = 4.0,
+                      .times = ball.contacts(end),
+                      .events = true,
+                      .speed = ball.speed(),
+                      .power = 2.0}));
+}
+
 }  // namespace extremes

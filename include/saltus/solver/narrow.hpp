@@ -63,7 +63,7 @@ class Narrower {
 
   /// Narrows [low, high], where no guard has fired at low and `high_` shows that one has at high.
   /// On return `high_` and crossed_ are those of the offset returned. `third_` are the guards at
-  /// third_at_, another look nearby, if that is not NaN.
+  /// third_at_, another look nearby; infinite if there is none.
   template <class Interpolate>
   double narrow(double low, double high, const Interpolate& interpolate) {
     low_ = watch_->g;
