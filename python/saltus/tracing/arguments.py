@@ -54,7 +54,9 @@ class Symbols:
         self.variables[node] = (kind, first, second)
         return Symbol(self.graph, node, "i" if kind in ("mode", "entry") else "f", python)
 
-    def _many(self, kind: str, shape: Shape, words: str, *place: int, first: int = 0) -> SymbolArray:
+    def _many(
+        self, kind: str, shape: Shape, words: str, *place: int, first: int = 0
+    ) -> SymbolArray:
         data = np.empty(shape, dtype=object)
         flat = data.reshape(-1)
         for i in range(data.size):
@@ -114,7 +116,9 @@ def plain_arguments(signature: Signature, at: Point) -> tuple[list[Any], dict[st
     first = 0
     for name, start in signature.parameters.items():
         part = at.p[first : first + np.size(start)]
-        values[name] = float(part[0]) if np.shape(start) == () else _read_only(part, np.shape(start))
+        values[name] = (
+            float(part[0]) if np.shape(start) == () else _read_only(part, np.shape(start))
+        )
         first += np.size(start)
     seen = x if signature.convention == "vector" else state
     plain = signature.convention in ("inputs", "input")

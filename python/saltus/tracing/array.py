@@ -35,8 +35,9 @@ def objects_of(value: Any) -> Objects:
     if isinstance(value, SymbolArray):
         return value.data
     if isinstance(value, np.ndarray):
-        kind_of_type(value.dtype)
-        return value.astype(object)
+        if value.dtype != object:
+            kind_of_type(value.dtype)
+        return value.astype(object, copy=False)
     if isinstance(value, (list, tuple)):
         return _stacked([objects_of(item) for item in value])
     if not is_number(value):

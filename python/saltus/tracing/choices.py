@@ -13,6 +13,7 @@ import numpy as np
 
 from saltus.tracing.array import SymbolArray, as_array
 from saltus.tracing.operators import apply
+from saltus.tracing.reductions import fold
 from saltus.tracing.refusal import refuse
 from saltus.tracing.scalars import as_real
 from saltus.tracing.symbol import joint
@@ -61,7 +62,9 @@ def round_(a: Any, decimals: int = 0, out: Any = None) -> Any:
     return apply(last, apply("rint", apply(first, a, factor)), factor)
 
 
-def interp(x: Any, xp: Any, fp: Any, left: Any = None, right: Any = None, period: Any = None) -> Any:
+def interp(
+    x: Any, xp: Any, fp: Any, left: Any = None, right: Any = None, period: Any = None
+) -> Any:
     """Straight lines through the points (xp, fp), constant beyond them; xp is known."""
     if period is not None:
         refuse("calls np.interp with a period", "use np.mod on x first")
@@ -78,7 +81,9 @@ def interp(x: Any, xp: Any, fp: Any, left: Any = None, right: Any = None, period
     return where(apply("isnan", x), x, result)
 
 
-def is_close(a: Any, b: Any, rtol: float = 1e-05, atol: float = 1e-08, equal_nan: bool = False) -> Any:
+def is_close(
+    a: Any, b: Any, rtol: float = 1e-05, atol: float = 1e-08, equal_nan: bool = False
+) -> Any:
     """|a - b| <= atol + rtol |b|, or both infinite and equal."""
     if equal_nan:
         refuse("calls np.isclose with equal_nan", "leave that out")
@@ -90,7 +95,7 @@ def is_close(a: Any, b: Any, rtol: float = 1e-05, atol: float = 1e-08, equal_nan
 
 def _whole(test: Callable[..., Any]) -> Callable[..., Any]:
     def function(a: Any, b: Any, *rest: Any, **options: Any) -> Any:
-        return as_array(test(a, b, *rest, **options)).all()  # type: ignore[attr-defined]
+        return fold("logical_and", False, test(a, b, *rest, **options), None)
 
     return function
 
@@ -110,7 +115,7 @@ def nan_to_num(x: Any, copy: bool = True, nan: float = 0.0, posinf: Any = None,
 
 
 def count_nonzero(a: Any, axis: Any = None) -> Any:
-    return apply("truth", as_array(a)).astype(int).sum(axis)
+    return fold("add", False, apply("truth", as_array(a)), axis)
 
 
 CHOICES: dict[str, Callable[..., Any]] = {

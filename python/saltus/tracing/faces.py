@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from saltus.tracing import functions as numpy_functions
-from saltus.tracing.array import SymbolArray, array
+from saltus.tracing.array import SymbolArray, array, kind_of_type
 from saltus.tracing.foreign import Foreign
 from saltus.tracing.operators import apply, call_ufunc, reduce_ufunc
 from saltus.tracing.plain_builtins import REPLACED, SAFE
@@ -37,7 +37,7 @@ class Ufunc:
         if options or numpy_functions.has_symbols(arguments):
             return call_ufunc(self._ufunc, *arguments, **options)
         result = self._ufunc(*numpy_functions.plain(arguments))
-        return numpy_functions._owned(result)
+        return numpy_functions.owned(result)
 
     def _method(self, method: str) -> Callable[..., Any]:
         return lambda *a, **options: reduce_ufunc(self._ufunc, method, *a, **options)
@@ -53,13 +53,14 @@ class NumpyType:
 
     def __init__(self, kind: type):
         self.type = kind
-        self.dtype = np.dtype(kind)  # numpy takes what has a dtype for one
+        if not kind.__subclasses__():  # not an abstract one, such as np.floating
+            self.dtype = np.dtype(kind)  # numpy takes what has a dtype for one
         self.__name__ = kind.__name__
 
     def __call__(self, value: Any = 0) -> Any:
         if not numpy_functions.has_symbols(value):
             return self.type(numpy_functions.plain(value))
-        return array(value, numpy_functions.kind_of_type(self.type))[()]
+        return array(value, kind_of_type(self.type))[()]
 
 
 def _function(function: Callable[..., Any]) -> Callable[..., Any]:
@@ -140,16 +141,21 @@ MATH_OWN: dict[str, Callable[..., Any]] = {
     "floor": lambda x: x.__floor__(),
     "ceil": lambda x: x.__ceil__(),
     "trunc": lambda x: x.__trunc__(),
+    "modf": lambda x: (x - SCALARS["trunc"](x), SCALARS["trunc"](x)),
+}
+
+SEQUENCES: dict[str, Callable[..., Any]] = {
     "fsum": lambda terms: functools.reduce(operator.add, terms),
     "prod": lambda terms, start=1: functools.reduce(operator.mul, terms, start),
     "dist": lambda p, q: _hypot(*(a - b for a, b in zip(p, q, strict=True))),
-    "modf": lambda x: (x - SCALARS["trunc"](x), SCALARS["trunc"](x)),
 }
 
 
 def _as_python(result: Any) -> Any:
     """math's functions return Python's numbers, whatever they are given."""
-    return Symbol(result.graph, result.node, result.kind, True) if type(result) is Symbol else result
+    return (
+        Symbol(result.graph, result.node, result.kind, True) if type(result) is Symbol else result
+    )
 
 
 @functools.cache
@@ -159,6 +165,8 @@ def math_function(name: str) -> Callable[..., Any]:
     def call(*arguments: Any, **options: Any) -> Any:
         if not numpy_functions.has_symbols(arguments):
             return real(*numpy_functions.plain(arguments), **options)
+        if name in SEQUENCES:
+            return _as_python(SEQUENCES[name](*arguments, **options))
         arguments = tuple(_one(a) for a in arguments)
         if name in MATH_OWN:
             return _as_python(MATH_OWN[name](*arguments, **options))
@@ -219,7 +227,9 @@ def _of_python(value: Any) -> Any:
     return value if safe and not isinstance(value, FunctionType) else None
 
 
-def _import(name: str, globals: Any = None, locals: Any = None, fromlist: Any = (), level: int = 0):  # type: ignore[no-untyped-def]
+def _import(
+    name: str, globals: Any = None, locals: Any = None, fromlist: Any = (), level: int = 0
+) -> Any:
     """`import numpy` inside a function."""
     root = {"numpy": NUMPY, "math": MATH_FACE, "operator": operator, "itertools": itertools}
     root["numpy.linalg"] = LINALG if fromlist else NUMPY

@@ -17,5 +17,5 @@ class FrozenList(list[Any]):
     def _refuse(self, *arguments: Any, **options: Any) -> NoReturn:
         refuse(f"writes to the list {self._words}", "what changes something outside is called")
 
-    append = extend = insert = pop = remove = clear = sort = reverse = _refuse  # type: ignore[assignment]
-    __setitem__ = __delitem__ = __iadd__ = __imul__ = _refuse  # type: ignore[assignment]
+    append = extend = insert = pop = remove = clear = sort = reverse = _refuse
+    __setitem__ = __delitem__ = __iadd__ = __imul__ = _refuse

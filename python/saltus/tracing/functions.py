@@ -116,13 +116,13 @@ def call_function(function: Callable[..., Any], args: Any, options: Any) -> Any:
     if name in ARRANGING and _arrays_in(list(args)):
         return _arrange(function, args, options)
     result = function(*plain(tuple(args)), **{key: plain(v) for key, v in options.items()})
-    return _owned(result)
+    return owned(result)
 
 
-def _owned(result: Any) -> Any:
+def owned(result: Any) -> Any:
     if isinstance(result, (list, tuple)):
-        return type(result)(*map(_owned, result)) if hasattr(result, "_fields") else type(result)(
-            [_owned(item) for item in result]
+        return type(result)(*map(owned, result)) if hasattr(result, "_fields") else type(result)(
+            [owned(item) for item in result]
         )  # fmt: skip
     return array(result) if isinstance(result, np.ndarray) else result
 
@@ -212,6 +212,7 @@ FUNCTIONS: dict[str, Callable[..., Any]] = {
     "ndim": _ndim,
     "size": lambda a: objects_of(a).size,
     "real": lambda a: a,
+    "sinc": lambda a: apply("sinc", a),
     "fix": lambda a: call_ufunc(np.trunc, a),
     "astype": _method("astype"),
     **choices.CHOICES,
@@ -223,7 +224,6 @@ def _round_method(self: Any, decimals: int = 0) -> Any:
     return choices.round_(self, decimals)
 
 
-SymbolArray.round = _round_method  # type: ignore[attr-defined]
-Symbol.round = _round_method  # type: ignore[attr-defined]
-SymbolArray.clip = choices.clip  # type: ignore[attr-defined]
-Symbol.clip = choices.clip  # type: ignore[attr-defined]
+for _class in (SymbolArray, Symbol):
+    for _name, _function in {"round": _round_method, "clip": choices.clip}.items():
+        setattr(_class, _name, _function)

@@ -28,7 +28,7 @@ class Guarded:
     def __init__(self, sandbox: Sandbox, value: Any, words: str):
         object.__setattr__(self, "_parts", (sandbox, value, words))
 
-    @property
+    @property  # type: ignore[misc]
     def __class__(self) -> Any:  # so that isinstance knows it
         return type(_sandbox(self)[1])
 

@@ -81,6 +81,7 @@ class Float(metaclass=_Converted):
     """float"""
 
     real = float
+    dtype = np.dtype(float)  # numpy takes what has one for a type of entries
     convert = staticmethod(_to_float)
 
 
@@ -88,6 +89,7 @@ class Int(metaclass=_Converted):
     """int"""
 
     real = int
+    dtype = np.dtype(int)  # numpy takes what has one for a type of entries
     convert = staticmethod(_to_int)
 
 
@@ -95,6 +97,7 @@ class Bool(metaclass=_Converted):
     """bool"""
 
     real = bool
+    dtype = np.dtype(bool)  # numpy takes what has one for a type of entries
     convert = staticmethod(_to_bool)
 
 

@@ -95,6 +95,5 @@ def _rmatmul(self: Any, other: Any) -> Any:
     return matmul(other, self)
 
 
-SymbolArray.__matmul__ = _matmul  # type: ignore[attr-defined]
-SymbolArray.__rmatmul__ = _rmatmul  # type: ignore[attr-defined]
-SymbolArray.dot = dot  # type: ignore[attr-defined]
+for _method, _function in {"__matmul__": _matmul, "__rmatmul__": _rmatmul, "dot": dot}.items():
+    setattr(SymbolArray, _method, _function)

@@ -148,7 +148,11 @@ class Sandbox:
         code = function.__code__
         self.watch.add(words, get_attribute, (function, "__code__"), code)
         copied = FunctionType(
-            code, self._globals_of(function), function.__name__, None, self._closure(function, words)
+            code,
+            self._globals_of(function),
+            function.__name__,
+            None,
+            self._closure(function, words),
         )
         self._copies[id(function)] = copied  # before its globals: it may call itself
         self._kept.append(function)

@@ -48,7 +48,8 @@ def _square(a: Any) -> Objects:
         refuse(f"solves with an array of shape {a.shape}", "one square matrix at a time")
     if a.shape[0] > LARGEST:
         refuse(f"solves with {a.shape[0]} rows; up to {LARGEST} are traced")
-    return a.data
+    rows: Objects = a.data
+    return rows
 
 
 def solve(a: Any, b: Any) -> Any:

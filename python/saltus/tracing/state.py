@@ -16,6 +16,13 @@ from saltus.tracing.symbol import Symbol
 class TracedState:
     """Has what `saltus.State` has. Each `with_*` returns a new one that knows what was written."""
 
+    continuous_state: Any
+    discrete_state: Any
+    entry: Any
+    mode: Any
+    written: str
+    """letters of what was written: x, z, m for the mode"""
+
     __slots__ = ("continuous_state", "discrete_state", "entry", "mode", "written")
 
     def __init__(self, x: Any, z: Any, mode: Any, entry: Any):

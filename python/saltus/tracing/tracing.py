@@ -76,7 +76,9 @@ def _traced(signature: Signature, sandbox: Sandbox) -> Traced | Refused:
     arguments, options, _ = symbols.arguments()
     if signature.owner is not None:
         arguments.insert(0, sandbox.form_of(signature.owner, "self"))
-    returned = call(signature, function, arguments, options, lambda shape: array(np.full(shape, np.nan)))
+    returned = call(
+        signature, function, arguments, options, lambda shape: array(np.full(shape, np.nan))
+    )
     result = result_of(signature, returned)
     sandbox.refuse_writes()
     if signature.result_size is not None and signature.kind in ("vector", "matrix"):
