@@ -111,7 +111,7 @@ def index_of(key: Any) -> Any:
 
 
 class SymbolArray:
-    """What `state.continuous_state`, np.array(...) and np.zeros(...) are while a function is traced.
+    """What `state.continuous_state`, np.array(...) and np.zeros(...) are in a traced function.
 
     `frozen` names an array from outside the function, which must not be written to.
     """

@@ -22,8 +22,8 @@ class Signature:
     owner: Any = None
     """the block, if the function takes it first (a method that was stripped of its block)"""
     convention: str = "state"
-    """'state': f(time, state, *inputs, **parameters); 'inputs': f((u_0, u_1, ...)); 'input': f(u_0);
-    'vector': f(time, x, *inputs, **parameters), x the continuous state alone
+    """'state': f(time, state, *inputs, **parameters); 'inputs': f((u_0, u_1, ...)); 'input':
+    f(u_0); 'vector': f(time, x, *inputs, **parameters), x the continuous state alone
     """
     block: str = ""
     """its name, for messages"""
@@ -41,7 +41,7 @@ class Signature:
     inputs: Sequence[int] | None = None
     """positions of the inputs the function gets; all if not said"""
     kind: str = "vector"
-    """'vector' or 'matrix' returns numbers; 'reset' a state; 'update' a state or a discrete state"""
+    """'vector' and 'matrix' return numbers, 'reset' a state, 'update' a state or a discrete one"""
     out: bool = False
     """the function takes an array by the keyword `out`, fills it and returns nothing"""
     out_shape: Shape | None = None
