@@ -107,7 +107,7 @@ def index_of(key: Any) -> Any:
         return known(key, "uses values as indices")
     if isinstance(key, list):
         return [index_of(part) for part in key]
-    return key
+    return key.__index__() if type(key) is Symbol else key
 
 
 class SymbolArray:

@@ -186,8 +186,35 @@ class Math:
         value = getattr(math, name)
         return math_function(name) if callable(value) else value
 
+    def __setattr__(self, name: str, value: Any) -> None:
+        refuse(f"writes math.{name}")
+
 
 MATH_FACE = Math()
+
+
+class PlainModule:
+    """A module whose functions take symbols as they are."""
+
+    def __init__(self, module: ModuleType, names: list[str]):
+        self._module = module
+        self._names = names
+
+    def __getattr__(self, name: str) -> Any:
+        value = getattr(self._module, name)
+        return value if name in self._names else Foreign(f"{self._module.__name__}.{name}")
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        if not name.startswith("_"):
+            refuse(f"writes {self._module.__name__}.{name}")
+        object.__setattr__(self, name, value)
+
+
+PLAIN_MODULES: dict[Any, Any] = {
+    operator: PlainModule(operator, dir(operator)),
+    itertools: PlainModule(itertools, dir(itertools)),
+    functools: PlainModule(functools, ["partial", "reduce"]),
+}
 
 
 def _is_numpy(value: Any) -> bool:
@@ -198,9 +225,8 @@ def _is_numpy(value: Any) -> bool:
 def face_of(value: Any) -> Any:
     """The face of a module, function or type of numpy, math or Python; None if it has none."""
     if isinstance(value, ModuleType):
-        known: dict[Any, Any] = {np: NUMPY, np.linalg: LINALG, math: MATH_FACE}
-        safe = value in (operator, itertools, contextlib, functools)
-        return known.get(value, value if safe else None)
+        known: dict[Any, Any] = {np: NUMPY, np.linalg: LINALG, math: MATH_FACE, **PLAIN_MODULES}
+        return known.get(value)
     if isinstance(value, np.ufunc):
         return _numpy_value(value.__name__, value)
     if isinstance(value, BuiltinFunctionType) and value.__module__ == "math":
@@ -231,7 +257,8 @@ def _import(
     name: str, globals: Any = None, locals: Any = None, fromlist: Any = (), level: int = 0
 ) -> Any:
     """`import numpy` inside a function."""
-    root = {"numpy": NUMPY, "math": MATH_FACE, "operator": operator, "itertools": itertools}
+    root = {"numpy": NUMPY, "math": MATH_FACE}
+    root.update({module.__name__: face for module, face in PLAIN_MODULES.items()})
     root["numpy.linalg"] = LINALG if fromlist else NUMPY
     if level or name not in root:
         return Foreign(name, "import it at the top of the file")

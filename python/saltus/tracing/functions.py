@@ -156,7 +156,8 @@ def _like(number: float) -> Callable[..., Any]:
     def function(a: Any, dtype: Any = None, shape: Any = None, **options: Any) -> Any:
         a = as_array(a)
         kind = a.kind if dtype is None else kind_of_type(dtype)
-        return array(np.full(a.shape if shape is None else shape, number), kind)
+        filled = 0.0 if kind != "f" and number != number else number
+        return array(np.full(a.shape if shape is None else shape, filled), kind)
 
     return function
 
@@ -197,7 +198,7 @@ FUNCTIONS: dict[str, Callable[..., Any]] = {
     "full": _full,
     "zeros_like": _like(0),
     "ones_like": _like(1),
-    "empty_like": _like(0),
+    "empty_like": _like(np.nan),  # so that the check sees an entry nobody has written
     "full_like": _full_like,
     "linspace": _linspace,
     "dot": products.dot,
@@ -210,6 +211,8 @@ FUNCTIONS: dict[str, Callable[..., Any]] = {
     "det": solving.det,
     "shape": lambda a: objects_of(a).shape,
     "ndim": _ndim,
+    "isscalar": lambda a: not isinstance(a, (SymbolArray, list, tuple)),
+    "iscomplexobj": lambda a: False,
     "size": lambda a: objects_of(a).size,
     "real": lambda a: a,
     "sinc": lambda a: apply("sinc", a),

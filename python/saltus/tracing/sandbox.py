@@ -32,7 +32,8 @@ from saltus.tracing.watch import LARGEST, MISSING, PLAIN, Watch, entries
 
 FOREIGN = set(
     """
-    autograd casadi cupy cython dask jax jaxlib numba pandas scipy sympy tensorflow torch xarray
+    autograd casadi cupy cython dask jax jaxlib numba numpy pandas scipy sympy tensorflow torch
+    xarray
     """.split()
 )
 OUTSIDE = set("datetime io logging os random secrets socket subprocess sys time warnings".split())
@@ -84,7 +85,8 @@ class Sandbox:
         if face is not None:
             return face
         library = _library(value)
-        if library in FOREIGN or library in OUTSIDE:
+        own = isinstance(value, (np.ndarray, MethodType))
+        if not own and (library in FOREIGN or library in OUTSIDE):
             return Foreign(self._foreign_name(value, words), self._hint(library))
         if isinstance(value, FunctionType):
             return self.copy(value, words)
@@ -110,7 +112,8 @@ class Sandbox:
         if isinstance(value, (np.ndarray, list, tuple, dict)) and entries(value) > LARGEST:
             return Foreign(words, f"more than {LARGEST} entries are not watched for changes")
         if isinstance(value, np.ndarray):
-            if value.dtype.kind not in "biuf":
+            narrow = value.dtype.kind == "f" and value.dtype.itemsize < 8
+            if value.dtype.kind not in "biuf" or narrow or type(value) is not np.ndarray:
                 return Foreign(words, f"an array of {value.dtype}")
             kind = {"b": "b", "f": "f"}.get(value.dtype.kind, "i")
             return SymbolArray(value.astype(object), kind, words)
@@ -195,7 +198,7 @@ class Sandbox:
             self.watch.add(name, _get_cell, cell, value)
             if value is MISSING:
                 continue
-            mine.cell_contents = value if name == "__class__" else self.form_of(value, name)
+            mine.cell_contents = self.form_of(value, name)
             self._cells.append((name, mine, mine.cell_contents))
 
     def _fill_defaults(self, function: FunctionType, copied: FunctionType, words: str) -> None:

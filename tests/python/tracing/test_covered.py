@@ -1,9 +1,12 @@
 """What traces: each function is compared with what it gives when it is called."""
 
 # The expressions below are text: ruff does not see what they use.
+import enum
 import functools
 import math
 import operator  # noqa: F401
+import types
+from collections import namedtuple
 from functools import reduce  # noqa: F401
 from math import atan2, hypot  # noqa: F401
 from types import SimpleNamespace
@@ -537,3 +540,68 @@ def test_a_matrix_keeps_its_sparsity():
     assert sorted(zip(rows, columns, strict=True)) == sorted(
         zip(*(places.tolist() for places in heat.nonzero()), strict=True)
     )
+
+
+class Mode(enum.IntEnum):
+    FREE = 0
+    STUCK = 1
+
+
+class Plain(enum.Enum):
+    GAIN = 2.5
+
+
+class Base:
+    """Has what Derived builds on."""
+
+    level = 2.0
+
+    def force(self, a):
+        return self.level * a
+
+    @property
+    def offset(self):
+        return 0.5
+
+
+class Derived(Base):
+    level = 3.0
+
+    def force(self, a):
+        return super().force(a) + super().offset + Base.level + type(self).level
+
+    def ode(self, time, state):
+        stuck = state.mode == Mode.STUCK
+        scale = 1.0 if isinstance(self, Base) and not isinstance(self, Damper) else 0.0
+        return np.where(stuck, 0.0, self.force(state.continuous_state)) * scale * Plain.GAIN.value
+
+
+def test_super_class_attributes_and_enumerations():
+    derived = Derived()
+    outcome = assert_agrees(derived.ode)
+    assert_agrees(derived.ode, mode=1)
+    assert outcome.watch.changed() is None
+
+
+class Slotted:
+    __slots__ = ("gain",)
+
+    def __init__(self):
+        self.gain = 2.0
+
+
+def test_slots_modules_and_named_tuples():
+    slotted = Slotted()
+    module = types.ModuleType("mine")
+    exec("K = 3.0\ndef scale(a):\n    return K * a\n", vars(module))
+    pair = namedtuple("Pair", "a b")(1.0, np.array([2.0, 3.0]))
+
+    def function(time, state):
+        return module.scale(state.continuous_state) * slotted.gain + pair.a * pair.b + module.K
+
+    outcome = assert_agrees(function)
+    module.K = 4.0
+    assert outcome.watch.changed() == "K was 3.0, is 4.0"
+    module.K = 3.0
+    slotted.gain = 5.0
+    assert outcome.watch.changed() == "slotted.gain was 2.0, is 5.0"

@@ -29,7 +29,7 @@ def line_of(function, text):
 
 
 def branch_if(time, state):
-    y, v = state.continuous_state
+    _, v = state.continuous_state
     if v > 0:
         return np.array([v, -1.0])
     return np.array([v, 1.0])
@@ -283,7 +283,7 @@ def draws(time, state):
 
 
 def draws_numpy(time, state):
-    return np.random.rand()
+    return np.random.rand()  # noqa: NPY002
 
 
 def looks_at_the_clock(time, state):
@@ -349,7 +349,7 @@ class Opaque:
 
 def test_an_object_that_cannot_be_read():
     opaque, interpolator = Opaque(), memoryview(b"12")
-    assert "raised" in reason(lambda t, s: opaque.function(t))
+    assert "uses opaque.function, which cannot be traced" in reason(lambda t, s: opaque.function(t))
     found = reason(lambda t, s: interpolator[0])
     assert "uses interpolator, which cannot be traced (a memoryview: no Python code" in found
 
@@ -370,7 +370,7 @@ def yields(time, state):
 
 
 def test_code_that_cannot_be_traced():
-    place = f"test_refused.py:{catches.__code__.co_firstlineno + 1}"
+    place = f"test_refused.py:{catches.__code__.co_firstlineno + 2}"
     assert reason(catches).startswith(f"catches exceptions at {place}")
     assert reason(waits).startswith("is a coroutine (async def) at test_refused.py:")
     assert "expected numbers, found generator" in reason(yields)
@@ -427,12 +427,12 @@ NO_FORM = {
     "math.factorial(int(x[0]))": "calls math.factorial, which has no symbolic form",
     "np.linalg.eigvals(np.outer(x, x))": "calls np.eigvals, which has no symbolic form",
     "[1.0, 2.0][int(x[0])]": "uses a value as an index or a count",
-    "MATRIX[int(x[0])]": "uses values as indices",
+    "MATRIX[int(x[0])]": "uses a value as an index or a count",
     "x[x > 0]": "uses values as indices",
     "list(range(int(x[0])))": "uses a value as an index or a count",
     "{0: 1.0}[mode]": "looks up a value, in a dictionary or a set",
     "x[0] + 1j": "unsupported operand",
-    "np.array([1j]) * x": "computes with complex128",
+    "np.array([1j]) * x": "expected numbers, found complex",
     "x.astype(complex)": "computes with complex128",
     "x.astype(np.float32)": "computes with float32",
     "round(x[0], 2)": "rounds to decimal places",
@@ -478,15 +478,13 @@ def test_nowhere_defined():
 
 
 def test_the_check_finds_what_the_tracer_does_not_know():
-    class Sly(float):
-        """A number to the tracer; calls of the real function see more."""
+    def function(time, state):
+        return time + getattr(state.continuous_state[0], "nbytes", 0)  # a symbol has none
 
-        def __mul__(self, other):
-            return 3.0 * other
-
-    factor = Sly(2.0)
-    found = reason(lambda t, s: factor * s.continuous_state[0])
-    assert found.startswith("the check failed: at t = 0, x = ")
+    assert reason(function) == (
+        "the check failed: at t = 0, x = [0.7, -0.4] entry 0 of the result is 8.0 called and 0.0 "
+        "traced"
+    )
 
 
 def test_keyboard_interrupts_pass():
