@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import reprlib
 from collections.abc import Callable, Mapping
+from types import CodeType
 from typing import Any
 
 import numpy as np
@@ -49,6 +50,14 @@ def _same(a: Any, b: Any) -> bool:
     if isinstance(a, (float, np.floating)):
         return (a == b and math.copysign(1.0, a) == math.copysign(1.0, b)) or (a != a and b != b)
     return bool(a == b) if isinstance(a, PLAIN) else a is b
+
+
+def _named(value: Any) -> str:
+    """A value in few words."""
+    if isinstance(value, CodeType):
+        return f"compiled from line {value.co_firstlineno}"
+    name = getattr(value, "__qualname__", None)
+    return name if isinstance(name, str) else reprlib.repr(value)
 
 
 class Watch:
@@ -98,7 +107,7 @@ class Watch:
                     continue
                 return f"{words} changed in place"
             if not (_same(value, now) if inside is None else content(now) == inside):
-                return f"{words} was {reprlib.repr(value)}, is {reprlib.repr(now)}"
+                return f"{words} was {_named(value)}, is {_named(now)}"
         return None
 
     def merge(self, other: Watch) -> None:
