@@ -19,8 +19,8 @@ SAFE = set(
     """
     abs all any ascii bytes callable chr classmethod complex dict divmod enumerate filter format
     frozenset getattr hasattr iter len list map next object ord property range repr reversed round
-    set slice sorted staticmethod str sum tuple zip True False None Ellipsis NotImplemented __debug__
-    __build_class__ __name__ __doc__
+    set slice sorted staticmethod str sum tuple zip True False None Ellipsis NotImplemented
+    __debug__ __build_class__ __name__ __doc__
     """.split()
 )
 

@@ -89,14 +89,14 @@ CHANGES = [
     (
         "weigh",
         set_to("weights", np.ones(2)),
-        "self.weights was array([1., 2.]), is array([1., 1.])",
+        "self.weights was array([1., 2.]), is array(",
     ),
     ("deep", write_inner, "self.inner.k was 2.0, is 3.0"),
     ("deep", set_to("inner", SimpleNamespace(k=2.0)), "self.inner was namespace(k=2.0), is"),
     ("words", set_to("kind", "steel"), "self.kind was 'rubber', is 'steel'"),
     ("words", set_to("nothing", 3), "self.nothing was None, is 3"),
     ("by_class", set_to("bounciness", 0.7), "self.bounciness was not there, is 0.7"),
-    ("by_method", set_to("helper", abs), "self.helper was not there, is <built-in function abs>"),
+    ("by_method", set_to("helper", abs), "self.helper was not there, is abs"),
     ("by_property", set_to("e", 0.1), "self.e was 0.9, is 0.1"),
 ]
 
@@ -132,17 +132,20 @@ def test_globals(monkeypatch):
     assert outcomes[0].watch.changed() == "G was 9.81, is 1.62"
     monkeypatch.setitem(globals(), "G", 9.81)
     monkeypatch.setitem(globals(), "scale", np.abs)
-    assert outcomes[0].watch.changed().startswith("scale was <function scale")
-    monkeypatch.setitem(WEIGHTS, 0, 7.0)
+    assert outcomes[0].watch.changed() == "scale was scale, is absolute"
+    WEIGHTS[0] = 7.0
     assert outcomes[1].watch.changed() == "WEIGHTS changed in place"
-    monkeypatch.setitem(TABLE["k"], 1, 7.0)
+    WEIGHTS[0] = 1.0
+    TABLE["k"][1] = 7.0
     assert outcomes[2].watch.changed() == "TABLE changed in place"
+    TABLE["k"][1] = 2.0
+    assert outcomes[1].watch.changed() is outcomes[2].watch.changed() is None
 
 
 def test_a_builtin_that_gets_another_meaning(monkeypatch):
     outcome = traced(lambda t, s: abs(t))
     monkeypatch.setitem(globals(), "abs", np.sqrt)
-    assert outcome.watch.changed() == "abs was not there, is <ufunc 'sqrt'>"
+    assert outcome.watch.changed() == "abs was not there, is sqrt"
 
 
 def test_closures_defaults_code_and_partials():
@@ -167,7 +170,7 @@ def test_closures_defaults_code_and_partials():
     function.__kwdefaults__["offset"] = 1.0
     assert outcome.watch.changed() is None
     function.__code__ = (lambda time, state, scale, *, offset: (factor, extra, 0.0)[2]).__code__
-    assert outcome.watch.changed().startswith("function was <code object function")
+    assert outcome.watch.changed().startswith("function was compiled from line ")
 
     partial = functools.partial(lambda k, t, s: k[0] * t, np.array([2.0]))
     outcome = traced(partial)
