@@ -1,0 +1,100 @@
+"""Curves between jumps: what a picture of a signal consists of."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from saltus.results.outcome import Results
+
+__all__ = ["Curve", "curves_of", "holds_of"]
+
+BETWEEN = 24  # points drawn within a step, from dense output
+ROUNDING = 1e-9  # of the range of a curve: a smaller step is none to the eye
+
+
+@dataclass(frozen=True)
+class Curve:
+    """One number over time, with gaps where it jumps."""
+
+    label: str
+    time: np.ndarray
+    value: np.ndarray
+    """nan in each gap"""
+    before: np.ndarray
+    """rows of (time, value) from which it jumps"""
+    after: np.ndarray
+    """and to which"""
+
+
+def _refined(results: Results) -> tuple[np.ndarray, np.ndarray, dict[str, np.ndarray]]:
+    """The rows, and between rows of different times what dense output says."""
+    time, jump = results.time, results.jump
+    begin, end = results.span
+    step = np.diff(time)
+    inside = np.flatnonzero((step > 0) & (time[:-1] >= begin) & (time[1:] <= end))
+    share = np.arange(1, BETWEEN) / BETWEEN
+    more = (time[inside, None] + step[inside, None] * share).ravel()
+    values = results(more)
+    order = np.argsort(
+        np.concatenate([np.arange(len(time)), (inside[:, None] + share).ravel()]), kind="stable"
+    )
+    columns = {
+        name: np.concatenate([array, values[name]])[order]
+        for name, array in results.outputs.items()
+    }
+    jumps = np.concatenate([jump, np.repeat(jump[inside], BETWEEN - 1)])[order]
+    return np.concatenate([time, more])[order], jumps, columns
+
+
+def _curve(label: str, time: np.ndarray, jump: np.ndarray, value: np.ndarray) -> Curve:
+    finite = value[np.isfinite(value)]
+    visible = ROUNDING * np.ptp(finite) if finite.size else 0.0
+    leap = (np.diff(jump) > 0) & (np.diff(time) == 0) & (np.abs(np.diff(value)) > visible)
+    at = np.flatnonzero(leap) + 1
+    return Curve(
+        label,
+        np.insert(time, at, time[at]),
+        np.insert(value.astype(float), at, np.nan),
+        np.column_stack([time[at - 1], value[at - 1]]),
+        np.column_stack([time[at], value[at]]),
+    )
+
+
+def curves_of(results: Results) -> dict[str, list[Curve]]:
+    """The curves of every recorded signal, one for each of its numbers."""
+    if results.dense and len(results.time) > 1:
+        time, jump, columns = _refined(results)
+    else:
+        time, jump, columns = results.time, results.jump, dict(results.outputs)
+    return {
+        name: [_curve(name, time, jump, array)]
+        if array.ndim == 1
+        else [_curve(f"{name}[{i}]", time, jump, array[:, i]) for i in range(array.shape[1])]
+        for name, array in columns.items()
+    }
+
+
+def holds_of(results: Results) -> list[tuple[float, float]]:
+    """[s] from when to when something was at rest on a Zeno hold; overlapping ones are one."""
+    if not len(results.time):
+        return []
+    open_since: dict[tuple[str, str, int], float] = {}
+    spans = []
+    for e in results.events:
+        key = (e.block, e.name, e.entry)
+        if e.kind == "zeno_enter":
+            open_since.setdefault(key, e.time)
+        elif e.kind == "zeno_release" and key in open_since:
+            spans.append((open_since.pop(key), e.time))
+    spans += [(begin, float(results.time[-1])) for begin in open_since.values()]
+    merged: list[tuple[float, float]] = []
+    for begin, end in sorted(spans):
+        if merged and begin <= merged[-1][1]:
+            merged[-1] = (merged[-1][0], max(end, merged[-1][1]))
+        elif end > begin:
+            merged.append((begin, end))
+    return merged
