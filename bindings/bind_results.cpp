@@ -138,6 +138,8 @@ void bind_results(py::module_& module) {
       .def_property_readonly(
           "span",
           [](const Results& r) { return py::make_tuple(r.trajectory.begin(), r.trajectory.end()); })
+      .def_property_readonly(
+          "joints", [](const Results& r) { return py::array(py::cast(r.trajectory.joints())); })
       .def("at", &at)
       .def("event", &event)
       .def("event_times", &event_times);

@@ -189,6 +189,7 @@ class Results:
     event_count: int
     dense: bool
     span: tuple[float, float]
+    joints: NDArray[np.float64]
     def at(
         self, times: Sequence[float], left: bool, /
     ) -> tuple[NDArray[np.float64], dict[str, NDArray[np.float64]]]: ...

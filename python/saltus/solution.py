@@ -73,7 +73,7 @@ class Solution(Results):
 
     @property
     def y(self) -> np.ndarray:
-        return self.outputs["x"].T
+        return np.transpose(self.outputs["x"])
 
     @property
     def success(self) -> bool:
@@ -115,6 +115,9 @@ class Solution(Results):
 
     def _state_at(self, t: ArrayLike) -> np.ndarray:
         return np.moveaxis(self(t).continuous_state, -1, 0)
+
+    def _kind(self) -> dict[str, Any]:
+        return {"kind": "Solution", "guards": self._names}
 
     def __reduce__(self) -> tuple[Any, ...]:
         return Solution, (KeptRun.of(self._core), self.cause, None, self._names)

@@ -87,6 +87,13 @@ void Trajectory::end_piece(const Eigen::VectorXd& x_end) {
     piece.first = put(departed_);
 }
 
+std::vector<double> Trajectory::joints() const {
+  std::vector<double> times;
+  for (const Piece& piece : pieces_) times.push_back(piece.begin);
+  times.push_back(end());
+  return times;
+}
+
 Trajectory::Spot Trajectory::spot(double t, Side side) const {
   if (!(t >= begin() && t <= end())) {
     throw ModelError(text("t = ", t, " s is outside the run, which went from ", begin(), " s to ",

@@ -39,6 +39,8 @@ class Trajectory {
   bool empty() const noexcept { return held_.empty(); }
   double begin() const noexcept { return first_.begin; }  ///< [s]
   double end() const noexcept { return last_.begin; }     ///< [s]
+  /// [s] where its polynomials begin, and where the last one ends.
+  std::vector<double> joints() const;
   /// Bytes of the values it keeps.
   std::size_t memory() const noexcept {
     return values_.size() * sizeof(double) + pieces_.size() * sizeof(Piece);

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
 __all__ = ["Curve", "curves_of", "holds_of"]
 
 BETWEEN = 24  # points drawn within a step, from dense output
+MOST = 20_000  # of these in all, where there are fewer steps than that
 ROUNDING = 1e-9  # of the range of a curve: a smaller step is none to the eye
 
 
@@ -30,24 +31,28 @@ class Curve:
     """and to which"""
 
 
+def _times_between(results: Results) -> np.ndarray:
+    """[s] where dense output is asked: inside each step, and never at a row."""
+    joints = results._core.joints
+    each = int(np.clip(MOST // len(joints), 1, BETWEEN))
+    share = np.arange(each) / each
+    times = (joints[:-1, None] + np.diff(joints)[:, None] * share).ravel()
+    return np.setdiff1d(times, results.time)
+
+
 def _refined(results: Results) -> tuple[np.ndarray, np.ndarray, dict[str, np.ndarray]]:
-    """The rows, and between rows of different times what dense output says."""
-    time, jump = results.time, results.jump
-    begin, end = results.span
-    step = np.diff(time)
-    inside = np.flatnonzero((step > 0) & (time[:-1] >= begin) & (time[1:] <= end))
-    share = np.arange(1, BETWEEN) / BETWEEN
-    more = (time[inside, None] + step[inside, None] * share).ravel()
+    """The rows, and what dense output says between them."""
+    time, more = results.time, _times_between(results)
+    at = np.searchsorted(time, more)
     values = results(more)
-    order = np.argsort(
-        np.concatenate([np.arange(len(time)), (inside[:, None] + share).ravel()]), kind="stable"
-    )
     columns = {
-        name: np.concatenate([array, values[name]])[order]
-        for name, array in results.outputs.items()
+        name: np.insert(array, at, values[name], axis=0) for name, array in results.outputs.items()
     }
-    jumps = np.concatenate([jump, np.repeat(jump[inside], BETWEEN - 1)])[order]
-    return np.concatenate([time, more])[order], jumps, columns
+    return (
+        np.insert(time, at, more),
+        np.insert(results.jump, at, results.jump[np.maximum(at - 1, 0)]),
+        columns,
+    )
 
 
 def _curve(label: str, time: np.ndarray, jump: np.ndarray, value: np.ndarray) -> Curve:

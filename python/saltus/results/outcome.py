@@ -234,7 +234,11 @@ class Results:
         """
         from saltus.results.saving import save
 
-        save(KeptRun.of(self._core), path)
+        save(KeptRun.of(self._core), path, self._kind())
+
+    def _kind(self) -> dict[str, Any]:
+        """What a file has to know beyond the run."""
+        return {"kind": "Results"}
 
     def __reduce__(self) -> tuple[Any, ...]:
         return Results, (KeptRun.of(self._core), self.cause)

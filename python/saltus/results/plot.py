@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from saltus._core import known_names
 from saltus.errors import ModelError
 from saltus.results.curves import Curve, curves_of, holds_of
@@ -14,6 +16,7 @@ if TYPE_CHECKING:
 __all__ = ["plot"]
 
 FEW = 60  # jumps with full markers; more of them would cover the curve
+TINY = 0.02  # of the range of the curve: the two markers of a smaller jump would lie on each other
 MANY = 400  # events with a tick each
 Panels = list[tuple[str, list[Curve]]]
 
@@ -34,6 +37,7 @@ def plot(results: Results, names: tuple[str, ...], ax: Any, style: dict[str, Any
     for each, (title, curves) in zip(axes[:, 0], panels, strict=True):
         _draw(each, results, curves, title, style)
     axes[-1, 0].set_xlabel("time [s]")
+    axes[0, 0].figure.align_ylabels()
     return axes[0, 0] if count == 1 else axes[:, 0]
 
 
@@ -64,19 +68,29 @@ def _draw(
     if title:
         ax.set_ylabel(title)
     if len(curves) > 1:
-        ax.legend(loc="best", frameon=False, ncols=min(len(curves), 4), fontsize="small")
+        # above the axes, where no curve is
+        ax.legend(
+            loc="lower right",
+            bbox_to_anchor=(1.0, 1.0),
+            frameon=False,
+            ncols=min(len(curves), 6),
+            fontsize="small",
+            borderaxespad=0.1,
+        )
     ax.spines[["top", "right"]].set_visible(False)
     ax.margins(x=0.01)
 
 
 def _mark_jumps(ax: Any, curve: Curve, line: Any) -> None:
     """Hollow where it jumps from, filled where it jumps to."""
-    if not len(curve.before):
+    leap = np.abs(curve.after[:, 1] - curve.before[:, 1])
+    wide = leap > TINY * np.ptp(curve.value[np.isfinite(curve.value)])
+    if not wide.any():
         return
-    color, size = line.get_color(), 5.0 if len(curve.before) <= FEW else 2.0
+    color, size = line.get_color(), 5.0 if np.count_nonzero(wide) <= FEW else 2.0
     shared = {"linestyle": "none", "marker": "o", "markersize": size, "markeredgecolor": color}
-    ax.plot(*curve.before.T, **shared, markerfacecolor="white", markeredgewidth=1.1, zorder=3)
-    ax.plot(*curve.after.T, **shared, markerfacecolor=color, markeredgewidth=0.0, zorder=3)
+    ax.plot(*curve.before[wide].T, **shared, markerfacecolor="white", markeredgewidth=1.1, zorder=3)
+    ax.plot(*curve.after[wide].T, **shared, markerfacecolor=color, markeredgewidth=0.0, zorder=3)
 
 
 def _mark_events(ax: Any, results: Results) -> None:

@@ -41,6 +41,8 @@ class Record(Protocol):
     def dense(self) -> bool: ...
     @property
     def span(self) -> tuple[float, float]: ...
+    @property
+    def joints(self) -> np.ndarray: ...
 
     def event(self, index: int, /) -> tuple[Any, ...]: ...
     def event_times(self, name: str, kind: str, /) -> np.ndarray: ...
@@ -62,6 +64,7 @@ class KeptRun:
     events: list[tuple[Any, ...]]
     dense = False
     span = (float("nan"), float("nan"))
+    joints = np.empty(0)
 
     @classmethod
     def of(cls, record: Record) -> KeptRun:

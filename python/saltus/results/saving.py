@@ -6,9 +6,7 @@ beside it. Nothing in it is ever executed, so a file of unknown origin is safe t
 
 from __future__ import annotations
 
-import json
 import math
-import zipfile
 from os import PathLike, fspath
 from typing import TYPE_CHECKING, Any
 
@@ -26,8 +24,10 @@ __all__ = ["load_results", "save"]
 FORMAT = "saltus results 1"
 
 
-def save(run: KeptRun, path: str | PathLike[str]) -> None:
+def save(run: KeptRun, path: str | PathLike[str], kind: dict[str, Any]) -> None:
     """Writes a run; the file has exactly the name that was given."""
+    import json
+
     arrays = {"time": run.time, "jump": run.jump}
     arrays |= {f"output {i}": array for i, array in enumerate(run.outputs.values())}
     arrays["event time"] = np.array([e[0] for e in run.events], dtype=float)
@@ -37,6 +37,7 @@ def save(run: KeptRun, path: str | PathLike[str]) -> None:
     layout, values = run.context.__getstate__()  # type: ignore[attr-defined]
     header = {
         "format": FORMAT,
+        **kind,
         "outputs": list(run.outputs),
         "status": run.status,
         "message": run.message,
@@ -60,7 +61,7 @@ def load_results(path: str | PathLike[str]) -> Results:
 
     Returns
     -------
-    Results
+    Results, or Solution if `saltus.solve` made it
         The same to the last bit: rows, events, status, statistics, final context. A run goes on
         from its context if the system has the same blocks. Dense output is not in the file, and
         neither is the exception of a failed run, of which the message remains.
@@ -81,15 +82,22 @@ def load_results(path: str | PathLike[str]) -> Results:
     >>> bool((saltus.load_results(path).time == solution.time).all())
     True
     """
+    import json
+    import zipfile
+
     from saltus.results.outcome import Results
+    from saltus.solution import Solution
 
     try:
-        with np.load(fspath(path), allow_pickle=False) as file:
-            arrays = {name: file[name] for name in file.files}
+        with open(fspath(path), "rb") as file, np.load(file, allow_pickle=False) as parts:
+            arrays = {name: parts[name] for name in parts.files}
         header = json.loads(arrays["header"].tobytes())
         if header["format"] != FORMAT:
             raise ModelError(f"expected the format '{FORMAT}', found '{header['format']}'")
-        return Results(_kept(header, arrays))
+        run = _kept(header, arrays)
+        return (
+            Results(run) if header["kind"] == "Results" else Solution(run, names=header["guards"])
+        )
     except OSError:
         raise
     except (zipfile.BadZipFile, ModelError, EOFError, KeyError) as error:

@@ -32,6 +32,14 @@ def _events(results: Results) -> str:
     return f"{len(results.events)} events" + (f": {names}" if names else "")
 
 
+def _method(results: Results) -> str:
+    s = results.statistics
+    if len(s.stretches) < 2:
+        return s.method
+    used = list(dict.fromkeys(stretch[0] for stretch in s.stretches))
+    return f"{' and '.join(used)} ({len(s.stretches)} stretches)"
+
+
 def _facts(results: Results) -> list[tuple[str, str]]:
     """What stands on each line, after the status."""
     s = results.statistics
@@ -42,7 +50,10 @@ def _facts(results: Results) -> list[tuple[str, str]]:
         ("outputs", signals or "nothing recorded"),
         ("events", _events(results)),
         ("at rest", ", ".join(f"{e.block} from {e.time:.6g} s" for e in rests[:5])),
-        ("steps", f"{s.steps} steps of {s.method}, {s.rejected} rejected, {s.restarts} restarts"),
+        (
+            "steps",
+            f"{s.steps} steps of {_method(results)}, {s.rejected} rejected, {s.restarts} restarts",
+        ),
         ("calls", f"{s.right_hand_side_calls} right-hand side, {s.guard_calls} guards"),
         ("took", _duration(s.wall_time)),
         ("dense output", "results(t) from {:g} to {:g} s".format(*results.span))
