@@ -187,6 +187,12 @@ class Results:
     block: str
     statistics: dict[str, Any]
     event_count: int
+    dense: bool
+    span: tuple[float, float]
+    joints: NDArray[np.float64]
+    def at(
+        self, times: Sequence[float], left: bool, /
+    ) -> tuple[NDArray[np.float64], dict[str, NDArray[np.float64]]]: ...
     def event(self, index: int, /) -> tuple[Any, ...]: ...
     def event_times(self, name: str, kind: str, /) -> NDArray[np.float64]: ...
 
@@ -203,14 +209,23 @@ class SimulatorOptions:
     max_passes: int
     save_at: list[float]
     save_steps: bool | None
+    event_rows: bool
+    dense_output: bool
     record_events: bool
     interrupt: Callable[[], bool] | None
     def set_recorded_signals(self, signals: list[tuple[str, AnySystem, int]], /) -> None: ...
 
 class Simulator:
     time: float
+    events: int
     context: Context
-    def __init__(self, system: AnySystem, options: SimulatorOptions, /) -> None: ...
+    def __init__(
+        self,
+        system: AnySystem,
+        options: SimulatorOptions,
+        progress: Callable[[float, int], object] | None,
+        /,
+    ) -> None: ...
     def initialize(self, context: Context, /) -> None: ...
     def advance_to(self, t_end: float, /) -> None: ...
     def results(self, take: bool, /) -> tuple[Results, BaseException | None]: ...

@@ -53,6 +53,13 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
     return sum_;
   }
 
+  int degree() const override {
+    if (starting_) return starter_.degree();
+    int order = 0;
+    CVodeGetLastOrder(cvode_.get(), &order);
+    return order;
+  }
+
   std::string method() const override { return method_ == CvodeMethod::adams ? "adams" : "bdf"; }
 
  private:
