@@ -7,6 +7,7 @@ runs it.
 from saltus import library, simulation
 from saltus._core import Context, State, __version__
 from saltus.diagram import Diagram, DiagramBuilder
+from saltus.ensemble import sweep
 from saltus.errors import Error, ModelError, SimulationError
 from saltus.leaf_system import LeafSystem
 from saltus.report import WorkPrecision, work_precision
@@ -41,5 +42,6 @@ __all__ = [
     "shelf",
     "simulate",
     "simulation",
+    "sweep",
     "work_precision",
 ]
