@@ -42,6 +42,7 @@ def on_page_markdown(markdown, page, config, files):
         page.meta["hide"] = ["navigation"]
     if origin == "docs/models/README.md":
         markdown = gallery(markdown)
+    markdown = markdown.replace("```text output\n", "``` {.text .output}\n")
     parts = CODE.split(FENCE.sub(r"\1", markdown))
     for i in range(0, len(parts), 2):  # the others are code
         parts[i] = LINK.sub(lambda link: rewritten(link, origin, page), parts[i])
