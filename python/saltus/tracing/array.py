@@ -17,6 +17,8 @@ from saltus.tracing.symbol import Symbol, joint, kind_of
 
 Objects = NDArray[np.object_]
 
+LARGEST_TABLE = 64  # entries a value may choose from; each is compared at every evaluation
+
 TYPES = {"b": np.dtype(bool), "i": np.dtype(np.int64), "f": np.dtype(np.float64)}
 WHOLE: dict[str, str] = {"b": "b", "i": "i", "u": "i", "f": "f"}
 
@@ -163,22 +165,28 @@ class SymbolArray:
         return (self[i] for i in range(len(self.data)))
 
     def __getitem__(self, key: Any) -> Any:
-        if type(key) is Symbol and key.value is None and self.ndim == 1:
+        if type(key) is Symbol and key.value is None and self.ndim:
             return self._looked_up(key)
         part = self.data[index_of(key)]
         return self._view(part) if isinstance(part, np.ndarray) else cast(part, self.kind)
 
     def _looked_up(self, key: Symbol) -> Any:
-        """Entry `key`, an integer that is not known, such as the mode; NaN beyond the ends."""
-        from saltus.tracing.scalars import SCALARS, select
+        """Entry (or row) `key`, an integer that is not known, such as the mode.
 
-        if key.kind != "i" or self.size > 64:
+        NaN beyond the ends, where numpy raises.
+        """
+        from saltus.tracing.operators import apply
+
+        n = len(self.data)
+        if key.kind != "i" or n > LARGEST_TABLE:
             key.__index__()  # refuses
         result: Any = np.nan
-        for i in range(self.size):
-            for place in (i, i - self.size):
-                result = select(SCALARS["eq"](key, place), cast(self.data[i], self.kind), result)
-        return result
+        for i in range(n):
+            here = apply("logical_or", apply("eq", key, i), apply("eq", key, i - n))
+            result = apply("select", here, self[i], result)
+        if isinstance(result, SymbolArray):
+            return SymbolArray(result.data, self.kind)
+        return result.numpy(self.kind)
 
     def __setitem__(self, key: Any, value: Any) -> None:
         if self.frozen:

@@ -58,7 +58,7 @@ def plain(value: Any) -> Any:
     if isinstance(value, SymbolArray):
         return known(value, "uses values")
     if isinstance(value, (list, tuple)) and any(isinstance(v, (SymbolArray, list)) for v in value):
-        return type(value)([plain(item) for item in value])
+        return [plain(item) for item in value]
     return value
 
 
@@ -67,7 +67,7 @@ def _boxed(value: Any, kind: str) -> Any:
     if isinstance(value, SymbolArray):
         return (value if value.kind == kind else array(value, kind)).data
     if isinstance(value, (list, tuple)):
-        return type(value)([_boxed(item, kind) for item in value])
+        return [_boxed(item, kind) for item in value]
     return value
 
 
@@ -80,7 +80,7 @@ def _arrays_in(value: Any) -> list[SymbolArray]:
 def _returned(result: Any, source: list[SymbolArray]) -> Any:
     """What numpy's function on objects gave; a view of one array stays a view."""
     if isinstance(result, (list, tuple)):
-        return type(result)([_returned(item, source) for item in result])
+        return [_returned(item, source) for item in result]
     if isinstance(result, np.ndarray) and result.dtype != object:
         return array(result)
     if len(source) == 1 and isinstance(result, np.ndarray) and result.ndim:

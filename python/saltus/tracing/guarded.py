@@ -7,7 +7,7 @@ from types import FunctionType
 from typing import TYPE_CHECKING, Any
 
 from saltus.tracing.refusal import refuse
-from saltus.tracing.watch import MISSING
+from saltus.tracing.watch import MISSING, AttributeOf
 
 if TYPE_CHECKING:
     from saltus.tracing.sandbox import Sandbox
@@ -90,7 +90,7 @@ def read(guarded: Guarded, name: str) -> Any:
     after = object.__getattribute__(guarded, "_after")
     found = _in_class(value, name, after)
     if found is not None and _is_data_descriptor(found[1]):
-        _watch_class(sandbox, value, name, where)
+        _watch_class(sandbox, type(value), name, where)
         return _described(guarded, found[1], name, where)
     own = getattr(value, "__dict__", {}) if after is None else {}
     if name in own:
@@ -99,18 +99,15 @@ def read(guarded: Guarded, name: str) -> Any:
     if found is None:
         raise AttributeError(f"'{type(value).__name__}' object has no attribute '{name}'")
     sandbox.watch.add_entry(where, own, name, MISSING)
-    _watch_class(sandbox, value, name, where)
+    _watch_class(sandbox, type(value), name, where)
     return _described(guarded, found[1], name, where)
 
 
-class _TypeOf:
+class _TypeOf(AttributeOf):
     """The class of an object, as an entry of a dictionary."""
 
-    def __init__(self, value: Any):
-        self._value = value
-
     def get(self, key: None, default: Any) -> Any:
-        return type(self._value)
+        return self("__class__", default)
 
 
 def _in_class(value: Any, name: str, after: type | None) -> tuple[type, Any] | None:
@@ -121,9 +118,9 @@ def _in_class(value: Any, name: str, after: type | None) -> tuple[type, Any] | N
     return None
 
 
-def _watch_class(sandbox: Sandbox, value: Any, name: str, where: str) -> None:
+def _watch_class(sandbox: Sandbox, owner: type, name: str, where: str) -> None:
     """Watch the class that has the attribute, and those before it that might get it."""
-    for base in type(value).__mro__:  # all of them: super() may have passed over some
+    for base in owner.__mro__:  # all of them: super() may have passed over some
         if base is not object:
             entry = base.__dict__.get(name, MISSING)
             sandbox.watch.add(where, functools.partial(_class_entry, base), name, entry)
@@ -155,21 +152,13 @@ def _described(guarded: Guarded, entry: Any, name: str, where: str) -> Any:
         return functools.partial(sandbox.form_of(entry, where), guarded)
     if hasattr(type(entry), "__get__"):
         now = getattr(value, name)
-        from saltus.tracing.sandbox import get_attribute
-
-        sandbox.watch.add(where, get_attribute, (value, name), now)
+        sandbox.watch.add(where, AttributeOf(value), name, now)
         return sandbox.form_of(now, where)
     return sandbox.form_of(entry, where)
 
 
 def _of_class(sandbox: Sandbox, owner: type, name: str, where: str) -> Any:
     """A constant of a class, a member of an enumeration, a static method."""
-    from saltus.tracing.sandbox import get_attribute
-
     value = getattr(owner, name)
-    if hasattr(value, "__func__"):  # a bound class method is new each time
-        sandbox.watch.add(where, get_attribute, (value.__func__, "__code__"),
-                          value.__func__.__code__)  # fmt: skip
-    else:
-        sandbox.watch.add(where, get_attribute, (owner, name), value)
+    _watch_class(sandbox, owner, name, where)
     return sandbox.form_of(value, where)

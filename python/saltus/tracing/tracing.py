@@ -67,6 +67,8 @@ def trace(signature: Signature) -> Traced | Refused:
             "use numpy, math and plain Python on them",
             sandbox.watch,
         )
+    finally:
+        sandbox.close()
 
 
 def _traced(signature: Signature, sandbox: Sandbox) -> Traced | Refused:

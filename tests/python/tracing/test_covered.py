@@ -17,6 +17,11 @@ from numpy import array, cos  # noqa: F401
 from tracing_cases import assert_agrees, evaluate, traced
 
 MATRIX = np.array([[0.0, 1.0], [-4.0, -0.5]])
+STACK = np.arange(12.0).reshape(3, 2, 2)
+GAINS = [2.0, 5.0]
+PAIR = (2, 3)
+NAMED = {0: 1.0, 1: np.array([2.0, 4.0])}
+MATRICES = [np.eye(2), np.ones((2, 2))]
 TABLE = {"k": 2.0, "gains": [1.0, 3.0]}
 SPRING = SimpleNamespace(k=4.0, c=np.array([0.1, 0.2]))
 
@@ -289,6 +294,13 @@ EXPRESSIONS = """
     x.real
     mode * x
     (mode == 1) * x
+    MATRIX[mode] @ x
+    STACK[mode] @ x
+    GAINS[mode] * x
+    GAINS[mode - 2] * x
+    PAIR[mode] * x
+    NAMED[mode] * x
+    MATRICES[mode] @ x
     np.where(mode == 1, x, -x)
     np.array([3.0, 4.0, 5.0])[mode] * x
     mode / 2

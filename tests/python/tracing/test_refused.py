@@ -99,10 +99,14 @@ BRANCHES = {
 @pytest.mark.parametrize("function", BRANCHES)
 def test_a_branch_on_a_value(function):
     place = line_of(function, BRANCHES[function])
-    assert reason(function) == (
-        f"branches on a value at {place}; use np.where, np.minimum, `&` and `|`, or modes with "
-        "zero crossings"
-    )
+    if function in (branch_mode, branch_match):
+        expected = f"branches on the mode at {place}; use np.where(state.mode == ..., ..., ...)"
+    else:
+        expected = (
+            f"branches on a value at {place}; use np.where, np.minimum, `&` and `|`, or modes "
+            "with zero crossings"
+        )
+    assert reason(function) == expected
 
 
 def test_a_branch_on_what_is_fixed_is_none():
@@ -224,7 +228,7 @@ def fill_diagonal(time, state):
 EFFECTS = {
     write_global: "writes global variables: COUNT",
     append_global: "writes to the list SEEN",
-    write_dictionary: "does not support item assignment",
+    write_dictionary: "writes to the dictionary MEMORY",
     write_array: "writes to BUFFER",
     write_slice: "writes to BUFFER",
     write_state: "writes to the continuous state",
@@ -235,7 +239,7 @@ EFFECTS = {
     Counter.counts: "writes self.count",
     Counter.deletes: "deletes self.count",
     Counter.appends: "writes to the list self.seen",
-    Counter.remembers: "does not support item assignment",
+    Counter.remembers: "writes to the dictionary self.memory",
     Counter.buffers: "writes to self.buffer",
     Counter.buffers_all: "writes to self.buffer",
     Counter.sets: "uses setattr, which cannot be traced",
@@ -427,7 +431,7 @@ NO_FORM = {
     "math.factorial(int(x[0]))": "calls math.factorial, which has no symbolic form",
     "np.linalg.eigvals(np.outer(x, x))": "calls np.eigvals, which has no symbolic form",
     "[1.0, 2.0][int(x[0])]": "uses a value as an index or a count",
-    "MATRIX[int(x[0])]": "uses a value as an index or a count",
+    "MATRIX[int(x[0]), 0]": "uses a value as an index or a count",
     "x[x > 0]": "uses values as indices",
     "list(range(int(x[0])))": "uses a value as an index or a count",
     "{0: 1.0}[mode]": "looks up a value, in a dictionary or a set",
