@@ -9,7 +9,7 @@ import itertools
 import math
 import operator
 from collections.abc import Callable
-from types import BuiltinFunctionType, FunctionType, ModuleType
+from types import BuiltinFunctionType, ModuleType
 from typing import Any
 
 import numpy as np
@@ -79,6 +79,8 @@ def _numpy_value(name: str, value: Any) -> Any:
     if isinstance(value, type):
         if value is np.ndarray:
             return SymbolArray
+        if value in (np.ndindex, np.finfo, np.iinfo, np.dtype):
+            return value
         return NumpyType(value) if issubclass(value, np.generic) else Foreign(f"np.{name}")
     return _function(value) if callable(value) else value
 
@@ -249,8 +251,8 @@ def _of_python(value: Any) -> Any:
     if getattr(builtins, name, None) is value:
         return BUILTINS[name]
     module = getattr(value, "__module__", None)
-    safe = module in SAFE_MODULES or value is functools.reduce
-    return value if safe and not isinstance(value, FunctionType) else None
+    function = isinstance(value, (BuiltinFunctionType, type))  # no iterator that is under way
+    return value if function and (module in SAFE_MODULES or value is functools.reduce) else None
 
 
 def _import(

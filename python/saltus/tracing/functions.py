@@ -37,8 +37,9 @@ ARRANGING = """
 """numpy's functions that only arrange entries, or add and multiply them"""
 
 EFFECTS = """
-    copyto fill_diagonal fromfile genfromtxt load loadtxt memmap place put put_along_axis putmask
-    save savetxt savez savez_compressed set_printoptions seterr seterrcall setbufsize getbufsize
+    copyto fill_diagonal fromfile genfromtxt info load loadtxt memmap place put put_along_axis
+    putmask save savetxt savez savez_compressed set_printoptions seterr seterrcall setbufsize show_config
+    show_runtime
 """.split()
 """what changes an argument or the world"""
 

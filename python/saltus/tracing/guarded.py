@@ -56,7 +56,10 @@ class Guarded:
         refuse(f"deletes {_sandbox(self)[2]}.{name}", OUTSIDE)
 
     def __call__(self, *arguments: Any, **options: Any) -> Any:
-        if isinstance(_sandbox(self)[1], type):
+        made = _sandbox(self)[1]
+        if isinstance(made, type):
+            if made.__mro__[1:] == (tuple, object) and hasattr(made, "_fields"):
+                return made(*arguments, **options)  # a named tuple
             refuse(f"makes an object of the class {_sandbox(self)[2]}", "use numbers and arrays")
         return read(self, "__call__")(*arguments, **options)
 
@@ -97,6 +100,8 @@ def read(guarded: Guarded, name: str) -> Any:
         sandbox.watch.add_entry(where, own, name, own[name])
         return sandbox.form_of(own[name], where)
     if found is None:
+        if hasattr(type(value), "__getattr__"):
+            refuse(f"reads {where}, which __getattr__ makes up", "make it an attribute")
         raise AttributeError(f"'{type(value).__name__}' object has no attribute '{name}'")
     sandbox.watch.add_entry(where, own, name, MISSING)
     _watch_class(sandbox, type(value), name, where)

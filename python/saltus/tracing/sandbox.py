@@ -54,6 +54,12 @@ def _library(value: Any) -> str:
     return (module if isinstance(module, str) else "").split(".")[0]
 
 
+def _flat(container: Any) -> list[Any]:
+    if isinstance(container, dict):
+        return [part for item in container.items() for part in item]
+    return list(container)
+
+
 class Sandbox:
     """The copies made for one trace, and the `Watch` over what they read."""
 
@@ -64,6 +70,7 @@ class Sandbox:
         self._globals: dict[int, dict[str, Any]] = {}
         self._written: list[tuple[str, dict[str, Any], dict[str, Any]]] = []
         self._cells: list[tuple[str, CellType, Any]] = []
+        self._frozen_ones: list[tuple[str, Any, Any]] = []
 
     def form_of(self, value: Any, words: str) -> Any:
         """What stands for a value from outside while tracing; `words` says where it was read."""
@@ -116,13 +123,18 @@ class Sandbox:
             return type(value)(*items) if hasattr(value, "_fields") else FrozenTuple(items)
         if type(value) is list:
             items = [self.form_of(item, f"{words}[{i}]") for i, item in enumerate(value)]
-            return FrozenList(items, words)
+            return self._frozen(FrozenList(items, words), items, words)
         if type(value) is dict:
             forms = {k: self.form_of(item, f"{words}[{k!r}]") for k, item in value.items()}
-            return FrozenDict(forms, words)
+            return self._frozen(FrozenDict(forms, words), forms, words)
         if isinstance(value, (range, slice, frozenset)):
             return value
         return self._object(value, words)
+
+    def _frozen(self, made: Any, items: Any, words: str) -> Any:
+        """A container, to be compared with what it began with: list.append(it, 1) gets through."""
+        self._frozen_ones.append((words, made, items))
+        return made
 
     def _object(self, value: Any, words: str) -> Any:
         if isinstance(value, BuiltinMethodType) or not (
@@ -211,6 +223,10 @@ class Sandbox:
             for name in now:
                 if name not in before or now[name] is not before[name]:
                     refuse(f"writes {words}: {name}", "what changes something outside is called")
+        for words, made, items in self._frozen_ones:
+            left, begun = _flat(made), _flat(items)
+            if list(map(id, left)) != list(map(id, begun)):
+                refuse(f"writes to {words}", "what changes something outside is called")
         for name, cell, value in self._cells:
             if _read_cell(cell, MISSING) is not value:
                 refuse(f"writes the variable {name} of the function around it",
@@ -224,5 +240,5 @@ class Sandbox:
             del cell.cell_contents
         for everything in (self._globals, self._copies):
             everything.clear()
-        for kept in (self._cells, self._kept, self._written):
+        for kept in (self._cells, self._kept, self._written, self._frozen_ones):
             kept.clear()

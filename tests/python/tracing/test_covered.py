@@ -17,6 +17,7 @@ from numpy import array, cos  # noqa: F401
 from tracing_cases import assert_agrees, evaluate, traced
 
 MATRIX = np.array([[0.0, 1.0], [-4.0, -0.5]])
+Pair = namedtuple("Pair", "a b")
 STACK = np.arange(12.0).reshape(3, 2, 2)
 GAINS = [2.0, 5.0]
 PAIR = (2, 3)
@@ -260,6 +261,19 @@ EXPRESSIONS = """
     math.pow(abs(x[0]), 1.5)
     math.fsum([x[0], x[1]])
     math.prod(x)
+    x + [1.0, 2.0]
+    [1.0, 2.0] * x
+    x[0] + [1.0, 2.0]
+    x == [0.7, 0.0]
+    x < (0.5, 0.5)
+    np.sum(x == [0.7, 0.5])
+    x[0].astype(int)
+    x[0].sum() + x[0].reshape(1)
+    np.all(x > 0).any()
+    np.r_[x, 1.0]
+    np.sum([x[i] for (i,) in np.ndindex(2)])
+    x * np.finfo(float).eps
+    Pair(x[0], t).a
     math.dist(x, [0.0, 1.0])
     math.copysign(1.0, x[0])
     math.degrees(x[0])
