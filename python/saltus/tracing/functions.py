@@ -38,8 +38,8 @@ ARRANGING = """
 
 EFFECTS = """
     copyto fill_diagonal fromfile genfromtxt info load loadtxt memmap place put put_along_axis
-    putmask save savetxt savez savez_compressed set_printoptions seterr seterrcall setbufsize show_config
-    show_runtime
+    putmask save savetxt savez savez_compressed set_printoptions seterr seterrcall setbufsize
+    show_config show_runtime
 """.split()
 """what changes an argument or the world"""
 

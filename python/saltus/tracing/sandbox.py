@@ -35,6 +35,9 @@ FOREIGN = set(
     xarray
     """.split()
 )
+INNER = {"_lru_cache_wrapper": "__wrapped__", "CPUDispatcher": "py_func"}
+"""what keeps a Python function to call it quicker: functools' caches, numba's jit"""
+
 OUTSIDE = set("datetime io logging os random secrets socket subprocess sys time warnings".split())
 
 
@@ -94,6 +97,9 @@ class Sandbox:
         if isinstance(value, MethodType):
             function = self.form_of(value.__func__, words)
             return functools.partial(function, self.form_of(value.__self__, words))
+        inner = getattr(value, INNER.get(type(value).__name__, ""), None)
+        if isinstance(inner, FunctionType):
+            return self.form_of(inner, words)
         if isinstance(value, functools.partial):
             return self._partial(value, words)
         return self._container(value, words)

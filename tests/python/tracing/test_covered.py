@@ -631,3 +631,15 @@ def test_slots_modules_and_named_tuples():
     module.K = 3.0
     slotted.gain = 5.0
     assert outcome.watch.changed() == "slotted.gain was 2.0, is 5.0"
+
+
+def test_caches_and_compiled_functions_are_looked_into():
+    class CPUDispatcher:  # as numba's
+        def __init__(self, function):
+            self.py_func = function
+
+        def __call__(self, *arguments):
+            return self.py_func(*arguments)
+
+    cached, jitted = functools.lru_cache(lambda t: 2.0 * t), CPUDispatcher(helper)
+    assert_agrees(lambda t, s: cached(t) + jitted(t, s.continuous_state[0]))
