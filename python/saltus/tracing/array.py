@@ -61,8 +61,15 @@ def _stacked(parts: list[Objects]) -> Objects:
     return result
 
 
+def _entry(item: Any) -> Any:
+    """An entry out of the array of no dimension that numpy may have left it in."""
+    return item[()] if isinstance(item, np.ndarray) and not item.ndim else item
+
+
 def kind_in(data: Objects) -> str:
-    return joint(*{kind_of(item) or refuse(f"computes with {item!r}") for item in data.flat} or "f")
+    return joint(
+        *{kind_of(_entry(item)) or refuse(f"computes with {item!r}") for item in data.flat} or "f"
+    )
 
 
 def array(value: Any, kind: str = "") -> SymbolArray:
@@ -72,7 +79,7 @@ def array(value: Any, kind: str = "") -> SymbolArray:
     result = np.empty(data.shape, dtype=object)
     flat = result.reshape(-1)
     for i, item in enumerate(data.flat):
-        flat[i] = cast(item, kind)
+        flat[i] = cast(_entry(item), kind)
     return SymbolArray(result, kind)
 
 
@@ -192,7 +199,7 @@ class SymbolArray:
         if self.frozen:
             refuse(f"writes to {self.frozen}", "what changes something outside is called; copy it")
         if isinstance(key, SymbolArray) and key.kind == "b" and not is_known(key.data):
-            refuse("sets entries chosen by a value", "use np.where")
+            return self._set_where(key, value)
         place = index_of(key)
         source = objects_of(value)
         cells = np.empty(source.shape, dtype=object)
@@ -203,6 +210,15 @@ class SymbolArray:
                 raise ValueError("setting an array element with a sequence.")
             cells = cells.reshape(())
         self.data[place] = cells if cells.ndim else cells[()]
+
+    def _set_where(self, mask: SymbolArray, value: Any) -> None:
+        """x[mask] = number, for a mask that is not known."""
+        from saltus.tracing.operators import apply
+
+        if mask.shape != self.shape or objects_of(value).size != 1:
+            refuse("sets several entries chosen by a value", "use np.where")
+        number = cast(as_array(value)._one(), self.kind)
+        self[...] = apply("select", mask, number, self)
 
     def _one(self) -> Any:
         if self.size != 1:

@@ -1,7 +1,8 @@
 """A branch on a value is refused with its place."""
 
 import numpy as np
-import pytestfrom sources import line_of
+import pytest
+from sources import line_of
 from tracing_cases import reason, traced
 
 

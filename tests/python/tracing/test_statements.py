@@ -95,3 +95,14 @@ def test_errstate_and_with():
             return state.continuous_state / 3.0
 
     assert_agrees(function)
+
+
+def test_setting_where_a_mask_is_true():
+    def function(time, state):
+        x = state.continuous_state
+        y = x * 2.0
+        y[x > 0] = 1.0
+        y[y < -0.5] = time
+        return y
+
+    assert_agrees(function)
