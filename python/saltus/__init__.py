@@ -6,6 +6,7 @@ runs it.
 
 from saltus import library, simulation
 from saltus._core import Context, State, __version__
+from saltus.compiled import Compiled, compiled
 from saltus.diagram import Diagram, DiagramBuilder
 from saltus.errors import Error, ModelError, SimulationError
 from saltus.leaf_system import LeafSystem
@@ -16,6 +17,7 @@ from saltus.simulation import Simulator, SimulatorOptions, simulate
 from saltus.system import InputPort, OutputPort, System
 
 __all__ = [
+    "Compiled",
     "Context",
     "Diagram",
     "DiagramBuilder",
@@ -36,6 +38,7 @@ __all__ = [
     "System",
     "WorkPrecision",
     "__version__",
+    "compiled",
     "library",
     "scene",
     "shelf",
