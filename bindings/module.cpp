@@ -17,4 +17,5 @@ PYBIND11_MODULE(_core, module) {
   bind_simulation(module);
   bind_shelf(module);
   bind_report(module);
+  bind_tape(module);
 }

@@ -5,3 +5,4 @@
 #include "saltus/library/library.hpp"
 #include "saltus/model/diagram_builder.hpp"
 #include "saltus/simulation/simulate.hpp"
+#include "saltus/tape/jacobian.hpp"
