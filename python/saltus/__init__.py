@@ -9,6 +9,7 @@ from saltus._core import Context, State, __version__
 from saltus.compiled import Compiled, compiled
 from saltus.diagram import Diagram, DiagramBuilder
 from saltus.errors import Error, ModelError, SimulationError
+from saltus.ladder import Explanation, Rung
 from saltus.leaf_system import LeafSystem
 from saltus.report import WorkPrecision, work_precision
 from saltus.results import Event, EventLog, Results, Statistics
@@ -24,11 +25,13 @@ __all__ = [
     "Error",
     "Event",
     "EventLog",
+    "Explanation",
     "InputPort",
     "LeafSystem",
     "ModelError",
     "OutputPort",
     "Results",
+    "Rung",
     "Scene",
     "SimulationError",
     "Simulator",
