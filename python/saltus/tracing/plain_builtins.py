@@ -3,22 +3,24 @@
 from __future__ import annotations
 
 import builtins
+import sys
 from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 
 from saltus.tracing.array import SymbolArray
+from saltus.tracing.guarded import Guarded, parent, unguarded
 from saltus.tracing.refusal import refuse
 from saltus.tracing.scalars import SCALARS, is_number, truth
 from saltus.tracing.symbol import Symbol
 
 SAFE = set(
     """
-    abs all any ascii bytes callable chr classmethod dict divmod enumerate filter format frozenset
-    getattr hasattr iter len list map next object ord property range repr reversed round set slice
-    sorted staticmethod str sum tuple zip True False None Ellipsis NotImplemented __debug__
-    __build_class__ __name__ __doc__
+    abs all any ascii bytes callable chr classmethod complex dict divmod enumerate filter format
+    frozenset getattr hasattr iter len list map next object ord property range repr reversed round
+    set slice sorted staticmethod str sum tuple zip True False None Ellipsis NotImplemented
+    __debug__ __build_class__ __name__ __doc__
     """.split()
 )
 
@@ -112,14 +114,24 @@ def is_instance(value: Any, kinds: Any) -> bool:
     """isinstance, of a symbol by what it stands for."""
     if isinstance(kinds, tuple):
         return any(is_instance(value, kind) for kind in kinds)
-    kind = getattr(kinds, "real", kinds) if isinstance(kinds, _Converted) else kinds
-    kind = getattr(kind, "type", kind)  # of a type of numpy
+    kind = _real_class(kinds)
     if type(value) is Symbol and isinstance(kind, type):
         return issubclass(_types_of(value), kind)
-    return isinstance(value, kind)
+    if type(value) is SymbolArray and kind is np.ndarray:
+        return True
+    return isinstance(unguarded(value), kind)
+
+
+def _real_class(kind: Any) -> Any:
+    """The class that a face stands for."""
+    if type(kind) is _Converted:
+        return kind.real
+    return getattr(kind, "type", unguarded(kind)) if type(kind) is not Guarded else unguarded(kind)
 
 
 def _type(*arguments: Any) -> Any:
+    if len(arguments) == 1 and type(arguments[0]) is Guarded:
+        return arguments[0].__class__
     if len(arguments) == 1 and not isinstance(arguments[0], (Symbol, SymbolArray)):
         return type(arguments[0])
     refuse("asks for the type of a value", "use isinstance")
@@ -131,7 +143,19 @@ def _pow(base: Any, exponent: Any, modulus: Any = None) -> Any:
     return pow(base, exponent) if modulus is None else pow(base, exponent, modulus)
 
 
+def _super(*arguments: Any) -> Any:
+    """super(): the same object, looked up after the class the method stands in."""
+    if not arguments:
+        frame = sys._getframe(1)
+        arguments = frame.f_locals["__class__"], frame.f_locals[frame.f_code.co_varnames[0]]
+    after, value = arguments
+    if type(value) is not Guarded:
+        refuse("uses super() of a new object", "call the class by its name")
+    return parent(value, unguarded(after))
+
+
 REPLACED: dict[str, Any] = {
+    "super": _super,
     "min": _extreme("min", "lt"),
     "max": _extreme("max", "gt"),
     "float": Float,

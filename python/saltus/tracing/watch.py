@@ -4,12 +4,17 @@ from __future__ import annotations
 
 import math
 import reprlib
+import weakref
 from collections.abc import Callable, Mapping
+from types import CodeType
 from typing import Any
 
 import numpy as np
 
 MISSING: Any = type("Missing", (), {"__repr__": lambda self: "not there"})()
+
+GONE = object()
+"""in place of what an object has that is no more: nobody can change it"""
 
 PLAIN = (bool, int, float, str, bytes, complex, type(None), np.generic)
 """values that never change"""
@@ -51,8 +56,33 @@ def _same(a: Any, b: Any) -> bool:
     return bool(a == b) if isinstance(a, PLAIN) else a is b
 
 
+def _named(value: Any) -> str:
+    """A value in few words."""
+    if isinstance(value, CodeType):
+        return f"compiled from line {value.co_firstlineno}"
+    name = getattr(value, "__qualname__", None)
+    return name if isinstance(name, str) else reprlib.repr(value)
+
+
+class AttributeOf:
+    """Attributes of an object, for a `Watch`, which should not keep the object alive."""
+
+    def __init__(self, value: Any):
+        try:
+            self._object: Any = weakref.ref(value)
+        except TypeError:  # not every object can be referred to weakly
+            self._object = lambda: value
+
+    def __call__(self, name: str, default: Any) -> Any:
+        value = self._object()
+        return GONE if value is None else getattr(value, name, default)
+
+
 class Watch:
     """The values a tape was made from, by the words a user knows them by.
+
+    It refers to objects weakly where it can, but to the variables of closures and what stands in
+    them as the function does: who keeps it should show it to the garbage collector.
 
     Examples
     --------
@@ -93,12 +123,14 @@ class Watch:
         """
         for words, get, key, value, inside in self._reads:
             now = get(key, MISSING)
+            if now is GONE:
+                continue
             if now is value:
                 if inside is None or content(now) == inside:
                     continue
                 return f"{words} changed in place"
             if not (_same(value, now) if inside is None else content(now) == inside):
-                return f"{words} was {reprlib.repr(value)}, is {reprlib.repr(now)}"
+                return f"{words} was {_named(value)}, is {_named(now)}"
         return None
 
     def merge(self, other: Watch) -> None:
