@@ -12,6 +12,7 @@ import numpy as np
 
 from saltus import _core
 from saltus.errors import ModelError, SimulationError
+from saltus.ladder import climbed
 from saltus.porting import OPTIONS, refuse
 from saltus.progress import Progress, reporter_of
 from saltus.results import Results
@@ -85,6 +86,10 @@ class SimulatorOptions:
     """
     record_events: bool = True
     """the event log; switching it off changes nothing else"""
+    python: str = "traced"
+    """'traced' makes expressions of the Python callbacks that allow it, which run without the
+    interpreter; 'called' calls them all. See `system.explain()`
+    """
     throw: bool = True
     """raise when a run does not end well; else return the results with the status"""
     progress: bool | Callable[[Progress], object] = False
@@ -97,7 +102,9 @@ class SimulatorOptions:
     """
 
 
-PYTHON_ONLY = {"recorded_signals", "throw", "progress"}  # the engine is told in another way
+PYTHON_ONLY = ("recorded_signals", "python", "throw", "progress")
+"""options that the engine does not have, or not in this form"""
+RUNGS = ("traced", "called")
 
 _UNBOUNDED = {
     "max_major_step_length": math.inf,
@@ -136,6 +143,9 @@ def core_options(options: SimulatorOptions) -> _core.SimulatorOptions:
             ) from None
     if not isinstance(options.throw, (bool, np.bool_)):
         raise ModelError(f"option throw: expected bool, found {options.throw!r}")
+    if options.python not in RUNGS:
+        found = f"'{options.python}'{_core.known_names(str(options.python), RUNGS)}"
+        raise ModelError(f"option python: unknown {found}")
     core.set_recorded_signals(_ports(options.recorded_signals))
     return core
 
@@ -164,12 +174,22 @@ class Simulator:
         self.options = replace(options, **overrides)
         self.system = system  # the engine refers to it
         self._reporter = reporter_of(self.options.progress)
-        self._core = _core.Simulator(system, core_options(self.options), self._reporter)
+        self._options = core_options(self.options)
+        self._make()
         self._failed: Results | None = None
         self._outcome: Callable[..., Results] = Results
 
+    def _make(self) -> None:
+        """The engine's simulator, of the system as it runs."""
+        self._runs, self._ladder = self.system, None
+        if self.options.python == "traced":
+            self._runs, self._ladder = climbed(self.system)
+        self._core = _core.Simulator(self._runs, self._options, self._reporter)
+
     def initialize(self, context: _core.Context) -> None:
         """Begins a run with these values, at their time."""
+        if self._ladder and (self._ladder.survey.stale or self._ladder.refresh()):
+            self._make()
         self._core.initialize(core_context(context))
         self._failed = None
 
@@ -182,7 +202,19 @@ class Simulator:
         """
         return self._advance(time, take=False).status
 
+    def _follow_changes(self) -> None:
+        """What a traced callback was made from may have changed since the last piece of the run."""
+        if not self._ladder or not self._ladder.refresh():
+            return
+        if not self._runs.replace(self._ladder.core_traces()):
+            raise ModelError(
+                f"t = {self.time} s: a callback depends on other values than when the run began; "
+                "initialize again, or use the option python='called'"
+            )
+
     def _advance(self, time: float, take: bool) -> Results:
+        if not take:  # what simulate runs was made just now
+            self._follow_changes()
         try:
             time = float(time)
         except (TypeError, ValueError):
@@ -192,11 +224,16 @@ class Simulator:
         else:
             self._report(time)
         core, raised = self._core.results(take)
-        results = self._outcome(core, raised, self.system)
+        results = self._results(core, raised)
         if results.status in ("failed", "interrupted"):
             self._failed = results
         if self.options.throw and results.status not in ("reached_end", "terminal", "zeno_stop"):
             self._raise(results, raised)
+        return results
+
+    def _results(self, core: _core.Results, raised: BaseException | None) -> Results:
+        results = self._outcome(core, raised, self.system)
+        results._runs = self._runs if results.dense else None
         return results
 
     def _report(self, time: float) -> None:
@@ -229,7 +266,7 @@ class Simulator:
     @property
     def results(self) -> Results:
         """All since `initialize`, as a copy of its own."""
-        return self._failed or self._outcome(*self._core.results(False), self.system)
+        return self._failed or self._results(*self._core.results(False))
 
     def describe(self) -> str:
         """What of the system is computed when, what is never computed, and why."""
