@@ -14,6 +14,7 @@ from saltus.system import System
 
 __all__ = ["Solution"]
 
+FIRINGS = ("zero_crossing", "terminal")
 WELL = {
     "reached_end": "the end of the span was reached",
     "terminal": "a terminal event ended the run",
@@ -111,7 +112,7 @@ class Solution(Results):
         return self.statistics.linear_setups
 
     def _fired(self, name: str) -> list[Any]:
-        return [e for e in self.events if e.name == name and e.kind == "zero_crossing"]
+        return [e for e in self.events if e.name == name and e.kind in FIRINGS]
 
     def _state_at(self, t: ArrayLike) -> np.ndarray:
         return np.moveaxis(self(t).continuous_state, -1, 0)

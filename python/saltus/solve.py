@@ -126,9 +126,8 @@ def solve(
     >>> solution.status, solution.y[:, -1].tolist()
     ('reached_end', [0.0, 0.0])
     """
-    known = [field.name for field in fields(SimulatorOptions)]
-    own = [name for name in HINTS if name in options]
-    refuse("solve", own + [name for name in options if name not in known], [*OWN, *known], HINTS)
+    known = [field.name for field in fields(SimulatorOptions) if field.name not in HINTS]
+    refuse("solve", options, [*OWN, *known], HINTS)
     if isinstance(method, str) and method in METHODS:
         raise ModelError(f"solve: there is no method '{method}': {METHODS[method]}")
     begin, end = span_of(t_span)
