@@ -7,6 +7,7 @@ runs it.
 from saltus import library, simulation
 from saltus._core import Context, State, __version__
 from saltus.diagram import Diagram, DiagramBuilder
+from saltus.ensemble import sweep
 from saltus.errors import Error, ModelError, SimulationError
 from saltus.guard import Guard
 from saltus.leaf_system import LeafSystem
@@ -51,5 +52,6 @@ __all__ = [
     "simulate",
     "simulation",
     "solve",
+    "sweep",
     "work_precision",
 ]

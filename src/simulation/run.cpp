@@ -3,15 +3,18 @@
 
 namespace saltus {
 
-SimulatorOptions Run::checked(SimulatorOptions options) const {
+SimulatorOptions Run::checked(SimulatorOptions options) {
   detail::check(options);
   require_linear_solver(options.linear_solver, options.ode_solver_method);
   return options;
 }
 
 Run::Run(const System& system, SimulatorOptions options)
+    : Run(compile(system, checked(options).recorded_signals), options) {}
+
+Run::Run(std::shared_ptr<const Plan> plan, SimulatorOptions options)
     : options_(checked(std::move(options))),
-      machine_(compile(system, options_.recorded_signals)),
+      machine_(std::move(plan)),
       instant_(machine_, watch_, options_, results_),
       calendar_(machine_.plan()),
       method_(method_from(options_.ode_solver_method)) {}
