@@ -84,7 +84,7 @@ class Solution(Results):
     def t_events(self) -> list[np.ndarray] | None:
         if self._names is None:
             return None
-        return [np.array([e.time for e in self._fired(name)]) for name in self._names]
+        return [self._times(name) for name in self._names]
 
     @property
     def y_events(self) -> list[np.ndarray] | None:
@@ -110,6 +110,9 @@ class Solution(Results):
     @property
     def nlu(self) -> int:
         return self.statistics.linear_setups
+
+    def _times(self, name: str) -> np.ndarray:
+        return np.sort(np.concatenate([self.events.times(name, kind) for kind in FIRINGS]))
 
     def _fired(self, name: str) -> list[Any]:
         return [e for e in self.events if e.name == name and e.kind in FIRINGS]
