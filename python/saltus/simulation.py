@@ -142,6 +142,8 @@ class Simulator:
             error = SimulationError(results.message, results.context.time, results.block)
         if isinstance(error, (SimulationError, KeyboardInterrupt)):
             error.results = results  # type: ignore[union-attr]
+        if isinstance(error, KeyboardInterrupt) and not error.args:
+            error.args = (f"{results.message}; its attribute results has what was computed",)
         try:
             raise error
         finally:
@@ -214,8 +216,9 @@ def simulate(
             except KeyboardInterrupt as stop:
                 results = stop.results  # status 'interrupted'
 
-        At a prompt it is ``sys.last_value.results`` afterwards. With ``throw=False`` none of the
-        two is raised: the results are returned, and their status says how the run ended.
+        At a prompt and in a notebook it is ``sys.last_value.results`` afterwards. With
+        ``throw=False`` none of the two is raised: the results are returned, and their status says
+        how the run ended.
 
     Examples
     --------

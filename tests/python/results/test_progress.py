@@ -138,7 +138,7 @@ try:
                        record_events=False, {options})
 except KeyboardInterrupt as interrupt:
     got = interrupt.results
-    print("raised")
+    print("raised" if "its attribute results has" in str(interrupt) else "silent")
 print(type(got).__name__, got.status, 0 < got.t[-1] < 1e9, got.y.shape[1] == len(got.t))
 print(got.message)
 """
