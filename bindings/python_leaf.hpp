@@ -60,6 +60,7 @@ class PythonLeaf final : public LeafSystem {
   const InputList& inputs_of(int k) const { return functions_[static_cast<std::size_t>(k)].inputs; }
 
   void collect(Structure& out, const std::string& path) const override;
+  std::string kind() const override;  // of the Python class
 
   /// For the garbage collector.
   int traverse(visitproc visit, void* argument) const;
