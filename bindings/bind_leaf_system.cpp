@@ -1,6 +1,7 @@
 // LeafSystem: what python/saltus/leaf_system.py declares blocks with.
 #include <pybind11/stl.h>
 
+#include "context_docs.hpp"
 #include "zero_crossing.hpp"
 
 namespace saltus::python {
@@ -119,20 +120,17 @@ ResetMap update_of(py::handle self, py::object callback, const char* what) {
 }  // namespace
 
 void bind_leaf_system(py::module_& module) {
-  py::class_<State>(
-      module, "State",
-      R"(What a callback sees of its block, as a value: read-only arrays, and `with_*` that return a new state.
-
-A reset map or an update returns the state it wants. What counts as written is what a `with_*` was called for, even if
-the value is the one that was there.)")
+  py::class_<State>(module, "State", docs::state)
       .def_readonly("continuous_state", &State::x, "Read-only array of the declared shape.")
       .def_readonly("discrete_state", &State::z, "Read-only array of the declared shape.")
-      .def_readonly("mode", &State::mode)
+      .def_readonly("mode", &State::mode, "The mode of the block.")
       .def_readonly("entry", &State::entry,
                     "In a reset map: which guard of a zero crossing of several fired; else 0.")
-      .def("with_continuous_state", &State::with_continuous_state, py::arg("continuous_state"))
-      .def("with_discrete_state", &State::with_discrete_state, py::arg("discrete_state"))
-      .def("with_mode", &State::with_mode, py::arg("mode"))
+      .def("with_continuous_state", &State::with_continuous_state, py::arg("continuous_state"),
+           "Another continuous state, of the declared shape.")
+      .def("with_discrete_state", &State::with_discrete_state, py::arg("discrete_state"),
+           "Another discrete state, of the declared shape.")
+      .def("with_mode", &State::with_mode, py::arg("mode"), "Another mode.")
       .def("__repr__", [](const State& s) {
         return py::str("State(continuous_state={}, discrete_state={}, mode={})")
             .format(s.x, s.z, s.mode);
