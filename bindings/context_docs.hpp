@@ -208,7 +208,20 @@ Examples
 >>> len(saltus.simulate(ball, context, (0.0, 1.0)).events)
 1
 
-It has also `discrete_state`, `with_discrete_state`, `mode`, `with_mode` and `entry`.
+>>> class Lamp(saltus.LeafSystem):
+...     def __init__(self):
+...         super().__init__(name="lamp")
+...         self.declare_default_mode(0)
+...         self.declare_discrete_state(default_value=[0.0])
+...         self.declare_periodic_update(self.switch, period=1.0)
+...
+...     def switch(self, time, state):
+...         count = state.discrete_state + 1
+...         return state.with_discrete_state(count).with_mode(1 - state.mode)
+>>> lamp = Lamp()
+>>> end = saltus.simulate(lamp, lamp.create_context(), (0.0, 2.5)).context
+>>> end.mode, end.discrete_state
+(1, array([3.]))
 )";
 
 }  // namespace saltus::python::docs
