@@ -61,8 +61,14 @@ void bind_shelf(py::module_& module) {
       .def_property_readonly("invariants", &invariant_names);
 
   module.def("shelf", &shelf);
-  module.def("scene",
-             [](const std::string& name) { return std::make_shared<Scene>(models::scene(name)); });
+  module.def("scene", [](const std::string& name, const models::SceneParameters& with) {
+    return std::make_shared<Scene>(models::scene(name, with));
+  });
+  module.def("scene_parameters", [](const std::string& name) {
+    for (const auto& entry : models::shelf())
+      if (entry.name == name) return entry.parameters;
+    return models::SceneParameters{};
+  });
 }
 
 }  // namespace saltus::python

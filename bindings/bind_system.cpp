@@ -4,9 +4,24 @@
 #include <pybind11/stl.h>
 
 #include "bindings.hpp"
+#include "python_leaf.hpp"
 #include "saltus/model/diagram_builder.hpp"
 
 namespace saltus::python {
+
+namespace {
+
+/// The paths of the blocks whose Python functions a run calls.
+std::vector<std::string> interpreted_blocks(const System& system) {
+  std::vector<std::string> paths;
+  for (const Structure::Leaf& leaf : structure_of(system).leaves) {
+    const auto* python = dynamic_cast<const PythonLeaf*>(leaf.system);
+    if (python != nullptr && python->needs_interpreter()) paths.push_back(leaf.path);
+  }
+  return paths;
+}
+
+}  // namespace
 
 void bind_system(py::module_& module) {
   py::class_<System>(module, "System")
@@ -15,6 +30,7 @@ void bind_system(py::module_& module) {
                              [](const System& system) { return system.system_id().value; })
       .def_property_readonly("input_names", &System::input_names)
       .def_property_readonly("output_names", &System::output_names)
+      .def_property_readonly("interpreted_blocks", &interpreted_blocks)
       .def("find_input", [](const System& system, int index) { return system.input(index).index; })
       .def("find_input",
            [](const System& system, std::string_view name) { return system.input(name).index; })

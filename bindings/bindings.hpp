@@ -24,8 +24,10 @@ void bind_logic(py::module_& module);
 void bind_state(py::module_& module);
 void bind_results(py::module_& module);
 void bind_simulation(py::module_& module);
+void bind_ensemble(py::module_& module);
 void bind_shelf(py::module_& module);
 void bind_report(py::module_& module);
+void bind_tape(py::module_& module);
 
 /// A class of python/saltus/errors.py.
 py::object error_class(const char* name);

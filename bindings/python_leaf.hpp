@@ -61,6 +61,9 @@ class PythonLeaf final : public LeafSystem {
 
   void collect(Structure& out, const std::string& path) const override;
 
+  /// Whether a run calls Python functions of this block.
+  bool needs_interpreter() const { return !functions_.empty(); }
+
   /// For the garbage collector.
   int traverse(visitproc visit, void* argument) const;
   void clear() { functions_.clear(); }

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import operator
 from dataclasses import fields
 from typing import Any
 
 from saltus import _core
+from saltus.errors import ModelError
 from saltus.results import Results
-from saltus.simulation import SimulatorOptions, simulate
+from saltus.simulation import PYTHON_ONLY, SimulatorOptions, simulate
 from saltus.system import OutputPort, System
 
 __all__ = ["Scene", "SharedSystem", "scene", "shelf"]
@@ -19,9 +21,20 @@ class SharedSystem(System, _core.SharedSystem):
     It is a system like any other: it has ports and contexts, can be run, and added to a diagram.
     """
 
+    def __init__(self, handle: _core.SystemHandle, again: tuple[Any, ...] | None = None):
+        super().__init__(handle)
+        self._again = again
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """A system of the shelf, or a block in it, is made again where it is unpickled."""
+        if self._again is None:
+            raise TypeError(f"cannot pickle system '{self.name}': it was made in C++")
+        return self._again
+
     def __getitem__(self, name: str) -> SharedSystem:
         """A block of a diagram by name. ModelError lists the names there are."""
-        return SharedSystem(self.block(name))
+        again = None if self._again is None else (operator.getitem, (self, name))
+        return SharedSystem(self.block(name), again)
 
     @property
     def blocks(self) -> tuple[SharedSystem, ...]:
@@ -34,6 +47,8 @@ class Scene:
 
     name: str
     """by which `saltus.scene` knows it"""
+    parameters: dict[str, float]
+    """what `saltus.scene` can change, with the values it has here"""
     title: str
     """one line: what it is, and what it is hard for"""
     system: SharedSystem
@@ -52,11 +67,12 @@ class Scene:
     invariants: list[str]
     """names of what does not change along the true solution"""
 
-    def __init__(self, core: _core.Scene, name: str, title: str):
+    def __init__(self, core: _core.Scene, name: str, title: str, parameters: dict[str, float]):
         self._core = core
         self.name = name
         self.title = title
-        self.system = SharedSystem(core.system)
+        self.parameters = parameters
+        self.system = SharedSystem(core.system, _made_again(name, parameters))
         self.context = core.context
         self.t_span = core.t_span
         self.options = self._options(core)
@@ -66,7 +82,7 @@ class Scene:
         self.invariants = core.invariants
 
     def _options(self, core: _core.Scene) -> SimulatorOptions:
-        same = {f.name for f in fields(SimulatorOptions)} - {"recorded_signals", "throw"}
+        same = {f.name for f in fields(SimulatorOptions)} - PYTHON_ONLY
         values: dict[str, Any] = {name: getattr(core.options, name) for name in same}
         signals = {
             name: OutputPort(self.system if block == core.system else SharedSystem(block), index)
@@ -95,11 +111,46 @@ def shelf() -> dict[str, str]:
     return dict(_core.shelf())
 
 
-def scene(name: str) -> Scene:
-    """The ready scene of that name, with its usual parameters. ModelError lists the names there
-    are.
+def scene(name: str, **parameters: float) -> Scene:
+    """A ready scene, with its usual parameters or with others.
 
-    >>> results = saltus.scene("bouncing-ball").simulate(rtol=1e-9)
+    Parameters
+    ----------
+    name : str
+        One of the names in `saltus.shelf()`.
+    **parameters : float
+        Some of those in ``scene(name).parameters``: constants of the model, where it starts, and
+        ``t_end`` [s]. The known answer is that of these values; where it is known for the usual
+        ones only, ``provenance`` says so.
+
+    Returns
+    -------
+    Scene
+
+    Raises
+    ------
+    ModelError
+        For an unknown name, with the nearest one, or a value that the scene has no meaning for.
+
+    Examples
+    --------
+    >>> import saltus
+    >>> results = saltus.scene("bouncing-ball", e=0.5, y0=2.0).simulate(rtol=1e-9)
+    >>> results.status
+    'reached_end'
     """
-    core = _core.scene(name)
-    return Scene(core, name, shelf()[name])
+    try:
+        chosen = [(key, float(value)) for key, value in parameters.items()]
+    except (TypeError, ValueError):
+        raise ModelError(f"scene '{name}': expected numbers, found {parameters}") from None
+    core = _core.scene(name, chosen)
+    return Scene(core, name, shelf()[name], {**dict(_core.scene_parameters(name)), **dict(chosen)})
+
+
+def _made_again(name: str, parameters: dict[str, float]) -> tuple[Any, ...]:
+    """For pickle: how another process makes this system."""
+    return _system_of, (name, parameters)
+
+
+def _system_of(name: str, parameters: dict[str, float]) -> SharedSystem:
+    return scene(name, **parameters).system

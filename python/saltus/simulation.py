@@ -13,6 +13,7 @@ import numpy as np
 from saltus import _core
 from saltus.errors import ModelError, SimulationError
 from saltus.porting import OPTIONS, refuse
+from saltus.progress import Progress, reporter_of
 from saltus.results import Results
 from saltus.system import OutputPort, System
 
@@ -75,15 +76,28 @@ class SimulatorOptions:
     save_steps=True
     """
     save_steps: bool | None = None
+    event_rows: bool = True
+    """rows at events, at the start and at the end too. False: rows at save_at only, one for each;
+    at the time of an event the one after it
+    """
+    dense_output: bool = False
+    """keep what the solver interpolates: `results(t)` tells state and recorded signals at any time
+    """
     record_events: bool = True
     """the event log; switching it off changes nothing else"""
     throw: bool = True
     """raise when a run does not end well; else return the results with the status"""
+    progress: bool | Callable[[Progress], object] = False
+    """True shows how far the run is, by tqdm if it is installed, else on a line of stderr; a
+    function is called with a `Progress` ten times a second at most, and once at the end
+    """
     interrupt: Callable[[], bool] | None = None
     """asked about every 20 ms; True ends the run with the status 'interrupted'. Ctrl-C does so
     anyway
     """
 
+
+PYTHON_ONLY = {"recorded_signals", "throw", "progress"}  # the engine is told in another way
 
 _UNBOUNDED = {
     "max_major_step_length": math.inf,
@@ -108,7 +122,7 @@ def core_options(options: SimulatorOptions) -> _core.SimulatorOptions:
     core = _core.SimulatorOptions()
     for field in fields(options):
         value = getattr(options, field.name)
-        if field.name in ("recorded_signals", "throw"):
+        if field.name in PYTHON_ONLY:
             continue
         try:
             setattr(
@@ -149,8 +163,10 @@ class Simulator:
         refuse(type(self).__name__, overrides, (field.name for field in fields(options)), OPTIONS)
         self.options = replace(options, **overrides)
         self.system = system  # the engine refers to it
-        self._core = _core.Simulator(system, core_options(self.options))
+        self._reporter = reporter_of(self.options.progress)
+        self._core = _core.Simulator(system, core_options(self.options), self._reporter)
         self._failed: Results | None = None
+        self._outcome: Callable[..., Results] = Results
 
     def initialize(self, context: _core.Context) -> None:
         """Begins a run with these values, at their time."""
@@ -168,16 +184,27 @@ class Simulator:
 
     def _advance(self, time: float, take: bool) -> Results:
         try:
-            self._core.advance_to(time)
-        except TypeError:
+            time = float(time)
+        except (TypeError, ValueError):
             raise ModelError(f"advance_to: expected a time in seconds, found {time!r}") from None
+        if self._reporter is None:
+            self._core.advance_to(time)
+        else:
+            self._report(time)
         core, raised = self._core.results(take)
-        results = Results(core, raised)
+        results = self._outcome(core, raised, self.system)
         if results.status in ("failed", "interrupted"):
             self._failed = results
         if self.options.throw and results.status not in ("reached_end", "terminal", "zeno_stop"):
             self._raise(results, raised)
         return results
+
+    def _report(self, time: float) -> None:
+        """Advances under the eyes of the user."""
+        assert self._reporter is not None
+        with self._reporter.over(self._core.time, time, self._core.events) as reporter:
+            self._core.advance_to(time)
+            reporter(self._core.time, self._core.events)
 
     def _raise(self, results: Results, error: BaseException | None) -> None:
         if error is None:
@@ -202,7 +229,7 @@ class Simulator:
     @property
     def results(self) -> Results:
         """All since `initialize`, as a copy of its own."""
-        return self._failed or Results(*self._core.results(False))
+        return self._failed or self._outcome(*self._core.results(False), self.system)
 
     def describe(self) -> str:
         """What of the system is computed when, what is never computed, and why."""

@@ -14,11 +14,16 @@ const std::vector<ShelfEntry>& shelf() {
   return all;
 }
 
-Scene scene(std::string_view name) {
+Scene scene(std::string_view name) { return scene(name, {}); }
+
+Scene scene(std::string_view name, const SceneParameters& with) {
   const auto found = std::ranges::find(shelf(), name, &ShelfEntry::name);
   if (found != shelf().end()) {
-    Scene made = found->make();
-    if (!made.build) made.build = [make = found->make] { return make().system; };
+    const auto make = [entry = &*found, with] {
+      return with.empty() ? entry->make() : entry->make_with(with);
+    };
+    Scene made = make();
+    if (!made.build) made.build = [make] { return make().system; };
     return made;
   }
   std::string names;

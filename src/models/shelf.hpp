@@ -1,5 +1,11 @@
-// The two halves of the shelf; each is a list in a source file of its own.
+// The two halves of the shelf; each is a list in a source file of its own. What an entry of them is
+// made of.
 #pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <variant>
 
 #include "saltus/models/shelf.hpp"
 
@@ -7,5 +13,68 @@ namespace saltus::models::detail {
 
 std::vector<ShelfEntry> hybrid_scenes();  // hybrid_scenes.cpp
 std::vector<ShelfEntry> smooth_scenes();  // smooth_scenes.cpp: stiff and smooth ones
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr double positive = std::numeric_limits<double>::min();
+constexpr double below_one = 1.0 - std::numeric_limits<double>::epsilon();
+
+/// One parameter of a scene, and the values it has a meaning for.
+template <class Parameters>
+struct Member {
+  std::string name;
+  std::variant<double Parameters::*, int Parameters::*, Index Parameters::*> at;
+  double least = -infinite, most = infinite;
+
+  double get(const Parameters& from) const {
+    return std::visit([&](auto member) { return static_cast<double>(from.*member); }, at);
+  }
+  /// Throws ModelError for a value out of bounds, or no integer where one is meant.
+  void set(Parameters& to, double value) const {
+    if (!(value >= least && value <= most) || !std::isfinite(value))
+      throw ModelError(
+          text("parameter '", name, "': expected ", least, " to ", most, ", found ", value));
+    std::visit(
+        [&](auto member) {
+          using Number = std::remove_reference_t<decltype(to.*member)>;
+          to.*member = static_cast<Number>(value);
+          if (static_cast<double>(to.*member) != value)
+            throw ModelError(text("parameter '", name, "': expected an integer, found ", value));
+        },
+        at);
+  }
+};
+
+template <class Parameters>
+void change(Parameters& all, const std::vector<Member<Parameters>>& members,
+            const SceneParameters& with) {
+  for (const auto& [name, value] : with) {
+    const auto found = std::ranges::find(members, name, &Member<Parameters>::name);
+    if (found == members.end()) {
+      std::vector<std::string> known;
+      for (const auto& member : members) known.push_back(member.name);
+      throw ModelError(text("unknown parameter '", name, "'", known_names(name, known)));
+    }
+    found->set(all, value);
+  }
+}
+
+/// An entry of the shelf: `make` with `usual` parameters, of which `members` can be changed.
+template <class Parameters>
+ShelfEntry entry(std::string name, std::string title, Scene (*make)(const Parameters&),
+                 std::vector<Member<Parameters>> members, Parameters usual = {},
+                 bool quick = true) {
+  SceneParameters values;
+  for (const auto& member : members) values.emplace_back(member.name, member.get(usual));
+  return {std::move(name),
+          std::move(title),
+          [=] { return make(usual); },
+          values,
+          [=](const SceneParameters& with) {
+            Parameters changed = usual;
+            change(changed, members, with);
+            return make(changed);
+          },
+          quick};
+}
 
 }  // namespace saltus::models::detail

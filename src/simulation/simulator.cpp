@@ -9,6 +9,11 @@ namespace saltus {
 
 Simulator::Simulator(const System& system, SimulatorOptions options)
     : run_(std::make_unique<Run>(system, std::move(options))) {}
+Simulator::Simulator(std::shared_ptr<const Plan> plan, SimulatorOptions options)
+    : run_(std::make_unique<Run>(std::move(plan), std::move(options))) {
+  if (!run_->options().recorded_signals.empty())
+    throw ModelError("recorded_signals: give them to compile(), where the plan is made");
+}
 Simulator::~Simulator() = default;
 Simulator::Simulator(Simulator&&) noexcept = default;
 Simulator& Simulator::operator=(Simulator&&) noexcept = default;

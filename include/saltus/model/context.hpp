@@ -3,6 +3,7 @@
 
 #include <initializer_list>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,6 +15,8 @@
 #include "saltus/model/continuation.hpp"
 
 namespace saltus {
+
+struct ContextEntry;  // context_entry.hpp
 
 /// Where the values of each leaf stand in a context. Shared by all contexts of one system.
 struct Layout {
@@ -97,6 +100,8 @@ class Context {
   friend class LeafSystem;
   friend class System;
   friend class Machine;
+  friend void write_entry(Context& context, const ContextEntry& entry,
+                          std::span<const double> values, std::string_view name);
 
   static Eigen::VectorXd vector_of(std::initializer_list<double> values) {
     return Eigen::Map<const Eigen::VectorXd>(values.begin(), static_cast<Index>(values.size()));

@@ -1,8 +1,8 @@
 // A ball over a floor at 0, as one leaf: the smallest hybrid system with a Zeno point.
 //   dy/dt = v, dv/dt = -g        while it flies
 //   y+ = |y-|, v+ = -e v-        when y falls to 0
-// State: height y [m], velocity v [m/s]. Parameters: g [m/s^2] in the context, e (coefficient of
-// restitution) in the block. Flights are parabolas, known exactly, and so is the Zeno time t1 (1 +
+// State: height y [m], velocity v [m/s]. Parameters, in the context: g [m/s^2], e (coefficient of
+// restitution). Flights are parabolas, known exactly, and so is the Zeno time t1 (1 +
 // e) / (1 - e), t1 = sqrt(2 y0 / g). Newton's law of restitution; the scene is the first one of the
 // tutorial "Bouncing Ball" of Collimator.
 #pragma once
@@ -16,11 +16,12 @@ namespace saltus::models {
 
 class BouncingBall final : public LeafSystem {
  public:
-  explicit BouncingBall(double g = 9.81, double e = 1.0) : LeafSystem("ball"), e_(e) {
+  explicit BouncingBall(double g = 9.81, double e = 1.0) : LeafSystem("ball") {
     declare_continuous_state(2, &BouncingBall::ode);
     declare_continuous_state_output("ball:y");
     declare_jacobian([](const At&, MatrixRef jacobian) { jacobian << 0.0, 1.0, 0.0, 0.0; });
     g_ = declare_dynamic_parameter("g", g);
+    e_ = declare_dynamic_parameter("e", e);
     declare_zero_crossing({.name = "bounce",
                            .guard = &BouncingBall::height,
                            .reset_map = &BouncingBall::bounce,
@@ -31,11 +32,11 @@ class BouncingBall final : public LeafSystem {
   void ode(const At& at, VectorRef xdot) const { xdot << at.x[1], -at.p[g_]; }
   double height(const At& at) const { return at.x[0]; }
   void bounce(const At& at, Next& next) const {
-    next.set_continuous_state({std::abs(at.x[0]), -e_ * at.x[1]});
+    next.set_continuous_state({std::abs(at.x[0]), -at.p[e_] * at.x[1]});
   }
 
-  double e_;          // coefficient of restitution, 0 <= e <= 1
   ParameterIndex g_;  // [m/s^2]
+  ParameterIndex e_;  // coefficient of restitution, 0 <= e <= 1
 };
 
 struct BouncingBallParameters {

@@ -15,6 +15,7 @@ namespace saltus {
 class Run {
  public:
   Run(const System& system, SimulatorOptions options);
+  Run(std::shared_ptr<const Plan> plan, SimulatorOptions options);
   Run(const Run&) = delete;  // its parts know each other
   Run& operator=(const Run&) = delete;
 
@@ -25,6 +26,7 @@ class Run {
   const Results& results() const noexcept { return results_; }
   Results take_results();
   const Plan& plan() const noexcept { return machine_.plan(); }
+  const SimulatorOptions& options() const noexcept { return options_; }
   std::string describe() const;
 
  private:
@@ -34,6 +36,7 @@ class Run {
   Status settle(StopReason reason, double t_end, bool at_start);
   void record_step(double from);
   void record(double t, const double* x);
+  void keep_step(double from);
   bool steps_recorded() const { return options_.save_steps.value_or(options_.save_at.empty()); }
   bool interrupted();
   /// Events in a row, since a time.
@@ -57,7 +60,7 @@ class Run {
   }
   bool moved() const;
   Status chattering();
-  SimulatorOptions checked(SimulatorOptions options) const;
+  static SimulatorOptions checked(SimulatorOptions options);
   SolverOptions solver_options() const;
   Status end(Status status, std::string message = {});
   void fail(std::string message);

@@ -17,6 +17,9 @@ class Simulator {
  public:
   /// Throws ModelError for a system, or an option, that makes no sense.
   explicit Simulator(const System& system, SimulatorOptions options = {});
+  /// A run over a plan that others may share, each in a thread of its own; what is recorded is in
+  /// the plan already. Throws ModelError if the options record something too.
+  explicit Simulator(std::shared_ptr<const Plan> plan, SimulatorOptions options = {});
   ~Simulator();
   Simulator(Simulator&&) noexcept;
   Simulator& operator=(Simulator&&) noexcept;

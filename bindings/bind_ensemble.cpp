@@ -1,0 +1,190 @@
+// Ensembles: runs over one plan, in threads that take the lock of the interpreter only to call
+// Python.
+#include <pybind11/functional.h>
+#include <pybind11/stl.h>
+
+#include "numbers.hpp"
+#include "python_results.hpp"
+#include "saltus/simulation/outcomes.hpp"
+
+namespace saltus::python {
+
+namespace {
+
+/// The memory of a column as an array of these dimensions; no copy.
+template <class Number>
+py::array moved(std::vector<Number>&& column, std::vector<py::ssize_t> dimensions) {
+  auto* kept = new std::vector<Number>(std::move(column));
+  const py::capsule owner(kept, [](void* all) { delete static_cast<std::vector<Number>*>(all); });
+  return py::array_t<Number>(std::move(dimensions), kept->data(), owner);
+}
+
+/// What went wrong, by run.
+py::dict reasons(const Outcomes& outcomes) {
+  py::dict all;
+  for (std::size_t run = 0; run < outcomes.message.size(); ++run) {
+    if (!outcomes.message[run].empty())
+      all[py::int_(run)] = py::make_tuple(outcomes.message[run], outcomes.block[run]);
+  }
+  return all;
+}
+
+/// Columns by name, moved out.
+py::dict columns(Outcomes&& o) {
+  using py::literals::operator""_a;
+  const auto runs = static_cast<py::ssize_t>(o.status.size());
+  const auto wide = [&](auto& column) {
+    const auto size = static_cast<py::ssize_t>(column.size());
+    return moved(std::move(column), {runs, runs > 0 ? size / runs : 0});
+  };
+  py::dict signals;
+  for (Outcomes::Signal& signal : o.signals) {
+    std::vector<py::ssize_t> dimensions{runs};
+    if (!o.times.empty()) dimensions.push_back(static_cast<py::ssize_t>(o.times.size()));
+    if (signal.shape.vector) dimensions.push_back(signal.shape.size);
+    signals[py::str(signal.name)] = moved(std::move(signal.values), std::move(dimensions));
+  }
+  const py::dict said = reasons(o);
+  return py::dict("status"_a = moved(std::move(o.status), {runs}), "reasons"_a = said,
+                  "end_time"_a = moved(std::move(o.end_time), {runs}),
+                  "wall_time"_a = moved(std::move(o.wall_time), {runs}),
+                  "events"_a = moved(std::move(o.events), {runs}),
+                  "steps"_a = moved(std::move(o.steps), {runs}),
+                  "continuous_state"_a = wide(o.continuous_state),
+                  "discrete_state"_a = wide(o.discrete_state), "modes"_a = wide(o.modes),
+                  "signals"_a = signals);
+}
+
+/// What was raised by Python, where that is no plain failure of one run: Ctrl-C, for one.
+bool ends_all(const Results& results) {
+  if (!results.cause) return false;
+  try {
+    std::rethrow_exception(results.cause);
+  } catch (const py::error_already_set& error) {
+    const py::gil_scoped_acquire lock;
+    return !PyErr_GivenExceptionMatches(error.type().ptr(), PyExc_Exception);
+  } catch (...) {
+    return false;
+  }
+}
+
+/// A call of Ensemble::run from Python.
+class Call {
+ public:
+  Call(const Ensemble& ensemble, std::vector<double> times, py::object watch, py::object each)
+      : ensemble_(&ensemble),
+        outcomes_(ensemble, std::move(times)),
+        watch_(std::move(watch)),
+        each_(std::move(each)) {}
+
+  /// The columns, and what was raised, or None.
+  py::tuple run(int threads) {
+    try {
+      const py::gil_scoped_release unlock;
+      ensemble_->run([this](Index run, const Results& results) { take(run, results); },
+                     {.threads = threads,
+                      .watch = [this](Index done) { return look(done); },
+                      .around = &with_thread_state});
+    } catch (const py::error_already_set& error) {
+      if (error.trace()) PyException_SetTraceback(error.value().ptr(), error.trace().ptr());
+      raised_ = error.value();
+    }
+    return py::make_tuple(columns(std::move(outcomes_)), raised_);
+  }
+
+ private:
+  void take(Index run, const Results& results) {
+    outcomes_.take(run, results);
+    if (ends_all(results)) {
+      outcomes_.status[static_cast<std::size_t>(run)] = static_cast<int>(Status::interrupted);
+      std::rethrow_exception(results.cause);
+    }
+    if (each_.is_none()) return;
+    const py::gil_scoped_acquire lock;
+    auto copy = std::make_shared<Results>(results);
+    copy->cause = nullptr;  // it would refer to the frames it went through
+    each_(run, copy, cause_of(results));
+  }
+
+  /// Heeds signals, and tells how many runs are done.
+  bool look(Index done) {
+    const py::gil_scoped_acquire lock;
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+    return !watch_.is_none() && watch_(done).cast<bool>();
+  }
+
+  /// A thread keeps what the interpreter knows of it from one call of Python to the next.
+  static void with_thread_state(const std::function<void()>& share) {
+    const py::gil_scoped_acquire lock;
+    const py::gil_scoped_release unlock;
+    share();
+  }
+
+  const Ensemble* ensemble_;
+  Outcomes outcomes_;
+  py::object watch_, each_, raised_ = py::none();
+};
+
+void vary(Ensemble& ensemble, const std::string& name, py::handle values) {
+  const Array numbers = to_array(values, text("'", name, "'"));
+  const auto* first = numbers.data();
+  ensemble.vary(name, {first, first + numbers.size()},
+                numbers.ndim() == 2 ? static_cast<Index>(numbers.shape(1)) : 1);
+}
+
+std::vector<std::string> state_names(const Ensemble& ensemble, std::string_view kind) {
+  std::vector<std::string> names;
+  for (const Layout::Leaf& leaf : ensemble.base().layout().leaves) {
+    const std::string path = ensemble.plan().leaves.size() == 1 ? "" : leaf.path + ".";
+    if (kind == "mode") names.push_back(leaf.path);
+    for (Index i = 0; kind == "x" && i < leaf.nx; ++i) names.push_back(text(path, "x[", i, "]"));
+    for (Index i = 0; kind == "z" && i < leaf.nz; ++i) names.push_back(text(path, "z[", i, "]"));
+  }
+  return names;
+}
+
+bool has_modes(const Ensemble& ensemble) {
+  return std::ranges::any_of(ensemble.plan().leaves,
+                             [](const PlanLeaf& leaf) { return leaf.declared().has_modes; });
+}
+
+}  // namespace
+
+void bind_ensemble(py::module_& module) {
+  py::class_<Ensemble>(module, "Ensemble")
+      .def(py::init([](const System& system, const Context& base, std::pair<double, double> span,
+                       const SimulatorOptions& options) {
+             return std::make_unique<Ensemble>(system, base, TimeSpan{span.first, span.second},
+                                               options);
+           }),
+           py::keep_alive<1, 2>())
+      .def("vary", &vary)
+      .def(
+          "run",
+          [](const Ensemble& ensemble, int threads, std::vector<double> times, py::object watch,
+             py::object each) {
+            return Call(ensemble, std::move(times), std::move(watch), std::move(each)).run(threads);
+          })
+      .def("state_names", &state_names)
+      .def_property_readonly("has_modes", &has_modes)
+      .def_property_readonly("size", &Ensemble::size);
+
+  module.def("status_names", [] {
+    std::vector<std::string> names;
+    for (int i = 0; i <= static_cast<int>(Status::failed); ++i)
+      names.emplace_back(to_string(static_cast<Status>(i)));
+    return names;
+  });
+  module.def("find_entry", [](const Context& context, std::string_view name) {
+    return find_entry(context.layout(), name).size;
+  });
+  module.def("with_entry", [](Context context, const std::string& name, py::handle values) {
+    const Array numbers = to_array(values, text("'", name, "'"));
+    write_entry(context, find_entry(context.layout(), name),
+                {numbers.data(), static_cast<std::size_t>(numbers.size())}, name);
+    return context;
+  });
+  module.def("entry_names", [](const Context& context) { return entry_names(context.layout()); });
+}
+
+}  // namespace saltus::python

@@ -1,0 +1,7 @@
+"""`python -m saltus`: the command `saltus`."""
+
+import sys
+
+from saltus.cli import main
+
+sys.exit(main())

@@ -1,0 +1,79 @@
+"""`saltus SUBCOMMAND ...`: the parser, and how errors are shown."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+from collections.abc import Sequence
+
+from saltus import __version__
+from saltus.cli import describe_scene, list_scenes, report_scene, run_scene
+from saltus.errors import Error
+
+__all__ = ["UsageError", "main"]
+
+SUBCOMMANDS = (list_scenes, run_scene, describe_scene, report_scene)
+INTERRUPTED = 130  # what a shell says of a program that Ctrl-C ended
+
+
+class UsageError(Exception):
+    """Something the user can mend: a message, no traceback."""
+
+
+def parser() -> argparse.ArgumentParser:
+    """The parser of all subcommands."""
+    whole = argparse.ArgumentParser(
+        prog="saltus",
+        description="Hybrid ODEs: run ready scenes, or systems of your own.",
+        epilog="`saltus SUBCOMMAND --help` says more. Exit codes: 0; 1 for a run that did not end "
+        "well; 2 for wrong use.",
+    )
+    whole.add_argument("--version", action="version", version=f"saltus {__version__}")
+    subcommands = whole.add_subparsers(metavar="SUBCOMMAND", required=True)
+    for module in SUBCOMMANDS:
+        summary = (module.__doc__ or "").split(": ", 1)[1].split("\n")[0]
+        sub = subcommands.add_parser(
+            module.NAME,
+            help=summary,
+            description=module.__doc__,
+            formatter_class=argparse.RawDescriptionHelpFormatter,
+        )
+        module.add_arguments(sub)
+        sub.set_defaults(act=module.act, name=module.NAME)
+    return whole
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Runs the command with these arguments, by default those of the process.
+
+    Parameters
+    ----------
+    arguments : sequence of str, optional
+        What stands after ``saltus`` in the shell.
+
+    Returns
+    -------
+    int
+        The exit code: 0, 1 for a run that did not end well, 2 for wrong use, 130 after Ctrl-C.
+
+    Examples
+    --------
+    >>> from saltus.cli import main
+    >>> main(["run", "bouncing-ball", "--t-end", "3", "--quiet"])
+    0
+    """
+    chosen = parser().parse_args(arguments)
+    try:
+        code: int = chosen.act(chosen)
+        sys.stdout.flush()
+        return code
+    except (Error, UsageError, ImportError, OSError) as error:
+        if isinstance(error, BrokenPipeError):  # `saltus list | head`
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+            return 0
+        print(f"saltus {chosen.name}: {error}", file=sys.stderr)
+        return 2
+    except KeyboardInterrupt:
+        print(f"saltus {chosen.name}: interrupted", file=sys.stderr)
+        return INTERRUPTED

@@ -1,0 +1,58 @@
+"""saltus describe: what a scene consists of, what a run of it computes, and what is known of it.
+
+saltus describe water-tanks
+saltus describe ball.py:make_ball --set e=0.5 --method bdf
+"""
+
+from __future__ import annotations
+
+import argparse
+from dataclasses import replace
+
+from saltus import _core
+from saltus.cli.scene_of import Chosen, chosen_scene
+from saltus.cli.settings import add_options, add_scene, options_of, settings_of
+from saltus.cli.table import print_table
+from saltus.porting import OPTIONS, refuse
+from saltus.simulation import Simulator, SimulatorOptions
+
+NAME = "describe"
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    add_scene(parser)
+    add_options(parser)
+
+
+def act(chosen: argparse.Namespace) -> int:
+    scene = chosen_scene(chosen.scene, settings_of(chosen.set))
+    scene = scene.with_span(chosen.t_begin, chosen.t_end)
+    overrides = options_of(chosen)
+    refuse("--option", overrides, SimulatorOptions.__dataclass_fields__, OPTIONS)
+    options = replace(scene.options, **overrides)
+    print_table(_facts(scene, options))
+    print()
+    print(Simulator(scene.system, options).describe(), end="")
+    return 0
+
+
+def _facts(chosen: Chosen, options: SimulatorOptions) -> list[tuple[str, str]]:
+    facts = [("scene", f"{chosen.name}: {chosen.title}")]
+    if chosen.span is not None:
+        facts.append(("span", f"t = {chosen.span[0]:g} to {chosen.span[1]:g} s"))
+    if chosen.scene is not None and chosen.scene.parameters:
+        facts.append(("parameters", _listed(chosen.scene.parameters)))
+    names = [n for n in _core.entry_names(chosen.context) if n.rpartition(".")[2] != "mode"]
+    facts.append(("values", ", ".join(names) or "none"))
+    facts.append(("tolerances", f"rtol {options.rtol:g}, atol {options.atol:g}"))
+    facts.append(("recorded", ", ".join(options.recorded_signals or {}) or "nothing"))
+    if chosen.scene is not None:
+        facts.append(("methods", ", ".join(chosen.scene.methods)))
+        facts.append(("known answer", chosen.scene.provenance or "none"))
+        if chosen.scene.invariants:
+            facts.append(("invariants", ", ".join(chosen.scene.invariants)))
+    return facts
+
+
+def _listed(values: dict[str, float]) -> str:
+    return ", ".join(f"{name} = {value:g}" for name, value in values.items())

@@ -1,0 +1,83 @@
+"""saltus report: error against run time of a scene, for each method at each tolerance.
+
+saltus report bouncing-ball
+saltus report robertson --methods bdf,auto --rtols 1e-4,1e-6,1e-8 --plot robertson.svg
+"""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import Any
+
+from saltus.cli.scene_of import Chosen, chosen_scene
+from saltus.cli.settings import add_scene, settings_of
+from saltus.report import WorkPrecision, work_precision
+
+NAME = "report"
+
+
+def _numbers(text: str) -> list[float]:
+    return [float(number) for number in text.split(",")]
+
+
+def _words(text: str) -> list[str]:
+    return [word.strip() for word in text.split(",")]
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    add_scene(parser)
+    parser.add_argument("--t-begin", type=float, metavar="T", help="[s] 0 if nobody says")
+    parser.add_argument(
+        "--t-end", type=float, metavar="T", help="[s] that of the scene if not said"
+    )
+    parser.add_argument("--methods", type=_words, help="dopri5,bdf,...; those that suit the scene")
+    parser.add_argument("--rtols", type=_numbers, help="1e-4,1e-8,...; 1e-4 to 1e-12 if not said")
+    parser.add_argument(
+        "--time-limit", type=float, default=5.0, metavar="T", help="[s] of one run; 5"
+    )
+    parser.add_argument("--least-time", type=float, default=0.1, metavar="T",
+                        help="[s] runs are repeated for so long; 0.1")  # fmt: skip
+    parser.add_argument("--plot", type=Path, metavar="FILE", help="a chart: .svg, .png, .pdf")
+    parser.add_argument("--csv", type=Path, metavar="FILE", help="the rows")
+    parser.add_argument("--json", type=Path, metavar="FILE", help="the rows and all about them")
+
+
+def act(chosen: argparse.Namespace) -> int:
+    scene = chosen_scene(chosen.scene, settings_of(chosen.set))
+    scene = scene.with_span(chosen.t_begin, chosen.t_end)
+    how: dict[str, Any] = {"time_limit": chosen.time_limit, "least_time": chosen.least_time}
+    if chosen.methods:
+        how["methods"] = chosen.methods
+    if chosen.rtols:
+        how["rtols"] = chosen.rtols
+    table = _table(scene, how)
+    print(table)
+    _write(table, chosen)
+    return (
+        0 if any(row["status"] in ("reached_end", "terminal", "zeno_stop") for row in table) else 1
+    )
+
+
+def _table(scene: Chosen, how: dict[str, Any]) -> WorkPrecision:
+    """Against the known answer, as long as that holds of the scene as it was set."""
+    if scene.scene is not None:
+        return work_precision(scene.scene, **how)
+    options = scene.options
+    return work_precision(
+        scene.system,
+        scene.context,
+        scene.required_span(),
+        recorded_signals=options.recorded_signals or None,
+        atol_over_rtol=options.atol / options.rtol,
+        **how,
+    )
+
+
+def _write(table: WorkPrecision, chosen: argparse.Namespace) -> None:
+    if chosen.csv:
+        table.to_csv(chosen.csv)
+    if chosen.json:
+        table.to_json(chosen.json)
+    if chosen.plot:
+        table.plot(chosen.plot)

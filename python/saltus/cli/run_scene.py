@@ -1,0 +1,188 @@
+"""saltus run: one run of a scene; how it ended, its events, the values at the end, what it cost.
+
+saltus run bouncing-ball --set e=0.9 --t-end 12 --plot ball.svg --csv ball.csv
+saltus run robertson --method bdf --rtol 1e-8 --json
+saltus run ball.py:make_ball --set e=0.5 --set 'x[0]=3' --t-end 5
+"""
+
+from __future__ import annotations
+
+import argparse
+import csv
+import json
+import math
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from saltus.cli.scene_of import Chosen, chosen_scene
+from saltus.cli.settings import add_options, add_scene, options_of, settings_of
+from saltus.cli.table import print_table
+from saltus.errors import ModelError
+from saltus.results import Results
+from saltus.simulation import simulate
+
+NAME = "run"
+WELL = ("reached_end", "terminal", "zeno_stop")
+INTERRUPTED = 130
+SHOWN = 12  # values at the end that are shown one by one
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    add_scene(parser)
+    add_options(parser)
+    parser.add_argument(
+        "--record", action="append", metavar="PORT", help="an output to record, not the usual ones"
+    )
+    parser.add_argument(
+        "--save-at",
+        metavar="T,T,... or N",
+        help="[s] times of the rows, or how many even ones; without it a row for each step",
+    )
+    parser.add_argument("--csv", type=Path, metavar="FILE", help="the rows")
+    parser.add_argument("--plot", type=Path, metavar="FILE", help="a chart: .svg, .png, .pdf")
+    parser.add_argument("--json", action="store_true", help="the summary as one object of JSON")
+    parser.add_argument("--quiet", action="store_true", help="no summary")
+
+
+def act(chosen: argparse.Namespace) -> int:
+    scene = chosen_scene(chosen.scene, settings_of(chosen.set))
+    scene = scene.with_span(chosen.t_begin, chosen.t_end)
+    span = scene.required_span()
+    overrides = _recording(chosen, scene, span) | options_of(chosen)
+    results = simulate(scene.system, scene.context, span, scene.options, throw=False, **overrides)
+    _show(results, scene, chosen)
+    _write(results, chosen)
+    if results.status in WELL:
+        return 0
+    print(f"saltus run: {results.status}: {_reason(results)}", file=sys.stderr)
+    return INTERRUPTED if results.status == "interrupted" else 1
+
+
+def _reason(results: Results) -> str:
+    """What a function of the user raised stands before where it was raised."""
+    return results.message or "no reason is known"
+
+
+def _recording(
+    chosen: argparse.Namespace, scene: Chosen, span: tuple[float, float]
+) -> dict[str, Any]:
+    from saltus.ensemble.job import port_of
+
+    found: dict[str, Any] = {}
+    if chosen.record:
+        found["recorded_signals"] = {name: port_of(scene.system, name) for name in chosen.record}
+    if chosen.save_at:
+        found["save_at"] = _times(chosen.save_at, span)
+        found["save_steps"] = False
+    return found
+
+
+def _times(text: str, span: tuple[float, float]) -> list[float]:
+    try:
+        if "," not in text and text.isdigit() and int(text) > 1:
+            return list(np.linspace(*span, int(text)))
+        return [float(t) for t in text.split(",")]
+    except ValueError:
+        raise ModelError(f"--save-at: expected times or how many, found '{text}'") from None
+
+
+def _summary(results: Results, scene: Chosen) -> dict[str, Any]:
+    """What `--json` prints; nan and inf, which JSON has not, as null."""
+    s = results.statistics
+    context = results.context
+    return {
+        "scene": scene.name,
+        "status": results.status,
+        "message": results.message,
+        "time": context.time,
+        "events": dict(s.events_by_name),
+        "zeno_holds": [
+            {"block": e.block, "time": e.time, "accumulation": _null(e.predicted)}
+            for e in results.events
+            if e.kind == "zeno_enter"
+        ],
+        "final": {name: _values(array) for name, array in results.outputs.items() if len(array)},
+        "continuous_state": _values([context.continuous_state]),
+        "discrete_state": _values([context.discrete_state]),
+        "modes": list(context.modes),
+        "rows": len(results.time),
+        "cost": {
+            "method": s.method,
+            "steps": s.steps,
+            "rejected": s.rejected,
+            "restarts": s.restarts,
+            "right_hand_side_calls": s.right_hand_side_calls,
+            "guard_calls": s.guard_calls,
+            "jacobian_calls": s.jacobian_calls,
+            "wall_time": s.wall_time,
+        },
+    }
+
+
+def _null(value: float) -> float | None:
+    return float(value) if math.isfinite(value) else None
+
+
+def _values(rows: Any) -> Any:
+    """The last row: a number, or a list of them."""
+    last = np.asarray(rows[-1], dtype=float)
+    return _null(float(last)) if last.ndim == 0 else [_null(float(v)) for v in last.ravel()]
+
+
+def _show(results: Results, scene: Chosen, chosen: argparse.Namespace) -> None:
+    if chosen.quiet:
+        return
+    summary = _summary(results, scene)
+    if chosen.json:
+        print(json.dumps(summary, indent=1))
+        return
+    lines = [
+        (scene.name, scene.title),
+        ("status", f"{summary['status']}, t = {summary['time']:g} s"),
+    ]
+    events = ", ".join(f"{name} {n}" for name, n in summary["events"].items())
+    lines.append(("events", events or "none"))
+    for hold in summary["zeno_holds"]:
+        lines.append(("Zeno hold", f"{hold['block']} from t = {hold['time']:.10g} s"))
+    lines += [(name, _shown(value)) for name, value in summary["final"].items()]
+    if not summary["final"]:
+        lines.append(("state", _shown(summary["continuous_state"])))
+    cost = summary["cost"]
+    lines.append(
+        ("cost", f"{cost['method']}: {cost['steps']} steps, {cost['right_hand_side_calls']} "
+         f"right-hand sides, {cost['guard_calls']} guard calls, {1e3 * cost['wall_time']:.3g} ms")
+    )  # fmt: skip
+    print_table(lines)
+
+
+def _shown(value: Any) -> str:
+    if not isinstance(value, list):
+        return "nan" if value is None else f"{value:.10g}"
+    more = f", ... ({len(value)})" if len(value) > SHOWN else ""
+    return "[" + ", ".join(map(_shown, value[:SHOWN])) + more + "]"
+
+
+def _write(results: Results, chosen: argparse.Namespace) -> None:
+    if chosen.csv:
+        _write_csv(results, chosen.csv)
+    if chosen.plot:
+        import matplotlib
+
+        matplotlib.use("Agg")  # a file is drawn, no window
+        np.ravel(results.plot())[0].figure.savefig(chosen.plot)
+
+
+def _write_csv(results: Results, path: Path) -> None:
+    """A column for each number: time, jump, 'y' of a scalar, 'y[0]', ... of a vector."""
+    titles, columns = ["time", "jump"], [results.time, results.jump]
+    for name, array in results.outputs.items():
+        entries = array.reshape(len(array), -1)
+        titles += [name] if array.ndim == 1 else [f"{name}[{i}]" for i in range(entries.shape[1])]
+        columns += list(entries.T)
+    with open(path, "w", newline="") as file:
+        writer = csv.writer(file)
+        writer.writerow(titles)
+        writer.writerows(zip(*(column.tolist() for column in columns), strict=True))

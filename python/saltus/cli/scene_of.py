@@ -1,0 +1,185 @@
+"""What the argument SCENE means: a system with its values, span and options."""
+
+from __future__ import annotations
+
+import importlib
+import importlib.util
+import inspect
+import sys
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from saltus import _core
+from saltus.errors import ModelError
+from saltus.scenes import Scene, scene, shelf
+from saltus.simulation import SimulatorOptions
+from saltus.system import System
+
+__all__ = ["Chosen", "chosen_scene"]
+
+
+@dataclass(frozen=True)
+class Chosen:
+    """All that a run needs."""
+
+    name: str
+    title: str
+    system: System
+    context: _core.Context
+    span: tuple[float, float] | None
+    """[s] None where nobody said it"""
+    options: SimulatorOptions
+    scene: Scene | None
+    """of the shelf, as long as what is known of its outcome holds"""
+
+    def with_span(self, begin: float | None, end: float | None) -> Chosen:
+        """With what was said of the span in place of the usual one."""
+        if begin is None and end is None:
+            return self
+        usual = self.span or (0.0, None)
+        begin, end = usual[0] if begin is None else begin, usual[1] if end is None else end
+        return replace(self, span=None if end is None else (begin, end), scene=None)
+
+    def required_span(self) -> tuple[float, float]:
+        """The span; ModelError where nobody said it."""
+        if self.span is None:
+            raise ModelError(f"'{self.name}' says no end of the run; say --t-end T, in seconds")
+        return self.span
+
+
+def chosen_scene(name: str, settings: dict[str, Any]) -> Chosen:
+    """The scene of that name, with these settings. ModelError for unknown names."""
+    if ":" in name:
+        return _own(name, settings)
+    names = list(shelf())
+    if name not in names:
+        hint = _core.known_names(name, names)
+        raise ModelError(
+            f"no scene '{name}' on the shelf{hint}. One of your own is file.py:name or module:name"
+        )
+    return _of_shelf(name, settings)
+
+
+def _of_shelf(name: str, settings: dict[str, Any]) -> Chosen:
+    usual = scene(name)
+    known = set(usual.parameters)
+    made = scene(name, **{n: v for n, v in settings.items() if n in known}) if known else usual
+    rest = {n: v for n, v in settings.items() if n not in known}
+    context = _with_values(made.context, rest, known)
+    same = made if not rest else None
+    return Chosen(name, made.title, made.system, context, made.t_span, made.options, same)
+
+
+def _own(name: str, settings: dict[str, Any]) -> Chosen:
+    place, _, attribute = name.rpartition(":")
+    found = _attribute(_module(place), attribute, place)
+    arguments: set[str] = set()
+    if not isinstance(found, (System, Scene)) and callable(found):
+        arguments, found = _made(found, settings, name)
+    if isinstance(found, Scene):
+        context, span, options = found.context, found.t_span, found.options
+        system: System = found.system
+    elif isinstance(found, System):
+        system, span, options = found, None, SimulatorOptions()
+        context = system.create_context()
+    else:
+        raise ModelError(
+            f"'{name}': expected a system, or a function that makes one, found {found!r}"
+        )
+    rest = {n: v for n, v in settings.items() if n not in arguments}
+    if not options.recorded_signals:
+        ports = {port.name: port for port in system.output_ports}
+        options = replace(options, recorded_signals=ports)
+    context = _with_values(context, rest, arguments)
+    return Chosen(name, system.name, system, context, span, options, None)
+
+
+def _module(place: str) -> Any:
+    """A module by name, from where the command was given, or a file. What it prints is its own."""
+    try:
+        if not place.endswith(".py"):
+            sys.path.insert(0, "")
+            return importlib.import_module(place)
+        path = Path(place)
+        if not path.is_file():
+            raise ModelError(f"there is no file '{place}'")
+        sys.path.insert(0, str(path.resolve().parent))
+        spec = importlib.util.spec_from_file_location(path.stem, path)
+        assert spec is not None and spec.loader is not None  # of a .py file
+        module = importlib.util.module_from_spec(spec)
+        sys.modules[path.stem] = module
+        spec.loader.exec_module(module)
+        return module
+    except ModelError:
+        raise
+    except Exception as error:  # whatever the module raised
+        raise ModelError(f"'{place}' cannot be imported: {_where(error, place)}") from error
+
+
+def _where(error: BaseException, place: str) -> str:
+    """What was raised, and in which line of the user's file."""
+    said = f"{type(error).__name__}: {error}"
+    trace, line = error.__traceback__, None
+    while trace is not None:
+        if trace.tb_frame.f_code.co_filename.endswith(place):
+            line = trace.tb_lineno
+        trace = trace.tb_next
+    return said if line is None else f"{said} (line {line})"
+
+
+def _attribute(module: Any, attribute: str, place: str) -> Any:
+    try:
+        return getattr(module, attribute)
+    except AttributeError:
+        names = [name for name in vars(module) if not name.startswith("_")]
+        hint = _core.known_names(attribute, names)
+        raise ModelError(f"'{place}' has no '{attribute}'{hint}") from None
+
+
+def _made(make: Callable[..., Any], settings: dict[str, Any], name: str) -> tuple[set[str], Any]:
+    """Which settings are arguments of the function, and what it makes of them."""
+    try:
+        parameters = inspect.signature(make).parameters.values()
+    except (TypeError, ValueError):
+        raise ModelError(f"'{name}': expected a function that makes a system") from None
+    known = {p.name for p in parameters if p.kind in (p.POSITIONAL_OR_KEYWORD, p.KEYWORD_ONLY)}
+    if any(p.kind is p.VAR_KEYWORD for p in parameters):
+        known |= {n for n in settings if n.isidentifier()}
+    needed = [p.name for p in parameters if p.default is p.empty and p.name in known]
+    for missing in needed:
+        if missing not in settings:
+            raise ModelError(f"'{name}' needs a value of '{missing}': --set {missing}=VALUE")
+    given = {n: v for n, v in settings.items() if n in known}
+    try:
+        return set(given), make(**given)
+    except ModelError:
+        raise
+    except Exception as error:  # whatever the function raised
+        raise ModelError(f"'{name}': {_where(error, name.rpartition(':')[0])}") from error
+
+
+def _with_values(context: _core.Context, values: dict[str, Any], more: set[str]) -> _core.Context:
+    """The context with parameters and initial states in place of the usual ones."""
+    for name, value in values.items():
+        try:
+            _core.find_entry(context, name)
+        except ModelError as error:
+            if "unknown" not in str(error):
+                raise
+            hint = _core.known_names(name, [*sorted(more), *_core.entry_names(context)])
+            raise ModelError(f"unknown parameter or state '{name}'{hint}") from None
+        context = _core.with_entry(context, name, _numbers(name, value))
+    return context
+
+
+def _numbers(name: str, value: Any) -> np.ndarray:
+    try:
+        return np.atleast_1d(np.asarray(value, dtype=float))
+    except (TypeError, ValueError):
+        raise ModelError(
+            f"--set {name}: expected a number or a list of numbers, found {value!r}"
+        ) from None

@@ -1,0 +1,87 @@
+"""`--set NAME=VALUE`, and the options that every run has."""
+
+from __future__ import annotations
+
+import argparse
+import ast
+from typing import Any
+
+from saltus.errors import ModelError
+
+__all__ = ["add_options", "add_scene", "options_of", "settings_of"]
+
+
+def add_scene(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "scene",
+        metavar="SCENE",
+        help="a name of `saltus list`; or file.py:name or module:name of a system, or of a "
+        "function that makes one",
+    )
+    parser.add_argument(
+        "--set",
+        action="append",
+        default=[],
+        metavar="NAME=VALUE",
+        help="a parameter of the scene, an argument of the function, or an initial state: e=0.9, "
+        "ball.g=1.62, 'x[0]=5', 'x=[5,0]'; as often as wanted",
+    )
+
+
+def add_options(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--t-begin", type=float, metavar="T", help="[s] 0 if nobody says")
+    parser.add_argument(
+        "--t-end", type=float, metavar="T", help="[s] that of the scene if not said"
+    )
+    parser.add_argument("--method", metavar="NAME", help="auto, dopri5, dop853, adams or bdf")
+    parser.add_argument("--rtol", type=float, help="relative tolerance of a step")
+    parser.add_argument(
+        "--atol", type=float, help="absolute tolerance; rtol/100 if only rtol is said"
+    )
+    parser.add_argument("--zeno-tolerance", type=float, metavar="T", help="[s] 0: no Zeno holds")
+    parser.add_argument(
+        "--option",
+        action="append",
+        default=[],
+        metavar="NAME=VALUE",
+        help="any other option of saltus.SimulatorOptions, such as max_major_steps=1000",
+    )
+
+
+def options_of(chosen: argparse.Namespace) -> dict[str, Any]:
+    """The options of a run that were said, by the names of SimulatorOptions."""
+    options: dict[str, Any] = {
+        "ode_solver_method": chosen.method,
+        "rtol": chosen.rtol,
+        "atol": chosen.atol,
+        "zeno_tolerance": chosen.zeno_tolerance,
+    }
+    if chosen.rtol is not None and chosen.atol is None:
+        options["atol"] = chosen.rtol / 100.0
+    said = {name: value for name, value in options.items() if value is not None}
+    return said | settings_of(chosen.option, "--option")
+
+
+def settings_of(settings: list[str], flag: str = "--set") -> dict[str, Any]:
+    """NAME=VALUE as a dict. A value is a number, a list of numbers, True, False, None or text."""
+    found: dict[str, Any] = {}
+    for setting in settings:
+        name, equals, text = setting.partition("=")
+        name = name.strip()
+        if not equals or not name:
+            raise ModelError(f"{flag}: expected NAME=VALUE, found '{setting}'")
+        if name in found:
+            raise ModelError(f"{flag}: '{name}' is set twice")
+        found[name] = _value(text.strip())
+    return found
+
+
+def _value(text: str) -> Any:
+    try:
+        return ast.literal_eval(text)
+    except (ValueError, SyntaxError):
+        pass
+    try:
+        return float(text)  # 1e-3 is a literal; inf and nan are none
+    except ValueError:
+        return text

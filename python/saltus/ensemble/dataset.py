@@ -1,0 +1,187 @@
+"""Columns as an xarray.Dataset, or as a dict of arrays."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from saltus.ensemble.columns import STATUS, Columns
+from saltus.ensemble.table import Table
+from saltus.errors import ModelError
+
+__all__ = ["Arrays", "arrays_of", "refuse_reserved", "require_xarray", "summary", "to_dataset"]
+
+Arrays = dict[str, tuple[tuple[str, ...], np.ndarray]]
+"""Each name with its dimensions and its values; the dimensions of the runs come first."""
+
+RESERVED = ("status", "message", "block", "events", "steps", "end_time", "wall_time",
+            "continuous_state", "discrete_state", "mode", "time", "state", "run")  # fmt: skip
+WELL = ("reached_end", "terminal", "zeno_stop")
+
+
+def require_xarray() -> Any:
+    """xarray; ImportError with what to do where it is not installed."""
+    try:
+        import xarray
+    except ImportError:
+        raise ImportError(
+            "sweep gives its results as an xarray.Dataset, and xarray is not installed: "
+            "pip install 'saltus[table]', or ask for a dict of numpy arrays with as_dict=True"
+        ) from None
+    return xarray
+
+
+def refuse_reserved(varied: Mapping[str, object], signals: Mapping[str, object]) -> None:
+    """A name can stand for one thing only."""
+    for name in signals:
+        if name in RESERVED or name in varied:
+            raise ModelError(f"sweep: recorded signal '{name}': this name is taken; give another")
+
+
+def summary(columns: Columns, wall_time: float) -> dict[str, Any]:
+    """How the sweep went: what is shown at the foot of the results."""
+    status = STATUS[columns["status"]]
+    done = int((status != "not_run").sum())
+    return {
+        "runs": len(status),
+        "failures": _failures(status, columns["reasons"]) or "none",
+        "wall_time": wall_time,
+        "runs_per_second": done / wall_time if wall_time > 0 else float("nan"),
+    }
+
+
+def _failures(status: np.ndarray, reasons: Mapping[int, tuple[str, str]]) -> str:
+    """'2 failed (the fuse blew), 1 not_run'."""
+    said = []
+    for kind, count in Counter(status.tolist()).items():
+        if kind in WELL:
+            continue
+        why = Counter(text for run, (text, _) in reasons.items() if status[run] == kind)
+        most = why.most_common(1)[0][0] if why else ""
+        more = f", and {len(why) - 1} other reasons" if len(why) > 1 else ""
+        said.append(f"{count} {kind}" + (f" ({most}{more})" if most else ""))
+    return "; ".join(said)
+
+
+def _texts(reasons: Mapping[int, tuple[str, str]], which: int, runs: int) -> np.ndarray:
+    texts = np.full(runs, "", dtype=object)
+    for run, reason in reasons.items():
+        texts[run] = reason[which]
+    return texts
+
+
+def arrays_of(columns: Columns, table: Table, reduced: str, save_at: list[float]) -> Arrays:
+    """All columns in the shape of the grid. With `reduced`, what `reduce` gave in place of states
+    and signals.
+    """
+    dims, shape = tuple(table.axes), table.shape
+    if not table.is_grid:
+        dims, shape = ("run",), (table.runs,)
+    arrays: Arrays = {}
+
+    def add(name: str, array: np.ndarray, *more: str) -> None:
+        arrays[name] = ((*dims, *more), array.reshape(*shape, *array.shape[1:]))
+
+    if reduced:
+        for name, array in _reduced(columns["reduced"], table.runs, reduced).items():
+            add(name, array, *(f"{name}_{i}" for i in range(array.ndim - 1)))
+    else:
+        _add_values(add, columns, save_at)
+    add("status", STATUS[columns["status"]])
+    for which, name in enumerate(("message", "block")):
+        add(name, _texts(columns["reasons"], which, table.runs))
+    for name in ("end_time", "events", "steps", "wall_time"):
+        add(name, columns[name])
+    return arrays
+
+
+def _add_values(add: Any, columns: Columns, save_at: list[float]) -> None:
+    """Recorded signals, and the states at the end."""
+    for name, array in columns["signals"].items():
+        more = ["time"] if save_at else []
+        if array.ndim > 1 + len(more):
+            more.append(f"{name}_entry")
+        add(name, array, *more)
+    for name, dim in (("continuous_state", "state"), ("discrete_state", "discrete")):
+        if columns[name].shape[1]:
+            add(name, columns[name], dim)
+    if "mode" in columns["names"]:
+        add("mode", columns["modes"], "moded_block")
+
+
+def _reduced(values: Mapping[int, Any], runs: int, name: str) -> dict[str, np.ndarray]:
+    """What `reduce` gave, by name: of a dict its keys, of a number or an array one name."""
+    rows = {run: v if isinstance(v, Mapping) else {name: v} for run, v in values.items()}
+    found: dict[str, np.ndarray] = {}
+    for key in dict.fromkeys(str(key) for row in rows.values() for key in row):
+        first = next(np.asarray(row[key]) for row in rows.values() if key in row)
+        number = np.issubdtype(first.dtype, np.number) or first.dtype == bool
+        kind = np.result_type(first.dtype, float) if number else object
+        column = np.full((runs, *first.shape), np.nan if number else None, dtype=kind)
+        for run, row in rows.items():
+            if key in row:
+                _put(column, run, row[key], key)
+        found[key] = column
+    return found
+
+
+def _put(column: np.ndarray, run: int, value: Any, key: str) -> None:
+    try:
+        column[run] = value
+    except (TypeError, ValueError):
+        raise ModelError(
+            f"sweep: reduce gave '{key}' of another shape in run {run}: expected "
+            f"{column.shape[1:] or 'a number'}, found {value!r}"
+        ) from None
+
+
+def _coordinates(columns: Columns, table: Table, save_at: list[float]) -> Arrays:
+    """The values of the runs, names of the states, times."""
+    found: Arrays = {}
+    for name, column in table.columns.items():
+        of_axis = table.is_grid and name in table.axes
+        values = table.axes[name] if of_axis else column
+        dims = (name,) if of_axis else ("run",)
+        if table.is_grid and not of_axis:
+            dims, values = (), column[0]
+        array = np.asarray(values)
+        if array.ndim == len(dims):
+            found[name] = (dims, array)
+        else:  # vectors
+            found[f"{name}_values"] = ((*dims, f"{name}_entry"), array)
+    if not table.is_grid:
+        found["run"] = (("run",), np.arange(table.runs))
+    if save_at:
+        found["time"] = (("time",), np.asarray(save_at))
+    for kind, dim in (("x", "state"), ("z", "discrete"), ("mode", "moded_block")):
+        if columns["names"].get(kind):
+            found[dim] = ((dim,), np.array(columns["names"][kind]))
+    return found
+
+
+def to_dataset(
+    columns: Columns, table: Table, reduced: str, save_at: list[float], attributes: dict[str, Any]
+) -> Any:
+    """An xarray.Dataset."""
+    variables = arrays_of(columns, table, reduced, save_at)
+    used = {dim for dims, _ in variables.values() for dim in dims}
+    coordinates = {
+        name: value
+        for name, value in _coordinates(columns, table, save_at).items()
+        if set(value[0]) <= used | {f"{name.removesuffix('_values')}_entry"}
+    }
+    return require_xarray().Dataset(variables, coordinates, attributes)
+
+
+def to_dict(
+    columns: Columns, table: Table, reduced: str, save_at: list[float], attributes: dict[str, Any]
+) -> dict[str, Any]:
+    """The arrays alone, in the same shapes, by the same names; 'attrs' has the attributes."""
+    variables = arrays_of(columns, table, reduced, save_at)
+    coordinates = _coordinates(columns, table, save_at)
+    return {name: array for name, (_, array) in {**coordinates, **variables}.items()} | {
+        "attrs": attributes
+    }

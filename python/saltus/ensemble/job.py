@@ -1,0 +1,187 @@
+"""A job: what is the same for all runs of a sweep. It can go to another process."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from saltus import _core
+from saltus.ensemble.columns import Columns, failed, join
+from saltus.errors import ModelError
+from saltus.results import Results
+from saltus.simulation import SimulatorOptions, core_context, core_options
+from saltus.system import OutputPort, System
+
+__all__ = ["Job", "port_of"]
+
+Watch = Callable[[int], bool]
+Values = Mapping[str, list[Any]]
+
+
+def port_of(system: System, port: OutputPort | str) -> OutputPort:
+    """A port, or the one of a name: 'y' of the system itself, 'ball.y' of a block in it."""
+    if isinstance(port, OutputPort):
+        return port
+    if not isinstance(port, str):
+        raise ModelError(f"recorded_signals: expected a port or its name, found {port!r}")
+    *path, name = [port] if port in system.output_names else port.split(".")
+    for block in path:
+        system = system[block]  # type: ignore[index]
+    return system.output(name)
+
+
+@dataclass(frozen=True)
+class Job:
+    """One system, or a function that makes one of some of the values."""
+
+    system: System | Callable[..., System]
+    context: _core.Context | None
+    span: tuple[float, float]
+    options: SimulatorOptions
+    signals: Mapping[str, OutputPort | str]
+    reduce: Callable[[Results], Any] | None
+
+    @property
+    def is_factory(self) -> bool:
+        return not isinstance(self.system, System)
+
+    def for_factory(self, names: list[str]) -> list[str]:
+        """Those of the names that are arguments of the factory."""
+        if isinstance(self.system, System):
+            return []
+        try:
+            parameters = inspect.signature(self.system).parameters.values()
+        except (TypeError, ValueError):  # of a compiled function nothing is known
+            return [name for name in names if name.isidentifier()]
+        if any(p.kind is p.VAR_KEYWORD for p in parameters):
+            return [name for name in names if name.isidentifier()]
+        known = {p.name for p in parameters if p.kind in (p.POSITIONAL_OR_KEYWORD, p.KEYWORD_ONLY)}
+        return [name for name in names if name in known]
+
+    def ensemble(self, system: System, values: Values) -> _core.Ensemble:
+        """The runs of one system with these values. ModelError if they do not fit it."""
+        if not isinstance(system, System):
+            raise ModelError(
+                f"sweep: expected a system, or a function that makes one, found {system!r}"
+            )
+        signals = {name: port_of(system, port) for name, port in self.signals.items()}
+        options = core_options(replace(self.options, recorded_signals=signals))
+        context = self.context or system.create_context(self.span[0])
+        ensemble = _core.Ensemble(system, core_context(context), self.span, options)
+        for name, column in values.items():
+            ensemble.vary(name, _numbers(name, column))
+        return ensemble
+
+    def check(self, values: Values) -> None:
+        """Raises ModelError for names and values that cannot be meant, before anything is run."""
+        if isinstance(self.system, System):
+            self.ensemble(self.system, values)
+            return
+        own = self.for_factory(list(values))
+        if len(own) == len(values):
+            return
+        self._first(values, own)
+
+    def _first(self, values: Values, own: list[str]) -> None:
+        """The names that are no arguments belong to the system: the first one tells."""
+        assert not isinstance(self.system, System)
+        system = self.system(**{name: values[name][0] for name in own})
+        rest = {name: column[:1] for name, column in values.items() if name not in own}
+        context = system.create_context()
+        for name in rest:
+            try:
+                _core.find_entry(context, name)
+            except ModelError:
+                known = [*inspect.signature(self.system).parameters, *_core.entry_names(context)]
+                raise ModelError(
+                    f"sweep: unknown parameter or state '{name}'{_core.known_names(name, known)}"
+                ) from None
+        self.ensemble(system, rest)
+
+    def run(self, values: Values, threads: int = 1, watch: Watch | None = None) -> tuple[Any, Any]:
+        """Columns of the runs with these values, and what was raised by a signal, or None."""
+        if isinstance(self.system, System):
+            return self._run(self.system, values, threads, watch)
+        return self._run_each(values, watch)
+
+    def _run(
+        self, system: System, values: Values, threads: int, watch: Watch | None
+    ) -> tuple[Columns, BaseException | None]:
+        ensemble = self.ensemble(system, values)
+        reduced = _Reduced(self.reduce)
+        each = None if self.reduce is None else reduced
+        columns, raised = ensemble.run(threads, list(self.options.save_at), watch, each)
+        columns["reduced"] = reduced.values
+        reduced.note(columns)
+        columns["names"] = {"x": ensemble.state_names("x"), "z": ensemble.state_names("z")}
+        if ensemble.has_modes:
+            columns["names"]["mode"] = ensemble.state_names("mode")
+        return columns, raised
+
+    def _run_each(
+        self, values: Values, watch: Watch | None
+    ) -> tuple[Columns, BaseException | None]:
+        own = self.for_factory(list(values))
+        runs = len(next(iter(values.values())))
+        parts: list[Columns] = []
+        raised: BaseException | None = None
+        while raised is None and len(parts) < runs:
+            if watch is not None and watch(len(parts)):
+                break
+            row = {name: column[len(parts)] for name, column in values.items()}
+            part, raised = self._run_one(row, own)
+            parts.append(part)
+        return join(parts), raised
+
+    def _run_one(self, row: Mapping[str, Any], own: list[str]) -> tuple[Columns, Any]:
+        assert not isinstance(self.system, System)
+        try:
+            system = self.system(**{name: row[name] for name in own})
+            rest = {name: [value] for name, value in row.items() if name not in own}
+            return self._run(system, rest, 1, None)
+        except Exception as error:  # of the factory, or of values that do not fit what it made
+            return failed(1, _said(error)), None
+        except KeyboardInterrupt as error:
+            return failed(1, "interrupted"), error
+
+
+class _Reduced:
+    """Calls `reduce` for each run that ended well, and notes where it raised."""
+
+    def __init__(self, reduce: Callable[[Results], Any] | None):
+        self.reduce = reduce
+        self.values: dict[int, Any] = {}
+        self.errors: dict[int, str] = {}
+
+    def __call__(self, run: int, core: _core.Results, raised: BaseException | None) -> None:
+        if core.status not in ("reached_end", "terminal", "zeno_stop") or self.reduce is None:
+            return
+        try:
+            self.values[run] = self.reduce(Results(core, raised))
+        except Exception as error:
+            self.errors[run] = f"reduce: {_said(error)}"
+
+    def note(self, columns: Columns) -> None:
+        failure = _core.status_names().index("failed")
+        for run, error in self.errors.items():
+            columns["status"][run] = failure
+            columns["reasons"][run] = (error, "")
+
+
+def _said(error: BaseException) -> str:
+    return f"{type(error).__name__}: {error}" if not isinstance(error, ModelError) else str(error)
+
+
+def _numbers(name: str, column: list[Any]) -> np.ndarray:
+    """Values of all runs; a row of them for each run where they are vectors."""
+    try:
+        numbers = np.array(column, dtype=float)
+    except (TypeError, ValueError):
+        raise ModelError(f"sweep: '{name}': expected numbers, found {column[0]!r}, ...") from None
+    if numbers.ndim > 2:
+        raise ModelError(f"sweep: '{name}': expected a number or a vector for each run")
+    return numbers

@@ -1,0 +1,138 @@
+"""Runs in other processes: a pool of our own, or any executor with `submit` or `map`."""
+
+from __future__ import annotations
+
+import functools
+import math
+import multiprocessing
+import pickle
+from collections.abc import Iterator
+from concurrent.futures import CancelledError, ProcessPoolExecutor
+from concurrent.futures.process import BrokenProcessPool
+from contextlib import contextmanager
+from typing import Any
+
+from saltus.ensemble.columns import Columns, empty, failed, join
+from saltus.ensemble.job import Job, Watch
+from saltus.ensemble.table import Table
+from saltus.errors import ModelError
+
+__all__ = ["pickled", "process_pool", "run_pooled"]
+
+REMEDY = (
+    "give a function that makes the system instead, at the top level of a module that the other "
+    "process can import: sweep(make_ball, ...) with `def make_ball(e): return Ball(e)`"
+)
+NO_MAIN = (
+    "sweep: a process of the pool ended before it could run anything. A script that starts "
+    "processes needs `if __name__ == '__main__':` around what it does; or take executor='serial'"
+)
+
+
+def pickled(job: Job) -> bytes:
+    """The job for another process; ModelError, with what to do, where it cannot go there."""
+    try:
+        return pickle.dumps(job)
+    except Exception as error:  # pickle raises what it likes
+        what = "function" if job.is_factory else "system"
+        raise ModelError(
+            f"sweep: this {what}, its signals or its options cannot go to another process "
+            f"({error}); {REMEDY}"
+        ) from None
+
+
+@functools.lru_cache(maxsize=4)
+def _unpickled(job: bytes) -> Job:
+    loaded: Job = pickle.loads(job)
+    return loaded
+
+
+def _run_part(job: Job | bytes, values: dict[str, list[Any]]) -> Columns:
+    """In the other process."""
+    columns: Columns = (_unpickled(job) if isinstance(job, bytes) else job).run(values)[0]
+    return columns
+
+
+@contextmanager
+def process_pool(workers: int) -> Iterator[ProcessPoolExecutor]:
+    """New processes, which nothing of this one is copied into: threads here cannot lock them up."""
+    pool = ProcessPoolExecutor(workers, multiprocessing.get_context("spawn"), _deaf)
+    try:
+        yield pool
+    finally:
+        pool.shutdown(cancel_futures=True)
+
+
+def _deaf() -> None:
+    """Ctrl-C is for the process that started the sweep: it says which runs are not begun."""
+    import signal
+
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+
+
+def _cuts(runs: int, workers: int) -> list[tuple[int, int]]:
+    """Parts of equal length, some for each worker: a part is lost or late as a whole."""
+    length = max(1, math.ceil(runs / (8 * workers)))
+    return [(first, min(first + length, runs)) for first in range(0, runs, length)]
+
+
+def run_pooled(
+    executor: Any, job: Job | bytes, table: Table, workers: int, watch: Watch | None
+) -> tuple[Columns, BaseException | None]:
+    """Columns of all runs, in order whatever the order they were done in; what was raised."""
+    cuts = _cuts(table.runs, workers)
+    values = [table.part(first, last) for first, last in cuts]
+    parts: list[Columns] = []
+    raised: BaseException | None = None
+    submitted = _submitted(executor, job, values)
+    try:
+        for first, last in cuts:
+            parts.append(_part(submitted, last - first))
+            if watch is not None and watch(last):
+                break
+    except KeyboardInterrupt as error:
+        raised = error
+    submitted.close()
+    parts += [empty(last - first) for first, last in cuts[len(parts) :]]
+    return join(parts), raised
+
+
+def _submitted(executor: Any, job: Job | bytes, values: list[Any]) -> Any:
+    """The parts one after another. Closing it cancels what has not begun."""
+    if hasattr(executor, "submit"):
+        futures = [executor.submit(_run_part, job, part) for part in values]
+        return _results_of(futures)
+    if hasattr(executor, "map"):
+        return _mapped(executor, job, values)
+    raise ModelError(
+        "sweep: expected an executor with submit() or map(), 'threads', 'processes' or 'serial', "
+        f"found {executor!r}"
+    )
+
+
+def _results_of(futures: list[Any]) -> Iterator[Any]:
+    try:
+        for future in futures:
+            yield future.result
+    finally:
+        for future in futures:
+            future.cancel()
+
+
+def _mapped(executor: Any, job: Job | bytes, values: list[Any]) -> Iterator[Any]:
+    done = iter(executor.map(functools.partial(_run_part, job), values))
+    for _ in values:
+        yield functools.partial(next, done)
+
+
+def _part(submitted: Iterator[Any], runs: int) -> Columns:
+    """The next part; what lost it is the reason of each of its runs."""
+    try:
+        columns: Columns = next(submitted)()
+    except (pickle.PicklingError, AttributeError, TypeError) as error:  # it could not go there
+        raise ModelError(f"sweep: cannot be run in another process ({error}); {REMEDY}") from None
+    except (CancelledError, BrokenProcessPool) as error:
+        return failed(runs, f"the process that made this run ended: {error}")
+    except Exception as error:
+        return failed(runs, f"{type(error).__name__}: {error}")
+    return columns

@@ -1,0 +1,175 @@
+"""Threads, processes, and executors of others: the same bits from all of them."""
+
+import concurrent.futures
+import multiprocessing
+import os
+import signal
+import subprocess
+import sys
+import threading
+
+import numpy as np
+import pytest
+import saltus
+from made import Ball, make_ball, make_fatal, peak
+from saltus.errors import ModelError
+
+pytest.importorskip("xarray")
+GRID = {"e": list(np.linspace(0.0, 1.0, 7)), "x[0]": [5.0, 7.0, 10.0]}
+SPAN = (0.0, 3.0)
+
+
+@pytest.fixture(scope="module")
+def ball():
+    return saltus.scene("bouncing-ball").system
+
+
+@pytest.fixture(scope="module")
+def expected(ball):
+    """Each run made alone."""
+    context = ball.create_context()
+    states = np.empty((7, 3, 2))
+    for i, e in enumerate(GRID["e"]):
+        for j, y0 in enumerate(GRID["x[0]"]):
+            start = context.with_parameter("e", e).with_continuous_state([y0, 0.0])
+            states[i, j] = saltus.simulate(ball, start, SPAN).context.continuous_state
+    return states
+
+
+@pytest.mark.parametrize("workers", [1, 2, 3])
+@pytest.mark.parametrize("executor", ["threads", "processes", "serial"])
+def test_all_executors_give_the_same_bits(ball, expected, executor, workers):
+    found = saltus.sweep(ball, GRID, SPAN, executor=executor, workers=workers)
+    assert np.array_equal(found["continuous_state"].values, expected)
+    assert found.attrs["executor"] == executor
+
+
+@pytest.mark.parametrize("workers", [1, 2, 3])
+def test_a_factory_gives_the_same_bits(workers):
+    grid = {"e": [0.0, 0.5, 0.9], "x[0]": [5.0, 7.0, 10.0]}
+    alone = saltus.sweep(make_ball, grid, SPAN, executor="serial")
+    found = saltus.sweep(make_ball, grid, SPAN, executor="processes", workers=workers)
+    for name in ("continuous_state", "events", "steps", "status"):
+        assert np.array_equal(found[name].values, alone[name].values)
+
+
+def test_an_executor_of_the_standard_library(ball, expected):
+    with concurrent.futures.ThreadPoolExecutor(2) as pool:
+        found = saltus.sweep(ball, GRID, SPAN, executor=pool)
+    assert np.array_equal(found["continuous_state"].values, expected)
+    assert found.attrs["executor"] == "ThreadPoolExecutor"
+
+
+def test_a_pool_with_map_only(ball, expected):
+    with multiprocessing.get_context("spawn").Pool(1) as pool:
+
+        class Mapping:
+            map = pool.map
+
+        found = saltus.sweep(ball, GRID, SPAN, executor=Mapping())
+    assert np.array_equal(found["continuous_state"].values, expected)
+
+
+def test_a_dask_client(ball, expected):
+    distributed = pytest.importorskip("distributed")
+    with (
+        distributed.LocalCluster(
+            n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None
+        ) as cluster,
+        distributed.Client(cluster) as client,
+    ):
+        client.run(sys.path.insert, 0, os.path.dirname(__file__))  # where `made` is
+        found = saltus.sweep(ball, GRID, SPAN, executor=client)
+        kept = saltus.sweep(
+            lambda e: Ball(e=e), {"e": [0.5, 0.9]}, SPAN, executor=client, reduce=peak
+        )
+    assert np.array_equal(found["continuous_state"].values, expected)
+    alone = saltus.sweep(make_ball, {"e": [0.5, 0.9]}, SPAN, executor="serial")
+    assert np.array_equal(kept["state"].values, alone["continuous_state"].values)
+
+
+def test_python_functions_run_here_or_in_processes():
+    leaf = Ball()
+    found = saltus.sweep(leaf, {"g": [1.0, 2.0]}, (0.0, 1.0))
+    assert found.attrs["executor"] in ("serial", "threads")  # threads where it could be traced
+    assert found["continuous_state"].values[:, 0] == pytest.approx([9.5, 9.0], abs=1e-9)
+    with pytest.raises(ModelError, match="at the top level of a module"):
+        saltus.sweep(leaf, {"g": [1.0, 2.0]}, (0.0, 1.0), executor="processes")
+    with pytest.raises(ModelError, match="at the top level of a module"):
+        saltus.sweep(lambda e: Ball(e=e), {"e": [0.5]}, (0.0, 1.0), executor="processes")
+    with pytest.raises(ModelError, match="no threads share a plan"):
+        saltus.sweep(make_ball, {"e": [0.5]}, (0.0, 1.0), executor="threads")
+
+
+def test_a_process_that_dies_takes_its_runs_with_it():
+    found = saltus.sweep(
+        make_fatal, {"e": [0.5] * 8 + [0.7]}, (0.0, 0.1), executor="processes", workers=1
+    )
+    assert found["status"].values[0] == "reached_end"
+    assert "the process that made this run ended" in found["message"].values[-1]
+
+
+def test_what_takes_long_goes_to_processes(monkeypatch):
+    from saltus.ensemble import sweep as module
+
+    alone = saltus.sweep(make_ball, {"e": [0.5, 0.6, 0.7]}, (0.0, 1.0), executor="serial")
+    monkeypatch.setattr(sys.modules[module.__module__], "SOON", -1.0)
+    found = saltus.sweep(make_ball, {"e": [0.5, 0.6, 0.7]}, (0.0, 1.0), workers=2)
+    assert found.attrs["executor"] == "processes"
+    assert np.array_equal(found["continuous_state"].values, alone["continuous_state"].values)
+
+
+def test_a_script_without_guard_is_told_so(tmp_path):
+    (tmp_path / "made_here.py").write_text(
+        "import saltus\ndef make(e):\n    return saltus.scene('bouncing-ball', e=e).system\n"
+    )
+    script = tmp_path / "script.py"
+    script.write_text(
+        "import saltus\nfrom made_here import make\n"
+        "print(saltus.sweep(make, {'e': [0.5, 0.6]}, (0, 1), executor='processes'))\n"
+    )
+    done = subprocess.run(
+        [sys.executable, script], capture_output=True, text=True, timeout=120, cwd=tmp_path
+    )
+    assert done.returncode != 0
+    assert "if __name__ == '__main__':" in done.stderr.splitlines()[-1]
+
+
+@pytest.mark.parametrize("workers", [1, 2])
+def test_ctrl_c_gives_what_is_done(ball, workers):
+    """Ten million runs take a minute; half a second of them are kept."""
+    threading.Timer(0.5, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+    values = {"e": np.linspace(0.1, 0.9, 1_000_000), "x[0]": [10.0] * 10}
+    with pytest.raises(KeyboardInterrupt) as caught:
+        saltus.sweep(ball, values, (0.0, 20.0), workers=workers, as_dict=True)
+    status = caught.value.results["status"]
+    done = status == "reached_end"
+    assert done.any() and (status == "not_run").any()
+    assert np.isfinite(caught.value.results["continuous_state"][done]).all()
+
+
+def test_ctrl_c_in_a_python_function():
+    leaf = Ball()
+    runs = []
+
+    def reduce(results):
+        runs.append(results)
+        if len(runs) == 3:
+            os.kill(os.getpid(), signal.SIGINT)
+        return 1.0
+
+    with pytest.raises(KeyboardInterrupt) as caught:
+        saltus.sweep(leaf, {"g": [float(g) for g in range(1, 400)]}, (0.0, 5.0), reduce=reduce)
+    status = caught.value.results["status"].values
+    assert status[0] == "reached_end"
+    assert status[-1] == "not_run"
+
+
+def test_progress_counts_the_runs(ball, capsys, monkeypatch):
+    saltus.sweep(ball, GRID, SPAN, progress=True)
+    assert "21/21" in capsys.readouterr().err
+    monkeypatch.setitem(sys.modules, "tqdm", None)
+    saltus.sweep(ball, GRID, SPAN, progress=True)
+    assert "21 of 21 runs" in capsys.readouterr().err
+    saltus.sweep(ball, GRID, SPAN)
+    assert capsys.readouterr().err == ""
