@@ -109,6 +109,8 @@ class System:
     """how a context knows it"""
     input_names: list[str]
     output_names: list[str]
+    interpreted_blocks: list[str]
+    """blocks that call Python during a run"""
 
     @property
     def input_ports(self) -> tuple[InputPort, ...]:
