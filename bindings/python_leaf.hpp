@@ -56,6 +56,7 @@ class PythonLeaf final : public LeafSystem {
   }
 
   void collect(Structure& out, const std::string& path) const override;
+  std::string kind() const override;  // of the Python class
 
   /// Whether a run calls Python functions of this block.
   bool needs_interpreter() const { return !functions_.empty(); }

@@ -128,4 +128,9 @@ void PythonLeaf::collect(Structure& out, const std::string& path) const {
   LeafSystem::collect(out, path);
 }
 
+std::string PythonLeaf::kind() const {
+  const py::object self = py::cast(this, py::return_value_policy::reference);
+  return py::str(py::type::of(self).attr("__name__"));
+}
+
 }  // namespace saltus::python

@@ -1,5 +1,7 @@
 #include "state.hpp"
 
+#include "context_docs.hpp"
+
 #include <array>
 #include <type_traits>
 
@@ -77,15 +79,12 @@ void add_getters(PyHeapTypeObject* heap_type) {
 }  // namespace
 
 void bind_callback_state(py::module_& module) {
-  py::class_<State>(
-      module, "State", py::custom_type_setup(&add_getters),
-      R"(What a callback sees of its block, as a value: read-only arrays, and `with_*` that return a new state.
-
-A reset map or an update returns the state it wants. What counts as written is what a `with_*` was called for, even if
-the value is the one that was there.)")
-      .def("with_continuous_state", &State::with_continuous_state, py::arg("continuous_state"))
-      .def("with_discrete_state", &State::with_discrete_state, py::arg("discrete_state"))
-      .def("with_mode", &State::with_mode, py::arg("mode"))
+  py::class_<State>(module, "State", py::custom_type_setup(&add_getters), docs::state)
+      .def("with_continuous_state", &State::with_continuous_state, py::arg("continuous_state"),
+           "Another continuous state, of the declared shape.")
+      .def("with_discrete_state", &State::with_discrete_state, py::arg("discrete_state"),
+           "Another discrete state, of the declared shape.")
+      .def("with_mode", &State::with_mode, py::arg("mode"), "Another mode.")
       .def("__repr__", [](const State& s) {
         return py::str("State(continuous_state={}, discrete_state={}, mode={})")
             .format(s.x, s.z, s.mode);

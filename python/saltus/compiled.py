@@ -105,18 +105,18 @@ def as_compiled(function: Any, user_data: Any = None) -> Compiled | None:
         return function
     owner = (function, user_data)
     kind = type(function)
-    if isinstance(function, ctypes._CFuncPtr):
+    if isinstance(function, ctypes._CFuncPtr):  # type: ignore[attr-defined]
         _check_ctypes(function)
-        address = ctypes.cast(function, ctypes.c_void_p).value or 0  # type: ignore[arg-type]
+        address: int = ctypes.cast(function, ctypes.c_void_p).value or 0
         return Compiled(address, _data(user_data), owner)
     if kind.__name__ == "PyCapsule":
         return _from_capsule(function, user_data, owner)
     if kind.__name__ == "LowLevelCallable" and isinstance(function, tuple):  # of SciPy
         return _from_capsule(tuple.__getitem__(function, 0), user_data, owner)
     if kind.__module__.startswith("numba.") and isinstance(
-        address := getattr(function, "address", None), int
+        number := getattr(function, "address", None), int
     ):
-        return Compiled(address, _data(user_data), owner)
+        return Compiled(number, _data(user_data), owner)
     if kind.__module__ == "_cffi_backend":
         import _cffi_backend  # it is there: the pointer was made with it
 

@@ -45,7 +45,8 @@ def table_of(values: object, paired: bool) -> Table:
         columns = {_name(name): _column(column) for name, column in values.items()}
         return _paired(columns) if paired else _grid(columns)
     if hasattr(values, "columns") and hasattr(values, "to_dict"):  # a pandas.DataFrame
-        return _paired({_name(name): _column(values[name].to_numpy()) for name in values.columns})
+        frame: Any = values
+        return _paired({_name(name): _column(frame[name].to_numpy()) for name in frame.columns})
     if isinstance(values, Iterable) and not isinstance(values, str):
         return _paired(_columns_of(list(values)))
     raise ModelError(
