@@ -4,6 +4,7 @@
 #include <pybind11/functional.h>
 #include <pybind11/stl.h>
 
+#include "interpreter.hpp"
 #include "python_results.hpp"
 #include "saltus/simulation/simulator.hpp"
 
@@ -24,7 +25,7 @@ class PythonSimulator {
   void initialize(const Context& context) { simulator_.initialize(context); }
 
   void advance_to(double t_end) {
-    const py::gil_scoped_release unlock;
+    const Unlocked run;
     simulator_.advance_to(t_end);
   }
 

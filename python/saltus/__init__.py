@@ -6,6 +6,7 @@ runs it.
 
 from saltus import library, simulation
 from saltus._core import Context, State, __version__
+from saltus.compiled import Compiled, compiled
 from saltus.diagram import Diagram, DiagramBuilder
 from saltus.ensemble import sweep
 from saltus.errors import Error, ModelError, SimulationError
@@ -21,6 +22,7 @@ from saltus.solve import solve
 from saltus.system import InputPort, OutputPort, System
 
 __all__ = [
+    "Compiled",
     "Context",
     "Diagram",
     "DiagramBuilder",
@@ -45,6 +47,7 @@ __all__ = [
     "Values",
     "WorkPrecision",
     "__version__",
+    "compiled",
     "library",
     "load_results",
     "scene",

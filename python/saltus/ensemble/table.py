@@ -43,7 +43,8 @@ def table_of(values: object, paired: bool) -> Table:
         columns = {_name(name): _column(name, column) for name, column in values.items()}
         return _paired(columns) if paired else _grid(columns)
     if hasattr(values, "columns") and hasattr(values, "to_dict"):  # a pandas.DataFrame
-        return _paired({_name(name): values[name].tolist() for name in values.columns})
+        frame: Any = values
+        return _paired({_name(name): frame[name].tolist() for name in frame.columns})
     if isinstance(values, Iterable) and not isinstance(values, str):
         return _paired(_columns_of(list(values)))
     raise ModelError(
@@ -61,7 +62,7 @@ def _name(name: object) -> str:
 def _column(name: object, values: object) -> list[Any] | Any:
     """A list; what is no sequence is one value for all runs."""
     if isinstance(values, np.ndarray) or hasattr(values, "tolist"):
-        return values.tolist() if np.ndim(values) < 2 else list(np.asarray(values))  # type: ignore[arg-type,union-attr]
+        return values.tolist() if np.ndim(values) < 2 else list(np.asarray(values))  # type: ignore[arg-type]
     if isinstance(values, str) or not isinstance(values, Iterable):
         return values
     return list(values)
