@@ -170,7 +170,9 @@ def _with_values(context: _core.Context, values: dict[str, Any], more: set[str])
         except ModelError as error:
             if "unknown" not in str(error):
                 raise
-            hint = _core.known_names(name, [*sorted(more), *_core.entry_names(context)])
+            hint = _core.known_names(
+                name, list(dict.fromkeys([*sorted(more), *_core.entry_names(context)]))
+            )
             raise ModelError(f"unknown parameter or state '{name}'{hint}") from None
         context = _core.with_entry(context, name, _numbers(name, value))
     return context

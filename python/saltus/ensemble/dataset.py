@@ -17,8 +17,8 @@ __all__ = ["Arrays", "arrays_of", "refuse_reserved", "require_xarray", "summary"
 Arrays = dict[str, tuple[tuple[str, ...], np.ndarray]]
 """Each name with its dimensions and its values; the dimensions of the runs come first."""
 
-RESERVED = ("status", "message", "block", "events", "steps", "end_time", "wall_time",
-            "continuous_state", "discrete_state", "mode", "time", "state", "run")  # fmt: skip
+RESERVED = {"status", "message", "block", "events", "steps", "end_time", "wall_time",
+            "continuous_state", "discrete_state", "modes", "time", "run"}  # fmt: skip
 WELL = ("reached_end", "terminal", "zeno_stop")
 
 
@@ -39,6 +39,12 @@ def refuse_reserved(varied: Mapping[str, object], signals: Mapping[str, object])
     for name in signals:
         if name in RESERVED or name in varied:
             raise ModelError(f"sweep: recorded signal '{name}': this name is taken; give another")
+    for name in varied:
+        if name in RESERVED:
+            raise ModelError(
+                f"sweep: '{name}' is a name of the results; say it with the name of its block, "
+                f"such as 'ball.{name}'"
+            )
 
 
 def summary(columns: Columns, wall_time: float) -> dict[str, Any]:
@@ -86,7 +92,8 @@ def arrays_of(columns: Columns, table: Table, reduced: str, save_at: list[float]
         arrays[name] = ((*dims, *more), array.reshape(*shape, *array.shape[1:]))
 
     if reduced:
-        for name, array in _reduced(columns["reduced"], table.runs, reduced).items():
+        for key, array in _reduced(columns["reduced"], table.runs, reduced).items():
+            name = f"reduced_{key}" if key in RESERVED or key in table.columns else key
             add(name, array, *(f"{name}_{i}" for i in range(array.ndim - 1)))
     else:
         _add_values(add, columns, save_at)
@@ -105,11 +112,11 @@ def _add_values(add: Any, columns: Columns, save_at: list[float]) -> None:
         if array.ndim > 1 + len(more):
             more.append(f"{name}_entry")
         add(name, array, *more)
-    for name, dim in (("continuous_state", "state"), ("discrete_state", "discrete")):
+    for name in ("continuous_state", "discrete_state"):
         if columns[name].shape[1]:
-            add(name, columns[name], dim)
+            add(name, columns[name], f"{name}_entry")
     if "mode" in columns["names"]:
-        add("mode", columns["modes"], "moded_block")
+        add("modes", columns["modes"], "modes_block")
 
 
 def _reduced(values: Mapping[int, Any], runs: int, name: str) -> dict[str, np.ndarray]:
@@ -156,7 +163,8 @@ def _coordinates(columns: Columns, table: Table, save_at: list[float]) -> Arrays
         found["run"] = (("run",), np.arange(table.runs))
     if save_at:
         found["time"] = (("time",), np.asarray(save_at))
-    for kind, dim in (("x", "state"), ("z", "discrete"), ("mode", "moded_block")):
+    states = (("x", "continuous_state_entry"), ("z", "discrete_state_entry"))
+    for kind, dim in (*states, ("mode", "modes_block")):
         if columns["names"].get(kind):
             found[dim] = ((dim,), np.array(columns["names"][kind]))
     return found

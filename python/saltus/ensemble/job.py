@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from saltus import _core
-from saltus.ensemble.columns import Columns, failed, join
+from saltus.ensemble.columns import Columns, empty, failed, join
 from saltus.errors import ModelError
 from saltus.results import Results
 from saltus.simulation import SimulatorOptions, core_context, core_options
@@ -135,6 +135,8 @@ class Job:
             row = {name: column[len(parts)] for name, column in values.items()}
             part, raised = self._run_one(row, own)
             parts.append(part)
+        if len(parts) < runs:
+            parts.append(empty(runs - len(parts)))
         return join(parts), raised
 
     def _run_one(self, row: Mapping[str, Any], own: list[str]) -> tuple[Columns, Any]:
