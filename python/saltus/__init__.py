@@ -10,15 +10,15 @@ from saltus.compiled import Compiled, compiled
 from saltus.diagram import Diagram, DiagramBuilder
 from saltus.ensemble import sweep
 from saltus.errors import Error, ModelError, SimulationError
-from saltus.guard import Guard
 from saltus.leaf_system import LeafSystem
 from saltus.progress import Progress
 from saltus.report import WorkPrecision, work_precision
 from saltus.results import Event, EventLog, Results, Statistics, Values, load_results
 from saltus.scenes import Scene, scene, shelf
 from saltus.simulation import Simulator, SimulatorOptions, simulate
-from saltus.solution import Solution
-from saltus.solve import solve
+from saltus.solving.guard import Guard
+from saltus.solving.solution import Solution
+from saltus.solving.solve import solve
 from saltus.system import InputPort, OutputPort, System
 
 __all__ = [

@@ -2,6 +2,7 @@
 #include "saltus/simulation/trajectory.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -21,11 +22,32 @@ void Trajectory::start(std::shared_ptr<const Plan> plan, const Context& from,
   first_.begin = first_.end = last_.begin = last_.end = from.time();
 }
 
-/// Node k of degree + 1 on [0, 1], the ends among them.
+namespace {
+
+/// The Chebyshev points of the second kind on [0, 1], the ends among them, for each degree up to
+/// that of Adams' method.
+constexpr int most = 12;
+using Nodes = std::array<std::array<double, most + 1>, most + 1>;
+
+const Nodes& nodes() {
+  static const Nodes all = [] {
+    Nodes made{};
+    for (int degree = 1; degree <= most; ++degree) {
+      for (int k = 0; k <= degree; ++k) {
+        const double s = std::sin(0.5 * std::numbers::pi * k / degree);
+        made[static_cast<std::size_t>(degree)][static_cast<std::size_t>(k)] =
+            k == degree ? 1.0 : s * s;
+      }
+    }
+    return made;
+  }();
+  return all;
+}
+
+}  // namespace
+
 double Trajectory::node(int k, int degree) {
-  if (k == 0 || k == degree) return k == 0 ? 0.0 : 1.0;
-  const double s = std::sin(0.5 * std::numbers::pi * k / degree);
-  return s * s;
+  return nodes()[static_cast<std::size_t>(degree)][static_cast<std::size_t>(k)];
 }
 
 std::size_t Trajectory::put(const Eigen::VectorXd& x) {

@@ -50,7 +50,7 @@ double error_of_steps(const std::string& method, double h) {
 
 }  // namespace
 
-TEST_CASE("dense output is what the solver itself interpolates", "[dense]") {
+TEST_CASE("5.8 dense output is what the solver itself interpolates", "[dense]") {
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);
   const auto times = inner_times(0.0, 10.0, 997);
@@ -72,7 +72,7 @@ TEST_CASE("dense output is what the solver itself interpolates", "[dense]") {
   }
 }
 
-TEST_CASE("at the times of rows dense output has the bits of the rows", "[dense]") {
+TEST_CASE("5.8 at the times of rows dense output has the bits of the rows", "[dense]") {
   const auto* method = GENERATE(from_range(methods));
   for (const Scene& scene : all_forms({.e = 0.7})) {
     INFO(scene.form << ", method " << method);
@@ -156,7 +156,7 @@ TEST_CASE("dense output rides on a surface that moves", "[dense]") {
   }
 }
 
-TEST_CASE("held signals and modes are those of the time asked for", "[dense]") {
+TEST_CASE("5.8 held signals and modes are those of the time asked for", "[dense]") {
   const auto leaf = make_leaf("stairs", [](Leaf& l) {
     declare_ramp(l);
     l.declare_discrete_state(vec({0.0}));
@@ -203,7 +203,7 @@ TEST_CASE("a scene without continuous state has dense output too", "[dense]") {
   CHECK(results.at(0.5, Side::left).output("hold")[0] == 0.0);
 }
 
-TEST_CASE("nothing is extrapolated, and nothing is kept unasked", "[dense][errors]") {
+TEST_CASE("5.8 nothing is extrapolated, and nothing is kept unasked", "[dense][errors]") {
   const auto results = run_circle({.dense_output = true});
   for (const double t : {-0.1, 10.1, not_a_number})
     CHECK(contains(message<ModelError>([&] { results.at(t); }), "is outside the run, which went"));
@@ -217,7 +217,8 @@ TEST_CASE("nothing is extrapolated, and nothing is kept unasked", "[dense][error
   CHECK(contains(message<ModelError>([&] { plain.at(1.0); }), "dense_output"));
 }
 
-TEST_CASE("dense output changes no bit of a run, and costs nothing unasked", "[dense][absent]") {
+TEST_CASE("5.8 dense output changes no bit of a run, and costs nothing unasked",
+          "[dense][absent]") {
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Ball ball({.e = 0.8});
@@ -275,7 +276,7 @@ TEST_CASE("a failed run can be read up to where it failed", "[dense][errors]") {
   CHECK_THAT(results.at(results.trajectory.end()).continuous_state[0], WithinAbs(1.0, 1e-12));
 }
 
-TEST_CASE("event_rows = false records at save_at only, after the event at its time", "[rows]") {
+TEST_CASE("5.1 event_rows = false records at save_at only, after the event at its time", "[rows]") {
   const auto leaf = make_leaf("steps", [](Leaf& l) {
     declare_ramp(l);
     l.declare_discrete_state(vec({0.0}));

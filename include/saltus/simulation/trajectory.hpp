@@ -54,7 +54,7 @@ class Trajectory {
   const std::vector<int>& held_nodes() const noexcept { return held_nodes_; }
   const std::shared_ptr<const Plan>& plan() const noexcept { return plan_; }
   const Context& start() const noexcept { return start_; }
-  const SimulatorOptions tolerances() const { return {.rtol = rtol_, .atol = atol_}; }
+  SimulatorOptions tolerances() const { return {.rtol = rtol_, .atol = atol_}; }
 
   // --- for the engine
   // -------------------------------------------------------------------------------------------

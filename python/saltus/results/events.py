@@ -19,7 +19,15 @@ SHOWN = 20
 
 
 class Event(NamedTuple):
-    """One event of a run."""
+    """One event of a run.
+
+    Examples
+    --------
+    >>> import saltus
+    >>> event = saltus.scene("bouncing-ball").simulate().events[0]
+    >>> bool(event.before[1] < 0 < event.after[1])
+    True
+    """
 
     time: float
     """[s]"""

@@ -135,6 +135,8 @@ class Results:
         >>> bool(before.continuous_state[1] < 0 < after.continuous_state[1])
         True
         """
+        if self.dense and self._system is None:  # it may be gone, and would be called
+            raise ModelError("these results do not know their system, so no output can be computed")
         return values_at(self._core, t, side)
 
     def to_pandas(self) -> pandas.DataFrame:

@@ -86,7 +86,7 @@ def load_results(path: str | PathLike[str]) -> Results:
     import zipfile
 
     from saltus.results.outcome import Results
-    from saltus.solution import Solution
+    from saltus.solving.solution import Solution
 
     try:
         with open(fspath(path), "rb") as file, np.load(file, allow_pickle=False) as parts:

@@ -146,7 +146,7 @@ def test_errors():
         results(0.5, side="lefft")
     with pytest.raises(saltus.ModelError, match="expected a time or an array of times"):
         results("soon")
-    with pytest.raises(saltus.ModelError, match="nothing was recorded under 'xx'.*'x'"):
+    with pytest.raises(saltus.ModelError, match=r"nothing was recorded under 'xx'.*'x'"):
         results(0.5)["xx"]
     with pytest.raises(saltus.ModelError, match="dense_output=True"):
         run(Circle(), (0.0, 1.0))(0.5)

@@ -7,6 +7,7 @@ import sys
 import textwrap
 import threading
 import time
+from itertools import pairwise
 
 import pytest
 import saltus
@@ -34,7 +35,7 @@ def test_a_function_is_told_ten_times_a_second_at_most():
     assert seen[-1].fraction == 1.0
     assert seen[-1].events == results.statistics.events > 0
     assert [now.time for now in seen] == sorted(now.time for now in seen)
-    assert all(b - a >= 0.09 for a, b in zip(when[1:-2], when[2:-1], strict=True))
+    assert all(b - a >= 0.09 for a, b in pairwise(when[1:-1]))
     assert len(seen) <= 2 + results.statistics.wall_time / 0.1
 
 
@@ -137,7 +138,7 @@ try:
                        record_events=False, {options})
 except KeyboardInterrupt as interrupt:
     got = interrupt.results
-    print("raised")
+    print("raised" if "its attribute results has" in str(interrupt) else "silent")
 print(type(got).__name__, got.status, 0 < got.t[-1] < 1e9, got.y.shape[1] == len(got.t))
 print(got.message)
 """

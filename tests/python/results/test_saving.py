@@ -122,7 +122,7 @@ def test_foreign_and_damaged_files(tmp_path):
     for file in sorted(tmp_path.glob("*.npz")):
         if file == path:
             continue
-        with pytest.raises(saltus.ModelError, match="expected a file of Results.save"):
+        with pytest.raises(saltus.ModelError, match=r"expected a file of Results\.save"):
             saltus.load_results(file)
     with pytest.raises(FileNotFoundError):
         saltus.load_results(tmp_path / "none.npz")

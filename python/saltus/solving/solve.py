@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import fields
 from typing import Any
 
@@ -10,11 +10,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from saltus.errors import ModelError
-from saltus.guard import Guard, guards_of
 from saltus.porting import OPTIONS, refuse
 from saltus.simulation import Simulator, SimulatorOptions
-from saltus.solution import Solution
-from saltus.solved_system import SolvedSystem, arguments_of, span_of, state_of, times_of
+from saltus.solving.guard import Guard, guards_of
+from saltus.solving.solution import Solution
+from saltus.solving.solved_system import SolvedSystem, arguments_of, span_of, state_of, times_of
 
 __all__ = ["solve"]
 
@@ -126,13 +126,8 @@ def solve(
     >>> solution.status, solution.y[:, -1].tolist()
     ('reached_end', [0.0, 0.0])
     """
-    known = [field.name for field in fields(SimulatorOptions)]
-    own = [name for name in HINTS if name in options]
-    refuse("solve", own + [name for name in options if name not in known], [*OWN, *known], HINTS)
-    if isinstance(method, str) and method in METHODS:
-        raise ModelError(f"solve: there is no method '{method}': {METHODS[method]}")
+    _refuse(method, options)
     begin, end = span_of(t_span)
-    times = None if t_eval is None else times_of(t_eval, begin, end)
     guards = None if events is None else guards_of(events)
     system = SolvedSystem(
         f, begin, state_of(x0), arguments_of(args), guards or [], jacobian, jacobian_sparsity
@@ -145,12 +140,29 @@ def solve(
         "dense_output": dense_output,
         "max_minor_step_size": max_step,
         "progress": progress,
-        "recorded_signals": {"x": system.output("x")},
     }
-    if times is not None:
-        settings |= {"save_at": times, "event_rows": False}
-    simulator = Simulator(system, **settings)
-    names = None if guards is None else [g.named(i) for i, g in enumerate(guards)]
+    if t_eval is not None:
+        settings |= {"save_at": times_of(t_eval, begin, end), "event_rows": False}
+    names = None if guards is None else [guard.named(i) for i, guard in enumerate(guards)]
+    return _run(system, begin, end, settings, names)
+
+
+def _refuse(method: object, options: Mapping[str, Any]) -> None:
+    """Names there are not, with the nearest or with what to do instead."""
+    known = [field.name for field in fields(SimulatorOptions) if field.name not in HINTS]
+    refuse("solve", options, [*OWN, *known], HINTS)
+    if isinstance(method, str) and method in METHODS:
+        raise ModelError(f"solve: there is no method '{method}': {METHODS[method]}")
+
+
+def _run(
+    system: SolvedSystem,
+    begin: float,
+    end: float,
+    settings: Mapping[str, Any],
+    names: Sequence[str] | None,
+) -> Solution:
+    simulator = Simulator(system, recorded_signals={"x": system.output("x")}, **settings)
     simulator._outcome = lambda core, raised, of: Solution(core, raised, of, names)
     simulator.initialize(system.create_context(begin))
     solution = simulator._advance(end, take=True)

@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from saltus.errors import ModelError
-from saltus.guard import Guard
 from saltus.leaf_system import LeafSystem
+from saltus.solving.guard import Guard
 
 __all__ = ["SolvedSystem", "arguments_of", "span_of", "state_of", "times_of"]
 

@@ -14,6 +14,7 @@ from saltus.system import System
 
 __all__ = ["Solution"]
 
+FIRINGS = ("zero_crossing", "terminal")
 WELL = {
     "reached_end": "the end of the span was reached",
     "terminal": "a terminal event ended the run",
@@ -83,7 +84,7 @@ class Solution(Results):
     def t_events(self) -> list[np.ndarray] | None:
         if self._names is None:
             return None
-        return [np.array([e.time for e in self._fired(name)]) for name in self._names]
+        return [self._times(name) for name in self._names]
 
     @property
     def y_events(self) -> list[np.ndarray] | None:
@@ -110,8 +111,11 @@ class Solution(Results):
     def nlu(self) -> int:
         return self.statistics.linear_setups
 
+    def _times(self, name: str) -> np.ndarray:
+        return np.sort(np.concatenate([self.events.times(name, kind) for kind in FIRINGS]))
+
     def _fired(self, name: str) -> list[Any]:
-        return [e for e in self.events if e.name == name and e.kind == "zero_crossing"]
+        return [e for e in self.events if e.name == name and e.kind in FIRINGS]
 
     def _state_at(self, t: ArrayLike) -> np.ndarray:
         return np.moveaxis(self(t).continuous_state, -1, 0)
