@@ -14,6 +14,7 @@ from snippets import ROOT, fences
 
 plt.rcParams.update(
     {
+        "figure.constrained_layout.use": True,
         "axes.spines.right": False,
         "axes.spines.top": False,
         "figure.figsize": (6.4, 3.0),

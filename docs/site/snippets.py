@@ -3,8 +3,8 @@
 In the line that opens a fence, after the language:
 
 - `continue` puts the fence after the one before it in the same language;
-- `picture=FILE` says that the last figure it makes is that picture, `drawing=FILE` that its `system`
-  drawn by Graphviz is;
+- `picture=FILE` says that the last figure it makes is that picture, `drawing=FILE` that Graphviz's
+  of its `system` is;
 - `no-run` is for shell text only: Python and C++ shown to readers must run.
 
 A fence ```text output holds what the fence before it prints, with `...` for what may differ.
