@@ -60,6 +60,8 @@ class System:
     """how a context knows it"""
     input_names: list[str]
     output_names: list[str]
+    interpreted_blocks: list[str]
+    """the paths of the blocks in it whose Python functions a run calls"""
 
     @property
     def input_ports(self) -> tuple[InputPort, ...]:

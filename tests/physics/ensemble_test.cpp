@@ -9,7 +9,9 @@
 #include "support/leaves.hpp"
 
 using namespace saltus;
-using namespace support;
+using Catch::Matchers::WithinAbs;
+using support::Leaf;
+using support::vec;
 
 namespace {
 
@@ -58,7 +60,7 @@ TEST_CASE("runs of an ensemble are the runs made alone", "[ensemble]") {
 TEST_CASE("a run leaves nothing behind for the next one of its thread", "[ensemble]") {
   // each scene of the shelf that takes little time: alone, and after a run from other values
   for (const auto& entry : models::shelf()) {
-    const Scene scene = models::scene(entry.name);
+    const saltus::Scene scene = models::scene(entry.name);
     const Index n = scene.context.continuous_state().size();
     if (n > 40 || entry.name == "vdpol-1e6" || entry.name == "thermostat") continue;
     INFO(entry.name);
@@ -117,7 +119,7 @@ TEST_CASE("a run that fails keeps its reason and harms no other", "[ensemble]") 
   for (const int threads : {1, 2}) {
     const Outcomes outcomes = outcomes_of(ensemble, threads);
     CHECK(outcomes.message[1] == "the fuse blew");
-    CHECK_THAT(outcomes.message[3], ContainsSubstring("'limit' is nan"));
+    CHECK_THAT(outcomes.message[3], Contains("'limit' is nan"));
     for (const std::size_t run : {1, 3}) {
       CHECK(outcomes.status[run] == static_cast<int>(Status::failed));
       CHECK(std::isnan(outcomes.continuous_state[run]));
@@ -168,14 +170,14 @@ TEST_CASE("names and widths that do not fit are refused", "[ensemble][errors]") 
     }
     return std::string("nothing was thrown");
   };
-  CHECK_THAT(message("x[9]", {1.0}), ContainsSubstring("'x' has 2 entries"));
-  CHECK_THAT(message("ee", {1.0}), ContainsSubstring("did you mean 'e'?"));
-  CHECK_THAT(message("x", {1.0, 2.0, 3.0}, 3), ContainsSubstring("expected 2 values, found 3"));
+  CHECK_THAT(message("x[9]", {1.0}), Contains("'x' has 2 entries"));
+  CHECK_THAT(message("ee", {1.0}), Contains("did you mean 'e'?"));
+  CHECK_THAT(message("x", {1.0, 2.0, 3.0}, 3), Contains("expected 2 values, found 3"));
   ensemble.vary("ball.e", {0.5, 0.6});
-  CHECK_THAT(message("g", {9.81}), ContainsSubstring("for each of 2 runs"));
-  CHECK_THAT(message("e", {0.5, 0.6}), ContainsSubstring("are the same values"));
+  CHECK_THAT(message("g", {9.81}), Contains("for each of 2 runs"));
+  CHECK_THAT(message("e", {0.5, 0.6}), Contains("are the same values"));
   CHECK_THROWS_AS(Ensemble(ball, ball.create_context(), {1.0, 0.0}), ModelError);
-  const Leaf other("other", [](Leaf& l) { declare_ramp(l); });
+  const Leaf other("other", [](Leaf& l) { support::declare_ramp(l); });
   CHECK_THROWS_AS(Ensemble(ball, other.create_context(), {0.0, 1.0}), ModelError);
 }
 
@@ -184,7 +186,7 @@ TEST_CASE("a thread asks for the same memory in each run", "[ensemble][allocatio
   const auto memory_of = [&](Index runs) {
     const Ensemble ensemble = balls(ball, runs, {.record_events = false});
     Outcomes outcomes(ensemble);
-    return allocations_of([&] {
+    return support::allocations_of([&] {
       ensemble.run([&](Index run, const Results& results) { outcomes.take(run, results); });
     });
   };

@@ -44,7 +44,8 @@ def _wide(arrays: Sequence[np.ndarray], shape: tuple[int, ...], nothing: float) 
     first = 0
     for array in arrays:
         rows = slice(first, first + len(array))
-        whole[(rows, *(slice(0, n) for n in array.shape[1:]))] = array
+        place = (rows, *(slice(0, n) for n in array.shape[1:]))
+        whole[place] = array
         first += len(array)
     return whole
 

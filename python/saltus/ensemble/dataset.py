@@ -154,7 +154,7 @@ def _coordinates(columns: Columns, table: Table, save_at: list[float]) -> Arrays
     for name, column in table.columns.items():
         of_axis = table.is_grid and name in table.axes
         values = table.axes[name] if of_axis else column
-        dims = (name,) if of_axis else ("run",)
+        dims: tuple[str, ...] = (name,) if of_axis else ("run",)
         if table.is_grid and not of_axis:
             dims, values = (), column[0]
         array = np.asarray(values)
