@@ -32,6 +32,36 @@ py::dict outputs(const SharedResults& results) {
   return all;
 }
 
+/// The continuous state and the recorded signals at each of `times`; the interpreter is needed only
+/// where a function of the model is one of its own.
+py::tuple at(const SharedResults& results, const std::vector<double>& times, bool left) {
+  std::vector<double> states;
+  std::vector<std::vector<double>> signals(results->signals.size());
+  {
+    const py::gil_scoped_release unlock;
+    DenseOutput dense(results->trajectory);
+    for (const double t : times) {
+      dense.move_to(t, left ? Side::left : Side::right);
+      const auto append = [](std::vector<double>& to, const VectorView& values) {
+        to.insert(to.end(), values.begin(), values.end());
+      };
+      append(states, dense.state());
+      for (std::size_t i = 0; i < signals.size(); ++i) append(signals[i], dense.signal(i));
+    }
+  }
+  const auto n = static_cast<py::ssize_t>(times.size());
+  py::dict outputs;
+  for (std::size_t i = 0; i < signals.size(); ++i) {
+    const Shape& shape = results->signals[i].shape;
+    std::vector<py::ssize_t> dimensions{n};
+    if (shape.vector) dimensions.push_back(shape.size);
+    outputs[py::str(results->signals[i].name)] =
+        py::array_t<double>(std::move(dimensions), signals[i].data());
+  }
+  const py::ssize_t width = results->trajectory.plan()->nx;
+  return py::make_tuple(py::array_t<double>({n, width}, states.data()), outputs);
+}
+
 py::array copy_of(std::span<const double> values) {
   return py::array_t<double>(static_cast<py::ssize_t>(values.size()), values.data());
 }
@@ -104,6 +134,13 @@ void bind_results(py::module_& module) {
       .def_readonly("block", &Results::block)
       .def_property_readonly("statistics", &statistics)
       .def_property_readonly("event_count", [](const Results& r) { return r.events.size(); })
+      .def_property_readonly("dense", [](const Results& r) { return !r.trajectory.empty(); })
+      .def_property_readonly(
+          "span",
+          [](const Results& r) { return py::make_tuple(r.trajectory.begin(), r.trajectory.end()); })
+      .def_property_readonly(
+          "joints", [](const Results& r) { return py::array(py::cast(r.trajectory.joints())); })
+      .def("at", &at)
       .def("event", &event)
       .def("event_times", &event_times);
 }

@@ -1,4 +1,6 @@
 // Simulator and its options. The lock of the interpreter is given back for a whole run.
+#include <chrono>
+
 #include <pybind11/functional.h>
 #include <pybind11/stl.h>
 
@@ -14,8 +16,8 @@ using NamedPort = std::tuple<std::string, const System*, int>;
 /// A Simulator that heeds signals such as Ctrl-C and leaves it to Python to raise.
 class PythonSimulator {
  public:
-  PythonSimulator(const System& system, SimulatorOptions options)
-      : simulator_(system, prepared(std::move(options))) {}
+  PythonSimulator(const System& system, SimulatorOptions options, py::object progress)
+      : progress_(std::move(progress)), simulator_(system, prepared(std::move(options))) {}
   PythonSimulator(const PythonSimulator&) = delete;
   PythonSimulator& operator=(const PythonSimulator&) = delete;
 
@@ -49,9 +51,20 @@ class PythonSimulator {
   SimulatorOptions prepared(SimulatorOptions options) {
     options.throw_errors = false;
     options.interrupt = [this, asked = std::move(options.interrupt)] {
-      return signal_arrived() || (asked && asked());
+      if (signal_arrived()) return true;
+      if (!progress_.is_none()) report();
+      return asked && asked();
     };
     return options;
+  }
+
+  /// Tells how far the run is, ten times a second at most.
+  void report() {
+    const auto now = std::chrono::steady_clock::now();
+    if (now - reported_ < std::chrono::milliseconds(100)) return;
+    reported_ = now;
+    const py::gil_scoped_acquire lock;
+    progress_(simulator_.time(), simulator_.results().statistics.events);
   }
 
   /// Ctrl-C ends the run well; what else a signal handler raises is an exception like one of the
@@ -66,6 +79,8 @@ class PythonSimulator {
   }
 
   py::object signalled_ = py::none();
+  py::object progress_;
+  std::chrono::steady_clock::time_point reported_{};
   Simulator simulator_;
 };
 
@@ -93,16 +108,21 @@ void bind_simulation(py::module_& module) {
       .def_readwrite("max_passes", &SimulatorOptions::max_passes)
       .def_readwrite("save_at", &SimulatorOptions::save_at)
       .def_readwrite("save_steps", &SimulatorOptions::save_steps)
+      .def_readwrite("event_rows", &SimulatorOptions::event_rows)
+      .def_readwrite("dense_output", &SimulatorOptions::dense_output)
       .def_readwrite("record_events", &SimulatorOptions::record_events)
       .def_readwrite("interrupt", &SimulatorOptions::interrupt)
       .def("set_recorded_signals", &set_recorded_signals);
 
   py::class_<PythonSimulator>(module, "Simulator")
-      .def(py::init<const System&, SimulatorOptions>())
+      .def(py::init<const System&, SimulatorOptions, py::object>())
       .def("initialize", &PythonSimulator::initialize)
       .def("advance_to", &PythonSimulator::advance_to)
       .def("results", &PythonSimulator::results)
       .def_property_readonly("time", [](const PythonSimulator& s) { return s.simulator().time(); })
+      .def_property_readonly(
+          "events",
+          [](const PythonSimulator& s) { return s.simulator().results().statistics.events; })
       .def_property_readonly("context",
                              [](const PythonSimulator& s) { return s.simulator().context(); })
       .def("describe", [](const PythonSimulator& s) { return s.simulator().describe(); });

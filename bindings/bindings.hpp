@@ -27,6 +27,7 @@ void bind_simulation(py::module_& module);
 void bind_ensemble(py::module_& module);
 void bind_shelf(py::module_& module);
 void bind_report(py::module_& module);
+void bind_tape(py::module_& module);
 
 /// A class of python/saltus/errors.py.
 py::object error_class(const char* name);

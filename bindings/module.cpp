@@ -18,4 +18,5 @@ PYBIND11_MODULE(_core, module) {
   bind_ensemble(module);
   bind_shelf(module);
   bind_report(module);
+  bind_tape(module);
 }

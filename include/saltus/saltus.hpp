@@ -6,3 +6,4 @@
 #include "saltus/model/diagram_builder.hpp"
 #include "saltus/simulation/outcomes.hpp"
 #include "saltus/simulation/simulate.hpp"
+#include "saltus/tape/jacobian.hpp"

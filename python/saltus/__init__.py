@@ -10,10 +10,14 @@ from saltus.diagram import Diagram, DiagramBuilder
 from saltus.ensemble import sweep
 from saltus.errors import Error, ModelError, SimulationError
 from saltus.leaf_system import LeafSystem
+from saltus.progress import Progress
 from saltus.report import WorkPrecision, work_precision
-from saltus.results import Event, EventLog, Results, Statistics
+from saltus.results import Event, EventLog, Results, Statistics, Values, load_results
 from saltus.scenes import Scene, scene, shelf
 from saltus.simulation import Simulator, SimulatorOptions, simulate
+from saltus.solving.guard import Guard
+from saltus.solving.solution import Solution
+from saltus.solving.solve import solve
 from saltus.system import InputPort, OutputPort, System
 
 __all__ = [
@@ -23,25 +27,31 @@ __all__ = [
     "Error",
     "Event",
     "EventLog",
+    "Guard",
     "InputPort",
     "LeafSystem",
     "ModelError",
     "OutputPort",
+    "Progress",
     "Results",
     "Scene",
     "SimulationError",
     "Simulator",
     "SimulatorOptions",
+    "Solution",
     "State",
     "Statistics",
     "System",
+    "Values",
     "WorkPrecision",
     "__version__",
     "library",
+    "load_results",
     "scene",
     "shelf",
     "simulate",
     "simulation",
+    "solve",
     "sweep",
     "work_precision",
 ]

@@ -2,128 +2,27 @@
 
 from __future__ import annotations
 
-import functools
-import math
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, fields, replace
+from collections.abc import Callable, Mapping
+from dataclasses import fields, replace
 from typing import Any
-
-import numpy as np
 
 from saltus import _core
 from saltus.errors import ModelError, SimulationError
+from saltus.options import PYTHON_ONLY, SimulatorOptions, core_options
 from saltus.porting import OPTIONS, refuse
+from saltus.progress import reporter_of
 from saltus.results import Results
 from saltus.system import OutputPort, System
 
-__all__ = ["Results", "Simulator", "SimulatorOptions", "simulate"]
-
-
-def _refuse_unknown(cls: Any) -> Any:
-    """Unknown names get the nearest one, or a hint, in place of a TypeError."""
-    generated = cls.__init__
-
-    @functools.wraps(generated)
-    def __init__(self: Any, **options: Any) -> None:
-        refuse(cls.__name__, options, (field.name for field in fields(cls)), OPTIONS)
-        generated(self, **options)
-
-    cls.__init__ = __init__
-    return cls
-
-
-@_refuse_unknown
-@dataclass(frozen=True, kw_only=True)
-class SimulatorOptions:
-    """How a run is done. `dataclasses.replace(options, rtol=1e-9)` makes a changed copy."""
-
-    rtol: float = 1e-6
-    """relative tolerance of a minor step: the root mean square over the states of error / (atol +
-    rtol |x|) stays below 1
-    """
-    atol: float = 1e-8
-    """absolute tolerance, in the unit of the states"""
-    ode_solver_method: str = "auto"
-    """'auto' (dopri5 or dop853 by tolerance, BDF while the scene is stiff), 'dopri5', 'dop853',
-    'adams', 'bdf'; also 'rk45', 'RK45', 'DOP853', 'non-stiff', 'stiff', 'BDF'
-    """
-    linear_solver: str = "auto"
-    """how a stiff method solves its linear systems: 'auto' (by number of states and places of the
-    Jacobian), 'dense', 'band', 'sparse', 'gmres'; `statistics.linear_solver` says what was chosen
-    """
-    max_major_steps: int | None = None
-    """instants a run may have; more end it with the status 'step_limit'"""
-    max_major_step_length: float | None = math.inf
-    """[s] longest time from one instant to the next"""
-    min_minor_step_size: float | None = 0.0
-    """[s] bounds of a solver step. Rarely of use: the tolerance chooses the step"""
-    max_minor_step_size: float | None = math.inf
-    zeno_tolerance: float = 1e-6
-    """[s] A guard whose firings follow each other this closely, with shrinking gaps, comes to rest:
-    a Zeno hold. 0 switches the monitor off
-    """
-    event_scan_points: int = 3
-    """interior points of a step at which guards are looked at, for two crossings in one step; 0
-    turns that off
-    """
-    max_passes: int = 100
-    """passes an instant may have before it counts as a loop without end"""
-    recorded_signals: Mapping[str, OutputPort] | None = None
-    """what is recorded, by name; nothing recorded costs nothing"""
-    save_at: Sequence[float] = ()
-    """[s] increasing times to record at. If there are any, solver steps are recorded only with
-    save_steps=True
-    """
-    save_steps: bool | None = None
-    record_events: bool = True
-    """the event log; switching it off changes nothing else"""
-    throw: bool = True
-    """raise when a run does not end well; else return the results with the status"""
-    interrupt: Callable[[], bool] | None = None
-    """asked about every 20 ms; True ends the run with the status 'interrupted'. Ctrl-C does so
-    anyway
-    """
-
-
-_UNBOUNDED = {
-    "max_major_step_length": math.inf,
-    "min_minor_step_size": 0.0,
-    "max_minor_step_size": math.inf,
-}
-
-
-def _ports(signals: Mapping[str, OutputPort] | None) -> list[tuple[str, System, int]]:
-    if not isinstance(signals, Mapping | None):
-        raise ModelError(f"recorded_signals: expected a dict of names and ports, found {signals!r}")
-    for name, port in (signals or {}).items():
-        if not isinstance(port, OutputPort):
-            raise ModelError(
-                f"recorded signal '{name}': expected a port, such as block.output_ports[0], "
-                f"found {port!r}"
-            )
-    return [(name, port.system, port.index) for name, port in (signals or {}).items()]
-
-
-def core_options(options: SimulatorOptions) -> _core.SimulatorOptions:
-    core = _core.SimulatorOptions()
-    for field in fields(options):
-        value = getattr(options, field.name)
-        if field.name in ("recorded_signals", "throw"):
-            continue
-        try:
-            setattr(
-                core,
-                field.name,
-                _UNBOUNDED[field.name] if value is None and field.name in _UNBOUNDED else value,
-            )
-        except TypeError:
-            raise ModelError(
-                f"option {field.name}: expected {field.type}, found {value!r}"
-            ) from None
-    if not isinstance(options.throw, (bool, np.bool_)):
-        raise ModelError(f"option throw: expected bool, found {options.throw!r}")
-    core.set_recorded_signals(_ports(options.recorded_signals))
-    return core
+__all__ = [
+    "PYTHON_ONLY",
+    "Results",
+    "Simulator",
+    "SimulatorOptions",
+    "core_context",
+    "core_options",
+    "simulate",
+]
 
 
 def core_context(context: object) -> _core.Context:
@@ -138,6 +37,31 @@ class Simulator:
 
     In pieces or at once, the events are the same. One simulator serves one thread at a time; it can
     be initialized again.
+
+    Parameters
+    ----------
+    system : System
+        What is run. It never changes.
+    options : SimulatorOptions, optional
+        How.
+    **overrides
+        Options by name, which replace those of `options`.
+
+    Raises
+    ------
+    ModelError
+        For a system or an option that makes no sense.
+
+    Examples
+    --------
+    >>> import saltus
+    >>> scene = saltus.scene("bouncing-ball")
+    >>> simulator = saltus.Simulator(scene.system, scene.options)
+    >>> simulator.initialize(scene.context)
+    >>> simulator.advance_to(1.0), simulator.advance_to(3.0)
+    ('reached_end', 'reached_end')
+    >>> simulator.time
+    3.0
     """
 
     def __init__(self, system: System, options: SimulatorOptions | None = None, **overrides: Any):
@@ -149,41 +73,77 @@ class Simulator:
         refuse(type(self).__name__, overrides, (field.name for field in fields(options)), OPTIONS)
         self.options = replace(options, **overrides)
         self.system = system  # the engine refers to it
-        self._core = _core.Simulator(system, core_options(self.options))
+        self._reporter = reporter_of(self.options.progress)
+        self._core = _core.Simulator(system, core_options(self.options), self._reporter)
         self._failed: Results | None = None
+        self._outcome: Callable[..., Results] = Results
 
     def initialize(self, context: _core.Context) -> None:
-        """Begins a run with these values, at their time."""
+        """Begins a run with these values, at their time.
+
+        A context that an earlier run ended with goes on where that one stopped. ModelError if it is
+        not one of this system.
+        """
         self._core.initialize(core_context(context))
         self._failed = None
 
     def advance_to(self, time: float) -> str:
-        """Goes on to `time` [s], or to where the run ends before; returns the status.
+        """Goes on to `time`, or to where the run ends before.
 
-        Raises SimulationError with the partial results, what a callback raised, as it was raised,
-        or KeyboardInterrupt with the partial results as its attribute `results`, unless the option
-        `throw` is off.
+        Parameters
+        ----------
+        time : float
+            [s] not before the present one.
+
+        Returns
+        -------
+        str
+            The status, see `Results.status`.
+
+        Raises
+        ------
+        ModelError
+            For a time that is none, or lies behind.
+        SimulationError
+            Where the run ends badly, with what was computed in its attribute `results`. What a
+            callback raises comes out as it was.
+        KeyboardInterrupt
+            After Ctrl-C, or the stop button of a notebook, with what was computed in its attribute
+            `results`. With the option ``throw=False`` nothing is raised, and the status says it.
         """
         return self._advance(time, take=False).status
 
     def _advance(self, time: float, take: bool) -> Results:
         try:
-            self._core.advance_to(time)
-        except TypeError:
+            time = float(time)
+        except (TypeError, ValueError):
             raise ModelError(f"advance_to: expected a time in seconds, found {time!r}") from None
+        if self._reporter is None:
+            self._core.advance_to(time)
+        else:
+            self._report(time)
         core, raised = self._core.results(take)
-        results = Results(core, raised)
+        results = self._outcome(core, raised, self.system)
         if results.status in ("failed", "interrupted"):
             self._failed = results
         if self.options.throw and results.status not in ("reached_end", "terminal", "zeno_stop"):
             self._raise(results, raised)
         return results
 
+    def _report(self, time: float) -> None:
+        """Advances under the eyes of the user."""
+        assert self._reporter is not None
+        with self._reporter.over(self._core.time, time, self._core.events) as reporter:
+            self._core.advance_to(time)
+            reporter(self._core.time, self._core.events)
+
     def _raise(self, results: Results, error: BaseException | None) -> None:
         if error is None:
             error = SimulationError(results.message, results.context.time, results.block)
         if isinstance(error, (SimulationError, KeyboardInterrupt)):
             error.results = results  # type: ignore[union-attr]
+        if isinstance(error, KeyboardInterrupt) and not error.args:
+            error.args = (f"{results.message}; its attribute results has what was computed",)
         try:
             raise error
         finally:
@@ -202,7 +162,7 @@ class Simulator:
     @property
     def results(self) -> Results:
         """All since `initialize`, as a copy of its own."""
-        return self._failed or Results(*self._core.results(False))
+        return self._failed or self._outcome(*self._core.results(False), self.system)
 
     def describe(self) -> str:
         """What of the system is computed when, what is never computed, and why."""
@@ -217,14 +177,64 @@ def simulate(
     recorded_signals: Mapping[str, OutputPort] | None = None,
     **option_overrides: Any,
 ) -> Results:
-    """Runs `system` from the values of `context` over `time_span`, (begin, end) in seconds.
+    """Runs `system` from the values of `context`.
 
-    `recorded_signals` names the outputs to record; any option can also be given here by name.
-    Raises ModelError before the run for bad input; for what ends it badly see
-    `Simulator.advance_to`.
+    Parameters
+    ----------
+    system : System
+        A `LeafSystem` or a `Diagram`. It never changes.
+    context : Context
+        The values it starts with, such as ``system.create_context()``.
+    time_span : (float, float)
+        [s] begin and end.
+    options : SimulatorOptions, optional
+        How it is done.
+    recorded_signals : dict of str to OutputPort, optional
+        Which outputs to record, under which names.
+    **option_overrides
+        Any option by name, which replaces that of `options`: ``rtol=1e-9``,
+        ``dense_output=True``, ``progress=True``, ...
 
-    >>> recorded = {"y": ball.output_ports[0]}
-    >>> results = saltus.simulate(ball, context, (0.0, 12.0), recorded_signals=recorded, rtol=1e-9)
+    Returns
+    -------
+    Results
+        What was recorded, the events, the final context, the status and the statistics.
+
+    Raises
+    ------
+    ModelError
+        For bad input, before the run.
+    SimulationError
+        Where the run ends badly, with what was computed in its attribute `results`. What a
+        callback raises comes out as it was.
+    KeyboardInterrupt
+        After Ctrl-C, or the stop button of a notebook: Python's own exception, so that a script
+        stops, with what was computed in its attribute `results`::
+
+            try:
+                results = saltus.simulate(...)
+            except KeyboardInterrupt as stop:
+                results = stop.results  # status 'interrupted'
+
+        At a prompt and in a notebook it is ``sys.last_value.results`` afterwards. With
+        ``throw=False`` none of the two is raised: the results are returned, and their status says
+        how the run ended.
+
+    Examples
+    --------
+    >>> import saltus
+    >>> class Decay(saltus.LeafSystem):
+    ...     def __init__(self):
+    ...         super().__init__(name="decay")
+    ...         self.declare_continuous_state([1.0], ode=lambda t, s: -s.continuous_state)
+    ...         self.declare_continuous_state_output("x")
+    >>> decay = Decay()
+    >>> recorded = {"x": decay.output("x")}
+    >>> results = saltus.simulate(
+    ...     decay, decay.create_context(), (0.0, 1.0), recorded_signals=recorded, rtol=1e-9
+    ... )
+    >>> f"{results.outputs['x'][-1, 0]:.6f}"
+    '0.367879'
     """
     try:
         begin, end = map(float, time_span)

@@ -27,7 +27,10 @@ void Run::initialize(const Context& context) {
   results_.statistics = {}, results_.message.clear();
   results_.block.clear(), results_.cause = nullptr;
   recorder_.reset();
-  if (!plan().taps.empty()) recorder_.emplace(machine_, results_);
+  if (!plan().taps.empty())
+    recorder_.emplace(machine_, results_, options_.event_rows ? nullptr : &options_.save_at);
+  results_.trajectory = {};
+  if (options_.dense_output) results_.trajectory.start(machine_.shared_plan(), begin_, options_);
   calendar_.begin(time_, context.settled());
   begun_ = solver_started_ = over_ = false;
   next_save_ = 0, ticks_ = 0, stuck_ = fluttering_ = {}, recent_ = idle_ = {0, time_};
@@ -38,6 +41,10 @@ Results Run::take_results() {
   EventLog next = results_.events.emptied();
   Results taken = std::move(results_);
   results_.events = std::move(next);
+  if (options_.dense_output && begun_) {
+    results_.trajectory.start(machine_.shared_plan(), begin_, options_);
+    results_.trajectory.open(time_, machine_, instant_.contacts());
+  }
   return taken;
 }
 
@@ -83,6 +90,7 @@ Status Run::run_to(double t_end) {
     resumes ? instant_.resume(time_, recorder, *earlier, t_end - time_)
             : instant_.begin(time_, recorder);
     record(time_, machine_.x.data());
+    if (options_.dense_output) results_.trajectory.open(time_, machine_, instant_.contacts());
     if (resumes)
       last_instant_ = time_;
     else if (const Status status = settle(StopReason::stop_time, t_end, true); over_)
@@ -107,7 +115,10 @@ Status Run::step(double t_end) {
       std::min({t_end, calendar_.next(), last_instant_ + options_.max_major_step_length});
   const double from = time_;
   StopReason reason = StopReason::stop_time;
+  if (options_.dense_output)
+    results_.trajectory.depart(solver_started_ ? solver_->state() : machine_.x);
   move_to(t_stop, reason);
+  if (options_.dense_output) keep_step(from);
   for (const MonitorHit& hit : watch_.monitors) {
     solver_->interpolate(hit.t, machine_.x.data());
     carry(hit.t);
@@ -147,6 +158,7 @@ Status Run::settle(StopReason reason, double t_end, bool at_start) {
   machine_.at_home();
   ++results_.statistics.instants;
   last_instant_ = time_;
+  results_.trajectory.instant();
   due_.clear();
   if (calendar_.due(time_) || at_start) calendar_.take(time_, due_);
   if (reason != StopReason::root && due_.empty() && !at_start)
@@ -228,6 +240,16 @@ void Run::record_step(double from) {
     record(time_, solver_started_ ? solver_->state().data() : machine_.x.data());
 }
 
+/// For dense output: the polynomial of the step from `from` to now.
+void Run::keep_step(double from) {
+  if (!solver_started_)
+    return results_.trajectory.add(from, time_, 0, machine_, instant_.contacts(), machine_.x,
+                                   [](double, double*) {});
+  results_.trajectory.add(from, time_, plan().nx == 0 ? 0 : solver_->degree(), machine_,
+                          instant_.contacts(), solver_->state(),
+                          [this](double t, double* x) { solver_->interpolate(t, x); });
+}
+
 /// In a handler: what was thrown is the cause.
 void Run::fail(std::string message) {
   results_.status = Status::failed;
@@ -249,6 +271,9 @@ void Run::finish() {
   if (solver_started_ && !at_instant) machine_.x = solver_->state(), carry(time_);
   if (results_.status != Status::failed) record(time_, machine_.x.data());
   machine_.at_home();
+  if (options_.dense_output)
+    results_.trajectory.close(time_, machine_, instant_.contacts(),
+                              results_.status != Status::failed);
   results_.context = context();
   Statistics& s = results_.statistics;
   if (solver_started_) static_cast<SolverStatistics&>(s) = solver_->statistics();

@@ -53,6 +53,13 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
     return sum_;
   }
 
+  int degree() const override {
+    if (starting_) return starter_.degree();
+    int order = 0;
+    CVodeGetLastOrder(cvode_.get(), &order);
+    return order;
+  }
+
   std::string method() const override { return method_ == CvodeMethod::adams ? "adams" : "bdf"; }
 
  private:
@@ -154,7 +161,7 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
         1e-290);
     if (!starting_ && t_stop - t1_ < shortest) {
       start_with_one_step(t1_, x1_, t_stop - t1_);
-      starter_until_ = t1_;
+      starter_until_ = t_stop;
     }
     if (!starting_) cvode_step(t_stop);
     if (!starting_) return;

@@ -4,7 +4,17 @@ import re
 from pathlib import Path
 
 ROOT = Path(__file__).parents[2] / "include" / "saltus"
-LAYERS = ["base", "model", "library", "plan", "solver", "simulation", "report", "models"]
+LAYERS = [
+    "base",
+    "tape",
+    "model",
+    "library",
+    "plan",
+    "solver",
+    "simulation",
+    "report",
+    "models",
+]
 ENGINE = {"plan", "solver", "simulation"}
 INCLUDE = re.compile(r'^\s*#\s*include\s+["<]saltus/([^">]+)[">]', re.M)
 

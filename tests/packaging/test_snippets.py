@@ -1,8 +1,8 @@
-"""Every ```python and ```cpp fence of README.md and docs/*.md runs as it stands there.
+"""Every fence of Python, C++ and shell in README.md and docs/ runs as it stands there.
 
-In the line that opens a fence, after the language: `continue` puts the fence after the one before it in the same language.
-A C++ fence without `main` is the body of one. Shell text that is not to be run says `no-run`; Python and C++ may not.
-SALTUS_PREFIX names the installed library the C++ fences link with (./dev test snippets sets it).
+docs/site/snippets.py says what the line that opens a fence may say. A C++ fence without `main` is
+the body of one. SALTUS_PREFIX names the installed library the C++ fences link with (./dev test
+snippets sets it).
 """
 
 import os
@@ -14,8 +14,10 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[2]
-DOCUMENTS = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
-FENCE = re.compile(r"^```(python|cpp)\b([^\n]*)\n(.*?)^```\s*$", re.M | re.S)
+sys.path.insert(0, str(ROOT / "docs" / "site"))
+
+from snippets import DOCUMENTS, fences, prints  # noqa: E402
+
 CMAKE = """cmake_minimum_required(VERSION 3.23)
 project(snippets LANGUAGES CXX)
 find_package(saltus REQUIRED)
@@ -28,17 +30,12 @@ endforeach()
 """
 
 
-def fences(language):
-    """(document:line, text) of each fence, with what it continues put before it."""
-    for document in DOCUMENTS:
-        text, before = document.read_text(), ""
-        for match in FENCE.finditer(text):
-            if match[1] != language:
-                continue
-            before = (before if "continue" in match[2].split() else "") + match[3]
-            where = f"{document.relative_to(ROOT)}:{text.count(chr(10), 0, match.start()) + 1}"
-            assert "no-run" not in match[2], f"{where}: Python and C++ shown to readers must run"
-            yield pytest.param(where, before, id=where)
+def cases(language):
+    return [pytest.param(fence, id=fence.where) for fence in fences(language)]
+
+
+def shell_cases():
+    return [case for case in cases("sh") if "no-run" not in case.values[0].flags]
 
 
 def program(text):
@@ -51,8 +48,8 @@ def program(text):
     return "\n".join([*top, "int main() {", *body, "}", ""])
 
 
-def stem(where):
-    return re.sub(r"\W", "_", where)
+def stem(fence):
+    return re.sub(r"\W", "_", fence.where)
 
 
 @pytest.fixture(scope="session")
@@ -63,8 +60,8 @@ def programs(tmp_path_factory):
         pytest.skip("SALTUS_PREFIX is not set")
     source = tmp_path_factory.mktemp("snippets")
     (source / "CMakeLists.txt").write_text(CMAKE)
-    for where, text in (fence.values for fence in fences("cpp")):
-        (source / f"{stem(where)}.cpp").write_text(program(text))
+    for fence in fences("cpp"):
+        (source / f"{stem(fence)}.cpp").write_text(program(fence.program))
     build = source / "build"
     configure = ["cmake", "-G", "Ninja", "-S", source, "-B", build, f"-DCMAKE_PREFIX_PATH={prefix}"]
     subprocess.run(configure, check=True, stdout=subprocess.DEVNULL)
@@ -74,34 +71,55 @@ def programs(tmp_path_factory):
     return build
 
 
-def run(command, directory):
-    environment = os.environ | {"MPLBACKEND": "Agg"}
+def run(fence, command, directory):
+    path = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
     done = subprocess.run(
-        command, cwd=directory, env=environment, capture_output=True, text=True, timeout=120
+        command,
+        cwd=directory,
+        env=os.environ | {"MPLBACKEND": "Agg", "PATH": path},
+        capture_output=True,
+        text=True,
+        timeout=120,
     )
     assert done.returncode == 0, f"exit {done.returncode}\n{done.stdout}{done.stderr}"
+    if fence.output:
+        assert prints(fence, done.stdout), (
+            f"{fence.where} says it prints\n{''.join(fence.output)}\nand prints\n{done.stdout}"
+        )
 
 
-@pytest.mark.parametrize(("where", "text"), list(fences("python")))
-def test_python(where, text, tmp_path):
-    script = tmp_path / f"{stem(where)}.py"
-    script.write_text(text)
-    run([sys.executable, "-W", "error", script], tmp_path)
+@pytest.mark.parametrize("fence", cases("python"))
+def test_python(fence, tmp_path):
+    assert "no-run" not in fence.flags, f"{fence.where}: Python shown to readers must run"
+    script = tmp_path / f"{stem(fence)}.py"
+    script.write_text(fence.program)
+    run(fence, [sys.executable, "-W", "error", script], tmp_path)
 
 
-@pytest.mark.parametrize(("where", "text"), list(fences("cpp")))
-def test_cpp(where, text, tmp_path, programs):
-    executable = programs / stem(where)
-    assert executable.exists(), f"{where} did not compile:\n{program(text)}"
-    run([executable], tmp_path)
+@pytest.mark.parametrize("fence", cases("cpp"))
+def test_cpp(fence, tmp_path, programs):
+    assert "no-run" not in fence.flags, f"{fence.where}: C++ shown to readers must run"
+    executable = programs / stem(fence)
+    assert executable.exists(), f"{fence.where} did not compile:\n{program(fence.program)}"
+    run(fence, [executable], tmp_path)
 
 
-@pytest.mark.parametrize("document", DOCUMENTS, ids=lambda path: path.name)
+@pytest.mark.parametrize("fence", shell_cases())
+def test_shell(fence, tmp_path):
+    run(fence, ["bash", "-euo", "pipefail", "-c", fence.program], tmp_path)
+
+
+@pytest.mark.parametrize("document", DOCUMENTS, ids=lambda path: str(path.relative_to(ROOT)))
 def test_links_point_somewhere(document):
-    links = re.findall(
-        r"\]\(([^)#\s]+)[^)]*\)", re.sub(r"```.*?```", "", document.read_text(), flags=re.S)
-    )
+    text = re.sub(r"```.*?```", "", document.read_text(), flags=re.S)
+    links = re.findall(r"\]\(([^)#\s]+)[^)]*\)", text)
     missing = [
         link for link in links if "://" not in link and not (document.parent / link).exists()
     ]
     assert not missing, f"{document.name} links to {', '.join(missing)}"
+
+
+@pytest.mark.parametrize("document", DOCUMENTS, ids=lambda path: str(path.relative_to(ROOT)))
+def test_pictures_are_described(document):
+    bare = re.findall(r"!\[\s*\]\(([^)]+)\)", document.read_text())
+    assert not bare, f"{document.name}: no words for {', '.join(bare)}"

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import saltus
 from saltus import _core
-from saltus.simulation import SimulatorOptions
+from saltus.simulation import PYTHON_ONLY, SimulatorOptions
 from systems import Ball, flow, run
 
 FIELDS = {field.name for field in dataclasses.fields(SimulatorOptions)}
@@ -23,7 +23,7 @@ def ball_run(**options):
 
 def test_defaults_are_those_of_the_engine():
     core, python = _core.SimulatorOptions(), SimulatorOptions()
-    for name in FIELDS - {"recorded_signals", "throw"}:
+    for name in FIELDS - PYTHON_ONLY:
         assert (
             list(getattr(core, name)) == []
             if name == "save_at"
@@ -35,7 +35,7 @@ def test_every_option_of_the_engine_is_there():
     engine = {name for name in vars(_core.SimulatorOptions) if not name.startswith("_")} - {
         "set_recorded_signals"
     }
-    assert engine == FIELDS - {"recorded_signals", "throw"}
+    assert engine == FIELDS - PYTHON_ONLY
 
 
 def test_signature_is_shown():

@@ -67,3 +67,29 @@ TEST_CASE("2.10 a monitor logs each crossing once", "[semantics]") {
                                 true, method);
   CHECK(counts == std::vector<std::size_t>{3, 8, 5, 1, 3});
 }
+
+TEST_CASE("2.10 of thousands of monitors in one step each is logged once", "[semantics]") {
+  // One rounding further on the search before a root finds the root itself.
+  const auto* method = GENERATE(from_range(methods));
+  const Index n = GENERATE(2000, 10'000);
+  INFO("method " << method << ", " << n << " monitors");
+  const Leaf leaf("leaf", [n](Leaf& l) {
+    l.declare_continuous_state(1, [](const At&, VectorRef xdot) { xdot << 1.0; });
+    l.declare_zero_crossing({.name = "level",
+                             .guard =
+                                 [n](const At& at, VectorRef g) {
+                                   for (Index i = 0; i < n; ++i)
+                                     g[i] = at.x[0] -
+                                            static_cast<double>(i + 1) / static_cast<double>(n);
+                                 },
+                             .size = n});
+  });
+  const auto results =
+      simulate(leaf, leaf.create_context(), {0.0, 1.5}, {.ode_solver_method = method});
+  std::vector<int> counts(static_cast<std::size_t>(n));
+  for (std::size_t i = 0; i < results.events.size(); ++i) {
+    ++counts[static_cast<std::size_t>(results.events[i].entry)];
+    CHECK(results.events[i].direction == 1);
+  }
+  CHECK(counts == std::vector<int>(static_cast<std::size_t>(n), 1));
+}

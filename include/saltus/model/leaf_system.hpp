@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "saltus/base/matrix_entry.hpp"
 #include "saltus/model/event.hpp"
-#include "saltus/model/matrix_entry.hpp"
 #include "saltus/model/system.hpp"
 
 namespace saltus {

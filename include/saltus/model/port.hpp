@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "saltus/base/callback.hpp"
+#include "saltus/base/reads.hpp"
 #include "saltus/base/view.hpp"
 
 namespace saltus {
@@ -49,25 +50,6 @@ using EntryRule = std::function<EntryRange(Index i, int k, std::span<const Index
 /// Entry i reads entry i of each input, of a scalar the only one: Gain, Adder, Abs.
 inline EntryRange entry_by_entry(Index i, int k, std::span<const Index> widths) {
   return widths[static_cast<std::size_t>(k)] == 1 ? EntryRange{0, 1} : EntryRange{i, i + 1};
-}
-
-/// What a value depends on. It decides how often it is computed: see `Rate`.
-enum class Reads : unsigned {
-  parameters = 0,  ///< nothing that changes during a run
-  time = 1,
-  continuous_state = 2,
-  discrete_state = 4,
-  mode = 8,
-  inputs = 16,
-  relations = 32,
-  schedule = 64,  ///< the time, but changing at the leaf's own time events only
-  everything = 63,
-};
-constexpr Reads operator|(Reads a, Reads b) {
-  return static_cast<Reads>(static_cast<unsigned>(a) | static_cast<unsigned>(b));
-}
-constexpr bool has(Reads set, Reads one) {
-  return (static_cast<unsigned>(set) & static_cast<unsigned>(one)) != 0;
 }
 
 struct InputDeclaration {

@@ -108,6 +108,9 @@ class Machine {
   double* signal(int node) { return y.data() + plan_->node(node).place.offset; }
   bool truth(int node) const { return *value(plan_->node(node).place) != 0.0; }
   const Plan& plan() const noexcept { return *plan_; }
+  const std::shared_ptr<const Plan>& shared_plan() const noexcept { return plan_; }
+  /// The continuous state that was last asked for, with what rests on a moving surface put there.
+  const double* seen_state() const noexcept { return bases_[0]; }
 
   /// The first block whose output or derivative is not finite at (t, x); empty if all are.
   std::string not_finite(double t, const double* state);

@@ -40,6 +40,7 @@ class Contacts final : public Carrier {
   SurfaceContact& add(SurfaceContact contact);
   void remove(int slot);
   bool empty() const noexcept { return list_.empty(); }
+  const std::vector<SurfaceContact>& all() const noexcept { return list_; }
 
   /// Moves the contact's entries of x to the fixed point; false, and x as it was, if there is none.
   bool settle(const SurfaceContact& contact, double t, double* x);

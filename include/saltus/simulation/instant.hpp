@@ -51,6 +51,7 @@ class Instant {
   void log_monitor(const MonitorHit& hit, const double* x);
 
   int jump() const noexcept { return jump_; }
+  const Contacts& contacts() const noexcept { return contacts_; }
   /// f at the end of the last instant, if that is known.
   const Eigen::VectorXd* flow() const noexcept { return flowed_ ? &departure_.flow() : nullptr; }
   /// "block.event" of the last event; empty before there was one.

@@ -52,6 +52,12 @@ struct SimulatorOptions {
   /// save_steps = true.
   std::vector<double> save_at = {};
   std::optional<bool> save_steps = {};
+  /// Rows at events, at the start and at the end too. False: rows at save_at only, one for each, at
+  /// the time of an event the one after it.
+  bool event_rows = true;
+  /// Keep what the solver interpolates, so that Results::at tells state and recorded signals at any
+  /// time.
+  bool dense_output = false;
   /// The event log; switching it off changes nothing else.
   bool record_events = true;
 
@@ -83,6 +89,8 @@ inline void check(const SimulatorOptions& o) {
   require(o.zeno_tolerance >= 0.0, "zeno_tolerance", o.zeno_tolerance, "a time >= 0 s");
   require(o.event_scan_points >= 0, "event_scan_points", o.event_scan_points, "0 or more");
   require(o.max_passes > 0, "max_passes", o.max_passes, "1 or more");
+  if (!o.event_rows && o.save_at.empty())
+    throw ModelError("option event_rows = false: say with save_at when rows are wanted");
   for (const double t : o.save_at) require(std::isfinite(t), "save_at", t, "increasing times");
   for (std::size_t i = 1; i < o.save_at.size(); ++i) {
     require(o.save_at[i] > o.save_at[i - 1], "save_at", o.save_at[i], "increasing times");

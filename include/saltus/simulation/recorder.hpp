@@ -9,7 +9,9 @@ namespace saltus {
 
 class Recorder {
  public:
-  Recorder(Machine& machine, Results& results) : machine_(&machine), results_(&results) {
+  /// With `only`, increasing times: one row at each of them, the last of several, and no others.
+  Recorder(Machine& machine, Results& results, const std::vector<double>* only = nullptr)
+      : machine_(&machine), results_(&results), only_(only) {
     results.signals.clear();
     for (const Tap& tap : machine.plan().taps) {
       results.signals.push_back({tap.name, machine.plan().node(tap.node).shape, {}});
@@ -18,12 +20,14 @@ class Recorder {
 
   /// A row at (t, j) of the state x.
   void record(double t, int jump, const double* x) {
+    if (only_ != nullptr && !asked_for(t)) return;
     machine_->evaluate_taps(t, x);
     const auto& taps = machine_->plan().taps;
     for (const Tap& tap : taps) {
       const Place& place = machine_->plan().node(tap.node).place;
       if (!VectorView(machine_->value(place), place.size).allFinite()) throw_not_finite(t, tap);
     }
+    if (only_ != nullptr && !results_->time.empty() && results_->time.back() == t) drop();
     results_->time.push_back(t);
     results_->jump.push_back(jump);
     for (std::size_t i = 0; i < taps.size(); ++i) {
@@ -34,6 +38,11 @@ class Recorder {
     }
   }
 
+  bool has_row(double t, int jump) const {
+    return !results_->time.empty() && results_->time.back() == t && results_->jump.back() == jump;
+  }
+
+ private:
   /// Takes the last row back.
   void drop() {
     results_->time.pop_back();
@@ -43,11 +52,12 @@ class Recorder {
     }
   }
 
-  bool has_row(double t, int jump) const {
-    return !results_->time.empty() && results_->time.back() == t && results_->jump.back() == jump;
+  /// Time never goes back, so that one look at each of them is enough.
+  bool asked_for(double t) {
+    while (next_ < only_->size() && (*only_)[next_] < t) ++next_;
+    return next_ < only_->size() && (*only_)[next_] == t;
   }
 
- private:
   [[noreturn]] void throw_not_finite(double t, const Tap& tap) const {
     const Node& node = machine_->plan().node(tap.node);
     throw SimulationError(text("t = ", t, " s: output '", node.name, "', recorded as '", tap.name,
@@ -57,6 +67,8 @@ class Recorder {
 
   Machine* machine_;
   Results* results_;
+  const std::vector<double>* only_;
+  std::size_t next_ = 0;
 };
 
 }  // namespace saltus

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "saltus/simulation/dense_output.hpp"
 #include "saltus/simulation/event_log.hpp"
 #include "saltus/solver/statistics.hpp"
 
@@ -60,6 +61,13 @@ struct Results {
   std::string block;         ///< where, if it was one block
   std::exception_ptr cause;  ///< what was thrown, where the status is failed
   Statistics statistics;
+  Trajectory trajectory;  ///< with the option dense_output; else empty
+
+  /// The continuous state and every recorded signal at any time of a run with the option
+  /// dense_output, to the order of the method that ran: at the time of an event after it, with
+  /// Side::left before it. The system has to live still. For many times take one DenseOutput.
+  /// Throws ModelError for a time outside the run, and for a run without that option.
+  Moment at(double t, Side side = Side::right) const;
 
   /// A recorded signal by name, rows by width; a ModelError lists the names there are.
   Eigen::Map<const RecordedSignal::Matrix> output(std::string_view name) const {

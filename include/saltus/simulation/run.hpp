@@ -36,6 +36,7 @@ class Run {
   Status settle(StopReason reason, double t_end, bool at_start);
   void record_step(double from);
   void record(double t, const double* x);
+  void keep_step(double from);
   bool steps_recorded() const { return options_.save_steps.value_or(options_.save_at.empty()); }
   bool interrupted();
   /// Events in a row, since a time.

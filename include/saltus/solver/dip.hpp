@@ -17,7 +17,7 @@ struct Dip {
     const double left = (g[1] - g[0]) / (u[1] - u[0]), right = (g[2] - g[1]) / (u[2] - u[1]);
     const double bend = (right - left) / (u[2] - u[0]);
     const double slope = left + bend * (u[1] - u[0]);
-    if (!(bend > 0.0) || g[1] - slope * slope / (4.0 * bend) > highest) return nowhere;
+    if (!(bend > 0.0) || g[1] - slope / (4.0 * bend) * slope > highest) return nowhere;
     const double at = u[1] - slope / (2.0 * bend);
     return at == u[0] || at == u[1] || at == u[2] ? nowhere : at;
   }

@@ -171,7 +171,7 @@ class Locator : private Narrower {
       from = next;
     }
     high_ = at_root_;
-    note_crossed(high_);
+    if (!note_crossed(high_)) crossed_.clear();  // a monitor that was found a rounding before it
     return false;
   }
 

@@ -141,17 +141,19 @@ class Narrower {
   }
 
   /// The zero of the parabola through low, high and the third look; of the line through low and
-  /// high where there is none.
+  /// high where there is none. The values are taken in units of their difference: their squares may
+  /// be out of range.
   double parabola(std::size_t k, double low, double high) const {
-    const double a = low_[k], b = high_[k], h = high - low, w = third_at_ - low;
-    const double slope = (b - a) / h, bend = ((third_[k] - a) / w - slope) / (w - h);
+    const double unit = 1.0 / (high_[k] - low_[k]);
+    const double a = low_[k] * unit, h = high - low, w = third_at_ - low;
+    const double slope = 1.0 / h, bend = ((third_[k] * unit - a) / w - slope) / (w - h);
     const double linear = slope - bend * h;
     const double t =
         -0.5 * (linear + std::copysign(std::sqrt(linear * linear - 4.0 * bend * a), linear));
     for (const double u : {a / t, t / bend}) {
       if (u > 0.0 && u < h) return u / h;
     }
-    return a / (a - b);
+    return low_[k] / (low_[k] - high_[k]);
   }
 
   std::vector<double> x_;

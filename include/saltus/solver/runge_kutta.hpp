@@ -38,6 +38,7 @@ class RungeKutta final : public StepSolver<RungeKutta<Method, N>, OneStepSolver>
   }
 
   std::string method() const override { return Method::name; }
+  int degree() const override { return static_cast<int>(dense_terms); }
 
   void watch_stiffness() override { watches_stiffness_ = true; }
   bool looks_stiff() const override { return stiff_.detected(); }

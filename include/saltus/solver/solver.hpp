@@ -49,6 +49,8 @@ class Solver {
   virtual StopReason advance(double t_stop) = 0;
   /// The state at a time within the last step.
   virtual void interpolate(double t, double* x) = 0;
+  /// Degree in time of what it says within the last step.
+  virtual int degree() const = 0;
   /// The guards that fired, after StopReason::root.
   virtual const std::vector<Firing>& roots() const = 0;
   virtual const SolverStatistics& statistics() const = 0;

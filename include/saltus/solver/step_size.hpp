@@ -48,6 +48,8 @@ class StepController {
 };
 
 /// First step by the size of x, f and f' (Hairer, Norsett, Wanner I, p. 169, "Starting step size").
+/// The book's constants are in seconds; here the unit is the time in which x changes by itself, or
+/// by a tolerance where it is less, so that another unit of time gives the same steps.
 inline double first_step(Machine& machine, double t, const Eigen::VectorXd& x, const double* f,
                          Eigen::VectorXd& scratch, double* f1, const SolverOptions& options,
                          double order, double t_stop) {
@@ -60,17 +62,22 @@ inline double first_step(Machine& machine, double t, const Eigen::VectorXd& x, c
     }
     return n > 0 ? std::sqrt(sum / static_cast<double>(n)) : 0.0;
   };
-  const double limit = std::min(t_stop - t, options.max_step);
+  const double longest = std::min(t_stop - t, options.max_step);
+  const double limit = std::isfinite(longest) ? longest : 1.0;  // no end: nothing else to go by
   const double d0 = norm([&](Index i) { return x[i]; }), d1 = norm([&](Index i) { return f[i]; });
-  const double h0 = std::min(d0 < 1e-5 || d1 < 1e-5 ? 1e-6 : 0.01 * d0 / d1, limit);
+  const bool stands = d1 * limit < 1e-5;  // it will not get anywhere at this speed
+  const double h0 = stands ? 1e-3 * limit : std::min(0.01 * std::max(d0, 1.0) / d1, limit);
+  const double unit = 100.0 * h0;
   for (Index i = 0; i < n; ++i) scratch[i] = x[i] + h0 * f[i];
   machine.derivative(t + h0, scratch.data(), f1);
   const double d2 = norm([&](Index i) { return f1[i] - f[i]; }) / h0;
-  const double largest = std::max(d1, d2);
-  const double h1 =
-      largest <= 1e-15 ? std::max(1e-6, h0 * 1e-3) : std::pow(0.01 / largest, 1.0 / order);
-  const double h = std::min({100.0 * h0, h1, limit});
-  return std::isfinite(h) && h > 0.0 ? h : h0;
+  const double largest = std::max(d1 * unit, d2 * unit * unit);
+  const double h1 = largest <= 1e-15 ? unit : unit * std::pow(0.01 / largest, 1.0 / order);
+  // No shorter than time can tell: 100 roundings, as CVODE's first step.
+  const double shortest =
+      100.0 * std::numeric_limits<double>::epsilon() * std::max(std::abs(t), limit);
+  const double h = std::min(std::max(shortest, std::min(unit, h1)), limit);
+  return std::isfinite(h) && h > 0.0 ? h : limit;
 }
 
 /// At (t, x), or at (t + ahead, x), where the run that stands at t cannot get to.

@@ -1,0 +1,80 @@
+"""What MkDocs is told beyond mkdocs.yml: pages from outside docs/, links that hold on a site as in
+a checkout, fences that carry notes for the tests.
+"""
+
+import posixpath
+import re
+import sys
+from pathlib import Path
+
+from mkdocs.structure.files import File
+
+ROOT = Path(__file__).parents[2]
+sys.path.insert(0, str(Path(__file__).parent))
+
+import cpp_reference  # noqa: E402
+
+# top files of the checkout that are pages of the site
+PAGES = {
+    "README.md": "index.md",
+    "CHANGELOG.md": "changelog.md",
+    "KNOWN_GAPS.md": "known_gaps.md",
+    "CONTRIBUTING.md": "contributing.md",
+}
+FENCE = re.compile(r"^(```+[a-z]+)[ \t][^\n]*$", re.M)  # ```python continue
+CODE = re.compile(r"(^```.*?^```[ \t]*$)", re.M | re.S)
+SCENE = re.compile(r"^\| \[([\w-]+)\]\(([\w-]+)\.md\) \| (.*) \|\n", re.M)
+LINK = re.compile(r"(!?)\[([^\]]*)\]\(([^)\s#]*)(#[^)\s]*)?\)")
+
+
+def on_files(files, config):
+    for source, target in PAGES.items():
+        files.append(File.generated(config, target, content=(ROOT / source).read_text()))
+    for path, text in cpp_reference.pages(ROOT):
+        files.append(File.generated(config, path, content=text))
+    return files
+
+
+def on_page_markdown(markdown, page, config, files):
+    source = next((s for s, target in PAGES.items() if target == page.file.src_uri), None)
+    origin = source or f"docs/{page.file.src_uri}"  # where its links start
+    if origin == "README.md":
+        page.meta["hide"] = ["navigation"]
+    if origin == "docs/models/README.md":
+        markdown = gallery(markdown)
+    markdown = markdown.replace("```text output\n", "``` {.text .output}\n")
+    parts = CODE.split(FENCE.sub(r"\1", markdown))
+    for i in range(0, len(parts), 2):  # the others are code
+        parts[i] = LINK.sub(lambda link: rewritten(link, origin, page), parts[i])
+    return "".join(parts)
+
+
+def rewritten(link, origin, page):
+    """A link as it must be on the site; text alone where its target is in the checkout only."""
+    mark, text, target, anchor = link[1], link[2], link[3], link[4] or ""
+    if not target or "://" in target or origin.startswith("docs/cpp_reference/"):
+        return link[0]
+    path = posixpath.normpath(posixpath.join(posixpath.dirname(origin), target))
+    place = place_on_site(path)
+    if place is None:
+        return text
+    here = posixpath.dirname(page.file.src_uri) or "."
+    return f"{mark}[{text}]({posixpath.relpath(place, here)}{anchor})"
+
+
+def place_on_site(path):
+    """Where a file of the checkout is on the site, as MkDocs names its source."""
+    if path in PAGES:
+        return PAGES[path]
+    if not path.startswith("docs/"):
+        return None
+    inside = path.removeprefix("docs/")
+    return f"{inside}/README.md" if (ROOT / path).is_dir() else inside
+
+
+def gallery(markdown):
+    """The tables of scenes as cards with their pictures."""
+    card = r"- [![](\2.svg)<b>\1</b><br>\3](\2.md)\n"
+    rows = re.compile(r"^\| scene \| \|\n\| --- \| --- \|\n((?:\|.*\n?)+)", re.M)
+    opened, closed = '<div class="gallery" markdown>\n\n', "\n</div>\n"
+    return rows.sub(lambda table: opened + SCENE.sub(card, table[1]) + closed, markdown)

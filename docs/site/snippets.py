@@ -1,0 +1,65 @@
+"""The fences of the documents as programs: what the tests run and the pictures are drawn from.
+
+In the line that opens a fence, after the language:
+
+- `continue` puts the fence after the one before it in the same language;
+- `picture=FILE` says that the last figure it makes is that picture;
+- `no-run` is for shell text only: Python and C++ shown to readers must run.
+
+A fence ```text output holds what the fence before it prints, with `...` for what may differ.
+"""
+
+import re
+from dataclasses import dataclass, field
+from pathlib import Path
+
+ROOT = Path(__file__).parents[2]
+DOCUMENTS = [ROOT / "README.md", *sorted((ROOT / "docs").glob("**/*.md"))]
+FENCE = re.compile(r"^```(\w+)\b([^\n]*)\n(.*?)^```\s*$", re.M | re.S)
+
+
+@dataclass
+class Fence:
+    """One fence: where it stands, and the whole program it is the end of."""
+
+    document: Path
+    line: int
+    language: str
+    flags: list[str]
+    program: str
+    output: list[str] = field(default_factory=list)
+
+    @property
+    def where(self):
+        return f"{self.document.relative_to(ROOT)}:{self.line}"
+
+    @property
+    def picture(self):
+        names = [flag.removeprefix("picture=") for flag in self.flags if "picture=" in flag]
+        return self.document.parent / names[0] if names else None
+
+
+def fences(language):
+    """All fences of a language, with what they continue put before them."""
+    for document in DOCUMENTS:
+        text, before, last = document.read_text(), {}, None
+        found = []
+        for match in FENCE.finditer(text):
+            flags = match[2].split()
+            if flags == ["output"]:
+                last.output.append(match[3])
+                continue
+            program = before.get(match[1], "") * ("continue" in flags) + match[3]
+            before[match[1]] = program
+            line = text.count("\n", 0, match.start()) + 1
+            last = Fence(document, line, match[1], flags, program)
+            found.append(last)
+        yield from (fence for fence in found if fence.language == language)
+
+
+def prints(fence, printed):
+    """Whether a program printed what its document says: all of it, or the end if it continues."""
+    said = "\n".join(fence.output).strip()
+    pattern = re.escape(said).replace(re.escape("..."), ".*")
+    beginning = ".*" if "continue" in fence.flags else ""
+    return re.fullmatch(beginning + pattern, printed.strip(), re.S) is not None

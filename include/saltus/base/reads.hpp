@@ -1,0 +1,25 @@
+// Reads: what a value depends on.
+#pragma once
+
+namespace saltus {
+
+/// What a value depends on. It decides how often it is computed: see `Rate`.
+enum class Reads : unsigned {
+  parameters = 0,  ///< nothing that changes during a run
+  time = 1,
+  continuous_state = 2,
+  discrete_state = 4,
+  mode = 8,
+  inputs = 16,
+  relations = 32,
+  schedule = 64,  ///< the time, but changing at the leaf's own time events only
+  everything = 63,
+};
+constexpr Reads operator|(Reads a, Reads b) {
+  return static_cast<Reads>(static_cast<unsigned>(a) | static_cast<unsigned>(b));
+}
+constexpr bool has(Reads set, Reads one) {
+  return (static_cast<unsigned>(set) & static_cast<unsigned>(one)) != 0;
+}
+
+}  // namespace saltus

@@ -1,0 +1,155 @@
+"""`SimulatorOptions`: how a run is done."""
+
+from __future__ import annotations
+
+import functools
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, fields
+from typing import Any
+
+import numpy as np
+
+from saltus import _core
+from saltus.errors import ModelError
+from saltus.porting import OPTIONS, refuse
+from saltus.progress import Progress
+from saltus.system import OutputPort, System
+
+__all__ = ["PYTHON_ONLY", "SimulatorOptions", "core_options"]
+
+
+def _refuse_unknown(cls: Any) -> Any:
+    """Unknown names get the nearest one, or a hint, in place of a TypeError."""
+    generated = cls.__init__
+
+    @functools.wraps(generated)
+    def __init__(self: Any, **options: Any) -> None:
+        refuse(cls.__name__, options, (field.name for field in fields(cls)), OPTIONS)
+        generated(self, **options)
+
+    cls.__init__ = __init__
+    return cls
+
+
+@_refuse_unknown
+@dataclass(frozen=True, kw_only=True)
+class SimulatorOptions:
+    """How a run is done. `dataclasses.replace(options, rtol=1e-9)` makes a changed copy.
+
+    Every option can also be given to `simulate`, `Simulator` and `solve` by its name.
+
+    Raises
+    ------
+    ModelError
+        For a name there is not, with the nearest; a value that makes no sense is refused by what
+        runs with it.
+
+    Examples
+    --------
+    >>> import saltus
+    >>> options = saltus.SimulatorOptions(rtol=1e-9, atol=1e-11, dense_output=True)
+    >>> options.ode_solver_method
+    'auto'
+    """
+
+    rtol: float = 1e-6
+    """relative tolerance of a minor step: the root mean square over the states of error / (atol +
+    rtol |x|) stays below 1
+    """
+    atol: float = 1e-8
+    """absolute tolerance, in the unit of the states"""
+    ode_solver_method: str = "auto"
+    """'auto' (dopri5 or dop853 by tolerance, BDF while the scene is stiff), 'dopri5', 'dop853',
+    'adams', 'bdf'; also 'rk45', 'RK45', 'DOP853', 'non-stiff', 'stiff', 'BDF'
+    """
+    linear_solver: str = "auto"
+    """how a stiff method solves its linear systems: 'auto' (by number of states and places of the
+    Jacobian), 'dense', 'band', 'sparse', 'gmres'; `statistics.linear_solver` says what was chosen
+    """
+    max_major_steps: int | None = None
+    """instants a run may have; more end it with the status 'step_limit'"""
+    max_major_step_length: float | None = math.inf
+    """[s] longest time from one instant to the next"""
+    min_minor_step_size: float | None = 0.0
+    """[s] bounds of a solver step. Rarely of use: the tolerance chooses the step"""
+    max_minor_step_size: float | None = math.inf
+    zeno_tolerance: float = 1e-6
+    """[s] A guard whose firings follow each other this closely, with shrinking gaps, comes to rest:
+    a Zeno hold. 0 switches the monitor off
+    """
+    event_scan_points: int = 3
+    """interior points of a step at which guards are looked at, for two crossings in one step; 0
+    turns that off
+    """
+    max_passes: int = 100
+    """passes an instant may have before it counts as a loop without end"""
+    recorded_signals: Mapping[str, OutputPort] | None = None
+    """what is recorded, by name; nothing recorded costs nothing"""
+    save_at: Sequence[float] = ()
+    """[s] increasing times to record at. If there are any, solver steps are recorded only with
+    save_steps=True
+    """
+    save_steps: bool | None = None
+    event_rows: bool = True
+    """rows at events, at the start and at the end too. False: rows at save_at only, one for each;
+    at the time of an event the one after it
+    """
+    dense_output: bool = False
+    """keep what the solver interpolates: `results(t)` tells state and recorded signals at any time
+    """
+    record_events: bool = True
+    """the event log; switching it off changes nothing else"""
+    throw: bool = True
+    """raise when a run does not end well; else return the results with the status"""
+    progress: bool | Callable[[Progress], object] = False
+    """True shows how far the run is, by tqdm if it is installed, else on a line of stderr; a
+    function is called with a `Progress` ten times a second at most, and once at the end
+    """
+    interrupt: Callable[[], bool] | None = None
+    """asked about every 20 ms; True ends the run with the status 'interrupted'. Ctrl-C does so
+    anyway
+    """
+
+
+PYTHON_ONLY = {"recorded_signals", "throw", "progress"}  # the engine is told in another way
+
+_UNBOUNDED = {
+    "max_major_step_length": math.inf,
+    "min_minor_step_size": 0.0,
+    "max_minor_step_size": math.inf,
+}
+
+
+def _ports(signals: Mapping[str, OutputPort] | None) -> list[tuple[str, System, int]]:
+    if not isinstance(signals, Mapping | None):
+        raise ModelError(f"recorded_signals: expected a dict of names and ports, found {signals!r}")
+    for name, port in (signals or {}).items():
+        if not isinstance(port, OutputPort):
+            raise ModelError(
+                f"recorded signal '{name}': expected a port, such as block.output_ports[0], "
+                f"found {port!r}"
+            )
+    return [(name, port.system, port.index) for name, port in (signals or {}).items()]
+
+
+def core_options(options: SimulatorOptions) -> _core.SimulatorOptions:
+    core = _core.SimulatorOptions()
+    for field in fields(options):
+        value = getattr(options, field.name)
+        if field.name in PYTHON_ONLY:
+            continue
+        try:
+            setattr(
+                core,
+                field.name,
+                _UNBOUNDED[field.name] if value is None and field.name in _UNBOUNDED else value,
+            )
+        except TypeError:
+            raise ModelError(
+                f"option {field.name}: expected {field.type}, found {value!r}"
+            ) from None
+    if not isinstance(options.throw, (bool, np.bool_)):
+        raise ModelError(f"option throw: expected bool, found {options.throw!r}")
+    core.set_recorded_signals(_ports(options.recorded_signals))
+    return core

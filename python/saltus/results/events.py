@@ -1,0 +1,167 @@
+"""The event log: every event of a run, as a table."""
+
+from __future__ import annotations
+
+import html
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, NamedTuple, overload
+
+import numpy as np
+
+if TYPE_CHECKING:
+    import pandas  # type: ignore[import-untyped,import-not-found,unused-ignore]
+
+    from saltus.results.record import Record
+
+__all__ = ["Event", "EventLog"]
+
+SHOWN = 20
+
+
+class Event(NamedTuple):
+    """One event of a run.
+
+    Examples
+    --------
+    >>> import saltus
+    >>> event = saltus.scene("bouncing-ball").simulate().events[0]
+    >>> bool(event.before[1] < 0 < event.after[1])
+    True
+    """
+
+    time: float
+    """[s]"""
+    jump: int
+    """how many passes had changed something when it was over: orders events of one time"""
+    kind: str
+    """'zero_crossing', 'time', 'zeno_enter', 'zeno_release' or 'terminal'"""
+    direction: int
+    """+1: its guard was rising, -1: falling, 0: no guard"""
+    block: str
+    """path of the block it belongs to"""
+    name: str
+    """as it was declared"""
+    predicted: float
+    """[s] when infinitely many resets would have happened, of 'zeno_enter'; else nan"""
+    before: np.ndarray
+    """continuous state of the block before it"""
+    after: np.ndarray
+    """and after it"""
+    entry: int
+    """which guard of a vector of them fired; 0 if there is one"""
+
+
+class EventLog(Sequence[Event]):
+    """Every event of a run, in order: a sequence of `Event`, of which a slice is a log again.
+
+    Examples
+    --------
+    >>> import saltus
+    >>> results = saltus.scene("bouncing-ball").simulate()
+    >>> first = results.events[0]
+    >>> first.kind, first.name
+    ('zero_crossing', 'bounce')
+    >>> len(results.events[:3])
+    3
+    """
+
+    def __init__(self, record: Record, rows: range | None = None):
+        self._record = record
+        self._rows = range(record.event_count) if rows is None else rows
+
+    def __len__(self) -> int:
+        return len(self._rows)
+
+    @overload
+    def __getitem__(self, index: int) -> Event: ...
+    @overload
+    def __getitem__(self, index: slice) -> EventLog: ...
+    def __getitem__(self, index: int | slice) -> Event | EventLog:
+        if isinstance(index, slice):
+            return EventLog(self._record, self._rows[index])
+        if not -len(self) <= index < len(self):
+            raise IndexError(f"event {index} of {len(self)}")
+        return Event(*self._record.event(self._rows[index]))
+
+    def __iter__(self) -> Iterator[Event]:
+        return (Event(*self._record.event(row)) for row in self._rows)
+
+    def times(self, name: str, kind: str = "zero_crossing") -> np.ndarray:
+        """When the events of one name and kind happened.
+
+        Parameters
+        ----------
+        name : str
+            Of the event, with or without that of its block: 'bounce' or 'ball.bounce'.
+        kind : str
+            'zero_crossing', 'time', 'zeno_enter', 'zeno_release' or 'terminal'.
+
+        Returns
+        -------
+        ndarray
+            [s] increasing; empty if there was none.
+
+        Raises
+        ------
+        ModelError
+            For a kind there is not.
+
+        Examples
+        --------
+        >>> import saltus
+        >>> results = saltus.scene("bouncing-ball").simulate()
+        >>> results.events.times("bounce").size > 0
+        True
+        """
+        whole = range(self._record.event_count)
+        if self._rows == whole:
+            return self._record.event_times(name, kind)
+        self._record.event_times(name, kind)  # refuses an unknown kind
+        return np.array([e.time for e in self if e.kind == kind and name in (e.name, _path(e))])
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """A row for each event, a column for each field of `Event`. Needs pandas.
+
+        Examples
+        --------
+        >>> import saltus
+        >>> frame = saltus.scene("bouncing-ball").simulate().events.to_pandas()
+        >>> frame.columns[:3].tolist()
+        ['time', 'jump', 'kind']
+        """
+        import pandas
+
+        return pandas.DataFrame(list(self), columns=list(Event._fields))
+
+    def __repr__(self) -> str:
+        lines = [f"  {t:<22} {j:>5}  {k:<13}  {n}" for t, j, k, n in map(_cells, self[:SHOWN])]
+        head = [f"  {'time [s]':<22} {'jump':>5}  {'kind':<13}  event"] if lines else []
+        more = [f"  ... and {len(self) - SHOWN} more"] if len(self) > SHOWN else []
+        return "\n".join([f"{len(self)} event{'s' * (len(self) != 1)}", *head, *lines, *more])
+
+    def _repr_html_(self) -> str:
+        titles = ("time [s]", "jump", "kind", "event", "before → after")
+        head = "".join(f"<th>{title}</th>" for title in titles)
+        rows = "".join(_html_row((*_cells(e), _change(e))) for e in self[:SHOWN])
+        more = f"<p>... and {len(self) - SHOWN} more</p>" if len(self) > SHOWN else ""
+        title = f"<p><b>{len(self)} events</b></p>"
+        return f"{title}<table><thead><tr>{head}</tr></thead><tbody>{rows}</tbody></table>{more}"
+
+
+def _html_row(cells: tuple[str, ...]) -> str:
+    return "<tr>" + "".join(f"<td>{html.escape(cell)}</td>" for cell in cells) + "</tr>"
+
+
+def _path(event: Event) -> str:
+    return f"{event.block}.{event.name}"
+
+
+def _cells(event: Event) -> tuple[str, str, str, str]:
+    return f"{event.time:.17g}", str(event.jump), event.kind, _path(event)
+
+
+def _change(event: Event) -> str:
+    def short(x: np.ndarray) -> str:
+        return np.array2string(x, precision=4, threshold=6)
+
+    return f"{short(event.before)} → {short(event.after)}"

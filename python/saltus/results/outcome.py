@@ -1,0 +1,256 @@
+"""`Results`: what a run gives back."""
+
+from __future__ import annotations
+
+from os import PathLike
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from saltus import _core
+from saltus.errors import ModelError
+from saltus.results.events import EventLog
+from saltus.results.record import KeptRun, Record
+from saltus.results.statistics import Statistics
+from saltus.results.values import Values, values_at
+
+if TYPE_CHECKING:
+    import pandas  # type: ignore[import-untyped,import-not-found,unused-ignore]
+    import xarray  # type: ignore[import-not-found,unused-ignore]
+
+__all__ = ["Results"]
+
+
+class _Outputs(dict[str, np.ndarray]):
+    """Recorded signals by name; an unknown name is answered with the known ones."""
+
+    def __missing__(self, name: str) -> np.ndarray:
+        raise ModelError(
+            f"nothing was recorded under {name!r}{_core.known_names(name, list(self))}"
+        )
+
+
+class Results:
+    """What was recorded, the event log, the final values, and how the run ended.
+
+    The arrays show the memory of the run without a copy, and keep it as long as one of them lives.
+    Results can be saved (`save`), pickled, and called for values between the rows.
+
+    Examples
+    --------
+    >>> import saltus
+    >>> results = saltus.scene("bouncing-ball").simulate()
+    >>> results.status
+    'reached_end'
+    >>> results.time.shape == results.jump.shape
+    True
+    """
+
+    time: np.ndarray
+    """[s] of each row; never decreases. Each event has a row before and a row after it."""
+    jump: np.ndarray
+    """tells rows of one time apart: it goes up by one with each pass that changed something"""
+    outputs: dict[str, np.ndarray]
+    """recorded signals by name: one value a row for a scalar, a row of values for a vector"""
+    events: EventLog
+    """every event, in order; a table with `to_pandas()` and `times(name)`"""
+    context: _core.Context
+    """the values at the end; a run can go on from here"""
+    status: str
+    """'reached_end', 'terminal', 'zeno_stop', 'step_limit', 'chattering', 'interrupted' or
+    'failed'
+    """
+    message: str
+    """why, where the status is none of the first three"""
+    block: str
+    """path of the block at fault, where it was one"""
+    cause: BaseException | None
+    """what was raised, where the status is 'failed'"""
+    statistics: Statistics
+    """how many steps and calls it took"""
+
+    def __init__(self, core: Record, raised: BaseException | None = None, system: Any = None):
+        self._core = core
+        self._system = system if core.dense else None  # dense output asks its outputs
+        self.time = core.time
+        self.jump = core.jump
+        self.outputs = _Outputs(core.outputs)
+        self.events = EventLog(core)
+        self.context = core.context
+        self.status = core.status
+        self.message = core.message
+        self.block = core.block
+        self.cause = raised if core.status == "failed" else None
+        self.statistics = Statistics(**core.statistics)
+
+    @property
+    def stats(self) -> Statistics:
+        """The same as `statistics`."""
+        return self.statistics
+
+    @property
+    def dense(self) -> bool:
+        """Whether values between the rows were kept: the option `dense_output`."""
+        return self._core.dense
+
+    @property
+    def span(self) -> tuple[float, float]:
+        """[s] from when to when `results(t)` answers; nan without dense output."""
+        return self._core.span if self.dense else (np.nan, np.nan)
+
+    def __call__(self, t: ArrayLike, side: str = "right") -> Values:
+        """Every recorded signal, and the continuous state, at any time of the run.
+
+        Needs the option ``dense_output=True``. Between the steps the state is what the solver
+        itself interpolates, so the order of the method is kept: 4 for dopri5, 7 for dop853, that
+        of the step for adams and bdf. Signals are computed from that state by the blocks
+        themselves, as for a recorded row.
+
+        Parameters
+        ----------
+        t : float or array of float
+            [s] within the run.
+        side : {'right', 'left'}
+            At the time of an event the value after it, or the value before it.
+
+        Returns
+        -------
+        Values
+            The signals by name, shaped like `t`, and `continuous_state`.
+
+        Raises
+        ------
+        ModelError
+            For a time outside the run (nothing is extrapolated), and for a run without dense
+            output.
+
+        Examples
+        --------
+        >>> import saltus
+        >>> ball = saltus.scene("bouncing-ball")
+        >>> results = ball.simulate(dense_output=True)
+        >>> bounce = results.events[0].time
+        >>> before, after = results(bounce, side="left"), results(bounce)
+        >>> bool(before.continuous_state[1] < 0 < after.continuous_state[1])
+        True
+        """
+        if self.dense and self._system is None:  # it may be gone, and would be called
+            raise ModelError("these results do not know their system, so no output can be computed")
+        return values_at(self._core, t, side)
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """A row for each (time, jump), a column for each number: 'y', or 'y[0]', 'y[1]', ... for a
+        vector. Needs pandas.
+
+        Returns
+        -------
+        pandas.DataFrame
+            Its index is unique: (time, jump).
+
+        Examples
+        --------
+        >>> import saltus
+        >>> solution = saltus.solve(lambda t, x: -x, (0, 1), [1.0], t_eval=[0, 0.5, 1])
+        >>> solution.to_pandas().shape
+        (3, 1)
+        """
+        from saltus.results.tables import to_pandas
+
+        return to_pandas(self)
+
+    def to_xarray(self) -> xarray.Dataset:
+        """A variable for each signal over 'time', with 'jump' beside it; vectors have a second
+        dimension of their own, called after them. Needs xarray.
+
+        Returns
+        -------
+        xarray.Dataset
+            With the status among its attributes.
+
+        Examples
+        --------
+        >>> import saltus
+        >>> solution = saltus.solve(lambda t, x: -x, (0, 1), [1.0], t_eval=[0, 0.5, 1])
+        >>> dict(solution.to_xarray().sizes)
+        {'time': 3, 'x_entry': 1}
+        """
+        from saltus.results.tables import to_xarray
+
+        return to_xarray(self)
+
+    def plot(self, *names: str, ax: Any = None, **style: Any) -> Any:
+        """Draws recorded signals over time. Needs matplotlib.
+
+        A jump is a gap with a hollow marker before and a filled one after it, a Zeno hold is
+        shaded, each event has a tick at the bottom. Where the run kept dense output, curves are
+        drawn from that, else straight from row to row.
+
+        Parameters
+        ----------
+        *names : str
+            Which signals, or entries such as 'state[0]'; all if none is named.
+        ax : matplotlib Axes, optional
+            Where to draw; else each signal gets axes of its own in a new figure, one below the
+            other.
+        **style
+            Passed on to matplotlib's `plot` for every curve, such as ``color="k"``.
+
+        Returns
+        -------
+        Axes, or array of Axes
+            One if there is one, so that ``results.plot("y").set_title(...)`` works.
+
+        Raises
+        ------
+        ModelError
+            For an unknown name, and where nothing was recorded.
+
+        Examples
+        --------
+        >>> import saltus
+        >>> axes = saltus.solve(lambda t, x: -x, (0, 1), [1.0]).plot()
+        >>> axes.get_xlabel()
+        'time [s]'
+        """
+        from saltus.results.plot import plot
+
+        return plot(self, names, ax, style)
+
+    def save(self, path: str | PathLike[str]) -> None:
+        """Writes everything but the dense output to a file that `saltus.load_results` reads.
+
+        Parameters
+        ----------
+        path : str or path
+            The file, which is replaced if it is there; '.npz' suits it. The format is NumPy's own,
+            and `numpy.load` opens it too.
+
+        Examples
+        --------
+        >>> import os, tempfile, saltus
+        >>> path = os.path.join(tempfile.mkdtemp(), "ball.npz")
+        >>> saltus.scene("bouncing-ball").simulate().save(path)
+        >>> saltus.load_results(path).status
+        'reached_end'
+        """
+        from saltus.results.saving import save
+
+        save(KeptRun.of(self._core), path, self._kind())
+
+    def _kind(self) -> dict[str, Any]:
+        """What a file has to know beyond the run."""
+        return {"kind": "Results"}
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Results, (KeptRun.of(self._core), self.cause)
+
+    def __repr__(self) -> str:
+        from saltus.results.text import as_text
+
+        return as_text(self)
+
+    def _repr_html_(self) -> str:
+        from saltus.results.text import as_html
+
+        return as_html(self)

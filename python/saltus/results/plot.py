@@ -1,0 +1,102 @@
+"""Pictures of results, by matplotlib."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from saltus._core import known_names
+from saltus.errors import ModelError
+from saltus.results.curves import Curve, curves_of, holds_of
+
+if TYPE_CHECKING:
+    from saltus.results.outcome import Results
+
+__all__ = ["plot"]
+
+FEW = 60  # jumps with full markers; more of them would cover the curve
+TINY = 0.02  # of the range of the curve: the two markers of a smaller jump would lie on each other
+MANY = 400  # events with a tick each
+Panels = list[tuple[str, list[Curve]]]
+
+
+def plot(results: Results, names: tuple[str, ...], ax: Any, style: dict[str, Any]) -> Any:
+    """What `Results.plot` does."""
+    panels = _chosen(results, names)
+    if ax is not None:
+        curves = [curve for _, group in panels for curve in group]
+        _draw(ax, results, curves, panels[0][0] if len(panels) == 1 else "", style)
+        ax.set_xlabel("time [s]")
+        return ax
+    import matplotlib.pyplot as plt
+
+    count = len(panels)
+    size = (7.0, 3.6 if count == 1 else 1.2 + 1.9 * count)
+    _, axes = plt.subplots(count, 1, sharex=True, squeeze=False, figsize=size, layout="constrained")
+    for each, (title, curves) in zip(axes[:, 0], panels, strict=True):
+        _draw(each, results, curves, title, style)
+    axes[-1, 0].set_xlabel("time [s]")
+    axes[0, 0].figure.align_ylabels()
+    return axes[0, 0] if count == 1 else axes[:, 0]
+
+
+def _chosen(results: Results, names: tuple[str, ...]) -> Panels:
+    """Which curves, under which title."""
+    if not results.outputs:
+        raise ModelError("nothing was recorded, so there is nothing to draw: give recorded_signals")
+    signals = curves_of(results)
+    entries = {curve.label: [curve] for curves in signals.values() for curve in curves}
+    known = signals | {label: curve for label, curve in entries.items() if label not in signals}
+    for name in names:
+        if name not in known:
+            hint = known_names(str(name), list(known))
+            raise ModelError(f"nothing was recorded under {name!r}{hint}")
+    return [(name, known[name]) for name in (names or signals)]
+
+
+def _draw(
+    ax: Any, results: Results, curves: list[Curve], title: str, style: dict[str, Any]
+) -> None:
+    for begin, end in holds_of(results):
+        ax.axvspan(begin, end, color="0.5", alpha=0.13, linewidth=0, zorder=0)
+    for curve in curves:
+        look = {"linewidth": 1.5, "label": curve.label} | style
+        (line,) = ax.plot(curve.time, curve.value, **look)
+        _mark_jumps(ax, curve, line)
+    _mark_events(ax, results)
+    if title:
+        ax.set_ylabel(title)
+    if len(curves) > 1:
+        # above the axes, where no curve is
+        ax.legend(
+            loc="lower right",
+            bbox_to_anchor=(1.0, 1.0),
+            frameon=False,
+            ncols=min(len(curves), 6),
+            fontsize="small",
+            borderaxespad=0.1,
+        )
+    ax.spines[["top", "right"]].set_visible(False)
+    ax.margins(x=0.01)
+
+
+def _mark_jumps(ax: Any, curve: Curve, line: Any) -> None:
+    """Hollow where it jumps from, filled where it jumps to."""
+    leap = np.abs(curve.after[:, 1] - curve.before[:, 1])
+    wide = leap > TINY * np.ptp(curve.value[np.isfinite(curve.value)])
+    if not wide.any():
+        return
+    color, size = line.get_color(), 5.0 if np.count_nonzero(wide) <= FEW else 2.0
+    shared = {"linestyle": "none", "marker": "o", "markersize": size, "markeredgecolor": color}
+    ax.plot(*curve.before[wide].T, **shared, markerfacecolor="white", markeredgewidth=1.1, zorder=3)
+    ax.plot(*curve.after[wide].T, **shared, markerfacecolor=color, markeredgewidth=0.0, zorder=3)
+
+
+def _mark_events(ax: Any, results: Results) -> None:
+    """A tick at the bottom for each event."""
+    if not 0 < len(results.events) <= MANY:
+        return
+    times = sorted({event.time for event in results.events})
+    across = ax.get_xaxis_transform()  # x in seconds, y in parts of the axes
+    ax.vlines(times, 0.0, 0.03, transform=across, color="0.35", linewidth=0.8, zorder=1)

@@ -1,0 +1,103 @@
+"""What results are read from: the memory of a run, or what was kept of one."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+import numpy as np
+
+from saltus import _core
+from saltus.errors import ModelError
+
+__all__ = ["KeptRun", "Record"]
+
+Columns = dict[str, np.ndarray]
+
+
+class Record(Protocol):
+    """What `Results` needs to know of a run; `_core.Results` is one."""
+
+    @property
+    def time(self) -> np.ndarray: ...
+    @property
+    def jump(self) -> np.ndarray: ...
+    @property
+    def outputs(self) -> Columns: ...
+    @property
+    def context(self) -> _core.Context: ...
+    @property
+    def status(self) -> str: ...
+    @property
+    def message(self) -> str: ...
+    @property
+    def block(self) -> str: ...
+    @property
+    def statistics(self) -> dict[str, Any]: ...
+    @property
+    def event_count(self) -> int: ...
+    @property
+    def dense(self) -> bool: ...
+    @property
+    def span(self) -> tuple[float, float]: ...
+    @property
+    def joints(self) -> np.ndarray: ...
+
+    def event(self, index: int, /) -> tuple[Any, ...]: ...
+    def event_times(self, name: str, kind: str, /) -> np.ndarray: ...
+    def at(self, times: Sequence[float], left: bool, /) -> tuple[np.ndarray, Columns]: ...
+
+
+@dataclass(frozen=True)
+class KeptRun:
+    """A run as plain data: what a file or another process hands over."""
+
+    time: np.ndarray
+    jump: np.ndarray
+    outputs: Columns
+    context: _core.Context
+    status: str
+    message: str
+    block: str
+    statistics: dict[str, Any]
+    events: list[tuple[Any, ...]]
+    dense = False
+    span = (float("nan"), float("nan"))
+    joints = np.empty(0)
+
+    @classmethod
+    def of(cls, record: Record) -> KeptRun:
+        """A copy of a record, which needs no memory of the run."""
+        return cls(
+            time=np.array(record.time),
+            jump=np.array(record.jump),
+            outputs={name: np.array(array) for name, array in record.outputs.items()},
+            context=record.context,
+            status=record.status,
+            message=record.message,
+            block=record.block,
+            statistics=record.statistics,
+            events=[record.event(i) for i in range(record.event_count)],
+        )
+
+    @property
+    def event_count(self) -> int:
+        return len(self.events)
+
+    def event(self, index: int, /) -> tuple[Any, ...]:
+        return self.events[index]
+
+    def event_times(self, name: str, kind: str, /) -> np.ndarray:
+        kinds = ["zero_crossing", "time", "zeno_enter", "zeno_release", "terminal"]
+        if kind not in kinds:
+            raise ModelError(f"unknown kind of event '{kind}'{_core.known_names(kind, kinds)}")
+        return np.array(
+            [e[0] for e in self.events if e[2] == kind and name in (e[5], f"{e[4]}.{e[5]}")]
+        )
+
+    def at(self, times: Sequence[float], left: bool, /) -> tuple[np.ndarray, Columns]:
+        raise ModelError(
+            "results that were loaded, or came from another process, keep no dense output; "
+            "read it where the run was done"
+        )

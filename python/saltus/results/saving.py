@@ -1,0 +1,157 @@
+"""Results in a file, and back.
+
+The format is NumPy's own `.npz`: every array is in it bit for bit, and everything else as JSON
+beside it. Nothing in it is ever executed, so a file of unknown origin is safe to open.
+"""
+
+from __future__ import annotations
+
+import math
+from os import PathLike, fspath
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from saltus import _core
+from saltus.errors import ModelError
+from saltus.results.record import KeptRun
+
+if TYPE_CHECKING:
+    from saltus.results.outcome import Results
+
+__all__ = ["load_results", "save"]
+
+FORMAT = "saltus results 1"
+
+
+def save(run: KeptRun, path: str | PathLike[str], kind: dict[str, Any]) -> None:
+    """Writes a run; the file has exactly the name that was given."""
+    import json
+
+    arrays = {"time": run.time, "jump": run.jump}
+    arrays |= {f"output {i}": array for i, array in enumerate(run.outputs.values())}
+    arrays["event time"] = np.array([e[0] for e in run.events], dtype=float)
+    arrays["event predicted"] = np.array([e[6] for e in run.events], dtype=float)
+    states = [x for e in run.events for x in (e[7], e[8])]
+    arrays["event states"] = np.concatenate(states) if states else np.empty(0)
+    layout, values = run.context.__getstate__()  # type: ignore[attr-defined]
+    header = {
+        "format": FORMAT,
+        **kind,
+        "outputs": list(run.outputs),
+        "status": run.status,
+        "message": run.message,
+        "block": run.block,
+        "statistics": run.statistics,
+        "events": [[*e[1:6], e[9], len(e[7])] for e in run.events],
+        "context": {"layout": layout, "values": values},
+    }
+    arrays["header"] = np.frombuffer(json.dumps(header).encode(), dtype=np.uint8)
+    with open(fspath(path), "wb") as file:
+        np.savez_compressed(file, **arrays)  # type: ignore[arg-type,unused-ignore]
+
+
+def load_results(path: str | PathLike[str]) -> Results:
+    """Reads what `Results.save` wrote.
+
+    Parameters
+    ----------
+    path : str or path
+        The file.
+
+    Returns
+    -------
+    Results, or Solution if `saltus.solve` made it
+        The same to the last bit: rows, events, status, statistics, final context. A run goes on
+        from its context if the system has the same blocks. Dense output is not in the file, and
+        neither is the exception of a failed run, of which the message remains.
+
+    Raises
+    ------
+    ModelError
+        For a file that is damaged, or is none of `Results.save`.
+    OSError
+        Where there is no such file, or it cannot be read.
+
+    Examples
+    --------
+    >>> import os, tempfile, saltus
+    >>> path = os.path.join(tempfile.mkdtemp(), "decay.npz")
+    >>> solution = saltus.solve(lambda t, x: -x, (0, 1), [1.0])
+    >>> solution.save(path)
+    >>> bool((saltus.load_results(path).time == solution.time).all())
+    True
+    """
+    import json
+    import zipfile
+
+    from saltus.results.outcome import Results
+    from saltus.solving.solution import Solution
+
+    try:
+        with open(fspath(path), "rb") as file, np.load(file, allow_pickle=False) as parts:
+            arrays = {name: parts[name] for name in parts.files}
+        header = json.loads(arrays["header"].tobytes())
+        if header["format"] != FORMAT:
+            raise ModelError(f"expected the format '{FORMAT}', found '{header['format']}'")
+        run = _kept(header, arrays)
+        return (
+            Results(run) if header["kind"] == "Results" else Solution(run, names=header["guards"])
+        )
+    except OSError:
+        raise
+    except (zipfile.BadZipFile, ModelError, EOFError, KeyError) as error:
+        reason = f"it has no {error}" if isinstance(error, KeyError) else str(error)
+    except Exception as error:  # whatever a damaged file sets off
+        reason = f"{type(error).__name__}: {error}"
+    raise ModelError(
+        f"{fspath(path)}: expected a file of Results.save; it is another one or damaged ({reason})"
+    )
+
+
+def _kept(header: dict[str, Any], arrays: dict[str, np.ndarray]) -> KeptRun:
+    outputs = {name: arrays[f"output {i}"] for i, name in enumerate(header["outputs"])}
+    rows = len(arrays["time"])
+    for name, array in [("jump", arrays["jump"]), *outputs.items()]:
+        if len(array) != rows:
+            raise ModelError(f"'{name}' has {len(array)} rows, 'time' has {rows}")
+    statistics = header["statistics"]
+    statistics["stretches"] = [tuple(part) for part in statistics["stretches"]]
+    return KeptRun(
+        time=arrays["time"],
+        jump=arrays["jump"],
+        outputs=outputs,
+        context=_context(header["context"]),
+        status=header["status"],
+        message=header["message"],
+        block=header["block"],
+        statistics=statistics,
+        events=_events(header["events"], arrays),
+    )
+
+
+def _events(rows: list[list[Any]], arrays: dict[str, np.ndarray]) -> list[tuple[Any, ...]]:
+    times, predicted = arrays["event time"].tolist(), arrays["event predicted"].tolist()
+    states, events, at = arrays["event states"], [], 0
+    for t, p, (jump, kind, direction, block, name, entry, width) in zip(
+        times, predicted, rows, strict=True
+    ):
+        middle, end = at + width, at + 2 * width
+        p = math.nan if math.isnan(p) else p
+        change = states[at:middle].copy(), states[middle:end].copy()
+        events.append((t, jump, kind, direction, block, name, p, *change, entry))
+        at = end
+    if at != len(states):
+        raise ModelError(f"expected {at} numbers of events, found {len(states)}")
+    return events
+
+
+def _context(data: dict[str, Any]) -> _core.Context:
+    leaves, systems = data["layout"]
+    layout = (
+        [(*leaf[:-1], [tuple(p) for p in leaf[-1]]) for leaf in map(tuple, leaves)],
+        [tuple(system) for system in systems],
+    )
+    context = _core.Context.__new__(_core.Context)
+    context.__setstate__((layout, data["values"]))  # type: ignore[attr-defined]
+    return context

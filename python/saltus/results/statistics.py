@@ -1,0 +1,46 @@
+"""What a run counted."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+__all__ = ["Statistics"]
+
+
+@dataclass(frozen=True)
+class Statistics:
+    """Counts, summed over the whole run.
+
+    Examples
+    --------
+    >>> import saltus
+    >>> solution = saltus.solve(lambda t, x: -x, (0, 1), [1.0])
+    >>> solution.statistics.steps == solution.stats.steps > 0
+    True
+    """
+
+    method: str
+    """the method that was used"""
+    stretches: list[tuple[str, float, float, int]]
+    """which method when, as (method, begin [s], end [s], steps): more than one with 'auto' only"""
+    steps: int
+    """accepted minor steps"""
+    rejected: int
+    """steps that were tried and not accepted"""
+    restarts: int
+    """how often the method had to begin anew"""
+    right_hand_side_calls: int
+    guard_calls: int
+    """of all guards at once"""
+    jacobian_calls: int
+    linear_setups: int
+    linear_solver: str
+    """which one a stiff method used, for what size, and why; empty without a stiff method"""
+    instants: int
+    """major steps"""
+    events: int
+    """resets, updates and mode changes"""
+    events_by_name: dict[str, int]
+    """how often each event happened: ``{"ball.bounce": 6}``"""
+    wall_time: float
+    """[s]"""

@@ -1,0 +1,86 @@
+"""What `print(results)` and a notebook show."""
+
+from __future__ import annotations
+
+import html
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from saltus.results.outcome import Results
+
+__all__ = ["as_html", "as_text"]
+
+
+def _span(results: Results) -> str:
+    if not len(results.time):
+        return f"t = {results.context.time:g} s"
+    return f"t = {results.time[0]:g} to {results.time[-1]:g} s"
+
+
+def _duration(seconds: float) -> str:
+    for factor, unit in ((1.0, "s"), (1e3, "ms")):
+        if seconds * factor >= 1.0:
+            return f"{seconds * factor:.3g} {unit}"
+    return f"{seconds * 1e6:.3g} µs"
+
+
+def _events(results: Results) -> str:
+    by_name = results.statistics.events_by_name
+    shown = [f"{name} {count}" for name, count in list(by_name.items())[:5]]
+    more = [f"{len(by_name) - 5} other kinds"] if len(by_name) > 5 else []
+    names = ", ".join(shown + more)
+    return f"{len(results.events)} events" + (f": {names}" if names else "")
+
+
+def _method(results: Results) -> str:
+    s = results.statistics
+    if len(s.stretches) < 2:
+        return s.method
+    used = list(dict.fromkeys(stretch[0] for stretch in s.stretches))
+    return f"{' and '.join(used)} ({len(s.stretches)} stretches)"
+
+
+def _facts(results: Results) -> list[tuple[str, str]]:
+    """What stands on each line, after the status."""
+    s = results.statistics
+    signals = ", ".join(f"{name} {array.shape}" for name, array in results.outputs.items())
+    rests = [e for e in results.events if e.kind == "zeno_enter"] if s.events else []
+    facts = [
+        ("why", results.message),
+        ("outputs", signals or "nothing recorded"),
+        ("events", _events(results)),
+        ("at rest", ", ".join(f"{e.block} from {e.time:.6g} s" for e in rests[:5])),
+        (
+            "steps",
+            f"{s.steps} steps of {_method(results)}, {s.rejected} rejected, {s.restarts} restarts",
+        ),
+        ("calls", f"{s.right_hand_side_calls} right-hand side, {s.guard_calls} guards"),
+        ("took", _duration(s.wall_time)),
+        ("dense output", "results(t) from {:g} to {:g} s".format(*results.span))
+        if results.dense
+        else ("dense output", ""),
+    ]
+    return [(name, text) for name, text in facts if text]
+
+
+def as_text(results: Results) -> str:
+    head = f"{results.status}, {len(results.time)} rows, {_span(results)}"
+    lines = [f"  {name:<12}  {text}" for name, text in _facts(results)]
+    return "\n".join([f"<{type(results).__name__}: {head}", *lines]) + ">"
+
+
+def as_html(results: Results) -> str:
+    def row(name: str, text: str) -> str:
+        return (
+            f"<tr><th style='text-align:left'>{html.escape(name)}</th>"
+            f"<td style='text-align:left'>{html.escape(text)}</td></tr>"
+        )
+
+    good = results.status in ("reached_end", "terminal", "zeno_stop")
+    title = (
+        f"<b>{type(results).__name__}</b>: "
+        f"<span style='color:{'#2a7d2a' if good else '#b3261e'}'>{results.status}</span>, "
+        f"{len(results.time)} rows, {html.escape(_span(results))}"
+    )
+    rows = "".join(row(name, text) for name, text in _facts(results))
+    return f"<div>{title}<table><tbody>{rows}</tbody></table></div>"

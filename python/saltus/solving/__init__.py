@@ -1,0 +1,1 @@
+"""The short door: `saltus.solve`, its guards and what it returns."""

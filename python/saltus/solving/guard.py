@@ -1,0 +1,153 @@
+"""`Guard`: an event of `saltus.solve`."""
+
+from __future__ import annotations
+
+import operator
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Any
+
+from numpy.typing import ArrayLike
+
+from saltus._core import known_names
+from saltus.errors import ModelError
+
+__all__ = ["Guard", "guards_of"]
+
+DIRECTIONS = {
+    "both": "crosses_zero",
+    "falling": "positive_then_non_positive",
+    "rising": "negative_then_non_negative",
+    "crosses_zero": "crosses_zero",
+    "positive_then_non_positive": "positive_then_non_positive",
+    "negative_then_non_negative": "negative_then_non_negative",
+    "edge_detection": "edge_detection",
+    "none": "none",
+}
+
+
+@dataclass(frozen=True)
+class Guard:
+    """An event where ``guard(t, x, *args)`` becomes zero.
+
+    Parameters
+    ----------
+    guard : callable
+        A smooth number g(t, x, *args), in any unit.
+    reset : callable, optional
+        r(t, x, *args) returns the state after the event from `x`, a copy of that before it.
+        Without it, and if it is not terminal, the event is only logged.
+    direction : {'both', 'falling', 'rising'} or number
+        Falling: from above zero to it. The engine's own names ('positive_then_non_positive', ...)
+        and numbers with SciPy's signs are understood too.
+    name : str, optional
+        In the event log and in messages; if not said that of the function, or 'event_0', ...
+    terminal : bool or int
+        Whether it ends the run, after its reset; n: when it happens the n-th time.
+    max_count : int
+        The same n, for ``terminal=True``.
+    zeno_tolerance : float, optional
+        [s] that of the options, for this guard; 0 switches the monitor off.
+    on_zeno : {'hold', 'stop', 'error'}
+        What becomes of the state where events accumulate; see
+        `LeafSystem.declare_zero_crossing`.
+    at_start : {'auto', 'ignore', 'fire', 'error'}
+        What a guard at zero at the beginning means; see the same.
+
+    Raises
+    ------
+    ModelError
+        For an unknown direction and for something that cannot be called.
+
+    Examples
+    --------
+    >>> import saltus
+    >>> floor = saltus.Guard(lambda t, x: x[0], lambda t, x: [0, -0.5 * x[1]], "falling")
+    >>> fall = lambda t, x: [x[1], -9.81]
+    >>> saltus.solve(fall, (0, 10), [1.0, 0.0], events=floor).y[:, -1].tolist()
+    [0.0, 0.0]
+    """
+
+    guard: Callable[..., ArrayLike]
+    reset: Callable[..., ArrayLike] | None = None
+    direction: str | float = "both"
+    name: str | None = None
+    terminal: bool | int = False
+    max_count: int = 1
+    zeno_tolerance: float | None = None
+    on_zeno: str = "hold"
+    at_start: str = "auto"
+
+    def __post_init__(self) -> None:
+        for what, function in (("guard", self.guard), ("reset", self.reset)):
+            if function is not None and not callable(function):
+                raise ModelError(f"Guard: {what}: expected a function, found {function!r}")
+        if self.guard is None:
+            raise ModelError("Guard: guard: expected a function, found None")
+        _ = self.engine_direction, self.engine_count  # refuse what makes no sense here, not later
+
+    @property
+    def engine_direction(self) -> str:
+        """The name the engine has for the direction."""
+        if isinstance(self.direction, str):
+            if self.direction not in DIRECTIONS:
+                known = known_names(self.direction, list(DIRECTIONS))
+                raise ModelError(f"Guard: unknown direction '{self.direction}'{known}")
+            return DIRECTIONS[self.direction]
+        try:
+            sign = float(self.direction)
+        except (TypeError, ValueError):
+            raise ModelError(
+                "Guard: direction: expected 'both', 'falling', 'rising' or a number with that "
+                f"sign, found {self.direction!r}"
+            ) from None
+        return DIRECTIONS["rising" if sign > 0 else "falling" if sign < 0 else "both"]
+
+    @property
+    def engine_count(self) -> int:
+        """At which firing it ends the run, if it is terminal."""
+        try:
+            number = operator.index(self.terminal)
+        except TypeError:
+            raise ModelError(
+                f"Guard: terminal: expected True, False or a count, found {self.terminal!r}"
+            ) from None
+        if number < 0:
+            raise ModelError(f"Guard: terminal: expected a count above 0, found {number}")
+        if number > 1 and self.max_count not in (1, number):
+            raise ModelError(f"Guard: terminal={number} and max_count={self.max_count}; say one")
+        return max(number, self.max_count)
+
+    def named(self, number: int) -> str:
+        """Its name as event `number`."""
+        own = getattr(self.guard, "__name__", "<lambda>")
+        return self.name or (f"event_{number}" if own.startswith("<") else own)
+
+
+def guards_of(events: Any) -> list[Guard]:
+    """The guards of the argument `events`: one or several, none of which may share a name."""
+    single = isinstance(events, Guard) or callable(events)
+    try:
+        guards = [_as_guard(e) for e in ([events] if single else events)]
+    except TypeError:
+        guards = [_as_guard(events)]
+    names = [guard.named(i) for i, guard in enumerate(guards)]
+    for i, guard in enumerate(guards):  # functions made in a loop are called the same
+        if guard.name is None and names.count(names[i]) > 1:
+            guards[i] = replace(guard, name=f"event_{i}")
+    return guards
+
+
+def _as_guard(event: Any) -> Guard:
+    """A guard, or a plain function with the attributes `terminal` and `direction` of SciPy."""
+    if isinstance(event, Guard):
+        return event
+    if not callable(event):
+        raise ModelError(
+            f"events: expected Guard(...) or a function g(t, x), or a list of them, found {event!r}"
+        )
+    return Guard(
+        event,
+        direction=getattr(event, "direction", "both"),
+        terminal=getattr(event, "terminal", False),
+    )

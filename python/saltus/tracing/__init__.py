@@ -1,0 +1,11 @@
+"""Tracing: an unchanged Python callback is called once with symbols and becomes a tape.
+
+`trace(Signature(...))` gives `Traced` or `Refused`. The tape runs without interpreter, has an exact
+Jacobian, and smooth guards where a result is a comparison. See the README beside this file.
+"""
+
+from saltus.tracing.signature import Refused, Relations, Signature, Traced
+from saltus.tracing.tracing import trace
+from saltus.tracing.watch import Watch
+
+__all__ = ["Refused", "Relations", "Signature", "Traced", "Watch", "trace"]

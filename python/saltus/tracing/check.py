@@ -1,0 +1,129 @@
+"""The check: tape and function are compared at random points before the tape is trusted."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from saltus.tracing.arguments import Point, Result, call, plain_arguments, plain_numbers
+from saltus.tracing.refusal import Refusal
+from saltus.tracing.rounding import ULPS, Bounds
+from saltus.tracing.signature import Shape, Signature
+
+Numbers = NDArray[np.float64]
+
+SCALES = (0.0, 1e-3, 0.03, 0.3, 1.0, 1.0, 1.0, 3.0, 10.0, 100.0, 1e-6, 1e4)
+"""how far from the start values, absolutely and relatively, the points lie"""
+TIMES = (0.0, 0.013, 0.7, 1.0, 1.9, 2.5, 0.31, 5.3, 12.0, 97.0, 0.11, 1003.0)
+FEWEST = 3  # points where the function gives finite numbers
+QUICK = 2.0 * ULPS
+
+
+def _draws(count: int) -> Numbers:
+    """`count` numbers between -2 and 2 for each point, the same in every process."""
+    return np.random.default_rng(20_405).uniform(-2.0, 2.0, (len(SCALES), count))
+
+
+def points(signature: Signature, reads_mode: bool) -> list[Point]:
+    """Values near those the block starts with and far from them, of both signs."""
+    x, z = signature.start("x"), signature.start("z")
+    values = [np.ravel(np.asarray(v, dtype=float)) for v in signature.parameters.values()]
+    p = np.concatenate([*values, np.empty(0)])
+    widths = [int(np.prod(shape)) for shape in signature.input_shapes]
+    draws = _draws(x.size + z.size + p.size + sum(widths))
+    cuts = np.cumsum([x.size, z.size, p.size, *widths])[:-1]
+    found = []
+    for i, (scale, time) in enumerate(zip(SCALES, TIMES, strict=True)):
+        dx, dz, dp, *u = np.split(draws[i], cuts)
+        near = min(scale, 0.3)  # parameters often have a sign and a size that matter
+        modes = (signature.mode, *signature.modes)
+        mode = int(modes[i % len(modes)]) if reads_mode else signature.mode
+        found.append(
+            Point(time, _near(x, scale, dx), _near(z, scale, dz), mode, i % 3,
+                  p * (1.0 + near * dp), [(scale or 1.0) * part for part in u])
+        )  # fmt: skip
+    return found
+
+
+def _near(start: Numbers, scale: float, draws: Numbers) -> Numbers:
+    return start + scale * draws * np.maximum(1.0, np.abs(start) if scale < 1.0 else 0.0)
+
+
+def _called(signature: Signature, function: Callable[..., Any], at: Point, size: int) -> Any:
+    """What the function itself gives, or None where it raises."""
+    arguments, options = plain_arguments(signature, at)
+    try:
+        returned = call(signature, function, arguments, options, _unwritten)
+        numbers, written = plain_numbers(signature, returned)
+    except Exception:
+        return None
+    return (numbers, written)
+
+
+def _unwritten(shape: Shape) -> Numbers:
+    return np.full(shape, np.nan)
+
+
+def _describe(at: Point, called: float, taped: float, i: int) -> str:
+    return (
+        f"the check failed: at t = {at.time:g}, x = {at.x.tolist()} entry {i} of the result is "
+        f"{called!r} called and {taped!r} traced"
+    )
+
+
+class Check:
+    """One comparison of a tape with its function."""
+
+    def __init__(self, signature: Signature, tape: Any, result: Result, bounds: Any):
+        self.signature = signature
+        self.tape = tape
+        self.result = result
+        self.bounds = bounds
+        """points -> Bounds"""
+
+    def run(self, function: Callable[..., Any], at: list[Point]) -> int:
+        """Raise a Refusal if the two differ; return at how many points they were compared."""
+        kept, called, taped = [], [], []
+        for point in at:
+            found = _called(self.signature, function, point, len(self.result.numbers))
+            if found is None:
+                continue
+            numbers, written = found
+            self._require_same_form(numbers, written)
+            kept.append(point)
+            called.append(numbers)
+            taped.append(self.tape(*point.as_tape_takes()))
+        if kept:
+            self._compare(kept, np.array(called), np.array(taped))
+        finite = sum(bool(np.isfinite(numbers).all()) for numbers in called)
+        if finite < FEWEST:
+            raise Refusal(
+                f"could be compared at {finite} of {len(at)} points only, as the function raises "
+                "or is not finite at the others; start the block where it is defined"
+            )
+        return finite
+
+    def _require_same_form(self, numbers: Numbers, written: str) -> None:
+        if numbers.size != len(self.result.numbers) or written != self.result.written:
+            raise Refusal(
+                f"returned {len(self.result.numbers)} numbers traced and {numbers.size} called; "
+                "its result must not depend on types or on global state"
+            )
+
+    def _compare(self, at: list[Point], called: Numbers, taped: Numbers) -> None:
+        apart = np.abs(called - taped)
+        largest = np.maximum(np.abs(called), np.abs(taped))
+        same = (called == taped) | (apart <= QUICK * largest) | np.isnan(called)
+        for row, column in zip(*np.nonzero(~same), strict=True):
+            self._require_rounding(at[row], int(column), called[row, column], taped[row, column])
+
+    def _require_rounding(self, at: Point, column: int, called: float, taped: float) -> None:
+        bounds: Bounds = self.bounds([at])
+        _, bound = bounds.of(self.result.numbers[column])
+        room = 2.0 * float(bound[0])  # each of the two errs by that
+        if not np.isfinite(room) or (np.isfinite(taped) and abs(called - taped) <= room):
+            return  # where rounding decides between branches, the point says nothing
+        raise Refusal(_describe(at, float(called), float(taped), column))

@@ -1,0 +1,290 @@
+"""What a traced function sees in place of numpy, math and the builtins."""
+
+from __future__ import annotations
+
+import builtins
+import contextlib
+import functools
+import itertools
+import math
+import operator
+from collections.abc import Callable
+from types import BuiltinFunctionType, FunctionType, ModuleType
+from typing import Any
+
+import numpy as np
+
+from saltus.tracing import functions as numpy_functions
+from saltus.tracing.array import SymbolArray, array, kind_of_type
+from saltus.tracing.foreign import Foreign
+from saltus.tracing.operators import apply, call_ufunc, reduce_ufunc
+from saltus.tracing.plain_builtins import REPLACED, SAFE
+from saltus.tracing.refusal import refuse
+from saltus.tracing.scalars import SCALARS, is_number
+from saltus.tracing.symbol import Symbol
+
+SAFE_MODULES = {"operator", "itertools", "_operator"}
+
+
+class Ufunc:
+    """A ufunc of numpy, for symbols and numbers."""
+
+    def __init__(self, ufunc: np.ufunc):
+        self._ufunc = ufunc
+        self.__name__ = ufunc.__name__
+
+    def __call__(self, *arguments: Any, **options: Any) -> Any:
+        if options or numpy_functions.has_symbols(arguments):
+            return call_ufunc(self._ufunc, *arguments, **options)
+        result = self._ufunc(*numpy_functions.plain(arguments))
+        return numpy_functions.owned(result)
+
+    def _method(self, method: str) -> Callable[..., Any]:
+        return lambda *a, **options: reduce_ufunc(self._ufunc, method, *a, **options)
+
+    def __getattr__(self, name: str) -> Any:
+        if name in ("reduce", "accumulate", "outer"):
+            return self._method(name)
+        refuse(f"uses np.{self.__name__}.{name}", "use the function itself")
+
+
+class NumpyType:
+    """np.float64 and the like: a type, and a function that converts."""
+
+    def __init__(self, kind: type):
+        self.type = kind
+        if not kind.__subclasses__():  # not an abstract one, such as np.floating
+            self.dtype = np.dtype(kind)  # numpy takes what has a dtype for one
+        self.__name__ = kind.__name__
+
+    def __call__(self, value: Any = 0) -> Any:
+        if not numpy_functions.has_symbols(value):
+            return self.type(numpy_functions.plain(value))
+        return array(value, kind_of_type(self.type))[()]
+
+
+def _function(function: Callable[..., Any]) -> Callable[..., Any]:
+    def call(*arguments: Any, **options: Any) -> Any:
+        return numpy_functions.call_function(function, arguments, options)
+
+    return functools.update_wrapper(call, function, ("__name__", "__doc__"), ())
+
+
+@functools.cache
+def _numpy_value(name: str, value: Any) -> Any:
+    if isinstance(value, np.ufunc):
+        return Ufunc(value)
+    if name == "errstate":
+        return lambda *arguments, **options: contextlib.nullcontext()
+    if isinstance(value, type):
+        if value is np.ndarray:
+            return SymbolArray
+        return NumpyType(value) if issubclass(value, np.generic) else Foreign(f"np.{name}")
+    return _function(value) if callable(value) else value
+
+
+class Numpy:
+    """numpy, or numpy.linalg, as far as it has a symbolic form; the rest is refused when used."""
+
+    def __init__(self, module: ModuleType, words: str):
+        self._module = module
+        self._words = words
+
+    def __getattr__(self, name: str) -> Any:
+        value = getattr(self._module, name)  # AttributeError as numpy has it
+        if value is np.linalg:
+            return LINALG
+        if isinstance(value, ModuleType):
+            hint = "random numbers differ from call to call" if name == "random" else ""
+            return Foreign(f"{self._words}.{name}", hint)
+        return _numpy_value(name, value) if callable(value) else value
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        if not name.startswith("_"):
+            refuse(f"writes {self._words}.{name}")
+        object.__setattr__(self, name, value)
+
+
+LINALG = Numpy(np.linalg, "np.linalg")
+NUMPY = Numpy(np, "np")
+
+MATH = {
+    "acos": "acos", "acosh": "acosh", "asin": "asin", "asinh": "asinh", "atan": "atan",
+    "atan2": "atan2", "atanh": "atanh", "cbrt": "cbrt", "copysign": "copysign", "cos": "cos",
+    "cosh": "cosh", "degrees": "rad2deg", "exp": "exp", "exp2": "exp2", "expm1": "expm1",
+    "fabs": "abs", "fmod": "fmod", "isfinite": "isfinite", "isinf": "isinf", "isnan": "isnan",
+    "log10": "log10", "log1p": "log1p", "log2": "log2", "pow": "pow", "radians": "deg2rad",
+    "sin": "sin", "sinh": "sinh", "sqrt": "sqrt", "tan": "tan", "tanh": "tanh",
+}  # fmt: skip
+"""function of math -> what it is called in SCALARS"""
+
+
+def _one(value: Any) -> Any:
+    """What math takes for a number: an array of one, too."""
+    return value._one() if isinstance(value, SymbolArray) else value
+
+
+def _log(x: Any, base: Any = None) -> Any:
+    natural = SCALARS["log"](x)
+    return natural if base is None else SCALARS["div"](natural, SCALARS["log"](base))
+
+
+def _hypot(*parts: Any) -> Any:
+    if len(parts) == 2:
+        return SCALARS["hypot"](*parts)
+    return SCALARS["sqrt"](functools.reduce(operator.add, (p * p for p in parts)))
+
+
+MATH_OWN: dict[str, Callable[..., Any]] = {
+    "log": _log,
+    "hypot": _hypot,
+    "floor": lambda x: x.__floor__(),
+    "ceil": lambda x: x.__ceil__(),
+    "trunc": lambda x: x.__trunc__(),
+    "modf": lambda x: (x - SCALARS["trunc"](x), SCALARS["trunc"](x)),
+}
+
+SEQUENCES: dict[str, Callable[..., Any]] = {
+    "fsum": lambda terms: functools.reduce(operator.add, terms),
+    "prod": lambda terms, start=1: functools.reduce(operator.mul, terms, start),
+    "dist": lambda p, q: _hypot(*(a - b for a, b in zip(p, q, strict=True))),
+}
+
+
+def _as_python(result: Any) -> Any:
+    """math's functions return Python's numbers, whatever they are given."""
+    return (
+        Symbol(result.graph, result.node, result.kind, True) if type(result) is Symbol else result
+    )
+
+
+@functools.cache
+def math_function(name: str) -> Callable[..., Any]:
+    real: Callable[..., Any] = getattr(math, name)
+
+    def call(*arguments: Any, **options: Any) -> Any:
+        if not numpy_functions.has_symbols(arguments):
+            return real(*numpy_functions.plain(arguments), **options)
+        if name in SEQUENCES:
+            return _as_python(SEQUENCES[name](*arguments, **options))
+        arguments = tuple(_one(a) for a in arguments)
+        if name in MATH_OWN:
+            return _as_python(MATH_OWN[name](*arguments, **options))
+        if name not in MATH:
+            refuse(f"calls math.{name}, which has no symbolic form", "write it out")
+        if not all(is_number(a) for a in arguments):
+            raise TypeError(f"must be real number, not {type(arguments[0]).__name__}")
+        return _as_python(apply(MATH[name], *arguments))
+
+    return call
+
+
+class Math:
+    """The module math, for symbols and numbers."""
+
+    def __getattr__(self, name: str) -> Any:
+        value = getattr(math, name)
+        return math_function(name) if callable(value) else value
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        refuse(f"writes math.{name}")
+
+
+MATH_FACE = Math()
+
+
+class PlainModule:
+    """A module whose functions take symbols as they are."""
+
+    def __init__(self, module: ModuleType, names: list[str]):
+        self._module = module
+        self._names = names
+
+    def __getattr__(self, name: str) -> Any:
+        value = getattr(self._module, name)
+        return value if name in self._names else Foreign(f"{self._module.__name__}.{name}")
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        if not name.startswith("_"):
+            refuse(f"writes {self._module.__name__}.{name}")
+        object.__setattr__(self, name, value)
+
+
+PLAIN_MODULES: dict[Any, Any] = {
+    operator: PlainModule(operator, dir(operator)),
+    itertools: PlainModule(itertools, dir(itertools)),
+    functools: PlainModule(functools, ["partial", "reduce"]),
+}
+
+
+def _is_numpy(value: Any) -> bool:
+    module = getattr(value, "__module__", None)
+    return isinstance(module, str) and module.split(".")[0] == "numpy"
+
+
+def face_of(value: Any) -> Any:
+    """The face of a module, function or type of numpy, math or Python; None if it has none."""
+    if isinstance(value, ModuleType):
+        known: dict[Any, Any] = {np: NUMPY, np.linalg: LINALG, math: MATH_FACE, **PLAIN_MODULES}
+        return known.get(value)
+    if isinstance(value, np.ufunc):
+        return _numpy_value(value.__name__, value)
+    if isinstance(value, BuiltinFunctionType) and value.__module__ == "math":
+        return math_function(value.__name__)
+    if _is_numpy(value) and callable(value) and not isinstance(value, np.generic):
+        return _of_numpy(value)
+    return _of_python(value)
+
+
+def _of_numpy(value: Any) -> Any:
+    name = getattr(value, "__name__", "")
+    for module in (np, np.linalg):
+        if getattr(module, name, None) is value:
+            return _numpy_value(name, value)
+    return None
+
+
+def _of_python(value: Any) -> Any:
+    name = getattr(value, "__name__", "")
+    if getattr(builtins, name, None) is value:
+        return BUILTINS[name]
+    module = getattr(value, "__module__", None)
+    safe = module in SAFE_MODULES or value is functools.reduce
+    return value if safe and not isinstance(value, FunctionType) else None
+
+
+def _import(
+    name: str, globals: Any = None, locals: Any = None, fromlist: Any = (), level: int = 0
+) -> Any:
+    """`import numpy` inside a function."""
+    root = {"numpy": NUMPY, "math": MATH_FACE}
+    root.update({module.__name__: face for module, face in PLAIN_MODULES.items()})
+    root["numpy.linalg"] = LINALG if fromlist else NUMPY
+    if level or name not in root:
+        return Foreign(name, "import it at the top of the file")
+    return root[name]
+
+
+EFFECTS = {
+    "print": "it prints",
+    "open": "it opens a file",
+    "input": "it asks the user",
+    "breakpoint": "it stops",
+}
+
+
+def _table() -> dict[str, Any]:
+    table: dict[str, Any] = {}
+    for name, value in vars(builtins).items():
+        if name in SAFE or not callable(value):
+            table[name] = value
+        elif isinstance(value, type) and issubclass(value, BaseException):
+            table[name] = value
+        else:
+            table[name] = Foreign(name, EFFECTS.get(name, ""))
+    table.update(REPLACED)
+    table["__import__"] = _import
+    return table
+
+
+BUILTINS = _table()

@@ -1,0 +1,123 @@
+"""What `trace` is told of a function, and what it answers."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from saltus.tracing.watch import Watch
+
+Shape = tuple[int, ...]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Signature:
+    """How a function is called, and around which values."""
+
+    function: Callable[..., Any]
+    owner: Any = None
+    """the block, if the function takes it first (a method that was stripped of its block)"""
+    convention: str = "state"
+    """'state': f(time, state, *inputs, **parameters); 'inputs': f((u_0, u_1, ...)); 'input':
+    f(u_0); 'vector': f(time, x, *inputs, **parameters), x the continuous state alone
+    """
+    block: str = ""
+    """its name, for messages"""
+    state_shape: Shape = (0,)
+    discrete_shape: Shape = (0,)
+    mode: int = 0
+    """the mode it starts in"""
+    x: ArrayLike | None = None
+    """continuous state it starts with, zeros if not said; points of the check lie around it"""
+    z: ArrayLike | None = None
+    parameters: Mapping[str, ArrayLike] = field(default_factory=dict)
+    """by name, in the order the engine stores them"""
+    input_shapes: Sequence[Shape] = ()
+    """of every input of the block: () comes as a float, (n,) as an array"""
+    inputs: Sequence[int] | None = None
+    """positions of the inputs the function gets; all if not said"""
+    kind: str = "vector"
+    """'vector' and 'matrix' return numbers, 'reset' a state, 'update' a state or a discrete one"""
+    out: bool = False
+    """the function takes an array by the keyword `out`, fills it and returns nothing"""
+    out_shape: Shape | None = None
+    """of that array; (result_size,) if not said"""
+    result_size: int | None = None
+    """how many numbers it returns, where that is known"""
+    modes: Sequence[int] = (0, 1, 2, 3)
+    """modes the check tries where the function reads the mode"""
+
+    @property
+    def passed(self) -> Sequence[int]:
+        """Positions of the inputs the function gets."""
+        return range(len(self.input_shapes)) if self.inputs is None else self.inputs
+
+    def filled_shape(self) -> Shape:
+        """Of the array `out`."""
+        if self.out_shape is not None:
+            return self.out_shape
+        if self.result_size is None:
+            raise ValueError("a function with `out`: give out_shape or result_size")
+        return (self.result_size,)
+
+    def start(self, what: str) -> NDArray[np.float64]:
+        """The continuous ('x') or discrete ('z') state it starts with, flat."""
+        value = self.x if what == "x" else self.z
+        shape = self.state_shape if what == "x" else self.discrete_shape
+        filled = np.zeros(shape) if value is None else np.asarray(value, dtype=float)
+        return filled.reshape(-1)
+
+
+@dataclass(frozen=True)
+class Relations:
+    """A truth that is made of comparisons a < b, a <= b, a > b, a >= b of real expressions.
+
+    `differences` is a tape of one number for each comparison, positive where it is true, negative
+    where it is not: the guard of a `Relation`. `true_at_zero` says what zero means. `truth` is a
+    tape over their truths: it reads truth k, 0 or 1, as entry k of the discrete state, nothing
+    else, and gives the values of the output.
+    """
+
+    differences: Any
+    true_at_zero: tuple[bool, ...]
+    truth: Any
+
+
+@dataclass(frozen=True)
+class Traced:
+    """A function that became a tape, checked against the function itself."""
+
+    tape: Any
+    """gives the result, flat; of a reset or an update x+, z+, mode+ one after the other, of those
+    written
+    """
+    shape: Shape
+    """of what the function returns"""
+    boolean: bool
+    comparison: tuple[Any, bool] | None
+    """(tape of the difference, true_at_zero) where every entry of the result is one comparison, as
+    in `Relations`, entry for entry
+    """
+    relations: Relations | None
+    """where the result is made of comparisons by and, or, not, ==, != and np.where alone"""
+    wrote_x: bool
+    wrote_z: bool
+    wrote_mode: bool
+    watch: Watch
+    """`watch.changed()` says what the tape was made from and is different now"""
+    compared: int = 0
+    """points at which tape and function were compared"""
+
+
+@dataclass(frozen=True)
+class Refused:
+    """A function that has to be called."""
+
+    reason: str
+    """one sentence: what was met, where, and what to do"""
+    watch: Watch = field(default_factory=Watch)
+    """what was read until then: if it changes, another try may go well"""

@@ -1,0 +1,131 @@
+"""`trace`: a function of Python becomes a tape, or a reason why not."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from saltus import _core
+from saltus.tracing import relations
+from saltus.tracing.arguments import Point, Result, Symbols, call, result_of
+from saltus.tracing.array import array
+from saltus.tracing.check import Check, points
+from saltus.tracing.refusal import Refusal, raised_at
+from saltus.tracing.rounding import Bounds
+from saltus.tracing.sandbox import Sandbox
+from saltus.tracing.signature import Refused, Signature, Traced
+from saltus.tracing.symbol import Symbol
+
+
+def trace(signature: Signature) -> Traced | Refused:
+    """Call a function once with symbols and make a tape of what it computes.
+
+    The function is not called itself before a copy of it, which cannot write to anything outside,
+    has shown that it has no effects. Then tape and function are compared at a dozen points.
+
+    Parameters
+    ----------
+    signature : Signature
+        the function, how it is called, and the values it starts with.
+
+    Returns
+    -------
+    Traced or Refused
+        a tape that gives what the function gives, to a few roundings; or one sentence that says
+        what cannot be traced, where, and what to do. What the function raises when called with
+        symbols is such a reason, too: it will be raised again when the function is called.
+
+    Notes
+    -----
+    Where the function would raise for its values (Python's 1.0 / 0.0, math.sqrt(-1.0)) the tape
+    gives infinity or NaN. np.where and its like stay inside the tape: a kink in a derivative,
+    which no guard locates.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> def fall(time, state, **parameters):
+    ...     y, v = state.continuous_state
+    ...     return np.array([v, -9.81])
+    >>> traced = trace(Signature(function=fall, state_shape=(2,)))
+    >>> traced.tape(0.0, np.array([10.0, 3.0]), np.empty(0), 0, 0, np.empty(0), [])
+    array([ 3.  , -9.81])
+    """
+    sandbox = Sandbox()
+    try:
+        return _traced(signature, sandbox)
+    except Refusal as refusal:
+        return Refused(str(refusal), sandbox.watch)
+    except Exception as error:
+        place = raised_at(error.__traceback__)
+        what = f"{type(error).__name__}: {error}" if str(error) else type(error).__name__
+        return Refused(
+            f"raised {what}{f' at {place}' if place else ''} when it was called with symbols; "
+            "use numpy, math and plain Python on them",
+            sandbox.watch,
+        )
+
+
+def _traced(signature: Signature, sandbox: Sandbox) -> Traced | Refused:
+    graph = _core.Graph()
+    symbols = Symbols(graph, signature)
+    function = sandbox.form_of(signature.function, _name(signature.function))
+    arguments, options, _ = symbols.arguments()
+    if signature.owner is not None:
+        arguments.insert(0, sandbox.form_of(signature.owner, "self"))
+    returned = call(
+        signature, function, arguments, options, lambda shape: array(np.full(shape, np.nan))
+    )
+    result = result_of(signature, returned)
+    sandbox.refuse_writes()
+    if signature.result_size is not None and signature.kind in ("vector", "matrix"):
+        _require_size(result, signature.result_size)
+    _to_nodes(graph, result)
+    tape = graph.tape(result.numbers)
+    check = Check(signature, tape, result, functools.partial(Bounds, graph, symbols.variables))
+    compared = _checked(signature, check, tape)
+    return _outcome(graph, tape, result, sandbox, compared)
+
+
+def _name(function: Callable[..., Any]) -> str:
+    return getattr(function, "__name__", type(function).__name__)
+
+
+def _require_size(result: Result, size: int) -> None:
+    if len(result.numbers) != size:
+        raise Refusal(f"returns {len(result.numbers)} numbers, expected {size}")
+
+
+def _to_nodes(graph: Any, result: Result) -> None:
+    result.numbers = [
+        number.node if type(number) is Symbol else graph.constant(float(number))
+        for number in result.numbers
+    ]
+
+
+def _checked(signature: Signature, check: Check, tape: Any) -> int:
+    function = signature.function
+    if signature.owner is not None:
+        function = functools.partial(function, signature.owner)
+    at: list[Point] = points(signature, "mode" in tape.reads)
+    with np.errstate(all="ignore"):
+        return check.run(function, at)
+
+
+def _outcome(graph: Any, tape: Any, result: Result, sandbox: Sandbox, compared: int) -> Traced:
+    truths = result.boolean and not result.written
+    return Traced(
+        tape=tape,
+        shape=result.shape,
+        boolean=result.boolean,
+        comparison=relations.single(graph, result.numbers) if truths else None,
+        relations=relations.find(_core.Graph, graph, result.numbers) if truths else None,
+        wrote_x="x" in result.written,
+        wrote_z="z" in result.written,
+        wrote_mode="m" in result.written,
+        watch=sandbox.watch,
+        compared=compared,
+    )

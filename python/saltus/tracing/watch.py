@@ -1,0 +1,115 @@
+"""`Watch`: what a function read from outside while it was traced, and whether it has changed."""
+
+from __future__ import annotations
+
+import math
+import reprlib
+from collections.abc import Callable, Mapping
+from types import CodeType
+from typing import Any
+
+import numpy as np
+
+MISSING: Any = type("Missing", (), {"__repr__": lambda self: "not there"})()
+
+PLAIN = (bool, int, float, str, bytes, complex, type(None), np.generic)
+"""values that never change"""
+
+LARGEST = 10_000  # entries; a comparison before every run has to be quick
+
+Get = Callable[[Any, Any], Any]
+
+
+def content(value: Any) -> Any:
+    """What of a value can change while it stays the same object, as something to compare."""
+    if isinstance(value, np.ndarray):
+        return (value.shape, value.dtype.str, value.tobytes())
+    if isinstance(value, (list, tuple)):
+        return (type(value), *map(content, value))
+    if isinstance(value, Mapping) and isinstance(value, dict):
+        return (dict, *((key, content(entry)) for key, entry in value.items()))
+    return value if isinstance(value, PLAIN) else id(value)
+
+
+def entries(value: Any) -> int:
+    """How many numbers a comparison of the value has to look at."""
+    if isinstance(value, np.ndarray):
+        return value.size
+    if isinstance(value, (list, tuple)):
+        return sum(map(entries, value))
+    return sum(map(entries, value.values())) if isinstance(value, dict) else 1
+
+
+def _changes(value: Any) -> bool:
+    return isinstance(value, (np.ndarray, list, tuple, dict))
+
+
+def _same(a: Any, b: Any) -> bool:
+    if type(a) is not type(b):
+        return False
+    if isinstance(a, (float, np.floating)):
+        return (a == b and math.copysign(1.0, a) == math.copysign(1.0, b)) or (a != a and b != b)
+    return bool(a == b) if isinstance(a, PLAIN) else a is b
+
+
+def _named(value: Any) -> str:
+    """A value in few words."""
+    if isinstance(value, CodeType):
+        return f"compiled from line {value.co_firstlineno}"
+    name = getattr(value, "__qualname__", None)
+    return name if isinstance(name, str) else reprlib.repr(value)
+
+
+class Watch:
+    """The values a tape was made from, by the words a user knows them by.
+
+    Examples
+    --------
+    >>> from types import SimpleNamespace
+    >>> ball = SimpleNamespace(e=0.9)
+    >>> watch = Watch()
+    >>> watch.add("self.e", vars(ball).get, "e", 0.9)
+    >>> watch.changed()
+    >>> ball.e = 0.8
+    >>> watch.changed()
+    'self.e was 0.9, is 0.8'
+    """
+
+    def __init__(self) -> None:
+        self._reads: list[tuple[str, Get, Any, Any, Any]] = []
+        self._known: set[tuple[int, Any]] = set()
+
+    def __len__(self) -> int:
+        return len(self._reads)
+
+    def add(self, words: str, get: Get, key: Any, value: Any) -> None:
+        """Remember that get(key, default) gave `value`."""
+        self._reads.append((words, get, key, value, content(value) if _changes(value) else None))
+
+    def add_entry(self, words: str, mapping: Any, key: Any, value: Any) -> None:
+        """Remember an entry of a dictionary, once."""
+        if (id(mapping), key) not in self._known:
+            self._known.add((id(mapping), key))
+            self.add(words, mapping.get, key, value)
+
+    def changed(self) -> str | None:
+        """What changed since, in words, or None.
+
+        Returns
+        -------
+        str or None
+            such as "self.e was 0.9, is 0.8": the tape must be made anew.
+        """
+        for words, get, key, value, inside in self._reads:
+            now = get(key, MISSING)
+            if now is value:
+                if inside is None or content(now) == inside:
+                    continue
+                return f"{words} changed in place"
+            if not (_same(value, now) if inside is None else content(now) == inside):
+                return f"{words} was {_named(value)}, is {_named(now)}"
+        return None
+
+    def merge(self, other: Watch) -> None:
+        """Watch what another one does, too."""
+        self._reads += other._reads

@@ -1,0 +1,47 @@
+#include "saltus/tape/tape.hpp"
+
+#include <algorithm>
+
+#include "program.hpp"
+#include "saltus/base/error.hpp"
+
+namespace saltus::tape {
+
+Tape::Tape(const Graph& graph, std::span<const Node> outputs)
+    : program_(std::make_shared<const detail::Program>(detail::build(graph, outputs))) {}
+
+void Tape::evaluate(const At& at, double* out) const { detail::run(*program_, at, out); }
+
+Index Tape::size() const noexcept { return static_cast<Index>(program_->outputs.size()); }
+int Tape::instruction_count() const noexcept {
+  return static_cast<int>(program_->instructions.size());
+}
+Reads Tape::reads() const noexcept { return program_->reads; }
+bool Tape::reads_input(int k) const noexcept {
+  return std::ranges::find(program_->inputs, k) != program_->inputs.end();
+}
+bool Tape::reads_parameter() const noexcept { return program_->p > 0; }
+bool Tape::reads_entry() const noexcept { return program_->reads_entry; }
+const Graph& Tape::graph() const noexcept { return program_->graph; }
+const std::vector<Node>& Tape::outputs() const noexcept { return program_->outputs; }
+
+void Tape::check(const At& at) const {
+  const auto expect = [](const std::string& what, Index needed, Index found) {
+    if (found >= needed) return;
+    throw ModelError(text("a tape that reads entry ", needed - 1, " of the ", what,
+                          " expects at least ", needed, " of them, found ", found));
+  };
+  expect("continuous state", program_->x, at.x.size());
+  expect("discrete state", program_->z, at.z.size());
+  expect("parameters", program_->p, at.p.size());
+  for (std::size_t i = 0; i < program_->inputs.size(); ++i) {
+    const int port = program_->inputs[i];
+    if (port >= at.u.size()) {
+      throw ModelError(text("a tape that reads input ", port, " expects at least ", port + 1,
+                            " inputs, found ", at.u.size()));
+    }
+    expect(text("input ", port), program_->widths[i], at.u[port].size());
+  }
+}
+
+}  // namespace saltus::tape
