@@ -111,7 +111,7 @@ class System:
     input_names: list[str]
     output_names: list[str]
     interpreted_blocks: list[str]
-    """blocks that call Python during a run"""
+    """the paths of the blocks in it whose Python functions a run calls"""
 
     @property
     def input_ports(self) -> tuple[InputPort, ...]:

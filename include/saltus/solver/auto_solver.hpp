@@ -88,7 +88,7 @@ class AutoSolver final : public Solver {
   bool now_at_step_end() const { return now().at_step_end(); }
 
   void begin_run(double t) {
-    stiff_ = false, bdf_.reset();
+    stiff_ = false, bdf_.reset(), radius_.forget();
     past_.clear(), begun_ = t, steps_before_ = 0;
     longest_ = window_ = 0.0, patience_ = 2;
   }

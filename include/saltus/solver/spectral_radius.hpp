@@ -42,18 +42,20 @@ class SpectralRadius {
       direction_ = (moved_ - f_).cwiseQuotient(scale_) / small;
       growth = direction_.norm();
       if (growth == 0.0) return 0.0;
-      if (!std::isfinite(growth)) return forget();
+      if (!std::isfinite(growth)) {
+        forget();
+        return std::numeric_limits<double>::infinity();
+      }
       direction_ /= growth;
     }
     return growth;
   }
 
- private:
-  double forget() {
-    direction_.setZero();
-    return std::numeric_limits<double>::infinity();
-  }
+  /// Begins with no direction, as a new one does: what was found depends on nothing that was asked
+  /// before.
+  void forget() { direction_.setZero(); }
 
+ private:
   Machine* machine_;
   double floor_;
   Eigen::VectorXd direction_, f_, moved_, scale_, point_;

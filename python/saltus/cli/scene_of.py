@@ -79,7 +79,8 @@ def _own(name: str, settings: dict[str, Any]) -> Chosen:
     found = _attribute(_module(place), attribute, place)
     arguments: set[str] = set()
     if not isinstance(found, (System, Scene)) and callable(found):
-        arguments, found = _made(found, settings, name)
+        arguments = _arguments_of(found, settings, name)
+        found = _made(found, {n: v for n, v in settings.items() if n in arguments}, name)
     if isinstance(found, Scene):
         context, span, options = found.context, found.t_span, found.options
         system: System = found.system
@@ -140,22 +141,27 @@ def _attribute(module: Any, attribute: str, place: str) -> Any:
         raise ModelError(f"'{place}' has no '{attribute}'{hint}") from None
 
 
-def _made(make: Callable[..., Any], settings: dict[str, Any], name: str) -> tuple[set[str], Any]:
-    """Which settings are arguments of the function, and what it makes of them."""
+def _arguments_of(make: Callable[..., Any], settings: dict[str, Any], name: str) -> set[str]:
+    """The names of all arguments of a function. ModelError where a needed one is not set."""
     try:
         parameters = inspect.signature(make).parameters.values()
     except (TypeError, ValueError):
         raise ModelError(f"'{name}': expected a function that makes a system") from None
     known = {p.name for p in parameters if p.kind in (p.POSITIONAL_OR_KEYWORD, p.KEYWORD_ONLY)}
+    for parameter in parameters:
+        needed = parameter.default is parameter.empty and parameter.name in known
+        if needed and parameter.name not in settings:
+            raise ModelError(
+                f"'{name}' needs a value of '{parameter.name}': --set {parameter.name}=VALUE"
+            )
     if any(p.kind is p.VAR_KEYWORD for p in parameters):
         known |= {n for n in settings if n.isidentifier()}
-    needed = [p.name for p in parameters if p.default is p.empty and p.name in known]
-    for missing in needed:
-        if missing not in settings:
-            raise ModelError(f"'{name}' needs a value of '{missing}': --set {missing}=VALUE")
-    given = {n: v for n, v in settings.items() if n in known}
+    return known
+
+
+def _made(make: Callable[..., Any], arguments: dict[str, Any], name: str) -> Any:
     try:
-        return set(given), make(**given)
+        return make(**arguments)
     except ModelError:
         raise
     except Exception as error:  # whatever the function raised

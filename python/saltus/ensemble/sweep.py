@@ -303,7 +303,7 @@ class _Progress:
     def __enter__(self) -> _Progress:
         if self.wanted:
             try:
-                import tqdm
+                import tqdm  # type: ignore[import-untyped,unused-ignore]
 
                 self.bar = tqdm.tqdm(total=self.runs, unit="run")
             except ImportError:

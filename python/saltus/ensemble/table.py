@@ -84,7 +84,7 @@ def _taken(column: Column, rows: np.ndarray) -> Column:
 
 def _filled(value: object, runs: int) -> Column:
     number = isinstance(value, (int, float, np.number))
-    return np.full(runs, value) if number else [value] * runs  # type: ignore[arg-type]
+    return np.full(runs, value) if number else [value] * runs
 
 
 def _grid(columns: Mapping[str, Any]) -> Table:
@@ -114,7 +114,7 @@ def _paired(columns: Mapping[str, Any]) -> Table:
     return Table(full, {"run": list(range(runs))}, runs)
 
 
-def _columns_of(rows: Sequence[object]) -> dict[str, list[Any]]:
+def _columns_of(rows: Sequence[Any]) -> dict[str, Any]:
     names: list[str] = []
     for i, row in enumerate(rows):
         if not isinstance(row, Mapping):
@@ -126,4 +126,4 @@ def _columns_of(rows: Sequence[object]) -> dict[str, list[Any]]:
         elif set(row) != set(names):
             missing = sorted(map(str, set(names) ^ set(row)))
             raise ModelError(f"sweep: row {i} names other values than row 0: {', '.join(missing)}")
-    return {name: _column([row[name] for row in rows]) for name in names}  # type: ignore[index]
+    return {name: _column([row[name] for row in rows]) for name in names}
