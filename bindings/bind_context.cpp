@@ -2,6 +2,7 @@
 #include <pybind11/stl.h>
 
 #include "bindings.hpp"
+#include "context_docs.hpp"
 #include "numbers.hpp"
 #include "saltus/model/system.hpp"
 
@@ -81,13 +82,7 @@ std::string repr(const Context& context) {
 }  // namespace
 
 void bind_context(py::module_& module) {
-  py::class_<Context> context(
-      module, "Context",
-      R"(All values of a system at one time. Made by `system.create_context()`.
-
-A context is a value: each `with_*` returns a new one, the old one and the system stay as they are. The states of a
-diagram are one vector, block after block in the order of `add`; `context[block.system_id]` is the context of one block.
-Wrong sizes, values that are not finite and unknown names are refused with a ModelError.)");
+  py::class_<Context> context(module, "Context", docs::context);
   context.def_property_readonly("time", &Context::time, "[s]")
       .def_property_readonly(
           "continuous_state", [](const Context& c) { return shown(c.continuous_state()); },
@@ -101,24 +96,22 @@ Wrong sizes, values that are not finite and unknown names are refused with a Mod
       .def_property_readonly(
           "parameters", &parameters,
           "Every parameter by name, a number or a read-only vector; in a diagram by 'block.name'.")
-      .def("with_time", &Context::with_time, py::arg("time"), "This context at another time [s].")
+      .def("with_time", &Context::with_time, py::arg("time"), docs::with_time)
       .def(
           "with_continuous_state",
           [](const Context& c, py::handle x) {
             return c.with_continuous_state(to_vector(x, "continuous state"));
           },
-          py::arg("continuous_state"),
-          "All continuous states replaced: a vector, or a number where there is one state.")
+          py::arg("continuous_state"), docs::with_continuous_state)
       .def(
           "with_discrete_state",
           [](const Context& c, py::handle z) {
             return c.with_discrete_state(to_vector(z, "discrete state"));
           },
-          py::arg("discrete_state"), "All discrete states replaced.")
-      .def("with_mode", &Context::with_mode, py::arg("mode"),
-           "Another mode, of a context of one block.")
+          py::arg("discrete_state"), docs::with_discrete_state)
+      .def("with_mode", &Context::with_mode, py::arg("mode"), docs::with_mode)
       .def("with_parameter", &with_parameter, py::arg("name"), py::arg("value"),
-           "One parameter replaced; a number for a vector parameter fills it.")
+           docs::with_parameter)
       .def(
           "with_parameters",
           [](Context context, const py::dict& values) {
@@ -126,18 +119,16 @@ Wrong sizes, values that are not finite and unknown names are refused with a Mod
               context = with_parameter(context, name.cast<std::string>(), value);
             return context;
           },
-          py::arg("values"), "Several parameters replaced, from a dict of names and values.")
+          py::arg("values"), docs::with_parameters)
       .def(
           "__getitem__", [](const Context& c, py::handle system) { return c[id_of(system)]; },
-          py::arg("system"),
-          "The context of one block or inner diagram, given it or its `system_id`.")
+          py::arg("system"), docs::subcontext)
       .def(
           "with_subcontext",
           [](const Context& c, py::handle system, const Context& part) {
             return c.with_subcontext(id_of(system), part);
           },
-          py::arg("system"), py::arg("context"),
-          "The values of one block or inner diagram replaced.")
+          py::arg("system"), py::arg("context"), docs::with_subcontext)
       .def(
           "__eq__", [](const Context& a, const Context& b) { return equal(a, b); },
           py::is_operator())

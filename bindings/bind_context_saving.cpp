@@ -2,6 +2,7 @@
 #include <pybind11/stl.h>
 
 #include "bindings.hpp"
+#include "context_docs.hpp"
 #include "numbers.hpp"
 #include "saltus/model/system.hpp"
 
@@ -157,16 +158,14 @@ Context blank_of(const std::shared_ptr<const Layout>& layout) { return Context::
 }  // namespace
 
 void bind_context_saving(py::class_<Context>& context) {
-  context
-      .def(
-          "to_dict", [](const Context& c) { return data_of(c); },
-          "Everything in it as plain data, block by block: for JSON or the like.")
+  context.def(
+             "to_dict", [](const Context& c) { return data_of(c); }, docs::to_dict)
       .def(
           "to_json",
           [](const Context& c) {
             return py::module_::import("json").attr("dumps")(data_of(c), "indent"_a = 1);
           },
-          "The same as text; `system.context_from_json(text)` reads it, to the last bit.")
+          docs::to_json)
       .def(py::pickle(
           [](const Context& c) { return py::make_tuple(layout_data(c.layout()), data_of(c)); },
           [](const py::tuple& state) {

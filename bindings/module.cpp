@@ -8,6 +8,7 @@ PYBIND11_MODULE(_core, module) {
   bind_errors(module);
   bind_context(module);
   bind_system(module);
+  bind_picture(module);
   bind_leaf_system(module);
   bind_sources(module);
   bind_arithmetic(module);
@@ -19,4 +20,5 @@ PYBIND11_MODULE(_core, module) {
   bind_shelf(module);
   bind_report(module);
   bind_tape(module);
+  bind_ladder(module);
 }

@@ -28,6 +28,8 @@ class SharedSystem final : public System {
   /// The names of the blocks of a diagram; of a leaf none.
   std::vector<std::string> block_names() const;
 
+  std::string kind() const override { return system_->kind(); }
+  const System& itself() const override { return system_->itself(); }
   std::vector<std::string> input_names() const override { return system_->input_names(); }
   std::vector<std::string> output_names() const override { return system_->output_names(); }
   void collect(Structure& out, const std::string& path) const override {

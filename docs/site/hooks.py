@@ -66,7 +66,7 @@ def place_on_site(path):
     """Where a file of the checkout is on the site, as MkDocs names its source."""
     if path in PAGES:
         return PAGES[path]
-    if not path.startswith("docs/"):
+    if not path.startswith("docs/") or path.endswith(".py"):
         return None
     inside = path.removeprefix("docs/")
     return f"{inside}/README.md" if (ROOT / path).is_dir() else inside

@@ -14,6 +14,7 @@ from snippets import ROOT, fences
 
 plt.rcParams.update(
     {
+        "figure.constrained_layout.use": True,
         "axes.spines.right": False,
         "axes.spines.top": False,
         "figure.figsize": (6.4, 3.0),
@@ -26,22 +27,34 @@ plt.rcParams.update(
 )
 
 
-def draw(fence):
+def run(fence):
+    values = {"__name__": "__main__"}
     with contextlib.redirect_stdout(io.StringIO()):
-        exec(compile(fence.program, fence.where, "exec"), {"__name__": "__main__"})
+        exec(compile(fence.program, fence.where, "exec"), values)
+    return values
+
+
+def figure(fence):
+    run(fence)
     text = io.StringIO()
     plt.gcf().savefig(text, format="svg", metadata={"Date": None, "Creator": None})
-    plt.close("all")
-    fence.picture.parent.mkdir(exist_ok=True)
-    fence.picture.write_text(re.sub(r"(\d\.\d\d)\d+", r"\1", text.getvalue()))
+    return re.sub(r"(\d\.\d\d)\d+", r"\1", text.getvalue())
+
+
+def drawing(fence):
+    return run(fence)["system"]._repr_svg_()  # None where Graphviz is not installed
 
 
 def main():
     os.chdir(tempfile.mkdtemp())  # programs may write files
     for fence in fences("python"):
-        if fence.picture:
-            draw(fence)
-            print(os.path.relpath(fence.picture, ROOT), flush=True)
+        for flag, draw in (("picture", figure), ("drawing", drawing)):
+            path = fence.file(flag)
+            text = draw(fence) if path else None
+            plt.close("all")
+            if text:
+                path.write_text(text)
+                print(os.path.relpath(path, ROOT), flush=True)
 
 
 if __name__ == "__main__":

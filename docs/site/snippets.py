@@ -3,7 +3,8 @@
 In the line that opens a fence, after the language:
 
 - `continue` puts the fence after the one before it in the same language;
-- `picture=FILE` says that the last figure it makes is that picture;
+- `picture=FILE` says that the last figure it makes is that picture, `drawing=FILE` that Graphviz's
+  of its `system` is;
 - `no-run` is for shell text only: Python and C++ shown to readers must run.
 
 A fence ```text output holds what the fence before it prints, with `...` for what may differ.
@@ -33,9 +34,9 @@ class Fence:
     def where(self):
         return f"{self.document.relative_to(ROOT)}:{self.line}"
 
-    @property
-    def picture(self):
-        names = [flag.removeprefix("picture=") for flag in self.flags if "picture=" in flag]
+    def file(self, flag):
+        """What `picture` or `drawing` says, as a path."""
+        names = [f.removeprefix(f"{flag}=") for f in self.flags if f.startswith(f"{flag}=")]
         return self.document.parent / names[0] if names else None
 
 

@@ -6,9 +6,11 @@ runs it.
 
 from saltus import library, simulation
 from saltus._core import Context, State, __version__
+from saltus.compiled import Compiled, compiled
 from saltus.diagram import Diagram, DiagramBuilder
 from saltus.ensemble import sweep
 from saltus.errors import Error, ModelError, SimulationError
+from saltus.ladder import Explanation, Rung
 from saltus.leaf_system import LeafSystem
 from saltus.progress import Progress
 from saltus.report import WorkPrecision, work_precision
@@ -21,12 +23,14 @@ from saltus.solving.solve import solve
 from saltus.system import InputPort, OutputPort, System
 
 __all__ = [
+    "Compiled",
     "Context",
     "Diagram",
     "DiagramBuilder",
     "Error",
     "Event",
     "EventLog",
+    "Explanation",
     "Guard",
     "InputPort",
     "LeafSystem",
@@ -34,6 +38,7 @@ __all__ = [
     "OutputPort",
     "Progress",
     "Results",
+    "Rung",
     "Scene",
     "SimulationError",
     "Simulator",
@@ -45,6 +50,7 @@ __all__ = [
     "Values",
     "WorkPrecision",
     "__version__",
+    "compiled",
     "library",
     "load_results",
     "scene",

@@ -19,11 +19,25 @@ def _port(port: object, kind: type[OutputPort] | type[InputPort]) -> tuple[Syste
 
 
 class Diagram(System, _core.Diagram):
-    """A system of blocks and wires, made by `DiagramBuilder.build`. `diagram["gain"]` is the block
-    of that name.
+    """A system of blocks and wires, made by `DiagramBuilder.build`.
 
-    A diagram is a system like any other: it can be added to another diagram, to any depth. It keeps
-    its blocks alive.
+    `diagram["gain"]` is the block of that name. A diagram is a system like any other: it can be
+    added to another diagram, to any depth. It keeps its blocks alive.
+
+    Examples
+    --------
+    >>> from saltus.library import Constant, Integrator
+    >>> builder = saltus.DiagramBuilder()
+    >>> speed, x = builder.add(Constant(2.0, name="speed"), Integrator(name="x"))
+    >>> builder.connect(speed.output(), x.input())
+    >>> builder.export_output(x.output(), "position")
+    0
+    >>> diagram = builder.build("car")
+    >>> diagram["x"].name, [block.name for block in diagram.blocks]
+    ('x', ['speed', 'x'])
+    >>> results = saltus.simulate(diagram, diagram.create_context(), (0.0, 3.0))
+    >>> results.context[diagram["x"]].continuous_state
+    array([6.])
     """
 
     def __init__(self, builder: _core.DiagramBuilder, name: str, children: dict[str, System]):
@@ -45,8 +59,23 @@ class Diagram(System, _core.Diagram):
 class DiagramBuilder:
     """Collects blocks and wires, and is spent by `build`.
 
-    A name used twice, a port of a block that was not added, an input with two sources and, in
-    `build`, an input with none are a ModelError.
+    Raises
+    ------
+    ModelError
+        From each method: for a name used twice, a port of a block that was not added, an input with
+        two sources and, in `build`, an input with none.
+
+    Examples
+    --------
+    >>> from saltus.library import Constant, Integrator
+    >>> builder = saltus.DiagramBuilder()
+    >>> speed, x = builder.add(Constant(2.0, name="speed"), Integrator(name="x"))
+    >>> builder.connect(speed.output(), x.input())
+    >>> builder.export_output(x.output(), "position")
+    0
+    >>> diagram = builder.build("car")
+    >>> diagram.output_names
+    ['position']
     """
 
     def __init__(self) -> None:
@@ -58,7 +87,25 @@ class DiagramBuilder:
     @overload
     def add(self, *systems: System) -> tuple[System, ...]: ...
     def add(self, *systems: System) -> System | tuple[System, ...]:
-        """Adds blocks or diagrams; returns the one given, or all of them as a tuple."""
+        """Adds blocks or diagrams.
+
+        Parameters
+        ----------
+        systems
+            One or more. Each needs a name of its own in this diagram.
+
+        Returns
+        -------
+        System or tuple of System
+            The one given, or all of them as a tuple.
+
+        Examples
+        --------
+        >>> from saltus.library import Clock, Gain
+        >>> builder = saltus.DiagramBuilder()
+        >>> t = builder.add(Clock())
+        >>> double, half = builder.add(Gain(2.0), Gain(0.5))
+        """
         for system in systems:
             if not isinstance(system, System):
                 raise ModelError(f"add: expected a system, found {system!r}")
@@ -67,21 +114,110 @@ class DiagramBuilder:
         return systems[0] if len(systems) == 1 else systems
 
     def connect(self, source: OutputPort, destination: InputPort) -> None:
-        """A wire from an output to an input."""
+        """A wire from an output to an input.
+
+        Parameters
+        ----------
+        source
+            An output of a block that was added, such as `block.output()`; it may feed many
+            inputs.
+        destination
+            An input of a block that was added, such as `block.input("reset_trigger")`; it takes one
+            wire.
+
+        Raises
+        ------
+        ModelError
+            If the input has a source already, or a block was not added.
+
+        Examples
+        --------
+        >>> from saltus.library import Clock, Gain
+        >>> builder = saltus.DiagramBuilder()
+        >>> t, double = builder.add(Clock(name="t"), Gain(2.0, name="double"))
+        >>> builder.connect(t.output(), double.input())
+        >>> builder.connect(t.output(), double.input())
+        Traceback (most recent call last):
+            ...
+        saltus.errors.ModelError: input 'in' of block 'double' already has a source, ...
+        """
         self._core.connect(*_port(source, OutputPort), *_port(destination, InputPort))
 
     def export_input(self, port: InputPort, name: str | None = None) -> int:
-        """Makes an input of a block one of the diagram, called 'block_port' if not said; returns
-        its position there.
+        """Makes an input of a block one of the diagram.
+
+        Parameters
+        ----------
+        port
+            An input of a block that was added, without a source.
+        name
+            What it is called there; 'block_port' if not said.
+
+        Returns
+        -------
+        int
+            Its position among the inputs of the diagram.
+
+        Examples
+        --------
+        >>> from saltus.library import Gain
+        >>> builder = saltus.DiagramBuilder()
+        >>> gain = builder.add(Gain(2.0, name="gain"))
+        >>> builder.export_input(gain.input(), "u")
+        0
+        >>> builder.build().input_names
+        ['u']
         """
         return self._core.export_input(*_port(port, InputPort), name or "")
 
     def export_output(self, port: OutputPort, name: str | None = None) -> int:
-        """Makes an output of a block one of the diagram, called 'block_port' if not said; returns
-        its position there.
+        """Makes an output of a block one of the diagram.
+
+        Parameters
+        ----------
+        port
+            An output of a block that was added.
+        name
+            What it is called there; 'block_port' if not said.
+
+        Returns
+        -------
+        int
+            Its position among the outputs of the diagram.
+
+        Examples
+        --------
+        >>> from saltus.library import Clock
+        >>> builder = saltus.DiagramBuilder()
+        >>> clock = builder.add(Clock(name="clock"))
+        >>> builder.export_output(clock.output())
+        0
+        >>> builder.build().output_names
+        ['clock_out']
         """
         return self._core.export_output(*_port(port, OutputPort), name or "")
 
     def build(self, name: str = "root") -> Diagram:
-        """The diagram."""
+        """The diagram of what was added and connected.
+
+        Parameters
+        ----------
+        name
+            How messages know it, and a diagram that it is added to.
+
+        Raises
+        ------
+        ModelError
+            If an input of a block has no source, or nothing was added.
+
+        Examples
+        --------
+        >>> from saltus.library import Gain
+        >>> builder = saltus.DiagramBuilder()
+        >>> gain = builder.add(Gain(2.0, name="gain"))
+        >>> builder.build()
+        Traceback (most recent call last):
+            ...
+        saltus.errors.ModelError: input 'in' of block 'gain' is not connected; ...
+        """
         return Diagram(self._core, name, self._children)

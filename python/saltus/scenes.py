@@ -19,6 +19,12 @@ class SharedSystem(System, _core.SharedSystem):
     """A system that was made in C++, such as that of a scene of the shelf.
 
     It is a system like any other: it has ports and contexts, can be run, and added to a diagram.
+
+    Examples
+    --------
+    >>> system = saltus.scene("bouncing-ball-blocks").system
+    >>> [block.name for block in system.blocks][:2]
+    ['integrator_v', 'integrator_y']
     """
 
     def __init__(self, handle: _core.SystemHandle, again: tuple[Any, ...] | None = None):
@@ -43,7 +49,18 @@ class SharedSystem(System, _core.SharedSystem):
 
 
 class Scene:
-    """A system with all that a run of it needs, and what is known about the outcome."""
+    """A system with all that a run of it needs, and what is known about the outcome.
+
+    Made by `saltus.scene`.
+
+    Examples
+    --------
+    >>> scene = saltus.scene("bouncing-ball")
+    >>> scene.t_span, scene.context.continuous_state
+    ((0.0, 12.0), array([10.,  0.]))
+    >>> scene.simulate(rtol=1e-9).status
+    'reached_end'
+    """
 
     name: str
     """by which `saltus.scene` knows it"""
@@ -82,7 +99,7 @@ class Scene:
         self.invariants = core.invariants
 
     def _options(self, core: _core.Scene) -> SimulatorOptions:
-        same = {f.name for f in fields(SimulatorOptions)} - PYTHON_ONLY
+        same = {f.name for f in fields(SimulatorOptions)} - set(PYTHON_ONLY)
         values: dict[str, Any] = {name: getattr(core.options, name) for name in same}
         signals = {
             name: OutputPort(self.system if block == core.system else SharedSystem(block), index)
@@ -91,9 +108,23 @@ class Scene:
         return SimulatorOptions(recorded_signals=signals, **values)
 
     def simulate(self, **options: Any) -> Results:
-        """Runs the scene. Options given here, such as `rtol=1e-9`, replace those of the scene.
+        """Runs the scene.
 
-        Raises what `saltus.simulate` raises.
+        Parameters
+        ----------
+        options
+            Of `SimulatorOptions`, by name, such as `rtol=1e-9`; they replace those of the scene.
+
+        Raises
+        ------
+        ModelError, SimulationError
+            As `saltus.simulate` does.
+
+        Examples
+        --------
+        >>> results = saltus.scene("kepler").simulate(ode_solver_method="dop853")
+        >>> results.statistics.method
+        'dop853'
         """
         return simulate(self.system, self.context, self.t_span, self.options, **options)
 
@@ -105,8 +136,11 @@ class Scene:
 def shelf() -> dict[str, str]:
     """The names of all ready scenes, with their titles; hybrid ones first.
 
+    Examples
+    --------
     >>> for name, title in saltus.shelf().items():
-    ...     print(name, title)
+    ...     print(f"{name}: {title}")
+    bouncing-ball: ...
     """
     return dict(_core.shelf())
 

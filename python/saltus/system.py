@@ -4,23 +4,43 @@ from __future__ import annotations
 
 import json
 import operator
+from collections.abc import Mapping
 from dataclasses import dataclass
 
-from saltus import _core
+from saltus import _core, ladder
 from saltus.errors import ModelError
+from saltus.ladder import Explanation
 
 __all__ = ["InputPort", "OutputPort", "System"]
 
 
 @dataclass(frozen=True)
 class OutputPort:
-    """An output of a system, to connect or to record. It keeps its system alive."""
+    """An output of a system, to connect or to record. It keeps its system alive.
+
+    Parameters
+    ----------
+    system
+        The system it belongs to.
+    index
+        Its position among the outputs.
+
+    Examples
+    --------
+    >>> from saltus.library import Adder
+    >>> total = Adder("+-", name="total")
+    >>> total.output()
+    <output 'out' of 'total'>
+    >>> total.output().name, total.output().index
+    ('out', 0)
+    """
 
     system: System
     index: int
 
     @property
     def name(self) -> str:
+        """What the system calls it."""
         return self.system.output_names[self.index]
 
     def __repr__(self) -> str:
@@ -29,13 +49,31 @@ class OutputPort:
 
 @dataclass(frozen=True)
 class InputPort:
-    """An input of a system, to connect. It keeps its system alive."""
+    """An input of a system, to connect. It keeps its system alive.
+
+    Parameters
+    ----------
+    system
+        The system it belongs to.
+    index
+        Its position among the inputs.
+
+    Examples
+    --------
+    >>> from saltus.library import Adder
+    >>> total = Adder("+-", name="total")
+    >>> total.input("in_1")
+    <input 'in_1' of 'total'>
+    >>> total.input("in_1") == total.input_ports[1]
+    True
+    """
 
     system: System
     index: int
 
     @property
     def name(self) -> str:
+        """What the system calls it."""
         return self.system.input_names[self.index]
 
     def __repr__(self) -> str:
@@ -52,7 +90,19 @@ def _key(port: object) -> int | str:
 
 
 class System:
-    """A block or a diagram: structure, which a run never changes. The values are in a `Context`."""
+    """A block or a diagram: structure, which a run never changes. The values are in a `Context`.
+
+    Examples
+    --------
+    >>> from saltus.library import Adder
+    >>> total = Adder("+-", name="total")
+    >>> total.name, total.input_names, total.output_names
+    ('total', ['in_0', 'in_1'], ['out'])
+    >>> total.input_ports[1]
+    <input 'in_1' of 'total'>
+    >>> total.output_ports[0] == total.output()
+    True
+    """
 
     name: str
     """how messages and `diagram[...]` know it"""
@@ -74,18 +124,71 @@ class System:
         return tuple(OutputPort(self, i) for i in range(len(self.output_names)))
 
     def input(self, port: int | str = 0) -> InputPort:
-        """One input, by position or by name. ModelError lists the names there are."""
+        """One input.
+
+        Parameters
+        ----------
+        port
+            Its position or its name.
+
+        Raises
+        ------
+        ModelError
+            If there is none, with the names there are.
+
+        Examples
+        --------
+        >>> from saltus.library import Adder
+        >>> Adder("+-", name="total").input(1)
+        <input 'in_1' of 'total'>
+        """
         return InputPort(self, _core.System.find_input(self, _key(port)))
 
     def output(self, port: int | str = 0) -> OutputPort:
-        """One output, by position or by name. ModelError lists the names there are."""
+        """One output.
+
+        Parameters
+        ----------
+        port
+            Its position or its name.
+
+        Raises
+        ------
+        ModelError
+            If there is none, with the names there are.
+
+        Examples
+        --------
+        >>> from saltus.library import Gain
+        >>> Gain(2.0, name="gain").output("put")
+        Traceback (most recent call last):
+            ...
+        saltus.errors.ModelError: block 'gain' has no output 'put'; did you mean 'out'? Known: 'out'
+        """
         return OutputPort(self, _core.System.find_output(self, _key(port)))
 
     def context_from_json(self, text: str) -> _core.Context:
         """The context that `context.to_json()` wrote, of this system or one of the same blocks.
 
-        It has the same bits, and a run goes on from it as from the context in memory. ModelError
-        for text that is none, or of a system with other blocks.
+        It has the same bits, and a run goes on from it as from the context in memory.
+
+        Parameters
+        ----------
+        text
+            What `Context.to_json` gave.
+
+        Raises
+        ------
+        ModelError
+            For text that is no context, or one of a system with other blocks.
+
+        Examples
+        --------
+        >>> from saltus.library import Integrator
+        >>> x = Integrator(2.0)
+        >>> text = x.create_context(time=1.5).to_json()
+        >>> x.context_from_json(text)
+        Context(time=1.5, continuous_state=[2], mode=0)
         """
         try:
             data = json.loads(text)
@@ -95,11 +198,132 @@ class System:
             raise ModelError(f"a context in JSON: expected an object, found {type(data).__name__}")
         return _core.context_from_dict(self, data)
 
+    def explain(self) -> Explanation:
+        """How each Python callback runs: 'compiled', 'traced' or 'called', and why not faster.
+
+        Nothing is simulated. The functions are traced as they are before a run; outputs whose shape
+        was not said are called once.
+
+        Returns
+        -------
+        Explanation
+            A tuple of `Rung(block, callback, rung, reason)`; printed, a line for each.
+
+        Examples
+        --------
+        >>> import saltus
+        >>> block = saltus.library.FunctionBlock(lambda u: 2.0 * u, name="twice")
+        >>> print(block.explain())
+        twice: output 'out'  traced
+        the system has open inputs; each is taken for a single number here
+        """
+        return ladder.explain(self)
+
     def create_context(self, time: float = 0.0) -> _core.Context:
-        """The values every block starts with, at `time` [s]. What you change in it changes no
-        system.
+        """The values every block starts with. What you change in a context changes no system.
+
+        Parameters
+        ----------
+        time
+            [s]
+
+        Examples
+        --------
+        >>> from saltus.library import Integrator
+        >>> Integrator([1.0, 2.0]).create_context()
+        Context(time=0, continuous_state=[1, 2], mode=0)
         """
         return _core.System.create_context(self, time)
+
+    def to_dot(
+        self,
+        *,
+        recorded_signals: Mapping[str, OutputPort] | None = None,
+        max_depth: int | None = None,
+    ) -> str:
+        """The system as a picture in the language of Graphviz.
+
+        Inner diagrams are clusters. Colours tell continuous from held signals, grey is what the
+        engine folds (constant, computed once) or drops (nothing reads it), a dashed wire is read
+        at events only, such as the trigger of a reset; a legend says so. Ports carry their names
+        where these say something, wires of more than one number their width, blocks their states,
+        zero crossings and time events. A system that does not compile is drawn with the reason.
+
+        Parameters
+        ----------
+        recorded_signals
+            The outputs that a run would record, by name, as for `simulate`. By default every
+            output of the system.
+        max_depth
+            Inner diagrams deeper than this many levels are one block each.
+
+        Returns
+        -------
+        str
+            A `digraph`; `dot -Tsvg` or `dot -Tpdf` draws it.
+
+        Raises
+        ------
+        ModelError
+            For a recorded signal that belongs to another system.
+
+        Examples
+        --------
+        >>> from saltus.library import Gain
+        >>> print(Gain(2.0, name="double").to_dot().splitlines()[0])
+        digraph "double" {
+        """
+        from saltus import picture
+
+        return picture.to_dot(self, recorded_signals, max_depth)
+
+    def to_mermaid(
+        self,
+        what: str = "blocks",
+        *,
+        recorded_signals: Mapping[str, OutputPort] | None = None,
+        max_depth: int | None = None,
+    ) -> str:
+        """The system as a picture in the language of Mermaid, which GitHub, GitLab, JupyterLab and
+        most tools for documentation draw.
+
+        Parameters
+        ----------
+        what
+            "blocks": a flowchart that shows what `to_dot` does. "modes": a state diagram of the
+            modes of a block, with the zero crossings that lead from one to another.
+        recorded_signals, max_depth
+            As for `to_dot`; for "blocks" only.
+
+        Returns
+        -------
+        str
+            The text that belongs between the marks of a ``mermaid`` fence.
+
+        Raises
+        ------
+        ModelError
+            For "modes" of a system that has none, and as `to_dot`.
+
+        Examples
+        --------
+        >>> from saltus.library import Gain
+        >>> print(Gain(2.0, name="double").to_mermaid().splitlines()[1].strip())
+        b0["<b>double</b><br/>Gain"]:::continuous
+        """
+        from saltus import picture
+
+        return picture.to_mermaid(self, what, recorded_signals, max_depth)
+
+    def _repr_svg_(self) -> str | None:
+        from saltus import picture
+
+        return picture.in_svg(self)
+
+    def _repr_markdown_(self) -> str | None:
+        from saltus import picture
+
+        return picture.in_markdown(self)
 
     def __repr__(self) -> str:
         return f"<{type(self).__name__} '{self.name}'>"

@@ -6,9 +6,8 @@ import pickle
 
 import numpy as np
 import pytest
-from systems import Ball  # noqa: F401
-
 import saltus
+from systems import Ball
 
 
 @pytest.fixture

@@ -9,7 +9,6 @@ import sys
 
 import numpy as np
 import pytest
-
 import saltus
 
 QUICK = {"least_time": 0.0, "most_repeats": 1}

@@ -36,6 +36,8 @@ class Diagram final : public System {
   const System& operator[](std::string_view child) const;
   const std::vector<Child>& children() const noexcept { return children_; }
   const std::vector<Wire>& wires() const noexcept { return wires_; }
+  const std::vector<ExportedInput>& inputs() const noexcept { return inputs_; }
+  const std::vector<ExportedOutput>& outputs() const noexcept { return outputs_; }
 
   std::vector<std::string> input_names() const override { return detail::names_of(inputs_); }
   std::vector<std::string> output_names() const override { return detail::names_of(outputs_); }

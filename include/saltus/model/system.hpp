@@ -45,6 +45,11 @@ class System {
   const std::string& name() const noexcept { return name_; }
   SystemId system_id() const noexcept { return id_; }
 
+  /// What sort of block it is, for people: the name of its class.
+  virtual std::string kind() const;
+  /// The system that this one stands for: itself, unless it is a handle on another.
+  virtual const System& itself() const { return *this; }
+
   virtual std::vector<std::string> input_names() const = 0;
   virtual std::vector<std::string> output_names() const = 0;
 

@@ -7,10 +7,35 @@ from saltus.library.block import Block
 
 
 class Comparator(Block, _core.Comparator):
-    """y = u_0 operator u_1, entry by entry; operator is <, <=, >, >=, == or !=.
+    """y = u_0 operator u_1, entry by entry: 0 or 1.
 
-    The first four are located by the smooth guard u_0 - u_1; == and != have none and are meant for
-    held signals.
+    The first four are located by the smooth guard u_0 - u_1, and y is held between such instants;
+    == and != have no guard and are meant for held signals.
+
+    Parameters
+    ----------
+    operator
+        "<", "<=", ">", ">=", "==" or "!=".
+    name
+        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+
+    Raises
+    ------
+    ModelError
+        For another operator.
+
+    Examples
+    --------
+    >>> from saltus.library import Constant, Comparator
+    >>> builder = saltus.DiagramBuilder()
+    >>> a, b, block = builder.add(Constant([1.0, 4.0]), Constant(2.0), Comparator("<"))
+    >>> builder.connect(a.output(), block.input(0))
+    >>> builder.connect(b.output(), block.input(1))
+    >>> diagram = builder.build()
+    >>> saltus.simulate(
+    ...     diagram, diagram.create_context(), (0.0, 0.0), recorded_signals={"y": block.output()}
+    ... ).outputs["y"]
+    array([[1., 0.]])
     """
 
     def __init__(self, operator: str, *, name: str | None = None):
@@ -18,8 +43,36 @@ class Comparator(Block, _core.Comparator):
 
 
 class LogicalOperator(Block, _core.LogicalOperator):
-    """y = function(u_0, u_1, ...), entry by entry; function is 'or', 'and', 'not', 'nor', 'nand' or
-    'xor' (an odd number).
+    """y = function(u_0, u_1, ...), entry by entry: 0 or 1. What is not 0 counts as true.
+
+    Parameters
+    ----------
+    function
+        "or", "and", "not", "nor", "nand" or "xor" (an odd number of inputs is true).
+    n_inputs
+        How many inputs there are; "not" takes 1.
+    name
+        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+
+    Raises
+    ------
+    ModelError
+        For another function, or a number of inputs that it does not take.
+
+    Examples
+    --------
+    >>> from saltus.library import Constant, LogicalOperator
+    >>> builder = saltus.DiagramBuilder()
+    >>> a, b, block = builder.add(
+    ...     Constant([1.0, 1.0]), Constant([0.0, 1.0]), LogicalOperator("and")
+    ... )
+    >>> builder.connect(a.output(), block.input(0))
+    >>> builder.connect(b.output(), block.input(1))
+    >>> diagram = builder.build()
+    >>> saltus.simulate(
+    ...     diagram, diagram.create_context(), (0.0, 0.0), recorded_signals={"y": block.output()}
+    ... ).outputs["y"]
+    array([[0., 1.]])
     """
 
     def __init__(self, function: str, n_inputs: int = 2, *, name: str | None = None):
@@ -27,11 +80,35 @@ class LogicalOperator(Block, _core.LogicalOperator):
 
 
 class Switch(Block, _core.Switch):
-    """y = true_value if control, else false_value: the names of its three inputs, in the order
-    true_value, control, false_value.
+    """y = true_value if control, else false_value: the names of its inputs, true_value, control,
+    false_value in this order.
 
-    With a `threshold`, a parameter in the unit of control, control is a real signal and true where
-    it is at or above.
+    Parameters
+    ----------
+    threshold
+        Not said: control is a boolean. A number, in the unit of control: control is a real signal,
+        and true at or above it; where it passes is located as an event. It is the parameter
+        `threshold` of the context.
+    name
+        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+
+    Examples
+    --------
+    >>> from saltus.library import Clock, Constant, Switch
+    >>> builder = saltus.DiagramBuilder()
+    >>> t, high, low, switch = builder.add(Clock(), Constant(5.0), Constant(1.0), Switch(2.0))
+    >>> builder.connect(high.output(), switch.input("true_value"))
+    >>> builder.connect(t.output(), switch.input("control"))
+    >>> builder.connect(low.output(), switch.input("false_value"))
+    >>> diagram = builder.build()
+    >>> results = saltus.simulate(
+    ...     diagram, diagram.create_context(), (0.0, 3.0), save_at=[1.0, 3.0],
+    ...     recorded_signals={"y": switch.output()},
+    ... )
+    >>> results.time
+    array([0., 1., 3.])
+    >>> results.outputs["y"]
+    array([1., 1., 5.])
     """
 
     def __init__(self, threshold: float | None = None, *, name: str | None = None):

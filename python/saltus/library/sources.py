@@ -9,15 +9,55 @@ from saltus.library.block import Block
 
 
 class Constant(Block, _core.Constant):
-    """y = value. Parameter `value`. Never computed."""
+    """y = value. Never computed during a run.
+
+    Parameters
+    ----------
+    value
+        A number or a vector. It is the parameter `value` of the context.
+    name
+        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+
+    Examples
+    --------
+    >>> from saltus.library import Constant
+    >>> block = Constant([1.0, 2.0])
+    >>> results = saltus.simulate(
+    ...     block, block.create_context(), (0.0, 0.0),
+    ...     recorded_signals={"y": block.output()},
+    ... )
+    >>> results.outputs["y"]
+    array([[1., 2.]])
+    """
 
     def __init__(self, value: ArrayLike, *, name: str | None = None):
         super().__init__(self._named(name), value)
 
 
 class Step(Block, _core.Step):
-    """y = start_value for t < step_time [s], else end_value. Parameters `start_value`, `end_value`;
-    one exact event.
+    """y = start_value for t < step_time, else end_value.
+
+    Parameters
+    ----------
+    start_value, end_value
+        A number or a vector each. Parameters of the context.
+    step_time
+        [s] One exact event.
+    name
+        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+
+    Examples
+    --------
+    >>> from saltus.library import Step
+    >>> block = Step(0.0, 5.0, step_time=2.0)
+    >>> results = saltus.simulate(
+    ...     block, block.create_context(), (0.0, 3.0), save_at=[1.0, 3.0],
+    ...     recorded_signals={"y": block.output()},
+    ... )
+    >>> results.time
+    array([0., 1., 2., 2., 3.])
+    >>> results.outputs["y"]
+    array([0., 0., 0., 5., 5.])
     """
 
     def __init__(
@@ -32,8 +72,31 @@ class Step(Block, _core.Step):
 
 
 class Sine(Block, _core.Sine):
-    """y = amplitude sin(frequency t + phase) + bias; frequency in rad/s, phase in rad. All four are
-    parameters.
+    """y = amplitude sin(frequency t + phase) + bias.
+
+    Parameters
+    ----------
+    amplitude, bias
+        In the unit of y, a number or a vector.
+    frequency
+        [rad/s]
+    phase
+        [rad] All four are parameters of the context.
+    name
+        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+
+    Examples
+    --------
+    >>> from saltus.library import Sine
+    >>> block = Sine(2.0, frequency=np.pi / 2)
+    >>> results = saltus.simulate(
+    ...     block, block.create_context(), (0.0, 3.0), save_at=[1.0, 3.0],
+    ...     recorded_signals={"y": block.output()},
+    ... )
+    >>> results.time
+    array([0., 1., 3.])
+    >>> results.outputs["y"]
+    array([ 0.,  2., -2.])
     """
 
     def __init__(
@@ -49,17 +112,55 @@ class Sine(Block, _core.Sine):
 
 
 class Clock(Block, _core.Clock):
-    """y = t [s]."""
+    """y = t, the time [s].
+
+    Parameters
+    ----------
+    name
+        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+
+    Examples
+    --------
+    >>> from saltus.library import Clock
+    >>> block = Clock()
+    >>> results = saltus.simulate(
+    ...     block, block.create_context(), (0.0, 1.5), save_at=[0.5, 1.5],
+    ...     recorded_signals={"y": block.output()},
+    ... )
+    >>> results.time
+    array([0. , 0.5, 1.5])
+    >>> results.outputs["y"]
+    array([0. , 0.5, 1.5])
+    """
 
     def __init__(self, *, name: str | None = None):
         super().__init__(self._named(name))
 
 
 class Ramp(Block, _core.Ramp):
-    """y = start_value + slope max(0, t - start_time); slope in 1/s, start_time in s. Parameters
-    `start_value`, `slope`.
+    """y = start_value + slope max(0, t - start_time).
 
-    The kink is an exact event.
+    Parameters
+    ----------
+    start_value, slope
+        A number or a vector each, slope in units of y per second. Parameters of the context.
+    start_time
+        [s] The kink there is an exact event.
+    name
+        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+
+    Examples
+    --------
+    >>> from saltus.library import Ramp
+    >>> block = Ramp(1.0, slope=2.0, start_time=1.0)
+    >>> results = saltus.simulate(
+    ...     block, block.create_context(), (0.0, 2.0), save_at=[0.5, 2.0],
+    ...     recorded_signals={"y": block.output()},
+    ... )
+    >>> results.time
+    array([0. , 0.5, 1. , 1. , 2. ])
+    >>> results.outputs["y"]
+    array([1., 1., 1., 1., 3.])
     """
 
     def __init__(
@@ -74,10 +175,38 @@ class Ramp(Block, _core.Ramp):
 
 
 class Pulse(Block, _core.Pulse):
-    """y = amplitude in the first pulse_width (a fraction, 0 to 1) of each period [s], counted from
-    phase_delay [s]; else 0.
+    """y = amplitude in the first part of each period, else 0.
 
-    Parameter `amplitude`; both edges are exact events.
+    Parameters
+    ----------
+    amplitude
+        A number or a vector. Parameter of the context.
+    period
+        [s] From one rising edge to the next. Edges are exact events, counted by integers.
+    pulse_width
+        The part of a period in which y is `amplitude`, 0 to 1.
+    phase_delay
+        [s] When the first period begins; before it y is 0.
+    name
+        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+
+    Raises
+    ------
+    ModelError
+        For a period that is not above 0, or a width outside 0 to 1.
+
+    Examples
+    --------
+    >>> from saltus.library import Pulse
+    >>> block = Pulse(3.0, period=2.0, pulse_width=0.25)
+    >>> results = saltus.simulate(
+    ...     block, block.create_context(), (0.0, 2.2), save_at=[0.25, 1.0, 2.25],
+    ...     recorded_signals={"y": block.output()},
+    ... )
+    >>> results.time
+    array([0.  , 0.  , 0.25, 0.5 , 0.5 , 1.  , 2.  , 2.  , 2.2 ])
+    >>> results.outputs["y"]
+    array([3., 3., 3., 3., 0., 0., 0., 3., 3.])
     """
 
     def __init__(

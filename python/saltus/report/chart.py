@@ -30,7 +30,7 @@ COLOURS = {
 OTHERS = ("#CC79A7", "#E69F00", "#999999")
 MARKERS = "ovs^Dp<h>*"  # by tolerance, the loosest first
 LEAST = 1e-17  # errors below it, zero among them, are drawn here
-STYLE = {
+STYLE: dict[Any, Any] = {
     "font.size": 8,
     "axes.titlesize": 9,
     "axes.spines.top": False,

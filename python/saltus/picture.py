@@ -1,0 +1,80 @@
+"""What a notebook shows of a system: the picture that Graphviz' `dot` draws, or Mermaid text.
+
+Imported when a picture is asked for, not before.
+"""
+
+from __future__ import annotations
+
+import functools
+import shutil
+import subprocess
+from collections.abc import Mapping
+
+from saltus import _core
+from saltus.errors import ModelError
+from saltus.system import OutputPort, System
+
+__all__ = ["in_markdown", "in_svg", "to_dot", "to_mermaid"]
+
+Recorded = Mapping[str, OutputPort] | None
+TIME_LIMIT = 10.0  # [s] dot on a thousand blocks takes minutes: then the text has to do
+
+
+def to_dot(system: System, signals: Recorded, max_depth: int | None) -> str:
+    return _core.to_dot(system, _ports(signals), _depth(max_depth))
+
+
+def to_mermaid(system: System, what: str, signals: Recorded, max_depth: int | None) -> str:
+    if what == "modes":
+        if signals is not None or max_depth is not None:
+            raise ModelError('to_mermaid("modes") takes neither recorded_signals nor max_depth')
+        return _core.modes_to_mermaid(system)
+    if what != "blocks":
+        known = _core.known_names(what, ["blocks", "modes"])
+        raise ModelError(f"to_mermaid: no picture of '{what}'{known}")
+    return _core.to_mermaid(system, _ports(signals), _depth(max_depth))
+
+
+def in_svg(system: System) -> str | None:
+    """Drawn by `dot`; None where there is none, or where it takes too long."""
+    return _drawn(system.to_dot(), shutil.which("dot"))
+
+
+@functools.lru_cache(maxsize=4)  # a notebook asks twice: for the picture, and for what is instead
+def _drawn(text: str, dot: str | None) -> str | None:
+    if dot is None:
+        return None
+    try:
+        done = subprocess.run(
+            [dot, "-Tsvg"],
+            input=text.encode(),
+            capture_output=True,
+            timeout=TIME_LIMIT,
+            check=True,
+        )
+    except (subprocess.SubprocessError, OSError):
+        return None
+    svg = done.stdout.decode()
+    return svg[svg.index("<svg") :]
+
+
+def in_markdown(system: System) -> str | None:
+    """Where there is no picture by `dot`: a fence of Mermaid, which JupyterLab draws."""
+    if in_svg(system) is not None:
+        return None
+    text = system.to_mermaid()
+    return f"```mermaid\n{text}```\n"  # no backtick in it: those of names are entities
+
+
+def _ports(signals: Recorded) -> list[tuple[str, System, int]] | None:
+    if signals is None:
+        return None
+    from saltus.simulation import _ports as ports_of
+
+    return ports_of(signals)
+
+
+def _depth(max_depth: int | None) -> int | None:
+    if max_depth is None or (type(max_depth) is int and max_depth >= 0):
+        return max_depth
+    raise ModelError(f"max_depth: expected a number of levels >= 0, or None, found {max_depth!r}")

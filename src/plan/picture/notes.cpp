@@ -1,0 +1,71 @@
+// The small print of a block.
+#include <cmath>
+
+#include "parts.hpp"
+
+namespace saltus::detail {
+
+namespace {
+
+const char* arrow(Direction direction) {
+  switch (direction) {
+    case Direction::positive_then_non_positive:
+      return "↓";
+    case Direction::negative_then_non_negative:
+      return "↑";
+    case Direction::crosses_zero:
+      return "↕";
+    case Direction::edge_detection:
+      return "≠";
+    case Direction::none:
+      return "off";
+  }
+  return "";
+}
+
+std::string counted(Index n, const char* what) { return text(n, " ", what, n == 1 ? "" : "s"); }
+
+std::string words_of(const TimeEvent& event) {
+  const std::string name = event.name.empty() ? std::string() : event.name + " ";
+  if (std::isinf(event.period)) return text(name, "at t = ", event.offset, " s");
+  const std::string from =
+      event.offset != 0.0 ? text(" from t = ", event.offset, " s") : std::string();
+  return text(name, "every ", event.period, " s", from);
+}
+
+}  // namespace
+
+std::string words_of(const ZeroCrossing& crossing) {
+  std::string out = text(crossing.name, " ", arrow(crossing.direction));
+  if (crossing.size > 1) out += text(" [", crossing.size, "]");
+  if (crossing.reset_map) out += " reset";
+  if (crossing.terminal) out += " end of run";
+  return out;
+}
+
+std::vector<std::string> notes_of(const LeafSystem& leaf, const Plan* plan, int number) {
+  const Declarations& d = leaf.declarations();
+  std::vector<std::string> notes;
+  std::string states;
+  if (const Index n = d.continuous.initial.size(); n > 0) states = counted(n, "state");
+  if (const Index n = d.discrete.size(); n > 0)
+    states += (states.empty() ? "" : ", ") + counted(n, "discrete state");
+  if (d.has_modes) states += text(states.empty() ? "" : ", ", "begins in mode ", d.mode);
+  if (!states.empty()) notes.push_back(std::move(states));
+  for (const ZeroCrossing& crossing : d.zero_crossings) {
+    const std::string seen =
+        crossing.start_mode ? text("mode ", *crossing.start_mode, ": ") : std::string();
+    const std::string goes =
+        crossing.end_mode ? text(" → mode ", *crossing.end_mode) : std::string();
+    notes.push_back(seen + words_of(crossing) + goes);
+  }
+  for (const TimeEvent& event : d.time_events) notes.push_back(words_of(event));
+  if (plan == nullptr) return notes;
+  for (const GuardGroup& guard : plan->guards) {
+    if (guard.leaf == number && guard.kind == GuardGroup::Kind::opaque)
+      notes.emplace_back("located by bisection");
+  }
+  return notes;
+}
+
+}  // namespace saltus::detail

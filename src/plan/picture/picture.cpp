@@ -1,0 +1,215 @@
+// From a system to the blocks, frames and wires of its picture.
+#include "saltus/plan/picture.hpp"
+
+#include <map>
+#include <unordered_map>
+
+#include "parts.hpp"
+#include "saltus/model/diagram_builder.hpp"
+#include "saltus/plan/compile.hpp"
+
+namespace saltus {
+
+namespace {
+
+using namespace detail;
+using Block = Picture::Block;
+
+/// What an open input of the drawn system shall be fed with: a continuous signal of its width.
+class Open final : public LeafSystem {
+ public:
+  explicit Open(LeafPort target) {
+    const auto& input = target.leaf->declarations().inputs[static_cast<std::size_t>(target.index)];
+    declare_output_port({.calc = [](const At&, VectorRef y) { y.setZero(); },
+                         .shape = input.shape.value_or(Shape::scalar()),
+                         .reads = Reads::time});
+  }
+};
+
+/// The system with its inputs fed, so that it compiles; its leaves come first.
+std::unique_ptr<const System> closed(const System& system) {
+  DiagramBuilder builder;
+  builder.add(std::shared_ptr<const System>(std::shared_ptr<void>(), &system));
+  const int inputs = static_cast<int>(system.input_names().size());
+  for (int i = 0; i < inputs; ++i)
+    builder.connect(builder.add<Open>(system.input_target(i)).output(), {&system, i});
+  return std::make_unique<Diagram>(builder.build());
+}
+
+/// Walks the system as it was built: frames for diagrams, blocks for leaves.
+class Drawing {
+ public:
+  Drawing(const System& root, const PictureOptions& options) : root_(root), options_(options) {
+    picture_.name = root.name();
+    make_plan();
+  }
+
+  Picture draw() {
+    if (const auto* diagram = as_diagram(root_); diagram != nullptr && options_.max_depth > 0) {
+      draw_inside(root_, *diagram, -1, 1);
+    } else {
+      add_block(root_, root_.name(), -1);
+    }
+    return std::move(picture_);
+  }
+
+ private:
+  struct Ends {  // where the wires of a system end: the block, or one block for each port
+    std::vector<int> inputs, outputs;
+    int block = -1;
+  };
+
+  static const Diagram* as_diagram(const System& system) {
+    return dynamic_cast<const Diagram*>(&system.itself());
+  }
+
+  void make_plan() {
+    whole_ = closed(root_);
+    try {
+      plan_ = compile(*whole_);
+    } catch (const ModelError& error) {
+      picture_.trouble = error.what();
+      return;
+    }
+    plan_ = compile(*whole_, recorded());
+    readings_ = readings_of(*plan_);
+    for (std::size_t i = 0; i < plan_->leaves.size(); ++i)
+      number_[plan_->leaves[i].system] = static_cast<int>(i);
+  }
+
+  RecordedSignals recorded() const {
+    if (options_.recorded_signals) return *options_.recorded_signals;
+    RecordedSignals all;
+    const int outputs = static_cast<int>(root_.output_names().size());
+    for (int i = 0; i < outputs; ++i) all.push_back({text(i), {&root_, i}});
+    return all;
+  }
+
+  void draw_inside(const System& system, const Diagram& diagram, int frame, int depth) {
+    for (const Diagram::Child& child : diagram.children()) {
+      const Diagram* inner = as_diagram(*child.system);
+      if (inner == nullptr || depth >= options_.max_depth) {
+        add_block(*child.system, child.name, frame);
+        continue;
+      }
+      picture_.frames.push_back({frame, child.name});
+      draw_inside(*child.system, *inner, static_cast<int>(picture_.frames.size()) - 1, depth + 1);
+    }
+    Ends& ends = ends_[&system];
+    add_ports(diagram, ends, frame);
+    add_wires(diagram, ends);
+  }
+
+  void add_block(const System& system, const std::string& name, int frame) {
+    Block block{.frame = frame,
+                .name = name,
+                .type = system.kind(),
+                .inputs = system.input_names(),
+                .outputs = system.output_names()};
+    if (const auto* leaf = dynamic_cast<const LeafSystem*>(&system.itself())) {
+      const int number = plan_ ? number_.at(leaf) : -1;
+      block.notes = notes_of(*leaf, plan_.get(), number);
+      if (plan_) block.flow = flow_of(*plan_, plan_->leaves[static_cast<std::size_t>(number)]);
+    } else {
+      block.kind = Block::Kind::diagram;
+    }
+    ends_[&system].block = add(std::move(block));
+  }
+
+  int add(Block block) {
+    picture_.blocks.push_back(std::move(block));
+    return static_cast<int>(picture_.blocks.size()) - 1;
+  }
+
+  /// The ports of a diagram are small blocks at its border, that what is wired to them goes
+  /// through.
+  void add_ports(const Diagram& diagram, Ends& ends, int frame) {
+    const auto border = [&](Block::Kind kind, const std::vector<std::string>& names) {
+      std::vector<int> blocks;
+      for (const std::string& name : names) {
+        blocks.push_back(add(
+            {.kind = kind, .frame = frame, .name = name, .inputs = {"in"}, .outputs = {"out"}}));
+      }
+      return blocks;
+    };
+    ends.inputs = border(Block::Kind::input, diagram.input_names());
+    ends.outputs = border(Block::Kind::output, diagram.output_names());
+  }
+
+  void add_wires(const Diagram& diagram, const Ends& ends) {
+    for (std::size_t i = 0; i < diagram.inputs().size(); ++i) {
+      const InputPort to = diagram.inputs()[i].port;
+      add_wire({ends.inputs[i], 0}, end_of(to), to.system->input_target(to.index), true);
+    }
+    for (const Diagram::Wire& wire : diagram.wires()) {
+      add_wire(end_of(wire.from), end_of(wire.to), wire.to.system->input_target(wire.to.index),
+               true);
+    }
+    for (std::size_t i = 0; i < diagram.outputs().size(); ++i) {
+      const OutputPort from = diagram.outputs()[i].port;
+      add_wire(end_of(from), {ends.outputs[i], 0}, from.system->output_source(from.index), false);
+    }
+  }
+
+  using End = std::pair<int, int>;  // block and port
+  End end_of(OutputPort port) {
+    const Ends& ends = ends_[port.system];
+    return ends.block >= 0 ? End{ends.block, port.index}
+                           : End{ends.outputs[static_cast<std::size_t>(port.index)], 0};
+  }
+  End end_of(InputPort port) {
+    const Ends& ends = ends_[port.system];
+    return ends.block >= 0 ? End{ends.block, port.index}
+                           : End{ends.inputs[static_cast<std::size_t>(port.index)], 0};
+  }
+
+  /// `leaf` is the leaf's port at its end: an input that reads it, or the output behind it.
+  void add_wire(End from, End to, LeafPort port, bool input) {
+    Picture::Wire wire{
+        .from = from.first, .output = from.second, .to = to.first, .input = to.second};
+    if (plan_) {
+      const auto leaf = static_cast<std::size_t>(number_.at(port.leaf));
+      const auto index = static_cast<std::size_t>(port.index);
+      const PlanLeaf& of = plan_->leaves[leaf];
+      const Node& node = plan_->node(input ? of.inputs[index] : of.outputs[index]);
+      wire.flow = flow_of(node), wire.width = node.shape.size;
+      if (input) {
+        const Reading reading = readings_[leaf][index];
+        wire.event = reading.event && !reading.flow;
+        if (!reading.event && !reading.flow) wire.flow = Picture::Flow::dropped;
+      }
+    }
+    show(wire.from, wire.flow), show(wire.to, wire.flow);
+    picture_.wires.push_back(wire);
+  }
+
+  /// A port at a border is drawn like what flows through it.
+  void show(int block, Picture::Flow flow) {
+    Block& port = picture_.blocks[static_cast<std::size_t>(block)];
+    if (port.kind == Block::Kind::input || port.kind == Block::Kind::output) {
+      if (port.flow == Picture::Flow::unknown || port.flow == Picture::Flow::dropped)
+        port.flow = flow;
+    }
+  }
+
+  const System& root_;
+  const PictureOptions& options_;
+  std::unique_ptr<const System> whole_;
+  std::shared_ptr<const Plan> plan_;
+  Readings readings_;
+  std::unordered_map<const LeafSystem*, int> number_;
+  std::unordered_map<const System*, Ends> ends_;
+  Picture picture_;
+};
+
+}  // namespace
+
+Picture picture(const System& system, const PictureOptions& options) {
+  return Drawing(system, options).draw();
+}
+
+bool obvious(const std::vector<std::string>& ports, std::string_view usual) {
+  return ports.empty() || (ports.size() == 1 && ports.front() == usual);
+}
+
+}  // namespace saltus

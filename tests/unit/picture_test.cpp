@@ -1,0 +1,80 @@
+// Pictures: which blocks and wires there are, and what becomes of them in a plan.
+#include "saltus/plan/picture.hpp"
+
+#include "saltus/library/library.hpp"
+#include "support/leaves.hpp"
+
+using namespace saltus;
+
+namespace {
+
+using Flow = Picture::Flow;
+
+const Picture::Block& block(const Picture& drawn, std::string_view name) {
+  return *std::ranges::find(drawn.blocks, name, &Picture::Block::name);
+}
+
+/// x' = 2 x, a step that resets x, and a gain nobody reads.
+Diagram reset_by_a_step() {
+  DiagramBuilder builder;
+  auto& x = builder.add<Integrator>("x", IntegratorOptions{.enable_reset = true});
+  auto& gain = builder.add<Gain>("gain", 2.0);
+  auto& floor = builder.add<Constant>("floor", 0.0);
+  auto& below = builder.add<Comparator>("below", "<");
+  auto& unread = builder.add<Gain>("unread", 1.0);
+  builder.connect(x.output(), gain.input()), builder.connect(gain.output(), x.input("in"));
+  builder.connect(x.output(), below.input(0)), builder.connect(floor.output(), below.input(1));
+  builder.connect(below.output(), x.input("reset_trigger"));
+  builder.connect(x.output(), unread.input());
+  return builder.build("whole");
+}
+
+}  // namespace
+
+TEST_CASE("a picture tells what is continuous, held, folded and dropped", "[picture]") {
+  const Diagram diagram = reset_by_a_step();
+  const Picture drawn = picture(diagram);
+  CHECK(drawn.trouble.empty());
+  CHECK(block(drawn, "x").flow == Flow::continuous);
+  CHECK(block(drawn, "gain").flow == Flow::continuous);
+  CHECK(block(drawn, "below").flow == Flow::held);
+  CHECK(block(drawn, "floor").flow == Flow::folded);
+  CHECK(block(drawn, "unread").flow == Flow::dropped);
+}
+
+TEST_CASE("only a wire that events alone read is an event wire", "[picture]") {
+  const Diagram diagram = reset_by_a_step();
+  const Picture drawn = picture(diagram);
+  REQUIRE(drawn.wires.size() == 6);
+  for (const auto& wire : drawn.wires) {
+    const bool trigger = drawn.blocks[static_cast<std::size_t>(wire.from)].name == "below";
+    CHECK(wire.event == trigger);
+  }
+}
+
+TEST_CASE("the kind of a block is its class, without namespace and template arguments",
+          "[picture]") {
+  class Local final : public LeafSystem {};
+  CHECK(Local().kind() == "Local");
+  CHECK(Gain("g", 1.0).kind() == "Gain");
+}
+
+TEST_CASE("an algebraic loop is drawn, with the reason why it does not run", "[picture]") {
+  DiagramBuilder builder;
+  auto &a = builder.add<Gain>("a", 1.0), &b = builder.add<Gain>("b", 1.0);
+  builder.connect(a.output(), b.input()), builder.connect(b.output(), a.input());
+  const Diagram diagram = builder.build();
+  const Picture drawn = picture(diagram);
+  CHECK(drawn.wires.size() == 2);
+  CHECK(drawn.trouble.find("algebraic loop") == 0);
+  CHECK(block(drawn, "a").flow == Flow::unknown);
+}
+
+TEST_CASE("names cannot break out of a label", "[picture]") {
+  DiagramBuilder builder;
+  builder.add<Constant>("a\"<b>\n`#;", 1.0);
+  const Diagram diagram = builder.build("\"]; evil");
+  CHECK(to_dot(diagram).find("a&quot;&lt;b&gt;<BR/>`#;") != std::string::npos);
+  CHECK(to_dot(diagram).starts_with("digraph \"\\\"]; evil\" {"));
+  CHECK(to_mermaid(diagram).find("a#34;#60;b#62;<br/>#96;#35;#59;") != std::string::npos);
+}

@@ -1,0 +1,95 @@
+# Sourced by ./dev: the parts of the tests, and their sum.
+
+# What ./dev test runs, in this order: the wheel before the tests in Python, so that these are of what a user gets.
+parts=(cpp system asan wheel python doctest typing examples snippets docs packaging)
+for_tests=(catch2 libsundials-dev graphviz)
+for_typing=(mypy==2.4.1 vermin==1.9.2)
+
+passed=0 failed=0
+count() { passed=$((passed + $1)) failed=$((failed + $2)); }
+count_run() {  # STATUS PASSED FAILED: a bad end without a failed test counts as one
+  if [ "$1" != 0 ] && [ "$3" = 0 ]; then count "$2" 1; else count "$2" "$3"; fi
+}
+check() { if step "$@"; then count 1 0; else count 0 1; fi; }  # one thing that holds or does not
+
+count_junit() {  # STATUS FILE: the tests in a JUnit file
+  local sums
+  sums=$("$python" - "$2" <<'EOF'
+import sys, xml.etree.ElementTree as tree
+suites = list(tree.parse(sys.argv[1]).iter("testsuite"))
+tests, failures, errors, skipped, disabled = (
+    sum(int(suite.get(name, 0)) for suite in suites) for name in ("tests", "failures", "errors", "skipped", "disabled"))
+print(tests - failures - errors - skipped - disabled, failures + errors)
+EOF
+  ) 2>/dev/null || sums="0 0"
+  count_run "$1" $sums
+}
+
+catch_tests() {  # PRESET [CMAKE OPTION...]
+  local status=0 junit=$root/build/log/$1.xml
+  build "$@" || { count 0 1; return; }
+  rm -f "$junit"
+  step "ctest-$1" "running the tests" ctest --preset "$1" --parallel "$jobs" --timeout 300 --no-tests=error \
+    --output-junit "$junit" || status=$?
+  count_junit $status "$junit"
+}
+
+pytest_tests() {  # NAME PYTEST-ARGUMENT...
+  local status=0 junit=build/log/$1.xml
+  module all || { count 0 1; return; }
+  rm -f "$junit"
+  step "pytest-$1" "running pytest" env PYTHONPYCACHEPREFIX="$root/build/pycache" "$python" -m pytest -q --junitxml="$junit" "${@:2}" || status=$?
+  count_junit $status "$junit"
+}
+
+test_cpp() { catch_tests dev -DSALTUS_SUNDIALS=$sundials; }
+test_system() { catch_tests system; }
+test_asan() { catch_tests asan; }
+test_python() { pytest_tests python tests/python; }
+
+test_examples() {
+  local status=0
+  module all && build dev -DSALTUS_SUNDIALS=$sundials || { count 0 1; return; }
+  step examples "running each example" tests/packaging/examples.sh build/dev/bin "$python" || status=$?
+  count_run $status "$(grep -c '^ok ' build/log/examples.log)" "$(grep -c '^FAILED ' build/log/examples.log)"
+}
+
+test_snippets() {
+  build dev -DSALTUS_SUNDIALS=$sundials && step install-dev "installing build/dev" cmake --install build/dev --prefix build/prefix/dev \
+    || { count 0 1; return; }
+  SALTUS_PREFIX=$root/build/prefix/dev pytest_tests snippets tests/packaging/test_snippets.py
+}
+
+test_doctest() { pytest_tests doctest tests/packaging/test_docstrings.py; }
+
+test_docs() {
+  venv docs -r docs/site/requirements.txt && pytest_tests site tests/packaging/test_site.py
+}
+
+test_typing() {
+  module all || { count 0 1; return; }
+  venv typing "${for_typing[@]}"
+  check mypy-package "mypy --strict on the package" "$python" -m mypy
+  check mypy-examples "mypy --strict on the examples, with the installed package" "$python" -m mypy examples
+  check stubtest "the stubs say what is in the module" "$python" -m mypy.stubtest saltus --mypy-config-file pyproject.toml \
+    --allowlist tests/packaging/stubtest.txt
+  check vermin "nothing newer than Python 3.10 is used" "$python" -m vermin --target=3.10- --no-tips --violations python/saltus
+}
+
+run_tests() {
+  local part start before_passed before_failed
+  (($#)) || set -- "${parts[@]}"
+  for part; do
+    declare -F "test_$part" >/dev/null || die "No part '$part' of the tests. $(usage | grep PART)"
+  done
+  need "${basics[@]}" "${for_tests[@]}"
+  venv build "scikit-build-core>=0.10" "pybind11>=3"
+  for part; do
+    start=$SECONDS before_passed=$passed before_failed=$failed
+    echo "$part"
+    "test_$part"
+    echo "  $((passed - before_passed)) passed, $((failed - before_failed)) failed in $part ($((SECONDS - start)) s)"
+  done
+  echo "$passed passed, $failed failed"
+  ((failed == 0))
+}
