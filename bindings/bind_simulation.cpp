@@ -5,6 +5,7 @@
 #include <pybind11/stl.h>
 
 #include "interpreter.hpp"
+#include "ladder_system.hpp"
 #include "python_results.hpp"
 #include "saltus/simulation/simulator.hpp"
 
@@ -18,7 +19,7 @@ using NamedPort = std::tuple<std::string, const System*, int>;
 class PythonSimulator {
  public:
   PythonSimulator(const System& system, SimulatorOptions options, py::object progress)
-      : progress_(std::move(progress)), simulator_(system, prepared(std::move(options))) {}
+      : progress_(std::move(progress)), simulator_(system, prepared(system, std::move(options))) {}
   PythonSimulator(const PythonSimulator&) = delete;
   PythonSimulator& operator=(const PythonSimulator&) = delete;
 
@@ -49,7 +50,10 @@ class PythonSimulator {
   const Simulator& simulator() const { return simulator_; }
 
  private:
-  SimulatorOptions prepared(SimulatorOptions options) {
+  SimulatorOptions prepared(const System& system, SimulatorOptions options) {
+    if (const auto* ladder = dynamic_cast<const LadderSystem*>(&system)) {
+      for (auto& [name, port] : options.recorded_signals) port = ladder->port(port);
+    }
     options.throw_errors = false;
     options.interrupt = [this, asked = std::move(options.interrupt)] {
       if (signal_arrived()) return true;

@@ -50,7 +50,10 @@ class PythonLeaf final : public LeafSystem {
   ResetMap update(int k) const;
   const std::vector<Function>& functions() const { return functions_; }
   const Function& function(int k) const { return functions_[static_cast<std::size_t>(k)]; }
-  PyObject* self() const { return self_; }
+  /// A parameter called `out` is that parameter, and nothing to fill.
+  bool in_place(const Function& function) const {
+    return function.in_place && !has_parameter("out");
+  }
 
   void collect(Structure& out, const std::string& path) const override;
   std::string kind() const override;  // of the Python class
@@ -81,10 +84,6 @@ class PythonLeaf final : public LeafSystem {
   void set_parameters(Frame& frame, const At& at, std::size_t place) const;
   void set_out(Frame& frame, const Function& function, Index size) const;
   void set_input(py::object& to, const At& at, int i) const;
-  /// A parameter called `out` is that parameter, and nothing to fill.
-  bool in_place(const Function& function) const {
-    return function.in_place && !has_parameter("out");
-  }
   bool has_parameter(std::string_view parameter) const;
   void forget_frames() {
     for (Function& function : functions_) function.spare.reset();

@@ -6,13 +6,14 @@ v becomes -e v. With e < 1 the bounces pile up at t1 (1 + e) / (1 - e), t1 = sqr
 
 import argparse
 import math
+from typing import Any
 
 import numpy as np
 import saltus
 
 
 class BouncingBall(saltus.LeafSystem):
-    def __init__(self, g=9.81, e=0.8):
+    def __init__(self, g: float = 9.81, e: float = 0.8):
         super().__init__(name="ball")
         self.e = e  # coefficient of restitution, 0 <= e <= 1
         self.declare_continuous_state(2, ode=self.ode)
@@ -25,18 +26,18 @@ class BouncingBall(saltus.LeafSystem):
             direction="positive_then_non_positive",
         )
 
-    def ode(self, time, state, *, g):
+    def ode(self, time: float, state: saltus.State, *, g: float) -> list[float]:
         return [state.continuous_state[1], -g]
 
-    def height(self, time, state, *, g):
+    def height(self, time: float, state: saltus.State, *, g: float) -> Any:
         return state.continuous_state[0]
 
-    def bounce(self, time, state, *, g):
+    def bounce(self, time: float, state: saltus.State, *, g: float) -> saltus.State:
         y, v = state.continuous_state
         return state.with_continuous_state([abs(y), -self.e * v])
 
 
-def draw(results, args):
+def draw(results: saltus.Results, args: argparse.Namespace) -> None:
     import matplotlib.pyplot as plt
 
     figure, axes = plt.subplots(figsize=(8, 3), layout="constrained")
@@ -49,7 +50,7 @@ def draw(results, args):
         plt.show()
 
 
-def main():
+def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--e", type=float, default=0.8, help="restitution (default: %(default)s)")
     parser.add_argument("--y0", type=float, default=10.0, help="[m] height (default: %(default)s)")

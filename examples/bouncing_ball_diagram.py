@@ -11,7 +11,7 @@ import saltus
 from saltus.library import *
 
 
-def make_diagram(e, drop_time, depth, g=9.81):
+def make_diagram(e: float, drop_time: float, depth: float, g: float = 9.81) -> saltus.Diagram:
     builder = saltus.DiagramBuilder()
     v, y = (
         builder.add(Integrator(enable_reset=True, enable_external_reset=True, name=name))
@@ -36,7 +36,7 @@ def make_diagram(e, drop_time, depth, g=9.81):
     return builder.build()
 
 
-def draw(results, args):
+def draw(results: saltus.Results, args: argparse.Namespace) -> None:
     import matplotlib.pyplot as plt
 
     figure, axes = plt.subplots(figsize=(8, 3), layout="constrained")
@@ -51,7 +51,7 @@ def draw(results, args):
         plt.show()
 
 
-def main():
+def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--e", type=float, default=0.8, help="restitution (default: %(default)s)")
     parser.add_argument("--y0", type=float, default=1.0, help="[m] height (default: %(default)s)")
@@ -62,6 +62,7 @@ def main():
         help="[s] when the floor drops (default: %(default)s)",
     )
     parser.add_argument("--end", type=float, default=8.0, help="[s] end (default: %(default)s)")
+    parser.add_argument("--dot", action="store_true", help="print the diagram for Graphviz")
     parser.add_argument("--plan", action="store_true", help="say what is computed when")
     parser.add_argument("--save", metavar="FILE", help="write a picture")
     parser.add_argument("--show", action="store_true", help="open a picture")
@@ -71,6 +72,9 @@ def main():
     height = diagram["height"]
     context = diagram.create_context()
     context = context.with_subcontext(height, context[height].with_continuous_state(args.y0))
+    if args.dot:
+        print(diagram.to_dot())
+        return
     if args.plan:
         print(saltus.Simulator(diagram).describe())
     results = saltus.simulate(

@@ -3,7 +3,9 @@
 import argparse
 import math
 import time
+from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import saltus
@@ -19,24 +21,35 @@ G = 9.81  # [m/s^2]
 class Leaf:
     """A ball of Python functions, dropped from 10 m on a floor at 0."""
 
-    def __init__(self, title, e, end, **options):
+    def __init__(self, title: str, e: float, end: float, **options: float):
         self.title, self.e, self.end, self.options = title, e, end, options
-        self.y0, self.floor, self.drop = 10.0, 0.0, None
+        self.y0, self.floor = 10.0, 0.0
+        self.drop: tuple[float, float] | None = None
         self.system = BouncingBall(g=G, e=e)
         self.context = self.system.create_context().with_continuous_state([self.y0, 0.0])
         self.recorded = {"state": self.system.output("state")}
 
-    def columns(self, results):
+    def columns(self, results: saltus.Results) -> Any:
         return results.outputs["state"].T
 
-    def bounces(self, results):
+    def bounces(self, results: saltus.Results) -> Any:
         return results.events.times("bounce")
 
 
 class Blocks:
     """A ball of ready blocks, over a floor that drops to `lower` at time `drop`."""
 
-    def __init__(self, title, e, y0, floor, lower, drop, end, **options):
+    def __init__(
+        self,
+        title: str,
+        e: float,
+        y0: float,
+        floor: float,
+        lower: float,
+        drop: float,
+        end: float,
+        **options: float,
+    ):
         self.title, self.e, self.y0, self.end, self.options = title, e, y0, end, options
         self.floor, self.drop = floor, (drop, lower)
         builder = saltus.DiagramBuilder()
@@ -67,15 +80,15 @@ class Blocks:
         self.context = context.with_subcontext(y, context[y].with_continuous_state(y0))
         self.recorded = {"y": y.output(), "v": v.output()}
 
-    def columns(self, results):
+    def columns(self, results: saltus.Results) -> Any:
         return results.outputs["y"], results.outputs["v"]
 
-    def bounces(self, results):
+    def bounces(self, results: saltus.Results) -> Any:
         events = (event for event in results.events if event.block == "height")
         return np.array([event.time for event in events if event.kind == "zero_crossing"])
 
 
-def scenes():
+def scenes() -> list[Leaf | Blocks]:
     leaf = {"rtol": 1e-10, "atol": 1e-12, "max_minor_step_size": 1e-3}
     blocks = {
         "rtol": 1e-6,
@@ -95,7 +108,7 @@ def scenes():
 # --- the closed form ------------------------------------------------------------------------------
 
 
-def flights(scene):
+def flights(scene: Leaf | Blocks) -> Iterator[tuple[float, float, float, float]]:
     """(begin, y, v, gravity) of each flight, exactly; gravity 0 is rest on the floor."""
     floor, drop = scene.floor, scene.drop
     begin, y, v = 0.0, scene.y0, 0.0
@@ -117,7 +130,7 @@ def flights(scene):
             begin, y, v = landing, floor, scene.e * impact
 
 
-def errors(scene, results):
+def errors(scene: Leaf | Blocks, results: saltus.Results) -> tuple[float, float]:
     """Worst error of the height of any row [m], and of the time of any bounce [s]."""
     pieces = np.array(list(flights(scene)))
     begin, y, v, g = pieces[np.searchsorted(pieces[:, 0], results.time, side="right") - 1].T
@@ -131,7 +144,7 @@ def errors(scene, results):
 # --- error against run time -----------------------------------------------------------------------
 
 
-def timed(scene, **options):
+def timed(scene: Leaf | Blocks, **options: Any) -> tuple[saltus.Results, float]:
     """The results, and the best time of a few runs [s]."""
     best, deadline = math.inf, time.perf_counter() + 0.3
     while best == math.inf or time.perf_counter() < deadline:
@@ -147,27 +160,28 @@ def timed(scene, **options):
     return results, best
 
 
-def table(scene):
+def table(scene: Leaf | Blocks) -> saltus.Results:
     """Prints a row for the tutorial's settings, then others; returns the results of the first."""
     print(f"\nScene {scene.title}, e = {scene.e:g}, {scene.end:.3g} s")
     print(f"  {'method':<10} {'rtol':>6} {'steps':>6} {'bounces':>7} {'time error':>11}", end="")
     print(f" {'height error':>13} {'run time':>10}")
-    kept = None
-    free = [
+    kept: saltus.Results | None = None
+    free: list[dict[str, Any]] = [
         {"ode_solver_method": method, "rtol": rtol, "atol": rtol / 100}
         for method, rtols in (("dopri5", (1e-4, 1e-8, 1e-12)), ("adams", (1e-4, 1e-8, 1e-12)))
         for rtol in rtols
     ]
     for options in (scene.options, *free):
         results, seconds = timed(scene, **options)
-        height, event = errors(scene, results)
+        height, late = errors(scene, results)
         name = results.statistics.method + (" *" if kept is None else "")
         print(
             f"  {name:<10} {options['rtol']:6.0e} {results.statistics.steps:6} "
-            f"{len(scene.bounces(results)):7} {event:9.1e} s {height:11.1e} m "
+            f"{len(scene.bounces(results)):7} {late:9.1e} s {height:11.1e} m "
             f"{seconds * 1e3:7.2f} ms"
         )
         kept = kept or results
+    assert kept is not None
     for event in kept.events:
         if event.kind in ("zeno_enter", "zeno_release") and event.block in ("height", "ball"):
             what = "at rest from" if event.kind == "zeno_enter" else "released at"
@@ -179,13 +193,13 @@ def table(scene):
 # --- pictures -------------------------------------------------------------------------------------
 
 
-def broken(time, values, jump):
+def broken(time: Any, values: Any, jump: Any) -> tuple[Any, Any]:
     """The columns with a gap wherever the state jumped, so that no line is drawn across."""
     at = np.flatnonzero(np.diff(jump)) + 1
     return np.insert(time, at, np.nan), np.insert(values, at, np.nan)
 
 
-def holds(results):
+def holds(results: saltus.Results) -> Iterator[tuple[float, float]]:
     """(begin, end) of each rest [s]."""
     begin = None
     for event in results.events:
@@ -198,7 +212,7 @@ def holds(results):
         yield begin, results.time[-1]
 
 
-def draw(scene, results, path):
+def draw(scene: Leaf | Blocks, results: saltus.Results, path: Path) -> None:
     import matplotlib
 
     matplotlib.use("Agg")
@@ -232,7 +246,7 @@ def draw(scene, results, path):
     plt.close(figure)
 
 
-def main():
+def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--out", type=Path, default=Path("demo"), help="where the pictures go")
     parser.add_argument("--no-pictures", action="store_true", help="print the tables only")

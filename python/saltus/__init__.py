@@ -10,6 +10,7 @@ from saltus.compiled import Compiled, compiled
 from saltus.diagram import Diagram, DiagramBuilder
 from saltus.ensemble import sweep
 from saltus.errors import Error, ModelError, SimulationError
+from saltus.ladder import Explanation, Rung
 from saltus.leaf_system import LeafSystem
 from saltus.progress import Progress
 from saltus.report import WorkPrecision, work_precision
@@ -29,6 +30,7 @@ __all__ = [
     "Error",
     "Event",
     "EventLog",
+    "Explanation",
     "Guard",
     "InputPort",
     "LeafSystem",
@@ -36,6 +38,7 @@ __all__ = [
     "OutputPort",
     "Progress",
     "Results",
+    "Rung",
     "Scene",
     "SimulationError",
     "Simulator",

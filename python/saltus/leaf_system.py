@@ -92,6 +92,8 @@ class LeafSystem(System, _core.LeafSystem):
     `simulate` as it was.
     """
 
+    __slots__ = ("_ladder",)  # not in __dict__, which a traced function is watched by
+
     @refusing
     def __init__(self, name: str | None = None):
         super().__init__(name or _core.next_name(type(self).__name__))

@@ -100,6 +100,10 @@ class SimulatorOptions:
     """
     record_events: bool = True
     """the event log; switching it off changes nothing else"""
+    python: str = "traced"
+    """'traced' makes expressions of the Python callbacks that allow it, which run without the
+    interpreter; 'called' calls them all. See `system.explain()`
+    """
     throw: bool = True
     """raise when a run does not end well; else return the results with the status"""
     progress: bool | Callable[[Progress], object] = False
@@ -112,7 +116,9 @@ class SimulatorOptions:
     """
 
 
-PYTHON_ONLY = {"recorded_signals", "throw", "progress"}  # the engine is told in another way
+PYTHON_ONLY = ("recorded_signals", "python", "throw", "progress")
+"""options that the engine does not have, or not in this form"""
+RUNGS = ("traced", "called")
 
 _UNBOUNDED = {
     "max_major_step_length": math.inf,
@@ -151,5 +157,8 @@ def core_options(options: SimulatorOptions) -> _core.SimulatorOptions:
             ) from None
     if not isinstance(options.throw, (bool, np.bool_)):
         raise ModelError(f"option throw: expected bool, found {options.throw!r}")
+    if options.python not in RUNGS:
+        found = f"'{options.python}'{_core.known_names(str(options.python), RUNGS)}"
+        raise ModelError(f"option python: unknown {found}")
     core.set_recorded_signals(_ports(options.recorded_signals))
     return core

@@ -99,7 +99,7 @@ class Scene:
         self.invariants = core.invariants
 
     def _options(self, core: _core.Scene) -> SimulatorOptions:
-        same = {f.name for f in fields(SimulatorOptions)} - PYTHON_ONLY
+        same = {f.name for f in fields(SimulatorOptions)} - set(PYTHON_ONLY)
         values: dict[str, Any] = {name: getattr(core.options, name) for name in same}
         signals = {
             name: OutputPort(self.system if block == core.system else SharedSystem(block), index)

@@ -8,6 +8,7 @@ from typing import Any
 
 from saltus import _core
 from saltus.errors import ModelError, SimulationError
+from saltus.ladder import climbed
 from saltus.options import PYTHON_ONLY, SimulatorOptions, core_options
 from saltus.porting import OPTIONS, refuse
 from saltus.progress import reporter_of
@@ -74,9 +75,17 @@ class Simulator:
         self.options = replace(options, **overrides)
         self.system = system  # the engine refers to it
         self._reporter = reporter_of(self.options.progress)
-        self._core = _core.Simulator(system, core_options(self.options), self._reporter)
+        self._options = core_options(self.options)
+        self._make()
         self._failed: Results | None = None
         self._outcome: Callable[..., Results] = Results
+
+    def _make(self) -> None:
+        """The engine's simulator, of the system as it runs."""
+        self._runs, self._ladder = self.system, None
+        if self.options.python == "traced":
+            self._runs, self._ladder = climbed(self.system)
+        self._core = _core.Simulator(self._runs, self._options, self._reporter)
 
     def initialize(self, context: _core.Context) -> None:
         """Begins a run with these values, at their time.
@@ -84,6 +93,8 @@ class Simulator:
         A context that an earlier run ended with goes on where that one stopped. ModelError if it is
         not one of this system.
         """
+        if self._ladder and (self._ladder.survey.stale or self._ladder.refresh()):
+            self._make()
         self._core.initialize(core_context(context))
         self._failed = None
 
@@ -113,7 +124,19 @@ class Simulator:
         """
         return self._advance(time, take=False).status
 
+    def _follow_changes(self) -> None:
+        """What a traced callback was made from may have changed since the last piece of the run."""
+        if not self._ladder or not self._ladder.refresh():
+            return
+        if not self._runs.replace(self._ladder.core_traces()):
+            raise ModelError(
+                f"t = {self.time} s: a callback depends on other values than when the run began; "
+                "initialize again, or use the option python='called'"
+            )
+
     def _advance(self, time: float, take: bool) -> Results:
+        if not take:  # what simulate runs was made just now
+            self._follow_changes()
         try:
             time = float(time)
         except (TypeError, ValueError):
@@ -123,11 +146,16 @@ class Simulator:
         else:
             self._report(time)
         core, raised = self._core.results(take)
-        results = self._outcome(core, raised, self.system)
+        results = self._results(core, raised)
         if results.status in ("failed", "interrupted"):
             self._failed = results
         if self.options.throw and results.status not in ("reached_end", "terminal", "zeno_stop"):
             self._raise(results, raised)
+        return results
+
+    def _results(self, core: _core.Results, raised: BaseException | None) -> Results:
+        results = self._outcome(core, raised, self.system)
+        results._runs = self._runs if results.dense else None
         return results
 
     def _report(self, time: float) -> None:
@@ -162,7 +190,7 @@ class Simulator:
     @property
     def results(self) -> Results:
         """All since `initialize`, as a copy of its own."""
-        return self._failed or self._outcome(*self._core.results(False), self.system)
+        return self._failed or self._results(*self._core.results(False))
 
     def describe(self) -> str:
         """What of the system is computed when, what is never computed, and why."""

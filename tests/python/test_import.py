@@ -3,9 +3,40 @@
 import subprocess
 import sys
 
+import pytest
 import saltus
 
-UNWANTED = {"matplotlib", "pandas", "xarray", "scipy", "tqdm", "rich", "hypothesis", "pytest"}
+UNWANTED = {
+    "matplotlib", "pandas", "xarray", "scipy", "tqdm", "rich", "hypothesis", "pytest",
+    "dask", "distributed", "joblib", "numba", "llvmlite", "jax", "cffi", "IPython",
+}  # fmt: skip
+# what people do that needs no extra
+USES = {
+    "simulate": """
+scene = saltus.scene("bouncing-ball")
+print(scene.simulate(), file=sys.stderr)
+""",
+    "solve": """
+saltus.solve(lambda t, x: -x, (0, 1), [1.0], dense_output=True)(0.5)
+""",
+    "sweep": """
+ball = saltus.scene("bouncing-ball").system
+saltus.sweep(ball, {"e": [0.5, 0.6]}, (0, 1), executor="serial", as_dict=True)
+""",
+    "pictures": """
+scene = saltus.scene("bouncing-ball-blocks").system
+scene.to_dot(), scene.to_mermaid(), scene._repr_svg_(), scene._repr_markdown_()
+""",
+    "command line": """
+from saltus.cli import main
+sys.stdout = sys.stderr
+main(["run", "bouncing-ball"])
+sys.stdout = sys.__stdout__
+""",
+}
+
+
+LOADED = "print(*{name.split('.')[0] for name in sys.modules})"
 
 
 def python(code):
@@ -16,11 +47,21 @@ def python(code):
 
 
 def test_nothing_but_numpy_is_imported():
-    loaded = set(
-        python("import sys, saltus; print(*{name.split('.')[0] for name in sys.modules})").split()
-    )
+    loaded = set(python(f"import sys, saltus; {LOADED}").split())
     assert "numpy" in loaded
     assert not loaded & UNWANTED
+
+
+@pytest.mark.parametrize("use", USES)
+def test_no_extra_is_imported_before_it_is_used(use):
+    loaded = set(python(f"import sys, saltus\n{USES[use]}\n{LOADED}").split())
+    assert not loaded & UNWANTED
+
+
+def test_the_machinery_for_pictures_and_the_command_line_waits_too():
+    loaded = python("import sys, saltus; print(*sys.modules)").split()
+    for module in ("saltus.picture", "saltus.cli", "saltus.report.chart", "subprocess"):
+        assert module not in loaded, module
 
 
 def test_import_is_quick():

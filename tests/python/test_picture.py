@@ -315,6 +315,7 @@ MERMAID = re.compile(
     | \ +end
     | \ +\w+(\["{LABEL}"\] | \(\["{LABEL}"\]\) | \[\["{LABEL}"\]\]):::\w+
     | \ +b\d+\ (-->|-\.->)(\|"{LABEL}"\|)?\ b\d+
+    | \ +class\ [\w,]+\ frame
     | \ +classDef\ \w+\ [\w\#:,\ -]+
     | \ +linkStyle\ [\d,]+\ stroke:\#\w+""",
     re.X,

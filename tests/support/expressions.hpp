@@ -3,7 +3,6 @@
 
 #include <array>
 #include <complex>
-#include <random>
 #include <vector>
 
 #include "saltus/tape/graph.hpp"
@@ -27,8 +26,10 @@ struct RandomExpression {
 /// ends of where an operation is defined.
 RandomExpression random_expression(unsigned seed);
 
-/// The outputs as nodes of a graph.
+/// The outputs as nodes of a graph, of states 0, 1, ... or of any other nodes.
 std::vector<saltus::tape::Node> write(const RandomExpression& e, saltus::tape::Graph& graph);
+std::vector<saltus::tape::Node> write(const RandomExpression& e, saltus::tape::Graph& graph,
+                                      const std::vector<saltus::tape::Node>& variables);
 
 /// The outputs in the arithmetic of a number type: double, long double, std::complex<double>.
 template <class Number>

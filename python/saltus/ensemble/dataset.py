@@ -49,23 +49,26 @@ def refuse_reserved(varied: Mapping[str, object], signals: Mapping[str, object])
 
 def summary(columns: Columns, wall_time: float) -> dict[str, Any]:
     """How the sweep went: what is shown at the foot of the results."""
-    status = STATUS[columns["status"]]
-    done = int((status != "not_run").sum())
+    kinds, counts = np.unique(columns["status"], return_counts=True)
+    by_kind = dict(zip(STATUS[kinds].tolist(), counts.tolist(), strict=True))
+    done = sum(by_kind.values()) - by_kind.get("not_run", 0)
     return {
-        "runs": len(status),
-        "failures": _failures(status, columns["reasons"]) or "none",
+        "runs": sum(by_kind.values()),
+        "failures": _failures(by_kind, columns) or "none",
         "wall_time": wall_time,
         "runs_per_second": done / wall_time if wall_time > 0 else float("nan"),
     }
 
 
-def _failures(status: np.ndarray, reasons: Mapping[int, tuple[str, str]]) -> str:
-    """'2 failed (the fuse blew), 1 not_run'."""
+def _failures(by_kind: Mapping[str, int], columns: Columns) -> str:
+    """'2 failed (the fuse blew); 1 not_run'."""
     said = []
-    for kind, count in Counter(status.tolist()).items():
+    for kind, count in by_kind.items():
         if kind in WELL:
             continue
-        why = Counter(text for run, (text, _) in reasons.items() if status[run] == kind)
+        of_kind = {r: t for r, (t, _) in columns["reasons"].items()
+                   if STATUS[columns["status"][r]] == kind}  # fmt: skip
+        why = Counter(of_kind.values())
         most = why.most_common(1)[0][0] if why else ""
         more = f", and {len(why) - 1} other reasons" if len(why) > 1 else ""
         said.append(f"{count} {kind}" + (f" ({most}{more})" if most else ""))

@@ -11,6 +11,7 @@ import numpy as np
 
 from saltus import _core
 from saltus.ensemble.columns import Columns, empty, failed, join
+from saltus.ensemble.table import Column
 from saltus.errors import ModelError
 from saltus.results import Results
 from saltus.simulation import SimulatorOptions, core_context, core_options
@@ -19,7 +20,7 @@ from saltus.system import OutputPort, System
 __all__ = ["Job", "port_of"]
 
 Watch = Callable[[int], bool]
-Values = Mapping[str, list[Any]]
+Values = Mapping[str, Column]
 
 
 def port_of(system: System, port: OutputPort | str) -> OutputPort:
@@ -89,7 +90,7 @@ class Job:
     def _first(self, values: Values, own: list[str]) -> None:
         """The names that are no arguments belong to the system: the first one tells."""
         assert not isinstance(self.system, System)
-        system = self.system(**{name: values[name][0] for name in own})
+        system = self.system(**{name: _entry(values[name], 0) for name in own})
         rest = {name: column[:1] for name, column in values.items() if name not in own}
         context = system.create_context()
         for name in rest:
@@ -132,7 +133,7 @@ class Job:
         while raised is None and len(parts) < runs:
             if watch is not None and watch(len(parts)):
                 break
-            row = {name: column[len(parts)] for name, column in values.items()}
+            row = {name: _entry(column, len(parts)) for name, column in values.items()}
             part, raised = self._run_one(row, own)
             parts.append(part)
         if len(parts) < runs:
@@ -178,7 +179,13 @@ def _said(error: BaseException) -> str:
     return f"{type(error).__name__}: {error}" if not isinstance(error, ModelError) else str(error)
 
 
-def _numbers(name: str, column: list[Any]) -> np.ndarray:
+def _entry(column: Column, run: int) -> Any:
+    """One value, as a number of Python where it is one."""
+    value = column[run]
+    return value.item() if isinstance(value, np.generic) else value
+
+
+def _numbers(name: str, column: Column) -> np.ndarray:
     """Values of all runs; a row of them for each run where they are vectors."""
     try:
         numbers = np.array(column, dtype=float)

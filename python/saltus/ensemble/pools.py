@@ -14,7 +14,7 @@ from typing import Any
 
 from saltus.ensemble.columns import Columns, empty, failed, join
 from saltus.ensemble.job import Job, Watch
-from saltus.ensemble.table import Table
+from saltus.ensemble.table import Column, Table
 from saltus.errors import ModelError
 
 __all__ = ["pickled", "process_pool", "run_pooled"]
@@ -47,7 +47,7 @@ def _unpickled(job: bytes) -> Job:
     return loaded
 
 
-def _run_part(job: Job | bytes, values: dict[str, list[Any]]) -> Columns:
+def _run_part(job: Job | bytes, values: dict[str, Column]) -> Columns:
     """In the other process."""
     columns: Columns = (_unpickled(job) if isinstance(job, bytes) else job).run(values)[0]
     return columns

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
@@ -15,12 +14,15 @@ from saltus.errors import ModelError
 __all__ = ["Table", "table_of"]
 
 
+Column = np.ndarray | list[Any]  # an array of numbers; a list of anything else
+
+
 @dataclass(frozen=True)
 class Table:
     """One column for each name, one value in it for each run."""
 
-    columns: dict[str, list[Any]]
-    axes: dict[str, list[Any]]
+    columns: dict[str, Column]
+    axes: dict[str, Column]
     """dimensions of the results, in order, with the values along them; {'run': ...} of a table"""
     runs: int
 
@@ -32,7 +34,7 @@ class Table:
     def is_grid(self) -> bool:
         return not (len(self.axes) == 1 and "run" in self.axes and "run" not in self.columns)
 
-    def part(self, first: int, last: int) -> dict[str, list[Any]]:
+    def part(self, first: int, last: int) -> dict[str, Column]:
         """The columns of the runs `first` to `last` - 1."""
         return {name: column[first:last] for name, column in self.columns.items()}
 
@@ -40,11 +42,11 @@ class Table:
 def table_of(values: object, paired: bool) -> Table:
     """A mapping is a grid, or with `paired` a table of columns; all else is a table."""
     if isinstance(values, Mapping):
-        columns = {_name(name): _column(name, column) for name, column in values.items()}
+        columns = {_name(name): _column(column) for name, column in values.items()}
         return _paired(columns) if paired else _grid(columns)
     if hasattr(values, "columns") and hasattr(values, "to_dict"):  # a pandas.DataFrame
         frame: Any = values
-        return _paired({_name(name): frame[name].tolist() for name in frame.columns})
+        return _paired({_name(name): _column(frame[name].to_numpy()) for name in frame.columns})
     if isinstance(values, Iterable) and not isinstance(values, str):
         return _paired(_columns_of(list(values)))
     raise ModelError(
@@ -59,36 +61,56 @@ def _name(name: object) -> str:
     return name
 
 
-def _column(name: object, values: object) -> list[Any] | Any:
-    """A list; what is no sequence is one value for all runs."""
-    if isinstance(values, np.ndarray) or hasattr(values, "tolist"):
-        return values.tolist() if np.ndim(values) < 2 else list(np.asarray(values))  # type: ignore[arg-type]
-    if isinstance(values, str) or not isinstance(values, Iterable):
+def _column(values: object) -> Column | Any:
+    """Numbers as an array, else a list; what is no sequence is one value for all runs."""
+    if isinstance(values, str) or not isinstance(values, Iterable) or np.ndim(values) == 0:  # type: ignore[arg-type]
         return values
-    return list(values)
+    values = values if isinstance(values, np.ndarray) else list(values)
+    try:
+        array = np.asarray(values)
+    except ValueError:  # rows of different lengths
+        return list(values)
+    return array if array.dtype.kind in "bif" else list(values)
+
+
+def _is_column(values: object) -> bool:
+    return isinstance(values, (np.ndarray, list))
+
+
+def _taken(column: Column, rows: np.ndarray) -> Column:
+    """The entries of a column by number."""
+    return column[rows] if isinstance(column, np.ndarray) else [column[row] for row in rows]
+
+
+def _filled(value: object, runs: int) -> Column:
+    number = isinstance(value, (int, float, np.number))
+    return np.full(runs, value) if number else [value] * runs  # type: ignore[arg-type]
 
 
 def _grid(columns: Mapping[str, Any]) -> Table:
-    axes = {name: values for name, values in columns.items() if isinstance(values, list)}
+    axes = {name: values for name, values in columns.items() if _is_column(values)}
     for name, values in axes.items():
-        if not values:
+        if not len(values):
             raise ModelError(f"sweep: '{name}' has no values")
-    runs = math.prod(len(values) for values in axes.values())
-    rows = list(itertools.product(*axes.values()))
-    varied = dict(zip(axes, map(list, zip(*rows, strict=True)), strict=True)) if axes else {}
-    fixed = {name: [value] * runs for name, value in columns.items() if name not in axes}
-    return Table({**varied, **fixed}, axes or {"run": [0]}, runs)
+    shape = [len(values) for values in axes.values()]
+    runs = math.prod(shape)
+    places = dict(zip(axes, np.indices(shape).reshape(len(shape), runs), strict=True))
+    full = {
+        name: _taken(values, places[name]) if name in axes else _filled(values, runs)
+        for name, values in columns.items()
+    }
+    return Table(full, axes or {"run": [0]}, runs)
 
 
 def _paired(columns: Mapping[str, Any]) -> Table:
-    lengths = {name: len(c) for name, c in columns.items() if isinstance(c, list)}
+    lengths = {name: len(c) for name, c in columns.items() if _is_column(c)}
     if len(set(lengths.values())) > 1:
         said = ", ".join(f"'{name}' {n}" for name, n in lengths.items())
         raise ModelError(f"sweep: the columns of a table need the same length, found {said}")
     runs = next(iter(lengths.values()), 1)
     if not columns or not runs:
         raise ModelError("sweep: the table has no rows")
-    full = {n: c if isinstance(c, list) else [c] * runs for n, c in columns.items()}
+    full = {n: c if _is_column(c) else _filled(c, runs) for n, c in columns.items()}
     return Table(full, {"run": list(range(runs))}, runs)
 
 
@@ -104,4 +126,4 @@ def _columns_of(rows: Sequence[object]) -> dict[str, list[Any]]:
         elif set(row) != set(names):
             missing = sorted(map(str, set(names) ^ set(row)))
             raise ModelError(f"sweep: row {i} names other values than row 0: {', '.join(missing)}")
-    return {name: [row[name] for row in rows] for name in names}  # type: ignore[index]
+    return {name: _column([row[name] for row in rows]) for name in names}  # type: ignore[index]

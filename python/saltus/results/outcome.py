@@ -73,6 +73,7 @@ class Results:
     def __init__(self, core: Record, raised: BaseException | None = None, system: Any = None):
         self._core = core
         self._system = system if core.dense else None  # dense output asks its outputs
+        self._runs: Any = None  # and those of the system as it ran
         self.time = core.time
         self.jump = core.jump
         self.outputs = _Outputs(core.outputs)

@@ -17,6 +17,8 @@ from saltus.tracing.symbol import Symbol, joint, kind_of
 
 Objects = NDArray[np.object_]
 
+LARGEST_TABLE = 64  # entries a value may choose from; each is compared at every evaluation
+
 TYPES = {"b": np.dtype(bool), "i": np.dtype(np.int64), "f": np.dtype(np.float64)}
 WHOLE: dict[str, str] = {"b": "b", "i": "i", "u": "i", "f": "f"}
 
@@ -59,8 +61,15 @@ def _stacked(parts: list[Objects]) -> Objects:
     return result
 
 
+def _entry(item: Any) -> Any:
+    """An entry out of the array of no dimension that numpy may have left it in."""
+    return item[()] if isinstance(item, np.ndarray) and not item.ndim else item
+
+
 def kind_in(data: Objects) -> str:
-    return joint(*{kind_of(item) or refuse(f"computes with {item!r}") for item in data.flat} or "f")
+    return joint(
+        *{kind_of(_entry(item)) or refuse(f"computes with {item!r}") for item in data.flat} or "f"
+    )
 
 
 def array(value: Any, kind: str = "") -> SymbolArray:
@@ -70,7 +79,7 @@ def array(value: Any, kind: str = "") -> SymbolArray:
     result = np.empty(data.shape, dtype=object)
     flat = result.reshape(-1)
     for i, item in enumerate(data.flat):
-        flat[i] = cast(item, kind)
+        flat[i] = cast(_entry(item), kind)
     return SymbolArray(result, kind)
 
 
@@ -163,28 +172,34 @@ class SymbolArray:
         return (self[i] for i in range(len(self.data)))
 
     def __getitem__(self, key: Any) -> Any:
-        if type(key) is Symbol and key.value is None and self.ndim == 1:
+        if type(key) is Symbol and key.value is None and self.ndim:
             return self._looked_up(key)
         part = self.data[index_of(key)]
         return self._view(part) if isinstance(part, np.ndarray) else cast(part, self.kind)
 
     def _looked_up(self, key: Symbol) -> Any:
-        """Entry `key`, an integer that is not known, such as the mode; NaN beyond the ends."""
-        from saltus.tracing.scalars import SCALARS, select
+        """Entry (or row) `key`, an integer that is not known, such as the mode.
 
-        if key.kind != "i" or self.size > 64:
+        NaN beyond the ends, where numpy raises.
+        """
+        from saltus.tracing.operators import apply
+
+        n = len(self.data)
+        if key.kind != "i" or n > LARGEST_TABLE:
             key.__index__()  # refuses
         result: Any = np.nan
-        for i in range(self.size):
-            for place in (i, i - self.size):
-                result = select(SCALARS["eq"](key, place), cast(self.data[i], self.kind), result)
-        return result
+        for i in range(n):
+            here = apply("logical_or", apply("eq", key, i), apply("eq", key, i - n))
+            result = apply("select", here, self[i], result)
+        if isinstance(result, SymbolArray):
+            return SymbolArray(result.data, self.kind)
+        return result.numpy(self.kind)
 
     def __setitem__(self, key: Any, value: Any) -> None:
         if self.frozen:
             refuse(f"writes to {self.frozen}", "what changes something outside is called; copy it")
         if isinstance(key, SymbolArray) and key.kind == "b" and not is_known(key.data):
-            refuse("sets entries chosen by a value", "use np.where")
+            return self._set_where(key, value)
         place = index_of(key)
         source = objects_of(value)
         cells = np.empty(source.shape, dtype=object)
@@ -195,6 +210,15 @@ class SymbolArray:
                 raise ValueError("setting an array element with a sequence.")
             cells = cells.reshape(())
         self.data[place] = cells if cells.ndim else cells[()]
+
+    def _set_where(self, mask: SymbolArray, value: Any) -> None:
+        """x[mask] = number, for a mask that is not known."""
+        from saltus.tracing.operators import apply
+
+        if mask.shape != self.shape or objects_of(value).size != 1:
+            refuse("sets several entries chosen by a value", "use np.where")
+        number = cast(as_array(value)._one(), self.kind)
+        self[...] = apply("select", mask, number, self)
 
     def _one(self) -> Any:
         if self.size != 1:

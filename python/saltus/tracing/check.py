@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import itertools
+import math
 from collections.abc import Callable
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -22,34 +25,37 @@ FEWEST = 3  # points where the function gives finite numbers
 QUICK = 2.0 * ULPS
 
 
+@lru_cache(maxsize=64)
 def _draws(count: int) -> Numbers:
     """`count` numbers between -2 and 2 for each point, the same in every process."""
-    return np.random.default_rng(20_405).uniform(-2.0, 2.0, (len(SCALES), count))
+    draws = np.random.default_rng(20_405).uniform(-2.0, 2.0, (len(SCALES), count))
+    draws.flags.writeable = False
+    return draws
+
+
+def _near(start: Numbers, draws: Numbers) -> Numbers:
+    """A row of values for each point."""
+    scales = np.array(SCALES)[:, None]
+    return start + scales * draws * np.where(scales < 1.0, np.maximum(1.0, np.abs(start)), 1.0)
 
 
 def points(signature: Signature, reads_mode: bool) -> list[Point]:
     """Values near those the block starts with and far from them, of both signs."""
-    x, z = signature.start("x"), signature.start("z")
-    values = [np.ravel(np.asarray(v, dtype=float)) for v in signature.parameters.values()]
-    p = np.concatenate([*values, np.empty(0)])
-    widths = [int(np.prod(shape)) for shape in signature.input_shapes]
+    x, z, p = signature.start("x"), signature.start("z"), signature.parameter_values()
+    widths = [math.prod(shape) for shape in signature.input_shapes]
     draws = _draws(x.size + z.size + p.size + sum(widths))
-    cuts = np.cumsum([x.size, z.size, p.size, *widths])[:-1]
-    found = []
-    for i, (scale, time) in enumerate(zip(SCALES, TIMES, strict=True)):
-        dx, dz, dp, *u = np.split(draws[i], cuts)
-        near = min(scale, 0.3)  # parameters often have a sign and a size that matter
-        modes = (signature.mode, *signature.modes)
-        mode = int(modes[i % len(modes)]) if reads_mode else signature.mode
-        found.append(
-            Point(time, _near(x, scale, dx), _near(z, scale, dz), mode, i % 3,
-                  p * (1.0 + near * dp), [(scale or 1.0) * part for part in u])
-        )  # fmt: skip
-    return found
-
-
-def _near(start: Numbers, scale: float, draws: Numbers) -> Numbers:
-    return start + scale * draws * np.maximum(1.0, np.abs(start) if scale < 1.0 else 0.0)
+    ends = list(itertools.accumulate([x.size, z.size, p.size, *widths], initial=0))
+    dx, dz, dp, *du = (draws[:, i:j] for i, j in itertools.pairwise(ends))
+    scales = np.array(SCALES)[:, None]
+    xs, zs = _near(x, dx), _near(z, dz)
+    # parameters often have a sign and a size that matter
+    ps = p * (1.0 + np.minimum(scales, 0.3) * dp)
+    us = [np.where(scales == 0.0, 1.0, scales) * part for part in du]
+    modes = (signature.mode, *signature.modes) if reads_mode else (signature.mode,)
+    return [
+        Point(t, xs[i], zs[i], modes[i % len(modes)], i % 3, ps[i], [u[i] for u in us])
+        for i, t in enumerate(TIMES)
+    ]
 
 
 def _called(signature: Signature, function: Callable[..., Any], at: Point, size: int) -> Any:

@@ -6,6 +6,7 @@ locates, as when the function is called: the error control of the solver meets i
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable, Sequence
 from typing import Any
 
@@ -118,6 +119,30 @@ def count_nonzero(a: Any, axis: Any = None) -> Any:
     return fold("add", False, apply("truth", as_array(a)), axis)
 
 
+def piecewise(x: Any, conditions: Any, functions: Any, *args: Any, **options: Any) -> Any:
+    """The function of the last condition that is true, else the one more, else 0."""
+    x = as_array(x)
+    if not isinstance(conditions, (list, tuple)):
+        conditions = [conditions]
+
+    def value(function: Any) -> Any:
+        return function(x, *args, **options) if callable(function) else function
+
+    extra = len(functions) - len(conditions)
+    result = value(functions[-1]) if extra else 0
+    for condition, function in zip(conditions, functions, strict=False):
+        result = where(condition, value(function), result)
+    return as_array(result).astype(x.dtype)
+
+
+def is_in(element: Any, test_elements: Any, **options: Any) -> Any:
+    """Whether it equals one of those."""
+    if options:
+        refuse("calls np.isin with options", "leave them out")
+    tests = [apply("eq", element, test) for test in as_array(test_elements).ravel()]
+    return functools.reduce(lambda a, b: apply("logical_or", a, b), tests)
+
+
 CHOICES: dict[str, Callable[..., Any]] = {
     "where": where,
     "select": select,
@@ -125,6 +150,8 @@ CHOICES: dict[str, Callable[..., Any]] = {
     "round": round_,
     "around": round_,
     "interp": interp,
+    "piecewise": piecewise,
+    "isin": is_in,
     "isclose": is_close,
     "allclose": _whole(is_close),
     "array_equal": array_equal,

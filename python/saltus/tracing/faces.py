@@ -9,7 +9,7 @@ import itertools
 import math
 import operator
 from collections.abc import Callable
-from types import BuiltinFunctionType, FunctionType, ModuleType
+from types import BuiltinFunctionType, ModuleType
 from typing import Any
 
 import numpy as np
@@ -17,11 +17,10 @@ import numpy as np
 from saltus.tracing import functions as numpy_functions
 from saltus.tracing.array import SymbolArray, array, kind_of_type
 from saltus.tracing.foreign import Foreign
-from saltus.tracing.operators import apply, call_ufunc, reduce_ufunc
+from saltus.tracing.math_face import MATH_FACE, math_function
+from saltus.tracing.operators import call_ufunc, reduce_ufunc
 from saltus.tracing.plain_builtins import REPLACED, SAFE
 from saltus.tracing.refusal import refuse
-from saltus.tracing.scalars import SCALARS, is_number
-from saltus.tracing.symbol import Symbol
 
 SAFE_MODULES = {"operator", "itertools", "_operator"}
 
@@ -79,6 +78,8 @@ def _numpy_value(name: str, value: Any) -> Any:
     if isinstance(value, type):
         if value is np.ndarray:
             return SymbolArray
+        if value in (np.ndindex, np.finfo, np.iinfo, np.dtype):
+            return value
         return NumpyType(value) if issubclass(value, np.generic) else Foreign(f"np.{name}")
     return _function(value) if callable(value) else value
 
@@ -107,90 +108,6 @@ class Numpy:
 
 LINALG = Numpy(np.linalg, "np.linalg")
 NUMPY = Numpy(np, "np")
-
-MATH = {
-    "acos": "acos", "acosh": "acosh", "asin": "asin", "asinh": "asinh", "atan": "atan",
-    "atan2": "atan2", "atanh": "atanh", "cbrt": "cbrt", "copysign": "copysign", "cos": "cos",
-    "cosh": "cosh", "degrees": "rad2deg", "exp": "exp", "exp2": "exp2", "expm1": "expm1",
-    "fabs": "abs", "fmod": "fmod", "isfinite": "isfinite", "isinf": "isinf", "isnan": "isnan",
-    "log10": "log10", "log1p": "log1p", "log2": "log2", "pow": "pow", "radians": "deg2rad",
-    "sin": "sin", "sinh": "sinh", "sqrt": "sqrt", "tan": "tan", "tanh": "tanh",
-}  # fmt: skip
-"""function of math -> what it is called in SCALARS"""
-
-
-def _one(value: Any) -> Any:
-    """What math takes for a number: an array of one, too."""
-    return value._one() if isinstance(value, SymbolArray) else value
-
-
-def _log(x: Any, base: Any = None) -> Any:
-    natural = SCALARS["log"](x)
-    return natural if base is None else SCALARS["div"](natural, SCALARS["log"](base))
-
-
-def _hypot(*parts: Any) -> Any:
-    if len(parts) == 2:
-        return SCALARS["hypot"](*parts)
-    return SCALARS["sqrt"](functools.reduce(operator.add, (p * p for p in parts)))
-
-
-MATH_OWN: dict[str, Callable[..., Any]] = {
-    "log": _log,
-    "hypot": _hypot,
-    "floor": lambda x: x.__floor__(),
-    "ceil": lambda x: x.__ceil__(),
-    "trunc": lambda x: x.__trunc__(),
-    "modf": lambda x: (x - SCALARS["trunc"](x), SCALARS["trunc"](x)),
-}
-
-SEQUENCES: dict[str, Callable[..., Any]] = {
-    "fsum": lambda terms: functools.reduce(operator.add, terms),
-    "prod": lambda terms, start=1: functools.reduce(operator.mul, terms, start),
-    "dist": lambda p, q: _hypot(*(a - b for a, b in zip(p, q, strict=True))),
-}
-
-
-def _as_python(result: Any) -> Any:
-    """math's functions return Python's numbers, whatever they are given."""
-    return (
-        Symbol(result.graph, result.node, result.kind, True) if type(result) is Symbol else result
-    )
-
-
-@functools.cache
-def math_function(name: str) -> Callable[..., Any]:
-    real: Callable[..., Any] = getattr(math, name)
-
-    def call(*arguments: Any, **options: Any) -> Any:
-        if not numpy_functions.has_symbols(arguments):
-            return real(*numpy_functions.plain(arguments), **options)
-        if name in SEQUENCES:
-            return _as_python(SEQUENCES[name](*arguments, **options))
-        arguments = tuple(_one(a) for a in arguments)
-        if name in MATH_OWN:
-            return _as_python(MATH_OWN[name](*arguments, **options))
-        if name not in MATH:
-            refuse(f"calls math.{name}, which has no symbolic form", "write it out")
-        if not all(is_number(a) for a in arguments):
-            raise TypeError(f"must be real number, not {type(arguments[0]).__name__}")
-        return _as_python(apply(MATH[name], *arguments))
-
-    return call
-
-
-class Math:
-    """The module math, for symbols and numbers."""
-
-    def __getattr__(self, name: str) -> Any:
-        value = getattr(math, name)
-        return math_function(name) if callable(value) else value
-
-    def __setattr__(self, name: str, value: Any) -> None:
-        refuse(f"writes math.{name}")
-
-
-MATH_FACE = Math()
 
 
 class PlainModule:
@@ -249,8 +166,8 @@ def _of_python(value: Any) -> Any:
     if getattr(builtins, name, None) is value:
         return BUILTINS[name]
     module = getattr(value, "__module__", None)
-    safe = module in SAFE_MODULES or value is functools.reduce
-    return value if safe and not isinstance(value, FunctionType) else None
+    function = isinstance(value, (BuiltinFunctionType, type))  # no iterator that is under way
+    return value if function and (module in SAFE_MODULES or value is functools.reduce) else None
 
 
 def _import(

@@ -32,7 +32,7 @@ class Foreign:
         refuse(f"writes {self._words}.{name}", "what changes something outside is called")
 
     __call__ = __getitem__ = __setitem__ = __iter__ = __len__ = __contains__ = _refuse
-    __bool__ = __float__ = __int__ = __index__ = __enter__ = __exit__ = _refuse
+    __next__ = __bool__ = __float__ = __int__ = __index__ = __enter__ = __exit__ = _refuse
     __add__ = __radd__ = __sub__ = __rsub__ = __mul__ = __rmul__ = __truediv__ = _refuse
     __rtruediv__ = __pow__ = __rpow__ = __matmul__ = __rmatmul__ = __neg__ = __abs__ = _refuse
     __lt__ = __le__ = __gt__ = __ge__ = __eq__ = __ne__ = _refuse

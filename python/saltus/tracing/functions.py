@@ -25,20 +25,22 @@ from saltus.tracing.array import (
 from saltus.tracing.operators import apply, call_ufunc
 from saltus.tracing.reductions import REDUCTIONS
 from saltus.tracing.refusal import refuse
+from saltus.tracing.scalars import is_number
 from saltus.tracing.symbol import Symbol
 
 ARRANGING = """
     append argwhere array_split atleast_1d atleast_2d atleast_3d block broadcast_arrays broadcast_to
     column_stack concatenate convolve cross delete diag diagflat diagonal diff dsplit dstack ediff1d
-    einsum expand_dims flip fliplr flipud hsplit hstack insert kron moveaxis pad polyval ravel
-    repeat reshape resize roll rollaxis rot90 split squeeze stack swapaxes take tensordot tile trace
+    einsum expand_dims flip fliplr flipud hsplit hstack insert kron meshgrid moveaxis pad polyval
+    ravel repeat reshape resize roll rollaxis rot90 split squeeze stack swapaxes take tensordot tile trace
     transpose trapezoid trapz tri tril triu vander vsplit vstack
 """.split()
 """numpy's functions that only arrange entries, or add and multiply them"""
 
 EFFECTS = """
-    copyto fill_diagonal fromfile genfromtxt load loadtxt memmap place put put_along_axis putmask
-    save savetxt savez savez_compressed set_printoptions seterr seterrcall setbufsize getbufsize
+    copyto fill_diagonal fromfile genfromtxt info load loadtxt memmap place put put_along_axis
+    putmask save savetxt savez savez_compressed set_printoptions seterr seterrcall setbufsize
+    show_config show_runtime
 """.split()
 """what changes an argument or the world"""
 
@@ -58,29 +60,32 @@ def plain(value: Any) -> Any:
     if isinstance(value, SymbolArray):
         return known(value, "uses values")
     if isinstance(value, (list, tuple)) and any(isinstance(v, (SymbolArray, list)) for v in value):
-        return type(value)([plain(item) for item in value])
+        return [plain(item) for item in value]
     return value
 
 
-def _boxed(value: Any, kind: str) -> Any:
+def _boxed(value: Any, kind: str, outermost: bool = True) -> Any:
     """The same with arrays of objects; `kind` is that of all of them together."""
     if isinstance(value, SymbolArray):
         return (value if value.kind == kind else array(value, kind)).data
     if isinstance(value, (list, tuple)):
-        return type(value)([_boxed(item, kind) for item in value])
-    return value
+        if not outermost and all(is_number(item) for item in value):
+            return objects_of(value)
+        return [_boxed(item, kind, False) for item in value]
+    # numpy would ask a bare symbol how to do it, and so come back here
+    return objects_of(value) if type(value) is Symbol else value
 
 
 def _arrays_in(value: Any) -> list[SymbolArray]:
     if isinstance(value, (list, tuple)):
         return [found for item in value for found in _arrays_in(item)]
-    return [value] if isinstance(value, SymbolArray) else []
+    return [as_array(value)] if isinstance(value, (SymbolArray, Symbol)) else []
 
 
 def _returned(result: Any, source: list[SymbolArray]) -> Any:
     """What numpy's function on objects gave; a view of one array stays a view."""
     if isinstance(result, (list, tuple)):
-        return type(result)([_returned(item, source) for item in result])
+        return [_returned(item, source) for item in result]
     if isinstance(result, np.ndarray) and result.dtype != object:
         return array(result)
     if len(source) == 1 and isinstance(result, np.ndarray) and result.ndim:
@@ -205,6 +210,8 @@ FUNCTIONS: dict[str, Callable[..., Any]] = {
     "inner": products.inner,
     "vdot": products.vdot,
     "outer": products.outer,
+    "multi_dot": products.multi_dot,
+    "matrix_power": products.matrix_power,
     "norm": products.norm,
     "solve": solving.solve,
     "inv": solving.inv,

@@ -7,7 +7,7 @@ from types import FunctionType
 from typing import TYPE_CHECKING, Any
 
 from saltus.tracing.refusal import refuse
-from saltus.tracing.watch import MISSING
+from saltus.tracing.watch import MISSING, AttributeOf
 
 if TYPE_CHECKING:
     from saltus.tracing.sandbox import Sandbox
@@ -56,7 +56,10 @@ class Guarded:
         refuse(f"deletes {_sandbox(self)[2]}.{name}", OUTSIDE)
 
     def __call__(self, *arguments: Any, **options: Any) -> Any:
-        if isinstance(_sandbox(self)[1], type):
+        made = _sandbox(self)[1]
+        if isinstance(made, type):
+            if made.__mro__[1:] == (tuple, object) and hasattr(made, "_fields"):
+                return made(*arguments, **options)  # a named tuple
             refuse(f"makes an object of the class {_sandbox(self)[2]}", "use numbers and arrays")
         return read(self, "__call__")(*arguments, **options)
 
@@ -90,27 +93,26 @@ def read(guarded: Guarded, name: str) -> Any:
     after = object.__getattribute__(guarded, "_after")
     found = _in_class(value, name, after)
     if found is not None and _is_data_descriptor(found[1]):
-        _watch_class(sandbox, value, name, where)
+        _watch_class(sandbox, type(value), name, where)
         return _described(guarded, found[1], name, where)
     own = getattr(value, "__dict__", {}) if after is None else {}
     if name in own:
         sandbox.watch.add_entry(where, own, name, own[name])
         return sandbox.form_of(own[name], where)
     if found is None:
+        if hasattr(type(value), "__getattr__"):
+            refuse(f"reads {where}, which __getattr__ makes up", "make it an attribute")
         raise AttributeError(f"'{type(value).__name__}' object has no attribute '{name}'")
     sandbox.watch.add_entry(where, own, name, MISSING)
-    _watch_class(sandbox, value, name, where)
+    _watch_class(sandbox, type(value), name, where)
     return _described(guarded, found[1], name, where)
 
 
-class _TypeOf:
+class _TypeOf(AttributeOf):
     """The class of an object, as an entry of a dictionary."""
 
-    def __init__(self, value: Any):
-        self._value = value
-
     def get(self, key: None, default: Any) -> Any:
-        return type(self._value)
+        return self("__class__", default)
 
 
 def _in_class(value: Any, name: str, after: type | None) -> tuple[type, Any] | None:
@@ -121,9 +123,9 @@ def _in_class(value: Any, name: str, after: type | None) -> tuple[type, Any] | N
     return None
 
 
-def _watch_class(sandbox: Sandbox, value: Any, name: str, where: str) -> None:
+def _watch_class(sandbox: Sandbox, owner: type, name: str, where: str) -> None:
     """Watch the class that has the attribute, and those before it that might get it."""
-    for base in type(value).__mro__:  # all of them: super() may have passed over some
+    for base in owner.__mro__:  # all of them: super() may have passed over some
         if base is not object:
             entry = base.__dict__.get(name, MISSING)
             sandbox.watch.add(where, functools.partial(_class_entry, base), name, entry)
@@ -155,21 +157,13 @@ def _described(guarded: Guarded, entry: Any, name: str, where: str) -> Any:
         return functools.partial(sandbox.form_of(entry, where), guarded)
     if hasattr(type(entry), "__get__"):
         now = getattr(value, name)
-        from saltus.tracing.sandbox import get_attribute
-
-        sandbox.watch.add(where, get_attribute, (value, name), now)
+        sandbox.watch.add(where, AttributeOf(value), name, now)
         return sandbox.form_of(now, where)
     return sandbox.form_of(entry, where)
 
 
 def _of_class(sandbox: Sandbox, owner: type, name: str, where: str) -> Any:
     """A constant of a class, a member of an enumeration, a static method."""
-    from saltus.tracing.sandbox import get_attribute
-
     value = getattr(owner, name)
-    if hasattr(value, "__func__"):  # a bound class method is new each time
-        sandbox.watch.add(where, get_attribute, (value.__func__, "__code__"),
-                          value.__func__.__code__)  # fmt: skip
-    else:
-        sandbox.watch.add(where, get_attribute, (owner, name), value)
+    _watch_class(sandbox, owner, name, where)
     return sandbox.form_of(value, where)

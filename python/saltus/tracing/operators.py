@@ -143,27 +143,31 @@ def _array_function(self: Any, function: Any, types: Any, args: Any, options: An
     return call_function(function, args, options)
 
 
-def _operand(value: Any) -> bool:
-    return is_number(value) or isinstance(value, (SymbolArray, np.ndarray))
+def _operand(self: Any, other: Any) -> bool:
+    """Whether the operator works; numpy's numbers and arrays take lists, Python's floats do not."""
+    if is_number(other) or isinstance(other, (SymbolArray, np.ndarray)):
+        return True
+    takes_lists = isinstance(self, SymbolArray) or not self.python
+    return takes_lists and isinstance(other, (list, tuple))
 
 
 def _forward(name: str) -> Callable[[Any, Any], Any]:
     def operate(self: Any, other: Any) -> Any:
-        return apply(name, self, other) if _operand(other) else NotImplemented
+        return apply(name, self, other) if _operand(self, other) else NotImplemented
 
     return operate
 
 
 def _backward(name: str) -> Callable[[Any, Any], Any]:
     def operate(self: Any, other: Any) -> Any:
-        return apply(name, other, self) if _operand(other) else NotImplemented
+        return apply(name, other, self) if _operand(self, other) else NotImplemented
 
     return operate
 
 
 def _in_place(name: str) -> Callable[[Any, Any], Any]:
     def operate(self: Any, other: Any) -> Any:
-        if not _operand(other) and not isinstance(other, (list, tuple)):
+        if not _operand(self, other):
             return NotImplemented
         result = apply(name, self, other)
         if "bif".index(self.kind) < "bif".index(as_array(result).kind):
@@ -176,7 +180,11 @@ def _in_place(name: str) -> Callable[[Any, Any], Any]:
 
 def _comparison(name: str, other_way: bool) -> Callable[[Any, Any], Any]:
     def operate(self: Any, other: Any) -> Any:
-        return apply(name, self, other) if _operand(other) else other_way
+        if _operand(self, other):
+            return apply(name, self, other)
+        if isinstance(self, SymbolArray):
+            refuse(f"compares an array with {type(other).__name__}", "compare it with numbers")
+        return other_way
 
     return operate
 

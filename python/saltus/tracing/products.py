@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import functools
 from typing import Any
 
 import numpy as np
 
 from saltus.tracing.array import Objects, SymbolArray, as_array, wrapped
 from saltus.tracing.operators import apply
+from saltus.tracing.refusal import refuse
 from saltus.tracing.scalars import SCALARS
 from saltus.tracing.symbol import Symbol
 
@@ -72,6 +74,17 @@ def outer(a: Any, b: Any, out: None = None) -> Any:
     return apply("mul", as_array(a).reshape(-1, 1), as_array(b).reshape(1, -1))
 
 
+def multi_dot(arrays: Any, *, out: None = None) -> Any:
+    return functools.reduce(dot, arrays)
+
+
+def matrix_power(a: Any, n: int) -> Any:
+    """a @ a @ ..., n times, n >= 0."""
+    if n < 0:
+        refuse("calls np.linalg.matrix_power with a negative power", "use np.linalg.inv")
+    return functools.reduce(matmul, [a] * n, np.eye(as_array(a).shape[0]))
+
+
 def norm(x: Any, ord: Any = None, axis: Any = None, keepdims: bool = False) -> Any:
     """The Euclidean (Frobenius) norm, and the 1- and infinity-norm of vectors."""
     from saltus.tracing.reductions import REDUCTIONS
@@ -81,8 +94,6 @@ def norm(x: Any, ord: Any = None, axis: Any = None, keepdims: bool = False) -> A
         total = REDUCTIONS["sum" if ord == 1 else "max"]
         return total(apply("abs", x), axis, keepdims=keepdims)
     if ord not in (None, 2, "fro") or (ord == 2 and x.ndim > 1 and axis is None):
-        from saltus.tracing.refusal import refuse
-
         refuse(f"calls np.linalg.norm with ord={ord!r}", "write it out")
     return apply("sqrt", REDUCTIONS["sum"](apply("mul", x, x), axis, keepdims=keepdims))
 

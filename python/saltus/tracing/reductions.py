@@ -119,6 +119,30 @@ def ptp(a: Any, axis: Any = None, **options: Any) -> Any:
     return apply("sub", high, folding("minimum")(a, axis, **options))
 
 
+def average(a: Any, axis: Any = None, weights: Any = None, **options: Any) -> Any:
+    if weights is None:
+        return mean(a, axis, **options)
+    a, weights = as_array(a), as_array(weights)
+    if options or a.shape != weights.shape:
+        refuse("calls np.average with options or weights of another shape", "write it out")
+    total = fold("add", False, apply("mul", a, weights), axis)
+    return apply("div", total, fold("add", False, weights, axis))
+
+
+def gradient(f: Any, *spacing: Any, **options: Any) -> Any:
+    """Central differences, one-sided at the ends, of a vector with equal spacing."""
+    f = as_array(f)
+    if options or f.ndim != 1 or len(spacing) > 1 or any(np.ndim(h) for h in spacing):
+        refuse("calls np.gradient of more than a vector with one spacing", "write it out")
+    h = spacing[0] if spacing else 1.0
+    result = np.empty(f.size, dtype=object)
+    inner = apply("div", apply("sub", f[2:], f[:-2]), apply("mul", 2.0, h))
+    result[1:-1] = as_array(inner).data
+    result[0] = apply("div", apply("sub", f[1], f[0]), h)
+    result[-1] = apply("div", apply("sub", f[-1], f[-2]), h)
+    return wrapped(result)
+
+
 REDUCTIONS: dict[str, Callable[..., Any]] = {
     "sum": folding("add"),
     "prod": folding("mul"),
@@ -132,8 +156,10 @@ REDUCTIONS: dict[str, Callable[..., Any]] = {
     "var": var,
     "std": std,
     "ptp": ptp,
+    "average": average,
+    "gradient": gradient,
 }
 
 for _name, _function in REDUCTIONS.items():
-    if _name != "ptp":
+    if _name not in ("ptp", "average", "gradient"):
         setattr(SymbolArray, _name, _function)

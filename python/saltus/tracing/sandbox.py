@@ -13,7 +13,6 @@ from types import (
     CellType,
     CodeType,
     FunctionType,
-    MappingProxyType,
     MethodType,
     ModuleType,
 )
@@ -25,10 +24,10 @@ from saltus.tracing.array import SymbolArray
 from saltus.tracing.code import names_in, refuse_code
 from saltus.tracing.faces import BUILTINS, face_of
 from saltus.tracing.foreign import Foreign
-from saltus.tracing.frozen import FrozenList
+from saltus.tracing.frozen import FrozenDict, FrozenList, FrozenTuple
 from saltus.tracing.guarded import Guarded
 from saltus.tracing.refusal import MARK, refuse
-from saltus.tracing.watch import LARGEST, MISSING, PLAIN, Watch, entries
+from saltus.tracing.watch import LARGEST, MISSING, PLAIN, AttributeOf, Watch, entries
 
 FOREIGN = set(
     """
@@ -36,6 +35,9 @@ FOREIGN = set(
     xarray
     """.split()
 )
+INNER = {"_lru_cache_wrapper": "__wrapped__", "CPUDispatcher": "py_func"}
+"""what keeps a Python function to call it quicker: functools' caches, numba's jit"""
+
 OUTSIDE = set("datetime io logging os random secrets socket subprocess sys time warnings".split())
 
 
@@ -50,14 +52,15 @@ def _get_cell(cell: Any, default: Any) -> Any:
     return _read_cell(cell, default)
 
 
-def get_attribute(place: tuple[Any, str], default: Any) -> Any:
-    """An attribute, for a `Watch`."""
-    return getattr(*place, default)
-
-
 def _library(value: Any) -> str:
     module = value.__name__ if isinstance(value, ModuleType) else getattr(value, "__module__", "")
     return (module if isinstance(module, str) else "").split(".")[0]
+
+
+def _flat(container: Any) -> list[Any]:
+    if isinstance(container, dict):
+        return [part for item in container.items() for part in item]
+    return list(container)
 
 
 class Sandbox:
@@ -70,6 +73,7 @@ class Sandbox:
         self._globals: dict[int, dict[str, Any]] = {}
         self._written: list[tuple[str, dict[str, Any], dict[str, Any]]] = []
         self._cells: list[tuple[str, CellType, Any]] = []
+        self._frozen_ones: list[tuple[str, Any, Any]] = []
 
     def form_of(self, value: Any, words: str) -> Any:
         """What stands for a value from outside while tracing; `words` says where it was read."""
@@ -93,6 +97,9 @@ class Sandbox:
         if isinstance(value, MethodType):
             function = self.form_of(value.__func__, words)
             return functools.partial(function, self.form_of(value.__self__, words))
+        inner = getattr(value, INNER.get(type(value).__name__, ""), None)
+        if isinstance(inner, FunctionType):
+            return self.form_of(inner, words)
         if isinstance(value, functools.partial):
             return self._partial(value, words)
         return self._container(value, words)
@@ -119,16 +126,21 @@ class Sandbox:
             return SymbolArray(value.astype(object), kind, words)
         if isinstance(value, tuple):
             items = [self.form_of(item, f"{words}[{i}]") for i, item in enumerate(value)]
-            return type(value)(*items) if hasattr(value, "_fields") else tuple(items)
+            return type(value)(*items) if hasattr(value, "_fields") else FrozenTuple(items)
         if type(value) is list:
             items = [self.form_of(item, f"{words}[{i}]") for i, item in enumerate(value)]
-            return FrozenList(items, words)
+            return self._frozen(FrozenList(items, words), items, words)
         if type(value) is dict:
             forms = {k: self.form_of(item, f"{words}[{k!r}]") for k, item in value.items()}
-            return MappingProxyType(forms)
+            return self._frozen(FrozenDict(forms, words), forms, words)
         if isinstance(value, (range, slice, frozenset)):
             return value
         return self._object(value, words)
+
+    def _frozen(self, made: Any, items: Any, words: str) -> Any:
+        """A container, to be compared with what it began with: list.append(it, 1) gets through."""
+        self._frozen_ones.append((words, made, items))
+        return made
 
     def _object(self, value: Any, words: str) -> Any:
         if isinstance(value, BuiltinMethodType) or not (
@@ -141,15 +153,15 @@ class Sandbox:
     def _partial(self, value: functools.partial[Any], words: str) -> Any:
         arguments = [self.form_of(a, f"{words}.args") for a in value.args]
         options = {k: self.form_of(v, f"{words}.{k}") for k, v in value.keywords.items()}
-        self.watch.add(words, get_attribute, (value, "args"), value.args)
-        self.watch.add(words, get_attribute, (value, "keywords"), value.keywords)
+        self.watch.add(words, AttributeOf(value), "args", value.args)
+        self.watch.add(words, AttributeOf(value), "keywords", value.keywords)
         return functools.partial(self.form_of(value.func, words), *arguments, **options)
 
     def copy(self, function: FunctionType, words: str) -> FunctionType:
         """The function with globals, closure and defaults of its own."""
         refuse_code(function.__code__)
         code = function.__code__
-        self.watch.add(words, get_attribute, (function, "__code__"), code)
+        self.watch.add(words, AttributeOf(function), "__code__", code)
         copied = FunctionType(
             code,
             self._globals_of(function),
@@ -203,12 +215,11 @@ class Sandbox:
 
     def _fill_defaults(self, function: FunctionType, copied: FunctionType, words: str) -> None:
         defaults, named = function.__defaults__, function.__kwdefaults__
-        self.watch.add(f"defaults of {words}", get_attribute, (function, "__defaults__"), defaults)
+        self.watch.add(f"defaults of {words}", AttributeOf(function), "__defaults__", defaults)
         if defaults:
             copied.__defaults__ = tuple(self.form_of(v, f"a default of {words}") for v in defaults)
         if named:
-            place = (function, "__kwdefaults__")
-            self.watch.add(f"defaults of {words}", get_attribute, place, named)
+            self.watch.add(f"defaults of {words}", AttributeOf(function), "__kwdefaults__", named)
             forms = {k: self.form_of(v, f"default {k} of {words}") for k, v in named.items()}
             copied.__kwdefaults__ = forms
 
@@ -218,10 +229,22 @@ class Sandbox:
             for name in now:
                 if name not in before or now[name] is not before[name]:
                     refuse(f"writes {words}: {name}", "what changes something outside is called")
+        for words, made, items in self._frozen_ones:
+            left, begun = _flat(made), _flat(items)
+            if list(map(id, left)) != list(map(id, begun)):
+                refuse(f"writes to {words}", "what changes something outside is called")
         for name, cell, value in self._cells:
             if _read_cell(cell, MISSING) is not value:
                 refuse(f"writes the variable {name} of the function around it",
                        "what changes something outside is called")  # fmt: skip
 
-
-__all__ = ["Sandbox"]
+    def close(self) -> None:
+        """Let go of everything but the watch: copies and their globals refer to each other."""
+        for made in self._globals.values():
+            made.clear()
+        for _, cell, _ in self._cells:
+            del cell.cell_contents
+        for everything in (self._globals, self._copies):
+            everything.clear()
+        for kept in (self._cells, self._kept, self._written, self._frozen_ones):
+            kept.clear()

@@ -56,6 +56,11 @@ class Signature:
         """Positions of the inputs the function gets."""
         return range(len(self.input_shapes)) if self.inputs is None else self.inputs
 
+    def parameter_values(self) -> NDArray[np.float64]:
+        """All parameters, one after the other."""
+        values = [np.asarray(v, dtype=float).reshape(-1) for v in self.parameters.values()]
+        return np.concatenate(values) if values else np.empty(0)
+
     def filled_shape(self) -> Shape:
         """Of the array `out`."""
         if self.out_shape is not None:

@@ -9,8 +9,16 @@ import numpy as np
 from saltus.tracing.refusal import refuse
 
 ORDER = "bif"  # truth, integer, real: what two of them give together is the later one
-LARGEST = 200_000  # nodes; a longer tape gains nothing over numpy
+LARGEST = 100_000  # nodes; a longer tape gains nothing over numpy
 
+VARIABLES = {"time", "continuous_state", "discrete_state", "entry", "parameter", "input"}
+
+METHODS = set(
+    """
+    all any astype copy dot flatten max mean min prod ravel reshape squeeze std sum tolist
+    transpose var
+    """.split()
+)
 BRANCH = "use np.where, np.minimum, `&` and `|`, or modes with zero crossings"
 
 
@@ -65,7 +73,23 @@ class Symbol:
             return self
         return Symbol(self.graph, self.node, kind)
 
+    def reads_mode_only(self) -> bool:
+        """Whether it follows from the mode alone."""
+        waiting, seen = [self.node], {-1}
+        while waiting and len(seen) < 100:
+            node = waiting.pop()
+            name, operands = self.graph.operation(node)
+            if name == "mode" or name == "constant":
+                continue
+            if name in VARIABLES:
+                return False
+            seen.add(node)
+            waiting += [n for n in operands if n not in seen]
+        return True
+
     def __bool__(self) -> bool:
+        if self.value is None and self.reads_mode_only():
+            refuse("branches on the mode", "use np.where(state.mode == ..., ..., ...)")
         return bool(self.known("branches on a value", BRANCH))
 
     def __float__(self) -> float:
@@ -116,6 +140,15 @@ class Symbol:
 
     def conjugate(self) -> Symbol:
         return self
+
+    def __getattr__(self, name: str) -> Any:
+        """What numpy's numbers can do as arrays of one can; Python's cannot."""
+        if self.python or name not in METHODS:
+            kind = {"f": "float", "i": "int", "b": "bool"}[self.kind]
+            raise AttributeError(f"'{kind}' object has no attribute '{name}'")
+        from saltus.tracing.array import as_array
+
+        return getattr(as_array(self), name)
 
     def is_integer(self) -> Any:
         from saltus.tracing.scalars import SCALARS

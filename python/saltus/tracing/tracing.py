@@ -56,7 +56,8 @@ def trace(signature: Signature) -> Traced | Refused:
     """
     sandbox = Sandbox()
     try:
-        return _traced(signature, sandbox)
+        with np.errstate(all="ignore"):
+            return _traced(signature, sandbox)
     except Refusal as refusal:
         return Refused(str(refusal), sandbox.watch)
     except Exception as error:
@@ -67,6 +68,8 @@ def trace(signature: Signature) -> Traced | Refused:
             "use numpy, math and plain Python on them",
             sandbox.watch,
         )
+    finally:
+        sandbox.close()
 
 
 def _traced(signature: Signature, sandbox: Sandbox) -> Traced | Refused:
@@ -111,8 +114,7 @@ def _checked(signature: Signature, check: Check, tape: Any) -> int:
     if signature.owner is not None:
         function = functools.partial(function, signature.owner)
     at: list[Point] = points(signature, "mode" in tape.reads)
-    with np.errstate(all="ignore"):
-        return check.run(function, at)
+    return check.run(function, at)
 
 
 def _outcome(graph: Any, tape: Any, result: Result, sandbox: Sandbox, compared: int) -> Traced:

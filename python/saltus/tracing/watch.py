@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import reprlib
+import weakref
 from collections.abc import Callable, Mapping
 from types import CodeType
 from typing import Any
@@ -11,6 +12,9 @@ from typing import Any
 import numpy as np
 
 MISSING: Any = type("Missing", (), {"__repr__": lambda self: "not there"})()
+
+GONE = object()
+"""in place of what an object has that is no more: nobody can change it"""
 
 PLAIN = (bool, int, float, str, bytes, complex, type(None), np.generic)
 """values that never change"""
@@ -60,8 +64,25 @@ def _named(value: Any) -> str:
     return name if isinstance(name, str) else reprlib.repr(value)
 
 
+class AttributeOf:
+    """Attributes of an object, for a `Watch`, which should not keep the object alive."""
+
+    def __init__(self, value: Any):
+        try:
+            self._object: Any = weakref.ref(value)
+        except TypeError:  # not every object can be referred to weakly
+            self._object = lambda: value
+
+    def __call__(self, name: str, default: Any) -> Any:
+        value = self._object()
+        return GONE if value is None else getattr(value, name, default)
+
+
 class Watch:
     """The values a tape was made from, by the words a user knows them by.
+
+    It refers to objects weakly where it can, but to the variables of closures and what stands in
+    them as the function does: who keeps it should show it to the garbage collector.
 
     Examples
     --------
@@ -102,6 +123,8 @@ class Watch:
         """
         for words, get, key, value, inside in self._reads:
             now = get(key, MISSING)
+            if now is GONE:
+                continue
             if now is value:
                 if inside is None or content(now) == inside:
                     continue

@@ -194,7 +194,9 @@ std::string legend_of(const Picture& picture) {
           ? std::string()
           : text("<TR><TD COLSPAN=\"9\">", words(escaped(picture.trouble), "COLOR=\"#B00020\""),
                  "</TD></TR>");
-  if (entries < 2 && trouble.empty()) return "";  // nothing to be told from
+  const bool plain =
+      entries == 0 || (entries == 1 && cells.find("continuous") != std::string::npos);
+  if (plain && trouble.empty()) return "";  // nothing to be told from
   const std::string row = cells.empty() ? std::string() : text("<TR>", cells, "</TR>");
   return text("<<TABLE BORDER=\"0\" CELLBORDER=\"0\" CELLSPACING=\"6\">", trouble, row,
               "</TABLE>>");

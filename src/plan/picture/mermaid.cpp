@@ -52,7 +52,8 @@ constexpr const char* classes =
     "  classDef held fill:#FCEFE6,stroke:#D55E00,color:#1A1A1A\n"
     "  classDef folded fill:#F0F0F0,stroke:#8C8C8C,color:#5A5A5A\n"
     "  classDef dropped fill:#FAFAFA,stroke:#C4C4C4,color:#A8A8A8,stroke-dasharray:3 3\n"
-    "  classDef unknown fill:#FFFFFF,stroke:#404040,color:#1A1A1A\n";
+    "  classDef unknown fill:#FFFFFF,stroke:#404040,color:#1A1A1A\n"
+    "  classDef frame fill:none,stroke:#B0B0B0\n";
 
 const char* colour_of(Flow flow) {
   switch (flow) {
@@ -152,7 +153,16 @@ std::string legend_of(const Picture& picture) {
     out += "    key_event[\"dashed wire#58; read at events only\"]:::unknown\n";
   if (!picture.trouble.empty())
     out += text("    trouble[\"", escaped(picture.trouble), "\"]:::unknown\n");
-  return out.empty() ? out : text("  subgraph legend\n", out, "  end\n");
+  const bool plain = picture.trouble.empty() && std::ranges::count(out, '\n') == 1 &&
+                     out.find("key_continuous") != std::string::npos;  // nothing to be told from
+  return out.empty() || plain ? "" : text("  subgraph legend\n", out, "  end\n");
+}
+
+std::string frames_of(const Picture& picture, bool legend) {
+  std::string names = legend ? "legend" : "";
+  for (std::size_t i = 0; i < picture.frames.size(); ++i)
+    names += text(names.empty() ? "f" : ",f", i);
+  return names.empty() ? names : text("  class ", names, " frame\n");
 }
 
 const Declarations& declarations_with_modes(const System& system) {
@@ -199,7 +209,8 @@ std::string to_mermaid(const System& system, const PictureOptions& options) {
   std::string out = "flowchart LR\n";
   write_frame(out, drawn, -1, "  ");
   for (const Wire& wire : drawn.wires) out += wire_line(drawn, wire);
-  return out + legend_of(drawn) + classes + link_styles(drawn);
+  const std::string legend = legend_of(drawn);
+  return out + legend + classes + frames_of(drawn, !legend.empty()) + link_styles(drawn);
 }
 
 std::string modes_to_mermaid(const System& system) {

@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 from random_expressions import source
+from steps import complex_step
 from tracing_cases import EPS, State, evaluate, traced
 
 POINTS = np.array([[0.3, -0.8, 1.2], [-1.1, 0.4, 0.05], [0.9, 1.3, -0.6]])
@@ -21,19 +22,6 @@ def made(seed):
     space = WORLD.copy()
     exec(source(seed), space)
     return space["f"]
-
-
-class Complex(State):
-    def __init__(self, x):
-        super().__init__(np.real(x))
-        self.continuous_state = x
-
-
-def complex_step(f, t, x, k, n):
-    """d f / d x to rounding: Im f(x + i h e) / h; Squire & Trapp, SIAM Review 40 (1998)."""
-    h = 1e-30
-    columns = [np.imag(np.ravel(f(t, Complex(x + 1j * h * e), k))) / h for e in np.eye(len(x))]
-    return np.array(columns).T.reshape(n, len(x))
 
 
 def spread(f, t, x, k, rng):
@@ -64,7 +52,7 @@ def test_values_and_jacobian(seed):
             room = 60 * spread(f, t, x, 0.7, rng)
             assert (np.abs(called - taped) <= room).all(), (called, taped)
 
-            exact = complex_step(f, t, x, 0.7, called.size)
+            exact = complex_step(f, t, x, 0.7)
             dense = np.zeros_like(exact)
             dense[rows, columns] = values(t, x, [], 0, 0, [0.7], [])
             # Derivatives of a function whose values are good to `room`: the same relative

@@ -2,6 +2,7 @@
 
 import functools
 import timeit
+import weakref
 from types import SimpleNamespace
 
 import numpy as np
@@ -235,3 +236,18 @@ def test_a_trace_is_quick():
 
     best = min(timeit.repeat(lambda: traced(ode, parameters={"g": 9.81}), number=1, repeat=20))
     assert best < 3e-3
+
+
+def test_nothing_stays_alive_after_a_trace():
+    ball = Ball()
+    gone = weakref.ref(ball)
+    outcome = traced(Ball.by_property, owner=ball)
+    del ball
+    assert gone() is None  # at once, without the garbage collector
+    assert outcome.watch.changed() is None
+
+
+def test_a_table_by_mode():
+    following = [1, 2, 0]
+    outcome = traced(lambda t, s: s.with_mode(following[s.mode]), kind="reset")
+    assert [evaluate(outcome, [0.0, 0.0], mode=m)[0] for m in range(3)] == [1.0, 2.0, 0.0]
