@@ -348,3 +348,26 @@ class Tape:
     ) -> NDArray[np.float64]: ...
     def jacobian(self) -> tuple[list[int], list[int], Tape]: ...
     def to_string(self) -> str: ...
+
+class Survey:
+    stale: bool
+    complete: bool
+    def __init__(self, system: AnySystem, incomplete: bool, /) -> None: ...
+    def blocks(self) -> list[dict[str, Any]]: ...
+
+class Trace:
+    def __init__(
+        self,
+        function: int,
+        tape: Tape,
+        relations: Any,
+        wrote_x: bool,
+        wrote_z: bool,
+        wrote_mode: bool,
+        with_jacobian: bool,
+        /,
+    ) -> None: ...
+
+class LadderSystem(System):
+    def __init__(self, survey: Survey, traces: list[list[Trace]], /) -> None: ...
+    def replace(self, traces: list[list[Trace]], /) -> bool: ...

@@ -127,7 +127,7 @@ _UNBOUNDED = {
 }
 
 
-def _ports(signals: Mapping[str, OutputPort] | None) -> list[tuple[str, System, int]]:
+def ports_of(signals: Mapping[str, OutputPort] | None) -> list[tuple[str, System, int]]:
     if not isinstance(signals, Mapping | None):
         raise ModelError(f"recorded_signals: expected a dict of names and ports, found {signals!r}")
     for name, port in (signals or {}).items():
@@ -160,5 +160,5 @@ def core_options(options: SimulatorOptions) -> _core.SimulatorOptions:
     if options.python not in RUNGS:
         found = f"'{options.python}'{_core.known_names(str(options.python), RUNGS)}"
         raise ModelError(f"option python: unknown {found}")
-    core.set_recorded_signals(_ports(options.recorded_signals))
+    core.set_recorded_signals(ports_of(options.recorded_signals))
     return core

@@ -69,7 +69,7 @@ def in_markdown(system: System) -> str | None:
 def _ports(signals: Recorded) -> list[tuple[str, System, int]] | None:
     if signals is None:
         return None
-    from saltus.simulation import _ports as ports_of
+    from saltus.options import ports_of
 
     return ports_of(signals)
 

@@ -82,7 +82,8 @@ class Simulator:
 
     def _make(self) -> None:
         """The engine's simulator, of the system as it runs."""
-        self._runs, self._ladder = self.system, None
+        self._runs: Any = self.system
+        self._ladder: Any = None
         if self.options.python == "traced":
             self._runs, self._ladder = climbed(self.system)
         self._core = _core.Simulator(self._runs, self._options, self._reporter)
