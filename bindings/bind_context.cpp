@@ -114,10 +114,10 @@ void bind_context(py::module_& module) {
            docs::with_parameter)
       .def(
           "with_parameters",
-          [](Context context, const py::dict& values) {
+          [](Context c, const py::dict& values) {
             for (const auto& [name, value] : values)
-              context = with_parameter(context, name.cast<std::string>(), value);
-            return context;
+              c = with_parameter(c, name.cast<std::string>(), value);
+            return c;
           },
           py::arg("values"), docs::with_parameters)
       .def(

@@ -20,9 +20,7 @@ class Pendulum(saltus.LeafSystem):
         self.e = e  # coefficient of restitution: an attribute, read when the function is traced
         self.declare_continuous_state(2, ode=self.ode)
         self.declare_continuous_state_output(name="state")
-        self.declare_dynamic_parameter(
-            "drag", drag
-        )  # 1/s: in the context, may vary from run to run
+        self.declare_dynamic_parameter("drag", drag)  # [1/s] lives in the context
         self.declare_zero_crossing(
             self.angle, self.bounce, name="stop", direction="positive_then_non_positive"
         )
