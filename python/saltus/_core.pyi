@@ -71,6 +71,29 @@ class LeafSystem(System):
     def declare_periodic_update(self, *arguments: Any, **none: Any) -> None: ...
     def declare_one_shot(self, *arguments: Any, **none: Any) -> None: ...
 
+class Survey:
+    stale: bool
+    complete: bool
+    def __init__(self, system: AnySystem, incomplete: bool, /) -> None: ...
+    def blocks(self) -> list[dict[str, Any]]: ...
+
+class Trace:
+    def __init__(
+        self,
+        function: int,
+        tape: Tape,
+        relations: object,
+        wrote_x: bool,
+        wrote_z: bool,
+        wrote_mode: bool,
+        with_jacobian: bool,
+        /,
+    ) -> None: ...
+
+class LadderSystem(System):
+    def __init__(self, survey: Survey, traces: Sequence[Sequence[Trace]], /) -> None: ...
+    def replace(self, traces: Sequence[Sequence[Trace]], /) -> bool: ...
+
 class DiagramBuilder:
     def add(self, system: AnySystem, /) -> None: ...
     def connect(

@@ -167,14 +167,17 @@ class Simulator:
 
     def _make(self) -> None:
         """The engine's simulator, of the system as it runs."""
-        self._runs, self._ladder = self.system, None
+        self._runs: Any = self.system
+        self._ladder = None
         if self.options.python == "traced":
             self._runs, self._ladder = climbed(self.system)
+        self._version = self._ladder.version if self._ladder else 0
         self._core = _core.Simulator(self._runs, self._options)
 
     def initialize(self, context: _core.Context) -> None:
         """Begins a run with these values, at their time."""
-        if self._ladder and (self._ladder.survey.stale or self._ladder.refresh()):
+        ladder = self._ladder
+        if ladder and (ladder.survey.stale or ladder.refresh() != self._version):
             self._make()
         self._core.initialize(core_context(context))
         self._failed = None
@@ -190,11 +193,13 @@ class Simulator:
 
     def _follow_changes(self) -> None:
         """What a traced callback was made from may have changed since the last piece of the run."""
-        if not self._ladder or not self._ladder.refresh():
+        if not self._ladder or self._ladder.refresh() == self._version:
             return
+        self._version = self._ladder.version
         if not self._runs.replace(self._ladder.core_traces()):
+            self._version = -1  # not that of any ladder: the next run is made anew
             raise ModelError(
-                f"t = {self.time} s: a callback depends on other values than when the run began; "
+                f"t = {self.time} s: a callback depends on more than when the run began; "
                 "initialize again, or use the option python='called'"
             )
 

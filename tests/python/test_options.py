@@ -23,7 +23,7 @@ def ball_run(**options):
 
 def test_defaults_are_those_of_the_engine():
     core, python = _core.SimulatorOptions(), SimulatorOptions()
-    for name in FIELDS - {"recorded_signals", "throw"}:
+    for name in FIELDS - {"python", "recorded_signals", "throw"}:
         assert (
             list(getattr(core, name)) == []
             if name == "save_at"
@@ -35,7 +35,7 @@ def test_every_option_of_the_engine_is_there():
     engine = {name for name in vars(_core.SimulatorOptions) if not name.startswith("_")} - {
         "set_recorded_signals"
     }
-    assert engine == FIELDS - {"recorded_signals", "throw"}
+    assert engine == FIELDS - {"python", "recorded_signals", "throw"}
 
 
 def test_signature_is_shown():
