@@ -1,6 +1,7 @@
 #include "ladder_leaf.hpp"
 
-#include <numeric>
+#include <map>
+#include <utility>
 
 namespace saltus::python {
 
@@ -33,23 +34,24 @@ tape::Tape entry_of(const tape::Tape& tape, std::size_t k) {
   return {tape.graph(), std::span(tape.outputs()).subspan(k, 1)};
 }
 
-bool same_entries(const std::optional<tape::Jacobian>& a, const std::optional<tape::Jacobian>& b) {
-  if (a.has_value() != b.has_value()) return false;
-  return !a || std::ranges::equal(a->entries, b->entries, [](MatrixEntry one, MatrixEntry other) {
-    return one.row == other.row && one.column == other.column;
-  });
+/// The same matrix with these entries: zero where it has none, without those it has beyond.
+tape::Jacobian at_places(const tape::Jacobian& jacobian, const std::vector<MatrixEntry>& places) {
+  std::map<std::pair<Index, Index>, tape::Node> known;
+  for (std::size_t i = 0; i < jacobian.entries.size(); ++i) {
+    known.emplace(std::pair(jacobian.entries[i].row, jacobian.entries[i].column),
+                  jacobian.values.outputs()[i]);
+  }
+  tape::Graph graph = jacobian.values.graph();
+  const tape::Node zero = graph.constant(0.0);
+  std::vector<tape::Node> values;
+  for (const auto& [row, column] : places) {
+    const auto found = known.find({row, column});
+    values.push_back(found == known.end() ? zero : found->second);
+  }
+  return {places, tape::Tape(graph, values)};
 }
 
 }  // namespace
-
-bool Trace::fits(const Trace& other, int inputs) const {
-  if (serial == other.serial) return true;
-  for (int k = 0; k < inputs; ++k)
-    if (other.tape.reads_input(k) && !tape.reads_input(k)) return false;
-  return !relations && !other.relations && tape.size() == other.tape.size() &&
-         tape.reads() == other.tape.reads() && same_entries(jacobian, other.jacobian) &&
-         wrote_x == other.wrote_x && wrote_z == other.wrote_z && wrote_mode == other.wrote_mode;
-}
 
 LadderLeaf::LadderLeaf(const SurveyedBlock& block, std::span<const Trace> traces)
     : LeafSystem(block.leaf->name()), original_(*block.leaf) {
@@ -116,6 +118,7 @@ void LadderLeaf::put_ode(const Slot& slot) {
   state.reads = slot->tape.reads();
   state.inputs = inputs_of(slot);
   if (state.jacobian || state.sparse_jacobian || !slot->jacobian) return;
+  if (state.sparsity) slot->jacobian = at_places(*slot->jacobian, *state.sparsity);
   state.sparsity = slot->jacobian->entries;
   state.sparse_jacobian = [slot](const At& at, VectorRef out) {
     slot->jacobian->values.evaluate(at, out.data());
@@ -194,13 +197,25 @@ std::vector<int> LadderLeaf::inputs_of(const Slot& slot) const {
   return inputs;
 }
 
+bool LadderLeaf::fits(const Trace& old, const Trace& now) const {
+  if (old.function != now.function) return false;
+  if (old.serial == now.serial) return true;
+  for (int k = 0; k < count_of(original_.declarations().inputs); ++k)
+    if (now.tape.reads_input(k) && !old.tape.reads_input(k)) return false;
+  if (original_.function(now.function).role != Role::output) return true;
+  const bool slower = (old.tape.reads() | now.tape.reads()) == old.tape.reads();
+  return slower && !old.relations && !now.relations;
+}
+
 bool LadderLeaf::replace(std::span<const Trace> traces) {
-  const int inputs = count_of(original_.declarations().inputs);
-  const auto fit = [inputs](const Slot& slot, const Trace& trace) {
-    return slot->function == trace.function && slot->fits(trace, inputs);
-  };
+  const auto fit = [this](const Slot& slot, const Trace& now) { return fits(*slot, now); };
   if (!std::ranges::equal(slots_, traces, fit)) return false;
-  for (std::size_t i = 0; i < traces.size(); ++i) *slots_[i] = traces[i];
+  for (std::size_t i = 0; i < traces.size(); ++i) {
+    Trace now = traces[i];
+    if (now.jacobian && slots_[i]->jacobian)
+      now.jacobian = at_places(*now.jacobian, slots_[i]->jacobian->entries);
+    *slots_[i] = std::move(now);
+  }
   return true;
 }
 

@@ -17,7 +17,7 @@ class LadderLeaf final : public LeafSystem {
   LadderLeaf(const SurveyedBlock& block, std::span<const Trace> traces);
 
   /// Puts new tapes in place of those of the same functions. False, and nothing is done, if they
-  /// depend on something else or are not of the same functions. Not while a run is under way.
+  /// need more than a plan of the old ones computes. Not while a run is under way.
   bool replace(std::span<const Trace> traces);
 
  private:
@@ -32,6 +32,7 @@ class LadderLeaf final : public LeafSystem {
   std::vector<int> inputs_of(const Slot& slot) const;
   std::optional<Slot> slot_of(Role role, int index) const;
   VectorFunction taped(const Slot& slot) const;
+  bool fits(const Trace& old, const Trace& now) const;
 
   const PythonLeaf& original_;
   std::vector<Slot> slots_;

@@ -37,8 +37,8 @@ struct Frame {
 };
 
 struct Function {
-  py::object callable;  // of a method of the block itself the plain function, so that it refers
-                        // to no block
+  py::object callable = {};  // of a method of the block itself the plain function, so that it
+                             // refers to no block
   bool method = false;  // the block goes before the other arguments
   Convention convention = Convention::state;
   InputList inputs = {};

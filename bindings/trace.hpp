@@ -24,10 +24,6 @@ struct Trace {
   std::optional<TracedRelations> relations;
   bool wrote_x = false, wrote_z = false, wrote_mode = false;  // what a reset or an update gives
   std::optional<tape::Jacobian> jacobian;                     // of an ode
-
-  /// Whether a plan made for this one, of a block with so many inputs, fits the other one: it
-  /// depends on the same.
-  bool fits(const Trace& other, int inputs) const;
 };
 
 /// Where callbacks look their tape up, so that a run in pieces gets a new one between two pieces.

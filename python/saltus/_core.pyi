@@ -84,6 +84,29 @@ class LeafSystem(System):
     def declare_periodic_update(self, *arguments: Any, **none: Any) -> None: ...
     def declare_one_shot(self, *arguments: Any, **none: Any) -> None: ...
 
+class Survey:
+    stale: bool
+    complete: bool
+    def __init__(self, system: AnySystem, incomplete: bool, /) -> None: ...
+    def blocks(self) -> list[dict[str, Any]]: ...
+
+class Trace:
+    def __init__(
+        self,
+        function: int,
+        tape: Tape,
+        relations: object,
+        wrote_x: bool,
+        wrote_z: bool,
+        wrote_mode: bool,
+        with_jacobian: bool,
+        /,
+    ) -> None: ...
+
+class LadderSystem(System):
+    def __init__(self, survey: Survey, traces: Sequence[Sequence[Trace]], /) -> None: ...
+    def replace(self, traces: Sequence[Sequence[Trace]], /) -> bool: ...
+
 class DiagramBuilder:
     def add(self, system: AnySystem, /) -> None: ...
     def connect(
@@ -213,6 +236,7 @@ class SimulatorOptions:
     rtol: float
     atol: float
     ode_solver_method: str
+    linear_solver: str
     max_major_steps: int | None
     max_major_step_length: float
     min_minor_step_size: float
@@ -348,26 +372,3 @@ class Tape:
     ) -> NDArray[np.float64]: ...
     def jacobian(self) -> tuple[list[int], list[int], Tape]: ...
     def to_string(self) -> str: ...
-
-class Survey:
-    stale: bool
-    complete: bool
-    def __init__(self, system: AnySystem, incomplete: bool, /) -> None: ...
-    def blocks(self) -> list[dict[str, Any]]: ...
-
-class Trace:
-    def __init__(
-        self,
-        function: int,
-        tape: Tape,
-        relations: Any,
-        wrote_x: bool,
-        wrote_z: bool,
-        wrote_mode: bool,
-        with_jacobian: bool,
-        /,
-    ) -> None: ...
-
-class LadderSystem(System):
-    def __init__(self, survey: Survey, traces: list[list[Trace]], /) -> None: ...
-    def replace(self, traces: list[list[Trace]], /) -> bool: ...

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import re
+import sys
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -11,6 +12,7 @@ from saltus.errors import ModelError
 
 __all__ = ["Compiled", "compiled"]
 
+CTYPES: Any = ctypes.CFUNCTYPE(None).__base__  # of every function pointer of ctypes
 SIGNATURE = "int (double, double *, double *, double *, double *, void *)"
 
 
@@ -105,22 +107,19 @@ def as_compiled(function: Any, user_data: Any = None) -> Compiled | None:
         return function
     owner = (function, user_data)
     kind = type(function)
-    if isinstance(function, ctypes._CFuncPtr):  # type: ignore[attr-defined]
+    if isinstance(function, CTYPES):
         _check_ctypes(function)
-        address: int = ctypes.cast(function, ctypes.c_void_p).value or 0
+        address = ctypes.cast(function, ctypes.c_void_p).value or 0
         return Compiled(address, _data(user_data), owner)
     if kind.__name__ == "PyCapsule":
         return _from_capsule(function, user_data, owner)
     if kind.__name__ == "LowLevelCallable" and isinstance(function, tuple):  # of SciPy
         return _from_capsule(tuple.__getitem__(function, 0), user_data, owner)
-    if kind.__module__.startswith("numba.") and isinstance(
-        number := getattr(function, "address", None), int
-    ):
-        return Compiled(number, _data(user_data), owner)
+    if kind.__module__.startswith("numba."):
+        found = getattr(function, "address", None)  # a cfunc has one, a jitted function has not
+        return Compiled(found, _data(user_data), owner) if isinstance(found, int) else None
     if kind.__module__ == "_cffi_backend":
-        import _cffi_backend  # it is there: the pointer was made with it
-
-        ffi = _cffi_backend.FFI()
+        ffi = sys.modules["_cffi_backend"].FFI()  # it is there: the pointer was made with it
         return Compiled(int(ffi.cast("intptr_t", function)), _data(user_data), owner)
     return None
 

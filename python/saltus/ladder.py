@@ -62,6 +62,7 @@ class Ladder:
 
     def __init__(self, system: Any, *, incomplete: bool = False):
         self.survey = _core.Survey(system, incomplete)
+        self.version = 0
         blocks: list[Block] = self.survey.blocks()
         self.outcomes = [[_trace(block, f) for f in block["functions"]] for block in blocks]
         self.traces = [
@@ -69,8 +70,8 @@ class Ladder:
             for block, outcomes in zip(blocks, self.outcomes, strict=True)
         ]
 
-    def refresh(self) -> bool:
-        """Trace again what was made from something that has changed; whether there was any."""
+    def refresh(self) -> int:
+        """Trace again what was made from something that has changed; returns the version."""
         changed = [
             (b, i)
             for b, outcomes in enumerate(self.outcomes)
@@ -82,7 +83,8 @@ class Ladder:
             function = blocks[b]["functions"][i]
             self.outcomes[b][i] = _trace(blocks[b], function)
             self.traces[b][i] = _core_trace(blocks[b], function, self.outcomes[b][i])
-        return bool(changed)
+        self.version += bool(changed)
+        return self.version
 
     def core_traces(self) -> list[list[_core.Trace]]:
         """Those there are, block by block."""
@@ -171,9 +173,7 @@ def _out_shape(block: Block, function: Block) -> tuple[int, ...] | None:
     return None
 
 
-def _core_trace(
-    block: Block, function: Block, outcome: Any
-) -> _core.Trace | None:
+def _core_trace(block: Block, function: Block, outcome: Any) -> _core.Trace | None:
     if outcome is None or not hasattr(outcome, "tape"):
         return None
     given = any(f["role"] in ("jacobian", "sparse_jacobian") for f in block["functions"])

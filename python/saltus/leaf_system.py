@@ -76,6 +76,15 @@ def _callback(function: Any) -> Any:
 class LeafSystem(System, _core.LeafSystem):
     """A block with equations of its own. Call `super().__init__(name=...)`, then declare.
 
+    A callback runs on one of three rungs; `system.explain()` says which, and why on no higher one:
+
+    - *traced*: before a run it is called once with symbols and becomes an expression that runs
+      without the interpreter, with an exact Jacobian. What it read and has changed since, such as
+      an attribute, is noticed before the next run, and between two pieces of one;
+    - *called*: what cannot be traced, for example because it branches on a value, prints or counts,
+      is called for every value. The option `python="called"` has all of them called;
+    - *compiled*: a pointer to a compiled function in place of a Python one, see `saltus.compiled`.
+
     Every callback is called as `f(time, state, *inputs, **parameters)`:
 
     - `time` [s] is a float;
@@ -90,6 +99,25 @@ class LeafSystem(System, _core.LeafSystem):
     Every array may be kept: it never changes. A callback must not change the world: it is called as
     often as the engine likes, from whatever thread runs the simulation. What it raises comes out of
     `simulate` as it was.
+
+    A callback that returns numbers may fill an array in their place, which is quicker: one with an
+    argument called `out`, the last or by keyword, gets an array of the shape of the state for an
+    ode, n by n for a Jacobian, else with an entry for each number. It sets every entry (they begin
+    as NaN) and returns nothing; an output then has to say its `shape`.
+
+    Examples
+    --------
+    >>> import saltus
+    >>> class Oscillator(saltus.LeafSystem):
+    ...     def __init__(self):
+    ...         super().__init__(name="oscillator")
+    ...         self.declare_continuous_state(default_value=[1.0, 0.0], ode=self.ode)
+    ...
+    ...     def ode(self, time, state, out):
+    ...         x, v = state.continuous_state
+    ...         out[0], out[1] = v, -x
+    >>> print(Oscillator().explain())
+    oscillator: ode  traced
     """
 
     __slots__ = ("_ladder",)  # not in __dict__, which a traced function is watched by

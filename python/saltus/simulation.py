@@ -86,6 +86,7 @@ class Simulator:
         self._ladder: Any = None
         if self.options.python == "traced":
             self._runs, self._ladder = climbed(self.system)
+        self._version = self._ladder.version if self._ladder else 0
         self._core = _core.Simulator(self._runs, self._options, self._reporter)
 
     def initialize(self, context: _core.Context) -> None:
@@ -94,7 +95,8 @@ class Simulator:
         A context that an earlier run ended with goes on where that one stopped. ModelError if it is
         not one of this system.
         """
-        if self._ladder and (self._ladder.survey.stale or self._ladder.refresh()):
+        ladder = self._ladder
+        if ladder and (ladder.survey.stale or ladder.refresh() != self._version):
             self._make()
         self._core.initialize(core_context(context))
         self._failed = None
@@ -127,11 +129,13 @@ class Simulator:
 
     def _follow_changes(self) -> None:
         """What a traced callback was made from may have changed since the last piece of the run."""
-        if not self._ladder or not self._ladder.refresh():
+        if not self._ladder or self._ladder.refresh() == self._version:
             return
+        self._version = self._ladder.version
         if not self._runs.replace(self._ladder.core_traces()):
+            self._version = -1  # not that of any ladder: the next run is made anew
             raise ModelError(
-                f"t = {self.time} s: a callback depends on other values than when the run began; "
+                f"t = {self.time} s: a callback depends on more than when the run began; "
                 "initialize again, or use the option python='called'"
             )
 

@@ -234,9 +234,14 @@ def test_a_sparse_jacobian_gives_the_same_with_fewer_calls(form):
         },
     }[form]
 
-    def run(system):
+    def run(system):  # called: a traced ode knows its Jacobian, declared or not
         return saltus.simulate(
-            system, system.create_context(), (0.0, 1.0), ode_solver_method="bdf", rtol=1e-7
+            system,
+            system.create_context(),
+            (0.0, 1.0),
+            ode_solver_method="bdf",
+            rtol=1e-7,
+            python="called",
         )
 
     dense, sparse = run(chain()), run(chain(**declared))

@@ -127,6 +127,7 @@ def test_integrator_of_a_vector():
     )
 
 
+@pytest.mark.parametrize("rung", ["called", "traced"])
 @pytest.mark.parametrize(
     "function",
     [
@@ -136,8 +137,10 @@ def test_integrator_of_a_vector():
         lambda x: 1 / (x[1] + 1) < 1 / (x[0] + 1),
     ],
 )
-def test_a_reduce_block_that_compares_is_an_opaque_boolean(function):
-    """Found by a call before the run, and located: a sawtooth that resets where it meets 1."""
+def test_a_reduce_block_that_compares_is_located(function, rung):
+    """A sawtooth that resets where it meets 1. Called, a call before the run shows that it is a
+    boolean, which is opaque; traced, it has a smooth guard.
+    """
     builder = saltus.DiagramBuilder()
     one, x, full = builder.add(
         Constant(1.0),
@@ -149,9 +152,10 @@ def test_a_reduce_block_that_compares_is_an_opaque_boolean(function):
     builder.connect(x.output(), full.input(1))
     builder.connect(full.output(), x.input("reset_trigger"))
     diagram = builder.build()
-    simulator = saltus.Simulator(diagram)
-    assert "block 'full' is an opaque boolean" in simulator.describe()
-    results = saltus.simulate(diagram, diagram.create_context(), (0.0, 2.5))
+    simulator = saltus.Simulator(diagram, python=rung)
+    opaque = "block 'full' is an opaque boolean" in simulator.describe()
+    assert opaque == (rung == "called")
+    results = saltus.simulate(diagram, diagram.create_context(), (0.0, 2.5), python=rung)
     np.testing.assert_allclose(results.events.times("x.reset"), [1.0, 2.0], rtol=0, atol=1e-13)
 
 

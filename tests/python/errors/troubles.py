@@ -57,6 +57,10 @@ class Everything(saltus.LeafSystem):
 
 
 def go(system, end=2.0, method="dopri5", **options):
+    """A block that raises is called, so all are: a traced one has another Jacobian, and other
+    steps.
+    """
+    options.setdefault("python", "called")
     return saltus.simulate(
         system,
         system.create_context(),

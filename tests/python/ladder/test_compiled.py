@@ -8,8 +8,9 @@ import sys
 import numpy as np
 import pytest
 import saltus
-from models import end, leaf
 from saltus.library import Constant
+
+from models import end, leaf
 
 SOURCE = r"""
 #include <math.h>

@@ -2,8 +2,9 @@
 
 import numpy as np
 import saltus
-from models import Pendulum, leaf
 from saltus.library import FunctionBlock, Gain
+
+from models import Pendulum, leaf
 
 
 def test_a_line_for_each_callback():

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 import saltus
+
 from models import end, leaf
 
 CALLED = {"python": "called"}
@@ -101,7 +102,7 @@ def test_a_nan_that_was_written_is_none_of_ours():
     def ode(time, state, out):
         out[0] = np.nan
 
-    with pytest.raises(saltus.SimulationError, match="(?i)nan|finite"):
+    with pytest.raises(saltus.SimulationError, match="not finite"):
         end(leaf(ode), **CALLED)
 
 
@@ -111,7 +112,7 @@ def test_returning_as_well_is_refused(rung):
         out[0] = 1.0
         return out
 
-    with pytest.raises(saltus.ModelError, match="fills `out` and returned .* as well"):
+    with pytest.raises(saltus.ModelError, match=r"fills `out` and returned .* as well"):
         end(leaf(ode), python=rung)
 
 

@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 import saltus
-from models import Pendulum, end, leaf
 from systems import Ball
+
+from models import Pendulum, end, leaf
 
 RATE = 1.0
 
@@ -96,18 +97,43 @@ def test_between_two_pieces_of_a_run():
     np.testing.assert_allclose(*simulators, rtol=1e-9)
 
 
-def test_another_structure_between_two_pieces_is_refused():
+def test_another_ode_between_two_pieces():
     block = leaf(lambda t, s: [block.f(t, s.continuous_state[0])])
     block.f = lambda t, x: -x
-    simulator = saltus.Simulator(block)
+    simulator = saltus.Simulator(block, rtol=1e-10)
     simulator.initialize(block.create_context())
     simulator.advance_to(0.5)
     block.f = lambda t, x: -t
+    simulator.advance_to(1.0)
+    expected = np.exp(-0.5) - 0.5 * (1.0 - 0.25)
+    assert simulator.context.continuous_state[0] == pytest.approx(expected, rel=1e-8)
+
+
+def test_an_output_that_reads_more_between_two_pieces_is_refused():
+    """The plan computes it at events only."""
+    block = leaf(lambda t, s: -s.continuous_state)
+    block.f = lambda t: 1.0
+    block.declare_output_port(lambda t, s: block.f(t), name="y")
+    simulator = saltus.Simulator(block, recorded_signals={"y": block.output()})
+    simulator.initialize(block.create_context())
+    simulator.advance_to(0.5)
+    block.f = lambda t: t
     with pytest.raises(saltus.ModelError, match="initialize again"):
         simulator.advance_to(1.0)
     simulator.initialize(block.create_context())
     simulator.advance_to(1.0)
-    assert simulator.context.continuous_state[0] == pytest.approx(0.5)
+    assert simulator.results.outputs["y"][-1] == 1.0
+
+
+def test_two_simulators_of_one_system():
+    block = leaf(lambda t, s: [-block.k * s.continuous_state[0]])
+    block.k = 1.0
+    simulators = [saltus.Simulator(block), saltus.Simulator(block)]
+    block.k = 2.0
+    for simulator in simulators:
+        simulator.initialize(block.create_context())
+        simulator.advance_to(1.0)
+        assert simulator.context.continuous_state[0] == pytest.approx(np.exp(-2.0), rel=1e-4)
 
 
 def test_what_became_traceable():
