@@ -58,7 +58,8 @@ std::size_t Trajectory::put(const Eigen::VectorXd& x) {
 std::size_t Trajectory::hold(const Machine& machine, const Contacts& contacts) {
   if (!stale_) return held_.size() - 1;
   stale_ = false;
-  Held now{.z = machine.z, .modes = machine.modes};
+  Held now;
+  now.z = machine.z, now.modes = machine.modes;
   std::vector<double> y;
   for (const int i : held_nodes_) {
     const Place& place = plan_->node(i).place;
