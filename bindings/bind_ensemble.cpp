@@ -3,6 +3,8 @@
 #include <pybind11/functional.h>
 #include <pybind11/stl.h>
 
+#include "interpreter.hpp"
+#include "ladder_system.hpp"
 #include "numbers.hpp"
 #include "python_results.hpp"
 #include "saltus/simulation/outcomes.hpp"
@@ -80,7 +82,7 @@ class Call {
   /// The columns, and what was raised, or None.
   py::tuple run(int threads) {
     try {
-      const py::gil_scoped_release unlock;
+      const Unlocked runs;
       ensemble_->run([this](Index run, const Results& results) { take(run, results); },
                      {.threads = threads,
                       .watch = [this](Index done) { return look(done); },
@@ -116,7 +118,7 @@ class Call {
   /// A thread keeps what the interpreter knows of it from one call of Python to the next.
   static void with_thread_state(const std::function<void()>& share) {
     const py::gil_scoped_acquire lock;
-    const py::gil_scoped_release unlock;
+    const Unlocked runs;
     share();
   }
 
@@ -153,9 +155,12 @@ bool has_modes(const Ensemble& ensemble) {
 void bind_ensemble(py::module_& module) {
   py::class_<Ensemble>(module, "Ensemble")
       .def(py::init([](const System& system, const Context& base, std::pair<double, double> span,
-                       const SimulatorOptions& options) {
+                       SimulatorOptions options) {
+             if (const auto* ladder = dynamic_cast<const LadderSystem*>(&system)) {
+               for (auto& [name, port] : options.recorded_signals) port = ladder->port(port);
+             }
              return std::make_unique<Ensemble>(system, base, TimeSpan{span.first, span.second},
-                                               options);
+                                               std::move(options));
            }),
            py::keep_alive<1, 2>())
       .def("vary", &vary)

@@ -2,6 +2,7 @@
 // **parameters), or compiled ones.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <span>
@@ -59,7 +60,9 @@ class PythonLeaf final : public LeafSystem {
   std::string kind() const override;  // of the Python class
 
   /// Whether a run calls Python functions of this block.
-  bool needs_interpreter() const { return !functions_.empty(); }
+  bool needs_interpreter() const {
+    return std::ranges::any_of(functions_, [](const Function& f) { return f.compiled == nullptr; });
+  }
 
   /// For the garbage collector.
   int traverse(visitproc visit, void* argument) const;

@@ -58,11 +58,18 @@ void change(Parameters& all, const std::vector<Member<Parameters>>& members,
   }
 }
 
+/// What parameters have to be to each other, where the scene has no meaning without.
+template <class Parameters>
+struct Condition {
+  const char* expected = nullptr;  ///< "fk < fs"
+  bool (*holds)(const Parameters&) = nullptr;
+};
+
 /// An entry of the shelf: `make` with `usual` parameters, of which `members` can be changed.
 template <class Parameters>
 ShelfEntry entry(std::string name, std::string title, Scene (*make)(const Parameters&),
-                 std::vector<Member<Parameters>> members, Parameters usual = {},
-                 bool quick = true) {
+                 std::vector<Member<Parameters>> members, Parameters usual = {}, bool quick = true,
+                 Condition<Parameters> condition = {}) {
   SceneParameters values;
   for (const auto& member : members) values.emplace_back(member.name, member.get(usual));
   return {std::move(name),
@@ -72,6 +79,8 @@ ShelfEntry entry(std::string name, std::string title, Scene (*make)(const Parame
           [=](const SceneParameters& with) {
             Parameters changed = usual;
             change(changed, members, with);
+            if (condition.holds != nullptr && !condition.holds(changed))
+              throw ModelError(text("scene '", name, "': expected ", condition.expected));
             return make(changed);
           },
           quick};

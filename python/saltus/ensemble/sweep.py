@@ -139,7 +139,7 @@ def sweep(
         require_xarray()
     job.check(table.columns)
     start = time.perf_counter()
-    with _Progress(table.runs, progress) as shown:
+    with _Progress(table.runs, progress or bool(job.options.progress)) as shown:
         columns, raised, kind, count = _run(job, table, executor, workers, shown.watch)
     attributes = summary(columns, time.perf_counter() - start)
     attributes |= {"executor": kind, "workers": count, "saltus": _core.__version__}
@@ -232,7 +232,7 @@ def _run(job: Job, table: Table, executor: Any, workers: int | None, watch: Watc
 
 
 def _run_as_suits(job: Job, table: Table, workers: int | None, count: int, watch: Watch) -> Outcome:
-    if isinstance(job.system, System) and not job.system.interpreted_blocks:
+    if not job.needs_interpreter:
         return *job.run(table.columns, count, watch), "threads", count
     portable = _portable(job, must=(workers or 1) > 1)
     if count == 1 or not portable:

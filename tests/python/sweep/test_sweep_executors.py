@@ -88,11 +88,31 @@ def test_a_dask_client(ball, expected):
     assert np.array_equal(kept["state"].values, alone["continuous_state"].values)
 
 
-def test_python_functions_run_here_or_in_processes():
+def test_traced_functions_run_in_threads_and_called_ones_here():
     leaf = Ball()
-    found = saltus.sweep(leaf, {"g": [1.0, 2.0]}, (0.0, 1.0))
-    assert found.attrs["executor"] in ("serial", "threads")  # threads where it could be traced
-    assert found["continuous_state"].values[:, 0] == pytest.approx([9.5, 9.0], abs=1e-9)
+    traced = saltus.sweep(leaf, {"g": [1.0, 2.0]}, (0.0, 1.0), workers=2)
+    called = saltus.sweep(leaf, {"g": [1.0, 2.0]}, (0.0, 1.0), python="called")
+    assert traced.attrs["executor"] == "threads"
+    assert called.attrs["executor"] == "serial"
+    for found in (traced, called):
+        assert found["continuous_state"].values[:, 0] == pytest.approx([9.5, 9.0], abs=1e-9)
+
+
+def test_a_traced_function_is_never_stale():
+    leaf = Ball(e=1.0)
+    before = saltus.sweep(leaf, {"g": [9.81, 5.0]}, (0.0, 3.0), executor="threads")
+    leaf.e = 0.5
+    after = saltus.sweep(leaf, {"g": [9.81, 5.0]}, (0.0, 3.0), executor="threads")
+    expected = saltus.sweep(Ball(e=0.5), {"g": [9.81, 5.0]}, (0.0, 3.0), python="called")
+    assert not np.allclose(before["continuous_state"], after["continuous_state"])
+    # the tape and numpy may round differently: some 1e-15 each, a few flights
+    assert after["continuous_state"].values == pytest.approx(
+        expected["continuous_state"].values, abs=1e-9
+    )
+
+
+def test_what_cannot_go_to_another_process_says_what_to_do():
+    leaf = Ball()
     with pytest.raises(ModelError, match="at the top level of a module"):
         saltus.sweep(leaf, {"g": [1.0, 2.0]}, (0.0, 1.0), executor="processes")
     with pytest.raises(ModelError, match="at the top level of a module"):
@@ -159,7 +179,7 @@ def test_ctrl_c_in_a_python_function():
         return 1.0
 
     with pytest.raises(KeyboardInterrupt) as caught:
-        saltus.sweep(leaf, {"g": [float(g) for g in range(1, 400)]}, (0.0, 5.0), reduce=reduce)
+        saltus.sweep(leaf, {"g": range(1, 400)}, (0.0, 5.0), reduce=reduce, python="called")
     status = caught.value.results["status"].values
     assert status[0] == "reached_end"
     assert status[-1] == "not_run"
