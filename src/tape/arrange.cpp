@@ -86,7 +86,10 @@ class Arranger {
       for (const Node node : nodes) {
         swapped_[index(node)] = is_commutative(op) && where(node, 1).array < where(node, 0).array;
       }
-      std::ranges::sort(nodes, {}, [this](Node node) { return order(node); });
+      std::vector<Order> sorted;
+      for (const Node node : nodes) sorted.push_back(order(node));
+      std::ranges::sort(sorted);
+      std::ranges::transform(sorted, nodes.begin(), [](const Order& o) { return std::get<2>(o); });
     }
     for (std::size_t first = 0; first < nodes.size();) {
       const std::size_t length =

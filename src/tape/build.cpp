@@ -124,7 +124,7 @@ class Builder {
     }
     add(line, Node{});
     if (output && unread) return;
-    copy_out(group, output, line.to);
+    copy_out(group);
     if (of(group[0]).block >= 0 && unread) give_back(of(group[0]).block);
   }
 
@@ -145,16 +145,31 @@ class Builder {
     return Place{Kind::out, first, stride};
   }
 
-  void copy_out(const Group& group, const std::optional<Place>& output, Place from) {
-    if (output) {
-      program_.lines.push_back({.to = *output, .from = {from}, .count = group.size()});
-      return;
+  /// Copies a run to its outputs: first all first ones, then all second ones, in pieces that stand
+  /// at equal distances.
+  void copy_out(std::span<const Node> nodes) {
+    std::size_t most = 0;
+    for (const Node node : nodes) most = std::max(most, of(node).outputs.size());
+    for (std::size_t rank = 0; rank < most; ++rank) {
+      for (std::size_t i = 0; i < nodes.size();) i += copy_piece(nodes.subspan(i), rank);
     }
-    for (const Node node : group) {
-      for (const std::uint32_t to : of(node).outputs) {
-        program_.lines.push_back({.to = {Kind::out, to}, .from = {of(node).place}});
-      }
+  }
+  /// Copies the longest piece from the first on; returns how many nodes that were.
+  std::size_t copy_piece(std::span<const Node> nodes, std::size_t rank) {
+    const auto has = [&](std::size_t i) { return of(nodes[i]).outputs.size() > rank; };
+    const auto output = [&](std::size_t i) { return of(nodes[i]).outputs[rank]; };
+    if (!has(0)) return 1;
+    Line line{.to = {Kind::out, output(0)}, .from = {of(nodes[0]).place}};
+    if (nodes.size() > 1 && has(1)) line.to.stride = distance(output(0), output(1));
+    std::size_t count = 1;
+    while (count < nodes.size() && has(count) &&
+           distance(output(count - 1), output(count)) == line.to.stride) {
+      ++count;
     }
+    line.count = count < shortest_run ? 1 : count;
+    if (line.count > 1) line.from[0].stride = 1;  // the registers of a run stand side by side
+    program_.lines.push_back(line);
+    return line.count;
   }
 
   // --- outputs that are variables or constants ---

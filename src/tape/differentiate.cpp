@@ -17,18 +17,24 @@ class Accumulation {
  public:
   Accumulation(Graph& graph, std::span<const Node> outputs, std::span<const Node> variables)
       : graph_(graph), outputs_(outputs), variables_(variables) {
-    for (const Node node : variables_) (void)graph_[node];
+    for (const Node node : variables_) (void)graph_[node];  // each must be there
+    for (const Node node : outputs_) (void)graph_[node];
     const auto size = static_cast<std::size_t>(graph_.size());
     needed_.resize(size);
     readers_.resize(size);
     part_.resize(size);
     seen_.assign(size, -1);
     values_.resize(size);
-    for (const Node node : needed(graph_, outputs_)) {
+    rows_.resize(size);
+    columns_.resize(size);
+    for (std::size_t i = 0; i < outputs_.size(); ++i) rows_[index(outputs_[i])].push_back(i);
+    for (std::size_t j = 0; j < variables_.size(); ++j) columns_[index(variables_[j])].push_back(j);
+    const auto order = needed(graph_, outputs_);
+    for (const Node node : order) {
       needed_[index(node)] = true;
       for (const Node operand : operands(node)) readers_[index(operand)].push_back(node);
     }
-    connect();
+    connect(order);
   }
 
   std::vector<Partial> run() {
@@ -52,23 +58,21 @@ class Accumulation {
     return {e.operands.begin(), e.operands.begin() + operand_count(e.op)};
   }
 
-  /// Parts of the graph that share no variable: a union-find over what depends on variables.
-  void connect() {
+  /// Parts of the graph that share nothing: a union-find over what depends on variables.
+  void connect(const std::vector<Node>& order) {
     std::iota(part_.begin(), part_.end(), std::size_t{0});
+    is_active_.assign(part_.size(), false);
     chooses_.assign(part_.size(), false);
-    std::vector<Node> active;
-    for (const Node variable : variables_) {
-      for (const Node node : dependents(variable)) active.push_back(node);
-    }
-    for (const Node node : active) is_active_.resize(part_.size()), is_active_[index(node)] = true;
-    is_active_.resize(part_.size());
-    for (const Node node : active) {
+    for (const Node node : variables_) is_active_[index(node)] = needed_[index(node)];
+    for (const Node node : order) {
       for (const Node operand : operands(node)) {
-        if (is_active_[index(operand)]) part_[part_of(operand)] = part_of(node);
+        if (!is_active_[index(operand)]) continue;
+        is_active_[index(node)] = true;
+        part_[part_of(operand)] = part_of(node);
       }
     }
-    for (const Node node : active) {
-      if (chooses(graph_[node].op)) chooses_[part_of(node)] = true;
+    for (const Node node : order) {
+      if (is_active_[index(node)] && chooses(graph_[node].op)) chooses_[part_of(node)] = true;
     }
   }
   std::size_t part_of(Node node) {
@@ -130,7 +134,9 @@ class Accumulation {
     for (const Node node : active) {
       values_[index(node)] = node == variables_[j] ? graph_.constant(1.0) : tangent(node);
     }
-    for (std::size_t i = 0; i < outputs_.size(); ++i) keep(i, j, values_[index(outputs_[i])]);
+    for (const Node node : active) {
+      for (const std::size_t i : rows_[index(node)]) keep(i, j, values_[index(node)]);
+    }
     for (const Node node : active) values_[index(node)].reset();
   }
 
@@ -162,8 +168,8 @@ class Accumulation {
     if (active.empty()) return;
     values_[index(outputs_[i])] = graph_.constant(1.0);
     for (auto node = active.rbegin(); node != active.rend(); ++node) hand_on(*node);
-    for (std::size_t j = 0; j < variables_.size(); ++j) {
-      keep(i, j, values_[index(variables_[j])]);
+    for (const Node node : active) {
+      for (const std::size_t j : columns_[index(node)]) keep(i, j, values_[index(node)]);
     }
     for (const Node node : active) values_[index(node)].reset();
   }
@@ -187,6 +193,7 @@ class Accumulation {
   std::span<const Node> outputs_, variables_;
   std::vector<bool> needed_, is_active_, chooses_;
   std::vector<std::vector<Node>> readers_;
+  std::vector<std::vector<std::size_t>> rows_, columns_;  ///< that a node is
   std::vector<std::size_t> part_;
   std::vector<int> seen_;
   int visit_ = 0;

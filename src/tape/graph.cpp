@@ -12,9 +12,11 @@ namespace saltus::tape {
 
 std::size_t Graph::Hash::operator()(const Key& key) const noexcept {
   std::uint64_t mixed = 0;
-  for (const std::uint64_t part : key) {  // a multiply and a fold for each word: splitmix64's step
-    mixed = (mixed ^ part) * 0x9E3779B97F4A7C15U;
-    mixed ^= mixed >> 29U;
+  for (const std::uint64_t part : key) {  // the finalizer of MurmurHash3
+    mixed ^= part;
+    mixed = (mixed ^ mixed >> 33U) * 0xFF51AFD7ED558CCDU;
+    mixed = (mixed ^ mixed >> 33U) * 0xC4CEB9FE1A85EC53U;
+    mixed ^= mixed >> 33U;
   }
   return static_cast<std::size_t>(mixed);
 }
@@ -37,9 +39,9 @@ Node Graph::find_or_add(const Expression& e) {
 Node Graph::constant(double value) { return find_or_add({.value = value}); }
 
 Node Graph::variable(Op op, Index i, int port) {
-  if (i < 0 || port < 0) {
-    throw ModelError(text("expected the number of an entry of ", name(op), " from 0 on, found ",
-                          i < 0 ? i : Index{port}));
+  if (i < 0 || port < 0 || i > std::numeric_limits<int>::max()) {
+    throw ModelError(text("expected the number of an entry of ", name(op), " from 0 to ",
+                          std::numeric_limits<int>::max(), ", found ", port < 0 ? port : i));
   }
   return find_or_add({.op = op, .index = i, .port = port});
 }

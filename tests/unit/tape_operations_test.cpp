@@ -13,10 +13,10 @@ using namespace support;
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+constexpr double quiet_nan = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<double> samples() {
-  std::vector<double> all = {0.0,     -0.0,  infinity, -infinity, not_a_number, 5e-324,
+  std::vector<double> all = {0.0,     -0.0,  infinity, -infinity, quiet_nan, 5e-324,
                              -5e-324, 1e308, -1e308,   0.5,       -0.5,         1.5,
                              2.5,     -1.5,  1.0,      -1.0};
   for (double a = -3.3; a < 12.0; a += 0.71) all.push_back(a);
@@ -32,7 +32,7 @@ double truth(bool value) { return value ? 1.0 : 0.0; }
 /// exact.
 double mod(double a, double b) {
   double rest = std::fmod(a, b);
-  if (std::isnan(rest)) return not_a_number;
+  if (std::isnan(rest)) return quiet_nan;
   if (rest != 0.0 && std::signbit(rest) != std::signbit(b)) rest += b;
   return rest == 0.0 ? std::copysign(0.0, b) : rest;
 }
@@ -66,7 +66,7 @@ const std::vector<std::pair<Op, One>> of_one = {
     {Op::trunc, [](double a) { return std::trunc(a); }},
     {Op::rint, [](double a) { return std::rint(a); }},
     {Op::sign,
-     [](double a) { return std::isnan(a) ? not_a_number : truth(a > 0.0) - truth(a < 0.0); }},
+     [](double a) { return std::isnan(a) ? quiet_nan : truth(a > 0.0) - truth(a < 0.0); }},
     {Op::logical_not, [](double a) { return truth(!static_cast<bool>(a)); }},
 };
 
@@ -126,10 +126,10 @@ TEST_CASE("minimum and maximum let NaN through", "[tape]") {
   const Tape tape = tape_of(g, {g.binary(Op::minimum, x, y), g.binary(Op::maximum, x, y)});
   CHECK(values_of(tape, {.x = {1.0, -2.0}}) == std::vector{-2.0, 1.0});
   CHECK(values_of(tape, {.x = {-infinity, 3.0}}) == std::vector{-infinity, 3.0});
-  for (const auto& x0 : {std::vector{not_a_number, 1.0},
-                         {1.0, not_a_number},
-                         {not_a_number, infinity},
-                         {not_a_number, not_a_number}}) {
+  for (const auto& x0 : {std::vector{quiet_nan, 1.0},
+                         {1.0, quiet_nan},
+                         {quiet_nan, infinity},
+                         {quiet_nan, quiet_nan}}) {
     for (const double value : values_of(tape, {.x = x0})) CHECK(std::isnan(value));
   }
 }
@@ -156,8 +156,8 @@ TEST_CASE("select takes the one it names, and NaN is true", "[tape]") {
   Graph g;
   const Tape tape =
       tape_of(g, {g.select(g.continuous_state(0), g.continuous_state(1), g.continuous_state(2))});
-  CHECK(values_of(tape, {.x = {1.0, 5.0, not_a_number}})[0] == 5.0);
-  CHECK(values_of(tape, {.x = {0.0, not_a_number, 6.0}})[0] == 6.0);
+  CHECK(values_of(tape, {.x = {1.0, 5.0, quiet_nan}})[0] == 5.0);
+  CHECK(values_of(tape, {.x = {0.0, quiet_nan, 6.0}})[0] == 6.0);
   CHECK(values_of(tape, {.x = {-0.0, 5.0, 6.0}})[0] == 6.0);
-  CHECK(values_of(tape, {.x = {not_a_number, 5.0, 6.0}})[0] == 5.0);
+  CHECK(values_of(tape, {.x = {quiet_nan, 5.0, 6.0}})[0] == 5.0);
 }
