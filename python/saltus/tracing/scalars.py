@@ -88,7 +88,11 @@ def _plain(name: str) -> Function:
             _refuse_narrow(name, arguments)
         for a in arguments:
             if type(a) is Symbol:
-                return record(name, arguments, _kind(name, arguments))
+                kind = _kind(name, arguments)
+                result = record(name, arguments, kind)
+                # integers have no negative zero, their doubles have
+                signed = kind == "i" and name in ("mul", "mod", "fmod", "neg", "floor_divide")
+                return record("add", (result, 0.0), kind) if signed else result
         return NUMPY[name](*arguments)
 
     function.__name__ = name

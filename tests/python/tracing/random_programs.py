@@ -12,18 +12,20 @@ ARRAYS = [
 ]  # fmt: skip
 NUMBER_FORMS = """
     ({n} + {n})|({n} - {n})|({n} * {n})|({n} < {n})|({n} <= {n})|({n} == {n})|({n} != {n})
-    np.where({n}, {n}, {n})|min({n}, {n})|max({n}, {n}, {n})|np.maximum({n}, {n})|np.fmin({n}, {n})
-    np.hypot({n}, {n})|np.arctan2({n}, {n})|np.copysign({n}, {n})|np.logical_and({n}, {n})
-    np.logical_xor({n}, {n})|({n} // 0.3)|({n} % -2)|({n} / 1.5)|({n} // 3)|abs({n})|float({n})
-    int({n})|round({n})|bool({n})|math.floor({n})|math.ceil({n})|math.tanh({n})|np.sign({n})
-    np.floor({n})|np.float64({n})|{a}[0]|{a}[2]|np.sum({a})|np.max({a})|np.mean({a})|np.any({a})
-    sum({a})|max({a})|np.count_nonzero({a})|({a} @ {a})|({n})**2|({n})**3|np.logical_not({n})|(-{n})
+    np.where({n}, {n}, {n})|min({n}, {n})|max({n}, {n}, {n})|np.maximum({n}, {n})
+    np.fmin({n}, {n})|np.hypot({n}, {n})|np.arctan2({n}, {n})|np.copysign({n}, {n})
+    np.logical_and({n}, {n})|np.logical_xor({n}, {n})|({n} // 0.3)|({n} % -2)|({n} / 1.5)
+    ({n} // 3)|abs({n})|float({n})|int({n})|round({n})|bool({n})|math.floor({n})|math.ceil({n})
+    math.tanh({n})|np.sign({n})|np.floor({n})|np.float64({n})|{a}[0]|{a}[2]|np.sum({a})
+    np.max({a})|np.mean({a})|np.any({a})|sum({a})|max({a})|np.count_nonzero({a})|({a} @ {a})
+    ({n})**2|({n})**3|np.logical_not({n})|(-{n})
 """.replace("\n", "|").split("|")
 ARRAY_FORMS = """
     ({a} + {a})|({a} - {a})|({a} * {a})|({a} < {a})|({a} >= {a})|({a} == {a})
-    np.where({a}, {a}, {a})|np.clip({a}, -1, {n})|np.array([{n},{n},{n}])|np.cumsum({a})|np.roll({a}, 1)
-    ({a} // 3)|({a} % -2)|np.select([{a} > 0, {a} < 1], [{a}, {a}], {n})|np.concatenate([{a}[:1], {a}[1:]])
-    ({a} * {n})|np.abs({a})|np.sign({a})|np.floor({a})|np.logical_not({a})|np.tanh({a})|np.square({a})
+    np.where({a}, {a}, {a})|np.clip({a}, -1, {n})|np.array([{n},{n},{n}])|np.cumsum({a})
+    np.roll({a}, 1)|({a} // 3)|({a} % -2)|np.select([{a} > 0, {a} < 1], [{a}, {a}], {n})
+    np.concatenate([{a}[:1], {a}[1:]])|({a} * {n})|np.abs({a})|np.sign({a})|np.floor({a})
+    np.logical_not({a})|np.tanh({a})|np.square({a})
 """.replace("\n", "|").split("|")
 RETURNS = ["b", "a", "b * a", "[a, b[0]]", "np.array([a, b[1]]) + 1", "a == b", "(a, b.sum())"]
 
