@@ -1,6 +1,10 @@
-// From expressions to instructions: which array each number is in, and for how long.
+// From expressions to instructions: where each number is, and for how long.
 #include <algorithm>
+#include <map>
+#include <optional>
+#include <utility>
 
+#include "arrange.hpp"
 #include "copy.hpp"
 #include "program.hpp"
 
@@ -8,148 +12,292 @@ namespace saltus::tape::detail {
 
 namespace {
 
-constexpr bool is_computed(Op op) { return op > Op::input; }
-
 class Builder {
  public:
-  Builder(const Graph& graph, std::span<const Node> outputs) {
+  Builder(Program& program, const Graph& graph, std::span<const Node> outputs) : program_(program) {
     program_.outputs = copy(graph, outputs, program_.graph);
-    places_.resize(static_cast<std::size_t>(program_.graph.size()));
-    uses_.resize(places_.size());
+    values_.resize(static_cast<std::size_t>(program_.graph.size()));
   }
 
-  Program build() {
-    const auto order = needed(program_.graph, program_.outputs);
-    count_uses(order);
-    place_outputs();
-    for (const Node node : order) place_and_compute(node);
-    copy_outputs();
-    return std::move(program_);
+  void build() {
+    const auto groups = arrange(program_.graph, program_.outputs, swapped_);
+    for (const Group& group : groups) {
+      for (const Node node : group) {
+        for (const Node operand : operands(node)) ++of(operand).uses;
+      }
+    }
+    for (std::size_t i = 0; i < program_.outputs.size(); ++i) {
+      of(program_.outputs[i]).outputs.push_back(static_cast<std::uint32_t>(i));
+    }
+    for (int id = 0; id < program_.graph.size(); ++id) note_variable(Node{id});
+    for (const Group& group : groups) group.size() == 1 ? one(group[0]) : many(group);
+    copy_variables();
   }
 
  private:
-  struct Use {
-    int left = 0;     ///< operations still to come that read the node
-    int output = -1;  ///< which output it is computed into
+  struct Value {
+    int uses = 0;                        ///< still to come
+    std::vector<std::uint32_t> outputs;  ///< that show it
+    Place place = {};
+    std::optional<Place> loaded = {};  ///< a register that holds it too, for what reads no other
+    int block = -1;                    ///< of registers, if it is in one
+  };
+  /// Registers side by side, given back when nothing in them is needed any more.
+  struct Block {
+    std::uint32_t offset = 0, size = 0;
+    int uses = 0;
   };
 
+  Value& of(Node node) { return values_[static_cast<std::size_t>(node.id)]; }
   const Expression& at(Node node) const { return program_.graph[node]; }
-  Address& place(Node node) { return places_[static_cast<std::size_t>(node.id)]; }
-  Use& use(Node node) { return uses_[static_cast<std::size_t>(node.id)]; }
-  std::span<const Node> operands(const Expression& e) const {
-    return {e.operands.data(), static_cast<std::size_t>(operand_count(e.op))};
-  }
-
-  void count_uses(const std::vector<Node>& order) {
-    for (const Node node : order) {
-      for (const Node operand : operands(at(node))) ++use(operand).left;
-    }
-  }
-
-  /// A computed node goes straight to the first output that shows it.
-  void place_outputs() {
-    for (std::size_t i = 0; i < program_.outputs.size(); ++i) {
-      const Node node = program_.outputs[i];
-      if (is_computed(at(node).op) && use(node).output < 0) {
-        use(node).output = static_cast<int>(i);
-        place(node) = {out, static_cast<std::uint32_t>(i)};
-      }
-    }
-  }
-
-  void place_and_compute(Node node) {
+  std::vector<Node> operands(Node node) const {
     const Expression& e = at(node);
-    if (!is_computed(e.op)) {
-      place(node) = e.op == Op::constant ? constant(e.value) : variable(e);
+    std::vector<Node> all(e.operands.begin(), e.operands.begin() + operand_count(e.op));
+    if (swapped_[static_cast<std::size_t>(node.id)]) std::swap(all[0], all[1]);
+    return all;
+  }
+
+  // --- one number ---
+
+  void one(Node node) {
+    const Op op = at(node).op;
+    Line line{.op = op};
+    const auto all = operands(node);
+    for (const Node operand : all) load_if_needed(op, operand);
+    for (std::size_t k = 0; k < all.size(); ++k) line.from[k] = place_for(op, all[k]);
+    for (const Node operand : all) release(operand);
+    Value& value = of(node);
+    const bool straight = value.uses == 0;  // to the first output that shows it
+    line.to = straight ? Place{Kind::out, value.outputs.at(0)} : take_registers({&node, 1});
+    add(line, node);
+    for (std::size_t i = straight ? 1 : 0; i < value.outputs.size(); ++i) {
+      program_.lines.push_back(
+          {.to = {Kind::out, value.outputs[i]}, .from = {Place{Kind::before}}});
+    }
+  }
+
+  /// Where an operand is read: as what was computed just before, if it was.
+  Place place_for(Op op, Node node) {
+    if (takes_any(op) && node == before_) return {Kind::before};
+    return fits(op, of(node).place) ? of(node).place : *of(node).loaded;
+  }
+  static bool fits(Op op, const Place& place) {
+    return takes_any(op) ? place.kind <= Kind::p : place.kind == Kind::reg;
+  }
+
+  /// Loads into a register what the operation does not take as it is; it stays there.
+  void load_if_needed(Op op, Node node) {
+    if (!fits(op, of(node).place)) load(node);
+  }
+  void load(Node node) {
+    if (of(node).loaded) return;
+    const Place to{Kind::reg, static_cast<std::uint32_t>(program_.registers++)};
+    of(node).loaded = to;
+    add({.to = to, .from = {of(node).place}}, node);
+  }
+
+  void add(const Line& line, Node node) {
+    program_.lines.push_back(line);
+    before_ = node;
+  }
+
+  // --- many numbers ---
+
+  void many(const Group& group) {
+    Line line{.op = at(group[0]).op, .count = group.size()};
+    const auto first = operands(group[0]), second = operands(group[1]);
+    for (std::size_t k = 0; k < first.size(); ++k) {
+      const Kind kind = of(first[k]).place.kind;
+      const bool alone = kind == Kind::time || kind == Kind::mode || kind == Kind::entry;
+      if (alone) load(first[k]);
+      line.from[k] = alone ? *of(first[k]).loaded : of(first[k]).place;
+      line.from[k].stride = distance(of(first[k]).place.offset, of(second[k]).place.offset);
+      if (first[k] == second[k]) line.from[k].stride = 0;
+    }
+    // Nothing is given back before the run has its place: it must not write where it reads.
+    const auto output = outputs_of(group);
+    const bool unread =
+        std::ranges::all_of(group, [this](Node node) { return of(node).uses == 0; });
+    line.to = output && unread ? *output : take_registers(group);
+    for (const Node node : group) {
+      for (const Node operand : operands(node)) release(operand);
+    }
+    add(line, Node{});
+    if (output && unread) return;
+    copy_out(group, output, line.to);
+    if (of(group[0]).block >= 0 && unread) give_back(of(group[0]).block);
+  }
+
+  static std::int32_t distance(std::uint32_t from, std::uint32_t to) {
+    return static_cast<std::int32_t>(to) - static_cast<std::int32_t>(from);
+  }
+
+  /// The outputs of a run, if each has one and they stand at equal distances.
+  std::optional<Place> outputs_of(std::span<const Node> nodes) {
+    for (const Node node : nodes) {
+      if (of(node).outputs.size() != 1) return {};
+    }
+    const std::uint32_t first = of(nodes[0]).outputs[0];
+    const std::int32_t stride = distance(first, of(nodes[1]).outputs[0]);
+    for (std::size_t i = 1; i < nodes.size(); ++i) {
+      if (distance(of(nodes[i - 1]).outputs[0], of(nodes[i]).outputs[0]) != stride) return {};
+    }
+    return Place{Kind::out, first, stride};
+  }
+
+  void copy_out(const Group& group, const std::optional<Place>& output, Place from) {
+    if (output) {
+      program_.lines.push_back({.to = *output, .from = {from}, .count = group.size()});
       return;
     }
-    Instruction instruction{.run = handler(e.op), .op = e.op};
-    std::size_t i = 0;
-    for (const Node operand : operands(e)) {
-      instruction.from[i++] = place(operand);
-      if (--use(operand).left == 0 && place(operand).base == registers) {
-        free_.push_back(place(operand).offset);
+    for (const Node node : group) {
+      for (const std::uint32_t to : of(node).outputs) {
+        program_.lines.push_back({.to = {Kind::out, to}, .from = {of(node).place}});
       }
     }
-    if (use(node).output < 0) place(node) = {registers, take_register()};
-    instruction.to = place(node);
-    program_.instructions.push_back(instruction);
   }
 
-  /// Outputs that are variables or constants, or that are there twice.
-  void copy_outputs() {
+  // --- outputs that are variables or constants ---
+
+  void copy_variables() {
+    std::vector<std::pair<std::uint32_t, Node>> all;
     for (std::size_t i = 0; i < program_.outputs.size(); ++i) {
       const Node node = program_.outputs[i];
-      if (use(node).output == static_cast<int>(i)) continue;
-      program_.instructions.push_back({.run = handler(Op::constant),
-                                       .to = {out, static_cast<std::uint32_t>(i)},
-                                       .from = {place(node)}});
+      if (operand_count(at(node).op) == 0) all.push_back({static_cast<std::uint32_t>(i), node});
+    }
+    for (std::size_t i = 0; i < all.size();) {
+      const std::size_t count = side_by_side(std::span(all).subspan(i));
+      Place to{Kind::out, all[i].first}, from = of(all[i].second).place;
+      if (count > 1) {
+        to.stride = 1;
+        from.stride = distance(from.offset, of(all[i + 1].second).place.offset);
+      }
+      program_.lines.push_back({.to = to, .from = {from}, .count = count});
+      i += count;
     }
   }
 
-  std::uint32_t take_register() {
-    if (free_.empty()) return static_cast<std::uint32_t>(program_.registers++);
-    const std::uint32_t taken = free_.back();
-    free_.pop_back();
-    return taken;
+  /// How many of the outputs from the first on are one copy.
+  std::size_t side_by_side(std::span<const std::pair<std::uint32_t, Node>> all) {
+    const Place first = of(all[0].second).place;
+    const bool array = first.kind == Kind::x || first.kind == Kind::p || first.kind == Kind::z ||
+                       first.kind == Kind::input;
+    if (!array || all.size() < shortest_run) return 1;
+    const std::int32_t stride = distance(first.offset, of(all[1].second).place.offset);
+    std::size_t count = 1;
+    for (; count < all.size(); ++count) {
+      const Place next = of(all[count].second).place;
+      const auto steps = static_cast<std::uint32_t>(count);
+      if (all[count].first != all[0].first + steps || next.kind != first.kind ||
+          next.port != first.port ||
+          distance(first.offset, next.offset) != stride * static_cast<std::int32_t>(count)) {
+        break;
+      }
+    }
+    return count >= shortest_run ? count : 1;
   }
 
-  Address constant(double value) {
-    program_.constants.push_back(value);
-    return {constants, static_cast<std::uint32_t>(program_.constants.size() - 1)};
+  // --- registers ---
+
+  /// Registers for all that is in them at once.
+  Place take_registers(std::span<const Node> nodes) {
+    const auto size = static_cast<std::uint32_t>(nodes.size());
+    auto& free = free_[size];
+    Block block{static_cast<std::uint32_t>(program_.registers), size};
+    if (free.empty()) {
+      program_.registers += size;
+    } else {
+      block.offset = free.back();
+      free.pop_back();
+    }
+    for (std::uint32_t i = 0; i < size; ++i) {
+      of(nodes[i]).place = {Kind::reg, block.offset + i};
+      of(nodes[i]).block = static_cast<int>(blocks_.size());
+      block.uses += of(nodes[i]).uses;
+    }
+    blocks_.push_back(block);
+    return {Kind::reg, block.offset, size > 1 ? 1 : 0};
   }
 
-  Address variable(const Expression& e) {
+  void release(Node node) {
+    --of(node).uses;
+    if (of(node).block < 0) return;
+    Block& block = blocks_[static_cast<std::size_t>(of(node).block)];
+    if (--block.uses == 0) give_back(of(node).block);
+  }
+  void give_back(int number) {
+    const Block& block = blocks_[static_cast<std::size_t>(number)];
+    free_[block.size].push_back(block.offset);
+  }
+
+  // --- variables ---
+
+  void note_variable(Node node) {
+    const Expression& e = at(node);
     const auto i = static_cast<std::uint32_t>(e.index);
-    const auto entry_of = [&](Base base, Index& size, Reads reads) -> Address {
+    const auto entry_of = [&](Kind kind, Index& size, Reads reads) -> Place {
       size = std::max(size, e.index + 1);
       program_.reads = program_.reads | reads;
-      return {base, i};
+      return {kind, i};
     };
     Index none = 0;
+    Place& place = of(node).place;
     switch (e.op) {
+      case Op::constant:
+        place = {.kind = Kind::constant, .value = e.value};
+        break;
       case Op::time:
-        entry_of(scalars, none, Reads::time);
-        return {scalars, time};
+        place = entry_of(Kind::time, none, Reads::time);
+        break;
       case Op::mode:
-        entry_of(scalars, none, Reads::mode);
-        return {scalars, mode};
+        place = entry_of(Kind::mode, none, Reads::mode);
+        break;
       case Op::entry:
+        place = {Kind::entry};
         program_.reads_entry = true;
-        return {scalars, entry};
+        break;
       case Op::continuous_state:
-        return entry_of(x, program_.x, Reads::continuous_state);
+        place = entry_of(Kind::x, program_.x, Reads::continuous_state);
+        break;
       case Op::discrete_state:
-        return entry_of(z, program_.z, Reads::discrete_state);
+        place = entry_of(Kind::z, program_.z, Reads::discrete_state);
+        break;
       case Op::parameter:
-        return entry_of(p, program_.p, Reads::parameters);
+        place = entry_of(Kind::p, program_.p, Reads::parameters);
+        break;
+      case Op::input:
+        place = input(e);
+        break;
       default:
-        return input(e);
+        break;
     }
   }
 
-  Address input(const Expression& e) {
+  Place input(const Expression& e) {
     program_.reads = program_.reads | Reads::inputs;
-    auto found = std::ranges::find(program_.inputs, e.port);
+    const auto found = std::ranges::find(program_.inputs, e.port);
     const auto which = static_cast<std::size_t>(found - program_.inputs.begin());
     if (found == program_.inputs.end()) {
       program_.inputs.push_back(e.port);
       program_.widths.push_back(0);
     }
     program_.widths[which] = std::max(program_.widths[which], e.index + 1);
-    return {inputs + static_cast<std::uint32_t>(which), static_cast<std::uint32_t>(e.index)};
+    return {.kind = Kind::input, .offset = static_cast<std::uint32_t>(e.index), .port = e.port};
   }
 
-  Program program_;
-  std::vector<Address> places_;
-  std::vector<Use> uses_;
-  std::vector<std::uint32_t> free_;
+  Program& program_;
+  std::vector<Value> values_;
+  std::vector<bool> swapped_;
+  std::vector<Block> blocks_;
+  std::map<std::uint32_t, std::vector<std::uint32_t>> free_;  ///< by size
+  Node before_ = {};
 };
 
 }  // namespace
 
-Program build(const Graph& graph, std::span<const Node> outputs) {
-  return Builder(graph, outputs).build();
+void build(Program& program, const Graph& graph, std::span<const Node> outputs) {
+  Builder(program, graph, outputs).build();
+  encode(program);
 }
 
 }  // namespace saltus::tape::detail

@@ -7,15 +7,14 @@
 
 namespace saltus::tape {
 
-Tape::Tape(const Graph& graph, std::span<const Node> outputs)
-    : program_(std::make_shared<const detail::Program>(detail::build(graph, outputs))) {}
-
-void Tape::evaluate(const At& at, double* out) const { detail::run(*program_, at, out); }
+Tape::Tape(const Graph& graph, std::span<const Node> outputs) {
+  const auto program = std::make_shared<detail::Program>();
+  detail::build(*program, graph, outputs);
+  program_ = program;
+}
 
 Index Tape::size() const noexcept { return static_cast<Index>(program_->outputs.size()); }
-int Tape::instruction_count() const noexcept {
-  return static_cast<int>(program_->instructions.size());
-}
+int Tape::instruction_count() const noexcept { return static_cast<int>(program_->lines.size()); }
 Reads Tape::reads() const noexcept { return program_->reads; }
 bool Tape::reads_input(int k) const noexcept {
   return std::ranges::find(program_->inputs, k) != program_->inputs.end();

@@ -9,36 +9,53 @@ namespace detail {
 
 namespace {
 
-std::string show(const Program& program, Address address) {
-  switch (address.base) {
-    case registers:
-      return text("r", address.offset);
-    case out:
-      return text("out[", address.offset, "]");
-    case constants:
-      return text(program.constants[address.offset]);
-    case x:
-      return text("x[", address.offset, "]");
-    case z:
-      return text("z[", address.offset, "]");
-    case p:
-      return text("p[", address.offset, "]");
-    case scalars:
-      return address.offset == time ? "time" : address.offset == mode ? "mode" : "entry";
-    default:
-      return text("u[", program.inputs[address.base - inputs], "][", address.offset, "]");
-  }
+/// "x[3]", or "x[3:23]" for several, "x[3:43:2]" with their distance.
+std::string entries(const std::string& array, const Place& place, std::size_t count) {
+  if (count == 1 || place.stride == 0) return text(array, "[", place.offset, "]");
+  const auto end = static_cast<Index>(place.offset) + static_cast<Index>(count) * place.stride;
+  const std::string step = place.stride == 1 ? "" : text(":", place.stride);
+  return text(array, "[", place.offset, ":", end, step, "]");
 }
 
-std::string show(const Program& program, const Instruction& i) {
-  std::string line = text(show(program, i.to), " = ");
-  const int count = operand_count(i.op);
-  if (count == 0) return line + show(program, i.from[0]);
-  line += text(name(i.op), "(", show(program, i.from[0]));
-  for (std::size_t k = 1; k < static_cast<std::size_t>(count); ++k) {
-    line += text(", ", show(program, i.from[k]));
+std::string show(const Place& place, std::size_t count, const std::string& before) {
+  switch (place.kind) {
+    case Kind::before:
+      return before;
+    case Kind::reg:
+      return entries("r", place, count);
+    case Kind::constant:
+      return text(place.value);
+    case Kind::x:
+      return entries("x", place, count);
+    case Kind::p:
+      return entries("p", place, count);
+    case Kind::z:
+      return entries("z", place, count);
+    case Kind::input:
+      return entries(text("u[", place.port, "]"), place, count);
+    case Kind::time:
+      return "time";
+    case Kind::mode:
+      return "mode";
+    case Kind::entry:
+      return "entry";
+    case Kind::out:
+      return entries("out", place, count);
   }
-  return line + ")";
+  return "";
+}
+
+/// `before` is the place that the line before has written.
+std::string show(const Line& line, std::string& before) {
+  std::string shown = show(line.from[0], line.count, before);
+  for (std::size_t k = 1; k < line.operands(); ++k) {
+    shown += ", " + show(line.from[k], line.count, before);
+  }
+  if (line.op != Op::constant) shown = text(name(line.op), "(", shown, ")");
+  const bool forwards = line.from[0].kind == Kind::before && line.op == Op::constant;
+  const std::string to = show(line.to, line.count, before);
+  if (!forwards) before = to;
+  return text(to, " = ", shown);
 }
 
 }  // namespace
@@ -47,9 +64,8 @@ std::string show(const Program& program, const Instruction& i) {
 
 std::string Tape::to_string() const {
   std::string lines;
-  for (const detail::Instruction& i : program_->instructions) {
-    lines += detail::show(*program_, i) + "\n";
-  }
+  std::string before;
+  for (const detail::Line& line : program_->lines) lines += detail::show(line, before) + "\n";
   return lines;
 }
 

@@ -38,8 +38,8 @@ struct Expression {
 /// `gt` and `ge` become `lt` and `le` with their operands exchanged.
 ///
 /// One rule changes bits: `pow` with the constant exponent 2, 0.5 or -1 becomes x*x, sqrt(x), 1/x,
-/// as in NumPy's arrays, and with 3 or 4 (x*x)*x or (x*x)*(x*x), which is within 1 unit in the last
-/// place of the exact power and much quicker than `std::pow`.
+/// as in NumPy's arrays, and with 3 or 4 (x*x)*x or (x*x)*(x*x), much quicker than `std::pow` and
+/// within 1 or 1.5 units in the last place of the exact power.
 class Graph {
  public:
   Node constant(double value);
