@@ -52,11 +52,11 @@ void declare_continuous_state(py::handle self, py::handle initial, py::object od
   const Array values = to_array(initial, text("block '", leaf.name(), "': continuous state"));
   ContinuousState state{.initial = as_vector(values), .inputs = inputs};
   if (!ode.is_none())
-    state.ode =
-        leaf.vector_function(leaf.add(self, std::move(ode), inputs, "ode", Convention::state));
+    state.ode = leaf.vector_function(
+        leaf.add(self, std::move(ode), {.inputs = inputs, .what = "ode", .role = Role::ode}));
   if (!jacobian.is_none()) {
-    state.jacobian = leaf.matrix_function(
-        leaf.add(self, std::move(jacobian), inputs, "jacobian", Convention::state));
+    state.jacobian = leaf.matrix_function(leaf.add(
+        self, std::move(jacobian), {.inputs = inputs, .what = "jacobian", .role = Role::jacobian}));
   }
   if (sparsity) {
     state.sparsity.emplace();
@@ -64,7 +64,8 @@ void declare_continuous_state(py::handle self, py::handle initial, py::object od
   }
   if (!sparse_jacobian.is_none()) {
     state.sparse_jacobian = leaf.vector_function(
-        leaf.add(self, std::move(sparse_jacobian), inputs, "sparse_jacobian", Convention::state));
+        leaf.add(self, std::move(sparse_jacobian),
+                 {.inputs = inputs, .what = "sparse_jacobian", .role = Role::sparse_jacobian}));
   }
   leaf.declare_continuous_state(std::move(state));
   leaf.set_state_dimensions(dimensions_of(values));
@@ -95,7 +96,12 @@ int declare_output_port(py::handle self, py::object function, std::string name,
     all = all | found->second;
   }
   return leaf.add_output(std::move(name),
-                         leaf.add(self, std::move(function), inputs, what, convention),
+                         leaf.add(self, std::move(function),
+                                  {.convention = convention,
+                                   .inputs = inputs,
+                                   .what = what,
+                                   .role = Role::output,
+                                   .index = count_of(leaf.declarations().outputs)}),
                          shape_from(shape), boolean, all);
 }
 
@@ -113,31 +119,15 @@ int declare_view(py::handle self, std::string name, Space space) {
 ResetMap update_of(py::handle self, py::object callback, const char* what) {
   PythonLeaf& leaf = leaf_of(self);
   if (callback.is_none()) return {};
-  return leaf.update(leaf.add(self, std::move(callback), std::nullopt, what, Convention::state));
+  return leaf.update(leaf.add(
+      self, std::move(callback),
+      {.what = what, .role = Role::update, .index = count_of(leaf.declarations().time_events)}));
 }
 
 }  // namespace
 
 void bind_leaf_system(py::module_& module) {
-  py::class_<State>(
-      module, "State",
-      R"(What a callback sees of its block, as a value: read-only arrays, and `with_*` that return a new state.
-
-A reset map or an update returns the state it wants. What counts as written is what a `with_*` was called for, even if
-the value is the one that was there.)")
-      .def_readonly("continuous_state", &State::x, "Read-only array of the declared shape.")
-      .def_readonly("discrete_state", &State::z, "Read-only array of the declared shape.")
-      .def_readonly("mode", &State::mode)
-      .def_readonly("entry", &State::entry,
-                    "In a reset map: which guard of a zero crossing of several fired; else 0.")
-      .def("with_continuous_state", &State::with_continuous_state, py::arg("continuous_state"))
-      .def("with_discrete_state", &State::with_discrete_state, py::arg("discrete_state"))
-      .def("with_mode", &State::with_mode, py::arg("mode"))
-      .def("__repr__", [](const State& s) {
-        return py::str("State(continuous_state={}, discrete_state={}, mode={})")
-            .format(s.x, s.z, s.mode);
-      });
-
+  bind_callback_state(module);
   py::enum_<Convention>(module, "Convention")
       .value("state", Convention::state)
       .value("inputs", Convention::inputs)

@@ -5,6 +5,7 @@
 
 #include <sstream>
 
+#include "interpreter.hpp"
 #include "python_scene.hpp"
 #include "saltus/report/written.hpp"
 
@@ -38,7 +39,7 @@ std::string work_precision_json(Scene scene, WorkOptions work, std::string name,
   scene.name = std::move(name);
   scene.options.interrupt = check_signals;
   work.between = check_run;
-  const py::gil_scoped_release unlock;
+  const Unlocked unlock;
   WorkReport report = work_precision(std::move(scene), work);
   report.title = std::move(title);
   std::ostringstream out;

@@ -2,6 +2,8 @@
 #include <pybind11/functional.h>
 #include <pybind11/stl.h>
 
+#include "interpreter.hpp"
+#include "ladder_system.hpp"
 #include "python_results.hpp"
 #include "saltus/simulation/simulator.hpp"
 
@@ -15,14 +17,14 @@ using NamedPort = std::tuple<std::string, const System*, int>;
 class PythonSimulator {
  public:
   PythonSimulator(const System& system, SimulatorOptions options)
-      : simulator_(system, prepared(std::move(options))) {}
+      : simulator_(system, prepared(system, std::move(options))) {}
   PythonSimulator(const PythonSimulator&) = delete;
   PythonSimulator& operator=(const PythonSimulator&) = delete;
 
   void initialize(const Context& context) { simulator_.initialize(context); }
 
   void advance_to(double t_end) {
-    const py::gil_scoped_release unlock;
+    const Unlocked run;
     simulator_.advance_to(t_end);
   }
 
@@ -46,7 +48,10 @@ class PythonSimulator {
   const Simulator& simulator() const { return simulator_; }
 
  private:
-  SimulatorOptions prepared(SimulatorOptions options) {
+  SimulatorOptions prepared(const System& system, SimulatorOptions options) {
+    if (const auto* ladder = dynamic_cast<const LadderSystem*>(&system)) {
+      for (auto& [name, port] : options.recorded_signals) port = ladder->port(port);
+    }
     options.throw_errors = false;
     options.interrupt = [this, asked = std::move(options.interrupt)] {
       return signal_arrived() || (asked && asked());

@@ -18,6 +18,8 @@ void bind_context_saving(py::class_<Context>& context);
 void bind_context_reading(py::module_& module);
 void bind_system(py::module_& module);
 void bind_leaf_system(py::module_& module);
+void bind_callback_state(py::module_& module);
+void bind_ladder(py::module_& module);
 void bind_sources(py::module_& module);
 void bind_arithmetic(py::module_& module);
 void bind_logic(py::module_& module);

@@ -18,4 +18,5 @@ PYBIND11_MODULE(_core, module) {
   bind_shelf(module);
   bind_report(module);
   bind_tape(module);
+  bind_ladder(module);
 }

@@ -1,5 +1,8 @@
 #include "numbers.hpp"
 
+#include <functional>
+#include <numeric>
+
 namespace saltus::python {
 
 namespace {
@@ -15,8 +18,14 @@ std::string type_name(py::handle object) {
 
 }  // namespace
 
-double* numbers_of(const py::array& array) {
+double* numbers_of(py::handle array) {
   return reinterpret_cast<double*>(py::detail::array_proxy(array.ptr())->data);
+}
+
+Index size_of(py::handle array) {
+  const auto* proxy = py::detail::array_proxy(array.ptr());
+  return std::accumulate(proxy->dimensions, proxy->dimensions + proxy->nd, Index{1},
+                         std::multiplies<>());
 }
 
 Dimensions dimensions_of(const py::array& array) {
@@ -53,12 +62,44 @@ std::optional<Value> to_optional_value(py::handle numbers, const std::string& wh
   return numbers.is_none() ? std::nullopt : std::optional(to_value(numbers, what));
 }
 
-void read_numbers(py::handle result, VectorRef out, const std::string& what) {
-  if (out.size() == 1 &&
-      PyFloat_Check(result.ptr())) {  // the quick way for what most functions return
-    out[0] = PyFloat_AS_DOUBLE(result.ptr());
-    return;
+namespace {
+
+bool read_array(py::handle array, VectorRef out) {
+  static const PyObject* const doubles = py::dtype::of<double>().release().ptr();  // never freed
+  constexpr int plain =
+      py::detail::npy_api::NPY_ARRAY_C_CONTIGUOUS_ | py::detail::npy_api::NPY_ARRAY_ALIGNED_;
+  const auto* proxy = py::detail::array_proxy(array.ptr());
+  if (proxy->descr != doubles || (proxy->flags & plain) != plain || size_of(array) != out.size())
+    return false;
+  std::copy_n(numbers_of(array), out.size(), out.data());
+  return true;
+}
+
+bool read_items(PyObject** items, py::ssize_t count, VectorRef out) {
+  if (count != out.size()) return false;
+  for (Index i = 0; i < out.size(); ++i) {
+    if (!PyFloat_Check(items[i])) return false;
+    out[i] = PyFloat_AS_DOUBLE(items[i]);
   }
+  return true;
+}
+
+}  // namespace
+
+bool read_plain_numbers(py::handle result, VectorRef out) {
+  PyObject* const object = result.ptr();
+  if (PyFloat_Check(object)) {
+    if (out.size() == 1) out[0] = PyFloat_AS_DOUBLE(object);
+    return out.size() == 1;
+  }
+  if (py::isinstance<py::array>(result)) return read_array(result, out);
+  if (PyList_CheckExact(object) || PyTuple_CheckExact(object)) {
+    return read_items(PySequence_Fast_ITEMS(object), PySequence_Fast_GET_SIZE(object), out);
+  }
+  return false;
+}
+
+void read_any_numbers(py::handle result, VectorRef out, const std::string& what) {
   if (result.is_none())
     throw ModelError(
         text(what, " returned None, expected ", out.size(), " numbers; is a `return` missing?"));

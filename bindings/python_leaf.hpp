@@ -1,5 +1,5 @@
 // PythonLeaf: a block whose callbacks are Python functions, called as (time, state, *inputs,
-// **parameters).
+// **parameters), or compiled ones.
 #pragma once
 
 #include <memory>
@@ -8,20 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "python_function.hpp"
 #include "saltus/model/leaf_system.hpp"
-#include "state.hpp"
 
 namespace saltus::python {
-
-/// Which inputs a function reads, and so gets; all if not said.
-using InputList = std::optional<std::vector<int>>;
-
-/// How a function is called.
-enum class Convention {
-  state,   ///< f(time, state, *inputs, **parameters)
-  inputs,  ///< f((u_0, u_1, ...))
-  input    ///< f(u_0)
-};
 
 class PythonLeaf final : public LeafSystem {
  public:
@@ -37,10 +27,12 @@ class PythonLeaf final : public LeafSystem {
   using LeafSystem::declare_periodic_update;
   using LeafSystem::declare_zero_crossing;
 
-  void set_state_dimensions(Dimensions x) { x_dimensions_ = std::move(x); }
-  void set_discrete_dimensions(Dimensions z) { z_dimensions_ = std::move(z); }
+  void set_state_dimensions(Dimensions x) { x_dimensions_ = std::move(x), forget_frames(); }
+  void set_discrete_dimensions(Dimensions z) { z_dimensions_ = std::move(z), forget_frames(); }
   const Dimensions& state_dimensions() const { return x_dimensions_; }
   const Dimensions& discrete_dimensions() const { return z_dimensions_; }
+  const std::vector<Dimensions>& parameter_dimensions() const { return parameter_dimensions_; }
+  bool vector_input(int i) const { return vector_inputs_[static_cast<std::size_t>(i)]; }
   void add_parameter(const std::string& name, const py::array& value);
   int add_input(std::string name, std::optional<Shape> shape);
 
@@ -49,15 +41,19 @@ class PythonLeaf final : public LeafSystem {
   int add_output(std::string name, int function, std::optional<Shape> shape,
                  std::optional<bool> boolean, Reads reads);
 
-  /// Takes a function of `self`, the Python object of this block; `what` names it in messages.
-  /// Returns its number.
-  int add(py::handle self, py::object function, InputList inputs, std::string what,
-          Convention convention);
+  /// Takes a function of `self`, the Python object of this block, or a compiled one. Returns its
+  /// number.
+  int add(py::handle self, py::object callable, Function function);
   VectorFunction vector_function(int k) const;
   MatrixFunction matrix_function(int k) const;
   ResetMap reset_map(int k) const;
   ResetMap update(int k) const;
-  const InputList& inputs_of(int k) const { return functions_[static_cast<std::size_t>(k)].inputs; }
+  const std::vector<Function>& functions() const { return functions_; }
+  const Function& function(int k) const { return functions_[static_cast<std::size_t>(k)]; }
+  /// A parameter called `out` is that parameter, and nothing to fill.
+  bool in_place(const Function& function) const {
+    return function.in_place && !has_parameter("out");
+  }
 
   void collect(Structure& out, const std::string& path) const override;
 
@@ -66,52 +62,49 @@ class PythonLeaf final : public LeafSystem {
   void clear() { functions_.clear(); }
 
  private:
-  struct Function {
-    py::object callable;  // of a method of the block itself the plain function, so that it refers
-                          // to no block
-    bool method;          // the block goes before the other arguments
-    Convention convention;
-    InputList inputs;
-    std::string what;
-  };
-  /// The Python objects of one call, kept for the next one; a callback that keeps some of them gets
-  /// them for itself.
-  struct Frame {
-    py::object state;  // a State
-    std::vector<py::object> owned;
-    std::vector<py::object> parameters;
-    Eigen::VectorXd parameter_values;
-    std::vector<PyObject*> arguments;
-  };
   struct Unfinished {
     int output, function;
     bool shape, boolean;
   };
 
-  py::object call(int k, const At& at) const;
-  std::size_t arrange(Frame& frame, const Function& function, const At& at) const;
-  void fetch_inputs(Frame& frame, const Function& function, const At& at) const;
-  void fill_state(Frame& frame, const At& at) const;
-  void fill_parameters(Frame& frame, const At& at) const;
-  py::object input(const At& at, int i) const;
+  py::object call(int k, const At& at, Index out_size) const;
+  void fill(int k, const At& at, VectorRef out) const;
+  void take_out(const Function& function, const Frame& frame, py::handle result,
+                VectorRef out) const;
+  Frame& prepare(std::unique_ptr<Frame>& frame, const Function& function, const At& at,
+                 Index out_size) const;
+  std::unique_ptr<Frame> new_frame(const Function& function) const;
+  std::size_t set_inputs(Frame& frame, const Function& function, const At& at,
+                         std::size_t place) const;
+  void set_state(Frame& frame, const At& at) const;
+  void set_parameters(Frame& frame, const At& at, std::size_t place) const;
+  void set_out(Frame& frame, const Function& function, Index size) const;
+  void set_input(py::object& to, const At& at, int i) const;
+  bool has_parameter(std::string_view parameter) const;
+  void forget_frames() {
+    for (Function& function : functions_) function.spare.reset();
+  }
+
+  void run_compiled(const Function& function, const At& at, double* out) const;
+  void reset_compiled(const Function& function, const At& at, Next& next) const;
 
   py::object call_with(int k, const std::vector<Shape>& shapes, double value) const;
   std::optional<py::array> sample(int k, std::vector<Shape> shapes,
                                   std::span<const Index> widths) const;
   Shape shape_of(int k, std::span<const Shape> inputs) const;
+  void require_shape(int k, const std::optional<Shape>& shape) const;
   void finish_outputs();
   std::string whose(const Function& function) const {
     return text("block '", name(), "': ", function.what);
   }
 
   PyObject* self_ = nullptr;  // the Python object that owns this one
-  std::vector<Function> functions_;
+  mutable std::vector<Function> functions_;
   std::vector<Unfinished> unfinished_;
   Dimensions x_dimensions_{0}, z_dimensions_{0};
   std::vector<Dimensions> parameter_dimensions_;
   std::vector<bool> vector_inputs_;
   py::tuple keywords_;  // names of the parameters
-  mutable std::unique_ptr<Frame> spare_;
 };
 
 }  // namespace saltus::python

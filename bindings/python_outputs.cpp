@@ -2,13 +2,15 @@
 #include <array>
 #include <numeric>
 
+#include "interpreter.hpp"
 #include "python_leaf.hpp"
 
 namespace saltus::python {
 
 int PythonLeaf::add_output(std::string port, int function, std::optional<Shape> shape,
                            std::optional<bool> boolean, Reads reads) {
-  const InputList& inputs = inputs_of(function);
+  const InputList& inputs = this->function(function).inputs;
+  require_shape(function, shape);
   const int output = declare_output_port(
       {.name = std::move(port),
        .calc = vector_function(function),
@@ -18,15 +20,24 @@ int PythonLeaf::add_output(std::string port, int function, std::optional<Shape> 
        .reads = reads,
        .inputs = inputs,
        .boolean = boolean.value_or(false)});
-  if (!shape || !boolean)
+  const bool callable = !this->function(function).compiled && !this->function(function).in_place;
+  if (callable && (!shape || !boolean))
     unfinished_.push_back({output, function, shape.has_value(), boolean.has_value()});
   return output;
+}
+
+/// A function that fills memory cannot be called to see how much.
+void PythonLeaf::require_shape(int k, const std::optional<Shape>& shape) const {
+  if (shape || !(function(k).compiled || function(k).in_place)) return;
+  throw ModelError(text(whose(function(k)), ": it fills ",
+                        function(k).compiled ? "memory" : "an array `out`",
+                        ", so say how much: shape=() for one number, shape=n for a vector"));
 }
 
 /// Calls function k at the values the block starts with, every input filled with `value`.
 py::object PythonLeaf::call_with(int k, const std::vector<Shape>& shapes, double value) const {
   const Declarations& d = declarations();
-  const Function& function = functions_[static_cast<std::size_t>(k)];
+  const Function& function = this->function(k);
   for (const int i : function.inputs.value_or(std::vector<int>{})) {
     if (i >= 0 && i < static_cast<int>(shapes.size())) continue;
     throw ModelError(text(whose(function), ": requires_inputs names input ", i, ", the block has ",
@@ -44,9 +55,10 @@ py::object PythonLeaf::call_with(int k, const std::vector<Shape>& shapes, double
   const auto view = [](const Eigen::VectorXd& values) {
     return VectorView(values.data(), values.size());
   };
-  return call(
-      k, At(0.0, view(d.continuous.initial), view(d.discrete), view(d.parameter_values), d.mode,
-            Inputs(places.data(), static_cast<int>(places.size()), &bases), nullptr));
+  return call(k,
+              At(0.0, view(d.continuous.initial), view(d.discrete), view(d.parameter_values),
+                 d.mode, Inputs(places.data(), static_cast<int>(places.size()), &bases), nullptr),
+              0);
 }
 
 /// The result of the first call that goes well: zeros may be divided by, and inputs of unknown
@@ -81,7 +93,7 @@ std::optional<py::array> PythonLeaf::sample(int k, std::vector<Shape> shapes,
 }
 
 Shape PythonLeaf::shape_of(int k, std::span<const Shape> inputs) const {
-  const py::gil_scoped_acquire lock;
+  const Locked lock;
   constexpr std::array<Index, 1> known{0};
   const auto found = sample(k, {inputs.begin(), inputs.end()}, known);
   return !found || found->ndim() == 0 ? Shape::scalar() : Shape::of(found->size());
@@ -89,7 +101,7 @@ Shape PythonLeaf::shape_of(int k, std::span<const Shape> inputs) const {
 
 /// Before anybody sees the declarations of this block, and once: outputs are what they will be.
 void PythonLeaf::finish_outputs() {
-  const py::gil_scoped_acquire lock;
+  const Locked lock;
   constexpr std::array<Index, 7> guesses{0, 1, 2, 3, 4, 6, 12};
   const std::vector<Unfinished> now = std::exchange(unfinished_, {});
   // The declarations are this object's own; only the interface that the engine sees is const.

@@ -1,5 +1,8 @@
 #include "state.hpp"
 
+#include <array>
+#include <type_traits>
+
 namespace saltus::python {
 
 namespace {
@@ -41,6 +44,52 @@ void State::write_to(Next& next) const {
   if (wrote_x) next.set_continuous_state(as_vector(x));
   if (wrote_z) next.set_discrete_state(as_vector(z));
   if (wrote_mode) next.set_mode(mode);
+}
+
+namespace {
+
+/// Getters of the plain kind: an ode reads its state at every call, and those of pybind11 cost more
+/// than all else of a call.
+template <auto Member>
+PyObject* get(PyObject* self, void*) {
+  const auto& value = state_in(self).*Member;
+  if constexpr (std::is_arithmetic_v<std::remove_cvref_t<decltype(value)>>) {
+    return PyLong_FromLongLong(value);
+  } else {
+    return Py_NewRef(value.ptr());
+  }
+}
+
+void add_getters(PyHeapTypeObject* heap_type) {
+  static std::array<PyGetSetDef, 5> getters{{
+      {"continuous_state", &get<&State::x>, nullptr, "Read-only array of the declared shape.",
+       nullptr},
+      {"discrete_state", &get<&State::z>, nullptr, "Read-only array of the declared shape.",
+       nullptr},
+      {"mode", &get<&State::mode>, nullptr, "The mode of the block.", nullptr},
+      {"entry", &get<&State::entry>, nullptr,
+       "In a reset map: which guard of a zero crossing of several fired; else 0.", nullptr},
+      {},
+  }};
+  heap_type->ht_type.tp_getset = getters.data();
+}
+
+}  // namespace
+
+void bind_callback_state(py::module_& module) {
+  py::class_<State>(
+      module, "State", py::custom_type_setup(&add_getters),
+      R"(What a callback sees of its block, as a value: read-only arrays, and `with_*` that return a new state.
+
+A reset map or an update returns the state it wants. What counts as written is what a `with_*` was called for, even if
+the value is the one that was there.)")
+      .def("with_continuous_state", &State::with_continuous_state, py::arg("continuous_state"))
+      .def("with_discrete_state", &State::with_discrete_state, py::arg("discrete_state"))
+      .def("with_mode", &State::with_mode, py::arg("mode"))
+      .def("__repr__", [](const State& s) {
+        return py::str("State(continuous_state={}, discrete_state={}, mode={})")
+            .format(s.x, s.z, s.mode);
+      });
 }
 
 }  // namespace saltus::python

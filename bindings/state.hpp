@@ -30,4 +30,10 @@ struct State {
   bool wrote_x = false, wrote_z = false, wrote_mode = false;
 };
 
+/// The state in a Python object that is one, at no cost.
+inline State& state_in(py::handle object) {
+  return *static_cast<State*>(
+      reinterpret_cast<py::detail::instance*>(object.ptr())->simple_value_holder[0]);
+}
+
 }  // namespace saltus::python

@@ -87,13 +87,16 @@ void declare_zero_crossing(py::handle self, py::object guard, py::object reset_m
   ZeroCrossing crossing =
       read(Options(given, text("block '", leaf.name(), "': zero crossing '", called, "': ")));
   crossing.name = std::move(name);
-  const auto add = [&](py::object function, std::string_view what) {
-    return leaf.add(self, std::move(function), crossing.inputs, text(what, " of '", called, "'"),
-                    Convention::state);
+  const auto add = [&](py::object function, std::string_view what, Role role) {
+    return leaf.add(self, std::move(function),
+                    {.inputs = crossing.inputs,
+                     .what = text(what, " of '", called, "'"),
+                     .role = role,
+                     .index = count_of(leaf.declarations().zero_crossings)});
   };
-  crossing.guard = leaf.vector_function(add(std::move(guard), "guard"));
+  crossing.guard = leaf.vector_function(add(std::move(guard), "guard", Role::guard));
   if (!reset_map.is_none())
-    crossing.reset_map = leaf.reset_map(add(std::move(reset_map), "reset map"));
+    crossing.reset_map = leaf.reset_map(add(std::move(reset_map), "reset map", Role::reset_map));
   leaf.declare_zero_crossing(std::move(crossing));
 }
 

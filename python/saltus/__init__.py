@@ -6,8 +6,10 @@ runs it.
 
 from saltus import library, simulation
 from saltus._core import Context, State, __version__
+from saltus.compiled import Compiled, compiled
 from saltus.diagram import Diagram, DiagramBuilder
 from saltus.errors import Error, ModelError, SimulationError
+from saltus.ladder import Explanation, Rung
 from saltus.leaf_system import LeafSystem
 from saltus.report import WorkPrecision, work_precision
 from saltus.results import Event, EventLog, Results, Statistics
@@ -16,17 +18,20 @@ from saltus.simulation import Simulator, SimulatorOptions, simulate
 from saltus.system import InputPort, OutputPort, System
 
 __all__ = [
+    "Compiled",
     "Context",
     "Diagram",
     "DiagramBuilder",
     "Error",
     "Event",
     "EventLog",
+    "Explanation",
     "InputPort",
     "LeafSystem",
     "ModelError",
     "OutputPort",
     "Results",
+    "Rung",
     "Scene",
     "SimulationError",
     "Simulator",
@@ -36,6 +41,7 @@ __all__ = [
     "System",
     "WorkPrecision",
     "__version__",
+    "compiled",
     "library",
     "scene",
     "shelf",

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from saltus import _core
+from saltus.compiled import as_compiled
 from saltus.errors import ModelError
 from saltus.porting import refusing
 from saltus.system import System
@@ -67,6 +68,11 @@ def _shape(shape: Any, default_value: ArrayLike | None = None) -> list[int] | No
     return sizes
 
 
+def _callback(function: Any) -> Any:
+    """The compiled function behind a pointer; anything else as it is."""
+    return as_compiled(function) or function
+
+
 class LeafSystem(System, _core.LeafSystem):
     """A block with equations of its own. Call `super().__init__(name=...)`, then declare.
 
@@ -85,6 +91,8 @@ class LeafSystem(System, _core.LeafSystem):
     often as the engine likes, from whatever thread runs the simulation. What it raises comes out of
     `simulate` as it was.
     """
+
+    __slots__ = ("_ladder",)  # not in __dict__, which a traced function is watched by
 
     @refusing
     def __init__(self, name: str | None = None):
@@ -121,7 +129,12 @@ class LeafSystem(System, _core.LeafSystem):
         if sparse_jacobian is not None and places is None:
             raise ModelError(f"{what}: sparse_jacobian without jacobian_sparsity; give both")
         super().declare_continuous_state(
-            initial, ode, _inputs(requires_inputs), jacobian, places, sparse_jacobian
+            initial,
+            _callback(ode),
+            _inputs(requires_inputs),
+            _callback(jacobian),
+            places,
+            _callback(sparse_jacobian),
         )
 
     @refusing
@@ -183,7 +196,7 @@ class LeafSystem(System, _core.LeafSystem):
         """
         inputs = _inputs(requires_inputs)
         return super().declare_output_port(
-            callback,
+            _callback(callback),
             name or "",
             inputs,
             _shape(shape, default_value),
@@ -268,7 +281,7 @@ class LeafSystem(System, _core.LeafSystem):
             "holds": holds,
             "inputs": _inputs(requires_inputs),
         }
-        super().declare_zero_crossing(guard, reset_map, name or "", options)
+        super().declare_zero_crossing(_callback(guard), _callback(reset_map), name or "", options)
 
     @refusing
     def declare_periodic_update(
@@ -281,7 +294,7 @@ class LeafSystem(System, _core.LeafSystem):
         """At offset + k period [s], k = 0, 1, ..., callback returns the new state, or the new
         discrete state alone.
         """
-        super().declare_periodic_update(callback, period, offset, name or "")
+        super().declare_periodic_update(_callback(callback), period, offset, name or "")
 
     @refusing
     def declare_one_shot(
@@ -293,7 +306,7 @@ class LeafSystem(System, _core.LeafSystem):
         """The same once, at `time` [s]. None for a callback is an exact stop where held outputs are
         read again.
         """
-        super().declare_one_shot(callback, time, name or "")
+        super().declare_one_shot(_callback(callback), time, name or "")
 
     def _declare_function(
         self,
@@ -304,5 +317,5 @@ class LeafSystem(System, _core.LeafSystem):
     ) -> None:
         """The one output of a block that is a function of its inputs and nothing else."""
         super().declare_output_port(
-            function, "out", None, _shape(shape), boolean, ["inputs"], convention
+            _callback(function), "out", None, _shape(shape), boolean, ["inputs"], convention
         )

@@ -7,7 +7,7 @@ from typing import Any
 
 from saltus import _core
 from saltus.results import Results
-from saltus.simulation import SimulatorOptions, simulate
+from saltus.simulation import PYTHON_ONLY, SimulatorOptions, simulate
 from saltus.system import OutputPort, System
 
 __all__ = ["Scene", "SharedSystem", "scene", "shelf"]
@@ -66,7 +66,7 @@ class Scene:
         self.invariants = core.invariants
 
     def _options(self, core: _core.Scene) -> SimulatorOptions:
-        same = {f.name for f in fields(SimulatorOptions)} - {"recorded_signals", "throw"}
+        same = {f.name for f in fields(SimulatorOptions)} - set(PYTHON_ONLY)
         values: dict[str, Any] = {name: getattr(core.options, name) for name in same}
         signals = {
             name: OutputPort(self.system if block == core.system else SharedSystem(block), index)

@@ -12,6 +12,7 @@ import numpy as np
 
 from saltus import _core
 from saltus.errors import ModelError, SimulationError
+from saltus.ladder import climbed
 from saltus.porting import OPTIONS, refuse
 from saltus.results import Results
 from saltus.system import OutputPort, System
@@ -77,6 +78,10 @@ class SimulatorOptions:
     save_steps: bool | None = None
     record_events: bool = True
     """the event log; switching it off changes nothing else"""
+    python: str = "traced"
+    """'traced' makes expressions of the Python callbacks that allow it, which run without the
+    interpreter; 'called' calls them all. See `system.explain()`
+    """
     throw: bool = True
     """raise when a run does not end well; else return the results with the status"""
     interrupt: Callable[[], bool] | None = None
@@ -84,6 +89,10 @@ class SimulatorOptions:
     anyway
     """
 
+
+PYTHON_ONLY = ("recorded_signals", "python", "throw")
+"""options that the engine does not have, or not in this form"""
+RUNGS = ("traced", "called")
 
 _UNBOUNDED = {
     "max_major_step_length": math.inf,
@@ -108,7 +117,7 @@ def core_options(options: SimulatorOptions) -> _core.SimulatorOptions:
     core = _core.SimulatorOptions()
     for field in fields(options):
         value = getattr(options, field.name)
-        if field.name in ("recorded_signals", "throw"):
+        if field.name in PYTHON_ONLY:
             continue
         try:
             setattr(
@@ -122,6 +131,9 @@ def core_options(options: SimulatorOptions) -> _core.SimulatorOptions:
             ) from None
     if not isinstance(options.throw, (bool, np.bool_)):
         raise ModelError(f"option throw: expected bool, found {options.throw!r}")
+    if options.python not in RUNGS:
+        found = f"'{options.python}'{_core.known_names(str(options.python), RUNGS)}"
+        raise ModelError(f"option python: unknown {found}")
     core.set_recorded_signals(_ports(options.recorded_signals))
     return core
 
@@ -149,11 +161,21 @@ class Simulator:
         refuse(type(self).__name__, overrides, (field.name for field in fields(options)), OPTIONS)
         self.options = replace(options, **overrides)
         self.system = system  # the engine refers to it
-        self._core = _core.Simulator(system, core_options(self.options))
+        self._options = core_options(self.options)
+        self._make()
         self._failed: Results | None = None
+
+    def _make(self) -> None:
+        """The engine's simulator, of the system as it runs."""
+        self._runs, self._ladder = self.system, None
+        if self.options.python == "traced":
+            self._runs, self._ladder = climbed(self.system)
+        self._core = _core.Simulator(self._runs, self._options)
 
     def initialize(self, context: _core.Context) -> None:
         """Begins a run with these values, at their time."""
+        if self._ladder and (self._ladder.survey.stale or self._ladder.refresh()):
+            self._make()
         self._core.initialize(core_context(context))
         self._failed = None
 
@@ -166,7 +188,19 @@ class Simulator:
         """
         return self._advance(time, take=False).status
 
+    def _follow_changes(self) -> None:
+        """What a traced callback was made from may have changed since the last piece of the run."""
+        if not self._ladder or not self._ladder.refresh():
+            return
+        if not self._runs.replace(self._ladder.core_traces()):
+            raise ModelError(
+                f"t = {self.time} s: a callback depends on other values than when the run began; "
+                "initialize again, or use the option python='called'"
+            )
+
     def _advance(self, time: float, take: bool) -> Results:
+        if not take:  # what simulate runs was made just now
+            self._follow_changes()
         try:
             self._core.advance_to(time)
         except TypeError:

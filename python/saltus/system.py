@@ -6,8 +6,9 @@ import json
 import operator
 from dataclasses import dataclass
 
-from saltus import _core
+from saltus import _core, ladder
 from saltus.errors import ModelError
+from saltus.ladder import Explanation
 
 __all__ = ["InputPort", "OutputPort", "System"]
 
@@ -92,6 +93,27 @@ class System:
         if not isinstance(data, dict):
             raise ModelError(f"a context in JSON: expected an object, found {type(data).__name__}")
         return _core.context_from_dict(self, data)
+
+    def explain(self) -> Explanation:
+        """How each Python callback runs: 'compiled', 'traced' or 'called', and why not faster.
+
+        Nothing is simulated. The functions are traced as they are before a run; outputs whose shape
+        was not said are called once.
+
+        Returns
+        -------
+        Explanation
+            A tuple of `Rung(block, callback, rung, reason)`; printed, a line for each.
+
+        Examples
+        --------
+        >>> import saltus
+        >>> block = saltus.library.FunctionBlock(lambda u: 2.0 * u, name="twice")
+        >>> print(block.explain())
+        twice: output 'out'  traced
+        the system has open inputs; each is taken for a single number here
+        """
+        return ladder.explain(self)
 
     def create_context(self, time: float = 0.0) -> _core.Context:
         """The values every block starts with, at `time` [s]. What you change in it changes no

@@ -1,0 +1,124 @@
+// What python/saltus/ladder.py makes traces with and runs them by.
+#include <array>
+#include <atomic>
+
+#include <pybind11/stl.h>
+
+#include "ladder_system.hpp"
+
+namespace saltus::python {
+
+namespace {
+
+using tape::Tape;
+
+constexpr std::array roles{"ode",   "jacobian",  "sparse_jacobian", "output",
+                           "guard", "reset_map", "update"};
+
+py::tuple as_tuple(const Dimensions& dimensions) { return py::tuple(py::cast(dimensions)); }
+
+/// How many numbers a function returns; None for a state.
+py::object result_size(const SurveyedBlock& block, const Function& function) {
+  const Declarations& d = block.leaf->declarations();
+  const auto place = static_cast<std::size_t>(function.index);
+  const Index n = d.continuous.initial.size();
+  switch (function.role) {
+    case Role::ode:
+      return py::int_(n);
+    case Role::jacobian:
+      return py::int_(n * n);
+    case Role::sparse_jacobian:
+      return py::int_(d.continuous.sparsity->size());
+    case Role::output:
+      return py::int_(block.outputs[place].size);
+    case Role::guard:
+      return py::int_(d.zero_crossings[place].size);
+    default:
+      return py::none();
+  }
+}
+
+py::dict function_of(const SurveyedBlock& block, int k) {
+  const Function& function = block.leaf->function(k);
+  py::dict all;
+  all["number"] = k;
+  all["function"] = function.callable;
+  all["method"] = function.method;
+  all["convention"] = function.convention;
+  all["inputs"] = function.inputs;
+  all["what"] = function.what;
+  all["role"] = roles[static_cast<std::size_t>(function.role)];
+  all["out"] = block.leaf->in_place(function);
+  all["compiled"] = function.compiled != nullptr;
+  all["result_size"] = result_size(block, function);
+  return all;
+}
+
+py::dict parameters_of(const PythonLeaf& leaf) {
+  py::dict parameters;
+  const Declarations& d = leaf.declarations();
+  const double* value = d.parameter_values.data();
+  for (std::size_t i = 0; i < d.parameters.size(); ++i) {
+    const py::array array = read_only_array(leaf.parameter_dimensions()[i], value);
+    value += array.size();
+    parameters[py::str(d.parameters[i].name)] = array;
+  }
+  return parameters;
+}
+
+py::dict block_of(const SurveyedBlock& block) {
+  const PythonLeaf& leaf = *block.leaf;
+  const Declarations& d = leaf.declarations();
+  py::list inputs, functions;
+  for (std::size_t i = 0; i < block.inputs.size(); ++i) {
+    const Index size = block.inputs[i].size;
+    const bool number = size == 1 && !leaf.vector_input(static_cast<int>(i));
+    inputs.append(number ? py::tuple() : py::make_tuple(size));
+  }
+  for (int k = 0; k < count_of(leaf.functions()); ++k) functions.append(function_of(block, k));
+  py::dict all;
+  all["leaf"] = py::cast(&leaf, py::return_value_policy::reference);
+  all["path"] = block.path;
+  all["state_shape"] = as_tuple(leaf.state_dimensions());
+  all["discrete_shape"] = as_tuple(leaf.discrete_dimensions());
+  all["mode"] = d.mode;
+  all["x"] = read_only_array({d.continuous.initial.size()}, d.continuous.initial.data());
+  all["z"] = read_only_array({d.discrete.size()}, d.discrete.data());
+  all["parameters"] = parameters_of(leaf);
+  all["input_shapes"] = inputs;
+  all["functions"] = functions;
+  return all;
+}
+
+Trace make_trace(int function, const Tape& tape, const py::object& relations, bool wrote_x,
+                 bool wrote_z, bool wrote_mode, bool with_jacobian) {
+  static std::atomic<int> serial{0};
+  Trace trace{++serial, function, tape, std::nullopt, wrote_x, wrote_z, wrote_mode, std::nullopt};
+  if (!relations.is_none()) {
+    trace.relations = {relations.attr("differences").cast<Tape>(),
+                       relations.attr("true_at_zero").cast<std::vector<bool>>(),
+                       relations.attr("truth").cast<Tape>()};
+  }
+  if (with_jacobian) trace.jacobian = tape::jacobian(tape);
+  return trace;
+}
+
+}  // namespace
+
+void bind_ladder(py::module_& module) {
+  py::class_<Survey>(module, "Survey")
+      .def(py::init(&survey_of))
+      .def_property_readonly("stale", &Survey::stale)
+      .def_readonly("complete", &Survey::complete)
+      .def("blocks", [](const Survey& survey) {
+        py::list blocks;
+        for (const SurveyedBlock& block : survey.blocks) blocks.append(block_of(block));
+        return blocks;
+      });
+  py::class_<Trace>(module, "Trace").def(py::init(&make_trace));
+  py::class_<LadderSystem, System>(module, "LadderSystem")
+      .def(py::init<const Survey&, const std::vector<std::vector<Trace>>&>())
+      .def("replace", &LadderSystem::replace);
+}
+
+}  // namespace saltus::python

@@ -1,0 +1,192 @@
+// How a Python function is called: over objects that are made once and used again.
+#include <bit>
+
+#include "python_leaf.hpp"
+
+namespace saltus::python {
+
+namespace {
+
+/// A kept object must not change: one that somebody else holds too is left to them.
+bool ours(const py::object& object) { return object && Py_REFCNT(object.ptr()) == 1; }
+
+void set_number(py::object& to, double value) {
+  if (ours(to)) {
+    reinterpret_cast<PyFloatObject*>(to.ptr())->ob_fval = value;
+  } else {
+    to = py::float_(value);
+  }
+}
+
+template <class Array>
+void set_array(Array& to, const Dimensions& dimensions, const VectorView& values) {
+  if (!ours(to)) to = read_only_array(dimensions, nullptr);
+  std::copy_n(values.data(), values.size(), numbers_of(to));
+}
+
+}  // namespace
+
+void PythonLeaf::set_state(Frame& frame, const At& at) const {
+  if (!ours(frame.state)) frame.state = py::cast(State(name(), x_dimensions_, z_dimensions_));
+  State& state = state_in(frame.state);
+  set_array(state.x, x_dimensions_, at.x);
+  set_array(state.z, z_dimensions_, at.z);
+  state.mode = at.mode;
+  state.entry = at.entry;
+}
+
+/// The same objects as long as the values are the same, which is for a whole run.
+void PythonLeaf::set_parameters(Frame& frame, const At& at, std::size_t place) const {
+  if (frame.parameters.size() == parameter_dimensions_.size() && frame.parameter_values == at.p)
+    return;
+  frame.parameters.clear();
+  frame.parameter_values = at.p;
+  const double* value = at.p.data();
+  for (const auto& dimensions : parameter_dimensions_) {
+    if (dimensions.empty()) {
+      frame.parameters.push_back(py::float_(*value++));
+      continue;
+    }
+    py::array array = read_only_array(dimensions, value);
+    value += array.size();
+    frame.parameters.push_back(std::move(array));
+  }
+  for (const py::object& parameter : frame.parameters) frame.arguments[place++] = parameter.ptr();
+}
+
+void PythonLeaf::set_input(py::object& to, const At& at, int i) const {
+  const VectorView u = at.u[i];
+  const bool number = u.size() == 1 && !vector_input(i);
+  if (to && number != PyFloat_CheckExact(to.ptr())) to = {};  // another plan, another shape
+  if (number) return set_number(to, u[0]);
+  if (to && py::detail::array_proxy(to.ptr())->dimensions[0] != u.size()) to = {};
+  set_array(to, {u.size()}, u);
+}
+
+/// Puts the inputs that the function gets from `place` on; returns the place after them.
+std::size_t PythonLeaf::set_inputs(Frame& frame, const Function& function, const At& at,
+                                   std::size_t place) const {
+  const bool tuple = function.convention == Convention::inputs;
+  if (tuple) frame.inputs_tuple = py::tuple(frame.inputs.size());
+  for (std::size_t i = 0; i < frame.inputs.size(); ++i) {
+    set_input(frame.inputs[i], at, function.inputs ? (*function.inputs)[i] : static_cast<int>(i));
+    if (tuple) {
+      PyTuple_SET_ITEM(frame.inputs_tuple.ptr(), static_cast<py::ssize_t>(i),
+                       frame.inputs[i].inc_ref().ptr());
+    } else {
+      frame.arguments[place++] = frame.inputs[i].ptr();
+    }
+  }
+  if (tuple) frame.arguments[place++] = frame.inputs_tuple.ptr();
+  return place;
+}
+
+/// The array that an in-place function fills; the last argument, by keyword.
+void PythonLeaf::set_out(Frame& frame, const Function& function, Index size) const {
+  if (!ours(frame.out) || size_of(frame.out) != size) {
+    const Index n = declarations().continuous.initial.size();
+    const bool as_state = function.role == Role::ode && !x_dimensions_.empty();
+    frame.out = Array(as_state                          ? x_dimensions_
+                      : function.role == Role::jacobian ? Dimensions{n, n}
+                                                        : Dimensions{size});
+  }
+  std::fill_n(numbers_of(frame.out), size, std::bit_cast<double>(unwritten));
+  frame.arguments.back() = frame.out.ptr();
+}
+
+/// Room for all arguments; those that never change are in their places.
+std::unique_ptr<Frame> PythonLeaf::new_frame(const Function& function) const {
+  auto frame = std::make_unique<Frame>();
+  const bool by_state = function.convention == Convention::state;
+  const std::size_t inputs =
+      function.inputs ? function.inputs->size() : declarations().inputs.size();
+  frame->inputs.resize(inputs);
+  frame->positional = (function.method ? 1U : 0U) + (by_state ? 2U : 0U) +
+                      (function.convention == Convention::inputs ? 1U : inputs);
+  py::tuple keywords = by_state ? keywords_ : py::tuple();
+  if (in_place(function)) keywords = py::tuple(keywords + py::make_tuple("out"));
+  frame->arguments.assign(1 + frame->positional + keywords.size(), nullptr);
+  if (function.method) frame->arguments[1] = self_;
+  if (!keywords.empty()) frame->keywords = std::move(keywords);
+  return frame;
+}
+
+Frame& PythonLeaf::prepare(std::unique_ptr<Frame>& spare, const Function& function, const At& at,
+                           Index out_size) const {
+  if (!spare) spare = new_frame(function);
+  Frame& frame = *spare;
+  std::size_t place = function.method ? 2 : 1;
+  if (function.convention != Convention::state) {
+    set_inputs(frame, function, at, place);
+  } else {
+    set_number(frame.time, at.time);
+    set_state(frame, at);
+    frame.arguments[place++] = frame.time.ptr();
+    frame.arguments[place++] = frame.state.ptr();
+    set_parameters(frame, at, set_inputs(frame, function, at, place));
+  }
+  if (in_place(function)) set_out(frame, function, out_size);
+  return frame;
+}
+
+namespace {
+
+/// A call with a frame that nobody else has: another thread, or the function itself, may come while
+/// this one is in Python.
+class Borrowed {
+ public:
+  explicit Borrowed(std::unique_ptr<Frame>& home) : home_(home), frame(std::move(home)) {}
+  ~Borrowed() { home_ = std::move(frame); }
+
+ private:
+  std::unique_ptr<Frame>& home_;
+
+ public:
+  std::unique_ptr<Frame> frame;
+};
+
+py::object vectorcall(const Function& function, const Frame& frame) {
+  PyObject* result = PyObject_Vectorcall(
+      function.callable.ptr(), const_cast<PyObject* const*>(frame.arguments.data()) + 1,
+      frame.positional | PY_VECTORCALL_ARGUMENTS_OFFSET, frame.keywords.ptr());
+  if (result == nullptr) throw py::error_already_set();
+  return py::reinterpret_steal<py::object>(result);
+}
+
+}  // namespace
+
+py::object PythonLeaf::call(int k, const At& at, Index out_size) const {
+  Function& function = functions_[static_cast<std::size_t>(k)];
+  Borrowed borrowed(function.spare);
+  return vectorcall(function, prepare(borrowed.frame, function, at, out_size));
+}
+
+/// What the function computes, written to `out`.
+void PythonLeaf::fill(int k, const At& at, VectorRef out) const {
+  Function& function = functions_[static_cast<std::size_t>(k)];
+  Borrowed borrowed(function.spare);
+  const Frame& frame = prepare(borrowed.frame, function, at, out.size());
+  const py::object result = vectorcall(function, frame);
+  if (in_place(function)) return take_out(function, frame, result, out);
+  read_numbers(result, out, [&] { return whose(function); });
+}
+
+void PythonLeaf::take_out(const Function& function, const Frame& frame, py::handle result,
+                          VectorRef out) const {
+  if (!result.is_none()) {
+    throw ModelError(text(whose(function), " fills `out` and returned ",
+                          std::string(py::repr(result)),
+                          " as well; return nothing, or have no argument called out"));
+  }
+  const double* values = numbers_of(frame.out);
+  for (Index i = 0; i < out.size(); ++i) {
+    if (std::bit_cast<std::uint64_t>(values[i]) == unwritten) {
+      throw ModelError(text(whose(function), " did not write entry ", i, " of ", out.size(),
+                            " of `out`; set all of them: `out[:] = ...` (it begins as NaN: do not "
+                            "add to it)"));
+    }
+    out[i] = values[i];
+  }
+}
+
+}  // namespace saltus::python

@@ -1,0 +1,63 @@
+// How a compiled function is called: its arguments are laid out as python/saltus/compiled.py says.
+#include <algorithm>
+
+#include "python_leaf.hpp"
+
+namespace saltus::python {
+
+namespace {
+
+/// Memory of this thread for the arguments of one call; a call within a call gets other memory.
+class Room {
+ public:
+  Room() : values(std::move(spare)) { values.clear(); }
+  ~Room() { spare = std::move(values); }
+  Room(const Room&) = delete;
+  Room& operator=(const Room&) = delete;
+
+  void add(const VectorView& more) { values.insert(values.end(), more.begin(), more.end()); }
+
+ private:
+  static inline thread_local std::vector<double> spare;
+
+ public:
+  std::vector<double> values;
+};
+
+}  // namespace
+
+void PythonLeaf::run_compiled(const Function& function, const At& at, double* out) const {
+  Room room;
+  room.add(at.x), room.add(at.z);
+  room.values.push_back(at.mode);
+  room.values.push_back(static_cast<double>(at.entry));
+  const std::size_t u = room.values.size();
+  const int count = function.inputs ? static_cast<int>(function.inputs->size()) : at.u.size();
+  for (int i = 0; i < count; ++i)
+    room.add(at.u[function.inputs ? (*function.inputs)[static_cast<std::size_t>(i)] : i]);
+  const int failure = function.compiled(at.time, room.values.data(), room.values.data() + u,
+                                        at.p.data(), out, function.user_data);
+  if (failure == 0) return;
+  throw SimulationError(text("t = ", at.time, " s: ", whose(function),
+                             ": the compiled function returned ", failure, ", expected 0"),
+                        at.time, name());
+}
+
+/// `out` begins as the present state; the function changes what it wants. What a map is for counts
+/// as written in any case, the rest if it differs.
+void PythonLeaf::reset_compiled(const Function& function, const At& at, Next& next) const {
+  Eigen::VectorXd after(at.x.size() + at.z.size() + 1);
+  after << at.x, at.z, at.mode;
+  run_compiled(function, at, after.data());
+  const auto x = after.head(at.x.size()), z = after.segment(at.x.size(), at.z.size());
+  const bool update = function.role == Role::update;
+  if (x.size() > 0 && (!update || x != at.x)) next.set_continuous_state(x);
+  if (z.size() > 0 && (update || z != at.z)) next.set_discrete_state(z);
+  const double mode = after[after.size() - 1];
+  if (mode == at.mode) return;
+  if (mode != std::nearbyint(mode) || std::abs(mode) > 1e9)
+    throw ModelError(text(whose(function), " set the mode ", mode, ", expected a whole number"));
+  next.set_mode(static_cast<int>(mode));
+}
+
+}  // namespace saltus::python

@@ -1,0 +1,36 @@
+// What tracing made of one function of a Python block.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "saltus/tape/jacobian.hpp"
+
+namespace saltus::python {
+
+/// A truth made of comparisons: guards, one a comparison, what zero means to each, and the truth
+/// over theirs, which it reads as a discrete state.
+struct TracedRelations {
+  tape::Tape differences;
+  std::vector<bool> true_at_zero;
+  tape::Tape truth;
+};
+
+struct Trace {
+  int serial;    // another one for each
+  int function;  // its number in the block
+  tape::Tape tape;
+  std::optional<TracedRelations> relations;
+  bool wrote_x = false, wrote_z = false, wrote_mode = false;  // what a reset or an update gives
+  std::optional<tape::Jacobian> jacobian;                     // of an ode
+
+  /// Whether a plan made for this one, of a block with so many inputs, fits the other one: it
+  /// depends on the same.
+  bool fits(const Trace& other, int inputs) const;
+};
+
+/// Where callbacks look their tape up, so that a run in pieces gets a new one between two pieces.
+using Slot = std::shared_ptr<Trace>;
+
+}  // namespace saltus::python

@@ -1,0 +1,171 @@
+"""Callbacks that the user compiled: `compiled` and the pointers it takes."""
+
+from __future__ import annotations
+
+import ctypes
+import re
+from dataclasses import dataclass, field
+from typing import Any
+
+from saltus.errors import ModelError
+
+__all__ = ["Compiled", "compiled"]
+
+SIGNATURE = "int (double, double *, double *, double *, double *, void *)"
+
+
+@dataclass(frozen=True)
+class Compiled:
+    """A compiled function in place of a Python one; made by `saltus.compiled`."""
+
+    address: int
+    """of the function"""
+    user_data: int = 0
+    """the address it gets as its last argument"""
+    owner: object = field(default=None, repr=False, compare=False)
+    """what keeps both alive"""
+
+
+def compiled(function: Any, user_data: Any = None) -> Compiled:
+    """A compiled function as a callback: it runs without the interpreter and its lock.
+
+    It is given wherever a block takes a Python function of `(time, state, *inputs, **parameters)`.
+    A pointer that shows what it is may be given to the block as it is; an address must go through
+    here.
+
+    Its signature in C is::
+
+        int f(double t, const double* x, const double* u, const double* p, double* out,
+              void* user_data);
+
+    - `t` is the time [s];
+    - `x` is the continuous state, then the discrete state, each in C order, then the mode, then
+      the entry (in a reset map: which guard of a zero crossing of several fired);
+    - `u` is the inputs that `requires_inputs` names, one after the other;
+    - `p` is all parameters of the block, one after the other, in the order of declaration;
+    - `out` is what it has to write: the derivatives, the guards, the output (the block has to say
+      its `shape`), a Jacobian row by row, the values of a sparse one. For a reset map or an update
+      it begins as the present continuous state, discrete state and mode, one after the other, and
+      the function changes what it wants;
+    - it returns 0, or another number that ends the run with a `SimulationError` which says it.
+
+    It is called as often as the engine likes, from whatever thread runs the simulation, so it must
+    change nothing but `out`.
+
+    Parameters
+    ----------
+    function : int, ctypes or cffi function pointer, PyCapsule, LowLevelCallable or numba cfunc
+        An address, or an object that has one. A capsule's name, if it has one, is taken for its
+        signature, as SciPy does, and its context for `user_data`.
+    user_data : int or ctypes pointer, optional
+        What the function gets as its last argument; NULL if not given.
+
+    Returns
+    -------
+    Compiled
+        What keeps `function` and `user_data` alive as long as a block uses them.
+
+    Raises
+    ------
+    ModelError
+        For anything else, and for a pointer with another signature.
+
+    Examples
+    --------
+    >>> import ctypes, saltus
+    >>> number, numbers = ctypes.c_double, ctypes.POINTER(ctypes.c_double)
+    >>> kind = ctypes.CFUNCTYPE(
+    ...     ctypes.c_int, number, numbers, numbers, numbers, numbers, ctypes.c_void_p)
+    >>> @kind
+    ... def decay(t, x, u, p, out, user_data):
+    ...     out[0] = -x[0]
+    ...     return 0
+    >>> block = saltus.LeafSystem(name="decay")
+    >>> block.declare_continuous_state(default_value=[1.0], ode=saltus.compiled(decay))
+    >>> end = saltus.simulate(block, block.create_context(), (0.0, 1.0)).context
+    >>> print(round(end.continuous_state[0], 4))
+    0.3679
+    """
+    found = as_compiled(function, user_data)
+    if found is None and isinstance(function, int) and not isinstance(function, bool):
+        found = Compiled(function, _data(user_data), user_data)
+    if found is None:
+        raise ModelError(
+            "compiled: expected an address, a ctypes or cffi function pointer, a PyCapsule, a "
+            f"scipy.LowLevelCallable or a numba cfunc, found {function!r}"
+        )
+    if found.address <= 0:
+        raise ModelError(f"compiled: {found.address} is not the address of a function")
+    return found
+
+
+def as_compiled(function: Any, user_data: Any = None) -> Compiled | None:
+    """The compiled function behind an object that shows it is one, else None."""
+    if isinstance(function, Compiled):
+        return function
+    owner = (function, user_data)
+    kind = type(function)
+    if isinstance(function, ctypes._CFuncPtr):
+        _check_ctypes(function)
+        address = ctypes.cast(function, ctypes.c_void_p).value or 0  # type: ignore[arg-type]
+        return Compiled(address, _data(user_data), owner)
+    if kind.__name__ == "PyCapsule":
+        return _from_capsule(function, user_data, owner)
+    if kind.__name__ == "LowLevelCallable" and isinstance(function, tuple):  # of SciPy
+        return _from_capsule(tuple.__getitem__(function, 0), user_data, owner)
+    if kind.__module__.startswith("numba.") and isinstance(
+        address := getattr(function, "address", None), int
+    ):
+        return Compiled(address, _data(user_data), owner)
+    if kind.__module__ == "_cffi_backend":
+        import _cffi_backend  # it is there: the pointer was made with it
+
+        ffi = _cffi_backend.FFI()
+        return Compiled(int(ffi.cast("intptr_t", function)), _data(user_data), owner)
+    return None
+
+
+def _data(user_data: Any) -> int:
+    """An address as an integer."""
+    if user_data is None:
+        return 0
+    if isinstance(user_data, int):
+        return user_data
+    try:
+        return ctypes.cast(user_data, ctypes.c_void_p).value or 0
+    except (TypeError, ctypes.ArgumentError):
+        raise ModelError(
+            f"compiled: user_data: expected an address or a ctypes pointer, found {user_data!r}"
+        ) from None
+
+
+def _check_ctypes(function: Any) -> None:
+    """One that knows its arguments must have six and return an int."""
+    if function.argtypes is None:
+        return
+    if len(function.argtypes) != 6 or function.restype is not ctypes.c_int:
+        raise ModelError(
+            f"compiled: expected a function '{SIGNATURE}', found one of {len(function.argtypes)} "
+            f"arguments that returns {getattr(function.restype, '__name__', 'nothing')}"
+        )
+
+
+def _from_capsule(capsule: Any, user_data: Any, owner: object) -> Compiled:
+    api = ctypes.pythonapi
+    for name, kind in (("Name", ctypes.c_char_p), ("Context", ctypes.c_void_p)):
+        get = getattr(api, f"PyCapsule_Get{name}")
+        get.restype, get.argtypes = kind, [ctypes.py_object]
+    pointer = api.PyCapsule_GetPointer
+    pointer.restype, pointer.argtypes = ctypes.c_void_p, [ctypes.py_object, ctypes.c_char_p]
+    name = api.PyCapsule_GetName(capsule)
+    if name is not None and _plain(name.decode()) != _plain(SIGNATURE):
+        raise ModelError(f"compiled: expected a function '{SIGNATURE}', found '{name.decode()}'")
+    data = _data(user_data) if user_data is not None else api.PyCapsule_GetContext(capsule) or 0
+    return Compiled(pointer(capsule, name), data, owner)
+
+
+def _plain(signature: str) -> str:
+    """A C signature without `const`, names of arguments and spaces."""
+    signature = re.sub(r"\bconst\b", "", signature)
+    signature = re.sub(r"\b(double|void)(\s*\*?\s*)\w+(?=\s*[,)])", r"\1\2", signature)
+    return re.sub(r"\s", "", signature)

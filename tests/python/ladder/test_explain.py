@@ -1,0 +1,54 @@
+"""`system.explain()`: which rung, and why not a higher one; nothing is run."""
+
+import numpy as np
+import saltus
+from models import Pendulum, leaf
+from saltus.library import FunctionBlock, Gain
+
+
+def test_a_line_for_each_callback():
+    explanation = Pendulum().explain()
+    assert [(r.block, r.callback, r.rung) for r in explanation] == [
+        ("pendulum", "ode", "traced"),
+        ("pendulum", "output 'energy'", "traced"),
+        ("pendulum", "guard of 'low'", "traced"),
+        ("pendulum", "reset map of 'low'", "traced"),
+    ]
+    assert str(explanation).splitlines()[0].split() == ["pendulum:", "ode", "traced"]
+
+
+def test_why_not():
+    def ode(time, state):
+        return [-1.0 if state.continuous_state[0] > 0.0 else 1.0]
+
+    (rung,) = leaf(ode).explain()
+    assert rung.rung == "called"
+    assert "test_explain.py" in rung.reason
+    assert "np.where" in rung.reason or "mode" in rung.reason
+    assert rung.reason in str(leaf(ode).explain())
+
+
+def test_paths_of_nested_blocks():
+    inner, outer = saltus.DiagramBuilder(), saltus.DiagramBuilder()
+    inner.add(Pendulum())
+    outer.add(inner.build("inner"))
+    assert {r.block for r in outer.build().explain()} == {"inner.pendulum"}
+
+
+def test_open_inputs_are_said():
+    explanation = FunctionBlock(lambda u: np.sin(u), name="sine").explain()
+    assert [r.rung for r in explanation] == ["traced"]
+    assert "open inputs" in str(explanation)
+
+
+def test_no_python_at_all():
+    assert Gain(2.0).explain() == ()
+    assert "no callback is a Python function" in str(Gain(2.0).explain())
+    assert saltus.scene("bouncing-ball").system.explain() == ()
+
+
+def test_nothing_runs():
+    times = []
+    block = leaf(lambda t, s: times.append(t) or [0.0])
+    block.explain()
+    assert times == []

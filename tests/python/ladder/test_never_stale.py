@@ -1,0 +1,126 @@
+"""What a traced function read from outside, and is different now, shows in the next run."""
+
+import numpy as np
+import pytest
+import saltus
+from models import Pendulum, end, leaf
+from systems import Ball
+
+RATE = 1.0
+
+
+def by_global(time, state):
+    return [-RATE * state.continuous_state[0]]
+
+
+def traced(system):
+    """All of it traced, or the tests below would show nothing."""
+    assert {r.rung for r in system.explain()} == {"traced"}
+    return system
+
+
+def test_an_attribute():
+    ball = traced(Ball(e=0.9))
+    for e in (0.9, 0.5, 0.9):
+        ball.e = e
+        fresh = Ball(e=e)
+        for run_of in (ball, fresh):
+            context = run_of.create_context().with_continuous_state([1.0, 0.0])
+            run_of.x = saltus.simulate(run_of, context, (0.0, 1.0)).context.continuous_state
+        assert ball.x.tolist() == fresh.x.tolist()
+
+
+def test_a_variable_of_a_closure():
+    rate = 1.0
+    block = traced(leaf(lambda t, s: [-rate * s.continuous_state[0]]))
+    assert end(block)[0] == pytest.approx(np.exp(-1.0), rel=1e-4)
+    rate = 2.0
+    assert end(block)[0] == pytest.approx(np.exp(-2.0), rel=1e-4)
+
+
+def test_a_global(monkeypatch):
+    block = traced(leaf(by_global))
+    assert end(block)[0] == pytest.approx(np.exp(-1.0), rel=1e-4)
+    monkeypatch.setitem(globals(), "RATE", 2.0)
+    assert end(block)[0] == pytest.approx(np.exp(-2.0), rel=1e-4)
+
+
+def test_an_array_changed_in_place():
+    block = saltus.LeafSystem(name="block")
+    block.rates = np.array([1.0, 1.0])
+    block.declare_continuous_state(
+        default_value=[1.0, 1.0], ode=lambda t, s: -block.rates * s.continuous_state
+    )
+    traced(block)
+    end(block)
+    block.rates[1] = 2.0
+    np.testing.assert_allclose(end(block), np.exp([-1.0, -2.0]), rtol=1e-4)
+
+
+def test_a_function_that_is_called():
+    class Block(saltus.LeafSystem):
+        def __init__(self):
+            super().__init__(name="block")
+            self.declare_continuous_state(default_value=[1.0], ode=self.ode)
+
+        def ode(self, time, state):
+            return [-self.rate() * state.continuous_state[0]]
+
+        def rate(self):
+            return 1.0
+
+    block = traced(Block())
+    end(block)
+    block.rate = lambda: 2.0
+    assert end(block)[0] == pytest.approx(np.exp(-2.0), rel=1e-4)
+
+
+def test_a_dynamic_parameter():
+    block = traced(leaf(lambda t, s, *, k: [-k * s.continuous_state[0]], k=1.0))
+    for k in (1.0, 2.0):
+        context = block.create_context().with_parameter("k", k)
+        x = saltus.simulate(block, context, (0.0, 1.0)).context.continuous_state
+        assert x[0] == pytest.approx(np.exp(-k), rel=1e-4)
+
+
+def test_between_two_pieces_of_a_run():
+    pendulum, simulators = Pendulum(damping=0.0), []
+    for rung in ("traced", "called"):
+        pendulum.damping = 0.0
+        simulator = saltus.Simulator(pendulum, python=rung)
+        simulator.initialize(pendulum.create_context())
+        simulator.advance_to(0.5)
+        pendulum.damping = 2.0
+        simulator.advance_to(1.0)
+        simulators.append(np.array(simulator.context.continuous_state))
+    np.testing.assert_allclose(*simulators, rtol=1e-9)
+
+
+def test_another_structure_between_two_pieces_is_refused():
+    block = leaf(lambda t, s: [block.f(t, s.continuous_state[0])])
+    block.f = lambda t, x: -x
+    simulator = saltus.Simulator(block)
+    simulator.initialize(block.create_context())
+    simulator.advance_to(0.5)
+    block.f = lambda t, x: -t
+    with pytest.raises(saltus.ModelError, match="initialize again"):
+        simulator.advance_to(1.0)
+    simulator.initialize(block.create_context())
+    simulator.advance_to(1.0)
+    assert simulator.context.continuous_state[0] == pytest.approx(0.5)
+
+
+def test_what_became_traceable():
+    block = leaf(lambda t, s: [-1.0 if block.plain else -s.continuous_state[0] * block.k(t)])
+    block.plain, block.k = False, lambda t: float(int(t * 0) + 1)
+    end(block)
+    block.k = lambda t: 1.0
+    traced(block)
+
+
+def test_declared_after_a_run():
+    block = leaf(lambda t, s: [-s.continuous_state[0]])
+    end(block)
+    block.declare_zero_crossing(lambda t, s: s.continuous_state[0] - 0.5, name="half")
+    results = saltus.simulate(block, block.create_context(), (0.0, 1.0))
+    assert len(results.events) == 1
