@@ -123,13 +123,19 @@ class Check:
         apart = np.abs(called - taped)
         largest = np.maximum(np.abs(called), np.abs(taped))
         same = (called == taped) | (apart <= QUICK * largest) | np.isnan(called)
-        for row, column in zip(*np.nonzero(~same), strict=True):
-            self._require_rounding(at[row], int(column), called[row, column], taped[row, column])
+        columns = np.flatnonzero(~same.all(axis=0))
+        if columns.size == 0:
+            return
+        bounds: Bounds = self.bounds(at)
+        for column in columns:
+            _, bound = bounds.of(self.result.numbers[column])
+            for row in np.flatnonzero(~same[:, column]):
+                values = float(called[row, column]), float(taped[row, column])
+                self._require_rounding(at[row], int(column), *values, float(bound[row]))
 
-    def _require_rounding(self, at: Point, column: int, called: float, taped: float) -> None:
-        bounds: Bounds = self.bounds([at])
-        _, bound = bounds.of(self.result.numbers[column])
-        room = 2.0 * float(bound[0])  # each of the two errs by that
+    @staticmethod
+    def _require_rounding(at: Point, column: int, called: float, taped: float, bound: Any) -> None:
+        room = 2.0 * bound  # each of the two errs by that
         if not np.isfinite(room) or (np.isfinite(taped) and abs(called - taped) <= room):
             return  # where rounding decides between branches, the point says nothing
-        raise Refusal(_describe(at, float(called), float(taped), column))
+        raise Refusal(_describe(at, called, taped, column))

@@ -26,14 +26,14 @@ from saltus.tracing.operators import apply, call_ufunc
 from saltus.tracing.reductions import REDUCTIONS
 from saltus.tracing.refusal import refuse
 from saltus.tracing.scalars import is_number
-from saltus.tracing.symbol import Symbol
+from saltus.tracing.symbol import Symbol, joint
 
 ARRANGING = """
     append argwhere array_split atleast_1d atleast_2d atleast_3d block broadcast_arrays broadcast_to
     column_stack concatenate convolve cross delete diag diagflat diagonal diff dsplit dstack ediff1d
     einsum expand_dims flip fliplr flipud hsplit hstack insert kron meshgrid moveaxis pad polyval
-    ravel repeat reshape resize roll rollaxis rot90 split squeeze stack swapaxes take tensordot tile trace
-    transpose trapezoid trapz tri tril triu vander vsplit vstack
+    ravel repeat reshape resize roll rollaxis rot90 split squeeze stack swapaxes take tensordot
+    tile trace transpose trapezoid trapz tri tril triu vander vsplit vstack
 """.split()
 """numpy's functions that only arrange entries, or add and multiply them"""
 
@@ -98,10 +98,7 @@ def _returned(result: Any, source: list[SymbolArray]) -> Any:
 def _arrange(function: Callable[..., Any], args: Any, options: Any) -> Any:
     args = tuple(index_of(a) if i and not has_symbols(a) else a for i, a in enumerate(args))
     source = _arrays_in(list(args))
-    kinds = "".join(a.kind for a in source)
-    kind = "f" if "f" in kinds or "i" not in kinds else "i"
-    if len(source) == 1:
-        kind = source[0].kind
+    kind = joint(*{a.kind for a in source} or "f")
     if options.get("out") is not None:
         refuse(f"calls np.{function.__name__} with `out`", "assign the result")
     return _returned(function(*(_boxed(a, kind) for a in args), **options), source)

@@ -13,7 +13,7 @@ from saltus.tracing.functions import has_symbols, plain
 from saltus.tracing.operators import apply
 from saltus.tracing.refusal import refuse
 from saltus.tracing.scalars import SCALARS, is_number
-from saltus.tracing.symbol import Symbol
+from saltus.tracing.symbol import Symbol, kind_of
 
 MATH = {
     "acos": "acos", "acosh": "acosh", "asin": "asin", "asinh": "asinh", "atan": "atan",
@@ -29,6 +29,11 @@ MATH = {
 def _one(value: Any) -> Any:
     """What math takes for a number: an array of one, too."""
     return value._one() if isinstance(value, SymbolArray) else value
+
+
+def _real(value: Any) -> Any:
+    """A truth as math takes it: the number 0 or 1."""
+    return SCALARS["mul"](1.0, value) if kind_of(value) == "b" else value
 
 
 def _log(x: Any, base: Any = None) -> Any:
@@ -84,7 +89,7 @@ def math_function(name: str) -> Callable[..., Any]:
             return real(*plain(arguments), **options)
         if name in SEQUENCES:
             return _as_python(SEQUENCES[name](*arguments, **options))
-        arguments = tuple(_one(a) for a in arguments)
+        arguments = tuple(_real(_one(a)) for a in arguments)
         if name in MATH_OWN:
             return _as_python(MATH_OWN[name](*arguments, **options))
         if name not in MATH:

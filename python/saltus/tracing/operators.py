@@ -9,7 +9,7 @@ import numpy as np
 
 from saltus.tracing.array import SymbolArray, array, as_array, objects_of, wrapped
 from saltus.tracing.refusal import refuse
-from saltus.tracing.scalars import NUMPY, SCALARS, is_number
+from saltus.tracing.scalars import NUMPY, SCALARS, is_number, whole
 from saltus.tracing.symbol import Symbol
 
 UFUNCS: dict[np.ufunc, str] = {
@@ -114,8 +114,8 @@ def _written(out: Any, result: Any) -> Any:
 def _two(ufunc: np.ufunc, arguments: tuple[Any, ...]) -> tuple[Any, Any]:
     if ufunc is np.divmod:
         return apply("floor_divide", *arguments), apply("mod", *arguments)
-    whole = apply("trunc", *arguments)
-    return apply("sub", *arguments, whole), whole
+    integral = apply("trunc", *arguments)
+    return apply("sub", *arguments, integral), integral
 
 
 def _array_ufunc(self: Any, ufunc: np.ufunc, method: str, *inputs: Any, **options: Any) -> Any:
@@ -204,8 +204,9 @@ def _round(self: Any, digits: int | None = None) -> Any:
         refuse("rounds to decimal places", "use np.round")
     if isinstance(self, SymbolArray):
         return apply("rint", self)
-    whole = SCALARS["rint"](self)
-    return Symbol(whole.graph, whole.node, "i" if digits is None else self.kind, whole.python)
+    if digits is None:
+        return whole("rint", self).numpy("i")
+    return SCALARS["rint"](self)
 
 
 def _modulo(self: Any, other: Any) -> Any:
@@ -214,8 +215,8 @@ def _modulo(self: Any, other: Any) -> Any:
 
 def _whole(name: str) -> Callable[[Any], Any]:
     def operate(self: Any) -> Any:
-        whole = SCALARS[name](self)
-        return Symbol(whole.graph, whole.node, "i", True)
+        result = whole(name, self)
+        return Symbol(result.graph, result.node, "i", True)
 
     return operate
 

@@ -12,8 +12,8 @@ import numpy as np
 from saltus.tracing.array import SymbolArray
 from saltus.tracing.guarded import Guarded, parent, unguarded
 from saltus.tracing.refusal import refuse
-from saltus.tracing.scalars import SCALARS, is_number, truth
-from saltus.tracing.symbol import Symbol
+from saltus.tracing.scalars import SCALARS, is_number, truth, whole
+from saltus.tracing.symbol import Symbol, kind_of
 
 SAFE = set(
     """
@@ -43,6 +43,8 @@ def _extreme(name: str, better: str) -> Callable[..., Any]:
             return real(*arguments, **options)
         if options:
             refuse(f"calls {name} of values with {', '.join(options)}", f"use {name} alone")
+        if len({kind_of(_single(item)) == "b" for item in items}) > 1:
+            refuse(f"takes the {name} of truths and numbers", "multiply the truths by 1.0 first")
         best = _single(items[0])
         for item in map(_single, items[1:]):
             best = SCALARS["select"](SCALARS[better](item, best), item, best)
@@ -72,7 +74,7 @@ def _to_float(value: Symbol) -> Any:
 
 
 def _to_int(value: Symbol) -> Any:
-    return _as_python(SCALARS["trunc"](value) if value.kind == "f" else value, "i")
+    return _as_python(whole("trunc", value) if value.kind == "f" else value, "i")
 
 
 def _to_bool(value: Symbol) -> Any:

@@ -26,6 +26,8 @@ EXACT = {"neg", "abs", "floor", "ceil", "trunc", "rint", "sign", "copysign", "mi
          "select", "lt", "le", "gt", "ge", "eq", "ne", "logical_and", "logical_or",
          "logical_not"}  # fmt: skip
 
+SLOPE_ONE = {"add", "sub", "neg", "abs", "minimum", "maximum", "sin", "cos"}
+
 
 def _select(condition: Any, yes: Any, no: Any) -> Any:
     return np.where(condition != 0, yes, no)
@@ -47,14 +49,18 @@ def _new_error(name: str, value: Numbers, operands: Sequence[Numbers]) -> Any:
 
 def _carried(name: str, value: Numbers, operands: Sequence[Numbers], k: int, error: Any) -> Any:
     """How far the value moves when operand k moves by its error."""
-    if name in ("sin", "cos"):
-        return error  # their slopes are at most 1, and the ends of a long way say nothing
+    if not error.any():
+        return 0.0
+    if name in SLOPE_ONE:  # at most; the ends of a long way through a sine would say nothing
+        return error
+    if name == "mul":
+        return np.abs(operands[1 - k]) * error
     far: Any = error if name in ("mod", "fmod", "tan") else 0.0  # these come back on their way
     for part in (1.0, -1.0, 0.5, -0.5, 0.1, -0.1):
         moved = list(operands)
         moved[k] = operands[k] + part * error
         far = np.maximum(far, np.abs(operation(name, *moved) - value))
-    return np.where(error == 0.0, 0.0, far)
+    return far
 
 
 class Bounds:

@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 
+from saltus.tracing.refusal import refuse
 from saltus.tracing.symbol import ORDER, Symbol, joint, kind_of
 
 Scalar = Any  # a Symbol or a number
@@ -70,11 +71,28 @@ def _kind(name: str, arguments: tuple[Scalar, ...]) -> str:
     return "f"
 
 
+def _refuse_narrow(name: str, arguments: tuple[Scalar, ...]) -> None:
+    """numpy computes functions of truths with 16 bits, and their powers and remainders with 8."""
+    if all(kind_of(a) == "b" for a in arguments):
+        python = name in PYTHON and all(is_python(a) for a in arguments)
+        if not python:
+            refuse(f"computes {name} of truths, for which numpy takes small numbers",
+                   "multiply them by 1.0 first")  # fmt: skip
+
+
 def _plain(name: str) -> Function:
+    narrow = name not in TRUTHS | SAME_KIND | {"add", "sub", "mul", "div", "minimum", "maximum"}
+
     def function(*arguments: Scalar) -> Scalar:
+        if narrow:
+            _refuse_narrow(name, arguments)
         for a in arguments:
             if type(a) is Symbol:
-                return record(name, arguments, _kind(name, arguments))
+                kind = _kind(name, arguments)
+                result = record(name, arguments, kind)
+                # integers have no negative zero, their doubles have
+                signed = kind == "i" and name in ("mul", "mod", "fmod", "neg", "floor_divide")
+                return record("add", (result, 0.0), kind) if signed else result
         return NUMPY[name](*arguments)
 
     function.__name__ = name
@@ -214,13 +232,18 @@ COMPOSED: dict[str, Function] = {
 SCALARS.update(COMPOSED)
 
 
+def whole(name: str, value: Scalar) -> Scalar:
+    """floor, ceil, trunc or rint to an integer; + 0.0 as integers have no negative zero."""
+    return SCALARS["add"](SCALARS[name](value), 0.0)
+
+
 def cast(value: Scalar, kind: str) -> Scalar:
     """The number as an entry of an array of that kind."""
     if type(value) is Symbol:
         if kind == "b":
             return truth(value).numpy()
         if kind == "i" and value.kind == "f":
-            value = SCALARS["trunc"](value)
+            value = whole("trunc", value)
         return value.numpy(kind)
     return {"b": np.bool_, "i": np.int64, "f": np.float64}[kind](value)
 

@@ -67,6 +67,8 @@ NO_FORM = {
     "x.astype(np.float32)": "computes with float32",
     "round(x[0], 2)": "rounds to decimal places",
     "(mode & 1) * x": "computes bitwise (and) with integers or reals",
+    "np.tanh(x > 0)": "computes tanh of truths, for which numpy takes small numbers",
+    "min(x[0] > 0, x[1])": "takes the min of truths and numbers",
     "np.where(x > 0)": "calls np.where with a condition alone",
     "np.add(x, 1, where=x > 0)": "calls np.add with where",
     "type(x[0])(3)": "asks for the type of a value",
