@@ -10,8 +10,12 @@ LAYERS = {  # of those in include/saltus: what a user calls or derives from; hea
     "base": ("Errors, indices, and what a callback sees", "*"),
     "model": ("What a user declares", "*"),
     "library": ("Blocks", "*"),
-    "simulation": ("Runs and their results", "simulate simulator options results event_log"),
+    "simulation": (
+        "Runs and their results",
+        "simulate simulator options results event_log dense_output ensemble outcomes",
+    ),
     "solver": ("Methods", "choose statistics"),
+    "tape": ("Expressions and their derivatives", "*"),
     "report": ("Error against run time", "exact scene observed work_precision table written"),
     "models": ("Ready scenes", "*"),
 }
@@ -69,7 +73,7 @@ def digest(text):
     """The public declarations of a header with their comments."""
     text = re.sub(r"^#[^\n]*\n", "", DETAIL.sub("", text), flags=re.M)
     text = re.sub(r"\A(?://[^\n]*\n)*", "", text)
-    tokens = TOKEN.findall(re.sub(r"(?<!/)//(?!/)[^\n]*", "", text))
+    tokens = TOKEN.findall(re.sub(r"(///[^\n]*)|//[^\n]*", r"\1", text))
     out = Reader(tokens).scope(depth=-1, public=True).lines
     return re.sub(r"\n{3,}", "\n\n", "\n".join(out)).strip()
 

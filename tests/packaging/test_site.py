@@ -81,7 +81,7 @@ struct Hidden {};
 class Thing {
  public:
   explicit Thing(int n) : n_{n} {}
-  int n() const { return n_; }  ///< how many
+  int n() const { return n_; }  ///< how many // there are
   std::vector<double> values = {1.0};
 
  private:
@@ -101,7 +101,7 @@ def test_a_header_becomes_its_declarations():
         "class Thing {",
         " public:",
         "  explicit Thing(int n);",
-        "  int n() const;  ///< how many",
+        "  int n() const;  ///< how many // there are",
         "  std::vector<double> values = {1.0};",
         "};",
         "/// Free.",
