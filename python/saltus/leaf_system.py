@@ -118,6 +118,51 @@ class LeafSystem(System, _core.LeafSystem):
     ...         out[0], out[1] = v, -x
     >>> print(Oscillator().explain())
     oscillator: ode  traced
+
+    A room that a thermostat heats, and that counts its hours:
+
+    >>> class Room(saltus.LeafSystem):
+    ...     def __init__(self):
+    ...         super().__init__(name="room")
+    ...         self.declare_continuous_state(default_value=[20.0], ode=self.flow)
+    ...         self.declare_discrete_state(default_value=[0.0])
+    ...         self.declare_default_mode(1)
+    ...         self.declare_dynamic_parameter("power", 30.0)
+    ...         self.declare_input_port("outside")
+    ...         self.declare_output_port(self.gap, name="gap")
+    ...         self.declare_continuous_state_output("temperature")
+    ...         self.declare_discrete_state_output("hours")
+    ...         self.declare_mode_output("on")
+    ...         self.declare_zero_crossing(self.warm, name="warm", start_mode=1, end_mode=0)
+    ...         self.declare_zero_crossing(self.cold, name="cold", start_mode=0, end_mode=1)
+    ...         self.declare_periodic_update(self.count, period=1.0, offset=1.0)
+    ...         self.declare_one_shot(self.open_window, 0.5)
+    ...
+    ...     def flow(self, time, state, outside, *, power):
+    ...         return [power * state.mode + outside - state.continuous_state[0]]
+    ...
+    ...     def gap(self, time, state, outside, *, power):
+    ...         return state.continuous_state[0] - outside
+    ...
+    ...     def warm(self, time, state, outside, *, power):
+    ...         return state.continuous_state[0] - 21.0
+    ...
+    ...     def cold(self, time, state, outside, *, power):
+    ...         return state.continuous_state[0] - 19.0
+    ...
+    ...     def count(self, time, state, outside, *, power):
+    ...         return state.with_discrete_state(state.discrete_state + 1.0)
+    ...
+    ...     def open_window(self, time, state, outside, *, power):
+    ...         return state.with_continuous_state(state.continuous_state - 2.0)
+    >>> from saltus.library import Constant
+    >>> builder = saltus.DiagramBuilder()
+    >>> room, outside = builder.add(Room(), Constant(5.0))
+    >>> builder.connect(outside.output(), room.input("outside"))
+    >>> house = builder.build()
+    >>> end = saltus.simulate(house, house.create_context(), (0.0, 3.5)).context[room]
+    >>> end.discrete_state, bool(19.0 - 2.0 <= end.continuous_state[0] <= 21.0)
+    (array([3.]), True)
     """
 
     __slots__ = ("_ladder",)  # not in __dict__, which a traced function is watched by
