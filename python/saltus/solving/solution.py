@@ -70,24 +70,29 @@ class Solution(Results):
 
     @property
     def t(self) -> np.ndarray:
+        """[s] The times of the rows."""
         return self.time
 
     @property
     def y(self) -> np.ndarray:
+        """The states, shape (n, rows)."""
         return np.transpose(self.outputs["x"])
 
     @property
     def success(self) -> bool:
+        """Whether the run came to its end."""
         return self.status in WELL
 
     @property
     def t_events(self) -> list[np.ndarray] | None:
+        """[s] The times of each event, in the order of `events`; None without events."""
         if self._names is None:
             return None
         return [self._times(name) for name in self._names]
 
     @property
     def y_events(self) -> list[np.ndarray] | None:
+        """The states at each event; None without events."""
         if self._names is None:
             return None
         n = self.outputs["x"].shape[1]
@@ -97,18 +102,22 @@ class Solution(Results):
 
     @property
     def sol(self) -> Callable[[ArrayLike], np.ndarray] | None:
+        """The dense output, a function of t; None if it was not kept."""
         return self._state_at if self.dense else None
 
     @property
     def nfev(self) -> int:
+        """Calls of the right-hand side."""
         return self.statistics.right_hand_side_calls
 
     @property
     def njev(self) -> int:
+        """Jacobians computed."""
         return self.statistics.jacobian_calls
 
     @property
     def nlu(self) -> int:
+        """Factorisations of a matrix."""
         return self.statistics.linear_setups
 
     def _times(self, name: str) -> np.ndarray:
