@@ -18,7 +18,22 @@ SIGNATURE = "int (double, double *, double *, double *, double *, void *)"
 
 @dataclass(frozen=True)
 class Compiled:
-    """A compiled function in place of a Python one; made by `saltus.compiled`."""
+    """A compiled function in place of a Python one; made by `saltus.compiled`.
+
+    Parameters
+    ----------
+    address
+        Of the function.
+    user_data
+        The address it gets as its last argument.
+    owner
+        What keeps both alive.
+
+    Examples
+    --------
+    >>> saltus.compiled(0x7F0000001000).user_data
+    0
+    """
 
     address: int
     """of the function"""

@@ -17,7 +17,15 @@ KINDS = {"jacobian": "matrix", "reset_map": "reset", "update": "update"}
 
 
 class Rung(NamedTuple):
-    """Where one callback stands on the ladder."""
+    """Where one callback stands on the ladder.
+
+    Examples
+    --------
+    >>> block = saltus.library.FunctionBlock(lambda u: 2.0 * u, name="twice")
+    >>> rung = block.explain()[0]
+    >>> rung.block, rung.callback, rung.rung
+    ('twice', "output 'out'", 'traced')
+    """
 
     block: str
     """path of the block"""
@@ -30,7 +38,14 @@ class Rung(NamedTuple):
 
 
 class Explanation(tuple[Rung, ...]):
-    """The rungs of all Python callbacks of a system; its text has one line for each."""
+    """The rungs of all Python callbacks of a system; its text has one line for each.
+
+    Examples
+    --------
+    >>> block = saltus.library.FunctionBlock(lambda u: 2.0 * u, name="twice")
+    >>> len(block.explain())
+    1
+    """
 
     def __new__(cls, rungs: Iterable[Rung], note: str = "") -> Explanation:
         self = super().__new__(cls, rungs)

@@ -2,70 +2,21 @@
 
 from __future__ import annotations
 
-import operator
 from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
-import numpy as np
 from numpy.typing import ArrayLike
 
 from saltus import _core
 from saltus.compiled import as_compiled
+from saltus.declarations import RequiresInputs, initial_of, inputs_of, places_of, shape_of
 from saltus.errors import ModelError
 from saltus.porting import refusing
 from saltus.system import System
 
 __all__ = ["LeafSystem"]
 
-RequiresInputs = bool | Iterable[int]
 EVERYTHING = ("time", "continuous_state", "discrete_state", "mode", "inputs")
-
-
-def _inputs(requires_inputs: RequiresInputs) -> list[int] | None:
-    if isinstance(requires_inputs, (bool, np.bool_)):
-        return None if requires_inputs else []
-    return [int(i) for i in requires_inputs]
-
-
-def _initial(what: str, shape: Any, default_value: ArrayLike | None) -> ArrayLike:
-    """A number n or a tuple is a shape, all zeros; anything else is the value itself."""
-    if default_value is not None:
-        if shape is not None and np.shape(default_value) != np.shape(np.zeros(shape)):
-            found = np.shape(default_value)
-            raise ModelError(
-                f"{what}: shape {shape} and a value of shape {found}; give one of them"
-            )
-        return default_value
-    if shape is None:
-        raise ModelError(f"{what}: give a shape, such as 2, or a default_value")
-    return np.zeros(shape) if isinstance(shape, (int, np.integer, tuple)) else shape
-
-
-def _places(what: str, sparsity: Any) -> list[tuple[int, int]]:
-    """(row, column) of each entry that may differ from zero."""
-    try:
-        if not isinstance(sparsity, tuple):
-            matrix = sparsity if hasattr(sparsity, "nonzero") else np.asarray(sparsity)
-            sparsity = matrix.nonzero()
-        rows, columns = ([operator.index(i) for i in part] for part in sparsity)
-        return list(zip(rows, columns, strict=True))
-    except (TypeError, ValueError):
-        raise ModelError(
-            f"{what}: jacobian_sparsity: expected an n by n array, a sparse matrix or a pair "
-            "(rows, columns) of equally many integers"
-        ) from None
-
-
-def _shape(shape: Any, default_value: ArrayLike | None = None) -> list[int] | None:
-    if shape is None:
-        return None if default_value is None else list(np.shape(default_value))
-    try:
-        sizes = [operator.index(n) for n in np.atleast_1d(np.asarray(shape, dtype=object))]
-    except TypeError:
-        sizes = [-1]
-    if any(n < 0 for n in sizes):
-        raise ModelError(f"shape: expected () or a number of entries, found {shape!r}")
-    return sizes
 
 
 def _callback(function: Any) -> Any:
@@ -118,6 +69,51 @@ class LeafSystem(System, _core.LeafSystem):
     ...         out[0], out[1] = v, -x
     >>> print(Oscillator().explain())
     oscillator: ode  traced
+
+    A room that a thermostat heats, and that counts its hours:
+
+    >>> class Room(saltus.LeafSystem):
+    ...     def __init__(self):
+    ...         super().__init__(name="room")
+    ...         self.declare_continuous_state(default_value=[20.0], ode=self.flow)
+    ...         self.declare_discrete_state(default_value=[0.0])
+    ...         self.declare_default_mode(1)
+    ...         self.declare_dynamic_parameter("power", 30.0)
+    ...         self.declare_input_port("outside")
+    ...         self.declare_output_port(self.gap, name="gap")
+    ...         self.declare_continuous_state_output("temperature")
+    ...         self.declare_discrete_state_output("hours")
+    ...         self.declare_mode_output("on")
+    ...         self.declare_zero_crossing(self.warm, name="warm", start_mode=1, end_mode=0)
+    ...         self.declare_zero_crossing(self.cold, name="cold", start_mode=0, end_mode=1)
+    ...         self.declare_periodic_update(self.count, period=1.0, offset=1.0)
+    ...         self.declare_one_shot(self.open_window, 0.5)
+    ...
+    ...     def flow(self, time, state, outside, *, power):
+    ...         return [power * state.mode + outside - state.continuous_state[0]]
+    ...
+    ...     def gap(self, time, state, outside, *, power):
+    ...         return state.continuous_state[0] - outside
+    ...
+    ...     def warm(self, time, state, outside, *, power):
+    ...         return state.continuous_state[0] - 21.0
+    ...
+    ...     def cold(self, time, state, outside, *, power):
+    ...         return state.continuous_state[0] - 19.0
+    ...
+    ...     def count(self, time, state, outside, *, power):
+    ...         return state.with_discrete_state(state.discrete_state + 1.0)
+    ...
+    ...     def open_window(self, time, state, outside, *, power):
+    ...         return state.with_continuous_state(state.continuous_state - 2.0)
+    >>> from saltus.library import Constant
+    >>> builder = saltus.DiagramBuilder()
+    >>> room, outside = builder.add(Room(), Constant(5.0))
+    >>> builder.connect(outside.output(), room.input("outside"))
+    >>> house = builder.build()
+    >>> end = saltus.simulate(house, house.create_context(), (0.0, 3.5)).context[room]
+    >>> end.discrete_state, bool(19.0 - 2.0 <= end.continuous_state[0] <= 21.0)
+    (array([3.]), True)
     """
 
     __slots__ = ("_ladder",)  # not in __dict__, which a traced function is watched by
@@ -152,14 +148,14 @@ class LeafSystem(System, _core.LeafSystem):
         `nonzero()`).
         """
         what = f"block '{self.name}': continuous state"
-        initial = _initial(what, shape, default_value)
-        places = None if jacobian_sparsity is None else _places(what, jacobian_sparsity)
+        initial = initial_of(what, shape, default_value)
+        places = None if jacobian_sparsity is None else places_of(what, jacobian_sparsity)
         if sparse_jacobian is not None and places is None:
             raise ModelError(f"{what}: sparse_jacobian without jacobian_sparsity; give both")
         super().declare_continuous_state(
             initial,
             _callback(ode),
-            _inputs(requires_inputs),
+            inputs_of(requires_inputs),
             _callback(jacobian),
             places,
             _callback(sparse_jacobian),
@@ -173,7 +169,7 @@ class LeafSystem(System, _core.LeafSystem):
     ) -> None:
         """The discrete state z, numbers that only resets and updates change. Once a block."""
         super().declare_discrete_state(
-            _initial(f"block '{self.name}': discrete state", shape, default_value)
+            initial_of(f"block '{self.name}': discrete state", shape, default_value)
         )
 
     @refusing
@@ -199,7 +195,7 @@ class LeafSystem(System, _core.LeafSystem):
         With a `shape`, another one is refused. An input of one number comes as a float, with shape
         1 as an array.
         """
-        return super().declare_input_port(name or "", _shape(shape))
+        return super().declare_input_port(name or "", shape_of(shape))
 
     @refusing
     def declare_output_port(
@@ -222,12 +218,12 @@ class LeafSystem(System, _core.LeafSystem):
         'discrete_state', 'mode', 'inputs': what reads neither time nor a continuous state is
         computed at events only, not at every stage of the solver.
         """
-        inputs = _inputs(requires_inputs)
+        inputs = inputs_of(requires_inputs)
         return super().declare_output_port(
             _callback(callback),
             name or "",
             inputs,
-            _shape(shape, default_value),
+            shape_of(shape, default_value),
             boolean,
             list(reads),
             _core.Convention.state,
@@ -307,7 +303,7 @@ class LeafSystem(System, _core.LeafSystem):
             "on_zeno": on_zeno,
             "zeno_tolerance": zeno_tolerance,
             "holds": holds,
-            "inputs": _inputs(requires_inputs),
+            "inputs": inputs_of(requires_inputs),
         }
         super().declare_zero_crossing(_callback(guard), _callback(reset_map), name or "", options)
 
@@ -345,5 +341,5 @@ class LeafSystem(System, _core.LeafSystem):
     ) -> None:
         """The one output of a block that is a function of its inputs and nothing else."""
         super().declare_output_port(
-            _callback(function), "out", None, _shape(shape), boolean, ["inputs"], convention
+            _callback(function), "out", None, shape_of(shape), boolean, ["inputs"], convention
         )

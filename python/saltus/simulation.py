@@ -198,7 +198,17 @@ class Simulator:
         return self._failed or self._results(*self._core.results(False))
 
     def describe(self) -> str:
-        """What of the system is computed when, what is never computed, and why."""
+        """What of the system is computed when, what is never computed, and why.
+
+        Examples
+        --------
+        >>> from saltus.library import Integrator
+        >>> builder = saltus.DiagramBuilder()
+        >>> x = builder.add(Integrator(1.0, name="x"))
+        >>> builder.connect(x.output(), x.input())
+        >>> print(saltus.Simulator(builder.build()).describe().splitlines()[0])
+        plan: 1 block, 1 continuous and 0 discrete states
+        """
         return self._core.describe()
 
 

@@ -29,7 +29,12 @@ const double* first_of(const Place& place, const double* registers, const At& at
 /// The strides of a run, where they are known when this is compiled: 0 or 1.
 template <Op op, int step_a, int step_b>
 void close(double* to, const double* a, const double* b, Index n) {
-#pragma GCC ivdep  // what a run writes it does not read
+// what a run writes it does not read
+#ifdef __clang__
+#pragma clang loop vectorize(assume_safety)
+#else
+#pragma GCC ivdep
+#endif
   for (Index i = 0; i < n; ++i) {
     to[i] = compute(op, a[step_a * i], operand_count(op) > 1 ? b[step_b * i] : 0.0, 0.0);
   }

@@ -119,7 +119,13 @@ class Guard:
         return max(number, self.max_count)
 
     def named(self, number: int) -> str:
-        """Its name as event `number`."""
+        """Its name as event `number` of a list.
+
+        Examples
+        --------
+        >>> saltus.Guard(lambda t, x: x[0]).named(2)
+        'event_2'
+        """
         own = getattr(self.guard, "__name__", "<lambda>")
         return self.name or (f"event_{number}" if own.startswith("<") else own)
 

@@ -55,7 +55,10 @@ def test_6_4_a_simulator_shows_what_it_had_and_can_be_initialized_again(where, m
     error = Trouble("mine", 3)
     system = Everything(after(0.6, where, lambda: say(error)))
     simulator = saltus.Simulator(
-        system, recorded_signals={"y": system.output()}, ode_solver_method=method
+        system,
+        recorded_signals={"y": system.output()},
+        ode_solver_method=method,
+        python="called",  # as `go`
     )
     simulator.initialize(system.create_context())
     with pytest.raises(Trouble):

@@ -1,8 +1,11 @@
 """`system.explain()`: which rung, and why not a higher one; nothing is run."""
 
+import runpy
+from pathlib import Path
+
 import numpy as np
 import saltus
-from saltus.library import FunctionBlock, Gain
+from saltus.library import FunctionBlock, Gain, Step
 
 from models import Pendulum, leaf
 
@@ -46,6 +49,16 @@ def test_no_python_at_all():
     assert Gain(2.0).explain() == ()
     assert "no callback is a Python function" in str(Gain(2.0).explain())
     assert saltus.scene("bouncing-ball").system.explain() == ()
+
+
+def test_the_scenes_of_the_tutorial_are_traced():
+    scenes = Path(__file__).parents[1] / "scenes"
+    ball = runpy.run_path(str(scenes / "ball_leaf.py"))["Ball"]()
+    over = runpy.run_path(str(scenes / "ball_zeno.py"))["ball_over"]
+    diagram = over(Step(name="floor"), 9.81, 0.9)
+    assert [r.rung for r in ball.explain()] == ["traced"] * 3
+    assert [r.rung for r in diagram.explain()] == ["traced"]
+    assert "opaque" not in saltus.Simulator(diagram).describe()
 
 
 def test_nothing_runs():

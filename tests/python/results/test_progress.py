@@ -132,9 +132,14 @@ import signal, sys
 signal.signal(signal.SIGINT, signal.default_int_handler)
 import saltus
 floor = saltus.Guard(lambda t, x: x[0], lambda t, x: [0, -x[1]], "falling", name="floor")
-print("ready", flush=True)
+said = []
+def fall(t, x):
+    if t > 0.01 and not said:  # the run is on its way
+        said.append(True)
+        print("ready", flush=True)
+    return [x[1], -9.81]
 try:
-    got = saltus.solve(lambda t, x: [x[1], -9.81], (0, 1e9), [1e-3, 0], events=floor,
+    got = saltus.solve(fall, (0, 1e9), [1e-3, 0], events=floor,
                        record_events=False, {options})
 except KeyboardInterrupt as interrupt:
     got = interrupt.results
@@ -159,7 +164,7 @@ def test_ctrl_c_gives_what_there_is(options):
         start_new_session=True,
     ) as process:
         assert process.stdout.readline() == "ready\n"
-        time.sleep(0.4)
+        time.sleep(0.2)
         process.send_signal(signal.SIGINT)
         out, err = process.communicate(timeout=20)
     assert process.returncode == 0, err

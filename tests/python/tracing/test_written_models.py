@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 from steps import central_difference, complex_step
 from tracing_cases import EPS, State, evaluate, traced
-
-from models import MODELS
+from written_models import MODELS
 
 
 @pytest.mark.parametrize("name", MODELS)

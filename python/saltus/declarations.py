@@ -1,0 +1,61 @@
+"""What the arguments of the declarations of a block stand for."""
+
+from __future__ import annotations
+
+import operator
+from collections.abc import Iterable
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from saltus.errors import ModelError
+
+RequiresInputs = bool | Iterable[int]
+
+
+def inputs_of(requires_inputs: RequiresInputs) -> list[int] | None:
+    if isinstance(requires_inputs, (bool, np.bool_)):
+        return None if requires_inputs else []
+    return [int(i) for i in requires_inputs]
+
+
+def initial_of(what: str, shape: Any, default_value: ArrayLike | None) -> ArrayLike:
+    """A number n or a tuple is a shape, all zeros; anything else is the value itself."""
+    if default_value is not None:
+        if shape is not None and np.shape(default_value) != np.shape(np.zeros(shape)):
+            found = np.shape(default_value)
+            raise ModelError(
+                f"{what}: shape {shape} and a value of shape {found}; give one of them"
+            )
+        return default_value
+    if shape is None:
+        raise ModelError(f"{what}: give a shape, such as 2, or a default_value")
+    return np.zeros(shape) if isinstance(shape, (int, np.integer, tuple)) else shape
+
+
+def places_of(what: str, sparsity: Any) -> list[tuple[int, int]]:
+    """(row, column) of each entry that may differ from zero."""
+    try:
+        if not isinstance(sparsity, tuple):
+            matrix = sparsity if hasattr(sparsity, "nonzero") else np.asarray(sparsity)
+            sparsity = matrix.nonzero()
+        rows, columns = ([operator.index(i) for i in part] for part in sparsity)
+        return list(zip(rows, columns, strict=True))
+    except (TypeError, ValueError):
+        raise ModelError(
+            f"{what}: jacobian_sparsity: expected an n by n array, a sparse matrix or a pair "
+            "(rows, columns) of equally many integers"
+        ) from None
+
+
+def shape_of(shape: Any, default_value: ArrayLike | None = None) -> list[int] | None:
+    if shape is None:
+        return None if default_value is None else list(np.shape(default_value))
+    try:
+        sizes = [operator.index(n) for n in np.atleast_1d(np.asarray(shape, dtype=object))]
+    except TypeError:
+        sizes = [-1]
+    if any(n < 0 for n in sizes):
+        raise ModelError(f"shape: expected () or a number of entries, found {shape!r}")
+    return sizes
