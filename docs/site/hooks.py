@@ -2,6 +2,7 @@
 a checkout, fences that carry notes for the tests.
 """
 
+import logging
 import posixpath
 import re
 import sys
@@ -13,6 +14,11 @@ ROOT = Path(__file__).parents[2]
 sys.path.insert(0, str(Path(__file__).parent))
 
 import cpp_reference  # noqa: E402
+
+# parameters of compiled functions stand in the stubs, where griffe does not look for them
+logging.getLogger("mkdocs.plugins.griffe").addFilter(
+    lambda record: "/_core." not in record.getMessage()
+)
 
 # top files of the checkout that are pages of the site
 PAGES = {
@@ -42,7 +48,7 @@ def on_page_markdown(markdown, page, config, files):
         page.meta["hide"] = ["navigation"]
     if origin == "docs/models/README.md":
         markdown = gallery(markdown)
-    markdown = markdown.replace("```text output\n", "``` {.text .output}\n")
+    markdown = re.sub(r"^```text output.*$", "``` {.text .output}", markdown, flags=re.M)
     parts = CODE.split(FENCE.sub(r"\1", markdown))
     for i in range(0, len(parts), 2):  # the others are code
         parts[i] = LINK.sub(lambda link: rewritten(link, origin, page), parts[i])

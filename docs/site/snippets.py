@@ -7,7 +7,8 @@ In the line that opens a fence, after the language:
   of its `system` is;
 - `no-run` is for shell text only: Python and C++ shown to readers must run.
 
-A fence ```text output holds what the fence before it prints, with `...` for what may differ.
+A fence ```text output holds what the fence before it prints, with `...` for what may differ; with
+```text output about numbers may differ by a tenth, as counts of steps do from version to version.
 """
 
 import re
@@ -16,6 +17,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
 DOCUMENTS = [ROOT / "README.md", *sorted((ROOT / "docs").glob("**/*.md"))]
+NUMBER = re.compile(r"\b\d+(?:\\?\.\d+)?\b")
 FENCE = re.compile(r"^```(\w+)\b([^\n]*)\n(.*?)^```\s*$", re.M | re.S)
 
 
@@ -29,6 +31,7 @@ class Fence:
     flags: list[str]
     program: str
     output: list[str] = field(default_factory=list)
+    about: bool = False
 
     @property
     def where(self):
@@ -47,8 +50,9 @@ def fences(language):
         found = []
         for match in FENCE.finditer(text):
             flags = match[2].split()
-            if flags == ["output"]:
+            if flags[:1] == ["output"]:
                 last.output.append(match[3])
+                last.about = "about" in flags
                 continue
             program = before.get(match[1], "") * ("continue" in flags) + match[3]
             before[match[1]] = program
@@ -62,5 +66,12 @@ def prints(fence, printed):
     """Whether a program printed what its document says: all of it, or the end if it continues."""
     said = "\n".join(fence.output).strip()
     pattern = re.escape(said).replace(re.escape("..."), ".*")
+    if fence.about:
+        pattern = NUMBER.sub(r"(\\d+(?:\\.\\d+)?)", pattern)
     beginning = ".*" if "continue" in fence.flags else ""
-    return re.fullmatch(beginning + pattern, printed.strip(), re.S) is not None
+    match = re.fullmatch(beginning + pattern, printed.strip(), re.S)
+    if match is None or not fence.about:
+        return match is not None
+    expected = [float(number) for number in NUMBER.findall(said.replace("...", ""))]
+    found = [float(number) for number in match.groups()]
+    return all(abs(e - f) <= 0.1 * abs(e) for e, f in zip(expected, found, strict=True))
