@@ -116,7 +116,7 @@ class SimulatorOptions:
     """
 
 
-PYTHON_ONLY = ("recorded_signals", "python", "throw", "progress")
+PYTHON_ONLY = frozenset({"recorded_signals", "python", "throw", "progress"})
 """options that the engine does not have, or not in this form"""
 RUNGS = ("traced", "called")
 

@@ -18,7 +18,6 @@ from saltus.ensemble.dataset import (
     to_dict,
 )
 from saltus.ensemble.job import Job, Watch
-from saltus.ensemble.pools import NO_MAIN, pickled, process_pool, run_pooled
 from saltus.ensemble.table import Table, table_of
 from saltus.errors import ModelError
 from saltus.porting import OPTIONS, refuse
@@ -218,7 +217,9 @@ def _run(job: Job, table: Table, executor: Any, workers: int | None, watch: Watc
     if executor is None:
         return _run_as_suits(job, table, workers, count, watch)
     if not isinstance(executor, str):
-        columns, raised = run_pooled(executor, job, table, count, watch)
+        from saltus.ensemble import pools  # processes are not loaded before they are wanted
+
+        columns, raised = pools.run_pooled(executor, job, table, count, watch)
         return columns, raised, type(executor).__name__, count
     if executor not in KINDS:
         hint = _core.known_names(executor, list(KINDS))
@@ -251,8 +252,10 @@ def _run_as_suits(job: Job, table: Table, workers: int | None, count: int, watch
 
 def _portable(job: Job, must: bool) -> bool:
     """Whether it can go to another process; ModelError where it must."""
+    from saltus.ensemble import pools
+
     try:
-        pickled(job)
+        pools.pickled(job)
     except ModelError:
         if must:
             raise
@@ -284,12 +287,14 @@ def _rows(columns: Columns, count: int) -> Columns:
 def _in_processes(
     job: Job, table: Table, count: int, watch: Watch
 ) -> tuple[Columns, BaseException | None]:
-    sent = pickled(job)
-    with process_pool(count) as pool:
-        columns, raised = run_pooled(pool, sent, table, count, watch)
+    from saltus.ensemble import pools
+
+    sent = pools.pickled(job)
+    with pools.process_pool(count) as pool:
+        columns, raised = pools.run_pooled(pool, sent, table, count, watch)
     lost = [r for r, _ in columns["reasons"].values() if "process that made this run ended" in r]
     if len(lost) == table.runs:
-        raise ModelError(NO_MAIN)
+        raise ModelError(pools.NO_MAIN)
     return columns, raised
 
 

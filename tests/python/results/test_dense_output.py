@@ -166,7 +166,8 @@ def test_what_an_output_raises_comes_out_as_it_was():
             return 1.0
 
     late = Late()
-    results = run(late, (0.0, 1.0), dense_output=True)
+    # Called: a traced output stays as it was in the run.
+    results = run(late, (0.0, 1.0), dense_output=True, python="called")
     late.angry = True
     with pytest.raises(LookupError, match="not now"):
         results(0.5)
