@@ -18,7 +18,7 @@ R = TypeVar("R")
 
 OPTIONS = {
     "math_backend": "there is one backend, compiled; leave it out",
-    "enable_tracing": "nothing is traced; leave it out",
+    "enable_tracing": "what can be traced is, see system.explain(); python='called' switches it off",
     "enable_autodiff": "Saltus computes no gradients; leave it out",
     "max_checkpoints": "Saltus computes no gradients; leave it out",
     "buffer_length": "the recorder grows as needed; leave it out",
@@ -35,7 +35,7 @@ OPTIONS = {
 }
 
 DECLARATIONS = {
-    "enable_tracing": "nothing is traced; leave it out",
+    "enable_tracing": "what can be traced is, see system.explain(); leave it out",
     "dtype": "every value is a double; leave it out",
     "as_array": "every value is an array; leave it out",
     "mass_matrix": "divide by it in the ode",

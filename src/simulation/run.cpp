@@ -26,9 +26,7 @@ void Run::initialize(const Context& context) {
   results_.time.clear(), results_.jump.clear();
   results_.statistics = {}, results_.message.clear();
   results_.block.clear(), results_.cause = nullptr;
-  recorder_.reset();
-  if (!plan().taps.empty())
-    recorder_.emplace(machine_, results_, options_.event_rows ? nullptr : &options_.save_at);
+  start_recorder();
   results_.trajectory = {};
   if (options_.dense_output) results_.trajectory.start(machine_.shared_plan(), begin_, options_);
   calendar_.begin(time_, context.settled());
@@ -37,10 +35,17 @@ void Run::initialize(const Context& context) {
   at_root_ = machine_.x;
 }
 
+void Run::start_recorder() {
+  recorder_.reset();
+  if (!plan().taps.empty())
+    recorder_.emplace(machine_, results_, options_.event_rows ? nullptr : &options_.save_at);
+}
+
 Results Run::take_results() {
   EventLog next = results_.events.emptied();
   Results taken = std::move(results_);
   results_.events = std::move(next);
+  start_recorder();  // the columns went with the rest
   if (options_.dense_output && begun_) {
     results_.trajectory.start(machine_.shared_plan(), begin_, options_);
     results_.trajectory.open(time_, machine_, instant_.contacts());

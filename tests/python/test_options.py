@@ -65,7 +65,8 @@ def test_overrides_win_over_options_and_change_neither():
         ),
         (
             {"enable_tracing": True},
-            "Simulator: no option 'enable_tracing': nothing is traced; leave it out",
+            "Simulator: no option 'enable_tracing': what can be traced is, see system.explain(); "
+            "python='called' switches it off",
         ),
         (
             {"zc_bisection_loop_count": 40},

@@ -30,6 +30,7 @@ class Run {
   std::string describe() const;
 
  private:
+  void start_recorder();
   Status run_to(double t_end);
   Status step(double t_end);
   void move_to(double t_stop, StopReason& reason);
