@@ -148,7 +148,7 @@ the clock. On a busy machine ratios vary by some percent, single times by more. 
 {held} of {all} hold. 1 means as fast as what is compared with.
 
 {targets}
-Not measured here: a system traced from Python against C++, and a sweep over two cores, which this version does not have; memory,
+Not measured here: Python and sweeps, see [performance](performance.md), "From Python"; memory,
 which tests count.
 
 """
