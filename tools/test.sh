@@ -73,7 +73,7 @@ test_typing() {
   check mypy-examples "mypy --strict on the examples, with the installed package" "$python" -m mypy examples
   check stubtest "the stubs say what is in the module" "$python" -m mypy.stubtest saltus._core --mypy-config-file pyproject.toml \
     --allowlist tests/packaging/stubtest.txt
-  check vermin "nothing newer than Python 3.10 is used" "$python" -m vermin --target=3.10- --no-tips --violations python/saltus
+  check vermin "nothing newer than Python 3.10 is used" "$root/.venv/bin/vermin" --target=3.10- --no-tips --violations python/saltus
 }
 
 run_tests() {

@@ -24,6 +24,14 @@ def _callback(function: Any) -> Any:
     return as_compiled(function) or function
 
 
+SHORT = {
+    "both": "crosses_zero",
+    "falling": "positive_then_non_positive",
+    "rising": "negative_then_non_negative",
+}
+"""directions in one word"""
+
+
 class LeafSystem(System, _core.LeafSystem):
     """A block with equations of its own. Call `super().__init__(name=...)`, then declare.
 
@@ -116,11 +124,12 @@ class LeafSystem(System, _core.LeafSystem):
     (array([3.]), True)
     """
 
-    __slots__ = ("_ladder",)  # not in __dict__, which a traced function is watched by
+    __slots__ = ("_ladder", "_made")  # not in __dict__, which a traced function is watched by
 
     @refusing
     def __init__(self, name: str | None = None):
         super().__init__(name or _core.next_name(type(self).__name__))
+        self._made = True  # before that a declaration would find no block to declare in
 
     @refusing
     def declare_continuous_state(
@@ -271,8 +280,9 @@ class LeafSystem(System, _core.LeafSystem):
         only logged, and changes nothing.
 
         - `reset_map`, called like the guard, returns x+ from x-, the state before the event.
-        - `direction` is 'crosses_zero', 'positive_then_non_positive', 'negative_then_non_negative',
-          'edge_detection' (any change, for values that jump) or 'none' (never).
+        - `direction` is 'crosses_zero' (or 'both'), 'positive_then_non_positive' ('falling'),
+          'negative_then_non_negative' ('rising'), 'edge_detection' (any change, for values that
+          jump) or 'none' (never).
         - With `start_mode` it is seen in that mode only; `end_mode` is the mode after it.
         - `terminal` ends the run after the reset map, `max_count` n when it happens the n-th time.
         - `size` n is n guards in one: the guard returns n numbers, each fires for itself, and
@@ -293,7 +303,7 @@ class LeafSystem(System, _core.LeafSystem):
         negative `zeno_tolerance`, and `holds` of another length or beyond the state.
         """
         options = {
-            "direction": direction,
+            "direction": SHORT.get(str(direction), direction),
             "start_mode": start_mode,
             "end_mode": end_mode,
             "terminal": terminal,

@@ -18,7 +18,7 @@ R = TypeVar("R")
 
 OPTIONS = {
     "math_backend": "there is one backend, compiled; leave it out",
-    "enable_tracing": "what can be traced is, see system.explain(); python='called' switches it off",
+    "enable_tracing": "see system.explain(); python='called' switches it off",
     "enable_autodiff": "Saltus computes no gradients; leave it out",
     "max_checkpoints": "Saltus computes no gradients; leave it out",
     "buffer_length": "the recorder grows as needed; leave it out",
@@ -35,7 +35,7 @@ OPTIONS = {
 }
 
 DECLARATIONS = {
-    "enable_tracing": "what can be traced is, see system.explain(); leave it out",
+    "enable_tracing": "see system.explain(); leave it out",
     "dtype": "every value is a double; leave it out",
     "as_array": "every value is an array; leave it out",
     "mass_matrix": "divide by it in the ode",
@@ -67,8 +67,12 @@ def refusing(method: Callable[P, R]) -> Callable[P, R]:
     known = code.co_varnames[1 : code.co_argcount + code.co_kwonlyargcount]
     where = method.__name__ if method.__name__ != "__init__" else method.__qualname__.split(".")[-2]
 
+    declares = method.__name__.startswith("declare_")
+
     @functools.wraps(method)
     def checked(*arguments: P.args, **options: P.kwargs) -> R:
+        if declares and not getattr(arguments[0], "_made", False):
+            raise ModelError(f"{where}: call super().__init__(name=...) first, then declare")
         refuse(where, options, known)
         try:
             return method(*arguments, **options)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 from collections.abc import Callable, Mapping
 from dataclasses import fields, replace
 from typing import Any
@@ -173,8 +174,10 @@ class Simulator:
     def _raise(self, results: Results, error: BaseException | None) -> None:
         if error is None:
             error = SimulationError(results.message, results.context.time, results.block)
-        if isinstance(error, (SimulationError, KeyboardInterrupt)):
-            error.results = results  # type: ignore[union-attr]
+        with contextlib.suppress(AttributeError):  # of a class with slots
+            error.results = results  # type: ignore[attr-defined]
+        if hasattr(error, "add_note") and not isinstance(error, (SimulationError, ModelError)):
+            error.add_note(f"in a run, at t = {results.context.time} s; `.results` is what it did")
         if isinstance(error, KeyboardInterrupt) and not error.args:
             error.args = (f"{results.message}; its attribute results has what was computed",)
         try:

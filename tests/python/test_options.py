@@ -65,8 +65,8 @@ def test_overrides_win_over_options_and_change_neither():
         ),
         (
             {"enable_tracing": True},
-            "Simulator: no option 'enable_tracing': what can be traced is, see system.explain(); "
-            "python='called' switches it off",
+            "Simulator: no option 'enable_tracing': see system.explain(); python='called' switches it "
+            "off",
         ),
         (
             {"zc_bisection_loop_count": 40},

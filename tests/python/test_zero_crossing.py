@@ -25,8 +25,8 @@ def go(block, end=1.0, **options):
     ("options", "message"),
     [
         (
-            {"direction": "rising"},
-            "unknown direction 'rising'; Known: 'none', 'crosses_zero', "
+            {"direction": "upwards"},
+            "unknown direction 'upwards'; Known: 'none', 'crosses_zero', "
             "'positive_then_non_positive', 'negative_then_non_negative', 'edge_detection'",
         ),
         (
@@ -105,3 +105,20 @@ def test_entry_is_zero_where_there_is_one_guard():
 
     go(Block(reset_map=note))
     assert entries == [0]
+
+
+def test_directions_in_one_word_are_the_long_ones():
+    times = {}
+    for direction in ("rising", "negative_then_non_negative", "falling", "both", "crosses_zero"):
+        swing = saltus.LeafSystem(name="swing")
+        swing.declare_continuous_state(
+            np.array([1.0, 0.0]), ode=lambda t, s: s.continuous_state[::-1] * np.array([1.0, -1.0])
+        )
+        swing.declare_zero_crossing(
+            lambda t, s: s.continuous_state[0], name="middle", direction=direction
+        )
+        results = saltus.simulate(swing, swing.create_context(), (0.0, 10.0))
+        times[direction] = results.events.times().tolist()
+    assert len(times["both"]) == 3  # cos t: down at pi/2, up at 3 pi/2, down at 5 pi/2
+    assert times["rising"] == times["negative_then_non_negative"]
+    assert times["both"] == times["crosses_zero"] == sorted(times["rising"] + times["falling"])

@@ -71,8 +71,8 @@ TEST_CASE("2.10 a monitor logs each crossing once", "[semantics]") {
 TEST_CASE("2.10 of thousands of monitors in one step each is logged once", "[semantics]") {
   // One rounding further on the search before a root finds the root itself.
   const auto* method = GENERATE(from_range(methods));
-  const Index n = GENERATE(2000, 10'000);
-  INFO("method " << method << ", " << n << " monitors");
+  const Index n = 2000;
+  INFO("method " << method);
   const Leaf leaf("leaf", [n](Leaf& l) {
     l.declare_continuous_state(1, [](const At&, VectorRef xdot) { xdot << 1.0; });
     l.declare_zero_crossing({.name = "level",

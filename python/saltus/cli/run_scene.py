@@ -172,7 +172,10 @@ def _write(results: Results, chosen: argparse.Namespace) -> None:
         import matplotlib
 
         matplotlib.use("Agg")  # a file is drawn, no window
-        np.ravel(results.plot())[0].figure.savefig(chosen.plot)
+        try:
+            np.ravel(results.plot())[0].figure.savefig(chosen.plot)
+        except ValueError as error:  # a format that matplotlib does not know
+            raise ModelError(f"--plot {chosen.plot}: {error}") from None
 
 
 def _write_csv(results: Results, path: Path) -> None:

@@ -9,6 +9,7 @@ import sys
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
+from types import ModuleType
 from typing import Any
 
 import numpy as np
@@ -56,6 +57,8 @@ def chosen_scene(name: str, settings: dict[str, Any]) -> Chosen:
     if ":" in name:
         return _own(name, settings)
     names = list(shelf())
+    if name.endswith(".py"):
+        raise ModelError(f"which scene of '{name}'? Say {name}:NAME, of a system in that file")
     if name not in names:
         hint = _core.known_names(name, names)
         raise ModelError(
@@ -136,7 +139,11 @@ def _attribute(module: Any, attribute: str, place: str) -> Any:
     try:
         return getattr(module, attribute)
     except AttributeError:
-        names = [name for name in vars(module) if not name.startswith("_")]
+        names = [
+            name
+            for name, value in vars(module).items()
+            if not name.startswith("_") and not isinstance(value, ModuleType)
+        ]
         hint = _core.known_names(attribute, names)
         raise ModelError(f"'{place}' has no '{attribute}'{hint}") from None
 

@@ -129,7 +129,7 @@ def sweep(
     >>> grid = {"e": [0.5, 0.7, 0.9], "x[0]": [5.0, 10.0]}
     >>> landed = saltus.sweep(ball, grid, (0.0, 3.0), rtol=1e-9)
     >>> landed["events"].dims, landed["events"].values.tolist()
-    (('e', 'x[0]'), [[3, 1], [2, 1], [1, 1]])
+    (('e', 'x[0]'), [[7, 2], [2, 1], [2, 1]])
     """
     table = table_of(values, paired)
     job = _job(system, t_span, options, recorded_signals, context, reduce, option_overrides)

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, NamedTuple, overload
 
 import numpy as np
 
+from saltus.results.tables import extra
+
 if TYPE_CHECKING:
     import pandas  # type: ignore[import-untyped,import-not-found,unused-ignore]
 
@@ -86,13 +88,14 @@ class EventLog(Sequence[Event]):
     def __iter__(self) -> Iterator[Event]:
         return (Event(*self._record.event(row)) for row in self._rows)
 
-    def times(self, name: str, kind: str = "zero_crossing") -> np.ndarray:
+    def times(self, name: str | None = None, kind: str = "zero_crossing") -> np.ndarray:
         """When the events of one name and kind happened.
 
         Parameters
         ----------
         name : str
-            Of the event, with or without that of its block: 'bounce' or 'ball.bounce'.
+            Of the event, with or without that of its block: 'bounce' or 'ball.bounce'; of all if
+            it is left out.
         kind : str
             'zero_crossing', 'time', 'zeno_enter', 'zeno_release' or 'terminal'.
 
@@ -113,6 +116,9 @@ class EventLog(Sequence[Event]):
         >>> results.events.times("bounce").size > 0
         True
         """
+        if name is None:
+            self._record.event_times("", kind)  # refuses an unknown kind
+            return np.array([e.time for e in self if e.kind == kind])
         whole = range(self._record.event_count)
         if self._rows == whole:
             return self._record.event_times(name, kind)
@@ -129,7 +135,7 @@ class EventLog(Sequence[Event]):
         >>> frame.columns[:3].tolist()
         ['time', 'jump', 'kind']
         """
-        import pandas
+        pandas = extra("pandas", "to_pandas")
 
         return pandas.DataFrame(list(self), columns=list(Event._fields))
 

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from saltus import _core
-from saltus.errors import ModelError
+from saltus.errors import Error, ModelError
 from saltus.results.events import EventLog
 from saltus.results.record import KeptRun, Record
 from saltus.results.statistics import Statistics
@@ -80,9 +80,11 @@ class Results:
         self.events = EventLog(core)
         self.context = core.context
         self.status = core.status
-        self.message = core.message
         self.block = core.block
         self.cause = raised if core.status == "failed" else None
+        self.message = core.message
+        if self.cause is not None and not isinstance(self.cause, Error):  # it says no more
+            self.message = f"t = {core.context.time} s: {type(raised).__name__}: {raised}"
         self.statistics = Statistics(**core.statistics)
 
     @property

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import importlib
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     import pandas  # type: ignore[import-untyped,import-not-found,unused-ignore]
@@ -10,12 +11,21 @@ if TYPE_CHECKING:
 
     from saltus.results.outcome import Results
 
-__all__ = ["to_pandas", "to_xarray"]
+__all__ = ["extra", "to_pandas", "to_xarray"]
+
+
+def extra(library: str, what: str) -> Any:
+    """A library that comes with an extra; ImportError that says which where it is not there."""
+    try:
+        return importlib.import_module(library)
+    except ImportError:
+        raise ImportError(
+            f"{what} needs {library}, which is not installed: pip install {library}"
+        ) from None
 
 
 def to_pandas(results: Results) -> pandas.DataFrame:
-    import pandas
-
+    pandas = extra("pandas", "to_pandas")
     columns = {}
     for name, array in results.outputs.items():
         if array.ndim == 1:
@@ -27,8 +37,7 @@ def to_pandas(results: Results) -> pandas.DataFrame:
 
 
 def to_xarray(results: Results) -> xarray.Dataset:
-    import xarray
-
+    xarray = extra("xarray", "to_xarray")
     signals = {
         name: (("time",) if array.ndim == 1 else ("time", f"{name}_entry"), array)
         for name, array in results.outputs.items()

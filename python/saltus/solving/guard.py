@@ -11,13 +11,11 @@ from numpy.typing import ArrayLike
 
 from saltus._core import known_names
 from saltus.errors import ModelError
+from saltus.leaf_system import SHORT
 
 __all__ = ["Guard", "guards_of"]
 
-DIRECTIONS = {
-    "both": "crosses_zero",
-    "falling": "positive_then_non_positive",
-    "rising": "negative_then_non_negative",
+DIRECTIONS = SHORT | {
     "crosses_zero": "crosses_zero",
     "positive_then_non_positive": "positive_then_non_positive",
     "negative_then_non_negative": "negative_then_non_negative",

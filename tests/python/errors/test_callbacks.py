@@ -45,7 +45,7 @@ def test_6_2_with_throw_off_it_is_the_cause_beside_what_was_computed(where, meth
     system = Everything(after(0.6, where, lambda: say(error)))
     results = go(system, method=method, throw=False)
     check_arrived(results.cause, error, where)
-    assert results.message.startswith("Trouble: ('mine', 3)")
+    assert results.message.endswith(" s: Trouble: ('mine', 3)")
     check_kept(results, method)
     check_works(system, method)
 
@@ -127,3 +127,25 @@ def test_6_2_a_function_in_a_diagram_raises_as_it_was(block, method):
     assert caught.value is error
     bad[0] = False
     assert go(diagram, method=method).context.continuous_state == pytest.approx([2.0], rel=1e-5)
+
+
+def test_a_declaration_before_the_block_is_made_is_refused():
+    class Forgotten(saltus.LeafSystem):
+        def __init__(self):
+            self.declare_dynamic_parameter("g", 1.0)
+
+    with pytest.raises(saltus.ModelError, match=r"call super\(\).__init__\(name=...\) first"):
+        Forgotten()
+
+
+def test_what_a_callback_raises_carries_what_was_computed():
+    def f(t, x):
+        if t > 1.0:
+            raise LookupError("no such time")
+        return [1.0]
+
+    with pytest.raises(LookupError, match="no such time") as caught:
+        saltus.solve(f, (0.0, 2.0), [0.0])
+    results = caught.value.results
+    assert results.status == "failed" and len(results.time) > 0
+    assert results.message == f"t = {results.context.time} s: LookupError: no such time"
