@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "interpreter.hpp"
+#include "ladder_system.hpp"
 #include "python_scene.hpp"
 #include "saltus/report/written.hpp"
 
@@ -59,13 +60,16 @@ void set_samples(Scene& scene, const std::vector<double>& times, const py::seque
 
 /// The scene's system belongs to the Python object, which has to live as long.
 std::shared_ptr<Scene> user_scene(const System& system, const Context& context,
-                                  std::pair<double, double> span, const SimulatorOptions& options) {
+                                  std::pair<double, double> span, SimulatorOptions options) {
+  if (const auto* ladder = dynamic_cast<const LadderSystem*>(&system)) {
+    for (auto& [name, port] : options.recorded_signals) port = ladder->port(port);
+  }
   return std::make_shared<Scene>(
       Scene{.name = system.name(),
             .system = std::shared_ptr<const System>(std::shared_ptr<void>(), &system),
             .context = context,
             .span = {span.first, span.second},
-            .options = options});
+            .options = std::move(options)});
 }
 
 }  // namespace

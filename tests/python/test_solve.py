@@ -352,3 +352,11 @@ def test_a_number_for_x0_and_no_state_at_all():
     assert solve(lambda t, x: -x, (0, 1), 1.0).y.shape[0] == 1
     empty = solve(lambda t, x: x, (0, 1), [])
     assert empty.y.shape[0] == 0 and empty.t[-1] == 1.0
+
+
+def test_an_endless_span_needs_a_terminal_event():
+    with pytest.raises(saltus.ModelError, match="the end is infinite, and no event is terminal"):
+        saltus.solve(lambda t, x: [1.0], (0.0, np.inf), [0.0])
+    wall = saltus.Guard(lambda t, x: x[0] - 3.0, terminal=True)
+    ended = saltus.solve(lambda t, x: [1.0], (0.0, np.inf), [0.0], events=[wall])
+    assert abs(ended.t[-1] - 3.0) < 1e-12  # rounding of 3 s and of the state

@@ -243,3 +243,37 @@ def test_ctrl_c_ends_a_report():
 
     with pytest.raises(KeyboardInterrupt):
         report(system=Oscillator(pressed))
+
+
+def calls_while_measured(python):
+    """How often the interpreter enters the ode of a decay, and the row of its one run."""
+
+    def ode(time, state):
+        return -state.continuous_state
+
+    decay = saltus.LeafSystem(name="decay")
+    decay.declare_continuous_state(np.array([1.0]), ode=ode)
+    decay.declare_continuous_state_output(name="x")
+    calls = 0
+
+    def count(frame, event, argument):
+        nonlocal calls
+        calls += event == "call" and frame.f_code is ode.__code__
+
+    sys.setprofile(count)
+    try:
+        table = saltus.work_precision(
+            decay, decay.create_context(), (0.0, 1.0), methods=["dopri5"], rtols=[1e-8],
+            exact=lambda t: np.exp(-t), least_time=0.0, python=python,
+        )  # fmt: skip
+    finally:
+        sys.setprofile(None)
+    return calls, table[0]
+
+
+def test_a_python_system_is_measured_as_it_runs():
+    """Traced, the function is entered to be traced and checked, and not by any run."""
+    traced, row = calls_while_measured("traced")
+    called, same = calls_while_measured("called")
+    assert row["steps"] == same["steps"] and row["scaled_error"] < 10.0
+    assert traced < 30 < 6 * same["steps"] < called  # once to trace, at most a dozen points

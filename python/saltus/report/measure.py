@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from saltus import _core
 from saltus.errors import ModelError
+from saltus.ladder import climbed
 from saltus.report.table import WorkPrecision
 from saltus.results import Results
 from saltus.scenes import Scene
@@ -124,7 +125,7 @@ def work_precision(
     known = _known(exact, reference, provenance, _span(t_span), options.get("save_at", ()))
     if len(known.times):
         options["save_at"] = list(known.times)
-    scene = _scene(system, context, _span(t_span), recorded_signals, options)
+    scene, _alive = _scene(system, context, _span(t_span), recorded_signals, options)
     if len(known.times):
         _core.set_samples(scene, list(known.times), known.rows, exact is not None, known.provenance)
     if event_times is None and isinstance(reference, Results):
@@ -149,13 +150,16 @@ def _scene(
     span: tuple[float, float],
     signals: Mapping[str, OutputPort] | None,
     options: dict[str, Any],
-) -> _core.Scene:
+) -> tuple[_core.Scene, object]:
+    """The scene as it runs, and what has to live as long."""
     if not isinstance(system, System):
         raise ModelError(f"work_precision: expected a system or a scene, found {system!r}")
     if signals is None:
         signals = {system.output_names[0]: system.output(0)} if system.output_names else {}
     chosen = SimulatorOptions(recorded_signals=signals, **options)
-    return _core.user_scene(system, core_context(context), span, core_options(chosen))
+    runs, ladder = climbed(system) if chosen.python == "traced" else (system, None)
+    scene = _core.user_scene(runs, core_context(context), span, core_options(chosen))
+    return scene, (runs, ladder)
 
 
 class _Known(NamedTuple):

@@ -129,6 +129,10 @@ def solve(
     _refuse(method, options)
     begin, end = span_of(t_span)
     guards = None if events is None else guards_of(events)
+    if np.isinf(end) and not any(guard.terminal for guard in guards or []):
+        raise ModelError(
+            "solve: t_span: the end is infinite, and no event is terminal to end the run"
+        )
     system = SolvedSystem(
         f, begin, state_of(x0), arguments_of(args), guards or [], jacobian, jacobian_sparsity
     )
