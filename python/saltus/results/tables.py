@@ -25,22 +25,24 @@ def extra(library: str, what: str) -> Any:
 
 
 def to_pandas(results: Results) -> pandas.DataFrame:
-    pandas = extra("pandas", "to_pandas")
+    library = extra("pandas", "to_pandas")
     columns = {}
     for name, array in results.outputs.items():
         if array.ndim == 1:
             columns[name] = array
         else:
             columns.update({f"{name}[{i}]": array[:, i] for i in range(array.shape[1])})
-    index = pandas.MultiIndex.from_arrays([results.time, results.jump], names=["time", "jump"])
-    return pandas.DataFrame(columns, index=index)
+    index = library.MultiIndex.from_arrays([results.time, results.jump], names=["time", "jump"])
+    frame: pandas.DataFrame = library.DataFrame(columns, index=index)
+    return frame
 
 
 def to_xarray(results: Results) -> xarray.Dataset:
-    xarray = extra("xarray", "to_xarray")
+    library = extra("xarray", "to_xarray")
     signals = {
         name: (("time",) if array.ndim == 1 else ("time", f"{name}_entry"), array)
         for name, array in results.outputs.items()
     }
     coordinates = {"time": ("time", results.time, {"units": "s"}), "jump": ("time", results.jump)}
-    return xarray.Dataset(signals, coordinates, {"status": results.status})
+    dataset: xarray.Dataset = library.Dataset(signals, coordinates, {"status": results.status})
+    return dataset
