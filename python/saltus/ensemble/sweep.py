@@ -23,6 +23,7 @@ from saltus.errors import ModelError
 from saltus.porting import OPTIONS, refuse
 from saltus.results import Results
 from saltus.simulation import SimulatorOptions
+from saltus.span import span_of
 from saltus.system import OutputPort, System
 
 if TYPE_CHECKING:
@@ -193,12 +194,7 @@ def _job(
 
 
 def _span(t_span: object) -> tuple[float, float]:
-    try:
-        begin, end = map(float, t_span)  # type: ignore[call-overload]
-    except (TypeError, ValueError):
-        raise ModelError(
-            f"sweep: expected a span (begin, end) in seconds, found {t_span!r}"
-        ) from None
+    begin, end = span_of("sweep", t_span)
     if not end >= begin:
         raise ModelError(f"sweep: expected a span with begin <= end, found {begin} s to {end} s")
     return begin, end

@@ -15,6 +15,7 @@ from saltus.report.table import WorkPrecision
 from saltus.results import Results
 from saltus.scenes import Scene
 from saltus.simulation import SimulatorOptions, core_context, core_options
+from saltus.span import span_of
 from saltus.system import OutputPort, System
 
 __all__ = ["work_precision"]
@@ -171,12 +172,7 @@ class _Known(NamedTuple):
 
 
 def _span(t_span: tuple[float, float] | None) -> tuple[float, float]:
-    try:
-        begin, end = map(float, t_span)  # type: ignore[arg-type]
-    except (TypeError, ValueError):
-        raise ModelError(
-            f"work_precision: expected a span (begin, end) in seconds, found {t_span!r}"
-        ) from None
+    begin, end = span_of("work_precision", t_span)
     if not end > begin:
         raise ModelError(f"work_precision: expected begin < end, found {begin} s to {end} s")
     return begin, end
