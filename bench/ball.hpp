@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <saltus/saltus.hpp>
+#include <saltus/solver/inlined.hpp>
 #include <vector>
 
 namespace bench {
@@ -40,10 +41,10 @@ struct Outcome {
 class BallLeaf final : public saltus::LeafSystem {
  public:
   explicit BallLeaf(const Ball& ball) : LeafSystem("ball"), ball_(ball) {
-    declare_continuous_state(2, &BallLeaf::ode);
+    declare_continuous_state(2, saltus::inlined<2>(saltus::method<&BallLeaf::ode>));
     declare_zero_crossing({.name = "bounce",
-                           .guard = &BallLeaf::height,
-                           .reset_map = &BallLeaf::bounce,
+                           .guard = saltus::method<&BallLeaf::height>,
+                           .reset_map = saltus::method<&BallLeaf::bounce>,
                            .direction = saltus::Direction::positive_then_non_positive});
   }
 

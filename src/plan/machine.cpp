@@ -75,7 +75,16 @@ Machine::Machine(std::shared_ptr<const Plan> plan) : plan_(std::move(plan)) {
   }
   if (odes_.size() == 1 && derivative_calls_.empty() && plan_->nx == odes_.front().size)
     lone_ode_ = &odes_.front();
+  if (lone_ode_ != nullptr && lone_ode_->function->kernels() != nullptr &&
+      !reads_states(lone_ode_->leaf))
+    compiled_ = lone_ode_->function;
   select_guards();
+}
+
+/// Whether an input of the leaf is a continuous state.
+bool Machine::reads_states(std::size_t leaf) const {
+  return std::ranges::any_of(plan_->leaves[leaf].input_places,
+                             [](const Place& place) { return place.space == Space::x; });
 }
 
 void Machine::load(const Context& context) {

@@ -13,6 +13,16 @@ namespace saltus {
 
 namespace detail {
 
+struct StepKernels;  // `solver/kernels.hpp`
+
+/// A const method known to the compiler: see `method`.
+template <auto M>
+struct ConstantMethod {};
+template <class F>
+inline constexpr bool is_constant_method = false;
+template <auto M>
+inline constexpr bool is_constant_method<ConstantMethod<M>> = true;
+
 /// A pointer to a const method of some class derived from LeafSystem.
 template <class F>
 struct MethodOf : std::false_type {};
@@ -41,7 +51,23 @@ void call(const F& f, const At& at, Next& next) {
   f(at, next);
 }
 
+/// `block.method(...)` as a callable.
+template <class Block, class M>
+auto bind(const Block& block, M method) {
+  return
+      [&block, method](auto&&... arguments) -> decltype((block.*method)(
+                                                std::forward<decltype(arguments)>(arguments)...)) {
+        return (block.*method)(std::forward<decltype(arguments)>(arguments)...);
+      };
+}
+
 }  // namespace detail
+
+/// `method<&Ball::ode>` in place of `&Ball::ode`: the same callback, called directly and not
+/// through a pointer, so that the compiler can inline it.
+template <auto M>
+  requires(detail::MethodOf<decltype(M)>::value)
+inline constexpr detail::ConstantMethod<M> method{};
 
 template <class Signature>
 class Callback;
@@ -63,9 +89,11 @@ class Callback<void(const At&, Out)> {
       static_assert(sizeof(F) <= sizeof(method_));
       std::memcpy(method_, &function, sizeof(F));
       call_ = &Callback::call_method<F>;
+    } else if constexpr (detail::is_constant_method<F>) {
+      call_ = &Callback::call_as<F>;
     } else {
       callable_ = std::make_shared<const F>(std::move(function));
-      call_ = &Callback::call_function<F>;
+      call_ = &Callback::call_as<F>;
     }
   }
 
@@ -74,27 +102,48 @@ class Callback<void(const At&, Out)> {
     call_(*this, leaf, at, out);
   }
 
+  /// The same call, for who knows that `self` was made from an F that is no pointer to a method.
+  template <class F>
+  [[gnu::always_inline]] static void call_as(const Callback& self, const LeafSystem& leaf,
+                                             const At& at, Passed out) {
+    if constexpr (detail::is_constant_method<F>)
+      call_constant(F{}, leaf, at, out);
+    else
+      detail::call<F>(*static_cast<const F*>(self.callable_.get()), at, out);
+  }
+
+  /// Steps that were compiled together with this right-hand side of `states` states; null for most.
+  /// See `inlined`.
+  void set_kernels(const detail::StepKernels* kernels, Index states) {
+    kernels_ = kernels, kernel_states_ = states;
+  }
+  const detail::StepKernels* kernels() const noexcept { return kernels_; }
+  Index kernel_states() const noexcept { return kernel_states_; }
+
  private:
+  template <auto M>
+  [[gnu::always_inline]] static void call_constant(detail::ConstantMethod<M>,
+                                                   const LeafSystem& leaf, const At& at,
+                                                   Passed out) {
+    using Class = typename detail::MethodOf<decltype(M)>::Class;
+    const auto bound = detail::bind(static_cast<const Class&>(leaf), M);
+    detail::call<decltype(bound)>(bound, at, out);
+  }
+
   template <class F>
   static void call_method(const Callback& self, const LeafSystem& leaf, const At& at, Passed out) {
     F method;
     std::memcpy(&method, self.method_, sizeof(F));
     const auto& block = static_cast<const typename detail::MethodOf<F>::Class&>(leaf);
-    const auto bound = [&block, method](auto&&... arguments)
-        -> decltype((block.*method)(std::forward<decltype(arguments)>(arguments)...)) {
-      return (block.*method)(std::forward<decltype(arguments)>(arguments)...);
-    };
+    const auto bound = detail::bind(block, method);
     detail::call<decltype(bound)>(bound, at, out);
-  }
-
-  template <class F>
-  static void call_function(const Callback& self, const LeafSystem&, const At& at, Passed out) {
-    detail::call<F>(*static_cast<const F*>(self.callable_.get()), at, out);
   }
 
   void (*call_)(const Callback&, const LeafSystem&, const At&, Passed) = nullptr;
   alignas(void*) unsigned char method_[2 * sizeof(void*)] = {};
   std::shared_ptr<const void> callable_;
+  const detail::StepKernels* kernels_ = nullptr;
+  Index kernel_states_ = 0;
 };
 
 /// Fills a vector: a derivative, an output, a guard. A function that returns a number fills one

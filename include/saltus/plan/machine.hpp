@@ -55,6 +55,14 @@ class Machine {
     (*lone_guard_->function)(*lone_guard_->system, seen_by(*lone_guard_, t), out);
   }
 
+  /// For steps compiled together with the right-hand side: it, where nothing else has to be
+  /// computed; else null. `compiled_at` shows what it sees but for t and x.
+  const VectorFunction* compiled() const noexcept {
+    return at_rest_ > 0 || carrier != nullptr ? nullptr : compiled_;
+  }
+  const At& compiled_at() { return seen_by(*lone_ode_, 0.0); }
+  const LeafSystem& compiled_leaf() const { return *lone_ode_->system; }
+
   /// The same two at exactly this state, whatever is carried.
   void flow(double t, const double* state, double* xdot);
   void guards_at(double t, const double* state, double* g);
@@ -171,6 +179,7 @@ class Machine {
   void ode_with_rest(const Call& ode, double t, double* xdot);
   void change_rest(Index i, int by);
   void guard(const GuardCall& call, double t, double* g);
+  bool reads_states(std::size_t leaf) const;
   std::vector<OutputCall> calls_of(const std::vector<int>& nodes);
 
   std::shared_ptr<const Plan> plan_;
@@ -184,6 +193,7 @@ class Machine {
   /// Where it is the only one, and nothing has to be computed for it, it is called without a walk.
   const Call* lone_ode_ = nullptr;
   const GuardCall* lone_guard_ = nullptr;
+  const VectorFunction* compiled_ = nullptr;
   std::vector<int> active_;
   std::vector<int> rests_;         // entries of x: how many holds they are under
   std::vector<Index> resting_of_;  // leaves: how many of their states are at rest

@@ -37,23 +37,28 @@ class Locator : private Narrower {
       std::copy_n(guards, high_.size(), high_.data());
     else
       look(to, end, interpolate, high_);
-    const bool skips = pieces > 1 && out_of_reach(from, to);
-    if (!skips) end_.swap(high_);
-    end_at_ = skips ? 0.0 : to;
-    for (int piece = skips ? pieces : 1; piece <= pieces; ++piece) {
+    if (pieces > 1 && out_of_reach(from, to)) {
+      ++skipped_;
+      shift_all(from, to);
+      earlier_at_ -= to;
+      return false;
+    }
+    skipped_ = 0;
+    end_.swap(high_);
+    end_at_ = to;
+    for (int piece = 1; piece <= pieces; ++piece) {
       const bool last = piece == pieces;
       const double next = last ? to : std::min(to, from + piece_length);
-      if (!last)
-        look(next, nullptr, interpolate, high_);
-      else if (!skips)
+      if (last)
         high_.swap(end_);
+      else
+        look(next, nullptr, interpolate, high_);
       if (calm(from, next))
         shift_all(from, next);
       else if (from < next && find_in(from, next, last ? end : nullptr, interpolate))
         return true;
       from = next;
     }
-    skipped_ = skips ? skipped_ + 1 : 0;
     earlier_at_ -= to;  // seen from the next step
     return false;
   }

@@ -140,20 +140,18 @@ class Narrower {
     return std::clamp(low + fraction * (high - low), low + resolution, high - resolution);
   }
 
-  /// The zero of the parabola through low, high and the third look; of the line through low and
-  /// high where there is none. The values are taken in units of their difference: their squares may
-  /// be out of range.
+  /// Where the parabola through low, high and the third look is zero, as a part of the interval;
+  /// the line through low and high where there is none. Values in units of their difference, places
+  /// in units of the interval: their squares may be out of range.
   double parabola(std::size_t k, double low, double high) const {
-    const double unit = 1.0 / (high_[k] - low_[k]);
-    const double a = low_[k] * unit, h = high - low, w = third_at_ - low;
-    const double slope = 1.0 / h, bend = ((third_[k] * unit - a) / w - slope) / (w - h);
-    const double linear = slope - bend * h;
-    const double t =
-        -0.5 * (linear + std::copysign(std::sqrt(linear * linear - 4.0 * bend * a), linear));
-    for (const double u : {a / t, t / bend}) {
-      if (u > 0.0 && u < h) return u / h;
-    }
-    return low_[k] / (low_[k] - high_[k]);
+    const double unit = 1.0 / (high_[k] - low_[k]), w = (third_at_ - low) / (high - low);
+    const double a = low_[k] * unit, third = third_[k] * unit - a;  // 0: a, 1: a + 1, w: a + third
+    const double square = third - w, linear = w * w - third;        // both times w (w - 1), as
+    const double constant = a * w * (w - 1.0);                      // is the third coefficient
+    const double root = std::sqrt(linear * linear - 4.0 * square * constant);
+    const double t = -0.5 * (linear + std::copysign(root, linear));
+    const double near = constant / t, far = t / square;
+    return near > 0.0 && near < 1.0 ? near : far > 0.0 && far < 1.0 ? far : -a;
   }
 
   std::vector<double> x_;

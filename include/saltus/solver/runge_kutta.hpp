@@ -7,11 +7,12 @@
 #include <string>
 #include <utility>
 
+#include "saltus/solver/explicit_step.hpp"
+#include "saltus/solver/kernels.hpp"
 #include "saltus/solver/one_step.hpp"
 #include "saltus/solver/step_size.hpp"
 #include "saltus/solver/step_solver.hpp"
 #include "saltus/solver/stiffness.hpp"
-#include "saltus/solver/tableau.hpp"
 
 namespace saltus {
 
@@ -31,9 +32,9 @@ class RungeKutta final : public StepSolver<RungeKutta<Method, N>, OneStepSolver>
     if (!dense_ready_) prepare_dense();
     const double s = u / length_, r = 1.0 - s;
     const double *x0 = x0_.data(), *c = dense_.data();
-    detail::for_lanes<N>(size(), [&](Index i) {
-      detail::store<N>(x + i, detail::load<N>(x0 + i) +
-                                  s * detail::nested<0, dense_terms, N>(c + i, size(), s, r));
+    detail::for_lanes<W, N>(size(), [&](Index i) {
+      detail::store<W>(x + i, detail::load<W>(x0 + i) +
+                                  s * detail::nested<0, dense_terms, W>(c + i, size(), s, r));
     });
   }
 
@@ -46,16 +47,13 @@ class RungeKutta final : public StepSolver<RungeKutta<Method, N>, OneStepSolver>
 
  private:
   using Base = StepSolver<RungeKutta<Method, N>, OneStepSolver>;
-  using Lane = detail::Lane<N>;
+  static constexpr int W = detail::called_width<N>;
+  using Lane = detail::Lane<W>;
   friend Base;
   using Base::machine_, Base::options_, Base::n_, Base::t0_, Base::t1_, Base::length_, Base::x1_,
       Base::statistics_;
   static constexpr std::size_t last = Method::stages - 1;
-  static constexpr std::size_t estimates = Method::e.size();
   static constexpr std::size_t dense_terms = 3 + Method::d.size();
-  /// Whether the error estimate reads f(t1, x1); if not, a rejected step is spared that call.
-  static constexpr bool estimate_reads_end =
-      std::ranges::any_of(Method::e, [](const auto& row) { return row[last] != 0.0; });
   static constexpr double infinite = std::numeric_limits<double>::infinity();
 
   static StepController controller() {
@@ -116,99 +114,59 @@ class RungeKutta final : public StepSolver<RungeKutta<Method, N>, OneStepSolver>
 
   /// All stages of a step to t1; returns the scaled error, infinite if anything is not finite.
   double try_step(double h, double t1) {
-    run_stages<1, last>(h);
-    combine<last>(h, x1_.data());
+    const detail::Attempt attempt{t0_, t1, h, options_.rtol, options_.atol};
     t1_ = t1;
-    double error = 0.0;
-    if constexpr (!estimate_reads_end) {
-      error = scaled_error(h);
-      if (error > 1.0) return error;
-    }
-    machine_->derivative(t1, x1_.data(), stage(last));
-    if constexpr (estimate_reads_end)
-      error = scaled_error(h);
-    else if (!view(stage(last)).allFinite())
-      return infinite;
-    if (watches_stiffness_ && error <= 1.0)  // scratch_: what the last stage but one read
+    const double error = compiled() != nullptr ? compiled()->attempt(caller(), attempt, memory())
+                                               : arithmetic().attempt(attempt, rate());
+    if (watches_stiffness_ && error <= 1.0)
       stiff_.look(h, view(x1_.data()), view(scratch_.data()), view(stage(last - 1)), view(stage(0)),
                   view(stage(last)));
     return error;
   }
 
-  /// Stages First to End - 1.
-  template <std::size_t First, std::size_t End>
-  void run_stages(double h) {
-    [&]<std::size_t... I>(std::index_sequence<I...>) {
-      (run_stage<First + I>(h), ...);
-    }(std::make_index_sequence<End - First>{});
+  /// The steps that were compiled together with the right-hand side, if there are any.
+  const detail::MethodKernels* compiled() const {
+    const VectorFunction* function = machine_->compiled();
+    return function == nullptr ? nullptr : &function->kernels()->template of<Method>();
   }
+  detail::Caller caller() {
+    return {machine_->compiled(), &machine_->compiled_leaf(), &machine_->compiled_at(),
+            &machine_->rhs_calls};
+  }
+  detail::StepMemory memory() { return {x0_.data(), x1_.data(), scratch_.data(), k_.data()}; }
 
-  template <std::size_t I>
-  void run_stage(double h) {
-    combine<I>(h, scratch_.data());
-    machine_->derivative(t0_ + Method::c[I] * h, scratch_.data(), stage(I));
+  detail::ExplicitStep<Method, N> arithmetic() {
+    return {n_, x0_.data(), x1_.data(), scratch_.data(), k_.data()};
   }
-
-  /// x0 + h sum_j a[I][j] k_j
-  template <std::size_t I>
-  void combine(double h, double* out) const {
-    const double *k = k_.data(), *x0 = x0_.data();
-    constexpr auto row = [] { return Method::a[I]; };
-    detail::for_lanes<N>(size(), [&](Index i) {
-      Lane sum = detail::zero<N>();
-      if constexpr (detail::cancels(row()))
-        sum = Method::c[I] * detail::load<N>(k + i) +
-              detail::dot_of_differences<row, I, N>(k + i, size());
-      else
-        sum = detail::dot<row, I, N>(k + i, size());
-      detail::store<N>(out + i, detail::load<N>(x0 + i) + h * sum);
-    });
-  }
-
-  /// The method's error from the mean squares of estimate / (atol + rtol max(|x0|, |x1|)).
-  double scaled_error(double h) const {
-    if (size() == 0) return 0.0;
-    const double *k = k_.data(), *x0 = x0_.data(), *x1 = x1_.data();
-    const double rtol = options_.rtol, atol = options_.atol;
-    std::array<double, estimates> squares{};
-    detail::for_lanes<N>(size(), [&](Index i) {
-      const Lane largest = detail::larger(detail::load<N>(x0 + i), detail::load<N>(x1 + i));
-      add_squares(h, atol + rtol * largest, k + i, squares, std::make_index_sequence<estimates>{});
-    });
-    for (double& square : squares) square /= static_cast<double>(size());
-    const double error = Method::error(squares);
-    return std::isfinite(error) ? error : infinite;
-  }
-  template <std::size_t... M>
-  void add_squares(double h, const Lane& tolerance, const double* k,
-                   std::array<double, estimates>& squares, std::index_sequence<M...>) const {
-    ((squares[M] += detail::sum_of_squares(Lane(
-          h * detail::dot<[] { return Method::e[M]; }, Method::stages, N>(k, size()) / tolerance))),
-     ...);
+  auto rate() {
+    return [this](double t, const double* x, double* xdot) { machine_->derivative(t, x, xdot); };
   }
 
   void prepare_dense() {
     const double *k = k_.data(), *x0 = x0_.data(), *x1 = x1_.data();
     const double h = length_;
-    run_stages<Method::stages, Method::rows>(h);
+    if (Method::rows > Method::stages && compiled() != nullptr)
+      compiled()->dense(caller(), t0_, h, memory());
+    else
+      arithmetic().template stages<Method::stages, Method::rows>(t0_, h, rate());
     const Index n = size();
-    detail::for_lanes<N>(n, [&](Index i) {
+    detail::for_lanes<W, N>(n, [&](Index i) {
       double* c = dense_.data() + i;
-      const Lane rise = detail::load<N>(x1 + i) - detail::load<N>(x0 + i),
-                 bend = h * detail::load<N>(k + i) - rise,
-                 end = detail::load<N>(k + i + static_cast<Index>(last) * n);
-      detail::store<N>(c, rise);
-      detail::store<N>(c + n, bend);
-      detail::store<N>(c + 2 * n, rise - h * end - bend);
+      const Lane rise = detail::load<W>(x1 + i) - detail::load<W>(x0 + i),
+                 bend = h * detail::load<W>(k + i) - rise,
+                 end = detail::load<W>(k + i + static_cast<Index>(last) * n);
+      detail::store<W>(c, rise);
+      detail::store<W>(c + n, bend);
+      detail::store<W>(c + 2 * n, rise - h * end - bend);
       add_dense(h, k + i, c + 3 * n, std::make_index_sequence<Method::d.size()>{});
     });
     dense_ready_ = true;
   }
   template <std::size_t... M>
   void add_dense(double h, const double* k, double* c, std::index_sequence<M...>) const {
-    (detail::store<N>(
+    (detail::store<W>(
          c + static_cast<Index>(M) * size(),
-         h * detail::dot_of_differences<[] { return Method::d[M]; }, Method::rows, N>(k, size())),
+         h * detail::dot_of_differences<[] { return Method::d[M]; }, Method::rows, W>(k, size())),
      ...);
   }
 

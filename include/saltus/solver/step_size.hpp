@@ -71,8 +71,12 @@ inline double first_step(Machine& machine, double t, const Eigen::VectorXd& x, c
   for (Index i = 0; i < n; ++i) scratch[i] = x[i] + h0 * f[i];
   machine.derivative(t + h0, scratch.data(), f1);
   const double d2 = norm([&](Index i) { return f1[i] - f[i]; }) / h0;
-  const double largest = std::max(d1 * unit, d2 * unit * unit);
-  const double h1 = largest <= 1e-15 ? unit : unit * std::pow(0.01 / largest, 1.0 / order);
+  // A component at zero is measured by atol alone and makes d1 look large: where f' says that x
+  // changes more slowly than that, the clock is that of f'.
+  const double whole = std::max(d0, 1.0), bend = d2 * unit * unit;
+  const double clock = bend < whole ? std::sqrt(whole / d2) : unit;
+  const double largest = std::max(d1 * unit, bend);
+  const double h1 = largest <= 1e-15 ? unit : clock * std::pow(0.01 / largest, 1.0 / order);
   // No shorter than time can tell: 100 roundings, as CVODE's first step.
   const double shortest =
       100.0 * std::numeric_limits<double>::epsilon() * std::max(std::abs(t), limit);

@@ -54,7 +54,9 @@ struct GuardSlot {
     if (leaving) return {-std::nextafter(band, never), std::nextafter(band, never)};
     if (direction == Direction::edge_detection)
       return {std::nextafter(base, -never), std::nextafter(base, never)};
-    const double reach = waits() ? std::nextafter(band, never) : 0.0;
+    const double reach = band > 0.0 ? std::nextafter(band, never)
+                         : fresh    ? std::numeric_limits<double>::denorm_min()
+                                    : 0.0;
     const bool falls = side > 0 && fires(direction, 1, -1),
                rises = side < 0 && fires(direction, -1, 1);
     return {falls ? -reach : -never, rises ? reach : never};
