@@ -50,6 +50,7 @@ class AutoSolver final : public Solver {
 
   void interpolate(double t, double* x) override { now().interpolate(t, x); }
   int degree() const override { return now().degree(); }
+  double joint() override { return now().joint(); }
   const std::vector<Firing>& roots() const override { return watch_->fired; }
   double time() const override { return now().time(); }
   const Eigen::VectorXd& state() const override { return now().state(); }

@@ -7,11 +7,11 @@
 #include <string>
 #include <utility>
 
+#include "saltus/solver/halves.hpp"
 #include "saltus/solver/one_step.hpp"
 #include "saltus/solver/step_size.hpp"
 #include "saltus/solver/step_solver.hpp"
 #include "saltus/solver/stiffness.hpp"
-#include "saltus/solver/tableau.hpp"
 
 namespace saltus {
 
@@ -25,20 +25,26 @@ class RungeKutta final : public StepSolver<RungeKutta<Method, N>, OneStepSolver>
         scratch_(n_),
         k_(n_),
         dense_(n_),
+        halves_(n_),
         stiff_(Method::stability, static_cast<double>(last), options) {}
 
   void inside_step(double u, double* x) {
     if (!dense_ready_) prepare_dense();
-    const double s = u / length_, r = 1.0 - s;
-    const double *x0 = x0_.data(), *c = dense_.data();
-    detail::for_lanes<N>(size(), [&](Index i) {
-      detail::store<N>(x + i, detail::load<N>(x0 + i) +
-                                  s * detail::nested<0, dense_terms, N>(c + i, size(), s, r));
-    });
+    if constexpr (checks_dense) {
+      if (halves_.used) return halves_.read(x0_.data(), u / length_, x);
+    }
+    dense_.read(x0_.data(), u / length_, x);
   }
 
   std::string method() const override { return Method::name; }
-  int degree() const override { return static_cast<int>(dense_terms); }
+  int degree() const override { return static_cast<int>(StepPolynomial<Method, N>::terms); }
+  double joint() override {
+    if constexpr (checks_dense) {
+      if (!dense_ready_) prepare_dense();
+      if (halves_.used) return t0_ + 0.5 * length_;
+    }
+    return -infinite;
+  }
 
   void watch_stiffness() override { watches_stiffness_ = true; }
   bool looks_stiff() const override { return stiff_.detected(); }
@@ -52,7 +58,7 @@ class RungeKutta final : public StepSolver<RungeKutta<Method, N>, OneStepSolver>
       Base::statistics_;
   static constexpr std::size_t last = Method::stages - 1;
   static constexpr std::size_t estimates = Method::e.size();
-  static constexpr std::size_t dense_terms = 3 + Method::d.size();
+  static constexpr bool checks_dense = ChecksDense<Method>;
   /// Whether the error estimate reads f(t1, x1); if not, a rejected step is spared that call.
   static constexpr bool estimate_reads_end =
       std::ranges::any_of(Method::e, [](const auto& row) { return row[last] != 0.0; });
@@ -116,8 +122,8 @@ class RungeKutta final : public StepSolver<RungeKutta<Method, N>, OneStepSolver>
 
   /// All stages of a step to t1; returns the scaled error, infinite if anything is not finite.
   double try_step(double h, double t1) {
-    run_stages<1, last>(h);
-    combine<last>(h, x1_.data());
+    run_stages<1, last>(t0_, x0_.data(), h);
+    combine<last>(x0_.data(), h, x1_.data());
     t1_ = t1;
     double error = 0.0;
     if constexpr (!estimate_reads_end) {
@@ -137,22 +143,22 @@ class RungeKutta final : public StepSolver<RungeKutta<Method, N>, OneStepSolver>
 
   /// Stages First to End - 1.
   template <std::size_t First, std::size_t End>
-  void run_stages(double h) {
+  void run_stages(double t, const double* x, double h) {
     [&]<std::size_t... I>(std::index_sequence<I...>) {
-      (run_stage<First + I>(h), ...);
+      (run_stage<First + I>(t, x, h), ...);
     }(std::make_index_sequence<End - First>{});
   }
 
   template <std::size_t I>
-  void run_stage(double h) {
-    combine<I>(h, scratch_.data());
-    machine_->derivative(t0_ + Method::c[I] * h, scratch_.data(), stage(I));
+  void run_stage(double t, const double* x, double h) {
+    combine<I>(x, h, scratch_.data());
+    machine_->derivative(t + Method::c[I] * h, scratch_.data(), stage(I));
   }
 
   /// x0 + h sum_j a[I][j] k_j
   template <std::size_t I>
-  void combine(double h, double* out) const {
-    const double *k = k_.data(), *x0 = x0_.data();
+  void combine(const double* x0, double h, double* out) const {
+    const double* k = k_.data();
     constexpr auto row = [] { return Method::a[I]; };
     detail::for_lanes<N>(size(), [&](Index i) {
       Lane sum = detail::zero<N>();
@@ -188,28 +194,63 @@ class RungeKutta final : public StepSolver<RungeKutta<Method, N>, OneStepSolver>
   }
 
   void prepare_dense() {
-    const double *k = k_.data(), *x0 = x0_.data(), *x1 = x1_.data();
-    const double h = length_;
-    run_stages<Method::stages, Method::rows>(h);
-    const Index n = size();
-    detail::for_lanes<N>(n, [&](Index i) {
-      double* c = dense_.data() + i;
-      const Lane rise = detail::load<N>(x1 + i) - detail::load<N>(x0 + i),
-                 bend = h * detail::load<N>(k + i) - rise,
-                 end = detail::load<N>(k + i + static_cast<Index>(last) * n);
-      detail::store<N>(c, rise);
-      detail::store<N>(c + n, bend);
-      detail::store<N>(c + 2 * n, rise - h * end - bend);
-      add_dense(h, k + i, c + 3 * n, std::make_index_sequence<Method::d.size()>{});
-    });
+    run_stages<Method::stages, Method::rows>(t0_, x0_.data(), length_);
+    dense_.set(length_, x0_.data(), x1_.data(), k_.data());
     dense_ready_ = true;
+    if constexpr (checks_dense) halves_.used = dense_is_off() && halve();
   }
-  template <std::size_t... M>
-  void add_dense(double h, const double* k, double* c, std::index_sequence<M...>) const {
-    (detail::store<N>(
-         c + static_cast<Index>(M) * size(),
-         h * detail::dot_of_differences<[] { return Method::d[M]; }, Method::rows, N>(k, size())),
-     ...);
+
+  /// Root mean square of value(i), a lane each, in tolerances.
+  template <class Value>
+  double in_tolerances(Value value) const {
+    double sum = 0.0;
+    detail::for_lanes<N>(size(), [&](Index i) {
+      const Lane largest =
+          detail::larger(detail::load<N>(x0_.data() + i), detail::load<N>(x1_.data() + i));
+      sum += detail::sum_of_squares(Lane(value(i) / (options_.atol + options_.rtol * largest)));
+    });
+    return std::sqrt(sum / static_cast<double>(size()));
+  }
+
+  /// Whether the dense output misses by more than `room` tolerances: seen without a call where its
+  /// last term is small, else by its defect where that is largest.
+  bool dense_is_off()
+    requires checks_dense
+  {
+    constexpr double room = 4.0;  // of the ten that an event may be off
+    constexpr double at = Method::defect_at;
+    const auto term = [&](Index i) { return dense_.last_term(i); };
+    if (Method::last_term_share * in_tolerances(term) <= room) return false;
+    dense_.read(x0_.data(), at, scratch_.data());
+    double* f = halves_.slope.data();
+    machine_->derivative(t0_ + at * length_, scratch_.data(), f);
+    const auto defect = [&](Index i) -> Lane {
+      return dense_.template slope<at>(i) - length_ * detail::load<N>(f + i);
+    };
+    return !(Method::defect_share * in_tolerances(defect) <= room);
+  }
+
+  /// Takes the step again in two halves, to be looked into; the step itself stays what it was.
+  /// False if something is not finite there.
+  bool halve()
+    requires checks_dense
+  {
+    const double h = 0.5 * length_;
+    std::copy_n(stage(last), size(), halves_.slope.data());
+    take_half(t0_, x0_.data(), h, halves_.middle.data(), halves_.first);
+    std::copy_n(stage(last), size(), stage(0));
+    take_half(t0_ + h, halves_.middle.data(), h, halves_.shift.data(), halves_.second);
+    std::copy_n(halves_.slope.data(), size(), stage(last));
+    halves_.shift = x1_ - halves_.shift;
+    return halves_.finite();
+  }
+  void take_half(double t, const double* from, double h, double* to,
+                 StepPolynomial<Method, N>& dense) {
+    run_stages<1, last>(t, from, h);
+    combine<last>(from, h, to);
+    machine_->derivative(t + h, to, stage(last));
+    run_stages<Method::stages, Method::rows>(t, from, h);
+    dense.set(h, from, to, k_.data());
   }
 
   void require_finite_start() {
@@ -230,8 +271,9 @@ class RungeKutta final : public StepSolver<RungeKutta<Method, N>, OneStepSolver>
   double horizon_ = infinite;
   Eigen::VectorXd x0_, scratch_;
   detail::Columns<N, Method::rows> k_;
-  detail::Columns<N, dense_terms> dense_;
+  StepPolynomial<Method, N> dense_;
   bool dense_ready_ = false;
+  std::conditional_t<checks_dense, Halves<Method, N>, NoHalves> halves_;
   StepController controller_ = controller();
   bool watches_stiffness_ = false;
   StiffnessTest stiff_;
