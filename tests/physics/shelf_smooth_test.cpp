@@ -103,8 +103,8 @@ TEST_CASE("at the edge of its stability dop853 finds the events there are, and n
   const Results results = simulate(scene);
   const Achieved a = achieved(scene, results);
   CHECK(a.event_mismatch == 0);
-  // Ten tolerances of a state, u' = 0.5 /s at the least where it crosses its level.
-  CHECK(a.event_error <= 10.0 * (rtol + scene.options.atol) / 0.5);
+  // Ten tolerances of a state; u moves at 1.4 /s and more where it crosses its level.
+  CHECK(a.event_error <= 10.0 * (rtol + scene.options.atol) / 1.4);
 }
 
 TEST_CASE("a rod of any number of nodes meets its closed form", "[physics][models]") {
