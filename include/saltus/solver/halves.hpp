@@ -26,7 +26,7 @@ struct Halves {
 
   /// The state at the part s of the whole step. The second half ends beside x1 by what the whole
   /// step is off: that is made up for as the square of time.
-  void read(const double* x0, double s, double* x) const {
+  [[gnu::noinline]] void read(const double* x0, double s, double* x) const {
     if (s < 0.5)
       first.read(x0, 2.0 * s, x);
     else

@@ -143,21 +143,22 @@ class RungeKutta final : public StepSolver<RungeKutta<Method, N>, OneStepSolver>
 
   /// Stages First to End - 1.
   template <std::size_t First, std::size_t End>
-  void run_stages(double t, const double* x, double h) {
-    [&]<std::size_t... I>(std::index_sequence<I...>) {
-      (run_stage<First + I>(t, x, h), ...);
-    }(std::make_index_sequence<End - First>{});
+  [[gnu::always_inline]] void run_stages(double t, const double* x, double h) {
+    if constexpr (First < End) {
+      run_stage<First>(t, x, h);
+      run_stages<First + 1, End>(t, x, h);
+    }
   }
 
   template <std::size_t I>
-  void run_stage(double t, const double* x, double h) {
+  [[gnu::always_inline]] void run_stage(double t, const double* x, double h) {
     combine<I>(x, h, scratch_.data());
     machine_->derivative(t + Method::c[I] * h, scratch_.data(), stage(I));
   }
 
   /// x0 + h sum_j a[I][j] k_j
   template <std::size_t I>
-  void combine(const double* x0, double h, double* out) const {
+  [[gnu::always_inline]] void combine(const double* x0, double h, double* out) const {
     const double* k = k_.data();
     constexpr auto row = [] { return Method::a[I]; };
     detail::for_lanes<N>(size(), [&](Index i) {
@@ -214,7 +215,7 @@ class RungeKutta final : public StepSolver<RungeKutta<Method, N>, OneStepSolver>
 
   /// Whether the dense output misses by more than `room` tolerances: seen without a call where its
   /// last term is small, else by its defect where that is largest.
-  bool dense_is_off()
+  [[gnu::noinline]] bool dense_is_off()
     requires checks_dense
   {
     constexpr double room = 4.0;  // of the ten that an event may be off
@@ -244,8 +245,8 @@ class RungeKutta final : public StepSolver<RungeKutta<Method, N>, OneStepSolver>
     halves_.shift = x1_ - halves_.shift;
     return halves_.finite();
   }
-  void take_half(double t, const double* from, double h, double* to,
-                 StepPolynomial<Method, N>& dense) {
+  [[gnu::noinline]] void take_half(double t, const double* from, double h, double* to,
+                                   StepPolynomial<Method, N>& dense) {
     run_stages<1, last>(t, from, h);
     combine<last>(from, h, to);
     machine_->derivative(t + h, to, stage(last));
