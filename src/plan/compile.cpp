@@ -1,6 +1,9 @@
 // The passes of compile(), in order.
 #include "saltus/plan/compile.hpp"
 
+#include <string_view>
+#include <unordered_set>
+
 #include "saltus/plan/needs.hpp"
 #include "saltus/plan/order.hpp"
 
@@ -11,53 +14,91 @@ namespace {
 using namespace detail;
 
 void add_taps(Plan& plan, const RecordedSignals& signals) {
+  if (signals.empty()) return;
+  const LeafNumbers numbers(plan);
+  std::unordered_set<std::string_view> names;
   for (const auto& [name, port] : signals) {
     if (port.system == nullptr)
       throw ModelError(text("recorded signal '", name, "' names no output port"));
     const LeafPort source = port.system->output_source(port.index);
-    const auto leaf = std::ranges::find(plan.leaves, source.leaf, &PlanLeaf::system);
-    if (leaf == plan.leaves.end()) {
+    const auto leaf = numbers.find(source.leaf);
+    if (!leaf) {
       throw ModelError(text("recorded signal '", name, "' belongs to block '", port.system->name(),
                             "', which is not part of this system"));
     }
-    const bool twice =
-        std::ranges::any_of(plan.taps, [&](const Tap& tap) { return tap.name == name; });
-    if (twice) throw ModelError(text("two recorded signals are called '", name, "'"));
-    plan.taps.push_back({name, leaf->outputs[static_cast<std::size_t>(source.index)]});
+    if (!names.insert(name).second)
+      throw ModelError(text("two recorded signals are called '", name, "'"));
+    plan.taps.push_back({name, plan.leaves[*leaf].outputs[static_cast<std::size_t>(source.index)]});
   }
 }
 
-/// The blocks whose continuous state shows in `nodes`, as it is or through feedthrough.
-std::vector<int> leaves_behind(const Plan& plan, const std::vector<int>& nodes) {
-  Marks reached(plan.nodes.size());
-  spread(plan, nodes, reached, [](const Node& node) { return node.rate != Rate::continuous; });
-  std::vector<int> leaves;
-  for (std::size_t i = 0; i < reached.size(); ++i) {
-    const int leaf = plan.nodes[i].leaf;
-    if (reached[i] && plan.nodes[i].rate == Rate::continuous &&
-        plan.leaves[static_cast<std::size_t>(leaf)].nx > 0) {
-      leaves.push_back(leaf);
+/// Searches from nodes through what they need, one after the other in one memory: what a search
+/// costs is what it finds.
+class Search {
+ public:
+  explicit Search(const Plan& plan)
+      : plan_(plan), seen_(plan.nodes.size(), 0), met_(plan.leaves.size(), 0) {}
+
+  /// The located nodes behind a node.
+  std::vector<int> located(int node) {
+    begin({node});
+    std::vector<int> found;
+    while (!open_.empty()) {
+      const int i = next();
+      if (plan_.node(i).located) found.push_back(i);
+      push(plan_.node(i).needs);
+    }
+    std::ranges::sort(found);
+    return found;
+  }
+
+  /// The blocks whose continuous state moves a guard of block `own` that reads `nodes`, at once or
+  /// through the derivative of one that does; as it is or through feedthrough.
+  std::vector<int> moving(int own, const std::vector<int>& nodes) {
+    begin(nodes);
+    leaves_.clear();
+    meet(own);
+    while (!open_.empty()) {
+      const Node& node = plan_.node(next());
+      if (node.rate != Rate::continuous) continue;
+      push(node.needs);
+      meet(node.leaf);
+    }
+    return leaves_;
+  }
+
+ private:
+  void begin(const std::vector<int>& nodes) {
+    ++search_;
+    push(nodes);
+  }
+  int next() {
+    const int i = open_.back();
+    open_.pop_back();
+    return i;
+  }
+  void push(const std::vector<int>& nodes) {
+    for (const int i : nodes) {
+      if (std::exchange(seen_[static_cast<std::size_t>(i)], search_) != search_) open_.push_back(i);
     }
   }
-  return leaves;
-}
-
-/// The blocks whose continuous state moves a guard, at once or through the derivative of one that
-/// does.
-std::vector<int> moving_leaves(const Plan& plan, int own, const std::vector<int>& nodes) {
-  std::vector<int> leaves = leaves_behind(plan, nodes);
-  if (plan.leaves[static_cast<std::size_t>(own)].nx > 0) leaves.push_back(own);
-  for (std::size_t i = 0; i < leaves.size(); ++i) {
-    const PlanLeaf& leaf = plan.leaves[static_cast<std::size_t>(leaves[i])];
-    for (int more : leaves_behind(plan, read_inputs(leaf.declared().continuous.inputs, leaf))) {
-      if (std::ranges::find(leaves, more) == leaves.end()) leaves.push_back(more);
-    }
+  /// A leaf with a continuous state moves; what its derivative reads moves it.
+  void meet(int number) {
+    const PlanLeaf& leaf = plan_.leaves[static_cast<std::size_t>(number)];
+    if (leaf.nx == 0 || std::exchange(met_[static_cast<std::size_t>(number)], search_) == search_)
+      return;
+    leaves_.push_back(number);
+    push(read_inputs(leaf.declared().continuous.inputs, leaf));
   }
-  return leaves;
-}
 
-void add_guard(Plan& plan, GuardGroup group, const std::vector<int>& reads) {
-  group.leaves = moving_leaves(plan, group.leaf, reads);
+  const Plan& plan_;
+  int search_ = 0;
+  std::vector<int> seen_, met_;  // nodes and leaves: in which search
+  std::vector<int> open_, leaves_;
+};
+
+void add_guard(Plan& plan, Search& search, GuardGroup group, const std::vector<int>& reads) {
+  group.leaves = search.moving(group.leaf, reads);
   group.slot = plan.guard_slots;
   plan.guard_slots += group.size;
   plan.guards.push_back(std::move(group));
@@ -65,13 +106,14 @@ void add_guard(Plan& plan, GuardGroup group, const std::vector<int>& reads) {
 
 /// Zero crossings first, in declaration order, then relations and opaque booleans.
 void add_guards(Plan& plan) {
+  Search search(plan);
   for (std::size_t l = 0; l < plan.leaves.size(); ++l) {
     const auto& crossings = plan.leaves[l].declared().zero_crossings;
     for (std::size_t i = 0; i < crossings.size(); ++i) {
       const ZeroCrossing& crossing = crossings[i];
       if (crossing.direction == Direction::none) continue;  // never fires: never computed
       const bool monitor = !crossing.reset_map && !crossing.end_mode && !crossing.terminal;
-      add_guard(plan,
+      add_guard(plan, search,
                 {.kind = GuardGroup::Kind::crossing,
                  .leaf = static_cast<int>(l),
                  .index = static_cast<int>(i),
@@ -85,17 +127,18 @@ void add_guards(Plan& plan) {
   for (std::size_t i = 0; i < plan.nodes.size(); ++i) {
     const Node& node = plan.nodes[i];
     if (!node.located) continue;
-    add_guard(plan,
+    add_guard(plan, search,
               {.kind = node.relation ? GuardGroup::Kind::relation : GuardGroup::Kind::opaque,
                .leaf = node.leaf,
                .index = static_cast<int>(i),
                .size = node.shape.size,
-               .name = node.name},
+               .name = plan.name_of(node)},
               node.needs);
   }
 }
 
 void add_edges(Plan& plan) {
+  Search search(plan);
   for (std::size_t l = 0; l < plan.leaves.size(); ++l) {
     const PlanLeaf& leaf = plan.leaves[l];
     const auto& resets = leaf.declared().edge_resets;
@@ -109,14 +152,10 @@ void add_edges(Plan& plan) {
         throw ModelError(
             text("input '", leaf.declared().inputs[static_cast<std::size_t>(resets[i].input)].name,
                  "' of block '", leaf.path, "' expects one boolean, found ", trigger.shape.size,
-                 " continuous value(s) from output '", trigger.name,
+                 " continuous value(s) from output '", plan.name_of(trigger),
                  "'; put a Comparator between them"));
       }
-      Marks reached(plan.nodes.size());
-      spread(plan, {edge.node}, reached, [](const Node&) { return false; });
-      for (std::size_t k = 0; k < reached.size(); ++k) {
-        if (reached[k] && plan.nodes[k].located) edge.relations.push_back(static_cast<int>(k));
-      }
+      edge.relations = search.located(edge.node);
       plan.edges.push_back(std::move(edge));
     }
   }
@@ -138,12 +177,13 @@ void add_schedule(Plan& plan) {
 std::shared_ptr<const Plan> compile(const System& system, const RecordedSignals& recorded) {
   Plan plan = flatten(system);
   add_taps(plan, recorded);
-  find_located(plan);
+  const Roots roots = find_roots(plan);
+  find_located(plan, roots);
   release_held_relations(plan);
   add_order(plan);
   lay_out(plan);
   find_rates(plan);
-  find_slices(plan);
+  find_slices(plan, roots);
   add_guards(plan);
   add_edges(plan);
   add_schedule(plan);

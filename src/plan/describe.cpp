@@ -9,7 +9,7 @@ void describe_list(std::string& out, const Plan& plan, std::string_view title,
                    const std::vector<int>& nodes) {
   out += text("  ", title, ": ", nodes.size());
   for (std::size_t i = 0; i < nodes.size() && i < 8; ++i)
-    out += text(i == 0 ? " (" : ", ", plan.node(nodes[i]).name);
+    out += text(i == 0 ? " (" : ", ", plan.name_of(plan.node(nodes[i])));
   if (!nodes.empty()) out += nodes.size() > 8 ? ", ...)" : ")";
   out += "\n";
 }

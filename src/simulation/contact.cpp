@@ -20,30 +20,37 @@ Contacts::Contacts(Machine& machine, const SimulatorOptions& options)
     v->setZero(machine.plan().nx);
   z_.setZero(machine.plan().nz);
   g_.setOnes(machine.plan().guard_slots);
+  of_slot_.resize(static_cast<std::size_t>(machine.plan().guard_slots));
+  present_.reserve(of_slot_.size());
 }
 
 void Contacts::clear() {
-  list_.clear();
+  present_.clear();
   engage();
 }
 
 SurfaceContact* Contacts::on(int slot) {
-  const auto found = std::ranges::find(list_, slot, &SurfaceContact::slot);
-  return found == list_.end() ? nullptr : &*found;
+  if (std::ranges::find(present_, slot) == present_.end()) return nullptr;
+  return &of_slot_[static_cast<std::size_t>(slot)];
 }
 
-SurfaceContact& Contacts::add(SurfaceContact contact) {
-  remove(contact.slot);
-  return list_.emplace_back(std::move(contact));
+SurfaceContact& Contacts::add(int slot) {
+  remove(slot);
+  present_.push_back(slot);
+  SurfaceContact& contact = of_slot_[static_cast<std::size_t>(slot)];
+  SurfaceContact fresh{.slot = slot};
+  fresh.members.swap(contact.members), fresh.states.swap(contact.states);
+  fresh.members.clear(), fresh.states.clear();
+  return contact = std::move(fresh);
 }
 
 void Contacts::remove(int slot) {
-  std::erase_if(list_, [slot](const SurfaceContact& c) { return c.slot == slot; });
+  std::erase(present_, slot);
   engage();
 }
 
 void Contacts::engage() {
-  machine_->carrier = std::ranges::any_of(list_, &SurfaceContact::carried) ? this : nullptr;
+  machine_->carrier = std::ranges::any_of(all(), &SurfaceContact::carried) ? this : nullptr;
 }
 
 /// One application of all reset maps, each from the same state; only what rests is kept of it.
@@ -159,15 +166,15 @@ bool Contacts::moves(const SurfaceContact& contact, double t, const double* x, d
 }
 
 void Contacts::carry(double t, double* x) {
-  for (int sweep = 0; sweep < (list_.size() > 1 ? 2 : 1); ++sweep) {
-    for (const SurfaceContact& contact : list_) {
+  for (int sweep = 0; sweep < (present_.size() > 1 ? 2 : 1); ++sweep) {
+    for (const SurfaceContact& contact : all()) {
       if (contact.carried) settle(contact, t, x);
     }
   }
 }
 
 void Contacts::rates(double t, const double* x, double* xdot) {
-  for (const SurfaceContact& contact : list_) {
+  for (const SurfaceContact& contact : all()) {
     if (!contact.carried) continue;
     const double d = contact.look_ahead;
     stood_ = VectorView(x, stood_.size());
@@ -178,7 +185,7 @@ void Contacts::rates(double t, const double* x, double* xdot) {
 }
 
 void Contacts::lift(double t, const double* x, double* g) {
-  for (const SurfaceContact& contact : list_) {
+  for (const SurfaceContact& contact : all()) {
     if (contact.carried) g[contact.slot] = lift(contact, t, x);
   }
 }

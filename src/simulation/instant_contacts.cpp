@@ -19,12 +19,12 @@ SurfaceContact* Instant::contact_of_crossing(std::size_t k) {
   const GuardGroup& group = group_of(k);
   const Rest& rest = slot_rests_[k];
   if (rest.states.empty()) return nullptr;
-  SurfaceContact made{.slot = static_cast<int>(k),
-                      .pressed = firing_side(group.direction),
-                      .states = {rest.states.begin(), rest.states.end()}};
+  SurfaceContact& made = contacts_.add(static_cast<int>(k));
+  made.pressed = firing_side(group.direction);
+  made.states.assign(rest.states.begin(), rest.states.end());
   if (const ResetMap& map = crossing_of(group).reset_map)
     made.members.push_back({rest.leaf, &map, rest.entry});
-  return &contacts_.add(std::move(made));
+  return &made;
 }
 
 /// Made anew when another block has come to rest on it.
@@ -35,21 +35,23 @@ SurfaceContact* Instant::contact_of_relation(std::size_t k) {
     return edge_rests_[e].monitor.holding && relations.size() == 1 &&
            relations.front() == group.index;
   };
-  std::size_t count = 0;
-  for (std::size_t e = 0; e < plan().edges.size(); ++e) count += rests_here(e);
+  std::size_t count = 0, states = 0;
+  for (std::size_t e = 0; e < plan().edges.size(); ++e)
+    if (rests_here(e)) ++count, states += edge_rests_[e].states.size();
   SurfaceContact* known = contacts_.on(static_cast<int>(k));
   if (known && known->members.size() == count) return known;
-  SurfaceContact made{.slot = static_cast<int>(k),
-                      .pressed = truth_of(k) != 0.0 ? 1 : -1,
-                      .opaque = group.kind == GuardGroup::Kind::opaque};
+  if (states == 0) return nullptr;
+  SurfaceContact& made = contacts_.add(static_cast<int>(k));
+  made.pressed = truth_of(k) != 0.0 ? 1 : -1;
+  made.opaque = group.kind == GuardGroup::Kind::opaque;
   for (std::size_t e = 0; e < plan().edges.size(); ++e) {
     if (!rests_here(e)) continue;
     const EdgeWatch& edge = plan().edges[e];
-    const std::span<const Index> states = edge_rests_[e].states;
+    const std::span<const Index> rest = edge_rests_[e].states;
     made.members.push_back({edge.leaf, &reset_of(edge).reset_map, 0});
-    made.states.insert(made.states.end(), states.begin(), states.end());
+    made.states.insert(made.states.end(), rest.begin(), rest.end());
   }
-  return made.states.empty() ? nullptr : &contacts_.add(std::move(made));
+  return &made;
 }
 
 void Instant::leave_contact(std::size_t k) {

@@ -245,14 +245,24 @@ void Run::record_step(double from) {
     record(time_, solver_started_ ? solver_->state().data() : machine_.x.data());
 }
 
-/// For dense output: the polynomial of the step from `from` to now.
+/// For dense output: the polynomial, or the two, of the step from `from` to now.
 void Run::keep_step(double from) {
   if (!solver_started_)
     return results_.trajectory.add(from, time_, 0, machine_, instant_.contacts(), machine_.x,
                                    [](double, double*) {});
-  results_.trajectory.add(from, time_, plan().nx == 0 ? 0 : solver_->degree(), machine_,
-                          instant_.contacts(), solver_->state(),
-                          [this](double t, double* x) { solver_->interpolate(t, x); });
+  const int degree = plan().nx == 0 ? 0 : solver_->degree();
+  const auto add = [&](double begin, double end, const Eigen::VectorXd& x_end) {
+    results_.trajectory.add(begin, end, degree, machine_, instant_.contacts(), x_end,
+                            [this](double t, double* x) { solver_->interpolate(t, x); });
+  };
+  const double joint = degree == 0 ? from : solver_->joint();
+  if (from < joint && joint < time_) {
+    solver_->interpolate(joint, machine_.x.data());
+    add(from, joint, machine_.x);
+    results_.trajectory.depart(machine_.x);
+    from = joint;
+  }
+  add(from, time_, solver_->state());
 }
 
 /// In a handler: what was thrown is the cause.

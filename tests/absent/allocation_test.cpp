@@ -153,10 +153,8 @@ std::shared_ptr<Leaf> all_at_once() {
 
 }  // namespace
 
-// Instant::contact_of_crossing makes a SurfaceContact, two vectors, each time a guard comes to
-// rest.
 TEST_CASE("holds and releases allocate nothing, in a leaf and in a diagram",
-          "[.engine][absent][allocation]") {
+          "[absent][allocation]") {
   const auto* method = GENERATE(from_range(methods));
   for (const Form& form : forms(hopper())) {
     INFO(form.name << ", method " << method);
@@ -164,8 +162,7 @@ TEST_CASE("holds and releases allocate nothing, in a leaf and in a diagram",
   }
 }
 
-TEST_CASE("holds and releases of balls from blocks allocate nothing",
-          "[.engine][absent][allocation]") {
+TEST_CASE("holds and releases of balls from blocks allocate nothing", "[absent][allocation]") {
   const auto* method = GENERATE(from_range(methods));
   for (const Contact contact : contacts) {
     const Scene scene =

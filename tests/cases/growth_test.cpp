@@ -65,15 +65,6 @@ TEST_CASE("an unstable state that is put back at e comes there every second", "[
 }
 
 TEST_CASE("a stiff lag under a relay switches on time", "[cases][modes]") {
-  const std::string method =
-      GENERATE(filter([](std::string_view m) { return m != "dop853"; }, from_range(methods)));
-  stiff_lag(method.c_str(), GENERATE(1e2, 1e4));
-}
-
-// What comes out with dop853 at the edge of its stability, stiffness 100: 1.2 times what is
-// allowed.
-TEST_CASE("a stiff lag under a relay switches on time, by every method",
-          "[.engine][cases][modes]") {
   stiff_lag(GENERATE(from_range(methods)), GENERATE(1e2, 1e4));
 }
 

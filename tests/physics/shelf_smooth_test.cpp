@@ -94,6 +94,19 @@ TEST_CASE("each smooth scene meets its reference with each method that suits it"
   }
 }
 
+TEST_CASE("at the edge of its stability dop853 finds the events there are, and no others",
+          "[physics][models]") {
+  // The Brusselator with N = 63, 0.02 s a step where its solution asks for 0.3.
+  const double rtol = GENERATE(1e-3, 1e-4, 1e-5, 1e-8, 1e-10);
+  const saltus::Scene scene = at_tolerance(models::scene("brusselator"), "dop853", rtol);
+  INFO("rtol " << rtol);
+  const Results results = simulate(scene);
+  const Achieved a = achieved(scene, results);
+  CHECK(a.event_mismatch == 0);
+  // Ten tolerances of a state; u moves at 1.4 /s and more where it crosses its level.
+  CHECK(a.event_error <= 10.0 * (rtol + scene.options.atol) / 1.4);
+}
+
 TEST_CASE("a rod of any number of nodes meets its closed form", "[physics][models]") {
   const Index n = GENERATE(5, 20, 200);
   const saltus::Scene scene = at_tolerance(models::heat_rod({.n = n}), "bdf", 1e-6);

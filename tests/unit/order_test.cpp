@@ -26,6 +26,26 @@ TEST_CASE("outputs are ordered after what they read, however blocks were added",
   }
 }
 
+// Each wire is followed once: by rounds over all blocks this would take minutes, by recursion more
+// stack than there is.
+TEST_CASE("a hundred thousand blocks in a row are planned, the last one added first", "[order]") {
+  constexpr std::size_t n = 100'000;
+  DiagramBuilder builder;
+  std::vector<Gain*> chain;
+  for (std::size_t i = 0; i < n; ++i) chain.push_back(&builder.add<Gain>(text("gain_", i), 1.0));
+  auto& start = builder.add<Constant>("start", vec({1.0, 2.0}));
+  auto& end = builder.add<Integrator>("end", Integrator::Options{.initial_state = vec({0.0, 0.0})});
+  for (std::size_t i = 0; i + 1 < n; ++i)
+    builder.connect(chain[i + 1]->output(), chain[i]->input());
+  builder.connect(start.output(), chain[n - 1]->input());
+  builder.connect(chain[0]->output(), end.input());
+  const Diagram diagram = builder.build();
+  const auto plan = compile(diagram);
+  CHECK(plan->order.size() == plan->nodes.size());
+  CHECK(plan->constants.size() == n);  // the start is a parameter, shown as it is
+  CHECK(plan->nodes.front().shape.size == 2);
+}
+
 TEST_CASE("6.1 an algebraic loop is printed as the path of ports, with the remedy",
           "[semantics][order]") {
   DiagramBuilder builder;

@@ -50,7 +50,7 @@ struct Rates {
 
 std::vector<std::string> names(const Plan& plan, const std::vector<int>& nodes) {
   std::vector<std::string> list;
-  for (const int i : nodes) list.push_back(plan.node(i).name);
+  for (const int i : nodes) list.push_back(plan.name_of(plan.node(i)));
   std::ranges::sort(list);
   return list;
 }

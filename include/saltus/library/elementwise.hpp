@@ -2,6 +2,7 @@
 // one width.
 #pragma once
 
+#include <algorithm>
 #include <limits>
 #include <string>
 #include <utility>
@@ -19,12 +20,12 @@ inline double entry(const VectorView& values, Index i) {
 /// The shape that fits them all; a ModelError if vectors of different widths meet.
 inline Shape stretched(const std::string& block, std::span<const Shape> shapes) {
   const Shape result = elementwise(shapes);
+  const bool fit = std::ranges::all_of(shapes, [&](const Shape& shape) {
+    return (shape.size == 1 || shape.size == result.size) && shape.size > 0;
+  });
+  if (fit) return result;
   std::string widths;
-  bool fit = true;
-  for (const Shape& shape : shapes) {
-    fit = fit && (shape.size == 1 || shape.size == result.size) && shape.size > 0;
-    widths += text(widths.empty() ? "" : ", ", shape.size);
-  }
+  for (const Shape& shape : shapes) widths += text(widths.empty() ? "" : ", ", shape.size);
   insist(fit, block, "expected scalars and vectors of one width, found the widths ", widths,
          "; bring them to one width, for example with a Multiplexer");
   return result;

@@ -38,9 +38,9 @@ inline std::vector<std::string> LeafSystem::output_names() const {
 }
 
 inline void LeafSystem::collect(Structure& out, const std::string& path) const {
-  const std::string known_as = path.empty() ? name() : path;
+  std::string known_as = path.empty() ? name() : path;
   out.systems.push_back({system_id(), known_as, out.leaves.size(), out.leaves.size() + 1});
-  out.leaves.push_back({this, known_as});
+  out.leaves.push_back({this, std::move(known_as)});
 }
 
 inline void LeafSystem::declare_continuous_state(ContinuousState state) {

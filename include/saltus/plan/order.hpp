@@ -12,35 +12,47 @@ class Ordering {
   explicit Ordering(const Plan& plan) : plan_(plan), mark_(plan.nodes.size(), Mark::fresh) {}
 
   std::vector<int> run() {
-    for (std::size_t i = 0; i < plan_.nodes.size(); ++i) visit(static_cast<int>(i));
+    order_.reserve(plan_.nodes.size());
+    for (std::size_t i = 0; i < plan_.nodes.size(); ++i) {
+      enter(static_cast<int>(i));
+      while (!path_.empty()) go_on();
+    }
     return std::move(order_);
   }
 
  private:
   enum class Mark : char { fresh, open, done };
+  struct Open {
+    int node;
+    std::size_t next;  // of what it needs
+  };
 
-  void visit(int i) {
+  void enter(int i) {
     Mark& mark = mark_[static_cast<std::size_t>(i)];
     if (mark == Mark::done) return;
     if (mark == Mark::open) throw_loop(i);
     mark = Mark::open;
-    path_.push_back(i);
-    const Node& node = plan_.node(i);
-    if (!(node.relation && node.located)) {
-      for (int need : node.needs) visit(need);
-    }
+    path_.push_back({i, 0});
+  }
+
+  /// With the last of the path: to the next thing it needs, or done.
+  void go_on() {
+    Open& last = path_.back();
+    const Node& node = plan_.node(last.node);
+    if (!(node.relation && node.located) && last.next < node.needs.size())
+      return enter(node.needs[last.next++]);
+    mark_[static_cast<std::size_t>(last.node)] = Mark::done;
+    order_.push_back(last.node);
     path_.pop_back();
-    mark = Mark::done;
-    order_.push_back(i);
   }
 
   [[noreturn]] void throw_loop(int start) const {
     // path_ runs from reader to what it reads; the signal flows the other way round.
-    const auto first = std::ranges::find(path_, start);
+    const auto first = std::ranges::find(path_, start, &Open::node);
     std::string message = "algebraic loop: each output depends on the next at the same time\n";
     for (auto it = first; it != path_.end(); ++it)
-      message += text("  '", plan_.node(*it).name, "' reads\n");
-    message += text("  '", plan_.node(start).name,
+      message += text("  '", plan_.name_of(plan_.node(it->node)), "' reads\n");
+    message += text("  '", plan_.name_of(plan_.node(start)),
                     "'\nput a block without feedthrough into the loop (Integrator, UnitDelay), or "
                     "declare which "
                     "inputs an output does not read");
@@ -49,7 +61,8 @@ class Ordering {
 
   const Plan& plan_;
   std::vector<Mark> mark_;
-  std::vector<int> path_, order_;
+  std::vector<Open> path_;  // from reader to what it reads
+  std::vector<int> order_;
 };
 
 inline void add_order(Plan& plan) { plan.order = Ordering(plan).run(); }

@@ -17,7 +17,6 @@ struct Node {
   int index = -1;  // of the output or the relation within its leaf
   bool relation = false;
   bool boolean = false;
-  std::string name = {};  // "block.port"
   Shape shape = {};
   bool shaped = false;  // the shape is known
   Place place =
@@ -103,6 +102,11 @@ struct Plan {
   /// What was kept, folded and dropped, and why; one line a fact.
   std::string describe() const;
 
+  /// "block.port"
+  std::string name_of(const Node& node) const {
+    const std::string& port = node.relation ? relation_of(node).name : output_of(node).name;
+    return text(leaf_of(node).path, ".", port);
+  }
   const PlanLeaf& leaf_of(const Node& node) const {
     return leaves[static_cast<std::size_t>(node.leaf)];
   }

@@ -1,6 +1,7 @@
 // Contacts: blocks at rest on a surface, and what becomes of them while the surface moves.
 #pragma once
 
+#include <ranges>
 #include <vector>
 
 #include "saltus/plan/machine.hpp"
@@ -36,11 +37,19 @@ class Contacts final : public Carrier {
   Contacts(Machine& machine, const SimulatorOptions& options);
 
   void clear();
+  /// Null where nothing rests on that guard.
   SurfaceContact* on(int slot);
-  SurfaceContact& add(SurfaceContact contact);
+  /// A new one without members; the one that was there is gone.
+  SurfaceContact& add(int slot);
+  void add(const SurfaceContact& contact) { add(contact.slot) = contact; }
   void remove(int slot);
-  bool empty() const noexcept { return list_.empty(); }
-  const std::vector<SurfaceContact>& all() const noexcept { return list_; }
+  bool empty() const noexcept { return present_.empty(); }
+  /// Those present, in the order in which they were made.
+  auto all() const {
+    return present_ | std::views::transform([this](int slot) -> const SurfaceContact& {
+             return of_slot_[static_cast<std::size_t>(slot)];
+           });
+  }
 
   /// Moves the contact's entries of x to the fixed point; false, and x as it was, if there is none.
   bool settle(const SurfaceContact& contact, double t, double* x);
@@ -66,7 +75,8 @@ class Contacts final : public Carrier {
 
   Machine* machine_;
   double absolute_;  // size below which a state counts as zero
-  std::vector<SurfaceContact> list_;
+  std::vector<SurfaceContact> of_slot_;  // made once, so that a hold allocates nothing
+  std::vector<int> present_;             // slots
   Eigen::VectorXd original_, begun_, once_, twice_, trial_, f_, f1_, slow_, stood_, later_, z_, g_;
 };
 

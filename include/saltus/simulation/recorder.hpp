@@ -60,9 +60,10 @@ class Recorder {
 
   [[noreturn]] void throw_not_finite(double t, const Tap& tap) const {
     const Node& node = machine_->plan().node(tap.node);
-    throw SimulationError(text("t = ", t, " s: output '", node.name, "', recorded as '", tap.name,
-                               "', is not finite (NaN or Inf); check it at this time"),
-                          t, machine_->plan().leaf_of(node).path);
+    throw SimulationError(
+        text("t = ", t, " s: output '", machine_->plan().name_of(node), "', recorded as '",
+             tap.name, "', is not finite (NaN or Inf); check it at this time"),
+        t, machine_->plan().leaf_of(node).path);
   }
 
   Machine* machine_;

@@ -50,6 +50,7 @@ class AutoSolver final : public Solver {
 
   void interpolate(double t, double* x) override { now().interpolate(t, x); }
   int degree() const override { return now().degree(); }
+  double joint() override { return now().joint(); }
   const std::vector<Firing>& roots() const override { return watch_->fired; }
   double time() const override { return now().time(); }
   const Eigen::VectorXd& state() const override { return now().state(); }
@@ -100,11 +101,11 @@ class AutoSolver final : public Solver {
     const bool stiff = stiff_ ? !calm_again() : explicit_->looks_stiff() || collapsed();
     if (stiff == stiff_) return;
     const double t = now().time();
-    const Eigen::VectorXd x = now().state();
+    handed_over_ = now().state();
     if (stiff && steps_ < 100 && !past_.empty()) patience_ = std::min(2 * patience_, 64);
     change(t, stiff);
     forget_steps(), before_ = 0.0;
-    now().restart(t, x, {.handover = true});
+    now().restart(t, handed_over_, {.handover = true});
   }
 
   /// The first step after a restart a hundred times shorter than those before, and stability the
@@ -153,6 +154,7 @@ class AutoSolver final : public Solver {
   bool fresh_ = true;     // no step looked at since then
   int steps_ = 0;         // since then
   int calm_ = 0, patience_ = 2;
+  Eigen::VectorXd handed_over_;  // the state at a change
   std::vector<Stretch> past_;
   double begun_ = 0.0;  // [s] the present stretch
   std::int64_t steps_before_ = 0;

@@ -34,8 +34,7 @@ class ExplicitStep {
   /// and scratch is what the last stage but one read.
   template <class Rate>
   double attempt(const Attempt& a, const Rate& rate) {
-    stages<1, last>(a.t0, a.h, rate);
-    combine<last>(a.h, x1_);
+    end(a.t0, a.h, rate);
     if constexpr (estimate_reads_end) {
       rate(a.t1, x1_, column(last));
       return error(a);
@@ -47,12 +46,20 @@ class ExplicitStep {
     }
   }
 
+  /// x1, and the stages that it takes.
+  template <class Rate>
+  [[gnu::always_inline]] void end(double t0, double h, const Rate& rate) {
+    stages<1, last>(t0, h, rate);
+    combine<last>(h, x1_);
+  }
+
   /// Stages First to End - 1.
   template <std::size_t First, std::size_t End, class Rate>
-  void stages(double t0, double h, const Rate& rate) {
-    [&]<std::size_t... I>(std::index_sequence<I...>) {
-      (stage<First + I>(t0, h, rate), ...);
-    }(std::make_index_sequence<End - First>{});
+  [[gnu::always_inline]] void stages(double t0, double h, const Rate& rate) {
+    if constexpr (First < End) {
+      stage<First>(t0, h, rate);
+      stages<First + 1, End>(t0, h, rate);
+    }
   }
 
  private:
@@ -68,14 +75,14 @@ class ExplicitStep {
   double* column(std::size_t i) { return k_ + static_cast<Index>(i) * size(); }
 
   template <std::size_t I, class Rate>
-  void stage(double t0, double h, const Rate& rate) {
+  [[gnu::always_inline]] void stage(double t0, double h, const Rate& rate) {
     combine<I>(h, scratch_);
     rate(t0 + Method::c[I] * h, scratch_, column(I));
   }
 
   /// x0 + h sum_j a[I][j] k_j
   template <std::size_t I>
-  void combine(double h, double* out) const {
+  [[gnu::always_inline]] void combine(double h, double* out) const {
     constexpr auto row = [] { return Method::a[I]; };
     for_lanes<W, N>(size(), [&](Index i) {
       Lane<W> sum = zero<W>();

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "saltus/solver/explicit_step.hpp"
+#include "saltus/solver/halves.hpp"
 #include "saltus/solver/kernels.hpp"
 #include "saltus/solver/one_step.hpp"
 #include "saltus/solver/step_size.hpp"
@@ -26,20 +27,26 @@ class RungeKutta final : public StepSolver<RungeKutta<Method, N>, OneStepSolver>
         scratch_(n_),
         k_(n_),
         dense_(n_),
+        halves_(n_),
         stiff_(Method::stability, static_cast<double>(last), options) {}
 
   void inside_step(double u, double* x) {
     if (!dense_ready_) prepare_dense();
-    const double s = u / length_, r = 1.0 - s;
-    const double *x0 = x0_.data(), *c = dense_.data();
-    detail::for_lanes<W, N>(size(), [&](Index i) {
-      detail::store<W>(x + i, detail::load<W>(x0 + i) +
-                                  s * detail::nested<0, dense_terms, W>(c + i, size(), s, r));
-    });
+    if constexpr (checks_dense) {
+      if (halves_.used) return halves_.read(x0_.data(), u / length_, x);
+    }
+    dense_.read(x0_.data(), u / length_, x);
   }
 
   std::string method() const override { return Method::name; }
-  int degree() const override { return static_cast<int>(dense_terms); }
+  int degree() const override { return static_cast<int>(StepPolynomial<Method, N>::terms); }
+  double joint() override {
+    if constexpr (checks_dense) {
+      if (!dense_ready_) prepare_dense();
+      if (halves_.used) return t0_ + 0.5 * length_;
+    }
+    return -infinite;
+  }
 
   void watch_stiffness() override { watches_stiffness_ = true; }
   bool looks_stiff() const override { return stiff_.detected(); }
@@ -53,7 +60,7 @@ class RungeKutta final : public StepSolver<RungeKutta<Method, N>, OneStepSolver>
   using Base::machine_, Base::options_, Base::n_, Base::t0_, Base::t1_, Base::length_, Base::x1_,
       Base::statistics_;
   static constexpr std::size_t last = Method::stages - 1;
-  static constexpr std::size_t dense_terms = 3 + Method::d.size();
+  static constexpr bool checks_dense = ChecksDense<Method>;
   static constexpr double infinite = std::numeric_limits<double>::infinity();
 
   static StepController controller() {
@@ -116,8 +123,9 @@ class RungeKutta final : public StepSolver<RungeKutta<Method, N>, OneStepSolver>
   double try_step(double h, double t1) {
     const detail::Attempt attempt{t0_, t1, h, options_.rtol, options_.atol};
     t1_ = t1;
-    const double error = compiled() != nullptr ? compiled()->attempt(caller(), attempt, memory())
-                                               : arithmetic().attempt(attempt, rate());
+    const double error = compiled() != nullptr
+                             ? compiled()->attempt(caller(), attempt, memory())
+                             : arithmetic(x0_.data(), x1_.data()).attempt(attempt, rate());
     if (watches_stiffness_ && error <= 1.0)
       stiff_.look(h, view(x1_.data()), view(scratch_.data()), view(stage(last - 1)), view(stage(0)),
                   view(stage(last)));
@@ -135,39 +143,75 @@ class RungeKutta final : public StepSolver<RungeKutta<Method, N>, OneStepSolver>
   }
   detail::StepMemory memory() { return {x0_.data(), x1_.data(), scratch_.data(), k_.data()}; }
 
-  detail::ExplicitStep<Method, N> arithmetic() {
-    return {n_, x0_.data(), x1_.data(), scratch_.data(), k_.data()};
+  detail::ExplicitStep<Method, N> arithmetic(const double* from, double* to) {
+    return {n_, from, to, scratch_.data(), k_.data()};
   }
   auto rate() {
     return [this](double t, const double* x, double* xdot) { machine_->derivative(t, x, xdot); };
   }
 
   void prepare_dense() {
-    const double *k = k_.data(), *x0 = x0_.data(), *x1 = x1_.data();
-    const double h = length_;
     if (Method::rows > Method::stages && compiled() != nullptr)
-      compiled()->dense(caller(), t0_, h, memory());
+      compiled()->dense(caller(), t0_, length_, memory());
     else
-      arithmetic().template stages<Method::stages, Method::rows>(t0_, h, rate());
-    const Index n = size();
-    detail::for_lanes<W, N>(n, [&](Index i) {
-      double* c = dense_.data() + i;
-      const Lane rise = detail::load<W>(x1 + i) - detail::load<W>(x0 + i),
-                 bend = h * detail::load<W>(k + i) - rise,
-                 end = detail::load<W>(k + i + static_cast<Index>(last) * n);
-      detail::store<W>(c, rise);
-      detail::store<W>(c + n, bend);
-      detail::store<W>(c + 2 * n, rise - h * end - bend);
-      add_dense(h, k + i, c + 3 * n, std::make_index_sequence<Method::d.size()>{});
-    });
+      arithmetic(x0_.data(), x1_.data())
+          .template stages<Method::stages, Method::rows>(t0_, length_, rate());
+    dense_.set(length_, x0_.data(), x1_.data(), k_.data());
     dense_ready_ = true;
+    if constexpr (checks_dense) halves_.used = dense_is_off() && halve();
   }
-  template <std::size_t... M>
-  void add_dense(double h, const double* k, double* c, std::index_sequence<M...>) const {
-    (detail::store<W>(
-         c + static_cast<Index>(M) * size(),
-         h * detail::dot_of_differences<[] { return Method::d[M]; }, Method::rows, W>(k, size())),
-     ...);
+
+  /// Root mean square of value(i), a lane each, in tolerances.
+  template <class Value>
+  double in_tolerances(Value value) const {
+    double sum = 0.0;
+    detail::for_lanes<W, N>(size(), [&](Index i) {
+      const Lane largest =
+          detail::larger(detail::load<W>(x0_.data() + i), detail::load<W>(x1_.data() + i));
+      sum += detail::sum_of_squares(Lane(value(i) / (options_.atol + options_.rtol * largest)));
+    });
+    return std::sqrt(sum / static_cast<double>(size()));
+  }
+
+  /// Whether the dense output misses by more than `room` tolerances: seen without a call where its
+  /// last term is small, else by its defect where that is largest.
+  [[gnu::noinline]] bool dense_is_off()
+    requires checks_dense
+  {
+    constexpr double room = 4.0;  // of the ten that an event may be off
+    constexpr double at = Method::defect_at;
+    const auto term = [&](Index i) { return dense_.last_term(i); };
+    if (Method::last_term_share * in_tolerances(term) <= room) return false;
+    dense_.read(x0_.data(), at, scratch_.data());
+    double* f = halves_.slope.data();
+    machine_->derivative(t0_ + at * length_, scratch_.data(), f);
+    const auto defect = [&](Index i) -> Lane {
+      return dense_.template slope<at>(i) - length_ * detail::load<W>(f + i);
+    };
+    return !(Method::defect_share * in_tolerances(defect) <= room);
+  }
+
+  /// Takes the step again in two halves, to be looked into; the step itself stays what it was.
+  /// False if something is not finite there.
+  bool halve()
+    requires checks_dense
+  {
+    const double h = 0.5 * length_;
+    std::copy_n(stage(last), size(), halves_.slope.data());
+    take_half(t0_, x0_.data(), h, halves_.middle.data(), halves_.first);
+    std::copy_n(stage(last), size(), stage(0));
+    take_half(t0_ + h, halves_.middle.data(), h, halves_.shift.data(), halves_.second);
+    std::copy_n(halves_.slope.data(), size(), stage(last));
+    halves_.shift = x1_ - halves_.shift;
+    return halves_.finite();
+  }
+  [[gnu::noinline]] void take_half(double t, const double* from, double h, double* to,
+                                   StepPolynomial<Method, N>& dense) {
+    auto step = arithmetic(from, to);
+    step.end(t, h, rate());
+    machine_->derivative(t + h, to, stage(last));
+    step.template stages<Method::stages, Method::rows>(t, h, rate());
+    dense.set(h, from, to, k_.data());
   }
 
   void require_finite_start() {
@@ -188,8 +232,9 @@ class RungeKutta final : public StepSolver<RungeKutta<Method, N>, OneStepSolver>
   double horizon_ = infinite;
   Eigen::VectorXd x0_, scratch_;
   detail::Columns<N, Method::rows> k_;
-  detail::Columns<N, dense_terms> dense_;
+  StepPolynomial<Method, N> dense_;
   bool dense_ready_ = false;
+  std::conditional_t<checks_dense, Halves<Method, N>, NoHalves> halves_;
   StepController controller_ = controller();
   bool watches_stiffness_ = false;
   StiffnessTest stiff_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -51,6 +52,9 @@ class Solver {
   virtual void interpolate(double t, double* x) = 0;
   /// Degree in time of what it says within the last step.
   virtual int degree() const = 0;
+  /// The time [s] within the last step where that goes over from one polynomial to the next; before
+  /// the step where there is but one.
+  virtual double joint() { return -std::numeric_limits<double>::infinity(); }
   /// The guards that fired, after StopReason::root.
   virtual const std::vector<Firing>& roots() const = 0;
   virtual const SolverStatistics& statistics() const = 0;

@@ -43,9 +43,8 @@ class StepSolver : public Interface {
     watch_->monitors.clear();
     if (delivered_) take_step(t_stop);
     const auto inside = [this](double u, double* x) { self().inside_step(u, x); };
-    if (watch_->any() &&
-        locator_.find(t0_, offset_, length_, x1_.data(),
-                      offset_ == 0.0 ? self().end_guards() : nullptr, inside)) {
+    if (watch_->any() && locator_.find(t0_, offset_, length_, x1_.data(),
+                                       offset_ == 0.0 ? self().end_guards() : nullptr, inside)) {
       offset_ = locator_.offset();
       delivered_ = offset_ >= length_;
       time_ = delivered_ ? t1_ : t0_ + offset_;

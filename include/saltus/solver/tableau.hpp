@@ -20,6 +20,7 @@ namespace saltus {
 /// - error_order: the error shrinks as h^error_order
 /// - d[m][j]: dense output of degree 3 + m, h sum_j d[m][j] k_j
 /// - stability: h |lambda| beyond which stability, not accuracy, bounds the step
+/// - defect_at, defect_share, last_term_share: if its dense output is to be checked, see Halves
 /// - beta, shortest, longest: of the step size control, see StepController
 template <class T>
 concept Tableau = requires {

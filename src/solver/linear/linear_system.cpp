@@ -24,7 +24,9 @@ LinearSystem::LinearSystem(Machine& machine, const SolverOptions& options,
       options_(options),
       error_(&error),
       jacobian_(machine),
-      choice_(choose_linear_solver(jacobian_, machine.plan().nx, options.linear_solver)) {
+      choice_(choose_linear_solver(jacobian_, machine.plan().nx, options.linear_solver)),
+      words_(text(linear_solver_names[static_cast<std::size_t>(choice_.solver)].first, ": ",
+                  choice_.why)) {
   if (choice_.solver != LinearSolver::gmres)
     make_factorisation();
   else if (!jacobian_.pattern().overflow)
@@ -104,11 +106,6 @@ int LinearSystem::prepare(double t, N_Vector x, N_Vector xdot, bool keep, bool& 
 int LinearSystem::precondition(N_Vector r, N_Vector z) {
   preconditioner_->solve(N_VGetArrayPointer(r), N_VGetArrayPointer(z));
   return 0;
-}
-
-std::string LinearSystem::describe() const {
-  return text(linear_solver_names[static_cast<std::size_t>(choice_.solver)].first, ": ",
-              choice_.why);
 }
 
 }  // namespace saltus

@@ -32,7 +32,7 @@ class LinearSystem {
   int precondition(N_Vector r, N_Vector z);
 
   /// Which solver and why, in words.
-  std::string describe() const;
+  const std::string& describe() const { return words_; }
 
  private:
   static constexpr Index small = 16;  // states: see refresh_often
@@ -46,6 +46,7 @@ class LinearSystem {
   void* cvode_ = nullptr;
   Jacobian jacobian_;
   LinearChoice choice_;
+  std::string words_;
   MatrixLayout layout_;
   std::unique_ptr<Factorisation> factorisation_;
   std::optional<Preconditioner> preconditioner_;
