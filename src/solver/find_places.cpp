@@ -89,7 +89,7 @@ class Groups {
       to.push_back(static_cast<int>(j));
   }
 
-  Index n_, size_ = 1;
+  Index n_, size_ = 2;
   std::vector<int> members_;  // the first argument of each group
   Sparsity read_by_;          // column: group
 };
