@@ -104,6 +104,7 @@ void bind_simulation(py::module_& module) {
       .def_readwrite("atol", &SimulatorOptions::atol)
       .def_readwrite("ode_solver_method", &SimulatorOptions::ode_solver_method)
       .def_readwrite("linear_solver", &SimulatorOptions::linear_solver)
+      .def_readwrite("find_sparsity", &SimulatorOptions::find_sparsity)
       .def_readwrite("max_major_steps", &SimulatorOptions::max_major_steps)
       .def_readwrite("max_major_step_length", &SimulatorOptions::max_major_step_length)
       .def_readwrite("min_minor_step_size", &SimulatorOptions::min_minor_step_size)

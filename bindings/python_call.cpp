@@ -145,11 +145,19 @@ class Borrowed {
   std::unique_ptr<Frame> frame;
 };
 
+/// What Python raised to end the program: nobody in C++ may take it for a failure of the function.
+class Ended final : public py::error_already_set, public Interruption {};
+
+[[noreturn]] void throw_raised() {
+  if (PyErr_ExceptionMatches(PyExc_Exception) != 0) throw py::error_already_set();
+  throw Ended();
+}
+
 py::object vectorcall(const Function& function, const Frame& frame) {
   PyObject* result = PyObject_Vectorcall(
       function.callable.ptr(), const_cast<PyObject* const*>(frame.arguments.data()) + 1,
       frame.positional | PY_VECTORCALL_ARGUMENTS_OFFSET, frame.keywords.ptr());
-  if (result == nullptr) throw py::error_already_set();
+  if (result == nullptr) throw_raised();
   return py::reinterpret_steal<py::object>(result);
 }
 

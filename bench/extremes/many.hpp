@@ -158,11 +158,10 @@ inline Trial updates(int n, double t0, double step) {
 inline Group many() {
   using namespace detail;
   const auto scene = [](std::string name, Methods methods, std::function<Trial()> make,
-                        bool quick = false, Expected expected = Expected::answer) {
+                        bool quick = false) {
     return Case{.name = std::move(name),
                 .methods = std::move(methods),
                 .trials = one(std::move(make)),
-                .expected = expected,
                 .quick = quick};
   };
   constexpr Index half = 50'000;
@@ -178,7 +177,7 @@ inline Group many() {
                 [] { return rod(100'000, true); }),
           scene(
               "1e4 states in a leaf: heat, nothing declared", stiff_ones,
-              [] { return rod(10'000, false); }, true, Expected::either),
+              [] { return rod(10'000, false); }, true),
           scene("1e5 states in 5e4 stiff leaves", stiff_ones, [] { return many_stiff(half); }),
           scene(
               "2e3 guards of a leaf, monitors, all fire", every,

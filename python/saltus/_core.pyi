@@ -262,6 +262,7 @@ class SimulatorOptions:
     atol: float
     ode_solver_method: str
     linear_solver: str
+    find_sparsity: bool
     max_major_steps: int | None
     max_major_step_length: float
     min_minor_step_size: float

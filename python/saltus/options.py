@@ -67,6 +67,11 @@ class SimulatorOptions:
     """how a stiff method solves its linear systems: 'auto' (by number of states and places of the
     Jacobian), 'dense', 'band', 'sparse', 'gmres'; `statistics.linear_solver` says what was chosen
     """
+    find_sparsity: bool = True
+    """where a block of more than 256 states declares neither Jacobian nor sparsity, a stiff method
+    finds the sparsity by calls of its derivative near the state; `statistics.linear_solver` says
+    what was found. False: such a block is full, or its places are unknown
+    """
     max_major_steps: int | None = None
     """instants a run may have; more end it with the status 'step_limit'"""
     max_major_step_length: float | None = math.inf

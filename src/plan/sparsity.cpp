@@ -3,138 +3,27 @@
 
 #include <numeric>
 
-#include "saltus/plan/flatten.hpp"
+#include "reach.hpp"
 
 namespace saltus {
 
 namespace {
 
-/// Sets of states by number: 0 is empty, 1 + i is state i alone, the others are listed. A set that
-/// many entries share is kept once.
-class StateSets {
- public:
-  explicit StateSets(Index n) : n_(n), limit_(most_places(n)) {}
+using namespace detail;
 
-  static int single(Index i) { return static_cast<int>(i) + 1; }
+/// The places of a leaf's own block: declared, or else found; null where every one counts.
+const std::vector<MatrixEntry>* named_entries(const PlanLeaf& leaf, int number,
+                                              const FoundBlocks& found) {
+  if (const auto& declared = leaf.declared().continuous.sparsity) return &*declared;
+  const auto at = found.find(number);
+  return at != found.end() ? &at->second : nullptr;
+}
 
-  /// Calls f(state) for each member, in order.
-  template <class F>
-  void each(int set, F f) const {
-    if (set == 0) return;
-    if (set <= n_) return f(set - 1);
-    for (const int i : listed(set)) f(i);
-  }
-
-  /// The union; the sets named may repeat.
-  int unite(std::vector<int>& sets) {
-    std::ranges::sort(sets);
-    sets.erase(std::unique(sets.begin(), sets.end()), sets.end());
-    if (!sets.empty() && sets.front() == 0) sets.erase(sets.begin());
-    if (sets.empty()) return 0;
-    if (sets.size() == 1) return sets.front();
-    std::vector<int> all;
-    for (const int set : sets) each(set, [&](int i) { all.push_back(i); });
-    std::ranges::sort(all);
-    all.erase(std::unique(all.begin(), all.end()), all.end());
-    kept_ += static_cast<Index>(all.size());
-    lists_.push_back(std::move(all));
-    return static_cast<int>(n_ + static_cast<Index>(lists_.size()));
-  }
-
-  bool overflow() const { return kept_ > limit_; }
-
- private:
-  const std::vector<int>& listed(int set) const {
-    return lists_[static_cast<std::size_t>(set - 1 - n_)];
-  }
-
-  Index n_, limit_, kept_ = 0;
-  std::vector<std::vector<int>> lists_;
-};
-
-/// The states behind each entry of each signal that a derivative reads.
-class Reach {
- public:
-  explicit Reach(const Plan& plan) : plan_(plan), sets_(plan.nx), of_node_(plan.nodes.size()) {
-    for (const int i : plan.derivatives) {
-      if (sets_.overflow()) return;
-      visit(i);
-    }
-  }
-
-  /// The set behind entry i of what a leaf reads, of these of its inputs and relations.
-  template <class Of>
-  void behind(const PlanLeaf& leaf, const std::vector<int>& inputs, const EntryRule& rule, Index n,
-              Of put) {
-    std::vector<Index> widths;
-    for (const int node : leaf.inputs) widths.push_back(plan_.node(node).shape.size);
-    std::vector<int> found;
-    const auto gather = [&](Index i) {
-      found.clear();
-      for (const int k : inputs) {
-        const int node = leaf.inputs[static_cast<std::size_t>(k)];
-        const EntryRange range =
-            rule ? rule(i, k, widths) : EntryRange{0, widths[static_cast<std::size_t>(k)]};
-        const Index last = std::min(range.last, widths[static_cast<std::size_t>(k)]);
-        for (Index e = range.first; e < last; ++e) found.push_back(set_of(node, e));
-      }
-      return sets_.unite(found);
-    };
-    const int common = rule ? 0 : gather(0);
-    for (Index i = 0; i < n; ++i) put(i, rule ? gather(i) : common);
-  }
-
-  StateSets& sets() { return sets_; }
-
- private:
-  int set_of(int node, Index entry) const {
-    const Node& of = plan_.node(node);
-    if (of.rate != Rate::continuous) return 0;
-    if (of.view) return of.place.space == Space::x ? StateSets::single(of.place.offset + entry) : 0;
-    const auto& sets = of_node_[static_cast<std::size_t>(node)];
-    return sets.empty() ? 0 : sets[static_cast<std::size_t>(entry)];
-  }
-
-  void visit(int number) {
-    const Node& node = plan_.node(number);
-    if (node.relation) return;  // held, where it reaches a derivative
-    const PlanLeaf& leaf = plan_.leaf_of(node);
-    const OutputDeclaration& output = plan_.output_of(node);
-    std::vector<int> own;
-    if (has(output.reads, Reads::continuous_state)) {
-      for (Index i = 0; i < leaf.nx; ++i) own.push_back(StateSets::single(leaf.x + i));
-    }
-    const int state = sets_.unite(own);
-    auto& sets = of_node_[static_cast<std::size_t>(number)];
-    sets.resize(static_cast<std::size_t>(node.shape.size));
-    const auto inputs = inputs_of(leaf, output.reads, output.inputs);
-    behind(leaf, inputs, output.entries, node.shape.size, [&](Index i, int set) {
-      std::vector<int> both{state, set};
-      sets[static_cast<std::size_t>(i)] = state == 0 ? set : sets_.unite(both);
-    });
-  }
-
- public:
-  /// Positions of the inputs that are read.
-  static std::vector<int> inputs_of(const PlanLeaf& leaf, Reads reads,
-                                    const std::optional<std::vector<int>>& named) {
-    if (!has(reads, Reads::inputs)) return {};
-    if (named) return *named;
-    std::vector<int> all(leaf.inputs.size());
-    std::iota(all.begin(), all.end(), 0);
-    return all;
-  }
-
- private:
-  const Plan& plan_;
-  StateSets sets_;
-  std::vector<std::vector<int>> of_node_;
-};
-
-/// The declared entries of a leaf by rows; a ModelError for one that cannot be.
-std::vector<std::vector<int>> declared_rows(const PlanLeaf& leaf) {
+/// These entries of a leaf by rows; a ModelError for one that cannot be.
+std::vector<std::vector<int>> by_rows(const PlanLeaf& leaf,
+                                      const std::vector<MatrixEntry>& entries) {
   std::vector<std::vector<int>> rows(static_cast<std::size_t>(leaf.nx));
-  for (const auto& [row, column] : *leaf.declared().continuous.sparsity) {
+  for (const auto& [row, column] : entries) {
     if (row < 0 || row >= leaf.nx || column < 0 || column >= leaf.nx) {
       throw ModelError(text("block '", leaf.path, "': the Jacobian's sparsity names entry (", row,
                             ", ", column, "); the block has ", leaf.nx,
@@ -161,14 +50,15 @@ struct Rows {
 /// Adds the rows of one leaf.
 class RowsOfLeaf {
  public:
-  RowsOfLeaf(const PlanLeaf& leaf, Reach& reach) : leaf_(leaf), state_(leaf.declared().continuous) {
+  RowsOfLeaf(const PlanLeaf& leaf, const std::vector<MatrixEntry>* entries, Reach& reach)
+      : leaf_(leaf), state_(leaf.declared().continuous), named_(entries != nullptr) {
     through_.resize(static_cast<std::size_t>(leaf.nx));
     if (!state_.ode) return;
     const auto inputs = Reach::inputs_of(leaf, state_.reads, state_.inputs);
     reach.behind(leaf, inputs, state_.entries, leaf.nx,
                  [&](Index i, int set) { through_[static_cast<std::size_t>(i)] = set; });
     reads_state_ = has(state_.reads, Reads::continuous_state);
-    if (reads_state_ && state_.sparsity) declared_ = declared_rows(leaf);
+    if (reads_state_ && named_) named_rows_ = by_rows(leaf, *entries);
     exact_ = reads_state_ && (state_.jacobian || state_.sparse_jacobian) && !feeds_back(reach);
   }
 
@@ -200,8 +90,8 @@ class RowsOfLeaf {
 
   void add_own(Index i, std::vector<int>& own) const {
     if (!reads_state_) return;
-    if (state_.sparsity) {
-      for (const int j : declared_[static_cast<std::size_t>(i)])
+    if (named_) {
+      for (const int j : named_rows_[static_cast<std::size_t>(i)])
         own.push_back(static_cast<int>(leaf_.x) + j);
     } else {
       own.resize(static_cast<std::size_t>(leaf_.nx));
@@ -233,7 +123,8 @@ class RowsOfLeaf {
   const PlanLeaf& leaf_;
   const ContinuousState& state_;
   std::vector<int> through_;  // the set behind the inputs of each row
-  std::vector<std::vector<int>> declared_;
+  bool named_;
+  std::vector<std::vector<int>> named_rows_;
   bool reads_state_ = false, exact_ = false;
 };
 
@@ -255,10 +146,10 @@ void transpose(const Rows& rows, Index n, JacobianPattern& to) {
 }
 
 /// How many places a leaf's own block has at least.
-Index block_size(const PlanLeaf& leaf) {
+Index block_size(const PlanLeaf& leaf, const std::vector<MatrixEntry>* entries) {
   const ContinuousState& state = leaf.declared().continuous;
   if (!state.ode || !has(state.reads, Reads::continuous_state)) return 0;
-  return state.sparsity ? static_cast<Index>(state.sparsity->size()) : leaf.nx * leaf.nx;
+  return entries != nullptr ? static_cast<Index>(entries->size()) : leaf.nx * leaf.nx;
 }
 
 }  // namespace
@@ -272,17 +163,20 @@ Sparsity full_sparsity(Index n) {
   return full;
 }
 
-JacobianPattern jacobian_pattern(const Plan& plan) {
+JacobianPattern jacobian_pattern(const Plan& plan, const FoundBlocks& found) {
   JacobianPattern pattern;
   const Index most = most_places(plan.nx);
+  const auto leaf_of = [&](int number) -> const PlanLeaf& {
+    return plan.leaves[static_cast<std::size_t>(number)];
+  };
+  const auto entries_of = [&](int number) { return named_entries(leaf_of(number), number, found); };
   Index blocks = 0;
-  for (const int leaf : plan.odes)
-    blocks += block_size(plan.leaves[static_cast<std::size_t>(leaf)]);
+  for (const int leaf : plan.odes) blocks += block_size(leaf_of(leaf), entries_of(leaf));
   if (pattern.overflow = blocks > most; pattern.overflow) return pattern;
   Reach reach(plan);
   Rows rows;
   for (const int number : plan.odes) {
-    const RowsOfLeaf leaf(plan.leaves[static_cast<std::size_t>(number)], reach);
+    const RowsOfLeaf leaf(leaf_of(number), entries_of(number), reach);
     pattern.overflow = reach.sets().overflow();
     if (!pattern.overflow) leaf.add(rows, reach);
     pattern.overflow = pattern.overflow || static_cast<Index>(rows.columns.size()) > most;

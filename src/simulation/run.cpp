@@ -153,8 +153,12 @@ void Run::move_to(double t_stop, StopReason& reason) {
 }
 
 SolverOptions Run::solver_options() const {
-  return {options_.rtol, options_.atol, options_.min_minor_step_size, options_.max_minor_step_size,
-          linear_solver_from(options_.linear_solver)};
+  return {options_.rtol,
+          options_.atol,
+          options_.min_minor_step_size,
+          options_.max_minor_step_size,
+          linear_solver_from(options_.linear_solver),
+          options_.find_sparsity};
 }
 
 /// The instant at time_, where there is one; restarts the solver if it has to forget.

@@ -49,7 +49,9 @@ class Meetings {
  private:
   static std::vector<std::vector<int>> rows_of(const JacobianPattern& pattern) {
     const Sparsity& places = pattern.places;
-    std::vector<std::vector<int>> rows(static_cast<std::size_t>(places.columns()));
+    Index last = places.columns() - 1;
+    for (const int row : places.rows) last = std::max(last, Index{row});
+    std::vector<std::vector<int>> rows(static_cast<std::size_t>(last) + 1);
     std::vector<char> sought(rows.size());
     for (std::size_t k = 0; k < places.rows.size(); ++k)
       if (pattern.differences[k]) sought[static_cast<std::size_t>(places.rows[k])] = 1;

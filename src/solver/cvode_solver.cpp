@@ -119,11 +119,15 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
       nonlinear_.reset(SUNNonlinSol_FixedPoint(y_.get(), 0, context_.get()));
       CVodeSetNonlinearSolver(cvode, nonlinear_.get());
     } else {
-      linear_.emplace(*machine_, options_, error_);
-      linear_->attach(cvode, y_.get(), context_.get(), {jacobian, prepare, precondition});
+      linear_.emplace(*machine_, options_, error_, t1_, x1_.data());
+      attach_linear();
     }
     watch_guards();
     started_ = true;
+  }
+
+  void attach_linear() {
+    linear_->attach(cvode_.get(), y_.get(), context_.get(), {jacobian, prepare, precondition});
   }
 
   /// Only a scene with guards that stop the solver has root-finding. CVodeReInit would keep guards
@@ -175,6 +179,11 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
     double t = t0_;
     const int flag = CVode(cvode_.get(), t_stop, y_.get(), &t, CV_ONE_STEP);
     if (error_) std::rethrow_exception(std::exchange(error_, nullptr));
+    if (flag < 0 && linear_ && linear_->renew(flag)) {
+      last_message_.clear();
+      attach_linear(), start_cvode();
+      return cvode_step(t_stop);
+    }
     if (flag < 0) fail(t);
     if (steps_ == 0) CVodeGetActualInitStep(cvode_.get(), &first_step_);
     if (flag == CV_ROOT_RETURN && too_coarse()) {

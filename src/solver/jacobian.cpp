@@ -4,10 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace saltus {
 
 namespace {
+
+constexpr double eps = std::numeric_limits<double>::epsilon();
 
 /// Where entry (row, column) stands in the pattern.
 Index entry_of(const Sparsity& places, Index row, Index column) {
@@ -18,8 +21,8 @@ Index entry_of(const Sparsity& places, Index row, Index column) {
 
 }  // namespace
 
-Jacobian::Jacobian(Machine& machine)
-    : machine_(&machine), pattern_(jacobian_pattern(machine.plan())) {
+Jacobian::Jacobian(Machine& machine, const FoundBlocks& found)
+    : machine_(&machine), pattern_(jacobian_pattern(machine.plan(), found)) {
   if (!pattern_.overflow) prepare();
 }
 
@@ -50,7 +53,7 @@ void Jacobian::add_own(int number) {
   Own own{.leaf = number, .size = leaf.nx * leaf.nx, .copies = {}};
   const auto copy = [&](Index row, Index column, Index from) {
     own.copies.push_back({entry_of(pattern_.places, leaf.x + row, leaf.x + column), from,
-                          static_cast<int>(leaf.x + row)});
+                          static_cast<int>(leaf.x + row), static_cast<int>(leaf.x + column)});
   };
   if (state.sparsity) {
     const auto& entries = *state.sparsity;
@@ -69,18 +72,20 @@ void Jacobian::add_own(int number) {
 bool Jacobian::operator()(double t, const double* x, const double* xdot, const Increments& by,
                           double* out) {
   ++machine_->jacobian_calls;
-  if (machine_->carrier != nullptr) {  // the derivative at hand has the speed of the surface in it
-    std::copy_n(machine_->carried(t, x), x_.size(), x_.data());
-    machine_->flow(t, x_.data(), base_.data());
-    xdot = base_.data();
-  } else if (colours() > 0) {
-    std::copy_n(x, x_.size(), x_.data());
-  }
+  if (machine_->carrier != nullptr || colours() > 0) xdot = begin_at(t, x, xdot);
   if (colours() > 0 && !differences(t, x, xdot, by, out)) return false;
   if (own_.empty()) return true;
   machine_->evaluate_derivative_needs(t, machine_->carrier != nullptr ? x_.data() : x);
-  for (const Own& own : own_) take(own, t, out);
-  return true;
+  return std::ranges::all_of(own_, [&](const Own& own) { return take(own, t, x, xdot, by, out); });
+}
+
+/// x_ becomes the state as it is seen; what the derivative is there. The one at hand has the speed
+/// of the surface in it, where something is carried.
+const double* Jacobian::begin_at(double t, const double* x, const double* xdot) {
+  std::copy_n(machine_->carried(t, x), x_.size(), x_.data());
+  if (machine_->carrier == nullptr) return xdot;
+  machine_->flow(t, x_.data(), base_.data());
+  return base_.data();
 }
 
 /// CVODE's: what makes the change of f about a thousand of its rounding errors, over the weight.
@@ -92,21 +97,23 @@ double Jacobian::least_increment(const double* x, const double* xdot, const Incr
     sum += scaled * scaled;
   }
   const double norm = std::sqrt(sum / static_cast<double>(n));
-  const double least = 1000.0 * std::abs(by.h) * std::numeric_limits<double>::epsilon() *
-                       static_cast<double>(n) * norm;
+  const double least = 1000.0 * std::abs(by.h) * eps * static_cast<double>(n) * norm;
   return least > 0.0 && std::isfinite(least) ? least : 1.0;
+}
+
+double Jacobian::increment(double x, double least, const Increments& by) const {
+  const double size = std::abs(x);
+  return std::max(std::sqrt(eps) * size, least * (by.rtol * size + by.atol));
 }
 
 bool Jacobian::differences(double t, const double* x, const double* xdot, const Increments& by,
                            double* out) {
-  const double root = std::sqrt(std::numeric_limits<double>::epsilon());
   const double least = least_increment(x, xdot, by);
   const Sparsity& places = pattern_.places;
   for (Index colour = 0; colour < colours(); ++colour) {
     for (const int j : colouring_.of(colour)) {
       const double before = x_[j];
-      const double size = std::abs(before);
-      x_[j] += std::max(root * size, least * (by.rtol * size + by.atol));
+      x_[j] += increment(before, least, by);
       moved_[j] = before;
     }
     machine_->flow(t, x_.data(), f_.data());
@@ -126,7 +133,46 @@ bool Jacobian::differences(double t, const double* x, const double* xdot, const 
   return true;
 }
 
-void Jacobian::take(const Own& own, double t, double* out) {
+bool Jacobian::explains(double t, const double* x, const double* xdot, const Increments& by,
+                        const double* values) {
+  xdot = begin_at(t, x, xdot);
+  moved_ = x_;
+  const double size = std::min(1.0, std::sqrt(eps) / by.rtol);
+  const auto tolerance = [&](Index j) { return by.rtol * std::abs(moved_[j]) + by.atol; };
+  for (Index j = 0; j < x_.size(); ++j) {
+    const std::uint64_t bits = random_();
+    const double part = 0.5 + 0.5 * std::ldexp(static_cast<double>(bits >> 11), -53);
+    x_[j] += ((bits & 1U) != 0 ? size : -size) * part * tolerance(j);
+  }
+  machine_->flow(t, x_.data(), f_.data());
+  move_by_values(values);
+  for (Index i = 0; i < x_.size(); ++i) {
+    const double rest = std::abs(f_[i] - xdot[i] - sum_[i]);
+    if (rest > least_[i] + 100.0 * eps * std::abs(xdot[i]) &&
+        std::abs(by.h) * rest > 0.01 * size * tolerance(i))
+      return false;
+  }
+  return true;
+}
+
+/// J v with v = x_ - moved_, as it was rounded, and for each row what a sum of that size may be off
+/// by.
+void Jacobian::move_by_values(const double* values) {
+  sum_.setZero(x_.size()), least_.setZero(x_.size());
+  const Sparsity& places = pattern_.places;
+  Index k = 0;
+  for (Index j = 0; j < x_.size(); ++j) {
+    const double v = x_[j] - moved_[j];
+    const double share = 0.01 * std::abs(v) + 100.0 * eps * std::abs(moved_[j]);
+    for (const int i : places.column(j)) {
+      const double value = values[place(k++)];
+      sum_[i] += value * v, least_[i] += std::abs(value) * share;
+    }
+  }
+}
+
+bool Jacobian::take(const Own& own, double t, const double* x, const double* xdot,
+                    const Increments& by, double* out) {
   const PlanLeaf& leaf = machine_->plan().leaves[static_cast<std::size_t>(own.leaf)];
   const ContinuousState& state = leaf.declared().continuous;
   block_.head(own.size).setZero();
@@ -135,14 +181,59 @@ void Jacobian::take(const Own& own, double t, double* out) {
     state.sparse_jacobian(*leaf.system, at, VectorRef(block_.data(), own.size));
   else
     state.jacobian(*leaf.system, at, MatrixRef(block_.data(), leaf.nx, leaf.nx));
-  if (!block_.head(own.size).allFinite())
-    refuse(own, t, "is not finite (NaN or Inf); check its function at this state");
+  if (!block_.head(own.size).allFinite() && !mend(own, t, x, xdot, by)) return false;
   for (const Copy& copy : own.copies) {
     out[place(copy.entry)] = machine_->rests(copy.row) ? 0.0 : block_[copy.from];
     block_[copy.from] = 0.0;
   }
   if (state.sparsity && !block_.head(own.size).isZero(0.0))
     refuse(own, t, "has values outside the sparsity that it declares; name those entries too");
+  return true;
+}
+
+/// Entries that are not finite, by differences of the leaf alone: it reads its own states nowhere
+/// else. False if these are not finite either.
+bool Jacobian::mend(const Own& own, double t, const double* x, const double* xdot,
+                    const Increments& by) {
+  const PlanLeaf& leaf = machine_->plan().leaves[static_cast<std::size_t>(own.leaf)];
+  const double least = least_increment(x, xdot, by);
+  begin_at(t, x, xdot);
+  machine_->evaluate_derivative_needs(t, x_.data());
+  ode_of(leaf, t, moved_);
+  int column = -1;
+  double moved = 0.0;
+  for (const Copy& bad : own.copies) {
+    if (std::isfinite(block_[bad.from])) continue;
+    if (first_mended_.empty()) first_mended_ = text_of(bad, leaf, t);
+    if (std::exchange(column, bad.column) != bad.column) {
+      const double before = x_[column];
+      x_[column] += increment(before, least, by);
+      moved = x_[column] - before;  // as it was rounded
+      ode_of(leaf, t, f_);
+      x_[column] = before;
+    }
+    block_[bad.from] = (f_[bad.row] - moved_[bad.row]) / moved;
+    if (!std::isfinite(block_[bad.from])) return false;
+  }
+  ++mended_;
+  return true;
+}
+
+std::string Jacobian::text_of(const Copy& bad, const PlanLeaf& leaf, double t) {
+  return text("entry (", bad.row - leaf.x, ", ", bad.column - leaf.x,
+              ") of the Jacobian of block '", leaf.path, "' was not finite at t = ", t,
+              " s: differences stood in, in ");
+}
+
+void Jacobian::ode_of(const PlanLeaf& leaf, double t, Eigen::VectorXd& xdot) {
+  ++machine_->rhs_calls;
+  const auto number = static_cast<std::size_t>(&leaf - machine_->plan().leaves.data());
+  leaf.declared().continuous.ode(*leaf.system, machine_->at(number, t),
+                                 VectorRef(xdot.data() + leaf.x, leaf.nx));
+}
+
+std::string Jacobian::words() const {
+  return mended_ == 0 ? std::string() : text("; ", first_mended_, mended_, " evaluation(s)");
 }
 
 void Jacobian::refuse(const Own& own, double t, const char* what) const {

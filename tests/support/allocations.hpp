@@ -6,6 +6,8 @@ namespace support {
 /// Calls of malloc, calloc and realloc since the program began; -1 where they cannot be counted
 /// (sanitizers, other C libraries than glibc).
 long allocations();
+/// How many bytes these asked for, all in all; -1 as above.
+long allocated_bytes();
 
 /// What `act` asked for.
 template <class Act>

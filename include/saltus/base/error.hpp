@@ -54,6 +54,13 @@ class SimulationError : public Error {
   std::shared_ptr<const Results> results_;
 };
 
+/// Base, beside another one, of what is thrown to end the run, such as Ctrl-C in a user's function:
+/// whoever only tries a function out lets it pass.
+class Interruption {
+ public:
+  virtual ~Interruption() = default;
+};
+
 namespace detail {
 
 inline void append(std::string& out, std::string_view piece) { out += piece; }

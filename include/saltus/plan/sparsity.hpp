@@ -1,6 +1,7 @@
 // Which state reaches which derivative: the places of d(xdot)/d(x), from declarations and wires.
 #pragma once
 
+#include <map>
 #include <span>
 #include <vector>
 
@@ -36,11 +37,14 @@ struct JacobianPattern {
 /// More places are not worth a matrix: 4 million, or 256 a state.
 constexpr Index most_places(Index n) { return std::max(Index{4'000'000}, 256 * n); }
 
+/// Places of blocks that declare none, by number of the leaf: they count as if they were declared.
+using FoundBlocks = std::map<int, std::vector<MatrixEntry>>;
+
 /// Follows every wire from the states through what the derivatives read; by entries where a
 /// declaration says so (EntryRule, declare_jacobian_sparsity), else whole signals. Relations and
 /// opaque booleans are held between instants, so nothing passes through them. Made for a stiff
 /// method, when it starts; linear in blocks, wires and places. Throws ModelError for a declared
 /// entry outside the block's n by n matrix, or one that is named twice.
-JacobianPattern jacobian_pattern(const Plan& plan);
+JacobianPattern jacobian_pattern(const Plan& plan, const FoundBlocks& found = {});
 
 }  // namespace saltus

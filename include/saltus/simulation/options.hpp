@@ -27,6 +27,10 @@ struct SimulatorOptions {
   /// How a stiff method solves its linear systems: "auto" (by number of states and places of the
   /// Jacobian), "dense", "band", "sparse" or "gmres". The statistics say what was chosen, and why.
   std::string linear_solver = "auto";
+  /// Where a block of more than 256 states declares neither Jacobian nor sparsity, a stiff method
+  /// finds the sparsity by calls of its derivative near the state. The statistics say what was
+  /// found. False: such a block is full, or its places are unknown.
+  bool find_sparsity = true;
 
   /// Instants a run may have; more end it with the status step_limit. Not said: no limit.
   std::optional<std::int64_t> max_major_steps = {};

@@ -2,6 +2,9 @@
 // differences.
 #pragma once
 
+#include <random>
+#include <string>
+
 #include "saltus/plan/machine.hpp"
 #include "saltus/solver/colouring.hpp"
 
@@ -17,7 +20,7 @@ struct Increments {
 class Jacobian {
  public:
   /// Throws what jacobian_pattern throws.
-  explicit Jacobian(Machine& machine);
+  explicit Jacobian(Machine& machine, const FoundBlocks& found = {});
 
   const JacobianPattern& pattern() const { return pattern_; }
   /// Calls of the right-hand side that one evaluation costs.
@@ -29,9 +32,10 @@ class Jacobian {
   void store_at(std::vector<Index> places) { places_ = std::move(places); }
 
   /// Writes the entries at (t, x), where the derivative is `xdot`; those of states at rest are
-  /// zero. False if the derivative nearby is not finite. Throws SimulationError if a leaf's own
-  /// Jacobian is not finite, or not zero outside its declared sparsity, and what a user's function
-  /// throws.
+  /// zero. Differences stand in for entries of a leaf's own Jacobian that are not finite, such as
+  /// the slope of a root at 0: only Newton's iteration is steered by them, and `words` tells.
+  /// False if the derivative nearby is not finite. Throws SimulationError if a leaf's own Jacobian
+  /// is not zero outside its declared sparsity, and what a user's function throws.
   ///
   /// Column j is (f(x + d e_j) - f(x)) / d, columns of one colour together, with the increment of
   /// CVODE's own differences, d = max(sqrt(eps) |x_j|, s (rtol |x_j| + atol)) where
@@ -40,11 +44,23 @@ class Jacobian {
   /// surface, what it carries counts as constant.
   bool operator()(double t, const double* x, const double* xdot, const Increments& by, double* out);
 
+  /// Whether these values, of (t, x), explain how f moves: for a random v, |v_j| from s w_j / 2 to
+  /// s w_j with w_j = rtol |x_j| + atol and s = min(1, sqrt(eps) / rtol), no row of
+  /// f(x + v) - f(x) - J v is beyond 1 % of |J| |v| plus a hundred roundings while h times it is
+  /// beyond 1 % of s w. A place that is missing shows so, with probability 1, as soon as Newton's
+  /// iteration could notice; so may a kink. Costs one call.
+  bool explains(double t, const double* x, const double* xdot, const Increments& by,
+                const double* values);
+
+  /// What was not as a leaf's own Jacobian should be; empty if all was well.
+  std::string words() const;
+  auto mended() const noexcept { return mended_; }  ///< evaluations in which they stood in
+
  private:
   /// Entry `entry` of the pattern is value `from` of a leaf's own Jacobian.
   struct Copy {
     Index entry, from;
-    int row;
+    int row, column;
   };
   struct Own {
     int leaf;
@@ -56,8 +72,15 @@ class Jacobian {
   void add_own(int leaf);
   bool differences(double t, const double* x, const double* xdot, const Increments& by,
                    double* out);
+  void move_by_values(const double* values);
+  const double* begin_at(double t, const double* x, const double* xdot);
   double least_increment(const double* x, const double* xdot, const Increments& by) const;
-  void take(const Own& own, double t, double* out);
+  double increment(double x, double least, const Increments& by) const;
+  bool take(const Own& own, double t, const double* x, const double* xdot, const Increments& by,
+            double* out);
+  bool mend(const Own& own, double t, const double* x, const double* xdot, const Increments& by);
+  static std::string text_of(const Copy& bad, const PlanLeaf& leaf, double t);
+  void ode_of(const PlanLeaf& leaf, double t, Eigen::VectorXd& xdot);
   [[noreturn]] void refuse(const Own& own, double t, const char* what) const;
   Index place(Index entry) const {
     return places_.empty() ? entry : places_[static_cast<std::size_t>(entry)];
@@ -69,6 +92,10 @@ class Jacobian {
   std::vector<Index> places_;
   std::vector<Own> own_;
   Eigen::VectorXd x_, f_, base_, moved_, block_;
+  Eigen::VectorXd sum_, least_;  // of rows; made when they are first asked for
+  std::mt19937_64 random_{1};
+  std::string first_mended_;
+  int mended_ = 0;  // evaluations in which own entries were not finite
 };
 
 }  // namespace saltus

@@ -26,6 +26,7 @@ struct SolverOptions {
   double min_step = 0.0;                                      ///< [s]
   double max_step = std::numeric_limits<double>::infinity();  ///< [s]
   LinearSolver linear_solver = LinearSolver::automatic;       ///< of BDF
+  bool find_sparsity = true;                                  ///< see Probe
 };
 
 /// How a stretch begins.

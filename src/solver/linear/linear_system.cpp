@@ -1,6 +1,8 @@
 // Choice, set-up and callbacks of the linear solver.
 #include "linear_system.hpp"
 
+#include <utility>
+
 #include <sunlinsol/sunlinsol_spgmr.h>
 
 namespace saltus {
@@ -19,24 +21,49 @@ int solve_or_fail(SUNLinearSolver solver, SUNMatrix matrix, N_Vector x, N_Vector
 }  // namespace
 
 LinearSystem::LinearSystem(Machine& machine, const SolverOptions& options,
-                           std::exception_ptr& error)
-    : machine_(&machine),
-      options_(options),
-      error_(&error),
-      jacobian_(machine),
-      choice_(choose_linear_solver(jacobian_, machine.plan().nx, options.linear_solver)),
-      words_(text(linear_solver_names[static_cast<std::size_t>(choice_.solver)].first, ": ",
-                  choice_.why)) {
+                           std::exception_ptr& error, double t, const double* x)
+    : machine_(&machine), options_(options), error_(&error), probe_(machine) {
+  if (options.find_sparsity) probe_.look(t, x);
+  build();
+}
+
+void LinearSystem::build() {
+  jacobian_.emplace(*machine_, probe_.found());
+  choice_ = choose_linear_solver(*jacobian_, machine_->plan().nx, options_.linear_solver);
+  factorisation_.reset(), preconditioner_.reset(), words_.clear();
   if (choice_.solver != LinearSolver::gmres)
     make_factorisation();
-  else if (!jacobian_.pattern().overflow)
-    preconditioner_.emplace(jacobian_.pattern().places);
+  else if (!jacobian_->pattern().overflow)
+    preconditioner_.emplace(jacobian_->pattern().places);
+}
+
+bool LinearSystem::renew(int flag) {
+  constexpr int most_renewals = 20;
+  const bool failed = flag == CV_CONV_FAILURE && !probe_.found().empty();
+  if (!std::exchange(news_, false) && !failed) return false;
+  if (failed)
+    probe_.give_up("Newton's iteration did not converge with what was found");
+  else if (++renewals_ > most_renewals)
+    probe_.give_up(text("others were missing ", most_renewals, " times"));
+  build();
+  return true;
+}
+
+/// Places told by calls near one state may be too few near another. A false alarm, at a kink or by
+/// rounding, doubles the time to the next look.
+bool LinearSystem::doubtful(double t, const double* x, const double* xdot, const double* values) {
+  if (probe_.found().empty() || --until_check_ > 0) return false;
+  const bool explained = jacobian_->explains(t, x, xdot, increments(), values);
+  news_ = !explained && probe_.look(t, x);
+  if (!explained && !news_) wait_ *= 2;
+  until_check_ = wait_;
+  return news_;
 }
 
 void LinearSystem::make_factorisation() {
   const Index n = machine_->plan().nx;
-  if (jacobian_.pattern().overflow) jacobian_.fill_up();
-  const Sparsity& places = jacobian_.pattern().places;
+  if (jacobian_->pattern().overflow) jacobian_->fill_up();
+  const Sparsity& places = jacobian_->pattern().places;
   if (choice_.solver == LinearSolver::dense) {
     layout_ = dense_layout(places);
     factorisation_ = make_dense(n);
@@ -47,7 +74,7 @@ void LinearSystem::make_factorisation() {
     layout_ = sparse_layout(places);
     factorisation_ = make_sparse(places);
   }
-  jacobian_.store_at(std::move(layout_.places));
+  jacobian_->store_at(std::move(layout_.places));
 }
 
 void LinearSystem::attach(void* cvode, N_Vector y, SUNContext context, const Callbacks& callbacks) {
@@ -88,17 +115,17 @@ Increments LinearSystem::increments() const {
 }
 
 int LinearSystem::jacobian(double t, N_Vector x, N_Vector xdot, SUNMatrix out) {
-  return jacobian_(t, N_VGetArrayPointer(x), N_VGetArrayPointer(xdot), increments(),
-                   sun::values_of(out))
-             ? 0
-             : 1;
+  const double *at = N_VGetArrayPointer(x), *speed = N_VGetArrayPointer(xdot);
+  double* values = sun::values_of(out);
+  if (!(*jacobian_)(t, at, speed, increments(), values)) return 1;
+  return doubtful(t, at, speed, values) ? -1 : 0;
 }
 
 int LinearSystem::prepare(double t, N_Vector x, N_Vector xdot, bool keep, bool& renewed,
                           double gamma) {
   renewed = !keep;
-  if (!keep && !jacobian_(t, N_VGetArrayPointer(x), N_VGetArrayPointer(xdot), increments(),
-                          preconditioner_->jacobian()))
+  if (!keep && !(*jacobian_)(t, N_VGetArrayPointer(x), N_VGetArrayPointer(xdot), increments(),
+                             preconditioner_->jacobian()))
     return 1;
   return preconditioner_->factor(gamma) ? 0 : 1;
 }
@@ -106,6 +133,14 @@ int LinearSystem::prepare(double t, N_Vector x, N_Vector xdot, bool keep, bool& 
 int LinearSystem::precondition(N_Vector r, N_Vector z) {
   preconditioner_->solve(N_VGetArrayPointer(r), N_VGetArrayPointer(z));
   return 0;
+}
+
+const std::string& LinearSystem::describe() {
+  if (std::exchange(told_, jacobian_->mended()) != jacobian_->mended() || words_.empty()) {
+    words_ = text(linear_solver_names[static_cast<std::size_t>(choice_.solver)].first, ": ",
+                  choice_.why, probe_.words(), jacobian_->words());
+  }
+  return words_;
 }
 
 }  // namespace saltus

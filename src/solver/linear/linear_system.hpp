@@ -7,15 +7,17 @@
 #include "choice.hpp"
 #include "direct.hpp"
 #include "krylov.hpp"
+#include "saltus/solver/probe.hpp"
 #include "saltus/solver/solver.hpp"
 
 namespace saltus {
 
 class LinearSystem {
  public:
-  /// What is thrown inside SUNDIALS is kept in `error`. Throws ModelError for a sparsity that
-  /// cannot be.
-  LinearSystem(Machine& machine, const SolverOptions& options, std::exception_ptr& error);
+  /// For a run that starts at (t, x). What is thrown inside SUNDIALS is kept in `error`. Throws
+  /// ModelError for a sparsity that cannot be.
+  LinearSystem(Machine& machine, const SolverOptions& options, std::exception_ptr& error, double t,
+               const double* x);
 
   /// Functions that are to call ours.
   struct Callbacks {
@@ -26,27 +28,38 @@ class LinearSystem {
   /// Gives CVODE its linear solver.
   void attach(void* cvode, N_Vector y, SUNContext context, const Callbacks& callbacks);
 
-  // What CVODE calls: 0 well, 1 try a shorter step.
+  /// After a step that failed with this flag of CVODE: whether the system is another one now, to
+  /// be attached anew, since places it had been told by calls were not all there are.
+  bool renew(int flag);
+
+  // What CVODE calls: 0 well, 1 try a shorter step, -1 renew.
   int jacobian(double t, N_Vector x, N_Vector xdot, SUNMatrix out);
   int prepare(double t, N_Vector x, N_Vector xdot, bool keep, bool& renewed, double gamma);
   int precondition(N_Vector r, N_Vector z);
 
-  /// Which solver and why, in words.
-  const std::string& describe() const { return words_; }
+  /// Which solver and why, in words; put together again only where that has changed.
+  const std::string& describe();
 
  private:
   static constexpr Index small = 16;  // states: see refresh_often
+  void build();
   void make_factorisation();
   void refresh_often();
+  bool doubtful(double t, const double* x, const double* xdot, const double* values);
   Increments increments() const;
 
   Machine* machine_;
   SolverOptions options_;
   std::exception_ptr* error_;
   void* cvode_ = nullptr;
-  Jacobian jacobian_;
+  Probe probe_;
+  bool news_ = false;  // of the probe, not yet built in
+  int renewals_ = 0;
+  int wait_ = 1, until_check_ = 1;  // Jacobians from one look at the probe's places to the next
+  std::optional<Jacobian> jacobian_;
   LinearChoice choice_;
   std::string words_;
+  std::int64_t told_ = 0;  // evaluations of Jacobians that were mended, as words_ has it
   MatrixLayout layout_;
   std::unique_ptr<Factorisation> factorisation_;
   std::optional<Preconditioner> preconditioner_;

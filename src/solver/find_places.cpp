@@ -1,0 +1,116 @@
+// Groups of arguments, halved while calls tell which half a value reads.
+#include "saltus/solver/find_places.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "saltus/solver/colouring.hpp"
+
+namespace saltus {
+
+namespace {
+
+/// Groups of neighbours, `size` arguments each, and the values that read some of them.
+class Groups {
+ public:
+  /// One group that every value may read.
+  explicit Groups(Index n) : n_(n), members_{0} {
+    while (size_ < n) size_ *= 2;
+    read_by_.rows.resize(static_cast<std::size_t>(n));
+    std::iota(read_by_.rows.begin(), read_by_.rows.end(), 0);
+    read_by_.start.push_back(n);
+  }
+
+  Index size() const { return size_; }
+  /// Each argument alone: column j of argument j.
+  Sparsity places() const {
+    Sparsity all;
+    std::size_t group = 0;
+    for (int j = 0; j < n_; ++j) {
+      if (group < members_.size() && members_[group] == j) {
+        const auto values = read_by_.column(static_cast<Index>(group++));
+        all.rows.insert(all.rows.end(), values.begin(), values.end());
+      }
+      all.start.push_back(all.size());
+    }
+    return all;
+  }
+
+  bool looks_full() const {
+    const Index groups = read_by_.columns();
+    return groups >= 64 && 2 * read_by_.size() > groups * n_;
+  }
+
+  /// Groups that no value reads together.
+  Colouring apart() const {
+    return colour({.places = read_by_,
+                   .own = {},
+                   .differences = std::vector<char>(read_by_.rows.size(), 1),
+                   .overflow = false});
+  }
+
+  /// Splits every group in two; what reads neither half, or a half that nothing reads, is dropped.
+  Groups halved(const Colouring& together, const Response& response, int& calls) const {
+    const auto groups = static_cast<std::size_t>(read_by_.columns());
+    std::vector<std::vector<int>> halves(2 * groups);
+    std::vector<int> moved;
+    std::vector<char> changed(static_cast<std::size_t>(n_));
+    for (Index c = 0; c < together.colours(); ++c) {
+      for (const std::size_t half : {0, 1}) {
+        moved.clear();
+        for (const int group : together.of(c)) add_half(group, half, moved);
+        if (moved.empty()) continue;
+        response(moved, changed), ++calls;
+        for (const int group : together.of(c))
+          std::ranges::copy_if(
+              read_by_.column(group),
+              std::back_inserter(halves[2 * static_cast<std::size_t>(group) + half]),
+              [&](int value) { return changed[static_cast<std::size_t>(value)] != 0; });
+      }
+    }
+    return {*this, halves};
+  }
+
+ private:
+  Groups(const Groups& before, const std::vector<std::vector<int>>& halves)
+      : n_(before.n_), size_(before.size_ / 2) {
+    for (std::size_t k = 0; k < halves.size(); ++k) {
+      if (halves[k].empty()) continue;
+      members_.push_back(before.members_[k / 2] + (k % 2 == 0 ? 0 : static_cast<int>(size_)));
+      read_by_.rows.insert(read_by_.rows.end(), halves[k].begin(), halves[k].end());
+      read_by_.start.push_back(read_by_.size());
+    }
+  }
+
+  void add_half(int group, std::size_t half, std::vector<int>& to) const {
+    const Index first =
+        members_[static_cast<std::size_t>(group)] + (half == 0 ? Index{0} : size_ / 2);
+    for (Index j = first; j < std::min(first + size_ / 2, n_); ++j)
+      to.push_back(static_cast<int>(j));
+  }
+
+  Index n_, size_ = 2;
+  std::vector<int> members_;  // the first argument of each group
+  Sparsity read_by_;          // column: group
+};
+
+}  // namespace
+
+Places find_places(Index n, const Response& response) {
+  constexpr Index most_colours = 1000;
+  Places result;
+  Groups groups(n);
+  while (groups.size() > 1) {
+    const Colouring together = groups.apart();
+    if (groups.looks_full())
+      result.search = Search::full;
+    else if (together.colours() > most_colours)
+      result.search = Search::dear;
+    if (result.search != Search::found) return result;
+    groups = groups.halved(together, response, result.calls);
+  }
+  result.places = groups.places();
+  return result;
+}
+
+}  // namespace saltus
