@@ -1,6 +1,7 @@
 // The passes of compile(), in order.
 #include "saltus/plan/compile.hpp"
 
+#include "saltus/plan/fuse.hpp"
 #include "saltus/plan/needs.hpp"
 #include "saltus/plan/order.hpp"
 
@@ -147,6 +148,7 @@ std::shared_ptr<const Plan> compile(const System& system, const RecordedSignals&
   add_guards(plan);
   add_edges(plan);
   add_schedule(plan);
+  fuse(plan);
   return std::make_shared<const Plan>(std::move(plan));
 }
 
