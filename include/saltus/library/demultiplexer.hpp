@@ -28,8 +28,8 @@ class Demultiplexer final : public LeafSystem {
                            .shape_rule = part,
                            .reads = Reads::inputs,
                            .entries = entries,
-                           .formula = [k, n_outputs](const auto& at) {
-                             return at.u(0, k * (at.width(0) / n_outputs) + at.index());
+                           .formula = [k, n_outputs](const auto& at, Index i) {
+                             return at.u(0, k * (at.width(0) / n_outputs) + i);
                            }});
     }
   }

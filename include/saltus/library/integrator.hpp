@@ -96,23 +96,23 @@ inline void Integrator::declare_limits(const Options& options) {
   const Index n = options.initial_state.values.size();
   if (options.lower_limit) {
     lower_ = declare_dynamic_parameter("lower_limit", options.lower_limit->values);
-    at_lower_ = declare_relation(
-        {.name = "at_lower_limit",
-         .true_at_zero = true,
-         .size = n,
-         .reads = Reads::continuous_state,
-         .inputs = std::vector<int>{},
-         .formula = [k = *lower_](const auto& at) { return at.p(k) - at.x(at.index()); }});
+    at_lower_ =
+        declare_relation({.name = "at_lower_limit",
+                          .true_at_zero = true,
+                          .size = n,
+                          .reads = Reads::continuous_state,
+                          .inputs = std::vector<int>{},
+                          .formula = [k = *lower_](const auto& at) { return at.p(k) - at.x(); }});
   }
   if (options.upper_limit) {
     upper_ = declare_dynamic_parameter("upper_limit", options.upper_limit->values);
-    at_upper_ = declare_relation(
-        {.name = "at_upper_limit",
-         .true_at_zero = true,
-         .size = n,
-         .reads = Reads::continuous_state,
-         .inputs = std::vector<int>{},
-         .formula = [k = *upper_](const auto& at) { return at.x(at.index()) - at.p(k); }});
+    at_upper_ =
+        declare_relation({.name = "at_upper_limit",
+                          .true_at_zero = true,
+                          .size = n,
+                          .reads = Reads::continuous_state,
+                          .inputs = std::vector<int>{},
+                          .formula = [k = *upper_](const auto& at) { return at.x() - at.p(k); }});
   }
   rising_ = declare_relation({.name = "rising",
                               .size = n,

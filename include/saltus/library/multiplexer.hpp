@@ -16,11 +16,10 @@ class Multiplexer final : public LeafSystem {
                          .shape_rule = &Multiplexer::total,
                          .reads = Reads::inputs,
                          .entries = &Multiplexer::entries,
-                         .formula = [](const auto& at) {
+                         .formula = [](const auto& at, Index i) {
                            int k = 0;
-                           Index j = at.index();
-                           while (j >= at.width(k)) j -= at.width(k++);
-                           return at.u(k, j);
+                           while (i >= at.width(k)) i -= at.width(k++);
+                           return at.u(k, i);
                          }});
   }
 
