@@ -1,6 +1,5 @@
 #include "saltus/plan/fuse.hpp"
 
-#include <unordered_map>
 #include <utility>
 
 #include "saltus/plan/needs.hpp"
@@ -14,6 +13,8 @@ namespace {
 /// side by side.
 constexpr Index widest = 16;
 
+constexpr int variable = -1;
+
 /// What a list is for: an ode or a group of guards.
 struct Sink {
   int leaf = -1;
@@ -25,15 +26,29 @@ struct Sink {
 /// Values as nodes of one graph: those that were computed in it, else variables.
 class Writer {
  public:
-  explicit Writer(const Plan& plan) : plan_(plan) {}
+  /// `first` is room for a number a node, shared by those that write one after the other.
+  Writer(const Plan& plan, std::vector<int>& first) : plan_(plan), first_(first) {}
 
-  void compute(int node) {
-    const Formula& formula = plan_.output_of(plan_.node(node)).formula;
-    computed_[node] = entries(formula, plan_.node(node).leaf, plan_.node(node).place.size);
+  void compute(int i) {
+    const Node& node = plan_.node(i);
+    const std::size_t first = values_.size();
+    write(plan_.output_of(node).formula, node.leaf, node.place.size);
+    first_[static_cast<std::size_t>(i)] = static_cast<int>(first);
   }
   /// Writes a value that was computed to its own place.
-  void keep(int node) { put(computed_.at(node), plan_.node(node).place.offset); }
-  void put(const Sink& sink) { put(entries(*sink.formula, sink.leaf, sink.size), sink.to); }
+  void keep(int i) {
+    const auto first = static_cast<std::size_t>(first_[static_cast<std::size_t>(i)]);
+    put(first, plan_.node(i).place);
+  }
+  void put(const Sink& sink) {
+    const std::size_t first = values_.size();
+    write(*sink.formula, sink.leaf, sink.size);
+    put(first, {Space::y, sink.to, sink.size});
+  }
+  /// The values computed here are variables to who writes next.
+  void forget(const std::vector<int>& nodes) {
+    for (const int i : nodes) first_[static_cast<std::size_t>(i)] = variable;
+  }
 
   VectorFunction function() const {
     if (outputs_.empty()) return {};
@@ -65,8 +80,8 @@ class Writer {
   };
 
   tape::Node value(int node, Index i) {
-    const auto computed = computed_.find(node);
-    if (computed != computed_.end()) return computed->second[static_cast<std::size_t>(i)];
+    const int first = first_[static_cast<std::size_t>(node)];
+    if (first != variable) return values_[static_cast<std::size_t>(first + i)];
     const Place& place = plan_.node(node).place;
     switch (place.space) {
       case Space::x:
@@ -80,20 +95,21 @@ class Writer {
     }
   }
 
-  std::vector<tape::Node> entries(const Formula& formula, int leaf, Index size) {
+  void write(const Formula& formula, int leaf, Index size) {
     Of symbols(*this, plan_.leaves[static_cast<std::size_t>(leaf)]);
-    std::vector<tape::Node> nodes;
-    for (Index i = 0; i < size; ++i) nodes.push_back(formula.symbol(symbols, i).in(graph_));
-    return nodes;
+    for (Index i = 0; i < size; ++i) values_.push_back(formula.symbol(symbols, i).in(graph_));
   }
-  void put(const std::vector<tape::Node>& nodes, Index to) {
-    for (const tape::Node node : nodes) outputs_.push_back(node), places_.push_back(to++);
+  void put(std::size_t first, const Place& to) {
+    for (Index i = 0; i < to.size; ++i) {
+      outputs_.push_back(values_[first + static_cast<std::size_t>(i)]);
+      places_.push_back(to.offset + i);
+    }
   }
 
   const Plan& plan_;
+  std::vector<int>& first_;  // of the entries of each node in `values_`
   tape::Graph graph_;
-  std::unordered_map<int, std::vector<tape::Node>> computed_;
-  std::vector<tape::Node> outputs_;
+  std::vector<tape::Node> values_, outputs_;
   std::vector<Index> places_;
 };
 
@@ -124,9 +140,15 @@ class Stages {
       (fuses(i) ? formulas[s] : walk.stages[s].calls).push_back(i);
     }
     const auto kept = find_kept();
-    for (std::size_t s = 0; s < walk.stages.size(); ++s)
-      walk.stages[s].fused = written(formulas[s], kept).function();
-    Writer last = written(formulas.back(), kept);
+    std::vector<int> first(plan_.nodes.size(), variable);
+    for (std::size_t s = 0; s < walk.stages.size(); ++s) {
+      Writer writer(plan_, first);
+      write(writer, formulas[s], kept);
+      walk.stages[s].fused = writer.function();
+      writer.forget(formulas[s]);
+    }
+    Writer last(plan_, first);
+    write(last, formulas.back(), kept);
     for (const Sink& sink : sinks_) {
       walk.fused.push_back(sink.formula != nullptr);
       if (sink.formula != nullptr) last.put(sink);
@@ -162,13 +184,11 @@ class Stages {
     }
   }
 
-  Writer written(const std::vector<int>& nodes, const std::vector<char>& kept) const {
-    Writer writer(plan_);
+  static void write(Writer& writer, const std::vector<int>& nodes, const std::vector<char>& kept) {
     for (const int i : nodes) {
       writer.compute(i);
       if (kept[static_cast<std::size_t>(i)]) writer.keep(i);
     }
-    return writer;
   }
 
   /// What others than the function it is part of read is written down.

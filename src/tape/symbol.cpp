@@ -1,19 +1,30 @@
 #include "saltus/tape/symbol.hpp"
 
-#include <vector>
+#include <algorithm>
+#include <array>
 
 namespace saltus::tape {
 
+namespace {
+
+Node applied(Graph& graph, Op op, std::initializer_list<Symbol> operands) {
+  std::array<Node, 4> nodes{};  // no operation takes as many: the graph refuses them
+  const std::size_t count = std::min(operands.size(), nodes.size());
+  std::transform(operands.begin(), operands.begin() + count, nodes.begin(),
+                 [&](const Symbol& symbol) { return symbol.in(graph); });
+  return graph.apply(op, {nodes.data(), count});
+}
+
+}  // namespace
+
 Symbol Symbol::apply(Op op, std::initializer_list<Symbol> operands) {
-  Graph constants;  // of constants alone nothing is left but a number
-  Graph* graph = &constants;
+  Graph* graph = nullptr;
   for (const Symbol& symbol : operands) {
     if (symbol.graph_ != nullptr) graph = symbol.graph_;
   }
-  std::vector<Node> nodes;
-  for (const Symbol& symbol : operands) nodes.push_back(symbol.in(*graph));
-  const Node result = graph->apply(op, nodes);
-  return graph == &constants ? Symbol(*constants.value(result)) : Symbol(*graph, result);
+  if (graph != nullptr) return {*graph, applied(*graph, op, operands)};
+  Graph constants;  // nothing is left of them but a number
+  return *constants.value(applied(constants, op, operands));
 }
 
 }  // namespace saltus::tape
