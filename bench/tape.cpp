@@ -2,6 +2,7 @@
 // engine calls them, through VectorFunction. `tape ball cpp 1000000` calls one of them so often,
 // for callgrind.
 #include <saltus/tape/jacobian.hpp>
+#include <saltus/tape/symbol.hpp>
 
 #include <cmath>
 #include <cstdlib>
@@ -14,26 +15,7 @@
 namespace {
 
 using namespace saltus;
-
-/// A node that is written with operators, so that one function serves both sides.
-struct Symbol {
-  tape::Graph* graph = nullptr;
-  tape::Node node = {};
-  Symbol() = default;
-  Symbol(tape::Graph* g, tape::Node n) : graph(g), node(n) {}
-  friend Symbol apply(tape::Op op, Symbol a, Symbol b) {
-    return {a.graph, a.graph->binary(op, a.node, b.node)};
-  }
-  Symbol of(double value) const { return {graph, graph->constant(value)}; }
-  friend Symbol operator+(Symbol a, Symbol b) { return apply(tape::Op::add, a, b); }
-  friend Symbol operator-(Symbol a, Symbol b) { return apply(tape::Op::sub, a, b); }
-  friend Symbol operator*(Symbol a, Symbol b) { return apply(tape::Op::mul, a, b); }
-  friend Symbol operator/(Symbol a, Symbol b) { return apply(tape::Op::div, a, b); }
-  friend Symbol operator-(double a, Symbol b) { return b.of(a) - b; }
-  friend Symbol operator*(double a, Symbol b) { return b.of(a) * b; }
-  friend Symbol operator-(Symbol a) { return {a.graph, a.graph->unary(tape::Op::neg, a.node)}; }
-  friend Symbol sin(Symbol a) { return {a.graph, a.graph->unary(tape::Op::sin, a.node)}; }
-};
+using tape::Symbol;
 
 struct Ball {
   static constexpr const char* name = "ball";
@@ -117,11 +99,11 @@ template <class Model>
 tape::Tape traced() {
   tape::Graph graph;
   std::vector<Symbol> x, p, xdot(Model::size);
-  for (int i = 0; i < Model::size; ++i) x.emplace_back(&graph, graph.continuous_state(i));
-  for (int i = 0; i < 3; ++i) p.emplace_back(&graph, graph.parameter(i));
+  for (int i = 0; i < Model::size; ++i) x.emplace_back(graph, graph.continuous_state(i));
+  for (int i = 0; i < 3; ++i) p.emplace_back(graph, graph.parameter(i));
   Model::ode(x.data(), p.data(), xdot.data());
   std::vector<tape::Node> outputs;
-  for (const Symbol& symbol : xdot) outputs.push_back(symbol.node);
+  for (const Symbol& symbol : xdot) outputs.push_back(symbol.in(graph));
   return {graph, outputs};
 }
 

@@ -4,6 +4,7 @@
 #include <string_view>
 #include <unordered_set>
 
+#include "saltus/plan/fuse.hpp"
 #include "saltus/plan/needs.hpp"
 #include "saltus/plan/order.hpp"
 
@@ -187,6 +188,7 @@ std::shared_ptr<const Plan> compile(const System& system, const RecordedSignals&
   add_guards(plan);
   add_edges(plan);
   add_schedule(plan);
+  fuse(plan);
   return std::make_shared<const Plan>(std::move(plan));
 }
 

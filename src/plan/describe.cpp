@@ -14,6 +14,18 @@ void describe_list(std::string& out, const Plan& plan, std::string_view title,
   out += "\n";
 }
 
+/// `what` the list is for, one for each entry of `walk.fused`.
+void describe_walk(std::string& out, const Plan& plan, const Walk& walk, std::string_view what) {
+  if (!walk.fuses()) return;
+  auto calls = std::ranges::count_if(
+      walk.stages, [](const Walk::Stage& stage) { return static_cast<bool>(stage.fused); });
+  calls += walk.last ? 1 : 0;
+  describe_list(out, plan, text("  of these fused into ", calls, calls == 1 ? " call" : " calls"),
+                walk.nodes);
+  const auto fused = std::ranges::count(walk.fused, char{1});
+  out += text("    and with them ", fused, " of ", walk.fused.size(), " ", what, "\n");
+}
+
 void describe_guard(std::string& out, const Plan& plan, const GuardGroup& guard) {
   using Kind = GuardGroup::Kind;
   out += text("  guard '", guard.name, "': ");
@@ -47,7 +59,9 @@ std::string Plan::describe() const {
   describe_list(out, *this, "constant, computed once", constants);
   describe_list(out, *this, "computed at instants", instants);
   describe_list(out, *this, "computed for the derivatives", derivatives);
+  describe_walk(out, *this, derivative_walk, "derivatives of blocks");
   describe_list(out, *this, "computed for the guards", guard_needs);
+  describe_walk(out, *this, guard_walk, "guards");
   describe_list(out, *this, "computed for recorded rows", tap_needs);
   describe_list(out, *this, "dropped, nothing reads them", dropped);
   out += guards.empty() ? "no guards: no root-finding\n" : text("guards: ", guard_slots, "\n");

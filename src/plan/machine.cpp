@@ -29,6 +29,35 @@ std::vector<Machine::OutputCall> Machine::calls_of(const std::vector<int>& nodes
   return calls;
 }
 
+/// The same where formulas are fused.
+std::vector<Machine::OutputCall> Machine::calls_of(const Walk& walk,
+                                                   const std::vector<int>& nodes) {
+  if (!walk.fuses()) return calls_of(nodes);
+  std::vector<OutputCall> calls;
+  for (const Walk::Stage& stage : walk.stages) {
+    if (stage.fused) calls.push_back({whole_call(stage.fused), 0, plan_->ny, false, false});
+    for (const OutputCall& call : calls_of(stage.calls)) calls.push_back(call);
+  }
+  return calls;
+}
+
+std::vector<Machine::Call> Machine::odes_of(const Walk& walk) {
+  std::vector<Call> odes;
+  if (walk.last) odes.push_back(whole_call(walk.last));
+  for (std::size_t i = 0; i < plan_->odes.size(); ++i) {
+    if (walk.fuses() && walk.fused[i]) continue;
+    const auto leaf = static_cast<std::size_t>(plan_->odes[i]);
+    const VectorFunction& ode = plan_->leaves[leaf].declared().continuous.ode;
+    odes.push_back(call_of(ode ? ode : still(), leaf));
+  }
+  return odes;
+}
+
+/// Of a function over all of the machine. A tape asks for no leaf and no mode, so any will do.
+Machine::Call Machine::whole_call(const VectorFunction& fused) {
+  return {&fused, plan_->leaves.front().system, 0, &views_.back(), 0, plan_->nx};
+}
+
 Machine::Machine(std::shared_ptr<const Plan> plan) : plan_(std::move(plan)) {
   x.setZero(plan_->nx), z.setZero(plan_->nz), p.setZero(plan_->np), y.setZero(plan_->ny);
   modes.assign(plan_->leaves.size(), 0);
@@ -48,20 +77,21 @@ Machine::Machine(std::shared_ptr<const Plan> plan) : plan_(std::move(plan)) {
                         {p.data() + leaf.p, leaf.np}, 0, inputs, relations));
     relations += leaf.relations.size();
   }
+  place_of_z_ = {Space::z, 0, plan_->nz};
+  views_.push_back(At(0.0, {x.data(), plan_->nx}, {y.data(), plan_->ny}, {p.data(), plan_->np}, 0,
+                      Inputs(&place_of_z_, 1, &bases_), nullptr));  // see fuse.hpp
   constant_calls_ = calls_of(plan_->constants);
   instant_calls_ = calls_of(plan_->instants);
   std::vector<int> moving;
   std::ranges::copy_if(plan_->instants, std::back_inserter(moving),
                        [&](int i) { return plan_->node(i).rate == Rate::continuous; });
   moving_calls_ = calls_of(moving);
-  derivative_calls_ = calls_of(plan_->derivatives);
-  guard_calls_list_ = calls_of(plan_->guard_needs);
+  needs_of_derivatives_ = calls_of(plan_->derivatives);
+  derivative_calls_ = calls_of(plan_->derivative_walk, plan_->derivatives);
+  guard_calls_list_ = calls_of(plan_->guard_walk, plan_->guard_needs);
   tap_calls_ = calls_of(plan_->tap_needs);
-  for (int leaf : plan_->odes) {
-    const auto number = static_cast<std::size_t>(leaf);
-    const VectorFunction& ode = plan_->leaves[number].declared().continuous.ode;
-    odes_.push_back(call_of(ode ? ode : still(), number));
-  }
+  odes_ = odes_of(plan_->derivative_walk);
+  single_odes_ = odes_of({});
   for (const GuardGroup& group : plan_->guards) {
     const PlanLeaf& leaf = plan_->leaves[static_cast<std::size_t>(group.leaf)];
     const bool crossing = group.kind == GuardGroup::Kind::crossing;
@@ -73,6 +103,8 @@ Machine::Machine(std::shared_ptr<const Plan> plan) : plan_(std::move(plan)) {
     groups_.push_back({call_of(function, static_cast<std::size_t>(group.leaf)), group.slot,
                        group.size, group.kind == GuardGroup::Kind::opaque});
   }
+  if (plan_->guard_walk.last)
+    fused_guards_ = {whole_call(plan_->guard_walk.last), 0, plan_->guard_slots, false};
   if (odes_.size() == 1 && derivative_calls_.empty() && plan_->nx == odes_.front().size)
     lone_ode_ = &odes_.front();
   if (lone_ode_ != nullptr && lone_ode_->function->kernels() != nullptr &&
@@ -137,7 +169,8 @@ void Machine::guards_at(double t, const double* state, double* g) {
   ++guard_calls;
   bases_[0] = state;
   run(guard_calls_list_, t);
-  for (int i : active_) guard(groups_[static_cast<std::size_t>(i)], t, g);
+  if (fused_guards_) guard(*fused_guards_, t, g);
+  for (int i : called_) guard(groups_[static_cast<std::size_t>(i)], t, g);
 }
 
 void Machine::ode_with_rest(const Call& ode, double t, double* xdot) {
@@ -178,7 +211,7 @@ Context Machine::save(const Context& like, double t,
 }
 
 void Machine::select_guards() {
-  active_.clear();
+  active_.clear(), called_.clear();
   for (std::size_t i = 0; i < plan_->guards.size(); ++i) {
     const GuardGroup& group = plan_->guards[i];
     const auto leaf = static_cast<std::size_t>(group.leaf);
@@ -188,10 +221,13 @@ void Machine::select_guards() {
       if (crossing.start_mode && *crossing.start_mode != modes[leaf]) continue;
     }
     active_.push_back(static_cast<int>(i));
+    if (!fused_guards_ || !plan_->guard_walk.fused[i]) called_.push_back(static_cast<int>(i));
   }
-  const GuardCall* first =
-      active_.empty() ? nullptr : &groups_[static_cast<std::size_t>(active_.front())];
-  const bool lone = active_.size() == 1 && guard_calls_list_.empty() && !first->opaque;
+  const GuardCall* first = fused_guards_     ? &*fused_guards_
+                           : called_.empty() ? nullptr
+                                             : &groups_[static_cast<std::size_t>(called_.front())];
+  const bool lone =
+      called_.size() + (fused_guards_ ? 1 : 0) == 1 && guard_calls_list_.empty() && !first->opaque;
   lone_guard_ = lone ? first : nullptr;
 }
 
@@ -206,13 +242,13 @@ void Machine::change_rest(Index i, int by) {
 
 std::string Machine::not_finite(double t, const double* state) {
   bases_[0] = carried(t, state);
-  for (const OutputCall& call : derivative_calls_) {
+  for (const OutputCall& call : needs_of_derivatives_) {
     const VectorRef out(y.data() + call.to, call.width);
     (*call.function)(*call.system, seen_by(call, t), out);
     if (!out.allFinite()) return plan_->leaves[call.leaf].path;
   }
   Eigen::VectorXd xdot(plan_->nx);
-  for (const Call& ode : odes_) {
+  for (const Call& ode : single_odes_) {
     ode_with_rest(ode, t, xdot.data());
     if (!xdot.segment(ode.x, ode.size).allFinite()) return plan_->leaves[ode.leaf].path;
   }

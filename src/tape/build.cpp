@@ -14,7 +14,9 @@ namespace {
 
 class Builder {
  public:
-  Builder(Program& program, const Graph& graph, std::span<const Node> outputs) : program_(program) {
+  Builder(Program& program, const Graph& graph, std::span<const Node> outputs,
+          std::span<const Index> places)
+      : program_(program), places_(places) {
     program_.outputs = copy(graph, outputs, program_.graph);
     values_.resize(static_cast<std::size_t>(program_.graph.size()));
   }
@@ -27,7 +29,7 @@ class Builder {
       }
     }
     for (std::size_t i = 0; i < program_.outputs.size(); ++i) {
-      of(program_.outputs[i]).outputs.push_back(static_cast<std::uint32_t>(i));
+      of(program_.outputs[i]).outputs.push_back(place_of_output(i));
     }
     for (int id = 0; id < program_.graph.size(); ++id) note_variable(Node{id});
     for (const Group& group : groups) group.size() == 1 ? one(group[0]) : many(group);
@@ -48,6 +50,9 @@ class Builder {
     int uses = 0;
   };
 
+  std::uint32_t place_of_output(std::size_t i) const {
+    return static_cast<std::uint32_t>(places_.empty() ? static_cast<Index>(i) : places_[i]);
+  }
   Value& of(Node node) { return values_[static_cast<std::size_t>(node.id)]; }
   const Expression& at(Node node) const { return program_.graph[node]; }
   std::vector<Node> operands(Node node) const {
@@ -178,7 +183,7 @@ class Builder {
     std::vector<std::pair<std::uint32_t, Node>> all;
     for (std::size_t i = 0; i < program_.outputs.size(); ++i) {
       const Node node = program_.outputs[i];
-      if (operand_count(at(node).op) == 0) all.push_back({static_cast<std::uint32_t>(i), node});
+      if (operand_count(at(node).op) == 0) all.push_back({place_of_output(i), node});
     }
     for (std::size_t i = 0; i < all.size();) {
       const std::size_t count = side_by_side(std::span(all).subspan(i));
@@ -301,6 +306,7 @@ class Builder {
   }
 
   Program& program_;
+  std::span<const Index> places_;
   std::vector<Value> values_;
   std::vector<bool> swapped_;
   std::vector<Block> blocks_;
@@ -310,8 +316,9 @@ class Builder {
 
 }  // namespace
 
-void build(Program& program, const Graph& graph, std::span<const Node> outputs) {
-  Builder(program, graph, outputs).build();
+void build(Program& program, const Graph& graph, std::span<const Node> outputs,
+           std::span<const Index> places) {
+  Builder(program, graph, outputs, places).build();
   encode(program);
 }
 

@@ -83,8 +83,9 @@ struct Program {
   bool reads_entry = false;
 };
 
-/// Fills everything.
-void build(Program& program, const Graph& graph, std::span<const Node> outputs);
+/// Fills everything. Value i goes to places[i]; without places, to i.
+void build(Program& program, const Graph& graph, std::span<const Node> outputs,
+           std::span<const Index> places);
 
 /// Whether an operation takes operands of the first five kinds; others take registers only.
 bool takes_any(Op op);

@@ -7,9 +7,13 @@
 
 namespace saltus::tape {
 
-Tape::Tape(const Graph& graph, std::span<const Node> outputs) {
+Tape::Tape(const Graph& graph, std::span<const Node> outputs, std::span<const Index> places) {
+  if (!places.empty() && places.size() != outputs.size()) {
+    throw ModelError(text("a tape of ", outputs.size(), " values expects as many places, found ",
+                          places.size()));
+  }
   const auto program = std::make_shared<detail::Program>();
-  detail::build(*program, graph, outputs);
+  detail::build(*program, graph, outputs, places);
   program_ = program;
 }
 

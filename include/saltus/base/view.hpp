@@ -72,7 +72,9 @@ class At {
 
   /// The truth of entry i of a relation: held between instants where it reaches a derivative, else
   /// as of now.
-  bool relation(RelationIndex r, Index i = 0) const { return relations_[r.value][i] != 0.0; }
+  bool relation(RelationIndex r, Index i = 0) const { return relation_values(r)[i] != 0.0; }
+  /// The truths of all entries of a relation, 0 or 1.
+  const double* relation_values(RelationIndex r) const { return relations_[r.value]; }
 
  private:
   const double* const* relations_;

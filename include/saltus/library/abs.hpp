@@ -11,25 +11,20 @@ class Abs final : public LeafSystem {
  public:
   explicit Abs(std::string name) : LeafSystem(std::move(name)) {
     declare_input_port({.name = "in"});
-    positive_ = declare_relation({.name = "positive",
-                                  .guard = [](const At& at, VectorRef g) { g = at.u[0]; },
-                                  .size = std::nullopt,
-                                  .reads = Reads::inputs});
+    const RelationIndex positive =
+        declare_relation({.name = "positive",
+                          .size = std::nullopt,
+                          .reads = Reads::inputs,
+                          .formula = [](const auto& at) { return at.u(0); }});
     declare_output_port({.name = "out",
-                         .calc = &Abs::magnitude,
                          .shape = {},
                          .shape_rule = elementwise,
                          .reads = Reads::inputs | Reads::relations,
-                         .entries = entry_by_entry});
+                         .entries = entry_by_entry,
+                         .formula = [positive](const auto& at) {
+                           return at.choose(at.relation(positive), at.u(0), -at.u(0));
+                         }});
   }
-
- private:
-  void magnitude(const At& at, VectorRef out) const {
-    const VectorView u = at.u[0];
-    for (Index i = 0; i < out.size(); ++i) out[i] = at.relation(positive_, i) ? u[i] : -u[i];
-  }
-
-  RelationIndex positive_;
 };
 
 }  // namespace saltus

@@ -11,39 +11,27 @@ class Adder final : public LeafSystem {
   explicit Adder(std::string name, std::string_view operators = "++")
       : LeafSystem(std::move(name)) {
     detail::require_count(this->name(), "operator", static_cast<int>(operators.size()), 1);
+    std::vector<double> signs;
     for (const char sign : operators) {
       detail::insist(
           sign == '+' || sign == '-', this->name(), "unknown operator '", std::string(1, sign),
           "' in '", operators,
           "'; expected one '+' or '-' for each input, as in \"++-\"; a Product takes '*' and '/'");
-      signs_.push_back(sign == '+' ? 1.0 : -1.0);
+      signs.push_back(sign == '+' ? 1.0 : -1.0);
       declare_input_port();
     }
     declare_output_port({.name = "out",
-                         .calc = &Adder::sum,
                          .shape = {},
                          .shape_rule = detail::stretch(this->name()),
                          .reads = Reads::inputs,
-                         .entries = entry_by_entry});
+                         .entries = entry_by_entry,
+                         .formula = [signs](const auto& at) {
+                           auto sum = signs[0] * at.u(0);
+                           for (std::size_t k = 1; k < signs.size(); ++k)
+                             sum += signs[k] * at.u(static_cast<int>(k));
+                           return sum;
+                         }});
   }
-
- private:
-  void sum(const At& at, VectorRef out) const {
-    if (out.size() == 1) {  // most signals are scalars, and this is called in each step
-      double sum = 0.0;
-      for (int k = 0; k < at.u.size(); ++k) sum += signs_[static_cast<std::size_t>(k)] * at.u(k);
-      out[0] = sum;
-      return;
-    }
-    out.setZero();
-    for (int k = 0; k < at.u.size(); ++k) {
-      const VectorView u = at.u[k];
-      const double sign = signs_[static_cast<std::size_t>(k)];
-      for (Index i = 0; i < out.size(); ++i) out[i] += sign * detail::entry(u, i);
-    }
-  }
-
-  std::vector<double> signs_;
 };
 
 }  // namespace saltus

@@ -10,7 +10,7 @@ class Clock final : public LeafSystem {
  public:
   explicit Clock(std::string name) : LeafSystem(std::move(name)) {
     declare_output_port(
-        {.name = "out", .calc = [](const At& at) { return at.time; }, .reads = Reads::time});
+        {.name = "out", .reads = Reads::time, .formula = [](const auto& at) { return at.time(); }});
   }
 };
 

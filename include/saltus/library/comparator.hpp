@@ -20,12 +20,13 @@ class Comparator final : public LeafSystem {
       declare_truth(&Comparator::equality, Reads::inputs);
       return;
     }
-    sign_ = operation[0] == '>' ? 1.0 : -1.0;
-    relation_ = declare_relation({.name = "difference",
-                                  .guard = &Comparator::difference,
-                                  .true_at_zero = operation.size() == 2,
-                                  .size = std::nullopt,
-                                  .reads = Reads::inputs});
+    const double sign = operation[0] == '>' ? 1.0 : -1.0;
+    relation_ = declare_relation(
+        {.name = "difference",
+         .true_at_zero = operation.size() == 2,
+         .size = std::nullopt,
+         .reads = Reads::inputs,
+         .formula = [sign](const auto& at) { return sign * (at.u(0) - at.u(1)); }});
     declare_truth(&Comparator::held_truth, Reads::relations);
   }
 
@@ -38,10 +39,6 @@ class Comparator final : public LeafSystem {
                          .reads = reads,
                          .boolean = true});
   }
-  void difference(const At& at, VectorRef g) const {
-    const VectorView a = at.u[0], b = at.u[1];
-    for (Index i = 0; i < g.size(); ++i) g[i] = sign_ * (detail::entry(a, i) - detail::entry(b, i));
-  }
   void held_truth(const At& at, VectorRef out) const {
     for (Index i = 0; i < out.size(); ++i) out[i] = at.relation(relation_, i) ? 1.0 : 0.0;
   }
@@ -51,7 +48,6 @@ class Comparator final : public LeafSystem {
       out[i] = (detail::entry(a, i) == detail::entry(b, i)) == equal_ ? 1.0 : 0.0;
   }
 
-  double sign_ = 1.0;
   bool equal_ = true;
   RelationIndex relation_;
 };

@@ -20,18 +20,17 @@ class Demultiplexer final : public LeafSystem {
       return width == n_outputs ? Shape::scalar() : Shape::of(width / n_outputs);
     };
     for (int k = 0; k < n_outputs; ++k) {
-      const auto cut = [k](const At& at, VectorRef out) {
-        out = at.u[0].segment(k * out.size(), out.size());
-      };
       const auto entries = [k, n_outputs](Index i, int, std::span<const Index> widths) {
         const Index at = k * (widths[0] / n_outputs) + i;
         return EntryRange{at, at + 1};
       };
-      declare_output_port({.calc = cut,
-                           .shape = {},
+      declare_output_port({.shape = {},
                            .shape_rule = part,
                            .reads = Reads::inputs,
-                           .entries = entries});
+                           .entries = entries,
+                           .formula = [k, n_outputs](const auto& at, Index i) {
+                             return at.u(0, k * (at.width(0) / n_outputs) + i);
+                           }});
     }
   }
 };

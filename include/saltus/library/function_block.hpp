@@ -1,5 +1,6 @@
 // y = f(u), elementwise: any C++ callable from a number to a number or a bool.
-// in: any width. out: the same; boolean if f returns bool, and then opaque as in a ReduceBlock.
+// in: any width. out: the same; boolean if f returns bool, and then opaque as in a ReduceBlock. A
+// Formula over u(0) in place of f is fused with its neighbours.
 #pragma once
 
 #include "saltus/library/callable.hpp"
@@ -23,6 +24,16 @@ class FunctionBlock final : public LeafSystem {
                          .reads = Reads::inputs,
                          .boolean = detail::Truth<Result>,
                          .entries = entry_by_entry});
+  }
+
+  FunctionBlock(std::string name, Formula formula) : LeafSystem(std::move(name)) {
+    declare_input_port({.name = "in"});
+    declare_output_port({.name = "out",
+                         .shape = {},
+                         .shape_rule = elementwise,
+                         .reads = Reads::inputs,
+                         .entries = entry_by_entry,
+                         .formula = std::move(formula)});
   }
 };
 

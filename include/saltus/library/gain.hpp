@@ -9,23 +9,15 @@ namespace saltus {
 class Gain final : public LeafSystem {
  public:
   Gain(std::string name, const Value& gain) : LeafSystem(std::move(name)) {
-    gain_ = declare_dynamic_parameter("gain", gain.values);
+    const ParameterIndex k = declare_dynamic_parameter("gain", gain.values);
     declare_input_port({.name = "in"});
     declare_output_port({.name = "out",
-                         .calc = &Gain::scale,
                          .shape = {},
                          .shape_rule = detail::stretch(this->name(), {gain.shape()}),
                          .reads = Reads::inputs,
-                         .entries = entry_by_entry});
+                         .entries = entry_by_entry,
+                         .formula = [k](const auto& at) { return at.p(k) * at.u(0); }});
   }
-
- private:
-  void scale(const At& at, VectorRef out) const {
-    const VectorView gain = at.parameter(gain_), u = at.u[0];
-    for (Index i = 0; i < out.size(); ++i) out[i] = detail::entry(gain, i) * detail::entry(u, i);
-  }
-
-  ParameterIndex gain_;
 };
 
 }  // namespace saltus

@@ -38,27 +38,8 @@ class Integrator final : public LeafSystem {
   void declare_reset(const Options& options);
   void declare_limits(const Options& options);
   void declare_state(const Options& options);
+  Formula flow(bool limits) const;
 
-  bool on_hold(const At& at) const { return hold_ && at.u(*hold_) != 0.0; }
-  void flow(const At& at, VectorRef xdot) const {
-    const VectorView u = at.u[0];
-    const bool held = on_hold(at);
-    for (Index i = 0; i < xdot.size(); ++i) xdot[i] = held ? 0.0 : u[i];
-  }
-  void limited_flow(const At& at, VectorRef xdot) const {
-    flow(at, xdot);
-    for (Index i = 0; i < xdot.size(); ++i) {
-      const bool outward = at.relation(rising_, i) ? upper_ && at.relation(at_upper_, i)
-                                                   : lower_ && at.relation(at_lower_, i);
-      if (outward) xdot[i] = 0.0;
-    }
-  }
-  void above(const At& at, VectorRef g) const {
-    for (Index i = 0; i < g.size(); ++i) g[i] = at.x[i] - detail::entry(at.parameter(*upper_), i);
-  }
-  void below(const At& at, VectorRef g) const {
-    for (Index i = 0; i < g.size(); ++i) g[i] = detail::entry(at.parameter(*lower_), i) - at.x[i];
-  }
   void reset(const At& at, Next& next) const;
 
   std::optional<int> trigger_, value_, hold_;  // inputs
@@ -115,39 +96,53 @@ inline void Integrator::declare_limits(const Options& options) {
   const Index n = options.initial_state.values.size();
   if (options.lower_limit) {
     lower_ = declare_dynamic_parameter("lower_limit", options.lower_limit->values);
-    at_lower_ = declare_relation({.name = "at_lower_limit",
-                                  .guard = &Integrator::below,
-                                  .true_at_zero = true,
-                                  .size = n,
-                                  .reads = Reads::continuous_state,
-                                  .inputs = std::vector<int>{}});
+    at_lower_ =
+        declare_relation({.name = "at_lower_limit",
+                          .true_at_zero = true,
+                          .size = n,
+                          .reads = Reads::continuous_state,
+                          .inputs = std::vector<int>{},
+                          .formula = [k = *lower_](const auto& at) { return at.p(k) - at.x(); }});
   }
   if (options.upper_limit) {
     upper_ = declare_dynamic_parameter("upper_limit", options.upper_limit->values);
-    at_upper_ = declare_relation({.name = "at_upper_limit",
-                                  .guard = &Integrator::above,
-                                  .true_at_zero = true,
-                                  .size = n,
-                                  .reads = Reads::continuous_state,
-                                  .inputs = std::vector<int>{}});
+    at_upper_ =
+        declare_relation({.name = "at_upper_limit",
+                          .true_at_zero = true,
+                          .size = n,
+                          .reads = Reads::continuous_state,
+                          .inputs = std::vector<int>{},
+                          .formula = [k = *upper_](const auto& at) { return at.x() - at.p(k); }});
   }
   rising_ = declare_relation({.name = "rising",
-                              .guard = [](const At& at, VectorRef g) { g = at.u[0]; },
                               .size = n,
                               .reads = Reads::inputs,
-                              .inputs = std::vector{0}});
+                              .inputs = std::vector{0},
+                              .formula = [](const auto& at) { return at.u(0); }});
+}
+
+/// u, but 0 on hold and where the state is pushed out of its limits.
+inline Formula Integrator::flow(bool limits) const {
+  return [limits, hold = hold_, lower = lower_, upper = upper_, at_lower = at_lower_,
+          at_upper = at_upper_, rising = rising_](const auto& at) {
+    auto u = at.u(0);
+    if (hold) u = at.choose(at.u(*hold, 0) != 0.0, 0.0, u);
+    if (!limits) return u;
+    const auto up = upper ? at.choose(at.relation(at_upper), 0.0, u) : u;
+    const auto down = lower ? at.choose(at.relation(at_lower), 0.0, u) : u;
+    return at.choose(at.relation(rising), up, down);
+  };
 }
 
 inline void Integrator::declare_state(const Options& options) {
   std::vector<int> inputs{0};
   if (hold_) inputs.push_back(*hold_);
-  const bool limits = options.enable_limits;
-  declare_continuous_state({.initial = options.initial_state.values,
-                            .ode = limits ? VectorFunction(&Integrator::limited_flow)
-                                          : VectorFunction(&Integrator::flow),
-                            .reads = limits ? Reads::inputs | Reads::relations : Reads::inputs,
-                            .inputs = std::move(inputs),
-                            .entries = entry_by_entry});
+  declare_continuous_state(
+      {.initial = options.initial_state.values,
+       .reads = options.enable_limits ? Reads::inputs | Reads::relations : Reads::inputs,
+       .inputs = std::move(inputs),
+       .entries = entry_by_entry,
+       .formula = flow(options.enable_limits)});
   const Shape shape = options.initial_state.shape();
   declare_output_port({.name = "out",
                        .shape = shape,

@@ -12,11 +12,15 @@ class Multiplexer final : public LeafSystem {
     detail::require_count(this->name(), "input", n_inputs, 1);
     for (int k = 0; k < n_inputs; ++k) declare_input_port();
     declare_output_port({.name = "out",
-                         .calc = &Multiplexer::join,
                          .shape = {},
                          .shape_rule = &Multiplexer::total,
                          .reads = Reads::inputs,
-                         .entries = &Multiplexer::entries});
+                         .entries = &Multiplexer::entries,
+                         .formula = [](const auto& at, Index i) {
+                           int k = 0;
+                           while (i >= at.width(k)) i -= at.width(k++);
+                           return at.u(k, i);
+                         }});
   }
 
  private:
@@ -28,14 +32,6 @@ class Multiplexer final : public LeafSystem {
   static EntryRange entries(Index i, int k, std::span<const Index> widths) {
     for (int before = 0; before < k; ++before) i -= widths[static_cast<std::size_t>(before)];
     return i >= 0 && i < widths[static_cast<std::size_t>(k)] ? EntryRange{i, i + 1} : EntryRange{};
-  }
-  void join(const At& at, VectorRef out) const {
-    Index offset = 0;
-    for (int k = 0; k < at.u.size(); ++k) {
-      const VectorView u = at.u[k];
-      out.segment(offset, u.size()) = u;
-      offset += u.size();
-    }
   }
 };
 

@@ -9,23 +9,15 @@ namespace saltus {
 class Offset final : public LeafSystem {
  public:
   Offset(std::string name, const Value& offset) : LeafSystem(std::move(name)) {
-    offset_ = declare_dynamic_parameter("offset", offset.values);
+    const ParameterIndex k = declare_dynamic_parameter("offset", offset.values);
     declare_input_port({.name = "in"});
     declare_output_port({.name = "out",
-                         .calc = &Offset::shift,
                          .shape = {},
                          .shape_rule = detail::stretch(this->name(), {offset.shape()}),
                          .reads = Reads::inputs,
-                         .entries = entry_by_entry});
+                         .entries = entry_by_entry,
+                         .formula = [k](const auto& at) { return at.u(0) + at.p(k); }});
   }
-
- private:
-  void shift(const At& at, VectorRef out) const {
-    const VectorView offset = at.parameter(offset_), u = at.u[0];
-    for (Index i = 0; i < out.size(); ++i) out[i] = detail::entry(u, i) + detail::entry(offset, i);
-  }
-
-  ParameterIndex offset_;
 };
 
 }  // namespace saltus

@@ -10,45 +10,29 @@ namespace saltus {
 class Product final : public LeafSystem {
  public:
   explicit Product(std::string name, std::string_view operators = "**")
-      : LeafSystem(std::move(name)), operators_(operators) {
-    detail::require_count(this->name(), "operator", static_cast<int>(operators_.size()), 1);
-    for (const char op : operators_) {
+      : LeafSystem(std::move(name)) {
+    detail::require_count(this->name(), "operator", static_cast<int>(operators.size()), 1);
+    for (const char op : operators) {
       detail::insist(
           op == '*' || op == '/', this->name(), "unknown operator '", std::string(1, op), "' in '",
-          operators_,
+          operators,
           "'; expected one '*' or '/' for each input, as in \"*/\"; an Adder takes '+' and '-'");
       declare_input_port();
     }
     declare_output_port({.name = "out",
-                         .calc = &Product::product,
                          .shape = {},
                          .shape_rule = detail::stretch(this->name()),
                          .reads = Reads::inputs,
-                         .entries = entry_by_entry});
+                         .entries = entry_by_entry,
+                         .formula = [all = std::string(operators)](const auto& at) {
+                           auto product = all[0] == '/' ? 1.0 / at.u(0) : at.u(0);
+                           for (std::size_t k = 1; k < all.size(); ++k) {
+                             const auto factor = at.u(static_cast<int>(k));
+                             product = all[k] == '/' ? product / factor : product * factor;
+                           }
+                           return product;
+                         }});
   }
-
- private:
-  void product(const At& at, VectorRef out) const {
-    if (out.size() == 1) {  // most signals are scalars, and this is called in each step
-      double product = 1.0;
-      for (int k = 0; k < at.u.size(); ++k)
-        product = operators_[static_cast<std::size_t>(k)] == '/' ? product / at.u(k)
-                                                                  : product * at.u(k);
-      out[0] = product;
-      return;
-    }
-    out.setOnes();
-    for (int k = 0; k < at.u.size(); ++k) {
-      const VectorView u = at.u[k];
-      const bool divide = operators_[static_cast<std::size_t>(k)] == '/';
-      for (Index i = 0; i < out.size(); ++i) {
-        const double factor = detail::entry(u, i);
-        out[i] = divide ? out[i] / factor : out[i] * factor;
-      }
-    }
-  }
-
-  std::string operators_;
 };
 
 }  // namespace saltus

@@ -2,7 +2,7 @@
 // f takes std::span<const double>, for scalar inputs (at most 32), or const Inputs&, for any
 // widths. It returns a double, a bool or an Eigen vector. A bool makes an opaque boolean: where it
 // reaches a derivative or a reset it is located by bisection; a Comparator, which has a smooth
-// guard, is faster.
+// guard, is faster. A Formula in place of f is fused with its neighbours.
 #pragma once
 
 #include "saltus/library/callable.hpp"
@@ -40,6 +40,17 @@ class ReduceBlock final : public LeafSystem {
                          .shape = options.shape,
                          .reads = Reads::inputs,
                          .boolean = detail::Truth<Result>});
+  }
+
+  /// `formula` gives the entries of the output, of which there are `options.shape.size`.
+  ReduceBlock(std::string name, int n_inputs, Formula formula, const Options& options = {})
+      : LeafSystem(std::move(name)) {
+    detail::require_count(this->name(), "input", n_inputs, 1);
+    for (int k = 0; k < n_inputs; ++k) declare_input_port();
+    declare_output_port({.name = "out",
+                         .shape = options.shape,
+                         .reads = Reads::inputs,
+                         .formula = std::move(formula)});
   }
 };
 

@@ -29,47 +29,36 @@ class Saturate final : public LeafSystem {
     }
     declare_input_port({.name = "in"});
     const auto width = detail::relation_width(this->name(), limits);
-    if (lower) {
-      lower_ = declare_dynamic_parameter("lower_limit", lower->values);
-      below_ = declare_relation(
-          {.name = "below", .guard = &Saturate::shortfall, .size = width, .reads = Reads::inputs});
-    }
-    if (upper) {
-      upper_ = declare_dynamic_parameter("upper_limit", upper->values);
-      above_ = declare_relation(
-          {.name = "above", .guard = &Saturate::excess, .size = width, .reads = Reads::inputs});
-    }
+    const Limit below = limit("lower_limit", lower, "below", width, -1.0);
+    const Limit above = limit("upper_limit", upper, "above", width, 1.0);
     declare_output_port({.name = "out",
-                         .calc = &Saturate::limited,
                          .shape = {},
                          .shape_rule = detail::stretch(this->name(), limits),
                          .reads = Reads::inputs | Reads::relations,
-                         .entries = entry_by_entry});
+                         .entries = entry_by_entry,
+                         .formula = [below, above](const auto& at) {
+                           auto y = at.u(0);
+                           for (const auto& [value, beyond] : {above, below}) {
+                             if (value) y = at.choose(at.relation(beyond), at.p(*value), y);
+                           }
+                           return y;
+                         }});
   }
 
  private:
-  void shortfall(const At& at, VectorRef g) const {
-    const VectorView u = at.u[0], lower = at.parameter(lower_);
-    for (Index i = 0; i < g.size(); ++i) g[i] = detail::entry(lower, i) - detail::entry(u, i);
+  /// Where it is, and whether u is beyond it.
+  struct Limit {
+    std::optional<ParameterIndex> value = {};
+    RelationIndex beyond = {};
+  };
+  Limit limit(const char* parameter, const std::optional<Value>& value, const char* relation,
+              std::optional<Index> width, double outward) {
+    if (!value) return {};
+    const ParameterIndex k = declare_dynamic_parameter(parameter, value->values);
+    const auto margin = [k, outward](const auto& at) { return outward * (at.u(0) - at.p(k)); };
+    return {k, declare_relation(
+                   {.name = relation, .size = width, .reads = Reads::inputs, .formula = margin})};
   }
-  void excess(const At& at, VectorRef g) const {
-    const VectorView u = at.u[0], upper = at.parameter(upper_);
-    for (Index i = 0; i < g.size(); ++i) g[i] = detail::entry(u, i) - detail::entry(upper, i);
-  }
-  void limited(const At& at, VectorRef out) const {
-    const VectorView u = at.u[0];
-    for (Index i = 0; i < out.size(); ++i) {
-      if (below_.value >= 0 && at.relation(below_, i))
-        out[i] = detail::entry(at.parameter(lower_), i);
-      else if (above_.value >= 0 && at.relation(above_, i))
-        out[i] = detail::entry(at.parameter(upper_), i);
-      else
-        out[i] = detail::entry(u, i);
-    }
-  }
-
-  ParameterIndex lower_, upper_;
-  RelationIndex below_, above_;  // -1: without that limit
 };
 
 }  // namespace saltus

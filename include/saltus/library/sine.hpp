@@ -21,30 +21,24 @@ class Sine final : public LeafSystem {
   using Options = SineOptions;
 
   explicit Sine(std::string name, const Options& options = {}) : LeafSystem(std::move(name)) {
-    amplitude_ = declare_dynamic_parameter("amplitude", options.amplitude.values);
-    frequency_ = declare_dynamic_parameter("frequency", options.frequency.values);
-    phase_ = declare_dynamic_parameter("phase", options.phase.values);
-    bias_ = declare_dynamic_parameter("bias", options.bias.values);
+    const auto parameter = [this](const char* what, const Value& value) {
+      return declare_dynamic_parameter(what, value.values);
+    };
+    const ParameterIndex amplitude = parameter("amplitude", options.amplitude);
+    const ParameterIndex frequency = parameter("frequency", options.frequency);
+    const ParameterIndex phase = parameter("phase", options.phase);
+    const ParameterIndex bias = parameter("bias", options.bias);
     const std::vector<Shape> values{options.amplitude.shape(), options.frequency.shape(),
                                     options.phase.shape(), options.bias.shape()};
     declare_output_port({.name = "out",
-                         .calc = &Sine::value,
                          .shape = detail::stretched(this->name(), values),
-                         .reads = Reads::time});
+                         .reads = Reads::time,
+                         .formula = [=](const auto& at) {
+                           using std::sin;
+                           return at.p(amplitude) * sin(at.p(frequency) * at.time() + at.p(phase)) +
+                                  at.p(bias);
+                         }});
   }
-
- private:
-  void value(const At& at, VectorRef out) const {
-    const auto entry = [&](ParameterIndex k, Index i) {
-      return at.p[k.offset + (k.size == 1 ? 0 : i)];
-    };
-    for (Index i = 0; i < out.size(); ++i) {
-      out[i] = entry(amplitude_, i) * std::sin(entry(frequency_, i) * at.time + entry(phase_, i)) +
-               entry(bias_, i);
-    }
-  }
-
-  ParameterIndex amplitude_, frequency_, phase_, bias_;
 };
 
 }  // namespace saltus

@@ -20,38 +20,31 @@ class Switch final : public LeafSystem {
   using Options = SwitchOptions;
 
   explicit Switch(std::string name, const Options& options = {}) : LeafSystem(std::move(name)) {
-    true_value_ = declare_input_port({.name = "true_value"});
-    control_ = declare_input_port({.name = "control", .shape = Shape::scalar()});
-    false_value_ = declare_input_port({.name = "false_value"});
+    const int true_value = declare_input_port({.name = "true_value"});
+    const int control = declare_input_port({.name = "control", .shape = Shape::scalar()});
+    const int false_value = declare_input_port({.name = "false_value"});
+    std::optional<RelationIndex> reached;
     if (options.threshold) {
-      threshold_ = declare_dynamic_parameter("threshold", *options.threshold);
-      reached_ = declare_relation({.name = "reached",
-                                   .guard = &Switch::margin,
-                                   .true_at_zero = true,
-                                   .reads = Reads::inputs,
-                                   .inputs = std::vector{control_}});
+      const ParameterIndex k = declare_dynamic_parameter("threshold", *options.threshold);
+      reached =
+          declare_relation({.name = "reached",
+                            .true_at_zero = true,
+                            .reads = Reads::inputs,
+                            .inputs = std::vector{control},
+                            .formula = [=](const auto& at) { return at.u(control) - at.p(k); }});
     }
     declare_output_port(
         {.name = "out",
-         .calc = &Switch::chosen,
          .shape = {},
          .shape_rule = detail::stretch(this->name()),
          .reads = options.threshold ? Reads::inputs | Reads::relations : Reads::inputs,
-         .entries = entry_by_entry});
+         .entries = entry_by_entry,
+         .formula = [=](const auto& at) {
+           const auto a = at.u(true_value), b = at.u(false_value);
+           if (reached) return at.choose(at.relation(*reached, 0), a, b);
+           return at.choose(at.u(control) != 0.0, a, b);
+         }});
   }
-
- private:
-  double margin(const At& at) const { return at.u(control_) - at.p[threshold_]; }
-
-  void chosen(const At& at, VectorRef out) const {
-    const bool truth = reached_.value >= 0 ? at.relation(reached_) : at.u(control_) != 0.0;
-    const VectorView u = at.u[truth ? true_value_ : false_value_];
-    for (Index i = 0; i < out.size(); ++i) out[i] = detail::entry(u, i);
-  }
-
-  int true_value_ = 0, control_ = 0, false_value_ = 0;
-  ParameterIndex threshold_;
-  RelationIndex reached_;  // -1: without threshold
 };
 
 }  // namespace saltus

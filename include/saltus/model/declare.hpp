@@ -28,6 +28,17 @@ void name_it(std::string& name, const List& others, std::string_view prefix,
   }
 }
 
+/// A formula is a function too; what is computed in two ways could differ.
+inline void take_formula(VectorFunction& function, const Formula& formula, std::string_view what,
+                         const std::string& block) {
+  if (!formula) return;
+  if (function) {
+    throw ModelError(
+        text("block '", block, "': ", what, " has a function and a formula; expected one of them"));
+  }
+  function = formula.function();
+}
+
 }  // namespace detail
 
 inline std::vector<std::string> LeafSystem::input_names() const {
@@ -55,6 +66,7 @@ inline void LeafSystem::declare_continuous_state(ContinuousState state) {
                           state.ode.kernel_states(), " continuous states, the block has ",
                           state.initial.size(), "; say inlined<", state.initial.size(), ">"));
   }
+  detail::take_formula(state.ode, state.formula, "the continuous state", name());
   const ContinuousState& before = declared_.continuous;
   if (!state.jacobian) state.jacobian = before.jacobian;
   if (!state.sparsity) {
@@ -98,6 +110,7 @@ inline int LeafSystem::declare_input_port(InputDeclaration input) {
 
 inline int LeafSystem::declare_output_port(OutputDeclaration output) {
   detail::name_it(output.name, declared_.outputs, "out_", name());
+  detail::take_formula(output.calc, output.formula, text("output '", output.name, "'"), name());
   if (!output.calc && !output.view) {
     throw ModelError(
         text("block '", name(), "': output '", output.name, "' has no function that computes it"));
@@ -157,6 +170,8 @@ inline void require_sound(const ZeroCrossing& c, const Declarations& declared,
 
 inline int LeafSystem::declare_zero_crossing(ZeroCrossing crossing) {
   detail::name_it(crossing.name, declared_.zero_crossings, "zero_crossing_", name());
+  detail::take_formula(crossing.guard, crossing.formula,
+                       text("zero crossing '", crossing.name, "'"), name());
   detail::require_sound(crossing, declared_, name());
   declared_.zero_crossings.push_back(std::move(crossing));
   return static_cast<int>(declared_.zero_crossings.size()) - 1;
@@ -164,6 +179,8 @@ inline int LeafSystem::declare_zero_crossing(ZeroCrossing crossing) {
 
 inline RelationIndex LeafSystem::declare_relation(Relation relation) {
   detail::name_it(relation.name, declared_.relations, "relation_", name());
+  detail::take_formula(relation.guard, relation.formula, text("relation '", relation.name, "'"),
+                       name());
   if (!relation.guard) {
     throw ModelError(text("block '", name(), "': relation '", relation.name, "' has no guard"));
   }

@@ -140,6 +140,7 @@ struct ZeroCrossing {
   /// the state if not said.
   std::vector<std::vector<int>> holds = {};
   std::optional<std::vector<int>> inputs = {};  ///< the inputs the guard reads; all if not said
+  Formula formula = {};                         ///< instead of guard: what a plan may fuse
 };
 
 /// A boolean with a smooth guard behind it: true while g > 0. Held between instants, so that the
@@ -151,6 +152,7 @@ struct Relation {
   std::optional<Index> size = 1;    ///< number of entries; empty: that of the widest input
   Reads reads = Reads::everything;  ///< what the guard reads
   std::optional<std::vector<int>> inputs = {};  ///< the inputs the guard reads; all if not said
+  Formula formula = {};                         ///< instead of guard: what a plan may fuse
 };
 
 enum class Edge { rising, falling, either };

@@ -25,6 +25,7 @@ struct ContinuousState {
   std::optional<std::vector<MatrixEntry>> sparsity = {};
   VectorFunction sparse_jacobian = {};  ///< the values of those entries, in their order; optional
   EntryRule entries = {};               ///< which entries of the inputs each xdot[i] reads
+  Formula formula = {};                 ///< instead of ode: what a plan may fuse
 };
 
 /// All that a leaf has declared, in the order in which it did.

@@ -10,6 +10,7 @@
 #include "saltus/base/callback.hpp"
 #include "saltus/base/reads.hpp"
 #include "saltus/base/view.hpp"
+#include "saltus/model/formula.hpp"
 
 namespace saltus {
 
@@ -59,7 +60,7 @@ struct InputDeclaration {
 
 struct OutputDeclaration {
   std::string name = {};
-  VectorFunction calc = {};  ///< empty for a view of a state or of parameters
+  VectorFunction calc = {};  ///< empty for a formula and for a view of a state or of parameters
   std::optional<Shape> shape = Shape::scalar();
   ShapeRule shape_rule = {};  ///< used where `shape` is empty
   Reads reads = Reads::everything;
@@ -68,6 +69,7 @@ struct OutputDeclaration {
   bool boolean = false;            ///< 0 or 1; held by bisection where it reaches a derivative
   std::optional<Place> view = {};  ///< a state or parameter shown as it is, never copied
   EntryRule entries = {};          ///< which entries of the inputs each of its entries reads
+  Formula formula = {};            ///< instead of calc: what a plan may fuse
 };
 
 /// An output port of a system, to connect or to record.

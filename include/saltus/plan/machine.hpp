@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <new>
+#include <optional>
 #include <vector>
 
 #include "saltus/plan/compile.hpp"
@@ -98,7 +99,7 @@ class Machine {
   /// Computes what the derivatives read at (t, x), so that `at` shows it.
   void evaluate_derivative_needs(double t, const double* state) {
     bases_[0] = state;
-    run(derivative_calls_, t);
+    run(needs_of_derivatives_, t);
   }
 
   /// Entry i of x has zero derivative from now on, until `move` was called as often as `rest`.
@@ -181,23 +182,30 @@ class Machine {
   void guard(const GuardCall& call, double t, double* g);
   bool reads_states(std::size_t leaf) const;
   std::vector<OutputCall> calls_of(const std::vector<int>& nodes);
+  std::vector<OutputCall> calls_of(const Walk& walk, const std::vector<int>& nodes);
+  std::vector<Call> odes_of(const Walk& walk);
+  Call whole_call(const VectorFunction& fused);
 
   std::shared_ptr<const Plan> plan_;
   Bases bases_{};
-  std::vector<At> views_;  // one for each leaf
+  Place place_of_z_;       // all of it, for what is fused
+  std::vector<At> views_;  // one for each leaf, and one of all for what is fused
   std::vector<const double*> relation_values_;
   std::vector<OutputCall> constant_calls_, instant_calls_, moving_calls_, derivative_calls_,
       guard_calls_list_, tap_calls_;
-  std::vector<Call> odes_;  // of leaves that have one
+  std::vector<Call> odes_;  // of leaves that have one, and what is fused of them
+  std::vector<OutputCall> needs_of_derivatives_;  // every one by a call of its own
+  std::vector<Call> single_odes_;
   std::vector<GuardCall> groups_;
+  std::optional<GuardCall> fused_guards_;
   /// Where it is the only one, and nothing has to be computed for it, it is called without a walk.
   const Call* lone_ode_ = nullptr;
   const GuardCall* lone_guard_ = nullptr;
   const VectorFunction* compiled_ = nullptr;
-  std::vector<int> active_;
-  std::vector<int> rests_;         // entries of x: how many holds they are under
-  std::vector<Index> resting_of_;  // leaves: how many of their states are at rest
-  Index at_rest_ = 0;              // all in all
+  std::vector<int> active_, called_;  // groups that can fire, and those of them that are not fused
+  std::vector<int> rests_;            // entries of x: how many holds they are under
+  std::vector<Index> resting_of_;     // leaves: how many of their states are at rest
+  Index at_rest_ = 0;                 // all in all
   std::vector<std::size_t> leaf_of_state_;
   Eigen::VectorXd carried_x_;
 };

@@ -77,6 +77,22 @@ struct Tap {
   int node = -1;
 };
 
+/// A list of nodes as it is carried out, with what it is for: the odes, or the guards. Formulas
+/// that feed one another are one function over all of the machine's memory, which writes down only
+/// what others read; the rest are calls in between.
+struct Walk {
+  struct Stage {
+    VectorFunction fused = {};  // into `y`; empty: nothing
+    std::vector<int> calls = {};
+  };
+  std::vector<Stage> stages = {};
+  VectorFunction last = {};      // into `xdot`, or the vector of guards; empty: nothing was fused
+  std::vector<int> nodes = {};   // that have no call any more
+  std::vector<char> fused = {};  // of each ode, or group of guards: it is in `last`
+
+  bool fuses() const { return last || !nodes.empty(); }
+};
+
 struct Plan {
   std::vector<PlanLeaf> leaves;
   std::vector<Node> nodes;
@@ -96,6 +112,7 @@ struct Plan {
   std::vector<EdgeWatch> edges;
   std::vector<ScheduledEvent> schedule;
   std::vector<Tap> taps;
+  Walk derivative_walk, guard_walk;  // of derivatives with odes, and of guard_needs with guards
 
   Index nx = 0, nz = 0, np = 0, ny = 0, guard_slots = 0;
 

@@ -22,11 +22,13 @@ struct Program;
 /// cheap to copy; copies share the list, which never changes, so threads may run it at once.
 class Tape {
  public:
-  Tape(const Graph& graph, std::span<const Node> outputs);
+  Tape(const Graph& graph, std::span<const Node> outputs) : Tape(graph, outputs, {}) {}
+  /// The same, with the place of each value behind `out`.
+  Tape(const Graph& graph, std::span<const Node> outputs, std::span<const Index> places);
 
-  /// Writes the `size()` values to `out`, which must not overlap what `at` shows. Variables are
-  /// read from `at` as they are needed; what they must hold is not checked here, see `check`.
-  /// Nothing is allocated after the first call of a thread.
+  /// Writes the `size()` values to `out`, one after the other or each to its place, which must not
+  /// overlap what `at` shows. Variables are read from `at` as they are needed; what they must hold
+  /// is not checked here, see `check`. Nothing is allocated after the first call of a thread.
   void evaluate(const At& at, double* out) const;
   void operator()(const At& at, VectorRef out) const { evaluate(at, out.data()); }
 

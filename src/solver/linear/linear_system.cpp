@@ -135,7 +135,7 @@ int LinearSystem::precondition(N_Vector r, N_Vector z) {
   return 0;
 }
 
-const std::string& LinearSystem::describe() {
+const std::string& LinearSystem::describe() const {
   if (std::exchange(told_, jacobian_->mended()) != jacobian_->mended() || words_.empty()) {
     words_ = text(linear_solver_names[static_cast<std::size_t>(choice_.solver)].first, ": ",
                   choice_.why, probe_.words(), jacobian_->words());

@@ -38,7 +38,7 @@ class LinearSystem {
   int precondition(N_Vector r, N_Vector z);
 
   /// Which solver and why, in words; put together again only where that has changed.
-  const std::string& describe();
+  const std::string& describe() const;
 
  private:
   static constexpr Index small = 16;  // states: see refresh_often
@@ -58,8 +58,8 @@ class LinearSystem {
   int wait_ = 1, until_check_ = 1;  // Jacobians from one look at the probe's places to the next
   std::optional<Jacobian> jacobian_;
   LinearChoice choice_;
-  std::string words_;
-  std::int64_t told_ = 0;  // evaluations of Jacobians that were mended, as words_ has it
+  mutable std::string words_;
+  mutable int told_ = 0;  // evaluations of Jacobians that were mended, as words_ has it
   MatrixLayout layout_;
   std::unique_ptr<Factorisation> factorisation_;
   std::optional<Preconditioner> preconditioner_;

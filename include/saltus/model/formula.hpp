@@ -1,0 +1,143 @@
+// Formula: what a block computes, entry by entry, as a call and as an expression to be fused.
+#pragma once
+
+#include <functional>
+#include <type_traits>
+#include <utility>
+
+#include "saltus/base/callback.hpp"
+#include "saltus/base/pack.hpp"
+#include "saltus/tape/symbol.hpp"
+
+namespace saltus {
+
+namespace detail {
+
+/// Where the symbols of one block come from: whoever writes its formula down as a graph.
+class Symbols {
+ public:
+  virtual ~Symbols() = default;
+  virtual tape::Symbol time() = 0;
+  virtual tape::Symbol state(Index i) = 0;
+  virtual tape::Symbol parameter(Index i) = 0;
+  virtual tape::Symbol input(int k, Index i) = 0;
+  virtual Index width(int k) = 0;
+  virtual tape::Symbol relation(RelationIndex r, Index i) = 0;
+};
+
+}  // namespace detail
+
+/// What a formula sees where it gives one entry of an output, a derivative or a guard, "the entry":
+/// numbers (`Number` is double, or Pack for some entries at once), or symbols that stand for them.
+/// All have the same members.
+template <class Number>
+class EntryAt {
+ public:
+  EntryAt(const At& at, Index i) : at_(at), i_(i) {}
+
+  double time() const { return at_.time; }              ///< [s]
+  Number x() const { return read(at_.x.data() + i_); }  ///< the entry of the continuous state
+  double x(Index j) const { return at_.x[j]; }          ///< entry j of it
+  /// The entry of input k, of a scalar the only one; or entry j.
+  Number u(int k) const { return entry(at_.u[k]); }
+  double u(int k, Index j) const { return at_.u[k][j]; }
+  Index width(int k) const { return at_.u[k].size(); }  ///< of input k
+  /// The entry of a parameter, of a scalar the only one; or entry j.
+  Number p(ParameterIndex k) const { return entry(at_.parameter(k)); }
+  double p(ParameterIndex k, Index j) const { return at_.parameter(k)[j]; }
+  /// The truth of the entry of a relation as `At::relation`, or of entry j.
+  Number relation(RelationIndex r) const { return read(at_.relation_values(r) + i_); }
+  bool relation(RelationIndex r, Index j) const { return at_.relation(r, j); }
+  /// `a` where `truth` is not 0, else `b`; both are computed.
+  Number choose(const Number& truth, const Number& a, const Number& b) const {
+    if constexpr (std::is_same_v<Number, Pack>) {
+      return Pack::choose(truth, a, b);
+    } else {
+      return truth != 0.0 ? a : b;
+    }
+  }
+
+ private:
+  static Number read(const double* first) {
+    if constexpr (std::is_same_v<Number, Pack>) {
+      return Pack(first);
+    } else {
+      return *first;
+    }
+  }
+  Number entry(const VectorView& values) const {
+    return values.size() == 1 ? Number(*values.data()) : read(values.data() + i_);
+  }
+  const At& at_;
+  Index i_;
+};
+
+template <>
+class EntryAt<tape::Symbol> {
+  using Symbol = tape::Symbol;
+
+ public:
+  EntryAt(detail::Symbols& symbols, Index i) : symbols_(symbols), i_(i) {}
+
+  Symbol time() const { return symbols_.time(); }
+  Symbol x() const { return x(i_); }
+  Symbol x(Index j) const { return symbols_.state(j); }
+  Symbol u(int k) const { return u(k, width(k) == 1 ? 0 : i_); }
+  Symbol u(int k, Index j) const { return symbols_.input(k, j); }
+  Index width(int k) const { return symbols_.width(k); }
+  Symbol p(ParameterIndex k) const { return p(k, k.size == 1 ? 0 : i_); }
+  Symbol p(ParameterIndex k, Index j) const { return symbols_.parameter(k.offset + j); }
+  Symbol relation(RelationIndex r) const { return relation(r, i_); }
+  Symbol relation(RelationIndex r, Index j) const { return symbols_.relation(r, j); }
+  Symbol choose(const Symbol& truth, const Symbol& a, const Symbol& b) const {
+    return Symbol::apply(tape::Op::select, {truth, a, b});
+  }
+
+ private:
+  detail::Symbols& symbols_;
+  Index i_;
+};
+
+/// One function template that gives one entry of an output, a derivative or a guard:
+/// `[](const auto& at) { return at.u(0) * at.u(1); }` where all entries are alike, `at` an EntryAt;
+/// else `[](const auto& at, Index i) { ... }` with the number of the entry. It is called with
+/// numbers where the block stands alone; a plan calls it with symbols, and computes the formulas of
+/// blocks that feed one another in one go, to the same bits. So it must read nothing but `at` and
+/// what never changes, and what decides between values is `at.choose`, or never changes.
+class Formula {
+ public:
+  Formula() = default;
+  template <class F>
+    requires std::is_invocable_v<const F&, const EntryAt<double>&>
+  Formula(F f)  // NOLINT(google-explicit-constructor): declarations read as names
+      : function_([f](const At& at, VectorRef out) {
+          Index i = 0;
+          for (; i + Pack::size <= out.size(); i += Pack::size)
+            Pack(f(EntryAt<Pack>(at, i))).store(&out[i]);
+          for (; i < out.size(); ++i) out[i] = f(EntryAt<double>(at, i));
+        }),
+        symbol_([f](detail::Symbols& symbols, Index i) -> tape::Symbol {
+          return f(EntryAt<tape::Symbol>(symbols, i));
+        }) {}
+  template <class F>
+    requires std::is_invocable_v<const F&, const EntryAt<double>&, Index>
+  Formula(F f)  // NOLINT(google-explicit-constructor): declarations read as names
+      : function_([f](const At& at, VectorRef out) {
+          for (Index i = 0; i < out.size(); ++i) out[i] = f(EntryAt<double>(at, i), i);
+        }),
+        symbol_([f](detail::Symbols& symbols, Index i) -> tape::Symbol {
+          return f(EntryAt<tape::Symbol>(symbols, i), i);
+        }) {}
+
+  explicit operator bool() const noexcept { return static_cast<bool>(function_); }
+  /// All entries, by calls with numbers.
+  const VectorFunction& function() const noexcept { return function_; }
+  /// Entry i, as an expression of these symbols.
+  tape::Symbol symbol(detail::Symbols& symbols, Index i) const { return symbol_(symbols, i); }
+
+ private:
+  VectorFunction function_ = {};
+  std::function<tape::Symbol(detail::Symbols&, Index)> symbol_ = {};
+};
+
+}  // namespace saltus

@@ -1,0 +1,265 @@
+#include "saltus/plan/fuse.hpp"
+
+#include <utility>
+
+#include "saltus/plan/needs.hpp"
+#include "saltus/tape/tape.hpp"
+
+namespace saltus::detail {
+
+namespace {
+
+/// A wider signal is not fused: there the numbers cost more than the call, and a call computes them
+/// side by side.
+constexpr Index widest = 16;
+
+constexpr int variable = -1;
+
+/// What a list is for: an ode or a group of guards.
+struct Sink {
+  int leaf = -1;
+  const Formula* formula = nullptr;  // none: it stays a call
+  Index to = 0, size = 0;            // in xdot, or in the vector of guards
+  std::vector<int> needs = {};
+};
+
+/// Values as nodes of one graph: those that were computed in it, else variables.
+class Writer {
+ public:
+  /// `first` is room for a number a node, shared by those that write one after the other.
+  Writer(const Plan& plan, std::vector<int>& first) : plan_(plan), first_(first) {}
+
+  void compute(int i) {
+    const Node& node = plan_.node(i);
+    const std::size_t first = values_.size();
+    write(plan_.output_of(node).formula, node.leaf, node.place.size);
+    first_[static_cast<std::size_t>(i)] = static_cast<int>(first);
+  }
+  /// Writes a value that was computed to its own place.
+  void keep(int i) {
+    const auto first = static_cast<std::size_t>(first_[static_cast<std::size_t>(i)]);
+    put(first, plan_.node(i).place);
+  }
+  void put(const Sink& sink) {
+    const std::size_t first = values_.size();
+    write(*sink.formula, sink.leaf, sink.size);
+    put(first, {Space::y, sink.to, sink.size});
+  }
+  /// The values computed here are variables to who writes next.
+  void forget(const std::vector<int>& nodes) {
+    for (const int i : nodes) first_[static_cast<std::size_t>(i)] = variable;
+  }
+
+  VectorFunction function() const {
+    if (outputs_.empty()) return {};
+    return tape::as_vector_function(tape::Tape(graph_, outputs_, places_));
+  }
+
+ private:
+  /// The symbols of one leaf.
+  class Of final : public Symbols {
+   public:
+    Of(Writer& writer, const PlanLeaf& leaf) : writer_(writer), leaf_(leaf) {}
+    tape::Symbol time() override { return symbol(graph().time()); }
+    tape::Symbol state(Index i) override { return symbol(graph().continuous_state(leaf_.x + i)); }
+    tape::Symbol parameter(Index i) override { return symbol(graph().parameter(leaf_.p + i)); }
+    tape::Symbol input(int k, Index i) override { return value(leaf_.inputs, k, i); }
+    Index width(int k) override { return leaf_.input_places[static_cast<std::size_t>(k)].size; }
+    tape::Symbol relation(RelationIndex r, Index i) override {
+      return value(leaf_.relations, r.value, i);
+    }
+
+   private:
+    tape::Graph& graph() { return writer_.graph_; }
+    tape::Symbol symbol(tape::Node node) { return {graph(), node}; }
+    tape::Symbol value(const std::vector<int>& nodes, int k, Index i) {
+      return symbol(writer_.value(nodes[static_cast<std::size_t>(k)], i));
+    }
+    Writer& writer_;
+    const PlanLeaf& leaf_;
+  };
+
+  tape::Node value(int node, Index i) {
+    const int first = first_[static_cast<std::size_t>(node)];
+    if (first != variable) return values_[static_cast<std::size_t>(first + i)];
+    const Place& place = plan_.node(node).place;
+    switch (place.space) {
+      case Space::x:
+        return graph_.continuous_state(place.offset + i);
+      case Space::p:
+        return graph_.parameter(place.offset + i);
+      case Space::z:
+        return graph_.input(input_of_z, place.offset + i);
+      default:
+        return graph_.discrete_state(place.offset + i);
+    }
+  }
+
+  void write(const Formula& formula, int leaf, Index size) {
+    Of symbols(*this, plan_.leaves[static_cast<std::size_t>(leaf)]);
+    for (Index i = 0; i < size; ++i) values_.push_back(formula.symbol(symbols, i).in(graph_));
+  }
+  void put(std::size_t first, const Place& to) {
+    for (Index i = 0; i < to.size; ++i) {
+      outputs_.push_back(values_[first + static_cast<std::size_t>(i)]);
+      places_.push_back(to.offset + i);
+    }
+  }
+
+  const Plan& plan_;
+  std::vector<int>& first_;  // of the entries of each node in `values_`
+  tape::Graph graph_;
+  std::vector<tape::Node> values_, outputs_;
+  std::vector<Index> places_;
+};
+
+/// A list with its sinks, cut into stages: what is fused in one, then the calls of the same one. A
+/// call stands in the first stage it can; a formula in the last one it can, so that one that only
+/// sinks read is part of the last function, which writes none of its values down.
+class Stages {
+ public:
+  Stages(const Plan& plan, const std::vector<int>& list, const std::vector<Sink>& sinks)
+      : plan_(plan), list_(list), sinks_(sinks), stage_(plan.nodes.size(), absent) {
+    for (const int i : list_) stage(i) = first_stage(i);
+    for (const int i : list_) stages_ = std::max(stages_, stage(i) + 1);
+    for (const int i : list_) {
+      if (fuses(i)) stage(i) = stages_;
+    }
+    for (const Sink& sink : sinks_) {
+      if (sink.formula == nullptr) settle(sink.needs, stages_ - 1);
+    }
+    for (auto i = list_.rbegin(); i != list_.rend(); ++i) settle(plan_.node(*i).needs, stage(*i));
+  }
+
+  Walk walk() const {
+    Walk walk;
+    walk.stages.resize(static_cast<std::size_t>(stages_));
+    std::vector<std::vector<int>> formulas(static_cast<std::size_t>(stages_) + 1);
+    for (const int i : list_) {
+      const auto s = static_cast<std::size_t>(stage(i));
+      (fuses(i) ? formulas[s] : walk.stages[s].calls).push_back(i);
+    }
+    const auto kept = find_kept();
+    std::vector<int> first(plan_.nodes.size(), variable);
+    for (std::size_t s = 0; s < walk.stages.size(); ++s) {
+      Writer writer(plan_, first);
+      write(writer, formulas[s], kept);
+      walk.stages[s].fused = writer.function();
+      writer.forget(formulas[s]);
+    }
+    Writer last(plan_, first);
+    write(last, formulas.back(), kept);
+    for (const Sink& sink : sinks_) {
+      walk.fused.push_back(sink.formula != nullptr);
+      if (sink.formula != nullptr) last.put(sink);
+    }
+    walk.last = last.function();
+    for (const auto& nodes : formulas) append(walk.nodes, nodes);
+    return walk;
+  }
+
+ private:
+  static constexpr int absent = -1;
+
+  bool fuses(int i) const {
+    const Node& node = plan_.node(i);
+    return !node.relation && plan_.output_of(node).formula && node.place.size <= widest;
+  }
+  int& stage(int i) { return stage_[static_cast<std::size_t>(i)]; }
+  int stage(int i) const { return stage_[static_cast<std::size_t>(i)]; }
+
+  /// A formula comes after the calls it reads, so in the stage behind theirs.
+  int first_stage(int i) const {
+    int first = 0;
+    for (const int need : plan_.node(i).needs) {
+      if (stage(need) != absent)
+        first = std::max(first, stage(need) + (fuses(i) && !fuses(need) ? 1 : 0));
+    }
+    return first;
+  }
+  /// Formulas that something in a stage reads are there, or before it.
+  void settle(const std::vector<int>& needs, int reader) {
+    for (const int need : needs) {
+      if (stage(need) != absent && fuses(need)) stage(need) = std::min(stage(need), reader);
+    }
+  }
+
+  static void write(Writer& writer, const std::vector<int>& nodes, const std::vector<char>& kept) {
+    for (const int i : nodes) {
+      writer.compute(i);
+      if (kept[static_cast<std::size_t>(i)]) writer.keep(i);
+    }
+  }
+
+  /// What others than the function it is part of read is written down.
+  std::vector<char> find_kept() const {
+    std::vector<char> kept(plan_.nodes.size());
+    const auto keep = [&](const std::vector<int>& needs, int reader) {
+      for (const int need : needs)
+        if (stage(need) != reader) kept[static_cast<std::size_t>(need)] = 1;
+    };
+    for (const int i : list_) keep(plan_.node(i).needs, fuses(i) ? stage(i) : absent);
+    for (const Sink& sink : sinks_) keep(sink.needs, sink.formula != nullptr ? stages_ : absent);
+    return kept;
+  }
+
+  const Plan& plan_;
+  const std::vector<int>& list_;
+  const std::vector<Sink>& sinks_;
+  std::vector<int> stage_;
+  int stages_ = 0;
+};
+
+/// A formula, if it is narrow enough.
+const Formula* fusible(const Formula& formula, Index size) {
+  return formula && size <= widest ? &formula : nullptr;
+}
+
+std::vector<Sink> odes_of(const Plan& plan) {
+  static const Formula still([](const auto&) { return 0.0; });
+  std::vector<Sink> sinks;
+  for (const int i : plan.odes) {
+    const PlanLeaf& leaf = plan.leaves[static_cast<std::size_t>(i)];
+    const ContinuousState& state = leaf.declared().continuous;
+    Sink sink{i, fusible(state.ode ? state.formula : still, leaf.nx), leaf.x, leaf.nx};
+    if (state.ode && has(state.reads, Reads::inputs)) sink.needs = read_inputs(state.inputs, leaf);
+    if (state.ode && has(state.reads, Reads::relations)) append(sink.needs, leaf.relations);
+    sinks.push_back(std::move(sink));
+  }
+  return sinks;
+}
+
+/// A guard that not every mode has stays a call: it is made where it can fire only.
+std::vector<Sink> guards_of(const Plan& plan) {
+  std::vector<Sink> sinks;
+  for (const GuardGroup& group : plan.guards) {
+    const PlanLeaf& leaf = plan.leaves[static_cast<std::size_t>(group.leaf)];
+    Sink sink{group.leaf, nullptr, group.slot, group.size};
+    if (group.kind == GuardGroup::Kind::crossing) {
+      const auto& crossing = leaf.declared().zero_crossings[static_cast<std::size_t>(group.index)];
+      if (!crossing.start_mode) sink.formula = fusible(crossing.formula, group.size);
+      sink.needs = read_inputs(crossing.inputs, leaf);
+      append(sink.needs, leaf.relations);
+    } else {
+      const Node& node = plan.node(group.index);
+      if (node.relation) sink.formula = fusible(plan.relation_of(node).formula, group.size);
+      sink.needs = node.needs;
+    }
+    sinks.push_back(std::move(sink));
+  }
+  return sinks;
+}
+
+Walk walk_of(const Plan& plan, const std::vector<int>& list, const std::vector<Sink>& sinks) {
+  Walk walk = Stages(plan, list, sinks).walk();
+  return walk.fuses() ? walk : Walk{};
+}
+
+}  // namespace
+
+void fuse(Plan& plan) {
+  plan.derivative_walk = walk_of(plan, plan.derivatives, odes_of(plan));
+  plan.guard_walk = walk_of(plan, plan.guard_needs, guards_of(plan));
+}
+
+}  // namespace saltus::detail
