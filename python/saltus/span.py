@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from saltus.errors import ModelError
 
 __all__ = ["span_of"]
@@ -12,7 +14,7 @@ def span_of(where: str, t_span: object, backward: str = "") -> tuple[float, floa
     `backward` is what it adds for an end before the begin.
     """
     try:
-        given = tuple(t_span)  # type: ignore[arg-type]
+        given: tuple[Any, ...] = tuple(t_span)  # type: ignore[arg-type]
         if any(isinstance(time, (str, bytes)) for time in given):
             raise TypeError
         begin, end = map(float, given)

@@ -85,7 +85,7 @@ TEST_CASE("6.2 the entry that is not finite is named, and what the block sees",
   INFO("method " << method);
   const auto message_of = [&](Index n) {
     DiagramBuilder builder;
-    const auto& level = builder.add<Constant>(-4.0, "level");
+    const auto& level = builder.add<Constant>("level", -4.0);
     const auto& leaf = builder.add<Leaf>("leaf", [=](Leaf& l) {
       l.declare_input_port({.name = "u"});
       l.declare_continuous_state({.initial = Eigen::VectorXd::LinSpaced(n, 1.0, double(n)),
@@ -107,7 +107,7 @@ TEST_CASE("6.2 an output that is not finite and that a derivative reads is named
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);
   DiagramBuilder builder;
-  const auto& x = builder.add<Integrator>(-1.0, "x");
+  const auto& x = builder.add<Integrator>("x", IntegratorOptions{.initial_state = -1.0});
   const auto& root = builder.add<Leaf>("root", [](Leaf& l) {
     l.declare_input_port({.name = "u"});
     l.declare_output_port(

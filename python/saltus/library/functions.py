@@ -8,9 +8,23 @@ from typing import Any
 from numpy.typing import ArrayLike
 
 from saltus import _core
+from saltus.declarations import callback_of, shape_of
 from saltus.errors import ModelError
 from saltus.leaf_system import LeafSystem
 from saltus.porting import refusing
+
+
+def _declare_function(
+    block: LeafSystem,
+    function: Callable[..., ArrayLike],
+    shape: int | tuple[int, ...] | None,
+    boolean: bool | None,
+    convention: _core.Convention,
+) -> None:
+    """The one output of a block that is a function of its inputs and nothing else."""
+    _core.LeafSystem.declare_output_port(
+        block, callback_of(function), "out", None, shape_of(shape), boolean, ["inputs"], convention
+    )
 
 
 class ReduceBlock(LeafSystem):
@@ -68,7 +82,7 @@ class ReduceBlock(LeafSystem):
             raise ModelError(f"block '{self.name}': expected 1 input or more, found {n_inputs}")
         for _ in range(n_inputs):
             self.declare_input_port()
-        self._declare_function(function, shape, boolean, _core.Convention.inputs)
+        _declare_function(self, function, shape, boolean, _core.Convention.inputs)
 
 
 class FunctionBlock(LeafSystem):
@@ -112,4 +126,4 @@ class FunctionBlock(LeafSystem):
     ):
         super().__init__(name)
         self.declare_input_port("in")
-        self._declare_function(function, shape, boolean, _core.Convention.input)
+        _declare_function(self, function, shape, boolean, _core.Convention.input)
