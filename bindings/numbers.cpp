@@ -36,14 +36,14 @@ struct Entry {
 
 /// The first of an object, or of the entries of lists, that `is_wrong`.
 template <class Wrong>
-std::optional<Entry> entry_that(const Wrong& is_wrong, py::handle object, std::string place = {}) {
-  constexpr std::size_t deepest = 128;  // a list may hold itself
+std::optional<Entry> entry_that(const Wrong& is_wrong, py::handle object, int depth = 0) {
+  constexpr int deepest = 32;  // numpy has no more dimensions, and a list may hold itself
   PyObject* const of = object.ptr();
-  if (!(PyList_Check(of) || PyTuple_Check(of)) || place.size() > deepest)
-    return is_wrong(object) ? std::optional(Entry{object, std::move(place)}) : std::nullopt;
+  if (!(PyList_Check(of) || PyTuple_Check(of)) || depth > deepest)
+    return is_wrong(object) ? std::optional(Entry{object, ""}) : std::nullopt;
   for (py::ssize_t i = 0; i < PySequence_Fast_GET_SIZE(of); ++i) {
-    const py::handle item = PySequence_Fast_GET_ITEM(of, i);
-    if (auto found = entry_that(is_wrong, item, text(place, "[", i, "]"))) return found;
+    auto found = entry_that(is_wrong, PySequence_Fast_GET_ITEM(of, i), depth + 1);
+    if (found) return Entry{found->object, text("[", i, "]", found->place)};
   }
   return std::nullopt;
 }
