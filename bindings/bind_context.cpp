@@ -4,6 +4,7 @@
 #include "bindings.hpp"
 #include "context_docs.hpp"
 #include "numbers.hpp"
+#include "saltus/base/listed.hpp"
 #include "saltus/model/system.hpp"
 
 namespace saltus::python {
@@ -61,19 +62,12 @@ bool equal(const Context& a, const Context& b) {
          a.parameters() == b.parameters() && paths(a) == paths(b);
 }
 
-std::string list(const Eigen::VectorXd& values) {
-  std::string out;
-  for (Index i = 0; i < std::min<Index>(values.size(), 6); ++i)
-    out += text(i == 0 ? "" : ", ", values[i]);
-  return text("[", out, values.size() > 6 ? ", ..." : "", "]");
-}
-
 std::string repr(const Context& context) {
   std::string out = text("Context(time=", context.time());
   if (context.continuous_state().size() > 0)
-    out += text(", continuous_state=", list(context.continuous_state()));
+    out += text(", continuous_state=", listed(context.continuous_state()));
   if (context.discrete_state().size() > 0)
-    out += text(", discrete_state=", list(context.discrete_state()));
+    out += text(", discrete_state=", listed(context.discrete_state()));
   if (context.modes().size() == 1) out += text(", mode=", context.mode());
   const std::size_t blocks = context.layout().leaves.size();
   return out + (blocks == 1 ? ")" : text(", ", blocks, " blocks)"));

@@ -134,6 +134,7 @@ void bind_results(py::module_& module) {
       .def_readonly("block", &Results::block)
       .def_property_readonly("statistics", &statistics)
       .def_property_readonly("event_count", [](const Results& r) { return r.events.size(); })
+      .def_property_readonly("event_names", [](const Results& r) { return r.events.names(); })
       .def_property_readonly("dense", [](const Results& r) { return !r.trajectory.empty(); })
       .def_property_readonly(
           "span",

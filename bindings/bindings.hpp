@@ -13,6 +13,7 @@ namespace saltus::python {
 namespace py = pybind11;
 
 void bind_errors(py::module_& module);
+void bind_numbers(py::module_& module);
 void bind_context(py::module_& module);
 void bind_context_saving(py::class_<Context>& context);
 void bind_context_reading(py::module_& module);

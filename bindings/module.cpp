@@ -6,6 +6,7 @@ PYBIND11_MODULE(_core, module) {
   module.doc() = "The engine behind the package saltus; import that.";
   module.attr("__version__") = SALTUS_VERSION;
   bind_errors(module);
+  bind_numbers(module);
   bind_context(module);
   bind_system(module);
   bind_picture(module);

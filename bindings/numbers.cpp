@@ -7,13 +7,62 @@ namespace saltus::python {
 
 namespace {
 
-std::string type_name(py::handle object) {
-  return object.is_none() ? "None" : Py_TYPE(object.ptr())->tp_name;
+/// "'fast' (str)", "an array of complex128", "None".
+std::string described(py::handle object) {
+  if (object.is_none()) return "None";
+  if (py::isinstance<py::array>(object))
+    return text("an array of ", std::string(py::str(object.attr("dtype"))));
+  const auto shown = py::module_::import("reprlib").attr("repr")(object);
+  return text(std::string(py::str(shown)), " (", Py_TYPE(object.ptr())->tp_name, ")");
 }
 
-[[noreturn]] void throw_no_numbers(py::handle found, const std::string& what) {
+/// What numpy would make a number of, and nobody means to be one.
+bool is_text_or_none(py::handle object) {
+  PyObject* const of = object.ptr();
+  return object.is_none() || PyUnicode_Check(of) || PyBytes_Check(of) || PyByteArray_Check(of);
+}
+
+bool is_no_number(py::handle object) {
+  if (is_text_or_none(object)) return true;
+  const bool none = !Array::ensure(object);  // refuses complex numbers
   PyErr_Clear();
-  throw ModelError(text(what, ": expected numbers, found ", type_name(found)));
+  return none;
+}
+
+struct Entry {
+  py::handle object;
+  std::string place;  // "[0][2]" in lists of lists; empty for the object itself
+};
+
+/// The first of an object, or of the entries of lists, that `is_wrong`.
+template <class Wrong>
+std::optional<Entry> entry_that(const Wrong& is_wrong, py::handle object, int depth = 0) {
+  constexpr int deepest = 32;  // numpy has no more dimensions, and a list may hold itself
+  PyObject* const of = object.ptr();
+  if (!(PyList_Check(of) || PyTuple_Check(of)) || depth > deepest)
+    return is_wrong(object) ? std::optional(Entry{object, ""}) : std::nullopt;
+  for (py::ssize_t i = 0; i < PySequence_Fast_GET_SIZE(of); ++i) {
+    auto found = entry_that(is_wrong, PySequence_Fast_GET_ITEM(of, i), depth + 1);
+    if (found) return Entry{found->object, text("[", i, "]", found->place)};
+  }
+  return std::nullopt;
+}
+
+/// What is wrong with what is no array of numbers.
+std::string not_numbers(py::handle object) {
+  const auto found = entry_that(is_no_number, object);
+  const std::string type = Py_TYPE(object.ptr())->tp_name;
+  if (!found) return text("a ", type, " of entries of different lengths");
+  if (found->place.empty()) return described(object);
+  return text("a ", type, " whose entry ", found->place, " is ", described(found->object));
+}
+
+/// An array of doubles, or none and no Python error.
+Array numbers_in(py::handle object) {
+  if (entry_that(is_text_or_none, object)) return py::reinterpret_steal<Array>(nullptr);
+  Array array = Array::ensure(object);
+  if (!array) PyErr_Clear();
+  return array;
 }
 
 }  // namespace
@@ -40,9 +89,8 @@ py::array read_only_array(const Dimensions& dimensions, const double* values) {
 }
 
 Array to_array(py::handle numbers, const std::string& what) {
-  if (numbers.is_none()) throw_no_numbers(numbers, what);  // numpy would make it NaN
-  Array array = Array::ensure(numbers);                    // refuses complex numbers and texts
-  if (!array) throw_no_numbers(numbers, what);
+  Array array = numbers_in(numbers);
+  if (!array) throw ModelError(text(what, ": expected numbers, found ", not_numbers(numbers)));
   return array;
 }
 
@@ -103,16 +151,21 @@ void read_any_numbers(py::handle result, VectorRef out, const std::string& what)
   if (result.is_none())
     throw ModelError(
         text(what, " returned None, expected ", out.size(), " numbers; is a `return` missing?"));
-  const Array array = Array::ensure(result);
+  const Array array = numbers_in(result);
   if (!array) {
-    PyErr_Clear();
     throw ModelError(
-        text(what, " returned a ", type_name(result), ", expected ", out.size(), " numbers"));
+        text(what, " returned ", not_numbers(result), ", expected ", out.size(), " numbers"));
   }
   if (array.size() != out.size()) {
     throw ModelError(text(what, " returned ", array.size(), " numbers, expected ", out.size()));
   }
   out = as_vector(array);
+}
+
+void bind_numbers(py::module_& module) {
+  module.def(
+      "numbers", &to_array, py::arg("numbers"), py::arg("what"),
+      "Numbers as an array of doubles. ModelError that begins with `what` for what is none.");
 }
 
 }  // namespace saltus::python

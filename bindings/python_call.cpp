@@ -148,20 +148,50 @@ class Borrowed {
 /// What Python raised to end the program: nobody in C++ may take it for a failure of the function.
 class Ended final : public py::error_already_set, public Interruption {};
 
-[[noreturn]] void throw_raised() {
-  if (PyErr_ExceptionMatches(PyExc_Exception) != 0) throw py::error_already_set();
-  throw Ended();
-}
+}  // namespace
 
-py::object vectorcall(const Function& function, const Frame& frame) {
+py::object PythonLeaf::vectorcall(const Function& function, const Frame& frame) const {
   PyObject* result = PyObject_Vectorcall(
       function.callable.ptr(), const_cast<PyObject* const*>(frame.arguments.data()) + 1,
       frame.positional | PY_VECTORCALL_ARGUMENTS_OFFSET, frame.keywords.ptr());
-  if (result == nullptr) throw_raised();
+  if (result == nullptr) throw_raised(function, frame);
   return py::reinterpret_steal<py::object>(result);
 }
 
-}  // namespace
+/// The names of the arguments that go by position.
+py::list PythonLeaf::positional(const Function& function) const {
+  py::list names;
+  if (function.method) names.append("self");
+  if (function.convention == Convention::inputs) {
+    names.append("inputs");
+    return names;
+  }
+  if (function.convention == Convention::state) {
+    names.append("time");
+    names.append("state");
+  }
+  const std::vector<std::string> ports = input_names();
+  if (!function.inputs) {
+    for (const std::string& port : ports) names.append(port);
+  } else {
+    for (const int i : *function.inputs) names.append(ports[static_cast<std::size_t>(i)]);
+  }
+  return names;
+}
+
+/// What the function raised, as it was. But a TypeError from no line of Python may say that it does
+/// not take what it is called with: then a ModelError says what that is.
+void PythonLeaf::throw_raised(const Function& function, const Frame& frame) const {
+  if (PyErr_ExceptionMatches(PyExc_Exception) == 0) throw Ended();
+  py::error_already_set error;
+  if (error.matches(PyExc_TypeError) && !error.trace()) {
+    const py::object keywords = frame.keywords ? frame.keywords : py::tuple();
+    py::module_::import("saltus.calling")
+        .attr("refuse_signature")(whose(function), function.callable, positional(function),
+                                  keywords, error.value());
+  }
+  throw error;
+}
 
 py::object PythonLeaf::call(int k, const At& at, Index out_size) const {
   Function& function = functions_[static_cast<std::size_t>(k)];

@@ -75,6 +75,9 @@ class PythonLeaf final : public LeafSystem {
   };
 
   py::object call(int k, const At& at, Index out_size) const;
+  py::object vectorcall(const Function& function, const Frame& frame) const;
+  py::list positional(const Function& function) const;
+  [[noreturn]] void throw_raised(const Function& function, const Frame& frame) const;
   void fill(int k, const At& at, VectorRef out) const;
   void take_out(const Function& function, const Frame& frame, py::handle result,
                 VectorRef out) const;

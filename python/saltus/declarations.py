@@ -9,9 +9,27 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from saltus.compiled import as_compiled
 from saltus.errors import ModelError
 
 RequiresInputs = bool | Iterable[int]
+EVERYTHING = ("time", "continuous_state", "discrete_state", "mode", "inputs")
+SHORT = {
+    "both": "crosses_zero",
+    "falling": "positive_then_non_positive",
+    "rising": "negative_then_non_negative",
+}
+"""directions in one word"""
+
+
+def callback_of(function: Any) -> Any:
+    """The compiled function behind a pointer; anything else as it is."""
+    return as_compiled(function) or function
+
+
+def direction_of(direction: Any) -> Any:
+    """The name of the engine for a direction in one word; anything else as it is."""
+    return SHORT.get(str(direction), direction)
 
 
 def inputs_of(requires_inputs: RequiresInputs) -> list[int] | None:

@@ -8,28 +8,21 @@ from typing import Any
 from numpy.typing import ArrayLike
 
 from saltus import _core
-from saltus.compiled import as_compiled
-from saltus.declarations import RequiresInputs, initial_of, inputs_of, places_of, shape_of
+from saltus.declarations import (
+    EVERYTHING,
+    RequiresInputs,
+    callback_of,
+    direction_of,
+    initial_of,
+    inputs_of,
+    places_of,
+    shape_of,
+)
 from saltus.errors import ModelError
 from saltus.porting import refusing
 from saltus.system import System
 
 __all__ = ["LeafSystem"]
-
-EVERYTHING = ("time", "continuous_state", "discrete_state", "mode", "inputs")
-
-
-def _callback(function: Any) -> Any:
-    """The compiled function behind a pointer; anything else as it is."""
-    return as_compiled(function) or function
-
-
-SHORT = {
-    "both": "crosses_zero",
-    "falling": "positive_then_non_positive",
-    "rising": "negative_then_non_negative",
-}
-"""directions in one word"""
 
 
 class LeafSystem(System, _core.LeafSystem):
@@ -163,11 +156,11 @@ class LeafSystem(System, _core.LeafSystem):
             raise ModelError(f"{what}: sparse_jacobian without jacobian_sparsity; give both")
         super().declare_continuous_state(
             initial,
-            _callback(ode),
+            callback_of(ode),
             inputs_of(requires_inputs),
-            _callback(jacobian),
+            callback_of(jacobian),
             places,
-            _callback(sparse_jacobian),
+            callback_of(sparse_jacobian),
         )
 
     @refusing
@@ -229,7 +222,7 @@ class LeafSystem(System, _core.LeafSystem):
         """
         inputs = inputs_of(requires_inputs)
         return super().declare_output_port(
-            _callback(callback),
+            callback_of(callback),
             name or "",
             inputs,
             shape_of(shape, default_value),
@@ -303,7 +296,7 @@ class LeafSystem(System, _core.LeafSystem):
         negative `zeno_tolerance`, and `holds` of another length or beyond the state.
         """
         options = {
-            "direction": SHORT.get(str(direction), direction),
+            "direction": direction_of(direction),
             "start_mode": start_mode,
             "end_mode": end_mode,
             "terminal": terminal,
@@ -315,7 +308,9 @@ class LeafSystem(System, _core.LeafSystem):
             "holds": holds,
             "inputs": inputs_of(requires_inputs),
         }
-        super().declare_zero_crossing(_callback(guard), _callback(reset_map), name or "", options)
+        super().declare_zero_crossing(
+            callback_of(guard), callback_of(reset_map), name or "", options
+        )
 
     @refusing
     def declare_periodic_update(
@@ -328,7 +323,7 @@ class LeafSystem(System, _core.LeafSystem):
         """At offset + k period [s], k = 0, 1, ..., callback returns the new state, or the new
         discrete state alone.
         """
-        super().declare_periodic_update(_callback(callback), period, offset, name or "")
+        super().declare_periodic_update(callback_of(callback), period, offset, name or "")
 
     @refusing
     def declare_one_shot(
@@ -340,16 +335,4 @@ class LeafSystem(System, _core.LeafSystem):
         """The same once, at `time` [s]. None for a callback is an exact stop where held outputs are
         read again.
         """
-        super().declare_one_shot(_callback(callback), time, name or "")
-
-    def _declare_function(
-        self,
-        function: Callable[..., ArrayLike],
-        shape: int | tuple[int, ...] | None,
-        boolean: bool | None,
-        convention: _core.Convention,
-    ) -> None:
-        """The one output of a block that is a function of its inputs and nothing else."""
-        super().declare_output_port(
-            _callback(function), "out", None, shape_of(shape), boolean, ["inputs"], convention
-        )
+        super().declare_one_shot(callback_of(callback), time, name or "")

@@ -14,6 +14,7 @@ from saltus.options import PYTHON_ONLY, SimulatorOptions, core_options
 from saltus.porting import OPTIONS, refuse
 from saltus.progress import reporter_of
 from saltus.results import Results
+from saltus.span import span_of
 from saltus.system import OutputPort, System
 
 __all__ = [
@@ -160,9 +161,7 @@ class Simulator:
         return results
 
     def _results(self, core: _core.Results, raised: BaseException | None) -> Results:
-        results = self._outcome(core, raised, self.system)
-        results._runs = self._runs if results.dense else None
-        return results
+        return self._outcome(core, raised, (self.system, self._runs))
 
     def _report(self, time: float) -> None:
         """Advances under the eyes of the user."""
@@ -282,14 +281,7 @@ def simulate(
     >>> f"{results.outputs['x'][-1, 0]:.6f}"
     '0.367879'
     """
-    try:
-        begin, end = map(float, time_span)
-    except (TypeError, ValueError):
-        raise ModelError(
-            f"simulate: expected a span (begin, end) in seconds, found {time_span!r}"
-        ) from None
-    if not end >= begin:
-        raise ModelError(f"simulate: expected a span with begin <= end, found {begin} s to {end} s")
+    begin, end = span_of("simulate", time_span)
     if recorded_signals is not None:
         option_overrides["recorded_signals"] = recorded_signals
     simulator = Simulator(system, options, **option_overrides)

@@ -2,17 +2,28 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from saltus.errors import ModelError
 
 __all__ = ["span_of"]
 
 
-def span_of(where: str, t_span: object) -> tuple[float, float]:
-    """(begin, end) [s], in whichever order; ModelError, which begins with `where`, for all else."""
+def span_of(where: str, t_span: object, backward: str = "") -> tuple[float, float]:
+    """(begin, end) [s] with begin <= end. ModelError, which begins with `where`, for all else;
+    `backward` is what it adds for an end before the begin.
+    """
     try:
-        begin, end = map(float, t_span)  # type: ignore[call-overload]
+        given: tuple[Any, ...] = tuple(t_span)  # type: ignore[arg-type]
+        if any(isinstance(time, (str, bytes)) for time in given):
+            raise TypeError
+        begin, end = map(float, given)
     except (TypeError, ValueError):
         raise ModelError(
             f"{where}: expected a span (begin, end) in seconds, found {t_span!r}"
         ) from None
+    if not end >= begin:
+        raise ModelError(
+            f"{where}: expected a span with begin <= end, found {begin} s to {end} s{backward}"
+        )
     return begin, end

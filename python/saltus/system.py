@@ -3,90 +3,14 @@
 from __future__ import annotations
 
 import json
-import operator
 from collections.abc import Mapping
-from dataclasses import dataclass
 
 from saltus import _core, ladder
 from saltus.errors import ModelError
 from saltus.ladder import Explanation
+from saltus.ports import InputPort, OutputPort, key_of
 
 __all__ = ["InputPort", "OutputPort", "System"]
-
-
-@dataclass(frozen=True)
-class OutputPort:
-    """An output of a system, to connect or to record. It keeps its system alive.
-
-    Parameters
-    ----------
-    system
-        The system it belongs to.
-    index
-        Its position among the outputs.
-
-    Examples
-    --------
-    >>> from saltus.library import Adder
-    >>> total = Adder("+-", name="total")
-    >>> total.output()
-    <output 'out' of 'total'>
-    >>> total.output().name, total.output().index
-    ('out', 0)
-    """
-
-    system: System
-    index: int
-
-    @property
-    def name(self) -> str:
-        """What the system calls it."""
-        return self.system.output_names[self.index]
-
-    def __repr__(self) -> str:
-        return f"<output '{self.name}' of '{self.system.name}'>"
-
-
-@dataclass(frozen=True)
-class InputPort:
-    """An input of a system, to connect. It keeps its system alive.
-
-    Parameters
-    ----------
-    system
-        The system it belongs to.
-    index
-        Its position among the inputs.
-
-    Examples
-    --------
-    >>> from saltus.library import Adder
-    >>> total = Adder("+-", name="total")
-    >>> total.input("in_1")
-    <input 'in_1' of 'total'>
-    >>> total.input("in_1") == total.input_ports[1]
-    True
-    """
-
-    system: System
-    index: int
-
-    @property
-    def name(self) -> str:
-        """What the system calls it."""
-        return self.system.input_names[self.index]
-
-    def __repr__(self) -> str:
-        return f"<input '{self.name}' of '{self.system.name}'>"
-
-
-def _key(port: object) -> int | str:
-    if isinstance(port, str):
-        return port
-    try:
-        return operator.index(port)  # type: ignore[arg-type]
-    except TypeError:
-        raise ModelError(f"expected the position or the name of a port, found {port!r}") from None
 
 
 class System:
@@ -142,7 +66,7 @@ class System:
         >>> Adder("+-", name="total").input(1)
         <input 'in_1' of 'total'>
         """
-        return InputPort(self, _core.System.find_input(self, _key(port)))
+        return InputPort(self, _core.System.find_input(self, key_of(port)))
 
     def output(self, port: int | str = 0) -> OutputPort:
         """One output.
@@ -165,7 +89,7 @@ class System:
             ...
         saltus.errors.ModelError: block 'gain' has no output 'put'; did you mean 'out'? Known: 'out'
         """
-        return OutputPort(self, _core.System.find_output(self, _key(port)))
+        return OutputPort(self, _core.System.find_output(self, key_of(port)))
 
     def context_from_json(self, text: str) -> _core.Context:
         """The context that `context.to_json()` wrote, of this system or one of the same blocks.

@@ -1,5 +1,4 @@
-// Machine: construction, loading and saving a context, and the search for what is not
-// finite.
+// Machine: construction, loading and saving a context.
 #include "saltus/plan/machine.hpp"
 
 #include "saltus/plan/flatten.hpp"
@@ -238,21 +237,6 @@ void Machine::change_rest(Index i, int by) {
   const std::size_t leaf = leaf_of_state_[static_cast<std::size_t>(i)];
   const Index change = static_cast<Index>(count > 0) - static_cast<Index>(before);
   resting_of_[leaf] += change, at_rest_ += change;
-}
-
-std::string Machine::not_finite(double t, const double* state) {
-  bases_[0] = carried(t, state);
-  for (const OutputCall& call : needs_of_derivatives_) {
-    const VectorRef out(y.data() + call.to, call.width);
-    (*call.function)(*call.system, seen_by(call, t), out);
-    if (!out.allFinite()) return plan_->leaves[call.leaf].path;
-  }
-  Eigen::VectorXd xdot(plan_->nx);
-  for (const Call& ode : single_odes_) {
-    ode_with_rest(ode, t, xdot.data());
-    if (!xdot.segment(ode.x, ode.size).allFinite()) return plan_->leaves[ode.leaf].path;
-  }
-  return {};
 }
 
 }  // namespace saltus

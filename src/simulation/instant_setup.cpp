@@ -8,6 +8,23 @@
 
 namespace saltus {
 
+namespace {
+
+/// Names of what is declared and can never fire. Who asks for it by name made no mistake.
+void add_silent(const Plan& plan, std::vector<std::string>& names) {
+  for (const PlanLeaf& leaf : plan.leaves) {
+    for (const ZeroCrossing& crossing : leaf.declared().zero_crossings) {
+      if (crossing.direction == Direction::none)
+        names.push_back(text(leaf.path, ".", crossing.name));
+    }
+  }
+  for (const Node& node : plan.nodes) {
+    if (node.relation && !node.located) names.push_back(node.name);
+  }
+}
+
+}  // namespace
+
 Instant::Instant(Machine& machine, Watch& watch, const SimulatorOptions& options, Results& results)
     : machine_(&machine),
       watch_(&watch),
@@ -38,6 +55,7 @@ Instant::Instant(Machine& machine, Watch& watch, const SimulatorOptions& options
   edge_values_.assign(plan().edges.size(), 0), carried_.assign(plan().edges.size(), 0);
   counts_.assign(names.size(), 0), earlier_.assign(plan().guards.size(), 0);
   add_rests();
+  add_silent(plan(), names);
   results.events.begin(std::move(names));
 }
 

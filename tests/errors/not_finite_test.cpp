@@ -54,6 +54,9 @@ TEST_CASE("6.2 a derivative that becomes NaN or Inf is named with its block and 
   const Ended ended = run(diagram, method);
   INFO(ended.message);
   CHECK(contains(ended.message, "derivative of block 'bad' is not finite (NaN or Inf)"));
+  CHECK(contains(ended.message, std::isnan(bad) ? ": xdot[0] = nan where x = ["
+                                : bad > 0.0     ? ": xdot[0] = inf where x = ["
+                                                : ": xdot[0] = -inf where x = ["));
   CHECK(contains(ended.message, "check its equation and parameters"));
   CHECK(ended.block == "bad");
   CHECK(std::abs(ended.time - 1.0) < 1e-3);
@@ -71,8 +74,53 @@ TEST_CASE("6.2 a derivative that is NaN from the start is named at t0", "[semant
   });
   const Ended ended = run(leaf, method);
   CHECK(contains(ended.message,
-                 "t = 0 s: the derivative of block 'root of minus one' is not finite"));
+                 "t = 0 s: the derivative of block 'root of minus one' is not finite (NaN or Inf): "
+                 "xdot[0] = nan where x = [-1]; check"));
   CHECK(ended.printed == "");
+}
+
+TEST_CASE("6.2 the entry that is not finite is named, and what the block sees",
+          "[semantics][errors]") {
+  const auto* method = GENERATE(from_range(methods));
+  INFO("method " << method);
+  const auto message_of = [&](Index n) {
+    DiagramBuilder builder;
+    const auto& level = builder.add<Constant>("level", -4.0);
+    const auto& leaf = builder.add<Leaf>("leaf", [=](Leaf& l) {
+      l.declare_input_port({.name = "u"});
+      l.declare_continuous_state({.initial = Eigen::VectorXd::LinSpaced(n, 1.0, double(n)),
+                                  .ode = [](const At& at, VectorRef xdot) {
+                                    xdot.setZero();
+                                    xdot[1] = std::sqrt(at.u(0));
+                                  }});
+    });
+    builder.connect(level.output(), leaf.input());
+    const Diagram diagram = builder.build();
+    return run(diagram, method).message;
+  };
+  CHECK(contains(message_of(2), ": xdot[1] = nan where x = [1, 2], u = [-4]; check"));
+  CHECK(contains(message_of(9), ": xdot[1] = nan where x[1] = 2, u = [-4]; check"));
+}
+
+TEST_CASE("6.2 an output that is not finite and that a derivative reads is named itself",
+          "[semantics][errors]") {
+  const auto* method = GENERATE(from_range(methods));
+  INFO("method " << method);
+  DiagramBuilder builder;
+  const auto& x = builder.add<Integrator>("x", IntegratorOptions{.initial_state = -1.0});
+  const auto& root = builder.add<Leaf>("root", [](Leaf& l) {
+    l.declare_input_port({.name = "u"});
+    l.declare_output_port(
+        {.name = "y", .calc = [](const At& at, VectorRef y) { y[0] = std::sqrt(at.u(0)); }});
+  });
+  builder.connect(x.output(), root.input());
+  builder.connect(root.output(), x.input());
+  const Diagram diagram = builder.build();
+  const Ended ended = run(diagram, method);
+  CHECK(contains(ended.message,
+                 "t = 0 s: output 'root.y', which a derivative reads, is not finite (NaN or Inf): "
+                 "entry 0 is nan where u = [-1]; check"));
+  CHECK(ended.block == "root");
 }
 
 TEST_CASE("6.2 a reset map that sets NaN is named with its event", "[semantics][errors]") {

@@ -106,11 +106,14 @@ def loop_as(name):
             lambda c: c.with_continuous_state([1.0, float("nan")]),
             "continuous state: entry 1 is nan; give a finite value",
         ),
-        (lambda c: c.with_continuous_state("up"), "continuous state: expected numbers, found str"),
+        (
+            lambda c: c.with_continuous_state("up"),
+            "continuous state: expected numbers, found 'up' (str)",
+        ),
         (lambda c: c.with_continuous_state(None), "continuous state: expected numbers, found None"),
         (
             lambda c: c.with_continuous_state([1j, 0]),
-            "continuous state: expected numbers, found list",
+            "continuous state: expected numbers, found a list whose entry [0] is 1j (complex)",
         ),
         (
             lambda c: c.with_parameter("G", 1.0),

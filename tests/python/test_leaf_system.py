@@ -650,7 +650,7 @@ def test_default_name_is_class_and_id():
         ),
         (
             lambda s: s.declare_dynamic_parameter("k", "much"),
-            "block 'block': parameter 'k': expected numbers, found str",
+            "block 'block': parameter 'k': expected numbers, found 'much' (str)",
         ),
         (
             lambda s: s.declare_periodic_update(len, period=0.0),
@@ -673,8 +673,11 @@ def test_bad_declarations(declare, message):
             "block 'flow': ode returned None, expected 2 numbers; is a `return` missing?",
         ),
         (lambda t, s: [1.0], "block 'flow': ode returned 1 numbers, expected 2"),
-        (lambda t, s: "no", "block 'flow': ode returned a str, expected 2 numbers"),
-        (lambda t, s: [1j, 2], "block 'flow': ode returned a list, expected 2 numbers"),
+        (lambda t, s: "no", "block 'flow': ode returned 'no' (str), expected 2 numbers"),
+        (
+            lambda t, s: [1j, 2],
+            "block 'flow': ode returned a list whose entry [0] is 1j (complex), expected 2 numbers",
+        ),
     ],
 )
 @pytest.mark.parametrize("method", ["dopri5", "adams", "bdf"])

@@ -180,7 +180,7 @@ def test_all_is_all():
 @pytest.mark.parametrize(
     ("make", "message"),
     [
-        (lambda: Constant("x", name="c"), "block 'c': value: expected numbers, found str"),
+        (lambda: Constant("x", name="c"), "block 'c': value: expected numbers, found 'x' (str)"),
         (
             lambda: Constant([[1.0]], name="c"),
             "block 'c': value: expected a number or a vector, found an array of 2 dimensions",

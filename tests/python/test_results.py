@@ -63,6 +63,10 @@ def test_events_are_data(ball_results):
         events[6]
     with pytest.raises(saltus.ModelError, match="unknown kind of event 'zero'"):
         events.times("bounce", kind="zero")
+    with pytest.raises(saltus.ModelError, match="called 'bonce'; did you mean 'bounce'"):
+        events.times("bonce")
+    with pytest.raises(saltus.ModelError, match=r"'ball\.bonce'; did you mean 'ball\.bounce'"):
+        events[:2].times("ball.bonce")
 
 
 def test_reprs(ball_results):

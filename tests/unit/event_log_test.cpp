@@ -54,7 +54,36 @@ TEST_CASE("times are asked for by name, full or short, and kind", "[event_log]")
   CHECK(log.times("plant.ball.bounce") == std::vector{1.0});
   CHECK(log.times("tick").empty());
   CHECK(log.times("tick", EventKind::time) == std::vector{1.5});
-  CHECK(log.times("ball").empty());
+}
+
+TEST_CASE("a name that no event has is refused with the nearest one; one that never fired is not",
+          "[event_log]") {
+  EventLog log;
+  log.begin({"plant.ball.bounce", "plant.other.bounce", "clock.tick"});
+  CHECK(log.times("bounce").empty());
+  CHECK(log.times("clock.tick", EventKind::time).empty());
+  CHECK(message<ModelError>([&] { log.times("bonce"); }) ==
+        "no event is called 'bonce'; did you mean 'bounce'? Known: 'bounce', 'tick'");
+  CHECK(message<ModelError>([&] { log.times("plant.bal.bounce"); }) ==
+        "no event is called 'plant.bal.bounce'; did you mean 'plant.ball.bounce'? Known: "
+        "'plant.ball.bounce', 'plant.other.bounce', 'clock.tick'");
+  CHECK(message<ModelError>([&] { log.times("ball"); }).starts_with("no event is called 'ball'"));
+  CHECK(message<ModelError>([] { EventLog().times("bounce"); }) ==
+        "no event is called 'bounce'; there are none");
+}
+
+TEST_CASE("what is declared and can never fire has no times, and is no unknown name",
+          "[event_log]") {
+  const Leaf leaf("leaf", [](Leaf& l) {
+    declare_ramp(l);
+    const auto level = [](const At& at) { return at.x[0] - 1.0; };
+    l.declare_zero_crossing({.name = "off", .guard = level, .direction = Direction::none});
+    l.declare_zero_crossing({.name = "other mode", .guard = level, .start_mode = 3});
+  });
+  const auto results = simulate(leaf, leaf.create_context(), {0.0, 2.0});
+  CHECK(results.events.times("off").empty());
+  CHECK(results.events.times("leaf.other mode").empty());
+  CHECK_THROWS_AS(results.events.times("of"), ModelError);
 }
 
 TEST_CASE("a cleared log keeps its names; an emptied copy too", "[event_log]") {

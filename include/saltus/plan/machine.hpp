@@ -6,6 +6,7 @@
 #include <memory>
 #include <new>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "saltus/plan/compile.hpp"
@@ -22,6 +23,13 @@ class Carrier {
   virtual void rates(double t, const double* x, double* xdot) = 0;
   /// In place of the guards of these blocks: below zero while they press on their surface.
   virtual void lift(double t, const double* x, double* g) = 0;
+};
+
+/// A number that is NaN or Inf, in words.
+struct NotFinite {
+  std::string block = {};  ///< path
+  std::string what = {};   ///< "the derivative of block 'ball'"
+  std::string entry = {};  ///< "xdot[1] = nan where x = [10, -3]"
 };
 
 /// x, z, p, modes and signals of one run. Threads share a plan; each has a machine of its own.
@@ -121,8 +129,8 @@ class Machine {
   /// The continuous state that was last asked for, with what rests on a moving surface put there.
   const double* seen_state() const noexcept { return bases_[0]; }
 
-  /// The first block whose output or derivative is not finite at (t, x); empty if all are.
-  std::string not_finite(double t, const double* state);
+  /// The first number that is not finite at (t, x), of what derivatives read, then of them.
+  std::optional<NotFinite> not_finite(double t, const double* state);
 
   Eigen::VectorXd x, z, p, y;
   std::vector<int> modes;

@@ -1,6 +1,7 @@
 // Event log: every event of a run, as data.
 #pragma once
 
+#include <algorithm>
 #include <limits>
 #include <span>
 #include <string>
@@ -54,17 +55,21 @@ class EventLog {
             row.entry};
   }
 
-  /// The times of the events of one name ("bounce" or "ball.bounce") and kind.
+  /// The times [s] of the events of one name ("bounce" or "ball.bounce") and kind; empty if it
+  /// never fired. ModelError for a name that no event of the run has, with the nearest there is.
   std::vector<double> times(std::string_view name,
                             EventKind kind = EventKind::zero_crossing) const {
+    require(name);
     std::vector<double> found;
     for (const Row& row : rows_) {
-      const std::string& full = names_[static_cast<std::size_t>(row.source)];
-      if (row.kind == kind && (full == name || split(full).second == name))
+      if (row.kind == kind && is_called(names_[static_cast<std::size_t>(row.source)], name))
         found.push_back(row.time);
     }
     return found;
   }
+
+  /// "ball.bounce" of every event that is declared, whether it fired or not.
+  const std::vector<std::string>& names() const noexcept { return names_; }
 
   // --- for the engine
   // -------------------------------------------------------------------------------------------
@@ -93,6 +98,20 @@ class EventLog {
   }
 
  private:
+  static bool is_called(std::string_view full, std::string_view name) {
+    return full == name || split(full).second == name;
+  }
+  void require(std::string_view name) const {
+    const auto has_name = [&](const std::string& full) { return is_called(full, name); };
+    if (std::ranges::any_of(names_, has_name)) return;
+    std::vector<std::string> known;  // as short or as long as what was asked for
+    for (const std::string& full : names_) {
+      const bool whole = name.find('.') != std::string_view::npos;
+      std::string one(whole ? full : split(full).second);
+      if (std::ranges::find(known, one) == known.end()) known.push_back(std::move(one));
+    }
+    throw ModelError(text("no event is called '", name, "'", known_names(name, known)));
+  }
   static std::pair<std::string_view, std::string_view> split(std::string_view full) {
     const auto dot = full.rfind('.');
     return dot == std::string_view::npos ? std::pair{full, std::string_view()}

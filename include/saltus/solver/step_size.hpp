@@ -87,11 +87,10 @@ inline double first_step(Machine& machine, double t, const Eigen::VectorXd& x, c
 /// At (t, x), or at (t + ahead, x), where the run that stands at t cannot get to.
 [[noreturn]] inline void throw_not_finite(Machine& machine, double t, const double* x,
                                           double ahead = 0.0) {
-  const std::string block = machine.not_finite(t + ahead, x);
-  throw SimulationError(
-      text("t = ", t, " s: the derivative of block '", block,
-           "' is not finite (NaN or Inf); check its equation and parameters at this state"),
-      t, block);
+  const NotFinite found = machine.not_finite(t + ahead, x).value_or(NotFinite{});
+  throw SimulationError(text("t = ", t, " s: ", found.what, " is not finite (NaN or Inf): ",
+                             found.entry, "; check its equation and parameters at this state"),
+                        t, found.block);
 }
 
 /// Throws if a derivative is not finite at (t, x), or just ahead on the flow, where no step could
@@ -101,11 +100,11 @@ inline void require_finite_near(Machine& machine, double t, double h, const doub
       std::max(16.0 * h, 64.0 * std::numeric_limits<double>::epsilon() * std::abs(t));
   const VectorView here(x, machine.plan().nx);
   Eigen::VectorXd there = here;
-  if (!machine.not_finite(t, x).empty()) throw_not_finite(machine, t, x);
-  if (!machine.not_finite(t + ahead, x).empty()) throw_not_finite(machine, t, x, ahead);
+  if (machine.not_finite(t, x)) throw_not_finite(machine, t, x);
+  if (machine.not_finite(t + ahead, x)) throw_not_finite(machine, t, x, ahead);
   machine.derivative(t, x, there.data());
   there = here + ahead * there;
-  if (!machine.not_finite(t + ahead, there.data()).empty())
+  if (machine.not_finite(t + ahead, there.data()))
     throw_not_finite(machine, t, there.data(), ahead);
 }
 

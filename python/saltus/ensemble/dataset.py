@@ -11,8 +11,9 @@ import numpy as np
 from saltus.ensemble.columns import STATUS, Columns
 from saltus.ensemble.table import Table
 from saltus.errors import ModelError
+from saltus.results.tables import extra
 
-__all__ = ["Arrays", "arrays_of", "refuse_reserved", "require_xarray", "summary", "to_dataset"]
+__all__ = ["Arrays", "arrays_of", "refuse_reserved", "summary", "to_dataset", "xarray"]
 
 Arrays = dict[str, tuple[tuple[str, ...], np.ndarray]]
 """Each name with its dimensions and its values; the dimensions of the runs come first."""
@@ -22,16 +23,9 @@ RESERVED = {"status", "message", "block", "events", "steps", "end_time", "wall_t
 WELL = ("reached_end", "terminal", "zeno_stop")
 
 
-def require_xarray() -> Any:
-    """xarray; ImportError with what to do where it is not installed."""
-    try:
-        import xarray
-    except ImportError:
-        raise ImportError(
-            "sweep gives its results as an xarray.Dataset, and xarray is not installed: "
-            "pip install 'saltus[table]', or ask for a dict of numpy arrays with as_dict=True"
-        ) from None
-    return xarray
+def xarray() -> Any:
+    """The library; ImportError with what to do where it is not installed."""
+    return extra("xarray", "sweep", ", or ask for a dict of numpy arrays with as_dict=True")
 
 
 def refuse_reserved(varied: Mapping[str, object], signals: Mapping[str, object]) -> None:
@@ -184,7 +178,7 @@ def to_dataset(
         for name, value in _coordinates(columns, table, save_at).items()
         if set(value[0]) <= used | {f"{name.removesuffix('_values')}_entry"}
     }
-    return require_xarray().Dataset(variables, coordinates, attributes)
+    return xarray().Dataset(variables, coordinates, attributes)
 
 
 def to_dict(

@@ -7,21 +7,12 @@ such as 'Gain_7'. Values called parameters live in the context, `context.with_pa
 located as an event, and its side is held in between.
 """
 
-from saltus.library.arithmetic import (
-    Abs,
-    Adder,
-    Demultiplexer,
-    FunctionBlock,
-    Gain,
-    Multiplexer,
-    Offset,
-    Product,
-    ReduceBlock,
-    Saturate,
-)
+from saltus.library.arithmetic import Abs, Adder, Gain, Offset, Product, Saturate
+from saltus.library.functions import FunctionBlock, ReduceBlock
 from saltus.library.logic import Comparator, LogicalOperator, Switch
 from saltus.library.sources import Clock, Constant, Pulse, Ramp, Sine, Step
 from saltus.library.state import Integrator, UnitDelay, ZeroOrderHold
+from saltus.library.vectors import Demultiplexer, Multiplexer
 
 __all__ = [
     "Abs",

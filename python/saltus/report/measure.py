@@ -173,7 +173,7 @@ class _Known(NamedTuple):
 
 def _span(t_span: tuple[float, float] | None) -> tuple[float, float]:
     begin, end = span_of("work_precision", t_span)
-    if not end > begin:
+    if begin == end:
         raise ModelError(f"work_precision: expected begin < end, found {begin} s to {end} s")
     return begin, end
 

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, NamedTuple, overload
 
 import numpy as np
 
+from saltus import _core
+from saltus.errors import ModelError
 from saltus.results.tables import extra
 
 if TYPE_CHECKING:
@@ -18,6 +20,7 @@ if TYPE_CHECKING:
 __all__ = ["Event", "EventLog"]
 
 SHOWN = 20
+KINDS = ["zero_crossing", "time", "zeno_enter", "zeno_release", "terminal"]
 
 
 class Event(NamedTuple):
@@ -107,7 +110,8 @@ class EventLog(Sequence[Event]):
         Raises
         ------
         ModelError
-            For a kind there is not.
+            For a kind there is not, and for a name that no event of the system has, with the
+            nearest there is.
 
         Examples
         --------
@@ -116,13 +120,13 @@ class EventLog(Sequence[Event]):
         >>> results.events.times("bounce").size > 0
         True
         """
+        if kind not in KINDS:
+            raise ModelError(f"unknown kind of event {kind!r}{_core.known_names(str(kind), KINDS)}")
         if name is None:
-            self._record.event_times("", kind)  # refuses an unknown kind
             return np.array([e.time for e in self if e.kind == kind])
-        whole = range(self._record.event_count)
-        if self._rows == whole:
-            return self._record.event_times(name, kind)
-        self._record.event_times(name, kind)  # refuses an unknown kind
+        times = self._record.event_times(name, kind)  # refuses an unknown name
+        if self._rows == range(self._record.event_count):
+            return times
         return np.array([e.time for e in self if e.kind == kind and name in (e.name, _path(e))])
 
     def to_pandas(self) -> pandas.DataFrame:

@@ -38,6 +38,8 @@ class Record(Protocol):
     @property
     def event_count(self) -> int: ...
     @property
+    def event_names(self) -> list[str]: ...
+    @property
     def dense(self) -> bool: ...
     @property
     def span(self) -> tuple[float, float]: ...
@@ -62,6 +64,8 @@ class KeptRun:
     block: str
     statistics: dict[str, Any]
     events: list[tuple[Any, ...]]
+    event_names: list[str]
+    """'ball.bounce' of every event that could have been"""
     dense = False
     span = (float("nan"), float("nan"))
     joints = np.empty(0)
@@ -79,6 +83,7 @@ class KeptRun:
             block=record.block,
             statistics=record.statistics,
             events=[record.event(i) for i in range(record.event_count)],
+            event_names=record.event_names,
         )
 
     @property
@@ -89,9 +94,10 @@ class KeptRun:
         return self.events[index]
 
     def event_times(self, name: str, kind: str, /) -> np.ndarray:
-        kinds = ["zero_crossing", "time", "zeno_enter", "zeno_release", "terminal"]
-        if kind not in kinds:
-            raise ModelError(f"unknown kind of event '{kind}'{_core.known_names(kind, kinds)}")
+        known = self.event_names if "." in name else [n.split(".")[-1] for n in self.event_names]
+        if name not in known:
+            known = list(dict.fromkeys(known))
+            raise ModelError(f"no event is called '{name}'{_core.known_names(name, known)}")
         return np.array(
             [e[0] for e in self.events if e[2] == kind and name in (e[5], f"{e[4]}.{e[5]}")]
         )

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 __all__ = ["load_results", "save"]
 
-FORMAT = "saltus results 1"
+FORMAT = "saltus results 2"
 
 
 def save(run: KeptRun, path: str | PathLike[str], kind: dict[str, Any]) -> None:
@@ -44,6 +44,7 @@ def save(run: KeptRun, path: str | PathLike[str], kind: dict[str, Any]) -> None:
         "block": run.block,
         "statistics": run.statistics,
         "events": [[*e[1:6], e[9], len(e[7])] for e in run.events],
+        "event_names": run.event_names,
         "context": {"layout": layout, "values": values},
     }
     arrays["header"] = np.frombuffer(json.dumps(header).encode(), dtype=np.uint8)
@@ -127,6 +128,7 @@ def _kept(header: dict[str, Any], arrays: dict[str, np.ndarray]) -> KeptRun:
         block=header["block"],
         statistics=statistics,
         events=_events(header["events"], arrays),
+        event_names=header["event_names"],
     )
 
 

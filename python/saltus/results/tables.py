@@ -14,13 +14,15 @@ if TYPE_CHECKING:
 __all__ = ["extra", "to_pandas", "to_xarray"]
 
 
-def extra(library: str, what: str) -> Any:
-    """A library that comes with an extra; ImportError that says which where it is not there."""
+def extra(library: str, what: str, instead: str = "") -> Any:
+    """A library that `what` needs and that comes with an extra of the package. Where it is not
+    installed an ImportError that says so, and what to do `instead`.
+    """
     try:
         return importlib.import_module(library)
     except ImportError:
         raise ImportError(
-            f"{what} needs {library}, which is not installed: pip install {library}"
+            f"{what} needs {library}, which is not installed: pip install {library}{instead}"
         ) from None
 
 

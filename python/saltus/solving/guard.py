@@ -10,8 +10,8 @@ from typing import Any
 from numpy.typing import ArrayLike
 
 from saltus._core import known_names
+from saltus.declarations import SHORT
 from saltus.errors import ModelError
-from saltus.leaf_system import SHORT
 
 __all__ = ["Guard", "guards_of"]
 

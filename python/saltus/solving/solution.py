@@ -60,10 +60,11 @@ class Solution(Results):
         self,
         core: Record,
         raised: BaseException | None = None,
-        system: System | None = None,
+        asks: Any = None,
         names: Sequence[str] | None = None,
+        system: System | None = None,
     ):
-        super().__init__(core, raised, system)
+        super().__init__(core, raised, asks)
         self.system = system
         self._names = None if names is None else list(names)
         self.message = self.message or WELL.get(self.status, "")

@@ -14,7 +14,8 @@ from saltus.porting import OPTIONS, refuse
 from saltus.simulation import Simulator, SimulatorOptions
 from saltus.solving.guard import Guard, guards_of
 from saltus.solving.solution import Solution
-from saltus.solving.solved_system import SolvedSystem, arguments_of, span_of, state_of, times_of
+from saltus.solving.solved_system import SolvedSystem, arguments_of, state_of, times_of
+from saltus.span import span_of
 
 __all__ = ["solve"]
 
@@ -39,6 +40,7 @@ METHODS = {
     "Radau": "take method='bdf', or 'auto'",
     "LSODA": "take method='auto': it changes between stiff and not by itself",
 }
+BACKWARD = "; to go back in time, solve dx/ds = -f(-s, x) from -begin to -end"
 OWN = ("method", "args", "t_eval", "max_step", "jacobian", "jacobian_sparsity", "events")
 
 
@@ -127,7 +129,7 @@ def solve(
     ('reached_end', [0.0, 0.0])
     """
     _refuse(method, options)
-    begin, end = span_of(t_span)
+    begin, end = span_of("solve: t_span", t_span, BACKWARD)
     guards = None if events is None else guards_of(events)
     if np.isinf(end) and not any(guard.terminal for guard in guards or []):
         raise ModelError(
@@ -167,7 +169,7 @@ def _run(
     names: Sequence[str] | None,
 ) -> Solution:
     simulator = Simulator(system, recorded_signals={"x": system.output("x")}, **settings)
-    simulator._outcome = lambda core, raised, of: Solution(core, raised, of, names)
+    simulator._outcome = lambda core, raised, asks: Solution(core, raised, asks, names, system)
     simulator.initialize(system.create_context(begin))
     solution = simulator._advance(end, take=True)
     assert isinstance(solution, Solution)

@@ -9,11 +9,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from saltus._core import numbers
 from saltus.errors import ModelError
 from saltus.leaf_system import LeafSystem
 from saltus.solving.guard import Guard
+from saltus.wrapped import wrapping
 
-__all__ = ["SolvedSystem", "arguments_of", "span_of", "state_of", "times_of"]
+__all__ = ["SolvedSystem", "arguments_of", "state_of", "times_of"]
 
 Function = Callable[..., Any]
 
@@ -60,7 +62,7 @@ class SolvedSystem(LeafSystem):
 
 
 def _value(function: Function, args: tuple[Any, ...]) -> Function:
-    return lambda time, state: function(time, state.continuous_state, *args)
+    return wrapping(function, lambda time, state: function(time, state.continuous_state, *args))
 
 
 def _flow(f: Function, size: int, args: tuple[Any, ...]) -> Function:
@@ -80,7 +82,7 @@ def _flow(f: Function, size: int, args: tuple[Any, ...]) -> Function:
             )
         return out
 
-    return in_place
+    return wrapping(f, in_place)
 
 
 def _takes_out(f: Function, extra: int) -> bool:
@@ -128,7 +130,7 @@ def _reset(reset: Function, name: str, args: tuple[Any, ...]) -> Function:
             raise ModelError(f"solve: the reset of '{name}' returned None; return the new state")
         return state.with_continuous_state(after)
 
-    return reset_map
+    return wrapping(reset, reset_map)
 
 
 def _jacobian(
@@ -146,15 +148,10 @@ def _jacobian(
 
 def state_of(x0: ArrayLike) -> np.ndarray:
     """The state at the beginning: a vector, or a number."""
-    try:
-        if np.iscomplexobj(x0):
-            raise TypeError
-        start = np.array(x0, dtype=float)
-    except (TypeError, ValueError):
-        raise ModelError(f"solve: x0: expected n real numbers, found {x0!r}") from None
+    start = numbers(x0, "solve: x0")
     if start.ndim > 1:
         raise ModelError(f"solve: x0: expected shape (n,), found {start.shape}; flatten it")
-    return start.reshape(-1)
+    return np.array(start).reshape(-1)
 
 
 def arguments_of(args: Any) -> tuple[Any, ...]:
@@ -166,22 +163,6 @@ def arguments_of(args: Any) -> tuple[Any, ...]:
             f"solve: args: expected a tuple, found {args!r}; for one argument write "
             f"args=({args!r},)"
         ) from None
-
-
-def span_of(t_span: Any) -> tuple[float, float]:
-    """[s] begin and end."""
-    try:
-        begin, end = map(float, t_span)
-    except (TypeError, ValueError):
-        raise ModelError(
-            f"solve: t_span: expected (begin, end) in seconds, found {t_span!r}"
-        ) from None
-    if not end >= begin:
-        raise ModelError(
-            f"solve: t_span: expected begin <= end, found {begin:g} s to {end:g} s; to go back in "
-            "time, solve dx/ds = -f(-s, x) from -begin to -end"
-        )
-    return begin, end
 
 
 def times_of(t_eval: ArrayLike, begin: float, end: float) -> list[float]:

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+import functools
 import itertools
 import math
 from collections.abc import Callable
-from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -25,7 +25,7 @@ FEWEST = 3  # points where the function gives finite numbers
 QUICK = 2.0 * ULPS
 
 
-@lru_cache(maxsize=64)
+@functools.lru_cache(maxsize=64)
 def _draws(count: int) -> Numbers:
     """`count` numbers between -2 and 2 for each point, the same in every process."""
     draws = np.random.default_rng(20_405).uniform(-2.0, 2.0, (len(SCALES), count))
@@ -58,7 +58,7 @@ def points(signature: Signature, reads_mode: bool) -> list[Point]:
     ]
 
 
-def _called(signature: Signature, function: Callable[..., Any], at: Point, size: int) -> Any:
+def _called(signature: Signature, function: Callable[..., Any], at: Point) -> Any:
     """What the function itself gives, or None where it raises."""
     arguments, options = plain_arguments(signature, at)
     try:
@@ -81,20 +81,25 @@ def _describe(at: Point, called: float, taped: float, i: int) -> str:
 
 
 class Check:
-    """One comparison of a tape with its function."""
+    """The comparison of a tape with its function."""
 
-    def __init__(self, signature: Signature, tape: Any, result: Result, bounds: Any):
-        self.signature = signature
+    def __init__(self, tape: Any, result: Result, bounds: Any):
         self.tape = tape
         self.result = result
         self.bounds = bounds
         """points -> Bounds"""
 
-    def run(self, function: Callable[..., Any], at: list[Point]) -> int:
-        """Raise a Refusal if the two differ; return at how many points they were compared."""
+    def run(self, signature: Signature) -> int:
+        """Raise a Refusal if the two differ around the values it starts with; return at how many
+        points they were compared.
+        """
+        function = signature.function
+        if signature.owner is not None:
+            function = functools.partial(function, signature.owner)
+        at = points(signature, "mode" in self.tape.reads)
         kept, called, taped = [], [], []
         for point in at:
-            found = _called(self.signature, function, point, len(self.result.numbers))
+            found = _called(signature, function, point)
             if found is None:
                 continue
             numbers, written = found
@@ -102,9 +107,10 @@ class Check:
             kept.append(point)
             called.append(numbers)
             taped.append(self.tape(*point.as_tape_takes()))
+        finite = 0
         if kept:
             self._compare(kept, np.array(called), np.array(taped))
-        finite = sum(bool(np.isfinite(numbers).all()) for numbers in called)
+            finite = int(np.isfinite(called).all(axis=1).sum())
         if finite < FEWEST:
             raise Refusal(
                 f"could be compared at {finite} of {len(at)} points only, as the function raises "

@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 
 from saltus import _core
-from saltus.tracing import relations
-from saltus.tracing.arguments import Point, Result, Symbols, call, result_of
+from saltus.tracing import kept, relations
+from saltus.tracing.arguments import Result, Symbols, call, result_of
 from saltus.tracing.array import array
-from saltus.tracing.check import Check, points
+from saltus.tracing.check import Check
 from saltus.tracing.refusal import Refusal, raised_at
 from saltus.tracing.rounding import Bounds
 from saltus.tracing.sandbox import Sandbox
@@ -54,25 +54,34 @@ def trace(signature: Signature) -> Traced | Refused:
     >>> traced.tape(0.0, np.array([10.0, 3.0]), np.empty(0), 0, 0, np.empty(0), [])
     array([ 3.  , -9.81])
     """
+    with np.errstate(all="ignore"):
+        found = kept.find(signature)
+        if found is None:
+            found, check = _made(signature)
+            kept.keep(signature, found, check)
+    return found
+
+
+def _made(signature: Signature) -> tuple[Traced | Refused, Check | None]:
+    """A new trace, and how it is checked around other values."""
     sandbox = Sandbox()
     try:
-        with np.errstate(all="ignore"):
-            return _traced(signature, sandbox)
+        return _traced(signature, sandbox)
     except Refusal as refusal:
-        return Refused(str(refusal), sandbox.watch)
+        return Refused(str(refusal), sandbox.watch), None
     except Exception as error:
         place = raised_at(error.__traceback__)
         what = f"{type(error).__name__}: {error}" if str(error) else type(error).__name__
-        return Refused(
+        reason = (
             f"raised {what}{f' at {place}' if place else ''} when it was called with symbols; "
-            "use numpy, math and plain Python on them",
-            sandbox.watch,
+            "use numpy, math and plain Python on them"
         )
+        return Refused(reason, sandbox.watch), None
     finally:
         sandbox.close()
 
 
-def _traced(signature: Signature, sandbox: Sandbox) -> Traced | Refused:
+def _traced(signature: Signature, sandbox: Sandbox) -> tuple[Traced, Check]:
     graph = _core.Graph()
     symbols = Symbols(graph, signature)
     function = sandbox.form_of(signature.function, _name(signature.function))
@@ -88,9 +97,9 @@ def _traced(signature: Signature, sandbox: Sandbox) -> Traced | Refused:
         _require_size(result, signature.result_size)
     _to_nodes(graph, result)
     tape = graph.tape(result.numbers)
-    check = Check(signature, tape, result, functools.partial(Bounds, graph, symbols.variables))
-    compared = _checked(signature, check, tape)
-    return _outcome(graph, tape, result, sandbox, compared)
+    check = Check(tape, result, functools.partial(Bounds, graph, symbols.variables))
+    compared = check.run(signature)
+    return _outcome(graph, tape, result, sandbox, compared), check
 
 
 def _name(function: Callable[..., Any]) -> str:
@@ -107,14 +116,6 @@ def _to_nodes(graph: Any, result: Result) -> None:
         number.node if type(number) is Symbol else graph.constant(float(number))
         for number in result.numbers
     ]
-
-
-def _checked(signature: Signature, check: Check, tape: Any) -> int:
-    function = signature.function
-    if signature.owner is not None:
-        function = functools.partial(function, signature.owner)
-    at: list[Point] = points(signature, "mode" in tape.reads)
-    return check.run(function, at)
 
 
 def _outcome(graph: Any, tape: Any, result: Result, sandbox: Sandbox, compared: int) -> Traced:

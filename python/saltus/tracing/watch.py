@@ -48,7 +48,8 @@ def _changes(value: Any) -> bool:
     return isinstance(value, (np.ndarray, list, tuple, dict))
 
 
-def _same(a: Any, b: Any) -> bool:
+def same(a: Any, b: Any) -> bool:
+    """Whether one value stands for another: equal numbers and texts of one type, or one object."""
     if type(a) is not type(b):
         return False
     if isinstance(a, (float, np.floating)):
@@ -129,7 +130,7 @@ class Watch:
                 if inside is None or content(now) == inside:
                     continue
                 return f"{words} changed in place"
-            if not (_same(value, now) if inside is None else content(now) == inside):
+            if not (same(value, now) if inside is None else content(now) == inside):
                 return f"{words} was {_named(value)}, is {_named(now)}"
         return None
 

@@ -8,7 +8,8 @@ import saltus
 from troubles import CALLBACKS, METHODS, Everything, after, check_kept, check_works, go
 
 MESSAGES = {
-    "ode": r"the derivative of block 'all' is not finite \(NaN or Inf\); check its equation and "
+    "ode": r"the derivative of block 'all' is not finite \(NaN or Inf\): "
+    r"xdot\[0\] = (nan|inf) where x = \[0.5488\d*\]; check its equation and "
     "parameters at this state",
     "guard": r"guard 'all.half' is not finite \(NaN or Inf\); check it at this state",
     "reset": r"'all.half' set a state that is not finite \(NaN or Inf\)",

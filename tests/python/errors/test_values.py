@@ -39,11 +39,11 @@ def refused(call):
         (lambda c: c.with_time(-math.inf), "time: -inf is not finite"),
         (
             lambda c: c.with_continuous_state("fast"),
-            "continuous state: expected numbers, found str",
+            "continuous state: expected numbers, found 'fast' (str)",
         ),
         (
             lambda c: c.with_continuous_state([None]),
-            "continuous state: entry 0 is nan; give a finite value",
+            "continuous state: expected numbers, found a list whose entry [0] is None",
         ),
     ],
 )
@@ -115,6 +115,8 @@ def test_6_1_a_time_to_save_at_that_is_not_finite_is_refused(system):
         ((math.nan, 1.0), "expected a span with begin <= end, found nan s to 1.0 s"),
         (1.0, "expected a span (begin, end) in seconds, found 1.0"),
         ((0.0, None), "expected a span (begin, end) in seconds, found (0.0, None)"),
+        ("01", "expected a span (begin, end) in seconds, found '01'"),
+        (("0", 1.0), "expected a span (begin, end) in seconds, found ('0', 1.0)"),
         ((0.0, 1.0, 2.0), "expected a span (begin, end) in seconds, found (0.0, 1.0, 2.0)"),
     ],
 )

@@ -55,3 +55,19 @@ def test_names_are_escaped_in_html():
     log = run(odd, (0.0, 2.0), odd.create_context().with_continuous_state([1.0, 0.0])).events
     assert "<b>&.bounce" not in log._repr_html_()
     assert "&lt;b&gt;&amp;.bounce" in log._repr_html_()
+
+
+def test_an_event_that_never_fired_has_no_times_and_a_name_that_is_none_is_refused(tmp_path):
+    """Also in results that come from a file."""
+    ball = Ball()
+    high = ball.create_context().with_continuous_state([1e6, 0.0])
+    results = run(ball, (0.0, 1.0), high)
+    results.save(tmp_path / "high.npz")
+    for log in (results.events, saltus.load_results(tmp_path / "high.npz").events):
+        assert len(log) == 0
+        for name in ("bounce", "ball.bounce"):
+            assert log.times(name).size == 0
+        with pytest.raises(saltus.ModelError, match="called 'bounces'; did you mean 'bounce'"):
+            log.times("bounces")
+        with pytest.raises(saltus.ModelError, match=r"did you mean 'ball\.bounce'"):
+            log.times("all.bounce")

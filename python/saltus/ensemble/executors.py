@@ -1,0 +1,113 @@
+"""Where the runs of a sweep are made: in threads, in processes, one after another, or elsewhere."""
+
+from __future__ import annotations
+
+import os
+import time
+from typing import Any
+
+import numpy as np
+
+from saltus import _core
+from saltus.ensemble.columns import STATUS, Columns, join
+from saltus.ensemble.job import Job, Watch
+from saltus.ensemble.table import Table
+from saltus.errors import ModelError
+
+__all__ = ["run"]
+
+SOON = 0.5  # [s] what takes no longer is not worth the start of other processes
+KINDS = ("threads", "processes", "serial")
+Outcome = tuple[Columns, "BaseException | None", str, int]
+
+
+def _workers(workers: int | None, runs: int) -> int:
+    if workers is not None and (not isinstance(workers, int) or workers < 1):
+        raise ModelError(f"sweep: workers: expected 1 or more, found {workers!r}")
+    cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
+    return min(workers or cores or 1, runs)
+
+
+def run(job: Job, table: Table, executor: Any, workers: int | None, watch: Watch) -> Outcome:
+    """By the executor that was asked for, or that suits; with what it was and how many workers."""
+    count = _workers(workers, table.runs)
+    if executor is None:
+        return _run_as_suits(job, table, workers, count, watch)
+    if not isinstance(executor, str):
+        from saltus.ensemble import pools  # processes are not loaded before they are wanted
+
+        columns, raised = pools.run_pooled(executor, job, table, count, watch)
+        return columns, raised, type(executor).__name__, count
+    if executor not in KINDS:
+        hint = _core.known_names(executor, list(KINDS))
+        raise ModelError(f"sweep: unknown executor '{executor}'{hint}")
+    if executor == "processes":
+        return *_in_processes(job, table, count, watch), executor, count
+    if executor == "threads" and job.is_factory:
+        raise ModelError("sweep: a function makes systems one by one: no threads share a plan")
+    count = count if executor == "threads" else 1
+    return *job.run(table.columns, count, watch), executor, count
+
+
+def _run_as_suits(job: Job, table: Table, workers: int | None, count: int, watch: Watch) -> Outcome:
+    if not job.needs_interpreter:
+        return *job.run(table.columns, count, watch), "threads", count
+    portable = _portable(job, must=(workers or 1) > 1)
+    if count == 1 or not portable:
+        return *job.run(table.columns, 1, watch), "serial", 1
+    start = time.perf_counter()
+    columns, raised = job.run(
+        table.columns, 1, lambda done: watch(done) or time.perf_counter() - start > SOON
+    )
+    done = _begun(columns)
+    if raised is not None or done == table.runs:
+        return columns, raised, "serial", 1
+    rest = Table(table.part(done, table.runs), {"run": []}, table.runs - done)
+    more, raised = _in_processes(job, rest, count, lambda n: watch(done + n))
+    return join([_rows(columns, done), more]), raised, "processes", count
+
+
+def _portable(job: Job, must: bool) -> bool:
+    """Whether it can go to another process; ModelError where it must."""
+    from saltus.ensemble import pools
+
+    try:
+        pools.pickled(job)
+    except ModelError:
+        if must:
+            raise
+        return False
+    return True
+
+
+def _begun(columns: Columns) -> int:
+    """How many runs were made to their end, counted from the first."""
+    ended = ~_is(columns, "not_run", "interrupted")
+    return len(ended) if ended.all() else int(ended.argmin())
+
+
+def _is(columns: Columns, *names: str) -> Any:
+    return np.isin(STATUS[columns["status"]], names)
+
+
+def _rows(columns: Columns, count: int) -> Columns:
+    """The first rows."""
+    cut = {n: c[:count] for n, c in columns.items() if hasattr(c, "shape")}
+    cut["signals"] = {name: array[:count] for name, array in columns["signals"].items()}
+    for name in ("reasons", "reduced"):
+        cut[name] = {run: value for run, value in columns[name].items() if run < count}
+    return cut | {"names": columns["names"]}
+
+
+def _in_processes(
+    job: Job, table: Table, count: int, watch: Watch
+) -> tuple[Columns, BaseException | None]:
+    from saltus.ensemble import pools
+
+    sent = pools.pickled(job)
+    with pools.process_pool(count) as pool:
+        columns, raised = pools.run_pooled(pool, sent, table, count, watch)
+    lost = [r for r, _ in columns["reasons"].values() if "process that made this run ended" in r]
+    if len(lost) == table.runs:
+        raise ModelError(pools.NO_MAIN)
+    return columns, raised

@@ -1,0 +1,129 @@
+"""Blocks that are a Python function of their inputs."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from numpy.typing import ArrayLike
+
+from saltus import _core
+from saltus.declarations import callback_of, shape_of
+from saltus.errors import ModelError
+from saltus.leaf_system import LeafSystem
+from saltus.porting import refusing
+
+
+def _declare_function(
+    block: LeafSystem,
+    function: Callable[..., ArrayLike],
+    shape: int | tuple[int, ...] | None,
+    boolean: bool | None,
+    convention: _core.Convention,
+) -> None:
+    """The one output of a block that is a function of its inputs and nothing else."""
+    _core.LeafSystem.declare_output_port(
+        block, callback_of(function), "out", None, shape_of(shape), boolean, ["inputs"], convention
+    )
+
+
+class ReduceBlock(LeafSystem):
+    """y = f((u_0, u_1, ...)): a Python function of the tuple of all inputs.
+
+    Parameters
+    ----------
+    n_inputs
+        How many inputs there are, 1 or more.
+    function
+        Takes one tuple, of a float for each number and a read-only array for each vector; returns a
+        number, a boolean or an array. It is called as often as the engine likes, so it must not
+        change anything; once before the run, with inputs at zero, to see what it gives.
+    shape
+        The shape of y, where the call before the run would not show it.
+    boolean
+        Whether y is true or false. A boolean that reaches a derivative or a reset is located: by a
+        smooth guard where Saltus can see into the function, else by bisection.
+    name
+        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+
+    Raises
+    ------
+    ModelError
+        For fewer than one input.
+
+    Examples
+    --------
+    >>> from saltus.library import Constant, ReduceBlock
+    >>> builder = saltus.DiagramBuilder()
+    >>> a, b, block = builder.add(
+    ...     Constant(3.0), Constant(1.0), ReduceBlock(2, lambda u: u[0] ** 2 + u[1])
+    ... )
+    >>> builder.connect(a.output(), block.input(0))
+    >>> builder.connect(b.output(), block.input(1))
+    >>> diagram = builder.build()
+    >>> saltus.simulate(
+    ...     diagram, diagram.create_context(), (0.0, 0.0), recorded_signals={"y": block.output()}
+    ... ).outputs["y"]
+    array([10.])
+    """
+
+    @refusing
+    def __init__(
+        self,
+        n_inputs: int,
+        function: Callable[[tuple[Any, ...]], ArrayLike],
+        *,
+        shape: int | tuple[int, ...] | None = None,
+        boolean: bool | None = None,
+        name: str | None = None,
+    ):
+        super().__init__(name)
+        if n_inputs < 1:
+            raise ModelError(f"block '{self.name}': expected 1 input or more, found {n_inputs}")
+        for _ in range(n_inputs):
+            self.declare_input_port()
+        _declare_function(self, function, shape, boolean, _core.Convention.inputs)
+
+
+class FunctionBlock(LeafSystem):
+    """y = f(u): a Python function of the one input.
+
+    Parameters
+    ----------
+    function
+        Takes a float, or a read-only array if the input is a vector; returns a number, a boolean or
+        an array. Otherwise as that of `ReduceBlock`.
+    shape
+        The shape of y, where the call before the run would not show it.
+    boolean
+        Whether y is true or false. A boolean that reaches a derivative or a reset is located: by a
+        smooth guard where Saltus can see into the function, else by bisection.
+    name
+        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+
+    Examples
+    --------
+    >>> from saltus.library import Constant, FunctionBlock
+    >>> builder = saltus.DiagramBuilder()
+    >>> u, block = builder.add(Constant([1.0, 2.0, 3.0]), FunctionBlock(np.cumsum))
+    >>> builder.connect(u.output(), block.input())
+    >>> _ = builder.export_output(block.output(), "y")
+    >>> diagram = builder.build()
+    >>> saltus.simulate(
+    ...     diagram, diagram.create_context(), (0.0, 0.0), recorded_signals={"y": diagram.output()}
+    ... ).outputs["y"]
+    array([[1., 3., 6.]])
+    """
+
+    @refusing
+    def __init__(
+        self,
+        function: Callable[..., ArrayLike],
+        *,
+        shape: int | tuple[int, ...] | None = None,
+        boolean: bool | None = None,
+        name: str | None = None,
+    ):
+        super().__init__(name)
+        self.declare_input_port("in")
+        _declare_function(self, function, shape, boolean, _core.Convention.input)

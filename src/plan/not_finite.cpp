@@ -1,0 +1,62 @@
+// The search for the first number that is not finite, when a step has found that one is.
+#include <cmath>
+
+#include "saltus/base/listed.hpp"
+#include "saltus/plan/machine.hpp"
+
+namespace saltus {
+
+namespace {
+
+/// "x = [10, -3], in = [2]": what a block sees. Of many states entry i alone, where there is one.
+std::string seen_by_block(const PlanLeaf& leaf, const At& at, Index i) {
+  std::string seen;
+  if (at.x.size() > 6 && i >= 0)
+    seen = text("x[", i, "] = ", at.x[i]);
+  else if (at.x.size() > 0)
+    seen = text("x = ", listed(at.x));
+  for (int k = 0; k < at.u.size(); ++k) {
+    const std::string& name = leaf.declared().inputs[static_cast<std::size_t>(k)].name;
+    seen += text(seen.empty() ? "" : ", ", name, " = ", listed(at.u[k]));
+  }
+  return seen.empty() ? seen : text(" where ", seen);
+}
+
+/// "nan" or "inf": the sign of a NaN says nothing.
+double shown(double value) { return std::isnan(value) ? std::abs(value) : value; }
+
+Index first_not_finite(const VectorView& values) {
+  Index i = 0;
+  while (i < values.size() && std::isfinite(values[i])) ++i;
+  return i;
+}
+
+}  // namespace
+
+std::optional<NotFinite> Machine::not_finite(double t, const double* state) {
+  bases_[0] = carried(t, state);
+  for (std::size_t k = 0; k < needs_of_derivatives_.size(); ++k) {
+    const OutputCall& call = needs_of_derivatives_[k];
+    const VectorRef out(y.data() + call.to, call.width);
+    (*call.function)(*call.system, seen_by(call, t), out);
+    const PlanLeaf& leaf = plan_->leaves[call.leaf];
+    if (const Index i = first_not_finite({out.data(), out.size()}); i < out.size()) {
+      const std::string& name = plan_->node(plan_->derivatives[k]).name;
+      return NotFinite{leaf.path, text("output '", name, "', which a derivative reads,"),
+                       text("entry ", i, " is ", shown(out[i]), seen_by_block(leaf, *call.at, -1))};
+    }
+  }
+  Eigen::VectorXd xdot(plan_->nx);
+  for (const Call& ode : single_odes_) {
+    ode_with_rest(ode, t, xdot.data());
+    const PlanLeaf& leaf = plan_->leaves[ode.leaf];
+    const VectorView own(xdot.data() + ode.x, ode.size);
+    if (const Index i = first_not_finite(own); i < own.size()) {
+      return NotFinite{leaf.path, text("the derivative of block '", leaf.path, "'"),
+                       text("xdot[", i, "] = ", shown(own[i]), seen_by_block(leaf, *ode.at, i))};
+    }
+  }
+  return {};
+}
+
+}  // namespace saltus
