@@ -19,7 +19,7 @@ void add_silent(const Plan& plan, std::vector<std::string>& names) {
     }
   }
   for (const Node& node : plan.nodes) {
-    if (node.relation && !node.located) names.push_back(node.name);
+    if (node.relation && !node.located) names.push_back(plan.name_of(node));
   }
 }
 
