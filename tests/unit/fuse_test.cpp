@@ -378,7 +378,7 @@ TEST_CASE("6.2 of fused blocks the one that gives NaN or Inf is named", "[fuse][
   const std::string what = message<SimulationError>([&] {
     simulate(diagram, diagram.create_context(), {0.0, 1.0}, {.ode_solver_method = method});
   });
-  CHECK(contains(what, "of block 'ratio' is not finite"));
+  CHECK(contains(what, "output 'ratio.out', which a derivative reads, is not finite"));
 }
 
 TEST_CASE("a value that has a function has no formula beside it", "[fuse]") {
