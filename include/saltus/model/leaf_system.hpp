@@ -17,7 +17,7 @@ namespace saltus {
 /// Continuous state: initial value, xdot = ode(t, x, z, m, u, p), and what the ode reads.
 struct ContinuousState {
   Eigen::VectorXd initial = {};
-  VectorFunction ode = {};       ///< empty: xdot = 0
+  VectorFunction ode = {};  ///< empty: xdot = 0
   /// d(xdot)/d(x), optional; used by a stiff method. Differences stand in for entries that are not
   /// finite.
   MatrixFunction jacobian = {};
