@@ -140,8 +140,8 @@ class LeafSystem(System, _core.LeafSystem):
 
         `shape` n is a vector of n zeros, () a single number; `default_value` (or an array in place
         of the shape) says where it starts. Without `ode` it stands still between resets. `jacobian`
-        gives the n by n matrix d(ode)/dx, row by row, for a stiff method; without it differences
-        are used. Once a block.
+        gives the n by n matrix d(ode)/dx, row by row, for a stiff method; without it, and for
+        entries that are not finite, differences are used. Once a block.
 
         `jacobian_sparsity` says where d(ode)/dx may differ from zero, in every mode: an n by n
         array or a scipy.sparse matrix, not zero there, or a pair (rows, columns), each place once;

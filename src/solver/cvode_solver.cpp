@@ -3,13 +3,10 @@
 #include "saltus/solver/cvode.hpp"
 
 #include <algorithm>
-#include <exception>
 #include <limits>
-#include <optional>
 #include <string>
-#include <vector>
 
-#include "linear/linear_system.hpp"
+#include "cvode_scene.hpp"
 #include "saltus/solver/dopri5.hpp"
 #include "saltus/solver/runge_kutta.hpp"
 #include "saltus/solver/step_size.hpp"
@@ -31,6 +28,7 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
         context_(sun::make_context()),
         y_(make_vector(n_, context_.get())),
         dky_(N_VClone(y_.get())),
+        scene_(machine, watch),
         cvode_(CVodeCreate(method == CvodeMethod::adams ? CV_ADAMS : CV_BDF, context_.get())),
         starter_(machine, watch, options) {
     if (!cvode_ || !y_ || !dky_) throw Error("SUNDIALS: out of memory");
@@ -49,7 +47,7 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
   const SolverStatistics& statistics() const override {
     sum_ = statistics_;
     add_counts(sum_);
-    if (linear_) sum_.linear_solver = linear_->describe();
+    sum_.linear_solver = scene_.describe_linear();
     return sum_;
   }
 
@@ -67,7 +65,7 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
 
   void begin(const Start& how) {
     if (how.first) first_step_ = 0.0;
-    begun_at_ = t1_;
+    scene_.begin_at(t1_);
     // A multistep method begins with order 1 and steps that keep that within the tolerance. A
     // flight hardly longer than those is drawn as a line that falls from the start: the ball would
     // fall through. So a one-step method starts where an event may follow that soon (C. W. Gear,
@@ -103,13 +101,13 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
       if (!first) add_counts(statistics_);
       if (CVodeReInit(cvode_.get(), t1_, y_.get()) < 0) fail(t1_);
     }
-    aim();
+    scene_.aim(cvode_.get());
   }
 
   void create() {
     void* cvode = cvode_.get();
-    if (CVodeInit(cvode, right_hand_side, t1_, y_.get()) < 0) fail(t1_);
-    CVodeSetUserData(cvode, this);
+    if (CVodeInit(cvode, CvodeScene::right_hand_side, t1_, y_.get()) < 0) fail(t1_);
+    CVodeSetUserData(cvode, &scene_);
     CVodeSStolerances(cvode, options_.rtol, options_.atol);
     CVodeSetMaxHnilWarns(cvode, -1);
     CVodeSetMaxConvFails(cvode, 20);
@@ -119,43 +117,17 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
       nonlinear_.reset(SUNNonlinSol_FixedPoint(y_.get(), 0, context_.get()));
       CVodeSetNonlinearSolver(cvode, nonlinear_.get());
     } else {
-      linear_.emplace(*machine_, options_, error_, t1_, x1_.data());
-      attach_linear();
+      scene_.make_linear(options_, t1_, x1_.data());
+      scene_.attach_linear(cvode, y_.get(), context_.get());
     }
-    watch_guards();
+    scene_.watch_guards(cvode);
     started_ = true;
-  }
-
-  void attach_linear() {
-    linear_->attach(cvode_.get(), y_.get(), context_.get(), {jacobian, prepare, precondition});
-  }
-
-  /// Only a scene with guards that stop the solver has root-finding. CVodeReInit would keep guards
-  /// switched off that were zero once; none is, since CVODE is never shown a zero: shown().
-  void watch_guards() {
-    if (std::ranges::all_of(watch_->slots, &GuardSlot::monitor)) return;
-    directions_.resize(watch_->slots.size()), asked_.resize(watch_->slots.size());
-    CVodeRootInit(cvode_.get(), static_cast<int>(directions_.size()), root_functions);
-    CVodeSetNoInactiveRootWarn(cvode_.get());
-  }
-
-  /// The directions of now: a guard on Zeno hold is watched the other way round.
-  void aim() {
-    if (directions_.empty()) return;
-    std::ranges::transform(watch_->slots, directions_.begin(), [](const GuardSlot& slot) {
-      return slot.direction == Direction::positive_then_non_positive   ? -1
-             : slot.direction == Direction::negative_then_non_negative ? 1
-                                                                       : 0;
-    });
-    CVodeSetRootDirection(cvode_.get(), directions_.data());
   }
 
   void undo() { t1_ = t0_; }
 
   /// CVODE has looked at the end of its step just now.
-  const double* end_guards() const {
-    return !starting_ && !asked_.empty() && asked_at_ == t1_ ? asked_.data() : nullptr;
-  }
+  const double* end_guards() const { return starting_ ? nullptr : scene_.guards_at(t1_); }
 
   void step(double t_stop) {
     if (starting_ && t1_ >= starter_until_) start_cvode();
@@ -178,10 +150,11 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
     if (CVodeSetStopTime(cvode_.get(), t_stop) < 0) fail(t0_);
     double t = t0_;
     const int flag = CVode(cvode_.get(), t_stop, y_.get(), &t, CV_ONE_STEP);
-    if (error_) std::rethrow_exception(std::exchange(error_, nullptr));
-    if (flag < 0 && linear_ && linear_->renew(flag)) {
+    scene_.rethrow();
+    if (flag < 0 && scene_.renew_linear(flag)) {
       last_message_.clear();
-      attach_linear(), start_cvode();
+      scene_.attach_linear(cvode_.get(), y_.get(), context_.get());
+      start_cvode();
       return cvode_step(t_stop);
     }
     if (flag < 0) fail(t);
@@ -218,83 +191,12 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
     to.steps += steps, to.rejected += rejected, to.linear_setups += setups;
   }
 
-  // --- what CVODE calls; nothing may be thrown through it
-  // -----------------------------------------------------
-
-  /// Keeps the first exception of a callback: CVODE tries ten times more before it gives up.
-  template <class Call>
-  int guarded(Call call) {
-    if (error_) return -1;
-    try {
-      return call();
-    } catch (...) {
-      error_ = std::current_exception();
-      return -1;
-    }
-  }
-
-  static int right_hand_side(double t, N_Vector x, N_Vector xdot, void* user) {
-    auto* self = static_cast<CvodeSolver*>(user);
-    return self->guarded([&] {
-      double* out = N_VGetArrayPointer(xdot);
-      self->machine_->derivative(t, N_VGetArrayPointer(x), out);
-      return VectorView(out, self->n_).allFinite() ? 0 : 1;  // 1: try a shorter step
-    });
-  }
-
-  static int jacobian(double t, N_Vector x, N_Vector xdot, SUNMatrix out, void* user, N_Vector,
-                      N_Vector, N_Vector) {
-    auto* self = static_cast<CvodeSolver*>(user);
-    return self->guarded([&] { return self->linear_->jacobian(t, x, xdot, out); });
-  }
-  static int prepare(double t, N_Vector x, N_Vector xdot, sunbooleantype keep,
-                     sunbooleantype* renewed, double gamma, void* user) {
-    auto* self = static_cast<CvodeSolver*>(user);
-    return self->guarded([&] {
-      bool fresh = false;
-      const int flag = self->linear_->prepare(t, x, xdot, keep != 0, fresh, gamma);
-      *renewed = static_cast<sunbooleantype>(fresh);
-      return flag;
-    });
-  }
-  static int precondition(double, N_Vector, N_Vector, N_Vector r, N_Vector z, double, double, int,
-                          void* user) {
-    auto* self = static_cast<CvodeSolver*>(user);
-    return self->guarded([&] { return self->linear_->precondition(r, z); });
-  }
-
-  /// CVODE only wakes us; the locator judges. So it never sees an exact zero at the start of a
-  /// stretch, which would switch the guard off, nor a monitor.
-  static int root_functions(double t, N_Vector x, double* g, void* user) {
-    auto* self = static_cast<CvodeSolver*>(user);
-    return self->guarded([&] {
-      self->machine_->guards(t, N_VGetArrayPointer(x), g);
-      std::copy_n(g, self->asked_.size(), self->asked_.data());
-      self->asked_at_ = t;
-      for (std::size_t k = 0; k < self->watch_->slots.size(); ++k) g[k] = self->shown(k, t, g[k]);
-      return 0;
-    });
-  }
-
-  double shown(std::size_t k, double t, double value) const {
-    const GuardSlot& slot = watch_->slots[k];
-    constexpr double tiny =
-        1e-100;  // CVODE multiplies values to compare signs: nothing it sees may underflow then
-    if (!slot.active || slot.monitor) return 1.0;
-    if (slot.leaving) return std::abs(value) > slot.band ? -tiny : tiny;
-    if (slot.direction == Direction::edge_detection) return value == slot.base ? 1.0 : -1.0;
-    const double side = slot.side < 0 ? -tiny : tiny;
-    if (slot.waits() && t == begun_at_) return side;
-    if (std::abs(value) > slot.band) return std::copysign(std::max(std::abs(value), tiny), value);
-    return slot.waits() || slot.side == 0 ? side : -side;
-  }
-
   void note(const char* message) {
     if (last_message_.empty()) last_message_ = message;
   }
 
   [[noreturn]] void fail(double t) {
-    if (error_) std::rethrow_exception(std::exchange(error_, nullptr));
+    scene_.rethrow();
     double h = 0.0;
     CVodeGetCurrentTime(cvode_.get(), &t);
     CVodeGetCurrentStep(cvode_.get(), &h);
@@ -312,18 +214,14 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
   CvodeMethod method_;
   sun::ErrorHook hook_;
   std::string last_message_;
-  std::exception_ptr error_;
   sun::Context context_;
   sun::Vector y_, dky_;
   sun::Nonlinear nonlinear_;
-  std::optional<LinearSystem> linear_;  // of BDF
+  CvodeScene scene_;  // its linear system needs the context, and CVODE needs it
   sun::Cvode cvode_;
-  std::vector<int> directions_;  // of the guards; empty without root-finding
-  std::vector<double> asked_;    // the guards when CVODE last asked for them
-  double asked_at_ = 0.0;
   RungeKutta<Dopri5> starter_;
   bool started_ = false, starting_ = false;
-  double begun_at_ = 0.0, first_step_ = 0.0, starter_until_ = 0.0;
+  double first_step_ = 0.0, starter_until_ = 0.0;
   int steps_ = 0;     // of CVODE since it was started
   int standing_ = 0;  // steps in a row that drown in the rounding of t
   mutable SolverStatistics sum_;

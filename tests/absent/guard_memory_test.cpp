@@ -39,6 +39,6 @@ TEST_CASE("the plan of a vector guard grows with its entries, not with their squ
   if (allocated_bytes() < 0) return;  // cannot be counted here
   const long once = planning(1000), twice = planning(2000);
   INFO(once << " and " << twice << " bytes");
-  CHECK(twice < 3 * once);  // n^2 would be four times as much
+  CHECK(twice < 3 * once);       // n^2 would be four times as much
   CHECK(twice < 2000L * 2000L);  // a byte for each pair of an entry and a state
 }

@@ -152,3 +152,33 @@ TEST_CASE("reordering is a permutation and finds a hidden band", "[jacobian]") {
   std::ranges::sort(position);
   for (int i = 0; i < n; ++i) CHECK(position[static_cast<std::size_t>(i)] == i);
 }
+
+TEST_CASE("a Jacobian explains how f moves unless a place is missing", "[jacobian]") {
+  constexpr Index n = 20;
+  const Leaf leaf("leaf", [](Leaf& l) {  // x_i' = -x_i + 3 x_{i-1}^2
+    l.declare_continuous_state({.initial = Eigen::VectorXd::LinSpaced(n, 0.5, 2.0),
+                                .ode = [](const At& at, VectorRef xdot) {
+                                  xdot = -at.x;
+                                  xdot.tail(n - 1).array() +=
+                                      3.0 * at.x.head(n - 1).array().square();
+                                }});
+  });
+  Machine machine(compile(leaf));
+  machine.load(leaf.create_context());
+  Eigen::VectorXd xdot(n);
+  machine.flow(0.0, machine.x.data(), xdot.data());
+  const auto explains = [&](const std::vector<MatrixEntry>& entries, double h) {
+    Jacobian jacobian(machine, {{0, entries}});
+    Eigen::VectorXd values = Eigen::VectorXd::Zero(jacobian.pattern().places.size());
+    const Increments by{.rtol = 1e-6, .atol = 1e-8, .h = h};
+    REQUIRE(jacobian(0.0, machine.x.data(), xdot.data(), by, values.data()));
+    return jacobian.explains(0.0, machine.x.data(), xdot.data(), by, values.data());
+  };
+  CHECK(explains(band_entries(n, 1, 0), 0.1));
+  CHECK(explains(band_entries(n, n, n), 0.1));
+  CHECK_FALSE(explains(band_entries(n, 0, 0), 0.1));
+  std::vector<MatrixEntry> all_but_one = band_entries(n, 1, 0);
+  std::erase_if(all_but_one, [](const MatrixEntry& e) { return e.row == 7 && e.column == 6; });
+  CHECK_FALSE(explains(all_but_one, 0.1));
+  CHECK(explains(all_but_one, 1e-6));  // too short a step for Newton's iteration to notice
+}

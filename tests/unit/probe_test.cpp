@@ -198,6 +198,28 @@ TEST_CASE("a derivative that is not finite beside the state is left alone", "[pr
   CHECK(contains(looked.words, "the derivative beside the state is not finite"));
 }
 
+TEST_CASE("what was found is given up where Newton's iteration fails, and the failure is told",
+          "[probe]") {
+  // All but a relay, and a step that may not become short enough for it.
+  const Leaf relay("relay", [](Leaf& l) {
+    l.declare_continuous_state(
+        {.initial = Eigen::VectorXd::Ones(n), .ode = [](const At& at, VectorRef xdot) {
+           xdot = -1e3 * (1e9 * (at.x.array() - 1.0 - std::sin(at.time))).atan();
+         }});
+  });
+  const Results results = simulate(relay, relay.create_context(), {0.0, 1.0},
+                                   {.rtol = 1e-3,
+                                    .atol = 1e-6,
+                                    .ode_solver_method = "bdf",
+                                    .min_minor_step_size = 1e-2,
+                                    .throw_errors = false});
+  CHECK(results.status == Status::failed);
+  CHECK(contains(results.message, "below min_minor_step_size"));
+  CHECK(contains(results.statistics.linear_solver, "dense: n = 300"));
+  CHECK(contains(results.statistics.linear_solver,
+                 "(Newton's iteration did not converge with what was found)"));
+}
+
 TEST_CASE("find_sparsity = false asks for no call", "[probe]") {
   const Results off = run(leaf_of(band_entries(n, 1, 1), 0.7), 1.0, false);
   CHECK(contains(off.statistics.linear_solver, "dense: n = 300, 90000 places"));

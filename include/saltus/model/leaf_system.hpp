@@ -17,8 +17,10 @@ namespace saltus {
 /// Continuous state: initial value, xdot = ode(t, x, z, m, u, p), and what the ode reads.
 struct ContinuousState {
   Eigen::VectorXd initial = {};
-  VectorFunction ode = {};       ///< empty: xdot = 0
-  MatrixFunction jacobian = {};  ///< d(xdot)/d(x), optional; used by a stiff method
+  VectorFunction ode = {};  ///< empty: xdot = 0
+  /// d(xdot)/d(x), optional; used by a stiff method. Differences stand in for entries that are not
+  /// finite.
+  MatrixFunction jacobian = {};
   Reads reads = Reads::everything;
   std::optional<std::vector<int>> inputs = {};  ///< the inputs the ode reads; all if not said
   /// Where d(xdot)/d(x) may differ from zero, in every mode; everywhere if not said.

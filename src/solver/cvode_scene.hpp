@@ -1,0 +1,148 @@
+// The scene as CVODE calls it. Nothing may be thrown through C.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "linear/linear_system.hpp"
+#include "saltus/solver/watch.hpp"
+#include "sundials_compat.hpp"
+
+namespace saltus {
+
+/// The user data of a CVODE object: right-hand side, guards, and for BDF the linear system.
+class CvodeScene {
+ public:
+  CvodeScene(Machine& machine, Watch& watch) : machine_(&machine), watch_(&watch) {}
+  CvodeScene(const CvodeScene&) = delete;  // CVODE knows its address
+  CvodeScene& operator=(const CvodeScene&) = delete;
+
+  static int right_hand_side(double t, N_Vector x, N_Vector xdot, void* user) {
+    auto* self = static_cast<CvodeScene*>(user);
+    return self->guarded([&] {
+      double* out = N_VGetArrayPointer(xdot);
+      self->machine_->derivative(t, N_VGetArrayPointer(x), out);
+      return VectorView(out, N_VGetLength(xdot)).allFinite() ? 0 : 1;  // 1: try a shorter step
+    });
+  }
+
+  /// Throws what a callback threw.
+  void rethrow() {
+    if (error_) std::rethrow_exception(std::exchange(error_, nullptr));
+  }
+
+  // --- linear systems, of BDF
+
+  void make_linear(const SolverOptions& options, double t, const double* x) {
+    linear_.emplace(*machine_, options, error_, t, x);
+  }
+  void attach_linear(void* cvode, N_Vector y, SUNContext context) {
+    linear_->attach(cvode, y, context, {jacobian, prepare, precondition});
+  }
+  /// See LinearSystem::renew.
+  bool renew_linear(int flag) { return linear_ && linear_->renew(flag); }
+  std::string describe_linear() const { return linear_ ? linear_->describe() : std::string(); }
+
+  // --- guards
+
+  /// Only a scene with guards that stop the solver has root-finding. CVodeReInit would keep guards
+  /// switched off that were zero once; none is, since CVODE is never shown a zero: shown().
+  void watch_guards(void* cvode) {
+    if (std::ranges::all_of(watch_->slots, &GuardSlot::monitor)) return;
+    directions_.resize(watch_->slots.size()), asked_.resize(watch_->slots.size());
+    CVodeRootInit(cvode, static_cast<int>(directions_.size()), root_functions);
+    CVodeSetNoInactiveRootWarn(cvode);
+  }
+
+  /// The directions of now: a guard on Zeno hold is watched the other way round.
+  void aim(void* cvode) {
+    if (directions_.empty()) return;
+    std::ranges::transform(watch_->slots, directions_.begin(), [](const GuardSlot& slot) {
+      return slot.direction == Direction::positive_then_non_positive   ? -1
+             : slot.direction == Direction::negative_then_non_negative ? 1
+                                                                       : 0;
+    });
+    CVodeSetRootDirection(cvode, directions_.data());
+  }
+
+  /// A stretch begins here.
+  void begin_at(double t) { begun_at_ = t; }
+  /// The guards, if CVODE last looked at them at this time.
+  const double* guards_at(double t) const {
+    return !asked_.empty() && asked_at_ == t ? asked_.data() : nullptr;
+  }
+
+ private:
+  /// Keeps the first exception of a callback: CVODE tries ten times more before it gives up.
+  template <class Call>
+  int guarded(Call call) {
+    if (error_) return -1;
+    try {
+      return call();
+    } catch (...) {
+      error_ = std::current_exception();
+      return -1;
+    }
+  }
+
+  static int jacobian(double t, N_Vector x, N_Vector xdot, SUNMatrix out, void* user, N_Vector,
+                      N_Vector, N_Vector) {
+    auto* self = static_cast<CvodeScene*>(user);
+    return self->guarded([&] { return self->linear_->jacobian(t, x, xdot, out); });
+  }
+  static int prepare(double t, N_Vector x, N_Vector xdot, sunbooleantype keep,
+                     sunbooleantype* renewed, double gamma, void* user) {
+    auto* self = static_cast<CvodeScene*>(user);
+    return self->guarded([&] {
+      bool fresh = false;
+      const int flag = self->linear_->prepare(t, x, xdot, keep != 0, fresh, gamma);
+      *renewed = static_cast<sunbooleantype>(fresh);
+      return flag;
+    });
+  }
+  static int precondition(double, N_Vector, N_Vector, N_Vector r, N_Vector z, double, double, int,
+                          void* user) {
+    auto* self = static_cast<CvodeScene*>(user);
+    return self->guarded([&] { return self->linear_->precondition(r, z); });
+  }
+
+  /// CVODE only wakes us; the locator judges. So it never sees an exact zero at the start of a
+  /// stretch, which would switch the guard off, nor a monitor.
+  static int root_functions(double t, N_Vector x, double* g, void* user) {
+    auto* self = static_cast<CvodeScene*>(user);
+    return self->guarded([&] {
+      self->machine_->guards(t, N_VGetArrayPointer(x), g);
+      std::copy_n(g, self->asked_.size(), self->asked_.data());
+      self->asked_at_ = t;
+      for (std::size_t k = 0; k < self->watch_->slots.size(); ++k) g[k] = self->shown(k, t, g[k]);
+      return 0;
+    });
+  }
+
+  double shown(std::size_t k, double t, double value) const {
+    const GuardSlot& slot = watch_->slots[k];
+    constexpr double tiny =
+        1e-100;  // CVODE multiplies values to compare signs: nothing it sees may underflow then
+    if (!slot.active || slot.monitor) return 1.0;
+    if (slot.leaving) return std::abs(value) > slot.band ? -tiny : tiny;
+    if (slot.direction == Direction::edge_detection) return value == slot.base ? 1.0 : -1.0;
+    const double side = slot.side < 0 ? -tiny : tiny;
+    if (slot.waits() && t == begun_at_) return side;
+    if (std::abs(value) > slot.band) return std::copysign(std::max(std::abs(value), tiny), value);
+    return slot.waits() || slot.side == 0 ? side : -side;
+  }
+
+  Machine* machine_;
+  Watch* watch_;
+  std::exception_ptr error_;
+  std::optional<LinearSystem> linear_;
+  std::vector<int> directions_;  // of the guards; empty without root-finding
+  std::vector<double> asked_;    // the guards when CVODE last asked for them
+  double asked_at_ = 0.0, begun_at_ = 0.0;
+};
+
+}  // namespace saltus
