@@ -147,6 +147,7 @@ void add_edges(Plan& plan) {
       EdgeWatch edge{.leaf = static_cast<int>(l),
                      .index = static_cast<int>(i),
                      .node = read_inputs(std::vector{resets[i].input}, leaf).front(),
+                     .reads = read_inputs(resets[i].inputs, leaf),
                      .name = text(leaf.path, ".", resets[i].name)};
       const Node& trigger = plan.node(edge.node);
       if (trigger.rate == Rate::continuous || trigger.shape.size != 1) {

@@ -3,7 +3,6 @@
 #include <new>
 #include <tuple>
 
-#include "saltus/plan/flatten.hpp"
 #include "saltus/simulation/instant.hpp"
 
 namespace saltus {
@@ -133,8 +132,7 @@ bool Instant::collect_edges() {
 void Instant::collect_carried(int index) {
   if (pass_ == 0 || carried_[static_cast<std::size_t>(index)]) return;
   const EdgeWatch& edge = plan().edges[static_cast<std::size_t>(index)];
-  const EdgeReset& reset = reset_of(edge);
-  for (int input : detail::read_inputs(reset.inputs, leaf(edge.leaf))) {
+  for (const int input : edge.reads) {
     const Node& node = plan().node(input);
     if (input != edge.node && node.rate == Rate::held && changed(node.place)) {
       actions_.push_back({edge.leaf, Cause::edge, index, -1, -1, true});

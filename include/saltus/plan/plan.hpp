@@ -62,6 +62,7 @@ struct EdgeWatch {
   int index = -1;                   // edge reset of the leaf
   int node = -1;                    // the watched signal
   std::vector<int> relations = {};  // located nodes that decide it
+  std::vector<int> reads = {};      // nodes its reset map reads
   std::string name = {};            // "block.reset"
 };
 

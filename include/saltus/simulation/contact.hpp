@@ -74,7 +74,7 @@ class Contacts final : public Carrier {
   double guard_after(const SurfaceContact& contact, double t, const double* x, double d);
 
   Machine* machine_;
-  double absolute_;  // size below which a state counts as zero
+  double absolute_;                      // size below which a state counts as zero
   std::vector<SurfaceContact> of_slot_;  // made once, so that a hold allocates nothing
   std::vector<int> present_;             // slots
   Eigen::VectorXd original_, begun_, once_, twice_, trial_, f_, f1_, slow_, stood_, later_, z_, g_;
