@@ -45,7 +45,10 @@ class CvodeScene {
   }
   /// See LinearSystem::renew.
   bool renew_linear(int flag) { return linear_ && linear_->renew(flag); }
-  std::string describe_linear() const { return linear_ ? linear_->describe() : std::string(); }
+  /// Empty where there is none.
+  std::string_view describe_linear() const {
+    return linear_ ? std::string_view(linear_->describe()) : std::string_view();
+  }
 
   // --- guards
 
