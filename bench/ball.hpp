@@ -37,11 +37,14 @@ struct Outcome {
   }
 };
 
-/// The same ball for Saltus.
+/// The same ball for Saltus, its right-hand side inlined into the steps or called.
 class BallLeaf final : public saltus::LeafSystem {
  public:
-  explicit BallLeaf(const Ball& ball) : LeafSystem("ball"), ball_(ball) {
-    declare_continuous_state(2, saltus::inlined<2>(saltus::method<&BallLeaf::ode>));
+  explicit BallLeaf(const Ball& ball, bool inlined = true) : LeafSystem("ball"), ball_(ball) {
+    if (inlined)
+      declare_continuous_state(2, saltus::inlined<2>(saltus::method<&BallLeaf::ode>));
+    else
+      declare_continuous_state(2, &BallLeaf::ode);
     declare_zero_crossing({.name = "bounce",
                            .guard = saltus::method<&BallLeaf::height>,
                            .reset_map = saltus::method<&BallLeaf::bounce>,
@@ -61,9 +64,9 @@ class BallLeaf final : public saltus::LeafSystem {
 /// One Simulator, used again and again; nothing is recorded but, if asked for, the event log.
 class SaltusRun {
  public:
-  SaltusRun(const Ball& ball, const saltus::SimulatorOptions& options)
+  SaltusRun(const Ball& ball, const saltus::SimulatorOptions& options, bool inlined = true)
       : ball_(ball),
-        leaf_(ball),
+        leaf_(ball, inlined),
         start_(leaf_.create_context().with_continuous_state(Eigen::Vector2d(ball.y0, 0.0))),
         simulator_(leaf_, options) {}
 

@@ -82,6 +82,9 @@ inline constexpr StepKernels step_kernels{
 template <int N, class F>
   requires(N > 0)
 VectorFunction inlined(F right_hand_side) {
+  static_assert(
+      !detail::MethodOf<F>::value,
+      "a pointer says at run time only which method it is: inlined<N>(method<&Leaf::ode>)");
   VectorFunction function(std::move(right_hand_side));
   function.set_kernels(&detail::step_kernels<N, F>, N);
   return function;
