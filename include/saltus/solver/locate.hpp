@@ -31,21 +31,36 @@ class Locator : private Narrower {
             const Interpolate& interpolate) {
     t0_ = t0;
     if (version_ != watch_->version) look_up_slots();
-    const int pieces = watch_->scan_points + 1;
-    const double piece_length = (to - from) / pieces;
     if (guards != nullptr)
       std::copy_n(guards, high_.size(), high_.data());
     else
       look(to, end, interpolate, high_);
-    if (pieces > 1 && out_of_reach(from, to)) {
-      ++skipped_;
-      shift_all(from, to);
-      earlier_at_ -= to;
-      return false;
-    }
+    const bool skips = watch_->scan_points > 0 && out_of_reach(from, to);
+    if (!skips || skipped_ >= patience_) return find_inside(from, to, end, skips, interpolate);
+    ++skipped_;
+    shift_all(from, to);
+    earlier_at_ -= to;  // seen from the next step
+    return false;
+  }
+
+  /// Begins anew: what was seen of the guards before a restart says nothing.
+  void forget() { earlier_at_ = never, version_ = -1, skipped_ = patience_ = least_patience; }
+
+  double offset() const noexcept { return root_; }
+
+ private:
+  /// The same by looks inside the step, piece by piece; high_ is known at its end. Kept out of
+  /// find, which most steps go through and no further.
+  template <class Interpolate>
+  [[gnu::noinline]] bool find_inside(double from, double to, const double* end, bool needless,
+                                     const Interpolate& interpolate) {
+    // A look that was not needed may come later the next time: after 7 steps, 15, 31, then 63.
+    patience_ = needless && skipped_ > 0 ? std::min(2 * patience_ + 1, 63) : least_patience;
     skipped_ = 0;
     end_.swap(high_);
     end_at_ = to;
+    const int pieces = watch_->scan_points + 1;
+    const double piece_length = (to - from) / pieces;
     for (int piece = 1; piece <= pieces; ++piece) {
       const bool last = piece == pieces;
       const double next = last ? to : std::min(to, from + piece_length);
@@ -59,16 +74,10 @@ class Locator : private Narrower {
         return true;
       from = next;
     }
-    earlier_at_ -= to;  // seen from the next step
+    earlier_at_ -= to;
     return false;
   }
 
-  /// Begins anew: what was seen of the guards before a restart says nothing.
-  void forget() { earlier_at_ = never, version_ = -1, skipped_ = most_skipped; }
-
-  double offset() const noexcept { return root_; }
-
- private:
   void look_up_slots() {
     version_ = watch_->version;
     set_limits();
@@ -83,9 +92,9 @@ class Locator : private Narrower {
   /// Whether a step, high_ looked at at its end, needs no look inside: no guard could get to zero
   /// and back even if it moved eight times as fast as it was seen to of late (the bound of B. O.
   /// Shubert, "A sequential method seeking the global maximum of a function", SIAM J. Numer. Anal.
-  /// 9 (1972) 379). Every eighth step is looked into all the same.
+  /// 9 (1972) 379). After `patience_` such steps one is looked into all the same.
   bool out_of_reach(double from, double to) const {
-    if (skipped_ >= most_skipped || jumps_) return false;
+    if (jumps_) return false;
     for (std::size_t i = 0; i < plain_.size(); ++i) {
       const std::size_t k = watch_->active[i];
       const double now = plain_[i] * high_[k], before = plain_[i] * watch_->g[k];
@@ -293,12 +302,13 @@ class Locator : private Narrower {
   std::vector<double> plain_;    // of the active slots: see GuardSlot::plain_side
   std::int64_t version_ = -1;    // of the slots that limits_ and plain_ tell of
   double root_ = 0.0;
-  static constexpr int most_skipped = 7;
+  static constexpr int least_patience = 7;
   std::vector<double> end_;  // guards at the end of the step, until its last piece is looked at
   double end_at_ = 0.0;
-  std::vector<double> speed_;   // [1/s] how fast each guard was seen to move of late
-  int skipped_ = most_skipped;  // steps in a row not looked into
-  bool jumps_ = false;          // an active guard takes two values only
+  std::vector<double> speed_;      // [1/s] how fast each guard was seen to move of late
+  int patience_ = least_patience;  // how many steps in a row may go without a look inside
+  int skipped_ = least_patience;   // how many did
+  bool jumps_ = false;             // an active guard takes two values only
 };
 
 }  // namespace saltus

