@@ -17,7 +17,8 @@ SimulatorOptions with(const std::string& method) {
 }
 
 Runner ball_leaf(const Ball& ball, const std::string& method) {
-  const auto leaf = std::make_shared<bench::BallLeaf>(ball);
+  const auto leaf =
+      std::make_shared<bench::BallLeaf>(ball, false);  // called, as those of blocks are
   return {leaf, leaf->create_context().with_continuous_state(Eigen::Vector2d(ball.y0, 0.0)),
           ball.t_end, with(method)};
 }
