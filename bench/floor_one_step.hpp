@@ -6,8 +6,8 @@
 
 #include <algorithm>
 #include <limits>
-#include <saltus/solver/dop853.hpp>
-#include <saltus/solver/dopri5.hpp>
+#include <saltus/solver/detail/dop853.hpp>
+#include <saltus/solver/detail/dopri5.hpp>
 #include <utility>
 
 #include "ball.hpp"

@@ -4,7 +4,7 @@
 #include "bindings.hpp"
 #include "context_docs.hpp"
 #include "numbers.hpp"
-#include "saltus/base/listed.hpp"
+#include "saltus/base/detail/listed.hpp"
 #include "saltus/model/system.hpp"
 
 namespace saltus::python {

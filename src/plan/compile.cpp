@@ -4,9 +4,9 @@
 #include <string_view>
 #include <unordered_set>
 
-#include "saltus/plan/fuse.hpp"
-#include "saltus/plan/needs.hpp"
-#include "saltus/plan/order.hpp"
+#include "saltus/plan/detail/fuse.hpp"
+#include "saltus/plan/detail/needs.hpp"
+#include "saltus/plan/detail/order.hpp"
 
 namespace saltus {
 

@@ -1,8 +1,8 @@
-#include "saltus/plan/fuse.hpp"
+#include "saltus/plan/detail/fuse.hpp"
 
 #include <utility>
 
-#include "saltus/plan/needs.hpp"
+#include "saltus/plan/detail/needs.hpp"
 #include "saltus/tape/tape.hpp"
 
 namespace saltus::detail {

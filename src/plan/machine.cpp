@@ -1,7 +1,7 @@
 // Machine: construction, loading and saving a context.
-#include "saltus/plan/machine.hpp"
+#include "saltus/plan/detail/machine.hpp"
 
-#include "saltus/plan/flatten.hpp"
+#include "saltus/plan/detail/flatten.hpp"
 
 namespace saltus {
 

@@ -1,8 +1,8 @@
 // The search for the first number that is not finite, when a step has found that one is.
 #include <cmath>
 
-#include "saltus/base/listed.hpp"
-#include "saltus/plan/machine.hpp"
+#include "saltus/base/detail/listed.hpp"
+#include "saltus/plan/detail/machine.hpp"
 
 namespace saltus {
 

@@ -3,8 +3,8 @@
 
 #include <numeric>
 
-#include "saltus/plan/flatten.hpp"
-#include "saltus/plan/sparsity.hpp"
+#include "saltus/plan/detail/flatten.hpp"
+#include "saltus/plan/detail/sparsity.hpp"
 
 namespace saltus::detail {
 

@@ -1,5 +1,5 @@
 // jacobian_pattern: sets of states, spread along the order of the plan.
-#include "saltus/plan/sparsity.hpp"
+#include "saltus/plan/detail/sparsity.hpp"
 
 #include <numeric>
 

@@ -1,5 +1,5 @@
 // Contacts on surfaces that move.
-#include "saltus/simulation/contact.hpp"
+#include "saltus/simulation/detail/contact.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "saltus/simulation/instant.hpp"
+#include "saltus/simulation/detail/instant.hpp"
 
 namespace saltus {
 

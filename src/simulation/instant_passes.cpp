@@ -3,7 +3,7 @@
 #include <new>
 #include <tuple>
 
-#include "saltus/simulation/instant.hpp"
+#include "saltus/simulation/detail/instant.hpp"
 
 namespace saltus {
 

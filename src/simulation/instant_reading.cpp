@@ -1,5 +1,5 @@
 // After a commit: held outputs and relations read again, and what the commit moved across zero.
-#include "saltus/simulation/instant.hpp"
+#include "saltus/simulation/detail/instant.hpp"
 
 namespace saltus {
 

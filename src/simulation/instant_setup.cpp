@@ -1,6 +1,6 @@
 // An instant's memory: made once, cleaned for each run, saved and loaded between runs; the event
 // log.
-#include "saltus/simulation/instant.hpp"
+#include "saltus/simulation/detail/instant.hpp"
 
 #include <algorithm>
 #include <numeric>

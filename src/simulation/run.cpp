@@ -1,5 +1,5 @@
 // Run: the loop from instant to instant.
-#include "saltus/simulation/run.hpp"
+#include "saltus/simulation/detail/run.hpp"
 
 namespace saltus {
 

@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "saltus/simulation/run.hpp"
+#include "saltus/simulation/detail/run.hpp"
 
 namespace saltus {
 

@@ -1,5 +1,5 @@
 // Trajectory: keeping steps, and reading between them.
-#include "saltus/simulation/trajectory.hpp"
+#include "saltus/simulation/detail/trajectory.hpp"
 
 #include <algorithm>
 #include <array>

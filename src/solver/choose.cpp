@@ -1,10 +1,10 @@
 // From a method to its solver.
-#include "saltus/solver/choose.hpp"
+#include "saltus/solver/detail/choose.hpp"
 
 #include <algorithm>
 
-#include "saltus/solver/auto_solver.hpp"
-#include "saltus/solver/one_step.hpp"
+#include "saltus/solver/detail/auto_solver.hpp"
+#include "saltus/solver/detail/one_step.hpp"
 
 namespace saltus {
 

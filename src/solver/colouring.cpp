@@ -1,5 +1,5 @@
 // Greedy colouring of the columns of a Jacobian.
-#include "saltus/solver/colouring.hpp"
+#include "saltus/solver/detail/colouring.hpp"
 
 #include <algorithm>
 #include <numeric>

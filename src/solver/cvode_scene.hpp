@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "linear/linear_system.hpp"
-#include "saltus/solver/watch.hpp"
+#include "saltus/solver/detail/watch.hpp"
 #include "sundials_compat.hpp"
 
 namespace saltus {

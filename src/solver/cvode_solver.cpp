@@ -1,16 +1,16 @@
 // CVODE behind the seam: Adams with fixed-point iteration, BDF with Newton and the
 // linear solver that suits the scene.
-#include "saltus/solver/cvode.hpp"
+#include "saltus/solver/detail/cvode.hpp"
 
 #include <algorithm>
 #include <limits>
 #include <string>
 
 #include "cvode_scene.hpp"
-#include "saltus/solver/dopri5.hpp"
-#include "saltus/solver/runge_kutta.hpp"
-#include "saltus/solver/step_size.hpp"
-#include "saltus/solver/step_solver.hpp"
+#include "saltus/solver/detail/dopri5.hpp"
+#include "saltus/solver/detail/runge_kutta.hpp"
+#include "saltus/solver/detail/step_size.hpp"
+#include "saltus/solver/detail/step_solver.hpp"
 #include "small_vector.hpp"
 #include "sundials_compat.hpp"
 

@@ -1,6 +1,6 @@
 // DOP853, compiled.
 #include "one_step_sizes.hpp"
-#include "saltus/solver/dop853.hpp"
+#include "saltus/solver/detail/dop853.hpp"
 
 namespace saltus {
 

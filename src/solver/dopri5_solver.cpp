@@ -1,6 +1,6 @@
 // DOPRI5, compiled.
 #include "one_step_sizes.hpp"
-#include "saltus/solver/dopri5.hpp"
+#include "saltus/solver/detail/dopri5.hpp"
 
 namespace saltus {
 

@@ -1,10 +1,10 @@
 // Groups of arguments, halved while calls tell which half a value reads.
-#include "saltus/solver/find_places.hpp"
+#include "saltus/solver/detail/find_places.hpp"
 
 #include <algorithm>
 #include <numeric>
 
-#include "saltus/solver/colouring.hpp"
+#include "saltus/solver/detail/colouring.hpp"
 
 namespace saltus {
 

@@ -1,5 +1,5 @@
 // Compressed differences, and the leaves' own Jacobians.
-#include "saltus/solver/jacobian.hpp"
+#include "saltus/solver/detail/jacobian.hpp"
 
 #include <algorithm>
 #include <cmath>

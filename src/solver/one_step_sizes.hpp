@@ -1,7 +1,7 @@
 // The stepper that is unrolled for the size of a scene, or the general one.
 #pragma once
 
-#include "saltus/solver/runge_kutta.hpp"
+#include "saltus/solver/detail/runge_kutta.hpp"
 
 namespace saltus {
 

@@ -1,5 +1,5 @@
 // Bandwidth and the reverse Cuthill-McKee order.
-#include "saltus/solver/ordering.hpp"
+#include "saltus/solver/detail/ordering.hpp"
 
 #include <algorithm>
 

@@ -1,11 +1,11 @@
 // Moving the states of one block and looking at its derivatives.
-#include "saltus/solver/probe.hpp"
+#include "saltus/solver/detail/probe.hpp"
 
 #include <algorithm>
 #include <optional>
 #include <random>
 
-#include "saltus/solver/find_places.hpp"
+#include "saltus/solver/detail/find_places.hpp"
 
 namespace saltus {
 

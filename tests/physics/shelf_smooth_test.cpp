@@ -2,9 +2,9 @@
 // scene; and the references against the equations. The references come from shelf_radau/.
 #include <saltus/models/models.hpp>
 #include <saltus/plan/compile.hpp>
-#include <saltus/plan/machine.hpp>
+#include <saltus/plan/detail/machine.hpp>
 #include <saltus/report/achieved.hpp>
-#include <saltus/solver/jacobian.hpp>
+#include <saltus/solver/detail/jacobian.hpp>
 
 #include "support/catch.hpp"
 

@@ -1,5 +1,5 @@
 // Semantics 4.2, 4.4: when a hold begins, and what a hold is.
-#include "saltus/simulation/zeno.hpp"
+#include "saltus/simulation/detail/zeno.hpp"
 #include "support/balls.hpp"
 #include "support/leaves.hpp"
 

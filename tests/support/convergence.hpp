@@ -1,7 +1,7 @@
 // Convergence of a one-step method on a problem with a known answer.
 #pragma once
 
-#include "saltus/solver/runge_kutta.hpp"
+#include "saltus/solver/detail/runge_kutta.hpp"
 #include "support/leaves.hpp"
 
 namespace support {

@@ -1,5 +1,5 @@
 // Calendar: ticks counted by integers, equal times one instant, no tick twice, none lost.
-#include "saltus/simulation/calendar.hpp"
+#include "saltus/simulation/detail/calendar.hpp"
 #include "support/leaves.hpp"
 
 using namespace saltus;

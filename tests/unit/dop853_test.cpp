@@ -1,8 +1,8 @@
 // DOP853: its coefficients, order 8 of the step, order 7 of the dense output, what its extra stages
 // cost and when.
-#include "saltus/solver/dop853.hpp"
+#include "saltus/solver/detail/dop853.hpp"
 #include "saltus/plan/compile.hpp"
-#include "saltus/plan/machine.hpp"
+#include "saltus/plan/detail/machine.hpp"
 #include "support/convergence.hpp"
 
 using namespace saltus;

@@ -1,6 +1,6 @@
 // DOPRI5: its coefficients, order 5 of the step, order 4 of the dense output, on a nonlinear
 // problem.
-#include "saltus/solver/dopri5.hpp"
+#include "saltus/solver/detail/dopri5.hpp"
 #include "support/convergence.hpp"
 
 using namespace saltus;

@@ -1,5 +1,5 @@
 // The table of directions: when a guard that was on one side fires.
-#include "saltus/solver/watch.hpp"
+#include "saltus/solver/detail/watch.hpp"
 #include "support/run.hpp"
 
 using namespace saltus;

@@ -1,5 +1,5 @@
 // The search for places by moving arguments: it finds them all, and no others, in few calls.
-#include "saltus/solver/find_places.hpp"
+#include "saltus/solver/detail/find_places.hpp"
 
 #include <random>
 

@@ -3,7 +3,7 @@
 #include <random>
 
 #include "saltus/library/library.hpp"
-#include "saltus/plan/machine.hpp"
+#include "saltus/plan/detail/machine.hpp"
 #include "saltus/simulation/simulator.hpp"
 #include "support/allocations.hpp"
 #include "support/leaves.hpp"

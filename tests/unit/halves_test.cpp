@@ -1,8 +1,8 @@
 // Steps that are too long for their dense output: seen, and drawn in two halves, for whoever looks.
 #include "saltus/plan/compile.hpp"
-#include "saltus/plan/machine.hpp"
-#include "saltus/solver/dop853.hpp"
-#include "saltus/solver/runge_kutta.hpp"
+#include "saltus/plan/detail/machine.hpp"
+#include "saltus/solver/detail/dop853.hpp"
+#include "saltus/solver/detail/runge_kutta.hpp"
 #include "support/leaves.hpp"
 
 using namespace saltus;

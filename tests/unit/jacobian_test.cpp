@@ -1,9 +1,9 @@
 // Colours that never meet, differences that are the dense ones, orders that are permutations.
-#include "saltus/solver/jacobian.hpp"
+#include "saltus/solver/detail/jacobian.hpp"
 
 #include <random>
 
-#include "saltus/solver/ordering.hpp"
+#include "saltus/solver/detail/ordering.hpp"
 #include "support/leaves.hpp"
 
 using namespace saltus;

@@ -2,7 +2,7 @@
 // texts.
 #include "library_support.hpp"
 #include "saltus/plan/compile.hpp"
-#include "saltus/plan/machine.hpp"
+#include "saltus/plan/detail/machine.hpp"
 
 using namespace saltus;
 using namespace library_test;

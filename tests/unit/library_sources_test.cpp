@@ -2,7 +2,7 @@
 #include <cmath>
 #include <limits>
 #include "saltus/plan/compile.hpp"
-#include "saltus/plan/machine.hpp"
+#include "saltus/plan/detail/machine.hpp"
 
 #include "library_support.hpp"
 

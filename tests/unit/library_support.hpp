@@ -7,7 +7,7 @@
 
 #include "saltus/library/library.hpp"
 #include "saltus/model/diagram_builder.hpp"
-#include "saltus/plan/machine.hpp"
+#include "saltus/plan/detail/machine.hpp"
 #include "support/catch.hpp"
 
 namespace library_test {

@@ -1,5 +1,5 @@
 // Options: each value that makes no sense is refused by name; the defaults are fine.
-#include "saltus/solver/choose.hpp"
+#include "saltus/solver/detail/choose.hpp"
 #include "support/balls.hpp"
 
 using namespace saltus;

@@ -1,5 +1,5 @@
 // Blocks that declare no sparsity: found by calls, never at the price of the answer.
-#include "saltus/solver/probe.hpp"
+#include "saltus/solver/detail/probe.hpp"
 
 #include <random>
 

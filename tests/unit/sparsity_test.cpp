@@ -1,10 +1,10 @@
 // Which state reaches which derivative: never a place too few, and few too many.
-#include "saltus/plan/sparsity.hpp"
+#include "saltus/plan/detail/sparsity.hpp"
 
 #include "saltus/library/library.hpp"
 #include "saltus/models/brusselator.hpp"
 #include "saltus/models/heat_rod.hpp"
-#include "saltus/plan/machine.hpp"
+#include "saltus/plan/detail/machine.hpp"
 #include "support/leaves.hpp"
 
 using namespace saltus;

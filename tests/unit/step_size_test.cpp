@@ -1,6 +1,6 @@
 // Step sizes: the first, the next, the bounds, and stiffness seen where it is and not where it is
 // not.
-#include "saltus/solver/step_size.hpp"
+#include "saltus/solver/detail/step_size.hpp"
 #include "support/leaves.hpp"
 
 using namespace saltus;

@@ -1,5 +1,5 @@
 // ZenoMonitor: shrinking gaps accumulate, equal ones never; the sum of the series is predicted.
-#include "saltus/simulation/zeno.hpp"
+#include "saltus/simulation/detail/zeno.hpp"
 #include "support/leaves.hpp"
 
 using namespace saltus;

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "saltus/simulation/trajectory.hpp"
+#include "saltus/simulation/detail/trajectory.hpp"
 
 namespace saltus {
 

@@ -6,10 +6,10 @@
 #include <array>
 #include <utility>
 
-#include "saltus/solver/dop853.hpp"
-#include "saltus/solver/dopri5.hpp"
-#include "saltus/solver/explicit_step.hpp"
-#include "saltus/solver/kernels.hpp"
+#include "saltus/solver/detail/dop853.hpp"
+#include "saltus/solver/detail/dopri5.hpp"
+#include "saltus/solver/detail/explicit_step.hpp"
+#include "saltus/solver/detail/kernels.hpp"
 
 namespace saltus {
 

@@ -3,9 +3,9 @@
 
 #include <string>
 
-#include "saltus/solver/jacobian.hpp"
-#include "saltus/solver/linear_solver.hpp"
-#include "saltus/solver/ordering.hpp"
+#include "saltus/solver/detail/jacobian.hpp"
+#include "saltus/solver/detail/linear_solver.hpp"
+#include "saltus/solver/detail/ordering.hpp"
 
 namespace saltus {
 

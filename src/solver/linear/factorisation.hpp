@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "saltus/solver/ordering.hpp"
+#include "saltus/solver/detail/ordering.hpp"
 
 namespace saltus {
 

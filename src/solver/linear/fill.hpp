@@ -1,7 +1,7 @@
 // What a sparse factorisation would cost, before it is made.
 #pragma once
 
-#include "saltus/plan/sparsity.hpp"
+#include "saltus/plan/detail/sparsity.hpp"
 
 namespace saltus {
 

@@ -3,7 +3,7 @@
 
 #include <Eigen/IterativeLinearSolvers>
 
-#include "saltus/solver/jacobian.hpp"
+#include "saltus/solver/detail/jacobian.hpp"
 #include "sparse.hpp"
 
 namespace saltus {

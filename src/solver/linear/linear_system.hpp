@@ -7,8 +7,8 @@
 #include "choice.hpp"
 #include "direct.hpp"
 #include "krylov.hpp"
-#include "saltus/solver/probe.hpp"
-#include "saltus/solver/solver.hpp"
+#include "saltus/solver/detail/probe.hpp"
+#include "saltus/solver/detail/solver.hpp"
 
 namespace saltus {
 

@@ -5,7 +5,7 @@
 
 #include <Eigen/SparseCore>
 
-#include "saltus/plan/sparsity.hpp"
+#include "saltus/plan/detail/sparsity.hpp"
 
 namespace saltus {
 

@@ -1,0 +1,247 @@
+// Nested diagrams to leaves and nodes: who reads whom, and the shape of every signal.
+#pragma once
+
+#include <algorithm>
+#include <numeric>
+#include <optional>
+#include <unordered_map>
+#include <utility>
+
+#include "saltus/plan/detail/lists.hpp"
+#include "saltus/plan/detail/order.hpp"
+
+namespace saltus::detail {
+
+/// The inputs that something reads: those it names, else all.
+inline std::vector<int> read_inputs(const std::optional<std::vector<int>>& named,
+                                    const PlanLeaf& leaf) {
+  if (!named) return leaf.inputs;
+  std::vector<int> nodes;
+  for (int i : *named) {
+    if (i < 0 || i >= static_cast<int>(leaf.inputs.size())) {
+      throw ModelError(text("block '", leaf.path, "': a declaration reads input ", i,
+                            ", the block has ", leaf.inputs.size()));
+    }
+    nodes.push_back(leaf.inputs[static_cast<std::size_t>(i)]);
+  }
+  return nodes;
+}
+
+/// One node for each output and relation of a leaf, the last in the plan.
+inline void add_nodes(Plan& plan, PlanLeaf& leaf) {
+  const Declarations& d = leaf.declared();
+  const int number = static_cast<int>(plan.leaves.size());
+  const auto outputs = static_cast<int>(d.outputs.size());
+  leaf.outputs.resize(d.outputs.size()), leaf.relations.resize(d.relations.size());
+  std::iota(leaf.outputs.begin(), leaf.outputs.end(), static_cast<int>(plan.nodes.size()));
+  std::iota(leaf.relations.begin(), leaf.relations.end(),
+            static_cast<int>(plan.nodes.size()) + outputs);
+  for (int i = 0; i < outputs; ++i) {
+    const OutputDeclaration& output = d.outputs[static_cast<std::size_t>(i)];
+    plan.nodes.push_back(
+        {.leaf = number, .index = i, .boolean = output.boolean, .view = output.view.has_value()});
+  }
+  for (int i = 0; i < static_cast<int>(d.relations.size()); ++i)
+    plan.nodes.push_back({.leaf = number, .index = i, .relation = true, .boolean = true});
+}
+
+/// Leaves with their places in the flat arrays, and their nodes.
+inline void add_leaves(Plan& plan, Structure& structure) {
+  plan.leaves.reserve(structure.leaves.size());  // so that none is moved, and few nodes are
+  plan.nodes.reserve(structure.leaves.size());
+  for (auto& [system, path] : structure.leaves) {
+    const Declarations& d = system->declarations();
+    PlanLeaf leaf{.system = system, .path = std::move(path)};
+    leaf.x = plan.nx, leaf.nx = d.continuous.initial.size();
+    leaf.z = plan.nz, leaf.nz = d.discrete.size();
+    leaf.p = plan.np, leaf.np = d.parameter_values.size();
+    plan.nx += leaf.nx, plan.nz += leaf.nz, plan.np += leaf.np;
+    add_nodes(plan, leaf);
+    leaf.inputs.assign(d.inputs.size(), -1);
+    plan.leaves.push_back(std::move(leaf));
+  }
+}
+
+/// Which leaf of a plan a system is.
+class LeafNumbers {
+ public:
+  explicit LeafNumbers(const Plan& plan) {
+    numbers_.reserve(plan.leaves.size());
+    for (std::size_t i = 0; i < plan.leaves.size(); ++i) numbers_.emplace(plan.leaves[i].system, i);
+  }
+  std::optional<std::size_t> find(const LeafSystem* system) const {
+    const auto found = numbers_.find(system);
+    return found == numbers_.end() ? std::nullopt : std::optional(found->second);
+  }
+
+ private:
+  std::unordered_map<const LeafSystem*, std::size_t> numbers_;
+};
+
+/// The node behind every input; an open input of the root is an error.
+inline void add_wires(Plan& plan, const Structure& structure, const LeafNumbers& numbers) {
+  for (const auto& [from, to] : structure.wires) {
+    plan.leaves[numbers.find(to.leaf).value()].inputs[static_cast<std::size_t>(to.index)] =
+        plan.leaves[numbers.find(from.leaf).value()].outputs[static_cast<std::size_t>(from.index)];
+  }
+  for (const PlanLeaf& leaf : plan.leaves) {
+    for (std::size_t i = 0; i < leaf.inputs.size(); ++i) {
+      if (leaf.inputs[i] < 0) {
+        throw ModelError(text("input '", leaf.declared().inputs[i].name, "' of block '", leaf.path,
+                              "' is not connected; connect it to a block, for example a Constant"));
+      }
+    }
+  }
+}
+
+/// What each node reads when it is computed.
+inline void add_needs(Plan& plan) {
+  for (Node& node : plan.nodes) {
+    if (node.view) continue;
+    const PlanLeaf& leaf = plan.leaf_of(node);
+    if (node.relation) {
+      const Relation& relation = plan.relation_of(node);
+      if (has(relation.reads, Reads::inputs)) node.needs = read_inputs(relation.inputs, leaf);
+      continue;
+    }
+    const OutputDeclaration& output = plan.output_of(node);
+    if (has(output.reads, Reads::inputs)) node.needs = read_inputs(output.inputs, leaf);
+    if (has(output.reads, Reads::relations)) {
+      node.needs.insert(node.needs.end(), leaf.relations.begin(), leaf.relations.end());
+    }
+  }
+}
+
+/// The shapes of a leaf's inputs, or nothing while one of them is unknown.
+inline std::optional<std::vector<Shape>> input_shapes(const Plan& plan, const PlanLeaf& leaf) {
+  std::vector<Shape> shapes;
+  for (int input : leaf.inputs) {
+    if (!plan.node(input).shaped) return std::nullopt;
+    shapes.push_back(plan.node(input).shape);
+  }
+  return shapes;
+}
+
+/// Gives a node its shape if what decides it is known.
+inline bool shape_node(const Plan& plan, Node& node) {
+  const std::optional<Shape> fixed = [&]() -> std::optional<Shape> {
+    if (!node.relation) return plan.output_of(node).shape;
+    const auto size = plan.relation_of(node).size;
+    return size ? std::optional(Shape{*size, *size > 1}) : std::nullopt;
+  }();
+  const auto inputs =
+      fixed ? std::optional<std::vector<Shape>>() : input_shapes(plan, plan.leaf_of(node));
+  if (!fixed && !inputs) return false;
+  node.shape = fixed ? *fixed
+               : !node.relation && plan.output_of(node).shape_rule
+                   ? plan.output_of(node).shape_rule(*inputs)
+                   : elementwise(*inputs);
+  return node.shaped = true;
+}
+
+/// Gives their shapes to what can have one: all nodes in turn, then those of leaves whose last
+/// unknown input became known. Each wire is followed once.
+class Shaping {
+ public:
+  explicit Shaping(Plan& plan) : plan_(plan) {
+    std::vector<std::pair<int, int>> wires;  // from a node to a leaf that reads it
+    for (std::size_t l = 0; l < plan.leaves.size(); ++l)
+      for (const int input : plan.leaves[l].inputs) wires.emplace_back(input, static_cast<int>(l));
+    readers_ = Lists(plan.nodes.size(), wires);
+    for (const PlanLeaf& leaf : plan.leaves)
+      unknown_.push_back(static_cast<int>(leaf.inputs.size()));
+  }
+
+  void run() {
+    for (std::size_t i = 0; i < plan_.nodes.size(); ++i) shape(static_cast<int>(i));
+    while (!known_.empty()) {
+      const int node = known_.back();
+      known_.pop_back();
+      for (const int leaf : readers_[node]) {
+        const auto l = static_cast<std::size_t>(leaf);
+        if (--unknown_[l] > 0) continue;
+        for (const int output : plan_.leaves[l].outputs) shape(output);
+        for (const int relation : plan_.leaves[l].relations) shape(relation);
+      }
+    }
+  }
+
+ private:
+  void shape(int i) {
+    Node& node = plan_.nodes[static_cast<std::size_t>(i)];
+    if (!node.shaped && shape_node(plan_, node)) known_.push_back(i);
+  }
+
+  Plan& plan_;
+  Lists readers_;
+  std::vector<int> unknown_;  // inputs of each leaf
+  std::vector<int> known_;    // nodes whose readers have not been told
+};
+
+/// Shapes spread along the wires until all are known.
+inline void add_shapes(Plan& plan) {
+  Shaping(plan).run();
+  for (Node& node : plan.nodes) {
+    if (!node.shaped) {
+      Ordering(plan).run();  // an algebraic loop is the likelier cause: it throws with the path
+      throw ModelError(text("the width of output '", plan.name_of(node),
+                            "' depends on itself around a loop; put a block of known width, for "
+                            "example an Integrator "
+                            "with a vector initial_state, into the loop"));
+    }
+  }
+}
+
+/// Every input gets the shape it asked for, and elementwise blocks get equal widths.
+inline void check_shapes(const Plan& plan) {
+  for (const PlanLeaf& leaf : plan.leaves) {
+    for (std::size_t i = 0; i < leaf.inputs.size(); ++i) {
+      const Node& source = plan.node(leaf.inputs[i]);
+      const InputDeclaration& input = leaf.declared().inputs[i];
+      if (input.shape && input.shape->size != source.shape.size) {
+        throw ModelError(text("input '", input.name, "' of block '", leaf.path, "': expected ",
+                              input.shape->size, " values, found ", source.shape.size,
+                              " from output '", plan.name_of(source), "'"));
+      }
+    }
+  }
+}
+
+/// Places: views show a state or parameters; everything else gets room in `y`.
+inline void add_places(Plan& plan) {
+  for (Node& node : plan.nodes) {
+    if (!node.view) {
+      node.place = {Space::y, plan.ny, node.shape.size};
+      plan.ny += node.shape.size;
+      continue;
+    }
+    const PlanLeaf& leaf = plan.leaf_of(node);
+    node.place = *plan.output_of(node).view;
+    node.place.offset += node.place.space == Space::x   ? leaf.x
+                         : node.place.space == Space::z ? leaf.z
+                                                        : leaf.p;
+  }
+  for (PlanLeaf& leaf : plan.leaves) {
+    leaf.input_places.reserve(leaf.inputs.size());
+    for (int input : leaf.inputs) leaf.input_places.push_back(plan.node(input).place);
+  }
+}
+
+/// Leaves, wires and who reads whom.
+inline Plan flatten(const System& system) {
+  Structure structure = structure_of(system);
+  Plan plan;
+  add_leaves(plan, structure);
+  add_wires(plan, structure, LeafNumbers(plan));
+  add_needs(plan);
+  return plan;
+}
+
+/// Shapes and places; after the order, so that an algebraic loop is called that.
+inline void lay_out(Plan& plan) {
+  add_shapes(plan);
+  check_shapes(plan);
+  add_places(plan);
+}
+
+}  // namespace saltus::detail

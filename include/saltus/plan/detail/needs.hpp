@@ -1,0 +1,219 @@
+// Needs: what the derivatives, the guards, the instants and the taps read. Nothing else is ever
+// computed.
+#pragma once
+
+#include "saltus/plan/detail/flatten.hpp"
+
+namespace saltus::detail {
+
+using Marks = std::vector<char>;
+
+/// Marks nodes and all they read, down to what `stop` says is not computed again.
+template <class Stop>
+void spread(const Plan& plan, const std::vector<int>& from, Marks& marks, Stop stop) {
+  std::vector<int> open;
+  const auto mark = [&](const std::vector<int>& nodes) {
+    for (int i : nodes) {
+      if (!std::exchange(marks[static_cast<std::size_t>(i)], 1)) open.push_back(i);
+    }
+  };
+  mark(from);
+  while (!open.empty()) {
+    const Node& node = plan.node(open.back());
+    open.pop_back();
+    if (!stop(node)) mark(node.needs);
+  }
+}
+
+inline void append(std::vector<int>& list, const std::vector<int>& more) {
+  list.insert(list.end(), more.begin(), more.end());
+}
+inline void append_inputs(std::vector<int>& list, const std::optional<std::vector<int>>& named,
+                          const PlanLeaf& leaf) {
+  append(list, named ? read_inputs(named, leaf) : leaf.inputs);
+}
+
+/// The nodes that the functions of the leaves read. Found in one walk: it leads through all that a
+/// large diagram declares, which is more than a cache holds.
+struct Roots {
+  std::vector<int> derivatives;  // odes
+  std::vector<int> events;       // guards of zero crossings; signals watched for edges
+  std::vector<int> resets;       // reset maps and updates
+};
+
+inline void add_derivative_roots(const PlanLeaf& leaf, std::vector<int>& roots) {
+  const ContinuousState& state = leaf.declared().continuous;
+  if (leaf.nx == 0 || !state.ode) return;
+  if (has(state.reads, Reads::inputs)) append_inputs(roots, state.inputs, leaf);
+  if (has(state.reads, Reads::relations)) append(roots, leaf.relations);
+}
+
+inline void add_event_roots(const PlanLeaf& leaf, std::vector<int>& roots) {
+  for (const ZeroCrossing& crossing : leaf.declared().zero_crossings) {
+    if (crossing.direction == Direction::none) continue;
+    append_inputs(roots, crossing.inputs, leaf);
+    append(roots, leaf.relations);
+  }
+  for (const EdgeReset& reset : leaf.declared().edge_resets)
+    append(roots, read_inputs(std::vector{reset.input}, leaf));
+}
+
+inline void add_reset_roots(const PlanLeaf& leaf, std::vector<int>& roots) {
+  const Declarations& d = leaf.declared();
+  const std::size_t before = roots.size();
+  for (const auto& crossing : d.zero_crossings) {
+    if (crossing.reset_map) append(roots, leaf.inputs);
+  }
+  for (const auto& reset : d.edge_resets) append_inputs(roots, reset.inputs, leaf);
+  for (const auto& event : d.time_events) {
+    if (event.update) append_inputs(roots, event.inputs, leaf);
+  }
+  if (roots.size() > before || !d.time_events.empty()) append(roots, leaf.relations);
+}
+
+inline Roots find_roots(const Plan& plan) {
+  Roots roots;
+  for (const PlanLeaf& leaf : plan.leaves) {
+    add_derivative_roots(leaf, roots.derivatives);
+    add_event_roots(leaf, roots.events);
+    add_reset_roots(leaf, roots.resets);
+  }
+  return roots;
+}
+
+/// A relation, or a boolean output we cannot see into, is located when, and only when, it reaches a
+/// derivative, a guard or an edge: there its jump would spoil the solver's smooth picture.
+inline void find_located(Plan& plan, const Roots& roots) {
+  Marks reached(plan.nodes.size());
+  const auto never = [](const Node&) { return false; };
+  spread(plan, roots.derivatives, reached, never);
+  spread(plan, roots.events, reached, never);
+  for (std::size_t i = 0; i < plan.nodes.size(); ++i) {
+    if (reached[i] && plan.nodes[i].relation) plan.nodes[i].located = true;
+    plan.nodes[i].used = reached[i];  // kept for find_rates
+  }
+}
+
+/// The rate of a node by what it reads itself.
+inline Rate own_rate(const Plan& plan, const Node& node) {
+  const PlanLeaf& leaf = plan.leaf_of(node);
+  const Reads reads = node.relation ? plan.relation_of(node).reads : plan.output_of(node).reads;
+  return own_rate(reads, leaf.nx > 0, leaf.nz > 0, leaf.declared().has_modes);
+}
+
+/// The rates of all nodes before their order is known: each that rises lifts its readers, and none
+/// rises more than twice.
+inline std::vector<Rate> spread_rates(const Plan& plan) {
+  std::vector<std::pair<int, int>> reads;
+  std::vector<Rate> rates;
+  std::vector<int> risen(plan.nodes.size());
+  std::iota(risen.begin(), risen.end(), 0);
+  for (const int i : risen) {
+    rates.push_back(own_rate(plan, plan.node(i)));
+    for (const int need : plan.node(i).needs) reads.emplace_back(need, i);
+  }
+  const Lists readers(plan.nodes.size(), reads);
+  while (!risen.empty()) {
+    const int i = risen.back();
+    risen.pop_back();
+    const Node& node = plan.node(i);
+    const bool stepwise = node.located || (node.boolean && node.used);
+    const Rate own = rates[static_cast<std::size_t>(i)],
+               seen = stepwise ? std::min(own, Rate::held) : own;
+    for (const int reader : readers[i]) {
+      Rate& rate = rates[static_cast<std::size_t>(reader)];
+      if (seen <= rate) continue;
+      rate = seen;
+      risen.push_back(reader);
+    }
+  }
+  return rates;
+}
+
+/// A relation over constant or held values moves at instants only: it is read in order like any
+/// output, and is no guard.
+inline void release_held_relations(Plan& plan) {
+  const bool any = std::ranges::any_of(plan.nodes, &Node::relation);
+  const std::vector<Rate> rates = any ? spread_rates(plan) : std::vector<Rate>();
+  for (std::size_t i = 0; i < rates.size(); ++i) {
+    if (plan.nodes[i].relation && rates[i] != Rate::continuous) plan.nodes[i].located = false;
+  }
+}
+
+/// Rates spread along the order; a reached boolean that would be continuous is an opaque one,
+/// located and held.
+inline void find_rates(Plan& plan) {
+  for (int i : plan.order) {
+    Node& node = plan.nodes[static_cast<std::size_t>(i)];
+    node.rate = own_rate(plan, node);
+    for (int need : node.needs) node.rate = faster(node.rate, plan.node(need).rate);
+    if (!node.relation && node.boolean && node.used && node.rate == Rate::continuous)
+      node.located = true;
+    if (node.located) node.rate = Rate::held;  // what it reads may stand behind it in the order
+  }
+}
+
+/// What has to be computed for `roots`, in order: the nodes of one rate.
+inline std::vector<int> slice(const Plan& plan, const Marks& marks, Rate rate) {
+  std::vector<int> list;
+  for (int i : plan.order) {
+    const Node& node = plan.node(i);
+    if (marks[static_cast<std::size_t>(i)] && node.rate == rate && !node.view && !node.located)
+      list.push_back(i);
+  }
+  return list;
+}
+
+/// The inputs behind located relations and opaque booleans: what their guards read.
+inline std::vector<int> located_needs(const Plan& plan) {
+  std::vector<int> roots;
+  for (const Node& node : plan.nodes) {
+    if (node.located) append(roots, node.needs);
+  }
+  return roots;
+}
+
+/// The lists of the plan.
+inline void find_slices(Plan& plan, const Roots& roots) {
+  const auto held = [](const Node& node) { return node.rate != Rate::continuous; };
+  const auto never = [](const Node&) { return false; };
+  const auto marked = [&](const std::vector<int>& from, auto stop) {
+    Marks marks(plan.nodes.size());
+    spread(plan, from, marks, stop);
+    return marks;
+  };
+  std::vector<int> guards = roots.events, taps;
+  append(guards, located_needs(plan));
+  for (const Tap& tap : plan.taps) taps.push_back(tap.node);
+
+  const Marks moving = marked(roots.derivatives, held);
+  plan.derivatives = slice(plan, moving, Rate::continuous);
+  plan.guard_needs = slice(plan, marked(guards, held), Rate::continuous);
+  plan.tap_needs = slice(plan, marked(taps, held), Rate::continuous);
+
+  std::vector<int> all = roots.derivatives;
+  append(all, guards), append(all, taps), append(all, roots.resets);
+  const Marks used = marked(all, never);
+  for (std::size_t i = 0; i < plan.nodes.size(); ++i) plan.nodes[i].used = used[i];
+  plan.constants = slice(plan, used, Rate::constant);
+
+  Marks instants = marked(roots.resets, held);
+  std::vector<int> stepwise;
+  for (std::size_t i = 0; i < plan.nodes.size(); ++i) {
+    if (used[i] && plan.nodes[i].rate == Rate::held) stepwise.push_back(static_cast<int>(i));
+  }
+  spread(plan, stepwise, instants, never);
+  for (int i : plan.order) {
+    const Node& node = plan.node(i);
+    if (instants[static_cast<std::size_t>(i)] && node.rate != Rate::constant && !node.view &&
+        !node.located) {
+      plan.instants.push_back(i);
+    }
+  }
+  for (std::size_t i = 0; i < plan.nodes.size(); ++i) {
+    if (moving[i] && plan.nodes[i].rate == Rate::held)
+      plan.restarting.push_back(static_cast<int>(i));
+  }
+}
+
+}  // namespace saltus::detail

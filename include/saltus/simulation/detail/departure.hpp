@@ -1,0 +1,244 @@
+// Departure: to which side of zero the flow takes a guard that stands at zero.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "saltus/plan/detail/machine.hpp"
+#include "saltus/simulation/options.hpp"
+
+namespace saltus {
+
+/// Follows the flow from (t, x) for a short time d along x + d/2 (f(x) + f(x + d f)), right to
+/// second order (to fourth where that shows nothing), and lets d grow until the guard has left zero
+/// by more than rounding explains: that is its side. A guard that stays within rounding has none.
+/// Rounding is measured, not guessed: how much the guard moves when x, and with it f, is disturbed
+/// by a known relative amount.
+class Departure {
+ public:
+  Departure(Machine& machine, const SimulatorOptions& options)
+      : machine_(&machine), rtol_(options.rtol), atol_(options.atol) {
+    const Index n = machine.plan().nx;
+    for (auto* v : {&f_, &f_disturbed_, &f1_, &x1_, &move_, &trial_}) v->setZero(n);
+    const Index slots = machine.plan().guard_slots;
+    for (auto* v : {&g_, &g0_, &g_disturbed_}) v->setOnes(slots);
+  }
+
+  /// What the flow does to one guard: the side it takes (0: none), and the rounding it was told
+  /// from.
+  struct Side {
+    int side = 0;
+    double rounding = 0.0;
+  };
+
+  /// Sets the point to depart from; `longest` [s] bounds how far ahead it looks.
+  void from(double t, const Eigen::VectorXd& x, double longest) {
+    t_ = t, x_ = &x;
+    machine_->derivative(t, x.data(), f_.data());
+    longest_ = longest;  // a run of no length has sides too
+    if (longest < 1.0) longest_ = std::max(longest, std::min(1.0, 1e9 * quickest()));
+    disturbed_ = looked_ = false;
+  }
+
+  /// f at the point it departs from.
+  const Eigen::VectorXd& flow() const noexcept { return f_; }
+
+  /// Rounding of a guard where it stands.
+  double rounding(Index slot) {
+    x1_ = *x_;
+    return rounding_after(0.0, slot, g0(slot));
+  }
+
+  /// What thirty tolerances of the states leave uncertain of a guard where it stands.
+  double tolerance(Index slot) { return 30.0 * (rounding(slot) * rtol_ / (16.0 * eps) + atol_); }
+
+  /// `hair`: a guard within it is at zero too, and is followed until it has left that as well.
+  /// `expected`: a side that makes no difference to being at zero, so that its rounding need not be
+  /// asked for; `either_side` where only the side matters.
+  static constexpr int either_side = 2;
+  Side of(const GuardGroup& group, Index slot, double hair, int expected) {
+    const Side side = follow(group, slot, hair, expected);
+    if (side.side != 0 || group.kind == GuardGroup::Kind::opaque) return side;
+    fine_ = true;  // what a chain of more than two integrators does shows at higher order only
+    const Side finer = follow(group, slot, hair, expected);
+    fine_ = false;
+    return finer;
+  }
+
+  /// d g / d t along the flow at (t, x), by two forward differences over the time that `of` starts
+  /// with. Extrapolated, so that the curvature of a ball at rest is no speed: what is left of it by
+  /// rounding counts as zero.
+  double slope(const GuardGroup& group, Index slot) {
+    const double d = first_time(group);
+    const double near = (guard_after(0.5 * d, slot) - g0(slot)) / (0.5 * d);
+    const double g = guard_after(d, slot), far = (g - g0(slot)) / d,
+                 extrapolated = 2.0 * near - far;
+    const double noise =
+        std::max(1e-6 * std::abs(far - near), 4.0 * rounding_after(d, slot, g) / d);
+    return std::abs(extrapolated) > noise ? extrapolated : 0.0;
+  }
+
+  /// The same along another flow f through (t, x), to first order.
+  double slope_along(const Eigen::VectorXd& f, const GuardGroup& group, Index slot) {
+    const double d = first_time(group);
+    x1_ = *x_ + d * f;
+    machine_->guards(t_ + d, x1_.data(), g_.data());
+    return (g_[slot] - g0(slot)) / d;
+  }
+
+ private:
+  static constexpr double amount =
+      1e-7;  // of the disturbance: large against rounding, small against curvature
+  static constexpr double eps = std::numeric_limits<double>::epsilon();
+
+  Side follow(const GuardGroup& group, Index slot, double hair, int expected) {
+    Side result{.rounding = hair};
+    const bool opaque = group.kind == GuardGroup::Kind::opaque;
+    double d = first_time(group);
+    double g = guard_after(d, slot);
+    // Not much further than the tolerance sees: what lies behind is the solver's to find.
+    for (double furthest = std::min(longest_, std::max(3e5 * d, lift_time(group, d)));;
+         g = guard_after(d, slot)) {
+      const int side = (g > 0.0) - (g < 0.0);
+      // A guard that moves as the states do is beyond doubt.
+      if (side != 0 && (side == expected || expected == either_side) &&
+          std::abs(g) > std::max(hair, 1e-3 * largest_move()))
+        return result.side = side, result;
+      const double rounding = opaque ? 0.0 : rounding_after(d, slot, g);
+      result.rounding = std::max(hair, rounding);
+      if (std::abs(g) > result.rounding && (!opaque || has_moved(group)))
+        return result.side = side, result;
+      if (std::abs(g) > rounding && !opaque) furthest = longest_;
+      d *= 8.0;
+      if (d > furthest) return result;
+    }
+  }
+
+  /// The guard where it departs from; few ask for it.
+  double g0(Index slot) {
+    if (!looked_) machine_->guards(t_, x_->data(), g0_.data());
+    looked_ = true;
+    return g0_[slot];
+  }
+
+  double largest_move() const { return move_.size() > 0 ? move_.cwiseAbs().maxCoeff() : 0.0; }
+
+  /// Weights without pattern, so that what cancels in a guard does not cancel in the disturbance.
+  static void disturb(Eigen::VectorXd& x) {
+    double weight = 0.618;
+    for (double& value : x) {
+      value *= 1.0 + amount * (weight < 0.5 ? -0.5 - weight : weight);
+      weight += 0.618033988749895;
+      if (weight >= 1.0) weight -= 1.0;
+    }
+  }
+
+  /// [s] in which the fastest of all states moves by its tolerance: the scale where a run, or what
+  /// is left of it, is too short to say.
+  double quickest() const {
+    double time = std::numeric_limits<double>::infinity();
+    for (Index i = 0; i < f_.size(); ++i)
+      time = std::min(time, (rtol_ * std::abs((*x_)[i]) + atol_) / std::abs(f_[i]));
+    return time;
+  }
+
+  /// The time in which the fastest state the guard depends on moves by its tolerance. A state that
+  /// hardly does so within the run says nothing: what moves the guard is the time, or another
+  /// block.
+  double first_time(const GuardGroup& group) const {
+    double d = 1e-9 * longest_;  // for a guard that no state moves
+    bool moved = false;
+    for (int leaf : group.leaves) {
+      const PlanLeaf& of = machine_->plan().leaves[static_cast<std::size_t>(leaf)];
+      for (Index i = of.x; i < of.x + of.nx; ++i) {
+        const double time = (rtol_ * std::abs((*x_)[i]) + atol_) / std::abs(f_[i]);
+        if (!(time <= 1e-3 * longest_)) continue;
+        d = moved ? std::min(d, time) : time;
+        moved = true;
+      }
+    }
+    return std::max(d, 64.0 * eps * std::abs(t_));
+  }
+
+  /// The time after which curvature has lifted the states off their own rounding, from f and f1
+  /// after d: at a tight tolerance that is longer than the tolerance sees.
+  double lift_time(const GuardGroup& group, double d) const {
+    double time = 0.0;
+    for (int leaf : group.leaves) {
+      const PlanLeaf& of = machine_->plan().leaves[static_cast<std::size_t>(leaf)];
+      for (Index i = of.x; i < of.x + of.nx; ++i) {
+        const double bend = std::abs(f1_[i] - f_[i]) / d;
+        if (bend > 0.0) time = std::max(time, std::sqrt(64.0 * eps * std::abs((*x_)[i]) / bend));
+      }
+    }
+    return std::min(16.0 * time, 1e-2 * longest_);
+  }
+
+  double guard_after(double d, Index slot) {
+    x1_ = *x_ + (fine_ ? 0.5 * d : d) * f_;
+    machine_->derivative(t_ + (fine_ ? 0.5 * d : d), x1_.data(), f1_.data());
+    if (fine_)
+      add_middle_and_end(d);
+    else
+      move_ = 0.5 * d * (f_ + f1_);
+    x1_ = *x_ + move_;
+    machine_->guards(t_ + d, x1_.data(), g_.data());
+    return g_[slot];
+  }
+
+  /// The classical method of order 4 from its second stage, f1_, on (Hairer, Norsett, Wanner I, p.
+  /// 138, table 1.2).
+  void add_middle_and_end(double d) {
+    move_ = f_ + 2.0 * f1_;
+    x1_ = *x_ + 0.5 * d * f1_;
+    machine_->derivative(t_ + 0.5 * d, x1_.data(), f1_.data());
+    move_ += 2.0 * f1_;
+    x1_ = *x_ + d * f1_;
+    machine_->derivative(t_ + d, x1_.data(), f1_.data());
+    move_ = (d / 6.0) * (move_ + f1_);
+  }
+
+  /// Sixteen units of rounding in x, in f and in t, carried through the guard.
+  double rounding_after(double d, Index slot, double g) {
+    if (!disturbed_) {
+      trial_ = *x_;
+      disturb(trial_);
+      machine_->derivative(t_, trial_.data(), f_disturbed_.data());
+      disturbed_ = true;
+    }
+    trial_ = x1_;
+    disturb(trial_);
+    machine_->guards(t_ + d, trial_.data(), g_disturbed_.data());
+    const double through_x = std::abs(g_disturbed_[slot] - g);
+    trial_ = x1_ + d * (f_disturbed_ - f_);
+    machine_->guards(t_ + d, trial_.data(), g_disturbed_.data());
+    const double through_f = std::abs(g_disturbed_[slot] - g);
+    machine_->guards(t_ + d + 64.0 * eps * std::abs(t_), x1_.data(), g_disturbed_.data());
+    return 16.0 * eps / amount * (through_x + through_f) + 0.25 * std::abs(g_disturbed_[slot] - g);
+  }
+
+  /// For a guard that only says yes or no: whether each state it reads has moved by more than its
+  /// rounding.
+  bool has_moved(const GuardGroup& group) const {
+    for (int leaf : group.leaves) {
+      const PlanLeaf& of = machine_->plan().leaves[static_cast<std::size_t>(leaf)];
+      for (Index i = of.x; i < of.x + of.nx; ++i) {
+        if (move_[i] != 0.0 && std::abs(move_[i]) <= 16.0 * eps * std::abs((*x_)[i])) return false;
+      }
+    }
+    return true;
+  }
+
+  Machine* machine_;
+  double rtol_, atol_;
+  double t_ = 0.0, longest_ = 0.0;
+  const Eigen::VectorXd* x_ = nullptr;
+  bool fine_ = false;       // follow the flow with order 4
+  bool disturbed_ = false;  // f_disturbed_ is that of x_
+  bool looked_ = false;     // g0_ is
+  Eigen::VectorXd f_, f_disturbed_, f1_, x1_, move_, trial_, g_, g0_, g_disturbed_;
+};
+
+}  // namespace saltus

@@ -1,0 +1,164 @@
+// AutoSolver: a one-step method while the scene is not stiff, BDF while it is.
+#pragma once
+
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "saltus/solver/detail/cvode.hpp"
+#include "saltus/solver/detail/one_step.hpp"
+#include "saltus/solver/detail/spectral_radius.hpp"
+
+namespace saltus {
+
+/// Starts with the explicit method; when that looks stiff, BDF takes over at the present point, and
+/// hands back where |lambda| h < 1 for the steps h that BDF takes: the explicit method has room for
+/// them (L. Petzold, SIAM J. Sci. Stat. Comput. 4 (1983) 136). That is asked when a stretch of BDF
+/// is restarted, and every fifty of its steps, where it has to be so several times running: two at
+/// first, twice as often after each return that did not last, so that the two do not play ball.
+/// They share the Watch, so no guard notices. CVODE is made when it is first needed.
+class AutoSolver final : public Solver {
+ public:
+  AutoSolver(Machine& machine, Watch& watch, const SolverOptions& options,
+             std::unique_ptr<OneStepSolver> one_step)
+      : machine_(&machine),
+        watch_(&watch),
+        options_(options),
+        explicit_(std::move(one_step)),
+        radius_(machine, options) {
+    explicit_->watch_stiffness();
+  }
+
+  void restart(double t, const Eigen::VectorXd& x, const Start& start) override {
+    if (start.first) begin_run(t);
+    if (stiff_ && radius_(t, x) * longest() < 1.0) change(t, false);
+    before_ = start.first ? 0.0 : longest();
+    forget_steps();
+    now().restart(t, x, start);
+  }
+
+  StopReason advance(double t_stop) override {
+    if (now_at_step_end()) choose();
+    const double from = now().time();
+    const StopReason reason = now().advance(t_stop);
+    longest_ = std::max(longest_, now().time() - from);
+    ++steps_;
+    return reason;
+  }
+
+  void interpolate(double t, double* x) override { now().interpolate(t, x); }
+  int degree() const override { return now().degree(); }
+  double joint() override { return now().joint(); }
+  const std::vector<Firing>& roots() const override { return watch_->fired; }
+  double time() const override { return now().time(); }
+  const Eigen::VectorXd& state() const override { return now().state(); }
+  bool at_step_end() const override { return now().at_step_end(); }
+
+  const SolverStatistics& statistics() const override {
+    sum_ = explicit_->statistics();
+    if (bdf_) {
+      const SolverStatistics& more = bdf_->statistics();
+      sum_.steps += more.steps, sum_.rejected += more.rejected;
+      sum_.restarts += more.restarts, sum_.linear_setups += more.linear_setups;
+      sum_.linear_solver = more.linear_solver;
+    }
+    return sum_;
+  }
+
+  std::vector<Stretch> stretches() const override {
+    std::vector<Stretch> all = past_;
+    all.push_back(present());
+    return all;
+  }
+
+  std::string method() const override {
+    std::string all = past_.empty() ? present().method : past_.front().method;
+    constexpr std::size_t shown = 4;
+    const auto list = stretches();
+    for (std::size_t i = 1; i < std::min(list.size(), shown); ++i)
+      all += text(", then ", list[i].method, " from t = ", list[i].begin, " s: the scene ",
+                  list[i].method == "bdf" ? "looks stiff" : "no longer does");
+    return list.size() > shown ? text(all, "; ", list.size(), " stretches in all") : all;
+  }
+
+ private:
+  Solver& now() { return stiff_ ? *bdf_ : static_cast<Solver&>(*explicit_); }
+  const Solver& now() const { return stiff_ ? static_cast<const Solver&>(*bdf_) : *explicit_; }
+  bool now_at_step_end() const { return now().at_step_end(); }
+
+  void begin_run(double t) {
+    stiff_ = false, bdf_.reset(), radius_.forget();
+    past_.clear(), begun_ = t, steps_before_ = 0;
+    longest_ = window_ = 0.0, patience_ = 2;
+  }
+  void forget_steps() { longest_ = window_ = 0.0, steps_ = calm_ = 0, fresh_ = true; }
+  double longest() const { return std::max(longest_, window_); }
+
+  /// At the end of a step: goes on with the other method if that is due.
+  void choose() {
+    const bool stiff = stiff_ ? !calm_again() : explicit_->looks_stiff() || collapsed();
+    if (stiff == stiff_) return;
+    const double t = now().time();
+    handed_over_ = now().state();
+    if (stiff && steps_ < 100 && !past_.empty()) patience_ = std::min(2 * patience_, 64);
+    change(t, stiff);
+    forget_steps(), before_ = 0.0;
+    now().restart(t, handed_over_, {.handover = true});
+  }
+
+  /// The first step after a restart a hundred times shorter than those before, and stability the
+  /// cause: fifteen more such steps need not be waited for. An oscillation that begins bounds it
+  /// too, but by the error, far below what stability allows.
+  bool collapsed() {
+    if (!fresh_ || steps_ == 0) return false;
+    fresh_ = false;
+    if (!(longest_ < 0.01 * before_)) return false;
+    const double radius = radius_(explicit_->time(), explicit_->state());
+    return radius * before_ > 10.0 * explicit_->stability() && radius * longest_ > 0.25;
+  }
+
+  /// Every fifty steps of BDF; not in the first fifty, when its order and steps still rise.
+  bool calm_again() {
+    if (steps_ == 0 || steps_ % 50 != 0) return false;
+    window_ = std::exchange(longest_, 0.0);
+    if (steps_ < 100) return false;
+    calm_ = radius_(bdf_->time(), bdf_->state()) * window_ < 1.0 ? calm_ + 1 : 0;
+    return calm_ >= patience_;
+  }
+
+  void change(double t, bool stiff) {
+    past_.push_back(present());
+    past_.back().end = t;
+    begun_ = t;
+    stiff_ = stiff;
+    if (stiff && !bdf_) bdf_ = make_cvode(*machine_, *watch_, options_, CvodeMethod::bdf);
+    steps_before_ = now().statistics().steps;
+  }
+
+  Stretch present() const {
+    return {now().method(), begun_, now().time(), now().statistics().steps - steps_before_};
+  }
+
+  Machine* machine_;
+  Watch* watch_;
+  SolverOptions options_;
+  std::unique_ptr<OneStepSolver> explicit_;
+  std::unique_ptr<Solver> bdf_;
+  SpectralRadius radius_;
+  bool stiff_ = false;
+  double longest_ = 0.0;  // [s] of the steps since the last restart, change of method or check
+  double window_ = 0.0;   // [s] of the fifty before the last check
+  double before_ = 0.0;   // [s] the same before the last restart
+  bool fresh_ = true;     // no step looked at since then
+  int steps_ = 0;         // since then
+  int calm_ = 0, patience_ = 2;
+  Eigen::VectorXd handed_over_;  // the state at a change
+  std::vector<Stretch> past_;
+  double begun_ = 0.0;  // [s] the present stretch
+  std::int64_t steps_before_ = 0;
+  mutable SolverStatistics sum_;
+};
+
+}  // namespace saltus

@@ -1,0 +1,21 @@
+// CVODE behind the seam. No SUNDIALS header shows here: it is included under src/ only.
+#pragma once
+
+#include <memory>
+
+#include "saltus/solver/detail/solver.hpp"
+
+namespace saltus {
+
+enum class CvodeMethod {
+  adams,  ///< Adams-Moulton, orders 1 to 12, fixed-point iteration: long smooth stretches
+  bdf     ///< backward differentiation, orders 1 to 5, Newton iteration: stiff scenes
+};
+
+/// A. C. Hindmarsh et al., "SUNDIALS: Suite of nonlinear and differential/algebraic equation
+/// solvers", ACM TOMS 31 (2005) 363. Its own root-finding watches the guards; a root it returns is
+/// polished on its interpolant.
+std::unique_ptr<Solver> make_cvode(Machine& machine, Watch& watch, const SolverOptions& options,
+                                   CvodeMethod method);
+
+}  // namespace saltus

@@ -1,0 +1,123 @@
+// The arithmetic of one explicit step, whoever evaluates the right-hand side: the stepper through
+// the machine, or code that was compiled together with a user's function (`inlined.hpp`).
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "saltus/solver/detail/tableau.hpp"
+
+namespace saltus::detail {
+
+/// An attempt to go from t0 to t1 = t0 + h.
+struct Attempt {
+  double t0, t1, h;  // [s]
+  double rtol, atol;
+};
+
+/// Works on the memory of a stepper: x0 and k[0] = f(t0, x0) are known, x1 and all other k are
+/// made. Column i of k stands at k[i n]. N: how many states there are, or 0 for n known at run
+/// time. `rate(t, x, xdot)` is the right-hand side.
+template <Tableau Method, int N, int W = called_width<N>>
+class ExplicitStep {
+ public:
+  static constexpr std::size_t last = Method::stages - 1;
+  /// Whether the error estimate reads f(t1, x1); if not, a rejected step is spared that call.
+  static constexpr bool estimate_reads_end =
+      std::ranges::any_of(Method::e, [](const auto& row) { return row[last] != 0.0; });
+
+  ExplicitStep(Index n, const double* x0, double* x1, double* scratch, double* k)
+      : n_(n), x0_(x0), x1_(x1), scratch_(scratch), k_(k) {}
+
+  /// The scaled error, infinite if anything is not finite. If it is at most 1 all of k is there,
+  /// and scratch is what the last stage but one read.
+  template <class Rate>
+  double attempt(const Attempt& a, const Rate& rate) {
+    end(a.t0, a.h, rate);
+    if constexpr (estimate_reads_end) {
+      rate(a.t1, x1_, column(last));
+      return error(a);
+    } else {
+      const double found = error(a);
+      if (found > 1.0) return found;
+      rate(a.t1, x1_, column(last));
+      return VectorView(column(last), size()).allFinite() ? found : infinite;
+    }
+  }
+
+  /// x1, and the stages that it takes.
+  template <class Rate>
+  [[gnu::always_inline]] void end(double t0, double h, const Rate& rate) {
+    stages<1, last>(t0, h, rate);
+    combine<last>(h, x1_);
+  }
+
+  /// Stages First to End - 1.
+  template <std::size_t First, std::size_t End, class Rate>
+  [[gnu::always_inline]] void stages(double t0, double h, const Rate& rate) {
+    if constexpr (First < End) {
+      stage<First>(t0, h, rate);
+      stages<First + 1, End>(t0, h, rate);
+    }
+  }
+
+ private:
+  static constexpr std::size_t estimates = Method::e.size();
+  static constexpr double infinite = std::numeric_limits<double>::infinity();
+
+  Index size() const {
+    if constexpr (N == 0)
+      return n_;
+    else
+      return N;
+  }
+  double* column(std::size_t i) { return k_ + static_cast<Index>(i) * size(); }
+
+  template <std::size_t I, class Rate>
+  [[gnu::always_inline]] void stage(double t0, double h, const Rate& rate) {
+    combine<I>(h, scratch_);
+    rate(t0 + Method::c[I] * h, scratch_, column(I));
+  }
+
+  /// x0 + h sum_j a[I][j] k_j
+  template <std::size_t I>
+  [[gnu::always_inline]] void combine(double h, double* out) const {
+    constexpr auto row = [] { return Method::a[I]; };
+    for_lanes<W, N>(size(), [&](Index i) {
+      Lane<W> sum = zero<W>();
+      if constexpr (cancels(row()))
+        sum = Method::c[I] * load<W>(k_ + i) + dot_of_differences<row, I, W>(k_ + i, size());
+      else
+        sum = dot<row, I, W>(k_ + i, size());
+      store<W>(out + i, load<W>(x0_ + i) + h * sum);
+    });
+  }
+
+  /// The method's error from the mean squares of estimate / (atol + rtol max(|x0|, |x1|)).
+  double error(const Attempt& a) const {
+    if (size() == 0) return 0.0;
+    std::array<double, estimates> squares{};
+    for_lanes<W, N>(size(), [&](Index i) {
+      const Lane<W> largest = larger(load<W>(x0_ + i), load<W>(x1_ + i));
+      add_squares(a.h, a.atol + a.rtol * largest, k_ + i, squares,
+                  std::make_index_sequence<estimates>{});
+    });
+    for (double& square : squares) square /= static_cast<double>(size());
+    const double found = Method::error(squares);
+    return std::isfinite(found) ? found : infinite;
+  }
+  template <std::size_t... M>
+  void add_squares(double h, const Lane<W>& tolerance, const double* k,
+                   std::array<double, estimates>& squares, std::index_sequence<M...>) const {
+    ((squares[M] += sum_of_squares(
+          Lane<W>(h * dot<[] { return Method::e[M]; }, Method::stages, W>(k, size()) / tolerance))),
+     ...);
+  }
+
+  Index n_;
+  const double* x0_;
+  double *x1_, *scratch_, *k_;
+};
+
+}  // namespace saltus::detail

@@ -1,0 +1,47 @@
+// Steps that were compiled together with a right-hand side, as the stepper calls them.
+#pragma once
+
+#include <cstdint>
+#include <type_traits>
+
+#include "saltus/base/callback.hpp"
+#include "saltus/solver/detail/dopri5.hpp"
+
+namespace saltus::detail {
+
+struct Attempt;
+
+/// A right-hand side, its leaf, what the leaf sees, and the count of its calls.
+struct Caller {
+  const VectorFunction* function;
+  const LeafSystem* leaf;
+  const At* at;
+  std::int64_t* calls;
+};
+
+/// Where a stepper keeps a step: see ExplicitStep.
+struct StepMemory {
+  const double* x0;
+  double *x1, *scratch, *k;
+};
+
+/// The steps of one method: ExplicitStep::attempt, and its stages for the dense output alone.
+struct MethodKernels {
+  double (*attempt)(const Caller&, const Attempt&, const StepMemory&);
+  void (*dense)(const Caller&, double t0, double h, const StepMemory&);
+};
+
+/// Behind VectorFunction::kernels().
+struct StepKernels {
+  MethodKernels dopri5, dop853;
+
+  template <class Method>
+  const MethodKernels& of() const {
+    if constexpr (std::is_same_v<Method, Dopri5>)
+      return dopri5;
+    else
+      return dop853;
+  }
+};
+
+}  // namespace saltus::detail

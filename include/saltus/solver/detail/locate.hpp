@@ -1,0 +1,314 @@
+// Location: the earliest crossing of any guard inside one solver step, on the solver's own
+// interpolant.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "saltus/solver/detail/dip.hpp"
+#include "saltus/solver/detail/narrow.hpp"
+
+namespace saltus {
+
+/// Looks at all guards at a few interior points of a step, and where three looks say that a guard
+/// dips across zero and back (pairs of roots); the first interval in which one crosses is narrowed.
+class Locator : private Narrower {
+ public:
+  Locator(Machine& machine, Watch& watch) : Narrower(machine, watch) {
+    const auto slots = static_cast<std::size_t>(machine.plan().guard_slots);
+    for (auto* values : {&earlier_, &at_root_, &before_, &end_, &speed_})
+      values->assign(slots, 1.0);
+    plain_.reserve(slots);
+  }
+
+  /// The first offset in (from, to] at which a guard that is no monitor fires; false if there is
+  /// none. The step begins at `t0`; `interpolate(u, x)` gives the state inside it, `end` is the
+  /// state at `to` exactly, `guards` are the guards there if they are known, else null.
+  template <class Interpolate>
+  bool find(double t0, double from, double to, const double* end, const double* guards,
+            const Interpolate& interpolate) {
+    t0_ = t0;
+    if (version_ != watch_->version) look_up_slots();
+    if (guards != nullptr)
+      std::copy_n(guards, high_.size(), high_.data());
+    else
+      look(to, end, interpolate, high_);
+    const bool skips = watch_->scan_points > 0 && out_of_reach(from, to);
+    if (!skips || skipped_ >= patience_) return find_inside(from, to, end, skips, interpolate);
+    ++skipped_;
+    shift_all(from, to);
+    earlier_at_ -= to;  // seen from the next step
+    return false;
+  }
+
+  /// Begins anew: what was seen of the guards before a restart says nothing.
+  void forget() { earlier_at_ = never, version_ = -1, skipped_ = patience_ = least_patience; }
+
+  double offset() const noexcept { return root_; }
+
+ private:
+  /// The same by looks inside the step, piece by piece; high_ is known at its end. Kept out of
+  /// find, which most steps go through and no further.
+  template <class Interpolate>
+  [[gnu::noinline]] bool find_inside(double from, double to, const double* end, bool needless,
+                                     const Interpolate& interpolate) {
+    // A look that was not needed may come later the next time: after 7 steps, 15, 31, then 63.
+    patience_ = needless && skipped_ > 0 ? std::min(2 * patience_ + 1, 63) : least_patience;
+    skipped_ = 0;
+    end_.swap(high_);
+    end_at_ = to;
+    const int pieces = watch_->scan_points + 1;
+    const double piece_length = (to - from) / pieces;
+    for (int piece = 1; piece <= pieces; ++piece) {
+      const bool last = piece == pieces;
+      const double next = last ? to : std::min(to, from + piece_length);
+      if (last)
+        high_.swap(end_);
+      else
+        look(next, nullptr, interpolate, high_);
+      if (calm(from, next))
+        shift_all(from, next);
+      else if (from < next && find_in(from, next, last ? end : nullptr, interpolate))
+        return true;
+      from = next;
+    }
+    earlier_at_ -= to;
+    return false;
+  }
+
+  void look_up_slots() {
+    version_ = watch_->version;
+    set_limits();
+    plain_.clear();
+    jumps_ = false;
+    for (const std::size_t k : watch_->active) {
+      plain_.push_back(watch_->slots[k].plain_side());
+      jumps_ = jumps_ || watch_->slots[k].jumps;
+    }
+  }
+
+  /// Whether a step, high_ looked at at its end, needs no look inside: no guard could get to zero
+  /// and back even if it moved eight times as fast as it was seen to of late (the bound of B. O.
+  /// Shubert, "A sequential method seeking the global maximum of a function", SIAM J. Numer. Anal.
+  /// 9 (1972) 379). After `patience_` such steps one is looked into all the same.
+  bool out_of_reach(double from, double to) const {
+    if (jumps_) return false;
+    for (std::size_t i = 0; i < plain_.size(); ++i) {
+      const std::size_t k = watch_->active[i];
+      const double now = plain_[i] * high_[k], before = plain_[i] * watch_->g[k];
+      const double moves = std::max(std::abs(now - before), speed_[k] * (to - from));
+      if (!(now > 0.0 && now + before > 8.0 * moves)) return false;
+    }
+    return true;
+  }
+
+  /// Whether nothing can have happened between the look at `from` and high_, at `to`: each guard is
+  /// clearly on its side at both, and the parabola through the last three looks has no vertex in
+  /// between. So it is in most steps; all else is find_in's.
+  bool calm(double from, double to) const {
+    const double r = (to - from) / (from - earlier_at_);
+    const bool dips = earlier_at_ != never && watch_->scan_points > 0;
+    for (std::size_t i = 0; i < plain_.size(); ++i) {
+      const double side = plain_[i];
+      const std::size_t k = watch_->active[i];
+      const double now = side * high_[k], before = side * watch_->g[k];
+      if (!(now > 0.0 && now < never)) return false;  // never is infinite
+      if (!dips) continue;
+      const double rise = now - before, earlier_rise = before - side * earlier_[k];
+      // The parabola falls at `from` and rises at `to`.
+      if (rise < -earlier_rise * r * r && rise * (1.0 + 2.0 * r) > earlier_rise * r * r)
+        return false;
+    }
+    return true;
+  }
+  void shift_all(double from, double to) {
+    for (const std::size_t k : watch_->active) {
+      speed_[k] = std::max(0.5 * speed_[k], std::abs(high_[k] - watch_->g[k]) / (to - from));
+      earlier_[k] = watch_->g[k], watch_->g[k] = high_[k];
+    }
+    earlier_at_ = from;
+  }
+
+  /// One piece of a step, `high_` looked at at its end, without points in between, save where a
+  /// guard seems to dip across zero and back; monitors are noted and passed.
+  template <class Interpolate>
+  bool find_in(double from, double to, const double* end, const Interpolate& interpolate,
+               bool between = true) {
+    for (bool looked = true; from < to; looked = false) {
+      if (!looked) look(to, end, interpolate, high_);
+      double high = to;
+      if (!note_crossed(high_)) {
+        const double dip = watch_->scan_points > 0 ? find_dip(from, to, interpolate) : never;
+        if (dip == never) {
+          shift(from);
+          follow();
+          return false;
+        }
+        high = dip;
+        high_.swap(middle_);
+        if (!note_crossed(high_)) {  // to the side on which it does not fire
+          shift(from);
+          follow();
+          from = dip;
+          continue;
+        }
+      }
+      const double before = from;
+      before_ = watch_->g;
+      // A look that does not depend on the other guards: no monitor may change a bit of a root.
+      third_ = end_, third_at_ = high < end_at_ ? end_at_ : never;
+      from = narrow(from, high, interpolate);
+      if (between && watch_->active.size() > 1 && watch_->scan_points > 0) {
+        if (find_before(before, from, interpolate)) return true;
+      } else if (from - before > 1e-3 * (to - before)) {
+        earlier_.swap(before_);
+        earlier_at_ = before;
+      }
+      if (take(from)) return true;
+      leave_zero_of_monitors(from, to, interpolate);
+    }
+    return false;
+  }
+
+  /// The same for what lies before a root: it cuts the step, and what was looked at were points of
+  /// the longer one. Afterwards `high_` and crossed_ are those of the root again.
+  template <class Interpolate>
+  bool find_before(double from, double root, const Interpolate& interpolate) {
+    at_root_ = high_;
+    const double piece = (root - from) / (watch_->scan_points + 1);
+    for (int i = 1; i <= watch_->scan_points; ++i) {
+      const double next = std::min(root, from + piece);
+      if (from < next) look(next, nullptr, interpolate, high_);
+      if (find_in(from, next, nullptr, interpolate, false)) return true;
+      from = next;
+    }
+    high_ = at_root_;
+    if (!note_crossed(high_)) crossed_.clear();  // a monitor that was found a rounding before it
+    return false;
+  }
+
+  /// A monitor located exactly on zero: the side it leaves to, a hair further on.
+  template <class Interpolate>
+  void leave_zero_of_monitors(double from, double to, const Interpolate& interpolate) {
+    const auto unsure = [&](std::size_t k) { return watch_->slots[k].side == 0; };
+    if (std::ranges::none_of(crossed_, unsure)) return;
+    const double resolution = std::numeric_limits<double>::epsilon() * (std::abs(t0_) + from);
+    look(std::min(to, from + std::max(64.0 * resolution, 1e-9 * (to - from))), nullptr, interpolate,
+         middle_);
+    for (const std::size_t k : crossed_) {
+      GuardSlot& slot = watch_->slots[k];
+      if (slot.side == 0)
+        slot.side = static_cast<signed char>((middle_[k] > 0.0) - (middle_[k] < 0.0));
+    }
+    look_up_slots();
+  }
+
+  /// The look at `from` is the one before the next look.
+  void shift(double from) {
+    earlier_ = watch_->g;
+    earlier_at_ = from;
+  }
+
+  /// Where between two looks a guard seems to cross zero and come back: the vertex of the parabola
+  /// through three looks, moved by successive parabolic interpolation (R. P. Brent, "Algorithms for
+  /// Minimization without Derivatives", 1973, ch. 5) until the guard there is beyond zero.
+  /// `middle_` then holds the guards at that offset; `never` if there is no such place.
+  template <class Interpolate>
+  double find_dip(double from, double to, const Interpolate& interpolate) {
+    if (earlier_at_ == never) return never;
+    for (const std::size_t k : watch_->active) {
+      const GuardSlot& slot = watch_->slots[k];
+      if (slot.side == 0 || slot.fresh || slot.jumps || slot.leaving) continue;
+      Dip dip{{earlier_at_, from, to},
+              {slot.side * earlier_[k], slot.side * watch_->g[k], slot.side * high_[k]}};
+      // A touch within rounding is none; nor is a vertex far above zero.
+      const double size = std::max({dip.g[0], dip.g[1], dip.g[2]});
+      double u = dip.vertex(0.25 * size);
+      for (int round = 0; round < 6 && u > from && u < to; ++round) {
+        look(u, nullptr, interpolate, middle_);
+        const double g = slot.side * middle_[k];
+        if (g < -1e-12 * size) return u;
+        dip.replace(u, g);
+        u = dip.vertex(0.5 * dip.g[1]);
+      }
+    }
+    return never;
+  }
+
+  /// Takes over the sides at high_, where nothing fired.
+  void follow() {
+    for (std::size_t i = 0; i < limits_.size(); ++i) {
+      const std::size_t k = watch_->active[i];
+      GuardSlot& slot = watch_->slots[k];
+      const bool stays =
+          !slot.waits() && (slot.side > 0 ? high_[k] > 0.0 : slot.side < 0 && high_[k] < 0.0);
+      watch_->g[k] = high_[k];
+      if (stays) continue;
+      slot.follow(high_[k]);
+      limits_[i] = slot.limits();
+      plain_[i] = slot.plain_side();
+    }
+  }
+
+  [[noreturn]] void throw_not_finite(std::size_t k, double t) const {
+    const auto holds = [k](const GuardGroup& g) {
+      return static_cast<Index>(k) >= g.slot && static_cast<Index>(k) < g.slot + g.size;
+    };
+    const GuardGroup& group = *std::ranges::find_if(machine_->plan().guards, holds);
+    throw SimulationError(text("t = ", t, " s: guard '", group.name,
+                               "' is not finite (NaN or Inf); check it at this state"),
+                          t, machine_->plan().leaves[static_cast<std::size_t>(group.leaf)].path);
+  }
+
+  /// A monitor goes over to the other side, and is at zero until it is clearly off.
+  void pass_monitor(GuardSlot& slot, const Firing& firing, double u) {
+    const auto k = static_cast<std::size_t>(firing.slot);
+    watch_->monitors.push_back({t0_ + u, firing});
+    if (slot.direction == Direction::edge_detection) return;
+    slot.side = static_cast<signed char>((high_[k] > 0.0) - (high_[k] < 0.0));
+    slot.fresh = true, slot.band = noise_[k];
+  }
+
+  /// Notes what fired at offset u; true if one of them is no monitor.
+  bool take(double u) {
+    root_ = u;
+    watch_->fired.clear();
+    for (std::size_t k : crossed_) {
+      GuardSlot& slot = watch_->slots[k];
+      if (!std::isfinite(high_[k])) throw_not_finite(k, t0_ + u);
+      const Firing firing{static_cast<int>(k), slot.side, slot.fresh};
+      if (slot.monitor)
+        pass_monitor(slot, firing, u);
+      else
+        watch_->fired.push_back(firing);
+    }
+    for (const std::size_t k : watch_->active) {
+      GuardSlot& slot = watch_->slots[k];
+      watch_->follow(k, high_[k]);
+      // Exactly on zero it takes the side it leaves to.
+      if (!slot.leaving && slot.crossed(high_[k])) slot.side = 0;
+    }
+    if (watch_->fired.empty()) look_up_slots();  // else the instant changes them again
+    return !watch_->fired.empty();
+  }
+
+  static constexpr double never = std::numeric_limits<double>::infinity();
+
+  std::vector<double> at_root_, before_;
+  std::vector<double> earlier_;  // guards at the look before the last
+  double earlier_at_ = never;    // its offset, below zero if it was in the step before
+  std::vector<double> plain_;    // of the active slots: see GuardSlot::plain_side
+  std::int64_t version_ = -1;    // of the slots that limits_ and plain_ tell of
+  double root_ = 0.0;
+  static constexpr int least_patience = 7;
+  std::vector<double> end_;  // guards at the end of the step, until its last piece is looked at
+  double end_at_ = 0.0;
+  std::vector<double> speed_;      // [1/s] how fast each guard was seen to move of late
+  int patience_ = least_patience;  // how many steps in a row may go without a look inside
+  int skipped_ = least_patience;   // how many did
+  bool jumps_ = false;             // an active guard takes two values only
+};
+
+}  // namespace saltus

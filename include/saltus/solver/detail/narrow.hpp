@@ -1,0 +1,160 @@
+// Narrowing: from an interval in which a guard crosses to the offset where it does.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "saltus/plan/detail/machine.hpp"
+#include "saltus/solver/detail/watch.hpp"
+
+namespace saltus {
+
+/// Looks at all guards in one vector call, and narrows an interval in which one crosses: by the
+/// parabola through the last three looks (D. E. Muller, "A method for solving algebraic equations
+/// using an automatic computer", Math. Tables Aids Comput. 10 (1956) 208), where that leaves one
+/// end standing by the Illinois variant of regula falsi, guarded by bisection (K. L. Hiebert and L.
+/// F. Shampine, "Implicitly defined output points for solutions of ODEs", Sandia report
+/// SAND80-0180, 1980: the vector form, earliest root first). The end that is kept is always the one
+/// on the firing side, so the state handed on is past the crossing or exactly on it. Places inside
+/// the step are offsets u from its beginning, not times: the bracket ends below 2 eps u, finer than
+/// any |t| allows, so that a state lands on its surface late in a long run as well as early.
+class Narrower {
+ protected:
+  Narrower(Machine& machine, Watch& watch)
+      : machine_(&machine), watch_(&watch), x_(static_cast<std::size_t>(machine.plan().nx)) {
+    const auto slots = static_cast<std::size_t>(machine.plan().guard_slots);
+    for (auto* values : {&low_, &high_, &middle_, &third_, &noise_}) values->assign(slots, 1.0);
+    crossed_.reserve(slots), limits_.reserve(slots);
+  }
+
+  /// All guards at offset u.
+  template <class Interpolate>
+  void look(double u, const double* known, const Interpolate& interpolate,
+            std::vector<double>& values) {
+    if (known == nullptr) interpolate(u, x_.data());
+    machine_->guards(t0_ + u, known == nullptr ? x_.data() : known, values.data());
+  }
+
+  /// Where the active guards fire, as their slots stand now.
+  void set_limits() {
+    limits_.clear();
+    for (const std::size_t k : watch_->active) limits_.push_back(watch_->slots[k].limits());
+  }
+
+  bool fired(std::size_t i, const std::vector<double>& values) const {
+    const double value = values[watch_->active[i]];
+    return !(value > limits_[i].first && value < limits_[i].second);  // so does what is not finite
+  }
+
+  /// Whether some guard has crossed at these values; if so, crossed_ says which.
+  bool note_crossed(const std::vector<double>& values) {
+    const std::size_t count = limits_.size();
+    std::size_t i = 0;
+    while (i < count && !fired(i, values)) ++i;
+    if (i == count) return false;
+    crossed_.clear();
+    for (; i < count; ++i) {
+      if (fired(i, values)) crossed_.push_back(watch_->active[i]);
+    }
+    return true;
+  }
+
+  /// Narrows [low, high], where no guard has fired at low and `high_` shows that one has at high.
+  /// On return `high_` and crossed_ are those of the offset returned. `third_` are the guards at
+  /// third_at_, another look nearby; infinite if there is none.
+  template <class Interpolate>
+  double narrow(double low, double high, const Interpolate& interpolate) {
+    low_ = watch_->g;
+    int kept = 0;   // how often in a row the low (> 0) or high (< 0) end was kept: Illinois halves
+                    // its value
+    int zeros = 0;  // looks in a row that found nothing but exact zeros
+    double weight = 1.0;
+    for (int count = 0; count < 200; ++count) {
+      const double resolution = 2.0 * std::numeric_limits<double>::epsilon() * high;
+      if (high - low <= resolution) break;
+      zeros = only_exact_zeros() ? zeros + 1 : 0;
+      // A root hit exactly: one look just before it. If that is zero too, a plateau is halved down
+      // to its beginning.
+      const double u = zeros == 1   ? high - resolution
+                       : zeros > 1  ? low + 0.5 * (high - low)
+                       : count > 60 ? low + 0.5 * (high - low)
+                                    : next_point(low, high, weight, resolution);
+      if (!(u > low && u < high)) break;
+      look(u, nullptr, interpolate, middle_);
+      if (note_crossed(middle_)) {
+        third_at_ = high, high = u, high_.swap(middle_);
+        kept = kept > 0 ? kept + 1 : 1;
+      } else {
+        third_at_ = low, low = u, low_.swap(middle_);
+        leave_zero();
+        kept = kept < 0 ? kept - 1 : -1;
+      }
+      third_.swap(middle_);
+      weight = kept > 1 ? weight * 0.5 : kept < -1 ? weight * 2.0 : 1.0;
+    }
+    for (const std::size_t k : crossed_)
+      noise_[k] = 4.0 * std::max(std::abs(low_[k]), std::abs(high_[k]));
+    return high;
+  }
+
+  Machine* machine_;
+  Watch* watch_;
+  std::vector<double> low_, high_, middle_, third_;
+  double third_at_ = 0.0;
+  std::vector<double> noise_;  // of guards about their root: interpolants waver by a rounding
+  std::vector<std::size_t> crossed_;
+  std::vector<std::pair<double, double>> limits_;  // of the active slots
+  double t0_ = 0.0;
+
+ private:
+  /// A guard that waits, seen on its armed side, is an ordinary one from there on.
+  void leave_zero() {
+    for (std::size_t i = 0; i < limits_.size(); ++i) {
+      GuardSlot& slot = watch_->slots[watch_->active[i]];
+      if (!slot.waits() || slot.sign(low_[watch_->active[i]]) != slot.side) continue;
+      slot.fresh = false, slot.band = 0.0;
+      limits_[i] = slot.limits();
+    }
+  }
+
+  bool only_exact_zeros() const {
+    return std::ranges::all_of(crossed_, [&](std::size_t k) { return high_[k] == 0.0; });
+  }
+
+  /// Where the guard that seems to cross first does so, kept one resolution off the ends; the
+  /// middle where nothing can be said: guards that jump, or that are at zero at the low end.
+  double next_point(double low, double high, double weight, double resolution) const {
+    if (high - low <= 3.0 * resolution) return low + 0.5 * (high - low);
+    double fraction = 2.0;  // of the interval, from low
+    for (std::size_t k : crossed_) {
+      const GuardSlot& slot = watch_->slots[k];
+      const double a = std::abs(low_[k]) * weight, b = std::abs(high_[k]);
+      const bool blind = slot.jumps || slot.waits() || !(a > 0.0) ||
+                         !(a + b < std::numeric_limits<double>::infinity());
+      fraction = std::min(fraction, blind           ? 0.5
+                                    : weight == 1.0 ? parabola(k, low, high)
+                                                    : a / (a + b));
+    }
+    return std::clamp(low + fraction * (high - low), low + resolution, high - resolution);
+  }
+
+  /// Where the parabola through low, high and the third look is zero, as a part of the interval;
+  /// the line through low and high where there is none. Values in units of their difference, places
+  /// in units of the interval: their squares may be out of range.
+  double parabola(std::size_t k, double low, double high) const {
+    const double unit = 1.0 / (high_[k] - low_[k]), w = (third_at_ - low) / (high - low);
+    const double a = low_[k] * unit, third = third_[k] * unit - a;  // 0: a, 1: a + 1, w: a + third
+    const double square = third - w, linear = w * w - third;        // both times w (w - 1), as
+    const double constant = a * w * (w - 1.0);                      // is the third coefficient
+    const double root = std::sqrt(linear * linear - 4.0 * square * constant);
+    const double t = -0.5 * (linear + std::copysign(root, linear));
+    const double near = constant / t, far = t / square;
+    return near > 0.0 && near < 1.0 ? near : far > 0.0 && far < 1.0 ? far : -a;
+  }
+
+  std::vector<double> x_;
+};
+
+}  // namespace saltus

@@ -1,0 +1,64 @@
+// How fast is the fastest part of a scene? The spectral radius of its Jacobian, without a Jacobian.
+#pragma once
+
+#include <cmath>
+#include <limits>
+
+#include "saltus/plan/detail/machine.hpp"
+#include "saltus/solver/detail/solver.hpp"
+
+namespace saltus {
+
+/// Nonlinear power iteration (B. P. Sommeijer, L. F. Shampine, J. G. Verwer, "RKC: an explicit
+/// solver for parabolic PDEs", J. Comput. Appl. Math. 88 (1997) 315, section 2.2): v <- f(x + v) -
+/// f(x), kept small; its growth estimates |lambda|. Lengths are measured in |x| + atol / rtol of
+/// each state, which changes no eigenvalue. Three iterations from the direction found last, with a
+/// little of every other one: the order of magnitude, which is all that a choice of method needs.
+/// Four calls of the right-hand side.
+class SpectralRadius {
+ public:
+  SpectralRadius(Machine& machine, const SolverOptions& options)
+      : machine_(&machine),
+        floor_(options.atol / options.rtol),
+        direction_(Eigen::VectorXd::Zero(machine.plan().nx)),
+        f_(direction_),
+        moved_(direction_),
+        scale_(direction_),
+        point_(direction_) {}
+
+  /// |lambda| [1/s] at (t, x); infinite where f is not finite nearby.
+  double operator()(double t, const Eigen::VectorXd& x) {
+    if (x.size() == 0) return 0.0;
+    const double small = std::sqrt(std::numeric_limits<double>::epsilon());
+    scale_ = x.cwiseAbs().array() + floor_;
+    for (Index i = 0; i < x.size(); ++i)
+      direction_[i] += 0.1 * std::cos(static_cast<double>(i + 1));
+    direction_.normalize();
+    machine_->derivative(t, x.data(), f_.data());
+    double growth = 0.0;
+    for (int k = 0; k < 3; ++k) {
+      point_ = x + small * scale_.cwiseProduct(direction_);
+      machine_->derivative(t, point_.data(), moved_.data());
+      direction_ = (moved_ - f_).cwiseQuotient(scale_) / small;
+      growth = direction_.norm();
+      if (growth == 0.0) return 0.0;
+      if (!std::isfinite(growth)) {
+        forget();
+        return std::numeric_limits<double>::infinity();
+      }
+      direction_ /= growth;
+    }
+    return growth;
+  }
+
+  /// Begins with no direction, as a new one does: what was found depends on nothing that was asked
+  /// before.
+  void forget() { direction_.setZero(); }
+
+ private:
+  Machine* machine_;
+  double floor_;
+  Eigen::VectorXd direction_, f_, moved_, scale_, point_;
+};
+
+}  // namespace saltus

@@ -1,0 +1,96 @@
+// StepPolynomial: the dense output of one step.
+#pragma once
+
+#include "saltus/solver/detail/tableau.hpp"
+
+namespace saltus {
+
+namespace detail {
+
+/// d/ds, at s, of what multiplies each c in s nested(c): s^(j/2 + 1) r^((j + 1)/2), r = 1 - s.
+template <std::size_t Count>
+constexpr std::array<double, Count> slopes(double s) {
+  const auto power = [](double base, std::size_t n) {
+    double value = 1.0;
+    for (std::size_t i = 0; i < n; ++i) value *= base;
+    return value;
+  };
+  std::array<double, Count> out{};
+  for (std::size_t j = 0; j < Count; ++j) {
+    const std::size_t a = j / 2 + 1, b = (j + 1) / 2;
+    out[j] = static_cast<double>(a) * power(s, a - 1) * power(1.0 - s, b);
+    if (b > 0) out[j] -= static_cast<double>(b) * power(s, a) * power(1.0 - s, b - 1);
+  }
+  return out;
+}
+
+}  // namespace detail
+
+/// x0 + s (c_0 + r (c_1 + s (c_2 + r (c_3 + ...)))), s the part of the step, r = 1 - s: the first
+/// three terms meet x and f at both ends, the others are the method's (Hairer, Norsett, Wanner I,
+/// II.6 and II.10).
+template <Tableau Method, int N>
+class StepPolynomial {
+  static constexpr int W = detail::called_width<N>;
+  using Lane = detail::Lane<W>;
+
+ public:
+  static constexpr std::size_t terms = 3 + Method::d.size();
+
+  explicit StepPolynomial(Index n) : n_(n), c_(n) {}
+
+  /// Of the step of length h from x0 to x1 with all stages in k.
+  void set(double h, const double* x0, const double* x1, const double* k) {
+    const Index n = size();
+    detail::for_lanes<W, N>(n, [&](Index i) {
+      double* c = c_.data() + i;
+      const Lane rise = detail::load<W>(x1 + i) - detail::load<W>(x0 + i),
+                 bend = h * detail::load<W>(k + i) - rise,
+                 end = detail::load<W>(k + i + static_cast<Index>(Method::stages - 1) * n);
+      detail::store<W>(c, rise);
+      detail::store<W>(c + n, bend);
+      detail::store<W>(c + 2 * n, rise - h * end - bend);
+      set_others(h, k + i, c + 3 * n, std::make_index_sequence<Method::d.size()>{});
+    });
+  }
+
+  void read(const double* x0, double s, double* x) const {
+    const double *c = c_.data(), r = 1.0 - s;
+    detail::for_lanes<W, N>(size(), [&](Index i) {
+      detail::store<W>(
+          x + i, detail::load<W>(x0 + i) + s * detail::nested<0, terms, W>(c + i, size(), s, r));
+    });
+  }
+
+  /// Its derivative by s, at a constant s, of lane i.
+  template <double S>
+  Lane slope(Index i) const {
+    return detail::dot<[] { return detail::slopes<terms>(S); }, terms, W>(c_.data() + i, size());
+  }
+  Lane last_term(Index i) const {
+    return detail::load<W>(c_.data() + static_cast<Index>(terms - 1) * size() + i);
+  }
+  bool finite() const {
+    return VectorView(c_.data(), static_cast<Index>(terms) * size()).allFinite();
+  }
+
+ private:
+  Index size() const {
+    if constexpr (N == 0)
+      return n_;
+    else
+      return N;
+  }
+  template <std::size_t... M>
+  void set_others(double h, const double* k, double* c, std::index_sequence<M...>) const {
+    (detail::store<W>(
+         c + static_cast<Index>(M) * size(),
+         h * detail::dot_of_differences<[] { return Method::d[M]; }, Method::rows, W>(k, size())),
+     ...);
+  }
+
+  Index n_;
+  detail::Columns<N, terms> c_;
+};
+
+}  // namespace saltus

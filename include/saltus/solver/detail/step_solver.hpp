@@ -1,0 +1,121 @@
+// What all methods share: a step is taken whole, then delivered up to the first root in it.
+#pragma once
+
+#include "saltus/solver/detail/locate.hpp"
+#include "saltus/solver/detail/solver.hpp"
+
+namespace saltus {
+
+/// A method derives from it and says
+///   begin(start)       start at (t1_, x1_)
+///   undo()             after a step that threw: t1_ and x1_ as before it
+///   step(t_stop)       go from t1_ to a new t1_ <= t_stop; x1_ becomes the state there, length_
+///   the size of the step inside_step(u, x)  the state at offset u from the beginning of the step,
+///   0 <= u <= length_
+/// The rest, roots included, stands here. After a root that changes nothing continuous, the rest of
+/// the same step is delivered: the trajectory stays what it was.
+template <class Method, class Interface = Solver>
+class StepSolver : public Interface {
+ public:
+  StepSolver(Machine& machine, Watch& watch, const SolverOptions& options)
+      : machine_(&machine),
+        watch_(&watch),
+        options_(options),
+        n_(machine.plan().nx),
+        x1_(n_),
+        locator_(machine, watch),
+        state_(n_) {}
+
+  void restart(double t, const Eigen::VectorXd& x, const Start& start) final {
+    if (start.first)
+      statistics_ = {};
+    else if (!start.handover)
+      ++statistics_.restarts;
+    if (start.first) run_begun_ = t;
+    t0_ = t1_ = time_ = t;
+    x1_ = x;
+    delivered_ = true;
+    locator_.forget();
+    self().begin(start);
+  }
+
+  StopReason advance(double t_stop) final {
+    watch_->monitors.clear();
+    if (delivered_) take_step(t_stop);
+    const auto inside = [this](double u, double* x) { self().inside_step(u, x); };
+    if (watch_->any() && locator_.find(t0_, offset_, length_, x1_.data(),
+                                       offset_ == 0.0 ? self().end_guards() : nullptr, inside)) {
+      offset_ = locator_.offset();
+      delivered_ = offset_ >= length_;
+      time_ = delivered_ ? t1_ : t0_ + offset_;
+      if (!delivered_) self().inside_step(offset_, state_.data());
+      return StopReason::root;
+    }
+    delivered_ = true;
+    time_ = t1_;
+    return t1_ >= t_stop ? StopReason::stop_time : StopReason::step;
+  }
+
+  void interpolate(double t, double* x) final {
+    if (t >= t1_)
+      std::copy_n(x1_.data(), n_, x);
+    else
+      self().inside_step(t - t0_, x);
+  }
+
+  const std::vector<Firing>& roots() const final { return watch_->fired; }
+  const SolverStatistics& statistics() const override { return statistics_; }
+  std::vector<Stretch> stretches() const final {
+    return {{this->method(), run_begun_, time_, this->statistics().steps}};
+  }
+  bool at_step_end() const final { return delivered_; }
+  double time() const final { return time_; }
+  const Eigen::VectorXd& state() const final { return delivered_ ? x1_ : state_; }
+
+  // --- one step without a look at the guards, for a method that lets another one start for it
+  // --------------------
+  void begin_at(double t, const Eigen::VectorXd& x, const Start& start) {
+    t0_ = t1_ = t, x1_ = x;
+    self().begin(start);
+  }
+  void bare_step(double t_stop) {
+    t0_ = t1_;
+    self().step(t_stop);
+  }
+  double step_end() const noexcept { return t1_; }
+  double step_length() const noexcept { return length_; }
+  const Eigen::VectorXd& step_state() const noexcept { return x1_; }
+
+ protected:
+  const double* end_guards() const { return nullptr; }
+
+  Machine* machine_;
+  Watch* watch_;
+  SolverOptions options_;
+  Index n_;
+  double t0_ = 0.0, t1_ = 0.0, length_ = 0.0;  // [s] of the last step
+  Eigen::VectorXd x1_;
+  SolverStatistics statistics_;
+
+ private:
+  Method& self() { return static_cast<Method&>(*this); }
+
+  void take_step(double t_stop) {
+    t0_ = t1_;
+    try {
+      self().step(t_stop);
+    } catch (...) {
+      self().undo();
+      throw;
+    }
+    offset_ = 0.0;
+    delivered_ = false;
+  }
+
+  Locator locator_;
+  double time_ = 0.0, offset_ = 0.0, run_begun_ = 0.0;
+  bool delivered_ = true;  // the last step, to its end
+  Eigen::VectorXd state_;  // where a root cut the last step
+};
+
+}  // namespace saltus
