@@ -90,7 +90,6 @@ Machine::Machine(std::shared_ptr<const Plan> plan) : plan_(std::move(plan)) {
   guard_calls_list_ = calls_of(plan_->guard_walk, plan_->guard_needs);
   tap_calls_ = calls_of(plan_->tap_needs);
   odes_ = odes_of(plan_->derivative_walk);
-  single_odes_ = odes_of({});
   for (const GuardGroup& group : plan_->guards) {
     const PlanLeaf& leaf = plan_->leaves[static_cast<std::size_t>(group.leaf)];
     const bool crossing = group.kind == GuardGroup::Kind::crossing;

@@ -47,7 +47,7 @@ std::optional<NotFinite> Machine::not_finite(double t, const double* state) {
     }
   }
   Eigen::VectorXd xdot(plan_->nx);
-  for (const Call& ode : single_odes_) {
+  for (const Call& ode : odes_of({})) {
     ode_with_rest(ode, t, xdot.data());
     const PlanLeaf& leaf = plan_->leaves[ode.leaf];
     const VectorView own(xdot.data() + ode.x, ode.size);

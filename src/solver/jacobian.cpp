@@ -226,10 +226,8 @@ std::string Jacobian::text_of(const Copy& bad, const PlanLeaf& leaf, double t) {
 }
 
 void Jacobian::ode_of(const PlanLeaf& leaf, double t, Eigen::VectorXd& xdot) {
-  ++machine_->rhs_calls;
   const auto number = static_cast<std::size_t>(&leaf - machine_->plan().leaves.data());
-  leaf.declared().continuous.ode(*leaf.system, machine_->at(number, t),
-                                 VectorRef(xdot.data() + leaf.x, leaf.nx));
+  machine_->leaf_derivative(number, t, VectorRef(xdot.data() + leaf.x, leaf.nx));
 }
 
 std::string Jacobian::words() const {

@@ -89,11 +89,7 @@ class Neighbourhood {
     x_[leaf_.x + j] += distance * part * sizes_[j];
   }
 
-  void call() {
-    ++machine_->rhs_calls;
-    leaf_.declared().continuous.ode(*leaf_.system, machine_->at(number_, t_),
-                                    VectorRef(f_.data(), f_.size()));
-  }
+  void call() { machine_->leaf_derivative(number_, t_, VectorRef(f_.data(), f_.size())); }
 
   Machine* machine_;
   const PlanLeaf& leaf_;

@@ -17,7 +17,9 @@ struct StepKernels;  // `solver/kernels.hpp`
 
 /// A const method known to the compiler: see `method`.
 template <auto M>
-struct ConstantMethod {};
+struct ConstantMethod {
+  static constexpr auto pointer = M;
+};
 template <class F>
 inline constexpr bool is_constant_method = false;
 template <auto M>
@@ -51,16 +53,6 @@ void call(const F& f, const At& at, Next& next) {
   f(at, next);
 }
 
-/// `block.method(...)` as a callable.
-template <class Block, class M>
-auto bind(const Block& block, M method) {
-  return
-      [&block, method](auto&&... arguments) -> decltype((block.*method)(
-                                                std::forward<decltype(arguments)>(arguments)...)) {
-        return (block.*method)(std::forward<decltype(arguments)>(arguments)...);
-      };
-}
-
 }  // namespace detail
 
 /// `method<&Ball::ode>` in place of `&Ball::ode`: the same callback, called directly and not
@@ -89,10 +81,9 @@ class Callback<void(const At&, Out)> {
       static_assert(sizeof(F) <= sizeof(method_));
       std::memcpy(method_, &function, sizeof(F));
       call_ = &Callback::call_method<F>;
-    } else if constexpr (detail::is_constant_method<F>) {
-      call_ = &Callback::call_as<F>;
     } else {
-      callable_ = std::make_shared<const F>(std::move(function));
+      if constexpr (!detail::is_constant_method<F>)
+        callable_ = std::make_shared<const F>(std::move(function));
       call_ = &Callback::call_as<F>;
     }
   }
@@ -107,7 +98,7 @@ class Callback<void(const At&, Out)> {
   [[gnu::always_inline]] static void call_as(const Callback& self, const LeafSystem& leaf,
                                              const At& at, Passed out) {
     if constexpr (detail::is_constant_method<F>)
-      call_constant(F{}, leaf, at, out);
+      call_bound(F::pointer, leaf, at, out);
     else
       detail::call<F>(*static_cast<const F*>(self.callable_.get()), at, out);
   }
@@ -121,21 +112,21 @@ class Callback<void(const At&, Out)> {
   Index kernel_states() const noexcept { return kernel_states_; }
 
  private:
-  template <auto M>
-  [[gnu::always_inline]] static void call_constant(detail::ConstantMethod<M>,
-                                                   const LeafSystem& leaf, const At& at,
-                                                   Passed out) {
-    using Class = typename detail::MethodOf<decltype(M)>::Class;
-    const auto bound = detail::bind(static_cast<const Class&>(leaf), M);
-    detail::call<decltype(bound)>(bound, at, out);
-  }
-
   template <class F>
   static void call_method(const Callback& self, const LeafSystem& leaf, const At& at, Passed out) {
     F method;
     std::memcpy(&method, self.method_, sizeof(F));
-    const auto& block = static_cast<const typename detail::MethodOf<F>::Class&>(leaf);
-    const auto bound = detail::bind(block, method);
+    call_bound(method, leaf, at, out);
+  }
+
+  template <class M>
+  [[gnu::always_inline]] static void call_bound(M method, const LeafSystem& leaf, const At& at,
+                                                Passed out) {
+    const auto& block = static_cast<const typename detail::MethodOf<M>::Class&>(leaf);
+    const auto bound = [&block, method](auto&&... arguments)
+        -> decltype((block.*method)(std::forward<decltype(arguments)>(arguments)...)) {
+      return (block.*method)(std::forward<decltype(arguments)>(arguments)...);
+    };
     detail::call<decltype(bound)>(bound, at, out);
   }
 

@@ -97,6 +97,12 @@ class Machine {
     const PlanLeaf& of = plan_->leaves[leaf];
     return seen_by({nullptr, of.system, leaf, &views_[leaf], of.x, of.nx}, t);
   }
+  /// xdot of leaf i alone, at time t and the state that `at` shows.
+  void leaf_derivative(std::size_t leaf, double t, VectorRef xdot) {
+    ++rhs_calls;
+    const PlanLeaf& of = plan_->leaves[leaf];
+    of.declared().continuous.ode(*of.system, at(leaf, t), xdot);
+  }
   /// Makes `at` see the machine's own x again.
   void at_home() { bases_[0] = x.data(); }
 
@@ -203,7 +209,6 @@ class Machine {
       guard_calls_list_, tap_calls_;
   std::vector<Call> odes_;  // of leaves that have one, and what is fused of them
   std::vector<OutputCall> needs_of_derivatives_;  // every one by a call of its own
-  std::vector<Call> single_odes_;
   std::vector<GuardCall> groups_;
   std::optional<GuardCall> fused_guards_;
   /// Where it is the only one, and nothing has to be computed for it, it is called without a walk.

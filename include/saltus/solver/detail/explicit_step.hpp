@@ -66,12 +66,7 @@ class ExplicitStep {
   static constexpr std::size_t estimates = Method::e.size();
   static constexpr double infinite = std::numeric_limits<double>::infinity();
 
-  Index size() const {
-    if constexpr (N == 0)
-      return n_;
-    else
-      return N;
-  }
+  Index size() const { return count<N>(n_); }
   double* column(std::size_t i) { return k_ + static_cast<Index>(i) * size(); }
 
   template <std::size_t I, class Rate>

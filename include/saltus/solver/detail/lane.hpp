@@ -56,6 +56,12 @@ void store(double* p, const Lane<W>& value) {
     Eigen::Map<Lane<W>>{p} = value;
 }
 
+/// n, at compile time where it is known as N.
+template <int N>
+constexpr Index count(Index n) {
+  return N > 0 ? N : n;
+}
+
 /// body(i) for the first entry of each lane, W wide, of a state of n entries; N = n if that is
 /// known.
 template <int W, int N, class Body>

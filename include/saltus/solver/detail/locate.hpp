@@ -8,19 +8,17 @@
 #include <vector>
 
 #include "saltus/solver/detail/dip.hpp"
-#include "saltus/solver/detail/narrow.hpp"
+#include "saltus/solver/detail/glance.hpp"
 
 namespace saltus {
 
 /// Looks at all guards at a few interior points of a step, and where three looks say that a guard
 /// dips across zero and back (pairs of roots); the first interval in which one crosses is narrowed.
-class Locator : private Narrower {
+class Locator : private Glance {
  public:
-  Locator(Machine& machine, Watch& watch) : Narrower(machine, watch) {
+  Locator(Machine& machine, Watch& watch) : Glance(machine, watch) {
     const auto slots = static_cast<std::size_t>(machine.plan().guard_slots);
-    for (auto* values : {&earlier_, &at_root_, &before_, &end_, &speed_})
-      values->assign(slots, 1.0);
-    plain_.reserve(slots);
+    for (auto* values : {&at_root_, &before_, &end_}) values->assign(slots, 1.0);
   }
 
   /// The first offset in (from, to] at which a guard that is no monitor fires; false if there is
@@ -30,7 +28,7 @@ class Locator : private Narrower {
   bool find(double t0, double from, double to, const double* end, const double* guards,
             const Interpolate& interpolate) {
     t0_ = t0;
-    if (version_ != watch_->version) look_up_slots();
+    if (outdated()) look_up_slots();
     if (guards != nullptr)
       std::copy_n(guards, high_.size(), high_.data());
     else
@@ -44,7 +42,10 @@ class Locator : private Narrower {
   }
 
   /// Begins anew: what was seen of the guards before a restart says nothing.
-  void forget() { earlier_at_ = never, version_ = -1, skipped_ = patience_ = least_patience; }
+  void forget() {
+    Glance::forget();
+    skipped_ = patience_ = least_patience;
+  }
 
   double offset() const noexcept { return root_; }
 
@@ -76,59 +77,6 @@ class Locator : private Narrower {
     }
     earlier_at_ -= to;
     return false;
-  }
-
-  void look_up_slots() {
-    version_ = watch_->version;
-    set_limits();
-    plain_.clear();
-    jumps_ = false;
-    for (const std::size_t k : watch_->active) {
-      plain_.push_back(watch_->slots[k].plain_side());
-      jumps_ = jumps_ || watch_->slots[k].jumps;
-    }
-  }
-
-  /// Whether a step, high_ looked at at its end, needs no look inside: no guard could get to zero
-  /// and back even if it moved eight times as fast as it was seen to of late (the bound of B. O.
-  /// Shubert, "A sequential method seeking the global maximum of a function", SIAM J. Numer. Anal.
-  /// 9 (1972) 379). After `patience_` such steps one is looked into all the same.
-  bool out_of_reach(double from, double to) const {
-    if (jumps_) return false;
-    for (std::size_t i = 0; i < plain_.size(); ++i) {
-      const std::size_t k = watch_->active[i];
-      const double now = plain_[i] * high_[k], before = plain_[i] * watch_->g[k];
-      const double moves = std::max(std::abs(now - before), speed_[k] * (to - from));
-      if (!(now > 0.0 && now + before > 8.0 * moves)) return false;
-    }
-    return true;
-  }
-
-  /// Whether nothing can have happened between the look at `from` and high_, at `to`: each guard is
-  /// clearly on its side at both, and the parabola through the last three looks has no vertex in
-  /// between. So it is in most steps; all else is find_in's.
-  bool calm(double from, double to) const {
-    const double r = (to - from) / (from - earlier_at_);
-    const bool dips = earlier_at_ != never && watch_->scan_points > 0;
-    for (std::size_t i = 0; i < plain_.size(); ++i) {
-      const double side = plain_[i];
-      const std::size_t k = watch_->active[i];
-      const double now = side * high_[k], before = side * watch_->g[k];
-      if (!(now > 0.0 && now < never)) return false;  // never is infinite
-      if (!dips) continue;
-      const double rise = now - before, earlier_rise = before - side * earlier_[k];
-      // The parabola falls at `from` and rises at `to`.
-      if (rise < -earlier_rise * r * r && rise * (1.0 + 2.0 * r) > earlier_rise * r * r)
-        return false;
-    }
-    return true;
-  }
-  void shift_all(double from, double to) {
-    for (const std::size_t k : watch_->active) {
-      speed_[k] = std::max(0.5 * speed_[k], std::abs(high_[k] - watch_->g[k]) / (to - from));
-      earlier_[k] = watch_->g[k], watch_->g[k] = high_[k];
-    }
-    earlier_at_ = from;
   }
 
   /// One piece of a step, `high_` looked at at its end, without points in between, save where a
@@ -205,12 +153,6 @@ class Locator : private Narrower {
     look_up_slots();
   }
 
-  /// The look at `from` is the one before the next look.
-  void shift(double from) {
-    earlier_ = watch_->g;
-    earlier_at_ = from;
-  }
-
   /// Where between two looks a guard seems to cross zero and come back: the vertex of the parabola
   /// through three looks, moved by successive parabolic interpolation (R. P. Brent, "Algorithms for
   /// Minimization without Derivatives", 1973, ch. 5) until the guard there is beyond zero.
@@ -235,21 +177,6 @@ class Locator : private Narrower {
       }
     }
     return never;
-  }
-
-  /// Takes over the sides at high_, where nothing fired.
-  void follow() {
-    for (std::size_t i = 0; i < limits_.size(); ++i) {
-      const std::size_t k = watch_->active[i];
-      GuardSlot& slot = watch_->slots[k];
-      const bool stays =
-          !slot.waits() && (slot.side > 0 ? high_[k] > 0.0 : slot.side < 0 && high_[k] < 0.0);
-      watch_->g[k] = high_[k];
-      if (stays) continue;
-      slot.follow(high_[k]);
-      limits_[i] = slot.limits();
-      plain_[i] = slot.plain_side();
-    }
   }
 
   [[noreturn]] void throw_not_finite(std::size_t k, double t) const {
@@ -294,21 +221,14 @@ class Locator : private Narrower {
     return !watch_->fired.empty();
   }
 
-  static constexpr double never = std::numeric_limits<double>::infinity();
+  static constexpr int least_patience = 7;
 
   std::vector<double> at_root_, before_;
-  std::vector<double> earlier_;  // guards at the look before the last
-  double earlier_at_ = never;    // its offset, below zero if it was in the step before
-  std::vector<double> plain_;    // of the active slots: see GuardSlot::plain_side
-  std::int64_t version_ = -1;    // of the slots that limits_ and plain_ tell of
   double root_ = 0.0;
-  static constexpr int least_patience = 7;
   std::vector<double> end_;  // guards at the end of the step, until its last piece is looked at
   double end_at_ = 0.0;
-  std::vector<double> speed_;      // [1/s] how fast each guard was seen to move of late
   int patience_ = least_patience;  // how many steps in a row may go without a look inside
   int skipped_ = least_patience;   // how many did
-  bool jumps_ = false;             // an active guard takes two values only
 };
 
 }  // namespace saltus

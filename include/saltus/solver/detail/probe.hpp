@@ -16,7 +16,7 @@ namespace saltus {
 ///
 /// What is found may be too little, where an entry vanishes all around the state: a spring that
 /// does not touch yet. Whoever uses it has to look whether it explains how f moves, and to ask
-/// again where it does not (Jacobian::unexplained).
+/// again where it does not (Jacobian::explains).
 class Probe {
  public:
   explicit Probe(Machine& machine);

@@ -66,12 +66,7 @@ class RungeKutta final : public StepSolver<RungeKutta<Method, N>, OneStepSolver>
   static StepController controller() {
     return {Method::error_order, Method::beta, Method::shortest, Method::longest};
   }
-  Index size() const {
-    if constexpr (N == 0)
-      return n_;
-    else
-      return N;
-  }
+  Index size() const { return detail::count<N>(n_); }
   VectorView view(const double* x) const { return {x, size()}; }
   double* stage(std::size_t i) { return k_.data() + static_cast<Index>(i) * size(); }
 
@@ -123,8 +118,9 @@ class RungeKutta final : public StepSolver<RungeKutta<Method, N>, OneStepSolver>
   double try_step(double h, double t1) {
     const detail::Attempt attempt{t0_, t1, h, options_.rtol, options_.atol};
     t1_ = t1;
-    const double error = compiled() != nullptr
-                             ? compiled()->attempt(caller(), attempt, memory())
+    const detail::MethodKernels* steps = compiled();
+    const double error = steps != nullptr
+                             ? steps->attempt(caller(), attempt, memory())
                              : arithmetic(x0_.data(), x1_.data()).attempt(attempt, rate());
     if (watches_stiffness_ && error <= 1.0)
       stiff_.look(h, view(x1_.data()), view(scratch_.data()), view(stage(last - 1)), view(stage(0)),
@@ -158,14 +154,19 @@ class RungeKutta final : public StepSolver<RungeKutta<Method, N>, OneStepSolver>
   }
 
   void prepare_dense() {
-    if (Method::rows > Method::stages && compiled() != nullptr)
-      compiled()->dense(caller(), t0_, length_, memory());
-    else
-      arithmetic(x0_.data(), x1_.data())
-          .template stages<Method::stages, Method::rows>(t0_, length_, rate());
+    if constexpr (Method::rows > Method::stages) prepare_stages();
     dense_.set(length_, x0_.data(), x1_.data(), k_.data());
     dense_ready_ = true;
     if constexpr (checks_dense) halves_.used = dense_is_off() && halve();
+  }
+
+  /// Those that only the dense output needs.
+  void prepare_stages() {
+    if (const detail::MethodKernels* steps = compiled())
+      steps->dense(caller(), t0_, length_, memory());
+    else
+      arithmetic(x0_.data(), x1_.data())
+          .template stages<Method::stages, Method::rows>(t0_, length_, rate());
   }
 
   /// Root mean square of value(i), a lane each, in tolerances.

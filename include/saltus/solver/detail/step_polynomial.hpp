@@ -75,12 +75,7 @@ class StepPolynomial {
   }
 
  private:
-  Index size() const {
-    if constexpr (N == 0)
-      return n_;
-    else
-      return N;
-  }
+  Index size() const { return detail::count<N>(n_); }
   template <std::size_t... M>
   void set_others(double h, const double* k, double* c, std::index_sequence<M...>) const {
     (detail::store<W>(

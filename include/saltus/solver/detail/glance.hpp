@@ -1,0 +1,115 @@
+// Glance: what most looks at the guards need and no more, which is to see that nothing has
+// happened.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "saltus/solver/detail/narrow.hpp"
+
+namespace saltus {
+
+/// Remembers the guards of the last two looks, and how fast each moved of late.
+class Glance : protected Narrower {
+ protected:
+  static constexpr double never = std::numeric_limits<double>::infinity();
+
+  Glance(Machine& machine, Watch& watch) : Narrower(machine, watch) {
+    const auto slots = static_cast<std::size_t>(machine.plan().guard_slots);
+    for (auto* values : {&earlier_, &speed_}) values->assign(slots, 1.0);
+    plain_.reserve(slots);
+  }
+
+  /// What was seen of the guards before a restart says nothing.
+  void forget() { earlier_at_ = never, version_ = -1; }
+
+  /// Whether the engine has changed slots since they were looked up.
+  bool outdated() const { return version_ != watch_->version; }
+  void look_up_slots() {
+    version_ = watch_->version;
+    set_limits();
+    plain_.clear();
+    jumps_ = false;
+    for (const std::size_t k : watch_->active) {
+      plain_.push_back(watch_->slots[k].plain_side());
+      jumps_ = jumps_ || watch_->slots[k].jumps;
+    }
+  }
+
+  /// Whether a step, high_ looked at at its end, needs no look inside: no guard could get to zero
+  /// and back even if it moved eight times as fast as it was seen to of late (the bound of B. O.
+  /// Shubert, "A sequential method seeking the global maximum of a function", SIAM J. Numer. Anal.
+  /// 9 (1972) 379). Now and then such a step is looked into all the same.
+  bool out_of_reach(double from, double to) const {
+    if (jumps_) return false;
+    for (std::size_t i = 0; i < plain_.size(); ++i) {
+      const std::size_t k = watch_->active[i];
+      const double now = plain_[i] * high_[k], before = plain_[i] * watch_->g[k];
+      const double moves = std::max(std::abs(now - before), speed_[k] * (to - from));
+      if (!(now > 0.0 && now + before > 8.0 * moves)) return false;
+    }
+    return true;
+  }
+
+  /// Whether nothing can have happened between the look at `from` and high_, at `to`: each guard is
+  /// clearly on its side at both, and the parabola through the last three looks has no vertex in
+  /// between. So it is in most steps.
+  bool calm(double from, double to) const {
+    const double r = (to - from) / (from - earlier_at_);
+    const bool dips = earlier_at_ != never && watch_->scan_points > 0;
+    for (std::size_t i = 0; i < plain_.size(); ++i) {
+      const double side = plain_[i];
+      const std::size_t k = watch_->active[i];
+      const double now = side * high_[k], before = side * watch_->g[k];
+      if (!(now > 0.0 && now < never)) return false;  // never is infinite
+      if (!dips) continue;
+      const double rise = now - before, earlier_rise = before - side * earlier_[k];
+      // The parabola falls at `from` and rises at `to`.
+      if (rise < -earlier_rise * r * r && rise * (1.0 + 2.0 * r) > earlier_rise * r * r)
+        return false;
+    }
+    return true;
+  }
+  void shift_all(double from, double to) {
+    for (const std::size_t k : watch_->active) {
+      speed_[k] = std::max(0.5 * speed_[k], std::abs(high_[k] - watch_->g[k]) / (to - from));
+      earlier_[k] = watch_->g[k], watch_->g[k] = high_[k];
+    }
+    earlier_at_ = from;
+  }
+
+  /// The look at `from` is the one before the next look.
+  void shift(double from) {
+    earlier_ = watch_->g;
+    earlier_at_ = from;
+  }
+
+  /// Takes over the sides at high_, where nothing fired.
+  void follow() {
+    for (std::size_t i = 0; i < limits_.size(); ++i) {
+      const std::size_t k = watch_->active[i];
+      GuardSlot& slot = watch_->slots[k];
+      const bool stays =
+          !slot.waits() && (slot.side > 0 ? high_[k] > 0.0 : slot.side < 0 && high_[k] < 0.0);
+      watch_->g[k] = high_[k];
+      if (stays) continue;
+      slot.follow(high_[k]);
+      limits_[i] = slot.limits();
+      plain_[i] = slot.plain_side();
+    }
+  }
+
+  std::vector<double> earlier_;  // guards at the look before the last
+  double earlier_at_ = never;    // its offset, below zero if it was in the step before
+
+ private:
+  std::vector<double> plain_;  // of the active slots: see GuardSlot::plain_side
+  std::vector<double> speed_;  // [1/s] how fast each guard was seen to move of late
+  std::int64_t version_ = -1;  // of the slots that limits_ and plain_ tell of
+  bool jumps_ = false;         // an active guard takes two values only
+};
+
+}  // namespace saltus
