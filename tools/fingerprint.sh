@@ -2,19 +2,21 @@
 
 fingerprint_folders=(cases errors semantics)  # of tests/, each run of a test in them is a line
 
-# Those whose runs depend on a clock or on the order of threads.
-fingerprint_not=(extremes_test results_threads_test)  # the extreme cases are run by name
+# The extreme cases are run by name. The others depend on the order of threads, or on a clock.
+fingerprint_not=(extremes_test results_threads_test) fingerprint_clock='~"an interrupt that throws*"'
 
 fingerprint_job() {  # NAME: one part of the fingerprint, to build/fingerprint/NAME.tsv
   local out=build/fingerprint/$1.tsv program=build/dev/bin/saltus_fingerprint
   : >"$out"
+  # A run that failed may end with a state that nobody has written (KNOWN_GAPS.md): let that be the same each time.
+  export GLIBC_TUNABLES=glibc.malloc.tcache_count=0:glibc.malloc.perturb=90
   case $1 in
     fuzz)
       PYTHONPATH=$fingerprint_path PYTHONDONTWRITEBYTECODE=1 "$fingerprint_python" tests/python/fuzz/fingerprint.py "$out" ;;
     shelf | extremes)
       SALTUS_FINGERPRINT=$out "$program" "fingerprint: $1" ;;
     *)  # a test that fails has written its lines
-      SALTUS_FINGERPRINT=$out "$program" --rng-seed 1 --filenames-as-tags "[#$1]~[.]" || [ $? -lt 126 ] ;;
+      SALTUS_FINGERPRINT=$out "$program" --rng-seed 1 --filenames-as-tags "[#$1]~[.]$fingerprint_clock" || [ $? -lt 126 ] ;;
   esac >"build/fingerprint/$1.log" 2>&1 || { echo "$1 failed, see build/fingerprint/$1.log" >&2; return 1; }
 }
 
@@ -34,7 +36,7 @@ fingerprint_runs() {  # FILE
   names=$(fingerprint_jobs)
   rm -rf build/fingerprint/*.tsv build/fingerprint/*.log
   export -f fingerprint_job
-  export fingerprint_path fingerprint_python
+  export fingerprint_path fingerprint_python fingerprint_clock
   xargs -P "$jobs" -I{} bash -c 'fingerprint_job "$1"' job {} <<<"$names" || return 1
   for name in $names; do cat "build/fingerprint/$name.tsv"; done >"$1"
 }
