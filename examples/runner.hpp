@@ -48,8 +48,7 @@ inline std::ofstream opened(const std::string& file) {
   return out;
 }
 
-// --- one run
-// --------------------------------------------------------------------------------------------------------
+// --- one run -----------------------------------------------------------------------------------
 
 inline void print_events(std::ostream& out, const saltus::EventLog& events) {
   constexpr std::size_t most = 12;
@@ -147,8 +146,7 @@ inline void run_once(saltus::Scene scene, const Settings& settings) {
   if (!settings.json.empty()) opened(settings.json) << to_json(scene, results).dump(1) << "\n";
 }
 
-// --- the report
-// -----------------------------------------------------------------------------------------------------
+// --- the report --------------------------------------------------------------------------------
 
 inline void run_report(const saltus::Scene& scene, const Settings& settings,
                        const std::string& title = {}) {
@@ -166,8 +164,7 @@ inline void run_report(const saltus::Scene& scene, const Settings& settings,
   }
 }
 
-// --- main
-// -----------------------------------------------------------------------------------------------------------
+// --- main --------------------------------------------------------------------------------------
 
 /// Runs `body`; what goes wrong becomes one line and an exit code: 2 for bad input, 1 for a run
 /// that failed.

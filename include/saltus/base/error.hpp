@@ -39,13 +39,12 @@ class SimulationError : public Error {
   SimulationError(const std::string& message, double time, std::string block = {})
       : Error(message), time_(time), block_(std::move(block)) {}
 
-  double time() const noexcept { return time_; }  ///< [s] where the run stood
-  const std::string& block() const noexcept {
-    return block_;
-  }  ///< path of the block at fault, or empty
-  const std::shared_ptr<const Results>& results() const noexcept {
-    return results_;
-  }  ///< what was computed
+  /// [s] The time that the run had reached.
+  double time() const noexcept { return time_; }
+  /// Path of the block at fault, or empty.
+  const std::string& block() const noexcept { return block_; }
+  /// Everything computed until then.
+  const std::shared_ptr<const Results>& results() const noexcept { return results_; }
   void attach(std::shared_ptr<const Results> results) { results_ = std::move(results); }
 
  private:
