@@ -1,4 +1,5 @@
-// Context: a value. Its docstrings stand here, for Python gets it from C++ in many places.
+// Context: a value. Its docstrings are in C++, because Python gets a Context from C++ in many
+// places.
 #include <pybind11/stl.h>
 
 #include "bindings.hpp"
@@ -11,13 +12,13 @@ namespace saltus::python {
 
 namespace {
 
-/// An array over a copy: a context is a value, and so is what it shows.
+/// An array over a copy: a context is a value, and so are its arrays.
 py::array shown(const Eigen::VectorXd& values) {
   return read_only_array({values.size()}, values.data());
 }
 
 SystemId id_of(py::handle system) {
-  // by its attribute: a system that C++ shares with Python has the number of the one it stands for
+  // by its attribute: the id of a shared system is that of the system it represents
   if (py::isinstance<System>(system)) return SystemId{system.attr("system_id").cast<int>()};
   try {
     return SystemId{system.cast<int>()};

@@ -100,7 +100,7 @@ Context filled(const Context& blank, const py::dict& data) {
   return blank.with_values(v);
 }
 
-/// Data that is none of ours shows as a missing key or a wrong type.
+/// Data in another format has a missing key or a wrong type.
 Context from_data(const Context& blank, const py::dict& data) {
   try {
     return filled(blank, data);
@@ -152,7 +152,7 @@ std::shared_ptr<const Layout> layout_from(const py::tuple& data) {
   return layout;
 }
 
-/// A context of a layout, all values zero: what `filled` starts from.
+/// A context of a layout with all values zero, which `filled` fills.
 Context blank_of(const std::shared_ptr<const Layout>& layout) { return Context::zero(layout); }
 
 }  // namespace

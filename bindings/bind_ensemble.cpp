@@ -1,5 +1,4 @@
-// Ensembles: runs over one plan, in threads that take the lock of the interpreter only to call
-// Python.
+// Ensembles: runs over one plan, in threads that acquire the interpreter lock only to call Python.
 #include <pybind11/functional.h>
 #include <pybind11/stl.h>
 
@@ -21,7 +20,7 @@ py::array moved(std::vector<Number>&& column, std::vector<py::ssize_t> dimension
   return py::array_t<Number>(std::move(dimensions), kept->data(), owner);
 }
 
-/// What went wrong, by run.
+/// The reason of each failed run, by number.
 py::dict reasons(const Outcomes& outcomes) {
   py::dict all;
   for (std::size_t run = 0; run < outcomes.message.size(); ++run) {
@@ -31,7 +30,7 @@ py::dict reasons(const Outcomes& outcomes) {
   return all;
 }
 
-/// Columns by name, moved out.
+/// Columns by name, moved out of the C++ object.
 py::dict columns(Outcomes&& o) {
   using py::literals::operator""_a;
   const auto runs = static_cast<py::ssize_t>(o.status.size());
@@ -57,7 +56,7 @@ py::dict columns(Outcomes&& o) {
                   "signals"_a = signals);
 }
 
-/// What was raised by Python, where that is no plain failure of one run: Ctrl-C, for one.
+/// The Python exception, if it is no plain failure of one run but, for example, Ctrl-C.
 bool ends_all(const Results& results) {
   if (!results.cause) return false;
   try {
@@ -79,7 +78,7 @@ class Call {
         watch_(std::move(watch)),
         each_(std::move(each)) {}
 
-  /// The columns, and what was raised, or None.
+  /// The columns, and the exception, or None.
   py::tuple run(int threads) {
     try {
       const Unlocked runs;
@@ -108,14 +107,14 @@ class Call {
     each_(run, copy, cause_of(results));
   }
 
-  /// Heeds signals, and tells how many runs are done.
+  /// Handles signals, and reports the number of finished runs.
   bool look(Index done) {
     const py::gil_scoped_acquire lock;
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();
     return !watch_.is_none() && watch_(done).cast<bool>();
   }
 
-  /// A thread keeps what the interpreter knows of it from one call of Python to the next.
+  /// A thread keeps its interpreter state from one call of Python to the next.
   static void with_thread_state(const std::function<void()>& share) {
     const py::gil_scoped_acquire lock;
     const Unlocked runs;

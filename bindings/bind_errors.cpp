@@ -1,5 +1,5 @@
-// C++ errors become those of python/saltus/errors.py. What a Python function threw never comes
-// here: pybind11 gives it back as it was.
+// C++ errors become the exceptions of python/saltus/errors.py. An exception of a Python function
+// does not pass here: pybind11 rethrows it unchanged.
 #include <pybind11/stl.h>
 
 #include "bindings.hpp"

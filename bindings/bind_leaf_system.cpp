@@ -1,4 +1,4 @@
-// LeafSystem: what python/saltus/leaf_system.py declares blocks with.
+// LeafSystem: the functions with which python/saltus/leaf_system.py declares blocks.
 #include <pybind11/stl.h>
 
 #include "zero_crossing.hpp"
@@ -7,16 +7,16 @@ namespace saltus::python {
 
 namespace {
 
-/// Whether there is a block in a Python object. There is none yet while pybind11 makes the object,
-/// and the garbage collector may come in the middle of that, before the object has room for one.
+/// Whether a Python object contains a block already. While pybind11 makes the object it contains
+/// none, and the garbage collector may run then, before the object has room for a block.
 bool holds_block(PyObject* self) {
   const auto* object = reinterpret_cast<const py::detail::instance*>(self);
   if (!object->simple_layout && object->nonsimple.status == nullptr) return false;
   return py::detail::is_holder_constructed(self);
 }
 
-/// Functions held by a block are seen by the garbage collector: a lambda that holds its block is no
-/// leak.
+/// Shows the functions held by a block to the garbage collector, so a lambda that holds its block
+/// is no leak.
 void let_collect(PyHeapTypeObject* heap_type) {
   PyTypeObject& type = heap_type->ht_type;
   type.tp_flags |= Py_TPFLAGS_HAVE_GC;
@@ -33,7 +33,7 @@ void let_collect(PyHeapTypeObject* heap_type) {
 
 PythonLeaf& leaf_of(py::handle self) { return self.cast<PythonLeaf&>(); }
 
-/// () is a scalar, (n,) a vector of n entries.
+/// () is a scalar, (n,) is a vector of n entries.
 std::optional<Shape> shape_from(const std::optional<Dimensions>& dimensions) {
   if (!dimensions) return std::nullopt;
   if (dimensions->empty()) return Shape::scalar();
@@ -42,7 +42,7 @@ std::optional<Shape> shape_from(const std::optional<Dimensions>& dimensions) {
   return Shape::of(size);
 }
 
-/// (row, column) of entries of a Jacobian.
+/// Entries of a Jacobian as (row, column).
 using Places = std::vector<std::pair<Index, Index>>;
 
 void declare_continuous_state(py::handle self, py::handle initial, py::object ode,
@@ -105,7 +105,7 @@ int declare_output_port(py::handle self, py::object function, std::string name,
                          shape_from(shape), boolean, all);
 }
 
-/// A state as it is: no copy, no call.
+/// A state without a copy and without a call.
 int declare_view(py::handle self, std::string name, Space space) {
   PythonLeaf& leaf = leaf_of(self);
   const bool x = space == Space::x;

@@ -1,5 +1,5 @@
-// The work-precision report. It runs without the lock of the interpreter, which functions of the
-// model or of the known answer take for themselves.
+// The work-precision report. It runs without the interpreter lock; functions of the model or of the
+// known answer acquire it for each call.
 #include <pybind11/functional.h>
 #include <pybind11/stl.h>
 
@@ -14,14 +14,14 @@ namespace saltus::python {
 
 namespace {
 
-/// Throws what a signal handler raised, such as KeyboardInterrupt.
+/// Throws the exception of a signal handler, such as KeyboardInterrupt.
 bool check_signals() {
   const py::gil_scoped_acquire lock;
   if (PyErr_CheckSignals() != 0) throw py::error_already_set();
   return false;
 }
 
-/// Ctrl-C in a run ends the report, not only the run.
+/// Ctrl-C in a run ends the whole report, not only the run.
 void check_run(const Results* results) {
   check_signals();
   if (results == nullptr || !results->cause) return;
@@ -30,7 +30,7 @@ void check_run(const Results* results) {
   } catch (py::error_already_set& error) {
     const py::gil_scoped_acquire lock;
     if (!error.matches(PyExc_Exception)) throw;
-  } catch (const std::exception&) {  // the row says it
+  } catch (const std::exception&) {  // the row has the reason
   }
 }
 
@@ -58,7 +58,7 @@ void set_samples(Scene& scene, const std::vector<double>& times, const py::seque
   scene.exact.provenance = std::move(provenance);
 }
 
-/// The scene's system belongs to the Python object, which has to live as long.
+/// The scene's system belongs to the Python object, which must outlive it.
 std::shared_ptr<Scene> user_scene(const System& system, const Context& context,
                                   std::pair<double, double> span, SimulatorOptions options) {
   if (const auto* ladder = dynamic_cast<const LadderSystem*>(&system)) {

@@ -1,4 +1,4 @@
-// Results: columns as numpy arrays over the C++ memory, which lives as long as one of them.
+// Results: columns as NumPy arrays over the C++ memory, which lives as long as any of them.
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
@@ -32,8 +32,8 @@ py::dict outputs(const SharedResults& results) {
   return all;
 }
 
-/// The continuous state and the recorded signals at each of `times`; the interpreter is needed only
-/// where a function of the model is one of its own.
+/// The continuous state and the recorded signals at each of `times`. It needs the interpreter only
+/// if the model has Python functions.
 py::tuple at(const SharedResults& results, const std::vector<double>& times, bool left) {
   std::vector<double> states;
   std::vector<std::vector<double>> signals(results->signals.size());
@@ -66,7 +66,7 @@ py::array copy_of(std::span<const double> values) {
   return py::array_t<double>(static_cast<py::ssize_t>(values.size()), values.data());
 }
 
-/// In the order of the fields of saltus.results.Event.
+/// An event, in the order of the fields of saltus.results.Event.
 py::tuple event(const Results& results, std::size_t i) {
   if (i >= results.events.size())
     throw py::index_error(text("event ", i, " of ", results.events.size()));
@@ -85,7 +85,7 @@ py::array event_times(const Results& results, std::string_view name, std::string
   throw ModelError(text("unknown kind of event '", kind, "'", known_names(kind, known)));
 }
 
-/// By the names of the fields of saltus.results.Statistics.
+/// The counts, by the names of the fields of saltus.results.Statistics.
 py::dict statistics(const Results& results) {
   const Statistics& s = results.statistics;
   py::dict by_name;

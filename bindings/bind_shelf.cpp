@@ -1,4 +1,4 @@
-// The shelf: scenes that C++ made, and their systems.
+// The shelf: scenes made by C++, and their systems.
 #include <pybind11/functional.h>
 #include <pybind11/stl.h>
 
@@ -12,14 +12,14 @@ namespace {
 
 using Recorded = std::vector<std::tuple<std::string, SystemHandle, int>>;
 
-/// Name and title of every scene, in the order of the shelf.
+/// The name and title of every scene, in the order of the shelf.
 std::vector<std::pair<std::string, std::string>> shelf() {
   std::vector<std::pair<std::string, std::string>> all;
   for (const auto& entry : models::shelf()) all.emplace_back(entry.name, entry.title);
   return all;
 }
 
-/// Ports refer to blocks within the scene's system, which they keep.
+/// Ports refer to blocks inside the scene's system, so they keep it alive.
 Recorded recorded_signals(const Scene& scene) {
   Recorded all;
   for (const auto& [name, port] : scene.options.recorded_signals)

@@ -1,4 +1,4 @@
-// Simulator and its options. The lock of the interpreter is given back for a whole run.
+// Simulator and its options. The interpreter lock is released for a whole run.
 #include <chrono>
 
 #include <pybind11/functional.h>
@@ -15,7 +15,7 @@ namespace {
 
 using NamedPort = std::tuple<std::string, const System*, int>;
 
-/// A Simulator that heeds signals such as Ctrl-C and leaves it to Python to raise.
+/// A Simulator that handles signals such as Ctrl-C and lets Python raise their exceptions.
 class PythonSimulator {
  public:
   PythonSimulator(const System& system, SimulatorOptions options, py::object progress)
@@ -30,11 +30,11 @@ class PythonSimulator {
     simulator_.advance_to(t_end);
   }
 
-  /// Everything since initialize(), moved out or copied, and what was raised, or None. An exception
-  /// refers to the frames it went through, and they to this simulator, so no C++ object may keep
-  /// it: they would hold each other.
+  /// Everything since initialize(), moved out or copied, and the exception, or None. An exception
+  /// refers to the frames it went through, and they refer to this simulator. So no C++ object may
+  /// keep the exception, or the two would keep each other alive.
   py::tuple results(bool take) {
-    // The engine shows its results read-only, but they are part of this object's own simulator.
+    // The engine's results are const, but they are part of this object's own simulator.
     auto& now = const_cast<Results&>(simulator_.results());
     const py::object raised = now.cause ? cause_of(now) : std::exchange(signalled_, py::none());
     now.cause = nullptr;
@@ -63,7 +63,7 @@ class PythonSimulator {
     return options;
   }
 
-  /// Tells how far the run is, ten times a second at most.
+  /// Reports the progress of the run, at most ten times a second.
   void report() {
     const auto now = std::chrono::steady_clock::now();
     if (now - reported_ < std::chrono::milliseconds(100)) return;
@@ -72,8 +72,8 @@ class PythonSimulator {
     progress_(simulator_.time(), simulator_.results().statistics.events);
   }
 
-  /// Ctrl-C ends the run well; what else a signal handler raises is an exception like one of the
-  /// model.
+  /// Ctrl-C ends the run well; any other exception of a signal handler counts as an exception of
+  /// the model.
   bool signal_arrived() {
     const py::gil_scoped_acquire lock;
     if (PyErr_CheckSignals() == 0) return false;

@@ -1,5 +1,5 @@
-// System, Diagram and DiagramBuilder. The Python object of a block owns it: the shared pointers
-// here own nothing, and the Python diagram keeps the objects of its blocks, where the garbage
+// System, Diagram and DiagramBuilder. The Python object of a block owns the block. The shared
+// pointers here own nothing; the Python diagram keeps the objects of its blocks, so the garbage
 // collector sees them.
 #include <pybind11/stl.h>
 
@@ -62,7 +62,7 @@ void bind_system(py::module_& module) {
           [](DiagramBuilder& builder, std::string name) { return builder.build(std::move(name)); }))
       .def("require", [](const Diagram& diagram, std::string_view child) { diagram[child]; });
 
-  // The name that the system made next gets if it is not given one: Gain_7.
+  // The default name of the next system: Gain_7.
   module.def("next_name", [](const std::string& kind) {
     return text(kind, "_", LeafSystem().system_id().value + 1);
   });

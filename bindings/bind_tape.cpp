@@ -31,7 +31,7 @@ int apply(Graph& graph, std::string_view operation, const py::args& operands) {
   return graph.apply(tape::known_operation(operation), nodes(operands.cast<std::vector<int>>())).id;
 }
 
-/// A variable has its numbers in place of operands: ("input", [0, 2]).
+/// A variable has numbers in place of operands: ("input", [0, 2]).
 py::tuple operation(const Graph& graph, int id) {
   const tape::Expression& e = graph[Node{id}];
   const auto count = static_cast<std::size_t>(tape::operand_count(e.op));

@@ -1,5 +1,5 @@
-// What the binding files share. They carry the C++ names; defaults and docstrings stand in
-// python/saltus/*.py.
+// Declarations shared by the binding files. They carry the C++ names; defaults and docstrings are
+// in python/saltus/*.py.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -33,7 +33,7 @@ void bind_shelf(py::module_& module);
 void bind_report(py::module_& module);
 void bind_tape(py::module_& module);
 
-/// A class of python/saltus/errors.py.
+/// An exception class of python/saltus/errors.py.
 py::object error_class(const char* name);
 
 }  // namespace saltus::python

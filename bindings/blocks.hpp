@@ -1,4 +1,4 @@
-// What the bindings of blocks share.
+// Helpers shared by the bindings of blocks.
 #pragma once
 
 #include <pybind11/stl.h>
@@ -7,7 +7,7 @@
 
 namespace saltus::python {
 
-/// Turns the arguments of one block into numbers; messages name the block and the argument.
+/// Converts the arguments of one block to numbers; messages name the block and the argument.
 class Arguments {
  public:
   explicit Arguments(std::string block) : block_(std::move(block)) {}

@@ -1,4 +1,4 @@
-// The lock of the interpreter during a run: given back for the run, taken for each call of Python.
+// The interpreter lock during a run: released for the run, acquired for each call of Python.
 #pragma once
 
 #include <optional>
@@ -8,10 +8,10 @@
 
 namespace saltus::python {
 
-/// The thread's state in the interpreter while a run has given back the lock; null otherwise.
+/// The thread's state in the interpreter while a run has released the lock; null otherwise.
 inline thread_local PyThreadState* resting = nullptr;
 
-/// Gives the lock back, for as long as it lives. A run in a callback of a run gives it back again.
+/// Releases the lock as long as it lives. A run inside a callback of another run releases it again.
 class Unlocked {
  public:
   Unlocked() : outer_(std::exchange(resting, nullptr)) { resting = PyEval_SaveThread(); }
@@ -23,8 +23,8 @@ class Unlocked {
   PyThreadState* outer_;
 };
 
-/// Takes the lock, for as long as it lives. In a run the thread's own state is at hand, which is
-/// quicker than to have it looked up; another thread waiting for the lock gets it between calls.
+/// Acquires the lock as long as it lives. In a run the thread's own state is stored, which is
+/// faster than a look-up. Another thread that waits for the lock gets it between calls.
 class Locked {
  public:
   Locked() {

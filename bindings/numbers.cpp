@@ -16,7 +16,7 @@ std::string described(py::handle object) {
   return text(std::string(py::str(shown)), " (", Py_TYPE(object.ptr())->tp_name, ")");
 }
 
-/// What numpy would make a number of, and nobody means to be one.
+/// Objects that numpy would convert to a number although nobody means a number.
 bool is_text_or_none(py::handle object) {
   PyObject* const of = object.ptr();
   return object.is_none() || PyUnicode_Check(of) || PyBytes_Check(of) || PyByteArray_Check(of);
@@ -34,7 +34,7 @@ struct Entry {
   std::string place;  // "[0][2]" in lists of lists; empty for the object itself
 };
 
-/// The first of an object, or of the entries of lists, that `is_wrong`.
+/// The first object, or entry of a list, for which `is_wrong` is true.
 template <class Wrong>
 std::optional<Entry> entry_that(const Wrong& is_wrong, py::handle object, int depth = 0) {
   constexpr int deepest = 32;  // numpy has no more dimensions, and a list may hold itself
@@ -48,7 +48,7 @@ std::optional<Entry> entry_that(const Wrong& is_wrong, py::handle object, int de
   return std::nullopt;
 }
 
-/// What is wrong with what is no array of numbers.
+/// The reason why an object is not an array of numbers.
 std::string not_numbers(py::handle object) {
   const auto found = entry_that(is_no_number, object);
   const std::string type = Py_TYPE(object.ptr())->tp_name;
@@ -57,7 +57,7 @@ std::string not_numbers(py::handle object) {
   return text("a ", type, " whose entry ", found->place, " is ", described(found->object));
 }
 
-/// An array of doubles, or none and no Python error.
+/// An array of doubles, or no array and no Python error.
 Array numbers_in(py::handle object) {
   if (entry_that(is_text_or_none, object)) return py::reinterpret_steal<Array>(nullptr);
   Array array = Array::ensure(object);

@@ -1,4 +1,4 @@
-// How a Python function is called: over objects that are made once and used again.
+// Calls a Python function, with objects that are made once and reused.
 #include <bit>
 
 #include "python_leaf.hpp"
@@ -7,7 +7,8 @@ namespace saltus::python {
 
 namespace {
 
-/// A kept object must not change: one that somebody else holds too is left to them.
+/// A kept object must not change. If somebody else holds a reference too, the object is left to
+/// them.
 bool ours(const py::object& object) { return object && Py_REFCNT(object.ptr()) == 1; }
 
 void set_number(py::object& to, double value) {
@@ -35,7 +36,7 @@ void PythonLeaf::set_state(Frame& frame, const At& at) const {
   state.entry = at.entry;
 }
 
-/// The same objects as long as the values are the same, which is for a whole run.
+/// The same objects while the values are the same, that is for a whole run.
 void PythonLeaf::set_parameters(Frame& frame, const At& at, std::size_t place) const {
   if (frame.parameters.size() == parameter_dimensions_.size() && frame.parameter_values == at.p)
     return;
@@ -63,7 +64,7 @@ void PythonLeaf::set_input(py::object& to, const At& at, int i) const {
   set_array(to, {u.size()}, u);
 }
 
-/// Puts the inputs that the function gets from `place` on; returns the place after them.
+/// Inserts the inputs of the function, beginning at `place`; returns the place after them.
 std::size_t PythonLeaf::set_inputs(Frame& frame, const Function& function, const At& at,
                                    std::size_t place) const {
   const bool tuple = function.convention == Convention::inputs;
@@ -81,7 +82,7 @@ std::size_t PythonLeaf::set_inputs(Frame& frame, const Function& function, const
   return place;
 }
 
-/// The array that an in-place function fills; the last argument, by keyword.
+/// The array that an in-place function fills: the last argument, passed by keyword.
 void PythonLeaf::set_out(Frame& frame, const Function& function, Index size) const {
   if (!ours(frame.out) || size_of(frame.out) != size) {
     const Index n = declarations().continuous.initial.size();
@@ -94,7 +95,7 @@ void PythonLeaf::set_out(Frame& frame, const Function& function, Index size) con
   frame.arguments.back() = frame.out.ptr();
 }
 
-/// Room for all arguments; those that never change are in their places.
+/// Room for all arguments; the constant ones are already in their places.
 std::unique_ptr<Frame> PythonLeaf::new_frame(const Function& function) const {
   auto frame = std::make_unique<Frame>();
   const bool by_state = function.convention == Convention::state;
@@ -131,8 +132,8 @@ Frame& PythonLeaf::prepare(std::unique_ptr<Frame>& spare, const Function& functi
 
 namespace {
 
-/// A call with a frame that nobody else has: another thread, or the function itself, may come while
-/// this one is in Python.
+/// Makes a call with its own frame, because another thread, or the function itself, may enter while
+/// this call is in Python.
 class Borrowed {
  public:
   explicit Borrowed(std::unique_ptr<Frame>& home) : home_(home), frame(std::move(home)) {}
@@ -145,7 +146,8 @@ class Borrowed {
   std::unique_ptr<Frame> frame;
 };
 
-/// What Python raised to end the program: nobody in C++ may take it for a failure of the function.
+/// An exception that Python raised to end the program. C++ must not treat it as a failure of the
+/// function.
 class Ended final : public py::error_already_set, public Interruption {};
 
 }  // namespace
@@ -158,7 +160,7 @@ py::object PythonLeaf::vectorcall(const Function& function, const Frame& frame) 
   return py::reinterpret_steal<py::object>(result);
 }
 
-/// The names of the arguments that go by position.
+/// The names of the positional arguments.
 py::list PythonLeaf::positional(const Function& function) const {
   py::list names;
   if (function.method) names.append("self");
@@ -179,8 +181,9 @@ py::list PythonLeaf::positional(const Function& function) const {
   return names;
 }
 
-/// What the function raised, as it was. But a TypeError from no line of Python may say that it does
-/// not take what it is called with: then a ModelError says what that is.
+/// Rethrows the exception of the function unchanged. But a TypeError that no line of Python raised
+/// may mean that the function does not accept these arguments; then a ModelError names the
+/// arguments.
 void PythonLeaf::throw_raised(const Function& function, const Frame& frame) const {
   if (PyErr_ExceptionMatches(PyExc_Exception) == 0) throw Ended();
   py::error_already_set error;
@@ -199,7 +202,7 @@ py::object PythonLeaf::call(int k, const At& at, Index out_size) const {
   return vectorcall(function, prepare(borrowed.frame, function, at, out_size));
 }
 
-/// What the function computes, written to `out`.
+/// Writes the result of the function to `out`.
 void PythonLeaf::fill(int k, const At& at, VectorRef out) const {
   Function& function = functions_[static_cast<std::size_t>(k)];
   Borrowed borrowed(function.spare);

@@ -1,4 +1,5 @@
-// How a compiled function is called: its arguments are laid out as python/saltus/compiled.py says.
+// Calls a compiled function: its arguments have the layout that python/saltus/compiled.py
+// documents.
 #include <algorithm>
 
 #include "python_leaf.hpp"
@@ -7,7 +8,7 @@ namespace saltus::python {
 
 namespace {
 
-/// Memory of this thread for the arguments of one call; a call within a call gets other memory.
+/// Memory of this thread for the arguments of one call; a nested call gets other memory.
 class Room {
  public:
   Room() : values(std::move(spare)) { values.clear(); }
@@ -43,8 +44,8 @@ void PythonLeaf::run_compiled(const Function& function, const At& at, double* ou
                         at.time, name());
 }
 
-/// `out` begins as the present state; the function changes what it wants. What a map is for counts
-/// as written in any case, the rest if it differs.
+/// `out` begins as the present state, and the function changes some of it. The state that the map
+/// is declared for always counts as written, the other states only if they differ.
 void PythonLeaf::reset_compiled(const Function& function, const At& at, Next& next) const {
   Eigen::VectorXd after(at.x.size() + at.z.size() + 1);
   after << at.x, at.z, at.mode;

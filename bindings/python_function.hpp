@@ -1,4 +1,4 @@
-// One callback of a Python block: what it is for, and the objects that its calls use again.
+// One callback of a Python block: its purpose, and the objects that its calls reuse.
 #pragma once
 
 #include <cstdint>
@@ -12,21 +12,21 @@
 
 namespace saltus::python {
 
-/// Which inputs a function reads, and so gets; all if not said.
+/// The inputs that a function reads, and therefore gets; all if not given.
 using InputList = std::optional<std::vector<int>>;
 
-/// How a function is called.
+/// The arguments with which a function is called.
 enum class Convention {
   state,   ///< f(time, state, *inputs, **parameters)
   inputs,  ///< f((u_0, u_1, ...))
   input    ///< f(u_0)
 };
 
-/// What a function computes.
+/// The purpose of a function.
 enum class Role { ode, jacobian, sparse_jacobian, output, guard, reset_map, update };
 
-/// The Python objects of one call. They are used for the next one too, except those that the
-/// function has kept: it holds a reference to them.
+/// The Python objects of one call. The next call reuses them, except those that the function has
+/// kept by a reference.
 struct Frame {
   py::object time, state, inputs_tuple, out;
   std::vector<py::object> inputs, parameters;
@@ -37,9 +37,9 @@ struct Frame {
 };
 
 struct Function {
-  py::object callable = {};  // of a method of the block itself the plain function, so that it
-                             // refers to no block
-  bool method = false;  // the block goes before the other arguments
+  // The callable; for a method of the block itself its plain function, which refers to no block.
+  py::object callable = {};
+  bool method = false;  // the block is passed before the other arguments
   Convention convention = Convention::state;
   InputList inputs = {};
   std::string what = {};  // names it in messages
@@ -47,17 +47,18 @@ struct Function {
   int index = 0;                  // of the output, zero crossing or time event it belongs to
   bool in_place = false;          // it fills an array called `out`
   CompiledPointer compiled = {};  // in place of Python
-  void* user_data = nullptr;      // of the compiled one
+  void* user_data = nullptr;      // of the compiled function
   std::unique_ptr<Frame> spare = {};
 };
 
-/// How many there are, as the position of the next.
+/// The number of functions of this kind, which is the position of the next.
 template <class List>
 int count_of(const List& list) {
   return static_cast<int>(list.size());
 }
 
-/// The bits of an entry of `out` that nobody has written: a NaN that no arithmetic makes.
+/// The bits of an entry of `out` that the function has not written: a NaN that no arithmetic
+/// produces.
 inline constexpr std::uint64_t unwritten = 0x7ff85a175a175a17;
 
 }  // namespace saltus::python

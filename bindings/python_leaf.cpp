@@ -1,4 +1,4 @@
-// The functions of a Python block as the engine sees them.
+// The functions of a Python block, as the engine calls them.
 #include "python_leaf.hpp"
 
 #include "interpreter.hpp"
@@ -7,7 +7,7 @@ namespace saltus::python {
 
 namespace {
 
-/// The plain function behind a method of `self`; what is no such method stays.
+/// The plain function of a method of `self`; any other callable is returned unchanged.
 bool unbind(py::object& callable, py::handle self) {
   if (!PyMethod_Check(callable.ptr()) || PyMethod_GET_SELF(callable.ptr()) != self.ptr())
     return false;
@@ -67,7 +67,7 @@ VectorFunction PythonLeaf::vector_function(int k) const {
   };
 }
 
-/// Python and C give a matrix row by row.
+/// Python and C store a matrix row by row.
 MatrixFunction PythonLeaf::matrix_function(int k) const {
   return [this, k, rows = vector_function(k)](const At& at, MatrixRef out) {
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> values(out.rows(),

@@ -18,7 +18,7 @@ class PythonLeaf final : public LeafSystem {
  public:
   explicit PythonLeaf(std::string name) : LeafSystem(std::move(name)) {}
 
-  // What the Python class declares with; the functions come in by number, see `add`.
+  // The declarations of the Python class; functions are given by number, see `add`.
   using LeafSystem::declare_continuous_state;
   using LeafSystem::declare_default_mode;
   using LeafSystem::declare_discrete_state;
@@ -37,12 +37,12 @@ class PythonLeaf final : public LeafSystem {
   void add_parameter(const std::string& name, const py::array& value);
   int add_input(std::string name, std::optional<Shape> shape);
 
-  /// An output whose shape, or whether it is boolean, is found by calling it once with the values
-  /// the block starts with and inputs at zero, where that was not said.
+  /// An output whose shape, or boolean type, was not given. It is found by one call with the
+  /// initial values of the block and inputs at zero.
   int add_output(std::string name, int function, std::optional<Shape> shape,
                  std::optional<bool> boolean, Reads reads);
 
-  /// Takes a function of `self`, the Python object of this block, or a compiled one. Returns its
+  /// Adds a function of `self`, the Python object of this block, or a compiled one. Returns its
   /// number.
   int add(py::handle self, py::object callable, Function function);
   VectorFunction vector_function(int k) const;
@@ -51,7 +51,7 @@ class PythonLeaf final : public LeafSystem {
   ResetMap update(int k) const;
   const std::vector<Function>& functions() const { return functions_; }
   const Function& function(int k) const { return functions_[static_cast<std::size_t>(k)]; }
-  /// A parameter called `out` is that parameter, and nothing to fill.
+  /// A parameter called `out` is a parameter, not an array to fill.
   bool in_place(const Function& function) const {
     return function.in_place && !has_parameter("out");
   }
@@ -108,7 +108,7 @@ class PythonLeaf final : public LeafSystem {
     return text("block '", name(), "': ", function.what);
   }
 
-  PyObject* self_ = nullptr;  // the Python object that owns this one
+  PyObject* self_ = nullptr;  // the Python object that owns this block
   mutable std::vector<Function> functions_;
   std::vector<Unfinished> unfinished_;
   Dimensions x_dimensions_{0}, z_dimensions_{0};

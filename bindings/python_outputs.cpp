@@ -1,4 +1,4 @@
-// What a Python output is, found by calling it once: its shape, and whether it is a boolean.
+// Finds the shape of a Python output, and whether it is a boolean, by calling it once.
 #include <array>
 #include <numeric>
 
@@ -26,7 +26,7 @@ int PythonLeaf::add_output(std::string port, int function, std::optional<Shape> 
   return output;
 }
 
-/// A function that fills memory cannot be called to see how much.
+/// A function that fills memory cannot be called to find its size.
 void PythonLeaf::require_shape(int k, const std::optional<Shape>& shape) const {
   if (shape || !(function(k).compiled || function(k).in_place)) return;
   throw ModelError(text(whose(function(k)), ": it fills ",
@@ -34,7 +34,7 @@ void PythonLeaf::require_shape(int k, const std::optional<Shape>& shape) const {
                         ", so say how much: shape=() for one number, shape=n for a vector"));
 }
 
-/// Calls function k at the values the block starts with, every input filled with `value`.
+/// Calls function k with the initial values of the block and every input filled with `value`.
 py::object PythonLeaf::call_with(int k, const std::vector<Shape>& shapes, double value) const {
   const Declarations& d = declarations();
   const Function& function = this->function(k);
@@ -61,7 +61,7 @@ py::object PythonLeaf::call_with(int k, const std::vector<Shape>& shapes, double
               0);
 }
 
-/// The result of the first call that goes well: zeros may be divided by, and inputs of unknown
+/// The result of the first call that succeeds: a zero may be a divisor, and an input of unknown
 /// width may be indexed.
 std::optional<py::array> PythonLeaf::sample(int k, std::vector<Shape> shapes,
                                             std::span<const Index> widths) const {
@@ -99,12 +99,12 @@ Shape PythonLeaf::shape_of(int k, std::span<const Shape> inputs) const {
   return !found || found->ndim() == 0 ? Shape::scalar() : Shape::of(found->size());
 }
 
-/// Before anybody sees the declarations of this block, and once: outputs are what they will be.
+/// Runs once, before anyone reads the declarations of this block: outputs get their final shapes.
 void PythonLeaf::finish_outputs() {
   const Locked lock;
   constexpr std::array<Index, 7> guesses{0, 1, 2, 3, 4, 6, 12};
   const std::vector<Unfinished> now = std::exchange(unfinished_, {});
-  // The declarations are this object's own; only the interface that the engine sees is const.
+  // The declarations are this object's own; only the interface for the engine is const.
   auto& declared = const_cast<Declarations&>(declarations());
   for (const Unfinished& entry : now) {
     OutputDeclaration& output = declared.outputs[static_cast<std::size_t>(entry.output)];

@@ -1,4 +1,4 @@
-// What Python sees of a C++ Results.
+// C++ Results as a Python object.
 #pragma once
 
 #include <memory>
@@ -8,8 +8,8 @@
 
 namespace saltus::python {
 
-/// The Python exception for what ended a run: as it was raised, if Python code raised it. None if
-/// nothing was thrown.
+/// The Python exception that ended a run, unchanged if Python code raised it. None if nothing was
+/// thrown.
 py::object cause_of(const Results& results);
 
 }  // namespace saltus::python

@@ -1,4 +1,4 @@
-// A scene that Python describes: its system and context, and functions for what is known of it.
+// A scene that Python describes: its system and context, and functions for its known answer.
 #pragma once
 
 #include <memory>
@@ -10,7 +10,8 @@
 
 namespace saltus::python {
 
-/// A Python function in C++ hands: whoever drops it last takes the lock of the interpreter first.
+/// A Python function held by C++. The owner that drops the last reference first acquires the
+/// interpreter lock.
 class HeldFunction {
  public:
   explicit HeldFunction(py::object function)
@@ -24,7 +25,7 @@ class HeldFunction {
   std::shared_ptr<py::object> function_;
 };
 
-/// f(t, row) -> number, where `row` is a numpy vector.
+/// f(t, row) -> number, with `row` as a NumPy vector.
 inline std::function<double(double, const Eigen::VectorXd&)> row_function(py::object function,
                                                                           std::string what) {
   return [held = HeldFunction(std::move(function)), what = std::move(what)](

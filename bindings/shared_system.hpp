@@ -1,4 +1,4 @@
-// SharedSystem: a system that C++ made, such as one of the shelf, in Python's hands.
+// SharedSystem: a system that C++ made, such as a system of the shelf, as a Python object.
 #pragma once
 
 #include <memory>
@@ -10,22 +10,23 @@
 
 namespace saltus::python {
 
-/// What Python passes around until it makes a SharedSystem of it. Several may mean one system.
+/// A reference to a system from which Python makes a SharedSystem. Several references may mean one
+/// system.
 struct SystemHandle {
   std::shared_ptr<const System> system;
 };
 
-/// Keeps a system alive and is, to the engine, that system: the same leaves, ports and contexts.
-/// It is a System of its own only because a Python object has to own the C++ object it stands for.
+/// Keeps a system alive and represents it to the engine: the same leaves, ports and contexts. It is
+/// a separate System only because a Python object must own a C++ object.
 class SharedSystem final : public System {
  public:
   explicit SharedSystem(const SystemHandle& handle)
       : System(handle.system->name()), system_(handle.system) {}
 
   const System& shared() const { return *system_; }
-  /// A block of a diagram by name. Throws ModelError, with the names there are.
+  /// A block of a diagram by name. Throws ModelError with the known names if there is none.
   SystemHandle block(std::string_view name) const;
-  /// The names of the blocks of a diagram; of a leaf none.
+  /// The names of the blocks of a diagram; empty for a leaf.
   std::vector<std::string> block_names() const;
 
   std::string kind() const override { return system_->kind(); }

@@ -50,8 +50,8 @@ void State::write_to(Next& next) const {
 
 namespace {
 
-/// Getters of the plain kind: an ode reads its state at every call, and those of pybind11 cost more
-/// than all else of a call.
+/// Plain getters: an ode reads its state at every call, and getters of pybind11 cost more than the
+/// rest of a call.
 template <auto Member>
 PyObject* get(PyObject* self, void*) {
   const auto& value = state_in(self).*Member;

@@ -1,4 +1,4 @@
-// What a Python callback sees of its block: `state.continuous_state`,
+// The state argument of a Python callback: `state.continuous_state`,
 // `state.with_continuous_state(x)`.
 #pragma once
 
@@ -8,8 +8,8 @@
 
 namespace saltus::python {
 
-/// The state of one block at one time. To Python it is a value: its arrays own their memory and
-/// cannot be written to; each `with_*` returns a new one that knows what was written.
+/// The state of one block at one time. To Python it is a value: its arrays own their memory and are
+/// read-only. Each `with_*` returns a new state that remembers the written parts.
 struct State {
   State(std::string block_name, const Dimensions& x_dimensions, const Dimensions& z_dimensions)
       : block(std::move(block_name)),
@@ -20,7 +20,7 @@ struct State {
   State with_discrete_state(py::handle values) const;
   State with_mode(int other) const;
 
-  /// Says to the engine what a reset map or update wrote.
+  /// Passes the values that a reset map or update wrote to the engine.
   void write_to(Next& next) const;
 
   std::string block;
@@ -30,7 +30,7 @@ struct State {
   bool wrote_x = false, wrote_z = false, wrote_mode = false;
 };
 
-/// The state in a Python object that is one, at no cost.
+/// The state inside a Python object, at no cost.
 inline State& state_in(py::handle object) {
   return *static_cast<State*>(
       reinterpret_cast<py::detail::instance*>(object.ptr())->simple_value_holder[0]);

@@ -6,7 +6,7 @@ namespace saltus::python {
 
 namespace {
 
-/// The options of one zero crossing, as python/saltus/leaf_system.py passes them; messages name the
+/// The options of one zero crossing, as python/saltus/leaf_system.py passes them. Messages name the
 /// block, the zero crossing and the option.
 class Options {
  public:
@@ -22,7 +22,7 @@ class Options {
     }
   }
 
-  /// What stands under a word in a table.
+  /// The value with this name in a table.
   template <class Table>
   auto named(const char* name, const Table& table) const {
     const auto found = get<std::string>(name, "a name");

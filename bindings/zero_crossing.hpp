@@ -5,8 +5,8 @@
 
 namespace saltus::python {
 
-/// Options come as one dict, with every key; defaults and what they mean stand in
-/// python/saltus/leaf_system.py.
+/// The options are one dict with every key; python/saltus/leaf_system.py documents their defaults
+/// and meaning.
 void declare_zero_crossing(py::handle self, py::object guard, py::object reset_map,
                            std::string name, const py::dict& options);
 

@@ -1,4 +1,5 @@
-// A ball on a floor, as one leaf. The closed form is known, so the error of every method shows.
+// A ball on a floor, as one leaf. The closed form is known, so the program shows the error of every
+// method.
 #include <saltus/models/bouncing_ball.hpp>
 
 #include "runner.hpp"

@@ -1,4 +1,5 @@
-// What the examples share: options of the command line, one run with a summary, files, the report.
+// The common part of the examples: options of the command line, one run with a summary, files, the
+// report.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -12,14 +13,14 @@
 
 namespace examples {
 
-/// What every example asks for. The defaults are those of the scene.
+/// The options of every example. The defaults are those of the scene.
 struct Settings {
   double rtol = 1e-6;
   double atol = 1e-8;
   std::string method = "auto";
   std::string csv = {}, json = {};
   bool report = false;
-  std::vector<std::string> methods = {};  // of the report; none: those that suit the scene
+  std::vector<std::string> methods = {};  // of the report; empty: those that suit the scene
   std::vector<double> rtols = saltus::WorkOptions().rtols;
 };
 
@@ -48,8 +49,7 @@ inline std::ofstream opened(const std::string& file) {
   return out;
 }
 
-// --- one run
-// --------------------------------------------------------------------------------------------------------
+// --- one run -----------------------------------------------------------------------------------
 
 inline void print_events(std::ostream& out, const saltus::EventLog& events) {
   constexpr std::size_t most = 12;
@@ -80,7 +80,7 @@ inline void print_summary(std::ostream& out, const saltus::Scene& scene,
       << s.jacobian_calls << " Jacobian calls, " << short_time(s.wall_time) << "\n";
 }
 
-/// Time, pass, then the recorded signals, a row a line.
+/// Writes time, pass, and the recorded signals, with one line for each row.
 inline void write_rows(std::ostream& out, const saltus::Results& results) {
   out << std::setprecision(17) << "time,jump";
   for (const auto& signal : results.signals) {
@@ -147,8 +147,7 @@ inline void run_once(saltus::Scene scene, const Settings& settings) {
   if (!settings.json.empty()) opened(settings.json) << to_json(scene, results).dump(1) << "\n";
 }
 
-// --- the report
-// -----------------------------------------------------------------------------------------------------
+// --- the report --------------------------------------------------------------------------------
 
 inline void run_report(const saltus::Scene& scene, const Settings& settings,
                        const std::string& title = {}) {
@@ -166,11 +165,10 @@ inline void run_report(const saltus::Scene& scene, const Settings& settings,
   }
 }
 
-// --- main
-// -----------------------------------------------------------------------------------------------------------
+// --- main --------------------------------------------------------------------------------------
 
-/// Runs `body`; what goes wrong becomes one line and an exit code: 2 for bad input, 1 for a run
-/// that failed.
+/// Runs `body`. An error becomes one line and an exit code: 2 for bad input, 1 for a run that
+/// failed.
 template <class Body>
 int guarded(CLI::App& app, int argc, char** argv, Body&& body) {
   try {
@@ -190,7 +188,8 @@ int guarded(CLI::App& app, int argc, char** argv, Body&& body) {
   }
 }
 
-/// An example of one model. `add` gives the parameters their options, `make` makes the scene.
+/// Runs an example of one model. `add` declares the options of the parameters, `make` makes the
+/// scene.
 template <class Parameters, class Add>
 int run(int argc, char** argv, const std::string& name, const std::string& about, Add&& add,
         saltus::Scene (*make)(const Parameters&)) {

@@ -15,7 +15,7 @@ void list() {
               << "\n";
 }
 
-/// Its usual options, with those that the command line says.
+/// The scene with its usual options, changed by those of the command line.
 saltus::Scene chosen(const std::string& name, const CLI::App& app,
                      const examples::Settings& settings) {
   saltus::Scene scene = saltus::models::scene(name);

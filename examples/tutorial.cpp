@@ -1,5 +1,5 @@
-// The four scenes of the tutorial "Bouncing Ball": with the tutorial's own tolerances and step
-// bounds, and then error against run time without the bounds.
+// The four scenes of the tutorial "Bouncing Ball": first with the tutorial's own tolerances and
+// step bounds, then as error against run time without the bounds.
 #include <saltus/models/tutorial.hpp>
 
 #include "runner.hpp"
@@ -8,7 +8,8 @@ namespace {
 
 using namespace saltus;
 
-/// Each rest of the ball: when it began, how far that is from the closed form, and when it ended.
+/// Prints each rest of the ball: its beginning, the distance of this from the closed form, and its
+/// end.
 void print_rests(const Scene& scene, const Results& results) {
   const EventTimes& exact = scene.exact.events.front();
   const auto found = observed_series(results.events, exact.guard);
@@ -43,7 +44,7 @@ void show(const Scene& scene) {
   print_rests(scene, results);
 }
 
-/// The scene as it is, then without the bounds of steps, which no method needs.
+/// Compares the scene as it is with the scene without bounds of steps, which no method needs.
 void compare(Scene scene, const WorkOptions& work) {
   const Reference reference = reference_for(scene, {});
   std::vector<WorkRow> rows{measure(scene, scene.options, reference, work)};

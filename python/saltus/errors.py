@@ -91,9 +91,6 @@ class SimulationError(Error, RuntimeError):
         self.block = block
         self.results = results
 
-    def __reduce__(
-        self,
-    ) -> tuple[
-        type, tuple[object, ...]
-    ]:  # or a copy, for example one from another process, would lose the fields
+    def __reduce__(self) -> tuple[type, tuple[object, ...]]:
+        # Without this a copy, for example one from another process, would lose the fields.
         return type(self), (str(self), self.time, self.block, self.results)

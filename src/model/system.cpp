@@ -24,7 +24,7 @@ std::string readable(const char* mangled) {
 
 }  // namespace
 
-/// Without namespaces, functions around it and template arguments.
+/// The name of the class, without namespaces, enclosing functions and template arguments.
 std::string System::kind() const {
   std::string name = readable(typeid(*this).name());
   int depth = 0;

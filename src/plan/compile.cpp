@@ -33,14 +33,14 @@ void add_taps(Plan& plan, const RecordedSignals& signals) {
   }
 }
 
-/// Searches from nodes through what they need, one after the other in one memory: what a search
-/// costs is what it finds.
+/// Searches from nodes through the nodes they need. All searches share one memory, so the cost of a
+/// search is proportional to what it finds.
 class Search {
  public:
   explicit Search(const Plan& plan)
       : plan_(plan), seen_(plan.nodes.size(), 0), met_(plan.leaves.size(), 0) {}
 
-  /// The located nodes behind a node.
+  /// The located nodes that a node depends on.
   std::vector<int> located(int node) {
     begin({node});
     std::vector<int> found;
@@ -53,8 +53,8 @@ class Search {
     return found;
   }
 
-  /// The blocks whose continuous state moves a guard of block `own` that reads `nodes`, at once or
-  /// through the derivative of one that does; as it is or through feedthrough.
+  /// The blocks whose continuous state changes a guard of block `own` that reads `nodes`: directly,
+  /// through feedthrough, or through the derivative of such a block.
   std::vector<int> moving(int own, const std::vector<int>& nodes) {
     begin(nodes);
     leaves_.clear();
@@ -83,7 +83,8 @@ class Search {
       if (std::exchange(seen_[static_cast<std::size_t>(i)], search_) != search_) open_.push_back(i);
     }
   }
-  /// A leaf with a continuous state moves; what its derivative reads moves it.
+  /// A leaf with a continuous state changes the guard, and the values its derivative reads change
+  /// the leaf.
   void meet(int number) {
     const PlanLeaf& leaf = plan_.leaves[static_cast<std::size_t>(number)];
     if (leaf.nx == 0 || std::exchange(met_[static_cast<std::size_t>(number)], search_) == search_)
@@ -94,7 +95,7 @@ class Search {
 
   const Plan& plan_;
   int search_ = 0;
-  std::vector<int> seen_, met_;  // nodes and leaves: in which search
+  std::vector<int> seen_, met_;  // nodes and leaves: the number of the search that saw them
   std::vector<int> open_, leaves_;
 };
 

@@ -1,4 +1,4 @@
-// Plan::describe(): what was kept, folded and dropped, and why.
+// Plan::describe(): says what was kept, folded and dropped, and why.
 #include "saltus/plan/plan.hpp"
 
 namespace saltus {
@@ -14,7 +14,7 @@ void describe_list(std::string& out, const Plan& plan, std::string_view title,
   out += "\n";
 }
 
-/// `what` the list is for, one for each entry of `walk.fused`.
+/// `what` names the sinks of the list, one for each entry of `walk.fused`.
 void describe_walk(std::string& out, const Plan& plan, const Walk& walk, std::string_view what) {
   if (!walk.fuses()) return;
   auto calls = std::ranges::count_if(

@@ -9,24 +9,24 @@ namespace saltus::detail {
 
 namespace {
 
-/// A wider signal is not fused: there the numbers cost more than the call, and a call computes them
+/// A wider signal is not fused. There the numbers cost more than the call, and a call computes them
 /// side by side.
 constexpr Index widest = 16;
 
 constexpr int variable = -1;
 
-/// What a list is for: an ode or a group of guards.
+/// A consumer at the end of a list: an ode or a group of guards.
 struct Sink {
   int leaf = -1;
-  const Formula* formula = nullptr;  // none: it stays a call
+  const Formula* formula = nullptr;  // null: it stays a call
   Index to = 0, size = 0;            // in xdot, or in the vector of guards
   std::vector<int> needs = {};
 };
 
-/// Values as nodes of one graph: those that were computed in it, else variables.
+/// Holds values as nodes of one graph: computed nodes, or variables for values computed elsewhere.
 class Writer {
  public:
-  /// `first` is room for a number a node, shared by those that write one after the other.
+  /// `first` has room for a number for each node; writers that follow one another share it.
   Writer(const Plan& plan, std::vector<int>& first) : plan_(plan), first_(first) {}
 
   void compute(int i) {
@@ -35,7 +35,7 @@ class Writer {
     write(plan_.output_of(node).formula, node.leaf, node.place.size);
     first_[static_cast<std::size_t>(i)] = static_cast<int>(first);
   }
-  /// Writes a value that was computed to its own place.
+  /// Stores a computed value to its own place.
   void keep(int i) {
     const auto first = static_cast<std::size_t>(first_[static_cast<std::size_t>(i)]);
     put(first, plan_.node(i).place);
@@ -45,7 +45,7 @@ class Writer {
     write(*sink.formula, sink.leaf, sink.size);
     put(first, {Space::y, sink.to, sink.size});
   }
-  /// The values computed here are variables to who writes next.
+  /// The next stage reads these values as variables.
   void forget(const std::vector<int>& nodes) {
     for (const int i : nodes) first_[static_cast<std::size_t>(i)] = variable;
   }
@@ -107,15 +107,15 @@ class Writer {
   }
 
   const Plan& plan_;
-  std::vector<int>& first_;  // of the entries of each node in `values_`
+  std::vector<int>& first_;  // the first entry of each node in `values_`
   tape::Graph graph_;
   std::vector<tape::Node> values_, outputs_;
   std::vector<Index> places_;
 };
 
-/// A list with its sinks, cut into stages: what is fused in one, then the calls of the same one. A
-/// call stands in the first stage it can; a formula in the last one it can, so that one that only
-/// sinks read is part of the last function, which writes none of its values down.
+/// A list with its sinks, cut into stages. A stage is one fused function, then the calls of that
+/// stage. A call goes to the first stage where it can be; a formula goes to the last one, so a
+/// formula that only sinks read becomes part of the last function, which stores none of its values.
 class Stages {
  public:
   Stages(const Plan& plan, const std::vector<int>& list, const std::vector<Sink>& sinks)
@@ -168,7 +168,7 @@ class Stages {
   int& stage(int i) { return stage_[static_cast<std::size_t>(i)]; }
   int stage(int i) const { return stage_[static_cast<std::size_t>(i)]; }
 
-  /// A formula comes after the calls it reads, so in the stage behind theirs.
+  /// A formula follows the calls it reads, so its stage follows theirs.
   int first_stage(int i) const {
     int first = 0;
     for (const int need : plan_.node(i).needs) {
@@ -177,7 +177,7 @@ class Stages {
     }
     return first;
   }
-  /// Formulas that something in a stage reads are there, or before it.
+  /// Makes sure that the formulas read in a stage are in it, or before it.
   void settle(const std::vector<int>& needs, int reader) {
     for (const int need : needs) {
       if (stage(need) != absent && fuses(need)) stage(need) = std::min(stage(need), reader);
@@ -191,7 +191,7 @@ class Stages {
     }
   }
 
-  /// What others than the function it is part of read is written down.
+  /// The values that must be stored, because another function than their own reads them.
   std::vector<char> find_kept() const {
     std::vector<char> kept(plan_.nodes.size());
     const auto keep = [&](const std::vector<int>& needs, int reader) {
@@ -210,7 +210,7 @@ class Stages {
   int stages_ = 0;
 };
 
-/// A formula, if it is narrow enough.
+/// The formula, if it is narrow enough; otherwise null.
 const Formula* fusible(const Formula& formula, Index size) {
   return formula && size <= widest ? &formula : nullptr;
 }
@@ -229,7 +229,7 @@ std::vector<Sink> odes_of(const Plan& plan) {
   return sinks;
 }
 
-/// A guard that not every mode has stays a call: it is made where it can fire only.
+/// A guard that some modes do not have stays a call, so it is evaluated only if it can fire.
 std::vector<Sink> guards_of(const Plan& plan) {
   std::vector<Sink> sinks;
   for (const GuardGroup& group : plan.guards) {

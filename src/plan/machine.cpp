@@ -7,7 +7,7 @@ namespace saltus {
 
 namespace {
 
-/// Of a leaf whose states only reset maps move.
+/// Derivative of a leaf without an ode, whose states only reset maps change: zero.
 const VectorFunction& still() {
   static const VectorFunction zero([](const At&, VectorRef xdot) { xdot.setZero(); });
   return zero;
@@ -28,7 +28,7 @@ std::vector<Machine::OutputCall> Machine::calls_of(const std::vector<int>& nodes
   return calls;
 }
 
-/// The same where formulas are fused.
+/// The calls of a walk, with its fused formulas.
 std::vector<Machine::OutputCall> Machine::calls_of(const Walk& walk,
                                                    const std::vector<int>& nodes) {
   if (!walk.fuses()) return calls_of(nodes);
@@ -52,7 +52,8 @@ std::vector<Machine::Call> Machine::odes_of(const Walk& walk) {
   return odes;
 }
 
-/// Of a function over all of the machine. A tape asks for no leaf and no mode, so any will do.
+/// A call of a function over the whole machine. A tape needs no leaf and no mode, so any leaf will
+/// do.
 Machine::Call Machine::whole_call(const VectorFunction& fused) {
   return {&fused, plan_->leaves.front().system, 0, &views_.back(), 0, plan_->nx};
 }
@@ -111,7 +112,7 @@ Machine::Machine(std::shared_ptr<const Plan> plan) : plan_(std::move(plan)) {
   select_guards();
 }
 
-/// Whether an input of the leaf is a continuous state.
+/// Whether the leaf reads a continuous state through an input.
 bool Machine::reads_states(std::size_t leaf) const {
   return std::ranges::any_of(plan_->leaves[leaf].input_places,
                              [](const Place& place) { return place.space == Space::x; });

@@ -1,4 +1,4 @@
-// The search for the first number that is not finite, when a step has found that one is.
+// Searches for the first number that is not finite, after a step has found one.
 #include <cmath>
 
 #include "saltus/base/detail/listed.hpp"
@@ -8,7 +8,7 @@ namespace saltus {
 
 namespace {
 
-/// "x = [10, -3], in = [2]": what a block sees. Of many states entry i alone, where there is one.
+/// The arguments of a block, "x = [10, -3], in = [2]". Of many states only entry i, if i is given.
 std::string seen_by_block(const PlanLeaf& leaf, const At& at, Index i) {
   std::string seen;
   if (at.x.size() > 6 && i >= 0)
@@ -22,7 +22,7 @@ std::string seen_by_block(const PlanLeaf& leaf, const At& at, Index i) {
   return seen.empty() ? seen : text(" where ", seen);
 }
 
-/// "nan" or "inf": the sign of a NaN says nothing.
+/// "nan" or "inf": the sign of a NaN has no meaning.
 double shown(double value) { return std::isnan(value) ? std::abs(value) : value; }
 
 Index first_not_finite(const VectorView& values) {

@@ -1,4 +1,4 @@
-// Which states stand behind each entry of each signal that a derivative reads.
+// The states that each entry of each signal read by a derivative depends on.
 #pragma once
 
 #include <numeric>
@@ -8,8 +8,8 @@
 
 namespace saltus::detail {
 
-/// Sets of states by number: 0 is empty, 1 + i is state i alone, the others are listed. A set that
-/// many entries share is kept once.
+/// Sets of states, by number: 0 is the empty set, 1 + i is state i alone, the others are listed. A
+/// set that many entries share is stored once.
 class StateSets {
  public:
   explicit StateSets(Index n) : n_(n), limit_(most_places(n)) {}
@@ -24,7 +24,7 @@ class StateSets {
     for (const int i : listed(set)) f(i);
   }
 
-  /// The union; the sets named may repeat.
+  /// The union of sets; a set may be named more than once.
   int unite(std::vector<int>& sets) {
     std::ranges::sort(sets);
     sets.erase(std::unique(sets.begin(), sets.end()), sets.end());
@@ -51,7 +51,7 @@ class StateSets {
   std::vector<std::vector<int>> lists_;
 };
 
-/// The states behind each entry of each signal that a derivative reads.
+/// The states that each entry of each signal read by a derivative depends on.
 class Reach {
  public:
   explicit Reach(const Plan& plan) : plan_(plan), sets_(plan.nx), of_node_(plan.nodes.size()) {
@@ -61,7 +61,7 @@ class Reach {
     }
   }
 
-  /// The set behind entry i of what a leaf reads, of these of its inputs and relations.
+  /// The set for entry i of a value of a leaf, over the given inputs and relations of the leaf.
   template <class Of>
   void behind(const PlanLeaf& leaf, const std::vector<int>& inputs, const EntryRule& rule, Index n,
               Of put) {
@@ -96,7 +96,7 @@ class Reach {
 
   void visit(int number) {
     const Node& node = plan_.node(number);
-    if (node.relation) return;  // held, where it reaches a derivative
+    if (node.relation) return;  // held if it reaches a derivative
     const PlanLeaf& leaf = plan_.leaf_of(node);
     const OutputDeclaration& output = plan_.output_of(node);
     std::vector<int> own;
@@ -114,7 +114,7 @@ class Reach {
   }
 
  public:
-  /// Positions of the inputs that are read.
+  /// The numbers of the inputs that are read.
   static std::vector<int> inputs_of(const PlanLeaf& leaf, Reads reads,
                                     const std::optional<std::vector<int>>& named) {
     if (!has(reads, Reads::inputs)) return {};

@@ -11,7 +11,7 @@ namespace {
 
 using namespace detail;
 
-/// The places of a leaf's own block: declared, or else found; null where every one counts.
+/// The entries of a leaf's own block: declared, or otherwise found; null if all of them count.
 const std::vector<MatrixEntry>* named_entries(const PlanLeaf& leaf, int number,
                                               const FoundBlocks& found) {
   if (const auto& declared = leaf.declared().continuous.sparsity) return &*declared;
@@ -19,7 +19,7 @@ const std::vector<MatrixEntry>* named_entries(const PlanLeaf& leaf, int number,
   return at != found.end() ? &at->second : nullptr;
 }
 
-/// These entries of a leaf by rows; a ModelError for one that cannot be.
+/// These entries of a leaf by rows; a ModelError for an impossible entry.
 std::vector<std::vector<int>> by_rows(const PlanLeaf& leaf,
                                       const std::vector<MatrixEntry>& entries) {
   std::vector<std::vector<int>> rows(static_cast<std::size_t>(leaf.nx));
@@ -40,7 +40,7 @@ std::vector<std::vector<int>> by_rows(const PlanLeaf& leaf,
   return rows;
 }
 
-/// A place and whether only differences tell its value, row by row.
+/// Entries, and whether only differences give their values, row by row.
 struct Rows {
   std::vector<Index> start = {0};
   std::vector<int> columns;
@@ -76,7 +76,7 @@ class RowsOfLeaf {
   }
 
  private:
-  /// Whether some input depends on the leaf's own state: then its Jacobian is one part of two.
+  /// Whether an input depends on the leaf's own state. Then its Jacobian is only one of two parts.
   bool feeds_back(Reach& reach) const {
     bool found = false;
     std::vector<int> seen = through_;
@@ -99,7 +99,7 @@ class RowsOfLeaf {
     }
   }
 
-  /// Both lists and the diagonal, merged in order.
+  /// Appends both lists and the diagonal, merged in order.
   void append(Rows& rows, int diagonal, const std::vector<int>& own,
               const std::vector<int>& others) const {
     auto a = own.begin(), b = others.begin();
@@ -122,13 +122,13 @@ class RowsOfLeaf {
 
   const PlanLeaf& leaf_;
   const ContinuousState& state_;
-  std::vector<int> through_;  // the set behind the inputs of each row
+  std::vector<int> through_;  // the set of the inputs of each row
   bool named_;
   std::vector<std::vector<int>> named_rows_;
   bool reads_state_ = false, exact_ = false;
 };
 
-/// Rows to columns, in two sweeps.
+/// Turns rows into columns, in two sweeps.
 void transpose(const Rows& rows, Index n, JacobianPattern& to) {
   std::vector<Index>& start = to.places.start;
   start.assign(static_cast<std::size_t>(n) + 1, 0);
@@ -145,7 +145,7 @@ void transpose(const Rows& rows, Index n, JacobianPattern& to) {
   }
 }
 
-/// How many places a leaf's own block has at least.
+/// The least number of entries in a leaf's own block.
 Index block_size(const PlanLeaf& leaf, const std::vector<MatrixEntry>* entries) {
   const ContinuousState& state = leaf.declared().continuous;
   if (!state.ode || !has(state.reads, Reads::continuous_state)) return 0;

@@ -11,7 +11,7 @@ namespace saltus {
 
 namespace {
 
-/// Linux keeps it in a file; the name stands behind the first "model name" or "Model".
+/// Linux keeps the name in a file, after the first "model name" or "Model".
 std::string cpu_name() {
   std::ifstream info("/proc/cpuinfo");
   for (std::string line; std::getline(info, line);) {

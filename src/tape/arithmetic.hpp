@@ -1,4 +1,4 @@
-// What each operation computes. Folding and the tape both come here, so they agree to the last bit.
+// Computes each operation. Constant folding and tapes both call it, so they agree to the last bit.
 #pragma once
 
 #include <cmath>
@@ -14,15 +14,15 @@ inline double sign(double a) { return a > 0.0 ? 1.0 : a < 0.0 ? -1.0 : a == 0.0 
 inline double minimum(double a, double b) { return a <= b || std::isnan(a) ? a : b; }
 inline double maximum(double a, double b) { return a >= b || std::isnan(a) ? a : b; }
 
-/// Python's float.__mod__; NaN for b = 0, as numpy.remainder.
+/// Python's float.__mod__; NaN for b = 0, as numpy.remainder gives.
 inline double mod(double a, double b) {
   const double rest = std::fmod(a, b);
   if (rest == 0.0) return b == 0.0 ? rest : std::copysign(0.0, b);
   return (b < 0.0) != (rest < 0.0) ? rest + b : rest;
 }
 
-/// Python's float.__floordiv__; a/b for b = 0, as numpy.floor_divide. The quotient is rounded to
-/// the nearest whole number first: a - mod(a, b) is a multiple of b but for rounding.
+/// Python's float.__floordiv__; a/b for b = 0, as numpy.floor_divide gives. The quotient is first
+/// rounded to the nearest whole number, because a - mod(a, b) is a multiple of b up to rounding.
 inline double floor_divide(double a, double b) {
   if (b == 0.0) return a / b;
   const double rest = std::fmod(a, b);
@@ -35,8 +35,8 @@ inline double floor_divide(double a, double b) {
 
 }  // namespace detail
 
-/// The value of an operation; operands it does not take are not read. With a constant `op` one case
-/// is left of this switch.
+/// The value of an operation; operands that it does not take are not read. With a constant `op` the
+/// compiler keeps one case of this switch.
 [[gnu::always_inline]] inline double compute(Op op, double a, double b, double c) {
   using namespace detail;
   switch (op) {
@@ -143,7 +143,7 @@ inline double floor_divide(double a, double b) {
     case Op::select:
       return a != 0.0 ? b : c;
     default:
-      return a;  // a value that is there already: a copy
+      return a;  // the value exists already: a copy
   }
 }
 

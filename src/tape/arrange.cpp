@@ -10,8 +10,8 @@ namespace saltus::tape::detail {
 
 namespace {
 
-/// An array that a number is in, and where: the state, or what one run computes. A number that is
-/// in none is an array of its own.
+/// The array that contains a number, and its place there: the state, for example, or the results of
+/// a run. A number in no array is its own array.
 struct Where {
   int array = 0;
   Index position = 0;
@@ -29,7 +29,7 @@ class Arranger {
   std::vector<Group> run(const std::vector<Node>& order) {
     for (const Node node : order) note(node);
     for (auto& [key, nodes] : buckets_) split(key.second, nodes);
-    if (!any_run_) {  // depth first, so that most operands are what was computed just before
+    if (!any_run_) {  // depth first: the operand is often the last value computed
       groups_.clear();
       for (const Node node : order) {
         if (operand_count(graph_[node].op) > 0) groups_.push_back({node});
@@ -45,7 +45,7 @@ class Arranger {
     return {e.operands.data(), static_cast<std::size_t>(operand_count(e.op))};
   }
 
-  /// Nodes of one level do not need each other: 1 + the highest level of the operands.
+  /// Nodes of one level do not need each other: the level is 1 + the highest level of the operands.
   void note(Node node) {
     const Expression& e = graph_[node];
     where_[index(node)] = {-1 - node.id, 0};
@@ -59,7 +59,8 @@ class Arranger {
     buckets_[{level, e.op}].push_back(node);
   }
 
-  /// Arrays of variables come first; those of runs are numbered after the largest port.
+  /// Arrays of variables have the first numbers; arrays of runs are numbered after the largest
+  /// port.
   int new_array(int number) {
     arrays_ = std::max(arrays_, number + 1);
     return number;
@@ -80,7 +81,7 @@ class Arranger {
     return result;
   }
 
-  /// Cuts nodes of one level and operation into runs and single ones.
+  /// Cuts nodes of one level and one operation into runs and single nodes.
   void split(Op op, std::vector<Node>& nodes) {
     if (nodes.size() >= shortest_run) {
       for (const Node node : nodes) {

@@ -1,4 +1,4 @@
-// In which order expressions are computed, and which of them at once.
+// The order in which expressions are computed, and the expressions that are computed together.
 #pragma once
 
 #include <vector>
@@ -7,17 +7,17 @@
 
 namespace saltus::tape::detail {
 
-/// Expressions that one instruction computes: one, or a run of the same operation on operands that
-/// stand side by side, or at equal distances, or are the same for all.
+/// Expressions that one instruction computes: a single one, or a run of the same operation. The
+/// operands of a run are adjacent, or at equal distances, or the same for all.
 using Group = std::vector<Node>;
 
-/// The operations that `outputs` need, operands first. Where a model has rows of like equations,
-/// as a rod of many cells has, they become runs. Operands of operations that commute are
-/// exchanged where that puts those of a run in one order: `swapped` says for each node.
+/// The operations that `outputs` need, operands first. If a model has rows of similar equations, as
+/// a rod of many cells has, they become runs. Operands of commutative operations are exchanged if
+/// this brings the operands of a run into one order; `swapped` records it for each node.
 std::vector<Group> arrange(const Graph& graph, std::span<const Node> outputs,
                            std::vector<bool>& swapped);
 
-/// Fewer are computed one by one.
+/// Shorter runs are computed one by one.
 inline constexpr std::size_t shortest_run = 4;
 
 }  // namespace saltus::tape::detail

@@ -1,4 +1,4 @@
-// From expressions to instructions: where each number is, and for how long.
+// From expressions to instructions: the place of each number, and how long it keeps that place.
 #include <algorithm>
 #include <map>
 #include <optional>
@@ -39,12 +39,13 @@ class Builder {
  private:
   struct Value {
     int uses = 0;                        ///< still to come
-    std::vector<std::uint32_t> outputs;  ///< that show it
+    std::vector<std::uint32_t> outputs;  ///< that return it
     Place place = {};
-    std::optional<Place> loaded = {};  ///< a register that holds it too, for what reads no other
-    int block = -1;                    ///< of registers, if it is in one
+    std::optional<Place> loaded = {};  ///< a register that holds it too, for operations that read
+                                       ///< no other
+    int block = -1;                    ///< the block of its register, if any
   };
-  /// Registers side by side, given back when nothing in them is needed any more.
+  /// Adjacent registers, released when no number in them is needed any more.
   struct Block {
     std::uint32_t offset = 0, size = 0;
     int uses = 0;
@@ -72,7 +73,7 @@ class Builder {
     for (std::size_t k = 0; k < all.size(); ++k) line.from[k] = place_for(op, all[k]);
     for (const Node operand : all) release(operand);
     Value& value = of(node);
-    const bool straight = value.uses == 0;  // to the first output that shows it
+    const bool straight = value.uses == 0;  // directly to the first output that returns it
     line.to = straight ? Place{Kind::out, value.outputs.at(0)} : take_registers({&node, 1});
     add(line, node);
     for (std::size_t i = straight ? 1 : 0; i < value.outputs.size(); ++i) {
@@ -81,7 +82,7 @@ class Builder {
     }
   }
 
-  /// Where an operand is read: as what was computed just before, if it was.
+  /// The place from which an operand is read: the value just computed, if it is the operand.
   Place place_for(Op op, Node node) {
     if (takes_any(op) && node == before_) return {Kind::before};
     return fits(op, of(node).place) ? of(node).place : *of(node).loaded;
@@ -90,7 +91,7 @@ class Builder {
     return takes_any(op) ? place.kind <= Kind::p : place.kind == Kind::reg;
   }
 
-  /// Loads into a register what the operation does not take as it is; it stays there.
+  /// Loads an operand into a register if the operation cannot read it in place. It remains there.
   void load_if_needed(Op op, Node node) {
     if (!fits(op, of(node).place)) load(node);
   }
@@ -119,7 +120,7 @@ class Builder {
       line.from[k].stride = distance(of(first[k]).place.offset, of(second[k]).place.offset);
       if (first[k] == second[k]) line.from[k].stride = 0;
     }
-    // Nothing is given back before the run has its place: it must not write where it reads.
+    // Nothing is released before the run has its place: a run must not write where it reads.
     const auto output = outputs_of(group);
     const bool unread =
         std::ranges::all_of(group, [this](Node node) { return of(node).uses == 0; });
@@ -137,7 +138,7 @@ class Builder {
     return static_cast<std::int32_t>(to) - static_cast<std::int32_t>(from);
   }
 
-  /// The outputs of a run, if each has one and they stand at equal distances.
+  /// The outputs of a run, if each of its values has one and they are at equal distances.
   std::optional<Place> outputs_of(std::span<const Node> nodes) {
     for (const Node node : nodes) {
       if (of(node).outputs.size() != 1) return {};
@@ -150,7 +151,7 @@ class Builder {
     return Place{Kind::out, first, stride};
   }
 
-  /// Copies a run to its outputs: first all first ones, then all second ones, in pieces that stand
+  /// Copies a run to its outputs: first the first output of each value, then the second, in pieces
   /// at equal distances.
   void copy_out(std::span<const Node> nodes) {
     std::size_t most = 0;
@@ -159,7 +160,7 @@ class Builder {
       for (std::size_t i = 0; i < nodes.size();) i += copy_piece(nodes.subspan(i), rank);
     }
   }
-  /// Copies the longest piece from the first on; returns how many nodes that were.
+  /// Copies the longest piece from the first node on; returns the number of its nodes.
   std::size_t copy_piece(std::span<const Node> nodes, std::size_t rank) {
     const auto has = [&](std::size_t i) { return of(nodes[i]).outputs.size() > rank; };
     const auto output = [&](std::size_t i) { return of(nodes[i]).outputs[rank]; };
@@ -172,7 +173,7 @@ class Builder {
       ++count;
     }
     line.count = count < shortest_run ? 1 : count;
-    if (line.count > 1) line.from[0].stride = 1;  // the registers of a run stand side by side
+    if (line.count > 1) line.from[0].stride = 1;  // the registers of a run are adjacent
     program_.lines.push_back(line);
     return line.count;
   }
@@ -197,7 +198,7 @@ class Builder {
     }
   }
 
-  /// How many of the outputs from the first on are one copy.
+  /// The number of outputs, from the first on, that one copy can write.
   std::size_t side_by_side(std::span<const std::pair<std::uint32_t, Node>> all) {
     const Place first = of(all[0].second).place;
     const bool array = first.kind == Kind::x || first.kind == Kind::p || first.kind == Kind::z ||
@@ -219,7 +220,7 @@ class Builder {
 
   // --- registers ---
 
-  /// Registers for all that is in them at once.
+  /// Registers for all numbers of a run.
   Place take_registers(std::span<const Node> nodes) {
     const auto size = static_cast<std::uint32_t>(nodes.size());
     auto& free = free_[size];

@@ -8,11 +8,11 @@
 
 namespace saltus::tape {
 
-/// Which nodes are needed for `outputs`, in an order in which operands come first and an operation
+/// The nodes that `outputs` need, in an order in which operands come first and an operation comes
 /// soon after its last operand.
 std::vector<Node> needed(const Graph& graph, std::span<const Node> outputs);
 
-/// Writes `outputs` and what they need into an empty graph; returns them as nodes of it.
+/// Writes `outputs` and the nodes they need to an empty graph; returns them as its nodes.
 std::vector<Node> copy(const Graph& from, std::span<const Node> outputs, Graph& to);
 
 }  // namespace saltus::tape

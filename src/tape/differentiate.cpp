@@ -11,13 +11,13 @@ namespace saltus::tape {
 
 namespace {
 
-using Values = std::vector<std::optional<Node>>;  // of each node, where it is not zero
+using Values = std::vector<std::optional<Node>>;  // for each node, unless it is zero
 
 class Accumulation {
  public:
   Accumulation(Graph& graph, std::span<const Node> outputs, std::span<const Node> variables)
       : graph_(graph), outputs_(outputs), variables_(variables) {
-    for (const Node node : variables_) (void)graph_[node];  // each must be there
+    for (const Node node : variables_) (void)graph_[node];  // each node must exist
     for (const Node node : outputs_) (void)graph_[node];
     const auto size = static_cast<std::size_t>(graph_.size());
     needed_.resize(size);
@@ -58,7 +58,8 @@ class Accumulation {
     return {e.operands.begin(), e.operands.begin() + operand_count(e.op)};
   }
 
-  /// Parts of the graph that share nothing: a union-find over what depends on variables.
+  /// Finds parts of the graph that share nothing, by a union-find over the nodes that depend on
+  /// variables.
   void connect(const std::vector<Node>& order) {
     std::iota(part_.begin(), part_.end(), std::size_t{0});
     is_active_.assign(part_.size(), false);
@@ -81,12 +82,12 @@ class Accumulation {
     return i;
   }
 
-  /// What depends on a node, it among them, operands first.
+  /// The nodes that depend on a node, including the node, operands first.
   std::vector<Node> dependents(Node from) {
     return reached(from,
                    [this](Node node) { return std::span<const Node>(readers_[index(node)]); });
   }
-  /// What a node depends on and depends itself on a variable, operands first.
+  /// The nodes that a node depends on and that depend on a variable, operands first.
   std::vector<Node> sources(Node from) {
     if (!is_active_[index(from)]) return {};
     return reached(from, [this](Node node) {
@@ -110,7 +111,7 @@ class Accumulation {
     return all;
   }
 
-  /// Nodes that each way visits, by part of the graph.
+  /// The number of nodes that each direction visits, by part of the graph.
   std::pair<std::vector<std::size_t>, std::vector<std::size_t>> costs() {
     std::vector<std::size_t> forward(part_.size()), reverse(part_.size());
     for (const Node node : variables_) forward[part_of(node)] += dependents(node).size();
@@ -151,7 +152,8 @@ class Accumulation {
     return sum;
   }
 
-  /// The tangent of what is chosen. Not a product with 0 or 1: what is left out may be NaN.
+  /// The tangent of the chosen value. It is no product with 0 or 1, because the other value may be
+  /// NaN.
   std::optional<Node> chosen(const Expression& e) {
     const bool select = e.op == Op::select;
     const Node a = e.operands[select ? 1 : 0], b = e.operands[select ? 2 : 1];
@@ -193,7 +195,7 @@ class Accumulation {
   std::span<const Node> outputs_, variables_;
   std::vector<bool> needed_, is_active_, chooses_;
   std::vector<std::vector<Node>> readers_;
-  std::vector<std::vector<std::size_t>> rows_, columns_;  ///< that a node is
+  std::vector<std::vector<std::size_t>> rows_, columns_;  ///< its numbers
   std::vector<std::size_t> part_;
   std::vector<int> seen_;
   int visit_ = 0;

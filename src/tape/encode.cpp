@@ -1,4 +1,4 @@
-// Lines become instructions: for each kind of operand there is a function of its own.
+// Turns lines into instructions; each kind of operand has its own function.
 #include <algorithm>
 #include <array>
 #include <utility>
@@ -10,7 +10,7 @@ namespace saltus::tape::detail {
 
 namespace {
 
-/// The next instruction, as a jump where the compiler sees that nothing is left to do here.
+/// Runs the next instruction, as a jump if the compiler sees that nothing is left to do here.
 #define SALTUS_TAPE_NEXT(computed) return i[1].run(i + 1, computed, registers, out, at)
 
 template <Kind kind>
@@ -41,8 +41,8 @@ template <Kind kind>
   }
 }
 
-/// The first five kinds of both operands, the operation, and where the result goes are known when
-/// this is compiled: what is left is one load for each operand, the operation and one store.
+/// The kinds of both operands (of the first five), the operation and the destination are known at
+/// compile time, so one load for each operand, the operation and one store are left.
 template <Op op, bool to_out, Kind a, Kind b>
 double common(const Instruction* i, double before, double* registers, double* out, const At& at) {
   const double of_a = read<a>(i, 0, before, registers, at);
@@ -60,7 +60,7 @@ double other(const Instruction* i, double, double* registers, double* out, const
   SALTUS_TAPE_NEXT(result);
 }
 
-/// A piece of the tape ends. Pieces are short: where a compiler makes calls of the jumps above, as
+/// Ends a piece of the tape. Pieces are short: if a compiler makes calls of the jumps above, as
 /// without optimisation, the stack holds no more than one piece.
 double stop(const Instruction*, double before, double*, double*, const At&) { return before; }
 constexpr std::size_t longest_piece = 256;
@@ -74,7 +74,7 @@ constexpr std::size_t number(Op op) { return static_cast<std::size_t>(op); }
 template <std::size_t n>
 using Numbers = std::make_index_sequence<n>;
 
-/// For one operation of two operands: by the kinds of both.
+/// The functions of one operation with two operands, by the kinds of both.
 template <Op op, bool to_out, std::size_t... pair>
 constexpr auto by_kinds(std::index_sequence<pair...>) {
   return std::array<Handler, kinds * kinds>{
@@ -85,7 +85,7 @@ constexpr auto tables_of_two(std::index_sequence<o...>) {
   return std::array{by_kinds<common_of_two[o], to_out>(Numbers<kinds * kinds>{})...};
 }
 
-/// For one operation of one operand, or a copy (of all kinds): by its kind.
+/// The functions of one operation with one operand, or of a copy (from any kind), by its kind.
 template <Op op, bool to_out, std::size_t... kind>
 constexpr auto by_kind(std::index_sequence<kind...>) {
   return std::array<Handler, sizeof...(kind)>{

@@ -82,7 +82,7 @@ Node Graph::apply(Op op, std::span<const Node> operands) {
     throw ModelError(
         text("operation '", name(op), "' takes ", expected, " nodes, found ", operands.size()));
   }
-  for (const Node operand : operands) (void)(*this)[operand];  // each must be there
+  for (const Node operand : operands) (void)(*this)[operand];  // each must exist
   if (const auto number = folded(op, operands)) return *number;
   if (const auto simpler = simplified(*this, op, operands)) return *simpler;
   Expression e{.op = op};

@@ -70,7 +70,7 @@ constexpr std::array<std::string_view, operation_count> names = {"constant",
                                                                  "logical_and",
                                                                  "logical_or",
                                                                  "select"};
-static_assert(!names.back().empty());  // one for each
+static_assert(!names.back().empty());  // one for each operation
 
 }  // namespace
 

@@ -7,11 +7,11 @@
 
 namespace saltus::tape {
 
-/// d(node) / d(operand k) as an expression; empty where it is zero everywhere. Not for operations
-/// that choose.
+/// d(node) / d(operand k) as an expression; empty if it is zero everywhere. It does not handle
+/// operations that choose.
 std::optional<Node> partial(Graph& graph, Node node, std::size_t k);
 
-/// An operation that gives one of its operands as it is: select, minimum, maximum.
+/// Whether an operation returns one of its operands unchanged: select, minimum, maximum.
 constexpr bool chooses(Op op) { return op == Op::select || op == Op::minimum || op == Op::maximum; }
 
 }  // namespace saltus::tape

@@ -1,4 +1,4 @@
-// The list of instructions behind a tape.
+// The list of instructions of a tape.
 #pragma once
 
 #include <cstdint>
@@ -11,10 +11,10 @@
 
 namespace saltus::tape::detail {
 
-/// Where a number is. The first five may stand in any operand of common operations; the others are
-/// loaded into a register first.
+/// The place of a number. Any operand of a common operation may be of the first five kinds; a
+/// number of another kind is first loaded into a register.
 enum class Kind : unsigned char {
-  before,    ///< what the instruction before has computed: it is still in the processor
+  before,    ///< the result of the previous instruction, still in the processor
   reg,       ///< scratch memory
   constant,  ///< in the instruction itself
   x,
@@ -27,7 +27,7 @@ enum class Kind : unsigned char {
   out,  ///< written, never read
 };
 
-/// One number, or several with a stride between them.
+/// One number, or several at equal distances.
 struct Place {
   Kind kind = Kind::reg;
   std::uint32_t offset = 0;
@@ -50,12 +50,12 @@ struct Line {
 
 struct Instruction;
 
-/// Carries out an instruction and those after it up to the next stop; takes what the instruction
-/// before has computed, gives what the last one has.
+/// Executes an instruction and the following ones up to the next stop. It takes the result of the
+/// previous instruction and returns the last result.
 using Handler = double (*)(const Instruction* i, double before, double* registers, double* out,
                            const At& at);
 
-/// A line for the processor: one number at a time, or `line` for many.
+/// A line for the processor: one number, or the `line` of many.
 struct Instruction {
   Handler run = nullptr;
   union {
@@ -69,25 +69,25 @@ inline constexpr std::size_t small_registers = 128;
 
 /// Never changes once built.
 struct Program {
-  Graph graph;                ///< what the outputs need, nothing else
+  Graph graph;                ///< only the nodes that the outputs need
   std::vector<Node> outputs;  ///< nodes of `graph`
   std::deque<Line> lines;     ///< a deque: instructions point to them
   std::vector<Instruction> instructions;
-  std::vector<std::size_t> starts;  ///< of the pieces between two stops
+  std::vector<std::size_t> starts;  ///< first instruction of each piece between two stops
   std::vector<int> inputs;          ///< the ports that are read
-  std::vector<Index> widths;        ///< how many entries each of them must have
-  Index x = 0, z = 0, p = 0;        ///< how many entries the others must have
+  std::vector<Index> widths;        ///< the number of entries that each port must have
+  Index x = 0, z = 0, p = 0;        ///< the number of entries of the other arrays
   std::size_t registers = 0;
-  bool small = false;  ///< one piece, with registers that the stack holds
+  bool small = false;  ///< one piece, whose registers fit on the stack
   Reads reads = Reads::parameters;
   bool reads_entry = false;
 };
 
-/// Fills everything. Value i goes to places[i]; without places, to i.
+/// Fills the program. Value i goes to places[i]; without places it goes to i.
 void build(Program& program, const Graph& graph, std::span<const Node> outputs,
            std::span<const Index> places);
 
-/// Whether an operation takes operands of the first five kinds; others take registers only.
+/// Whether an operation takes operands of the first five kinds; the others take registers only.
 bool takes_any(Op op);
 /// Fills `instructions` and `starts` from `lines`.
 void encode(Program& program);

@@ -8,8 +8,8 @@ namespace {
 
 using detail::Instruction, detail::Program;
 
-/// In pieces, with memory of the thread. No tape runs while another one does: nothing that a user
-/// wrote is called.
+/// Runs a program of several pieces, with memory of the thread. No tape runs inside another one,
+/// because a tape calls no function of a user.
 [[gnu::noinline]] void run_large(const Program& program, const At& at, double* out) {
   thread_local std::vector<double> registers;
   if (registers.size() < program.registers) registers.resize(program.registers);

@@ -17,7 +17,7 @@ bool is(const Graph& graph, Node node, double number) {
 }
 Node operand(const Graph& graph, Node node, std::size_t i = 0) { return graph[node].operands[i]; }
 
-/// -0.0 is not among its values, whatever the variables are. It looks at a few levels only.
+/// Whether -0.0 is not among its values, whatever the variables are. It examines a few levels only.
 bool never_minus_zero(const Graph& graph, Node node, int levels = 4) {
   const Expression& e = graph[node];
   switch (e.op) {
@@ -35,7 +35,7 @@ bool never_minus_zero(const Graph& graph, Node node, int levels = 4) {
       return true;
     case Op::mul:
       return e.operands[0] == e.operands[1];
-    case Op::add:  // -0.0 comes of -0.0 + -0.0 only
+    case Op::add:  // only -0.0 + -0.0 is -0.0
       return levels > 0 && (never_minus_zero(graph, e.operands[0], levels - 1) ||
                             never_minus_zero(graph, e.operands[1], levels - 1));
     case Op::select:
@@ -107,7 +107,7 @@ Found product(Graph& graph, Node a, Node b) {
   return {};
 }
 
-/// A quotient by a power of two is a product by its inverse: both round the same number.
+/// A quotient by a power of two is a product with its inverse: both round the same number.
 Found quotient(Graph& graph, Node a, Node b) {
   const auto number = graph.value(b);
   if (!number) return {};
@@ -117,12 +117,12 @@ Found quotient(Graph& graph, Node a, Node b) {
   return graph.binary(Op::mul, a, graph.constant(1.0 / *number));
 }
 
-/// As NumPy's arrays for 2, 0.5 and -1; see Graph for 3 and 4.
+/// As NumPy's arrays do for 2, 0.5 and -1; see Graph for 3 and 4.
 Found power(Graph& graph, Node a, Node b) {
   const auto number = graph.value(b);
   if (!number) return {};
   const auto square = [&] { return graph.binary(Op::mul, a, a); };
-  if (*number == 0.0) return graph.constant(1.0);  // of NaN too, as std::pow
+  if (*number == 0.0) return graph.constant(1.0);  // even of NaN, as std::pow
   if (*number == 0.5) return graph.unary(Op::sqrt, a);
   if (*number == 1.0) return a;
   if (*number == -1.0) return graph.binary(Op::div, graph.constant(1.0), a);

@@ -8,8 +8,7 @@
 
 namespace saltus::tape {
 
-/// A node with the same value that is there already or is simpler to compute; empty if none is
-/// known.
+/// A node with the same value that exists already or is simpler to compute; empty if none is known.
 std::optional<Node> simplified(Graph& graph, Op op, std::span<const Node> operands);
 
 }  // namespace saltus::tape

@@ -23,7 +23,7 @@ Symbol Symbol::apply(Op op, std::initializer_list<Symbol> operands) {
     if (symbol.graph_ != nullptr) graph = symbol.graph_;
   }
   if (graph != nullptr) return {*graph, applied(*graph, op, operands)};
-  Graph constants;  // nothing is left of them but a number
+  Graph constants;  // only a number is left of it
   return *constants.value(applied(constants, op, operands));
 }
 

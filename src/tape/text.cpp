@@ -1,4 +1,4 @@
-// A tape as people read it.
+// A tape as text for people.
 #include "program.hpp"
 #include "saltus/base/error.hpp"
 #include "saltus/tape/tape.hpp"
@@ -9,7 +9,7 @@ namespace detail {
 
 namespace {
 
-/// "x[3]", or "x[3:23]" for several, "x[3:43:2]" with their distance.
+/// "x[3]", or "x[3:23]" for several entries, "x[3:43:2]" with their distance.
 std::string entries(const std::string& array, const Place& place, std::size_t count) {
   if (count == 1 || place.stride == 0) return text(array, "[", place.offset, "]");
   const auto end = static_cast<Index>(place.offset) + static_cast<Index>(count) * place.stride;
@@ -45,7 +45,7 @@ std::string show(const Place& place, std::size_t count, const std::string& befor
   return "";
 }
 
-/// `before` is the place that the line before has written.
+/// `before` is the place that the previous line has written.
 std::string show(const Line& line, std::string& before) {
   std::string shown = show(line.from[0], line.count, before);
   for (std::size_t k = 1; k < line.operands(); ++k) {

@@ -1,4 +1,4 @@
-// Runs: one operation on many numbers side by side.
+// Runs: one operation on many adjacent numbers.
 #include <array>
 #include <utility>
 
@@ -26,10 +26,10 @@ const double* first_of(const Place& place, const double* registers, const At& at
   }
 }
 
-/// The strides of a run, where they are known when this is compiled: 0 or 1.
+/// The strides of a run if they are known at compile time: 0 or 1.
 template <Op op, int step_a, int step_b>
 void close(double* to, const double* a, const double* b, Index n) {
-// what a run writes it does not read
+// a run does not read what it writes
 #ifdef __clang__
 #pragma clang loop vectorize(assume_safety)
 #else

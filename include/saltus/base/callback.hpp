@@ -1,5 +1,5 @@
-// One type-erased callable over `&Block::method` or a lambda. Erased once, at declaration: 3 ns a
-// call.
+// One type for any callable: `&Block::method` or a lambda. Its type is erased once, at declaration;
+// a call costs 3 ns.
 #pragma once
 
 #include <cstring>
@@ -33,15 +33,15 @@ struct MethodOf<R (C::*)(A...) const> : std::true_type {
   using Class = C;
 };
 
-/// Calls `f(at, out)`, or stores the number that `f(at)` returns: a scalar output, guard or
+/// Calls `f(at, out)`, or stores the number that `f(at)` returns, for a scalar output, guard or
 /// derivative.
 template <class F>
 void call(const F& f, const At& at, const VectorRef& out) {
   if constexpr (std::is_invocable_v<const F&, const At&, VectorRef>) {
     f(at, out);
   } else {
-    *const_cast<double*>(out.data()) =
-        static_cast<double>(f(at));  // a const view of memory that is not
+    // A const view, but its memory is not const.
+    *const_cast<double*>(out.data()) = static_cast<double>(f(at));
   }
 }
 template <class F>
@@ -55,8 +55,8 @@ void call(const F& f, const At& at, Next& next) {
 
 }  // namespace detail
 
-/// `method<&Ball::ode>` in place of `&Ball::ode`: the same callback, called directly and not
-/// through a pointer, so that the compiler can inline it.
+/// `method<&Ball::ode>` in place of `&Ball::ode` is the same callback, but it is called directly
+/// and not through a pointer, so the compiler can inline it.
 template <auto M>
   requires(detail::MethodOf<decltype(M)>::value)
 inline constexpr detail::ConstantMethod<M> method{};
@@ -64,12 +64,12 @@ inline constexpr detail::ConstantMethod<M> method{};
 template <class Signature>
 class Callback;
 
-/// A function of a leaf: a const method of it, or any callable that does not need one.
-/// The leaf is passed at each call, so a leaf may be moved after its callbacks were declared.
+/// A function of a leaf: a const method of the leaf, or any callable that does not need the leaf.
+/// The leaf is passed at each call, so it may be moved after its callbacks were declared.
 template <class Out>
 class Callback<void(const At&, Out)> {
-  using Passed = std::add_lvalue_reference_t<const Out>;  // views go by value to users, by
-                                                          // reference on the way
+  // Users get views by value; on the way to them views are passed by reference.
+  using Passed = std::add_lvalue_reference_t<const Out>;
 
  public:
   Callback() = default;
@@ -93,7 +93,8 @@ class Callback<void(const At&, Out)> {
     call_(*this, leaf, at, out);
   }
 
-  /// The same call, for who knows that `self` was made from an F that is no pointer to a method.
+  /// The same call, for a caller that knows that `self` was made from an F that is not a pointer to
+  /// a method.
   template <class F>
   [[gnu::always_inline]] static void call_as(const Callback& self, const LeafSystem& leaf,
                                              const At& at, Passed out) {
@@ -103,8 +104,8 @@ class Callback<void(const At&, Out)> {
       detail::call<F>(*static_cast<const F*>(self.callable_.get()), at, out);
   }
 
-  /// Steps that were compiled together with this right-hand side of `states` states; null for most.
-  /// See `inlined`.
+  /// Sets steps that were compiled together with this right-hand side of `states` states; null for
+  /// most callbacks. See `inlined`.
   void set_kernels(const detail::StepKernels* kernels, Index states) {
     kernels_ = kernels, kernel_states_ = states;
   }
@@ -141,7 +142,7 @@ class Callback<void(const At&, Out)> {
 /// entry.
 using VectorFunction = Callback<void(const At&, VectorRef)>;
 
-/// Reset map or update: says through `Next` what the state becomes.
+/// A reset map or update: it sets the new state through `Next`.
 using ResetMap = Callback<void(const At&, Next&)>;
 
 /// Fills a matrix, for example the Jacobian d(xdot)/d(x).

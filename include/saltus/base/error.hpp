@@ -20,32 +20,31 @@ namespace saltus {
 
 struct Results;  // simulation/results.hpp
 
-/// Base of everything Saltus throws on its own account. What a user's function throws comes out as
-/// it was.
+/// Base of every error that Saltus itself throws. An exception that a user's function throws is
+/// rethrown unchanged.
 class Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// The model, the context or an option is wrong: found before the run starts.
+/// The model, the context or an option is wrong. It is thrown before the run starts.
 class ModelError : public Error {
  public:
   using Error::Error;
 };
 
-/// The run could not go on. Carries the time reached, the block path and the partial results.
+/// The run could not continue. Carries the time reached, the block path and the partial results.
 class SimulationError : public Error {
  public:
   SimulationError(const std::string& message, double time, std::string block = {})
       : Error(message), time_(time), block_(std::move(block)) {}
 
-  double time() const noexcept { return time_; }  ///< [s] where the run stood
-  const std::string& block() const noexcept {
-    return block_;
-  }  ///< path of the block at fault, or empty
-  const std::shared_ptr<const Results>& results() const noexcept {
-    return results_;
-  }  ///< what was computed
+  /// [s] The time that the run had reached.
+  double time() const noexcept { return time_; }
+  /// Path of the block at fault, or empty.
+  const std::string& block() const noexcept { return block_; }
+  /// Everything computed until then.
+  const std::shared_ptr<const Results>& results() const noexcept { return results_; }
   void attach(std::shared_ptr<const Results> results) { results_ = std::move(results); }
 
  private:
@@ -54,8 +53,8 @@ class SimulationError : public Error {
   std::shared_ptr<const Results> results_;
 };
 
-/// Base, beside another one, of what is thrown to end the run, such as Ctrl-C in a user's function:
-/// whoever only tries a function out lets it pass.
+/// A second base of every exception that is thrown to end the run, such as Ctrl-C in a user's
+/// function. Code that only tries a function out must not catch it.
 class Interruption {
  public:
   virtual ~Interruption() = default;

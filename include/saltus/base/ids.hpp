@@ -1,4 +1,4 @@
-// Small integers that do not mix.
+// Small integer types that do not convert to one another.
 #pragma once
 
 #include <compare>
@@ -11,13 +11,13 @@ namespace saltus {
 
 using Index = Eigen::Index;
 
-/// Names one system for as long as the program runs; every constructed system gets a new one.
+/// Identifies one system as long as the program runs; every constructed system gets a new id.
 struct SystemId {
   int value = -1;
   auto operator<=>(const SystemId&) const = default;
 };
 
-/// Where a declared parameter stands in `at.p`: `at.p[g_]` for a scalar, `at.parameter(k_)` for a
+/// The place of a declared parameter in `at.p`: `at.p[g_]` for a scalar, `at.parameter(k_)` for a
 /// vector.
 struct ParameterIndex {
   Index offset = 0;
@@ -25,7 +25,7 @@ struct ParameterIndex {
   constexpr operator Index() const noexcept { return offset; }
 };
 
-/// Names a relation of a leaf: `at.relation(r)`.
+/// Identifies a relation of a leaf: `at.relation(r)`.
 struct RelationIndex {
   int value = -1;
 };

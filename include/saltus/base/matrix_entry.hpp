@@ -1,4 +1,4 @@
-// MatrixEntry: where a Jacobian may differ from zero.
+// MatrixEntry: an entry of a Jacobian that may differ from zero.
 #pragma once
 
 #include <algorithm>
@@ -8,13 +8,13 @@
 
 namespace saltus {
 
-/// One place of a matrix. Entry (row, column) of a Jacobian is d(xdot[row]) / d(x[column]).
+/// One position in a matrix. Entry (row, column) of a Jacobian is d(xdot[row]) / d(x[column]).
 struct MatrixEntry {
   Index row = 0, column = 0;
   bool operator==(const MatrixEntry&) const = default;
 };
 
-/// All entries of an n by n matrix up to `lower` places below and `upper` above the diagonal,
+/// All entries of an n by n matrix up to `lower` positions below and `upper` above the diagonal,
 /// column by column: `band_entries(n, 1, 1)` is a tridiagonal matrix.
 inline std::vector<MatrixEntry> band_entries(Index n, Index lower, Index upper) {
   std::vector<MatrixEntry> entries;

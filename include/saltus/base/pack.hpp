@@ -1,4 +1,4 @@
-// Pack: some numbers side by side, calculated with as if they were one.
+// Pack: several numbers in one value, with the operations of a number.
 #pragma once
 
 #include <algorithm>
@@ -8,14 +8,15 @@
 
 namespace saltus {
 
-/// What each of a few numbers becomes, to the last bit, side by side where the processor can. A
-/// comparison gives 0 or 1 for each; see tape::Symbol, which has the same operations.
+/// Applies each operation to every number of the pack, with the same bits as one by one; the
+/// processor does several at once if it can. A comparison gives 0 or 1 for each number.
+/// tape::Symbol has the same operations.
 class Pack {
  public:
   static constexpr int size = 8;
 
   Pack(double value) { values_.fill(value); }  // NOLINT(google-explicit-constructor): a number
-  /// Those that stand from `first` on.
+  /// The `size` numbers from `first` on.
   explicit Pack(const double* first) { std::copy_n(first, size, values_.begin()); }
   void store(double* first) const { std::ranges::copy(values_, first); }
 
@@ -87,7 +88,7 @@ class Pack {
     return result;
   }
 
-  std::array<double, size> values_;  // not set by Pack(): what makes one fills it
+  std::array<double, size> values_;  // not set by Pack(): the function that makes it fills it
 };
 
 }  // namespace saltus

@@ -1,9 +1,9 @@
-// Reads: what a value depends on.
+// Reads: the kinds of values that an output or a guard depends on.
 #pragma once
 
 namespace saltus {
 
-/// What a value depends on. It decides how often it is computed: see `Rate`.
+/// The kinds of values that a computation depends on. They decide how often it runs: see `Rate`.
 enum class Reads : unsigned {
   parameters = 0,  ///< nothing that changes during a run
   time = 1,
@@ -12,7 +12,7 @@ enum class Reads : unsigned {
   mode = 8,
   inputs = 16,
   relations = 32,
-  schedule = 64,  ///< the time, but changing at the leaf's own time events only
+  schedule = 64,  ///< the time, but it changes at the leaf's own time events only
   everything = 63,
 };
 constexpr Reads operator|(Reads a, Reads b) {

@@ -1,5 +1,5 @@
-// What a callback sees (At) and what a reset map or update may set (Next): maps over the machine's
-// flat memory.
+// The argument of a callback (At), and the object through which a reset map or update writes
+// (Next): maps over the machine's flat memory.
 #pragma once
 
 #include <algorithm>
@@ -16,24 +16,26 @@ namespace saltus {
 
 class LeafSystem;
 
-using VectorView = Eigen::Map<const Eigen::VectorXd>;  ///< read-only column over somebody's memory
-using VectorRef = Eigen::Map<Eigen::VectorXd>;         ///< writable column over somebody's memory
+using VectorView = Eigen::Map<const Eigen::VectorXd>;  ///< read-only column over memory of another
+                                                       ///< object
+using VectorRef = Eigen::Map<Eigen::VectorXd>;         ///< writable column over memory of another
+                                                       ///< object
 using MatrixRef = Eigen::Map<Eigen::MatrixXd>;         ///< writable matrix, column major
 
-/// Which of the machine's arrays a signal lives in. State outputs are views, never copies.
+/// The machine's array that contains a signal. State outputs are views, never copies.
 enum class Space : int { x, z, p, y };
 
-/// Where one signal lives.
+/// The place of one signal.
 struct Place {
   Space space = Space::y;
   Index offset = 0;
   Index size = 0;
 };
 
-/// The machine's arrays at the moment of a call; `x` moves from call to call, the others do not.
+/// The machine's arrays at the moment of a call. `x` changes from call to call, the others do not.
 using Bases = std::array<const double*, 4>;
 
-/// The inputs of a leaf. `u[i]` is input i as a vector, `u(i)` its first entry, for scalars.
+/// The inputs of a leaf. `u[i]` is input i as a vector; `u(i)` is its first entry, for scalars.
 class Inputs {
  public:
   Inputs(const Place* places, int count, const Bases* bases)
@@ -52,7 +54,7 @@ class Inputs {
   const Bases* bases_;
 };
 
-/// What a leaf's callback sees of the world at one time: all of it read-only, none of it copied.
+/// The arguments of a leaf's callback at one time: read-only views, no copies.
 class At {
  public:
   At(double t, VectorView state, VectorView discrete, VectorView parameters, int m, Inputs inputs,
@@ -62,16 +64,16 @@ class At {
   double time;      ///< [s]
   VectorView x;     ///< continuous state of this leaf
   VectorView z;     ///< discrete state of this leaf
-  VectorView p;     ///< parameters of this leaf, one after the other
+  VectorView p;     ///< parameters of this leaf, in the order of declaration
   Inputs u;         ///< inputs of this leaf
   int mode;         ///< mode of this leaf
-  Index entry = 0;  ///< in a reset map: which guard of a vector of them fired
+  Index entry = 0;  ///< in a reset map: the index of the guard that fired, in a vector of guards
 
   /// A vector parameter.
   VectorView parameter(ParameterIndex k) const { return {p.data() + k.offset, k.size}; }
 
-  /// The truth of entry i of a relation: held between instants where it reaches a derivative, else
-  /// as of now.
+  /// The truth of entry i of a relation. It is held between instants if it reaches a derivative,
+  /// otherwise it has its present value.
   bool relation(RelationIndex r, Index i = 0) const { return relation_values(r)[i] != 0.0; }
   /// The truths of all entries of a relation, 0 or 1.
   const double* relation_values(RelationIndex r) const { return relations_[r.value]; }
@@ -80,8 +82,8 @@ class At {
   const double* const* relations_;
 };
 
-/// What a reset map or update says. It starts as the present state; writing is saying "I wrote
-/// this", even if the value is the one that was there.
+/// The result of a reset map or update. It starts as the present state. A write counts as a reset
+/// even if the new value equals the old one.
 class Next {
  public:
   Next(VectorRef x, VectorRef z, int& mode, const std::string& path)

@@ -1,6 +1,6 @@
 // y = |u|, elementwise.
-// in: any width. out: the same. Where y reaches a derivative, u = 0 is located and the side held
-// between instants: the solver sees +u or -u, never the kink.
+// in: any width. out: the same width. If y reaches a derivative, u = 0 is located and the side is
+// held between instants: the solver sees +u or -u, never the kink.
 #pragma once
 
 #include "saltus/library/elementwise.hpp"

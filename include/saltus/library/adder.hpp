@@ -1,4 +1,4 @@
-// y = +-u_0 +- u_1 ..., elementwise, one sign an input: "+-" is u_0 - u_1.
+// y = +-u_0 +- u_1 ..., elementwise, with one sign for each input: "+-" is u_0 - u_1.
 // in_0, in_1, ...: scalars and vectors of one width. out: that width.
 #pragma once
 

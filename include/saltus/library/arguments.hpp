@@ -1,4 +1,4 @@
-// What the constructors of blocks take: numbers that may be vectors; and how they refuse a bad one.
+// The arguments of the constructors of blocks: numbers or vectors, and the refusal of bad ones.
 #pragma once
 
 #include <concepts>
@@ -11,7 +11,7 @@
 
 namespace saltus {
 
-/// A number or a vector. A number makes a scalar signal, a vector (also one of a single entry) a
+/// A number or a vector. A number makes a scalar signal; a vector, even of a single entry, makes a
 /// vector signal.
 struct Value {
   Value(double number)
@@ -32,7 +32,7 @@ struct Value {
 
 namespace detail {
 
-/// `what` begins with what was found and ends with what to do.
+/// Throws a ModelError for a block; `what` begins with the value found and ends with a remedy.
 template <class... Pieces>
 void insist(bool good, const std::string& block, const Pieces&... what) {
   if (!good) throw ModelError(text("block '", block, "': ", what...));

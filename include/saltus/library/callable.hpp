@@ -1,4 +1,4 @@
-// How a C++ callable over a block's inputs becomes the calculation of an output.
+// Makes the calculation of an output from a C++ callable over a block's inputs.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace saltus::detail {
 
-inline constexpr int most_scalars = 32;  // gathered on the stack, so that a call allocates nothing
+inline constexpr int most_scalars = 32;  // copied to the stack, so a call allocates nothing
 
 template <class F>
 concept OverScalars = std::invocable<const F&, std::span<const double>>;
@@ -22,7 +22,7 @@ struct ResultOf : std::invoke_result<const F&, std::span<const double>> {};
 template <OverInputs F>
 struct ResultOf<F> : std::invoke_result<const F&, const Inputs&> {};
 
-/// bool, a number, or a vector: the kinds of result there are.
+/// The possible results of a callable: bool, a number, or a vector.
 template <class R>
 concept Truth = std::same_as<std::remove_cvref_t<R>, bool>;
 template <class R>

@@ -1,8 +1,8 @@
 // y = u_0 operator u_1, elementwise, 0 or 1; operators <  <=  >  >=  ==  !=.
 // in_0, in_1: scalars and vectors of one width. out: boolean, that width.
-// The first four own a relation with the smooth guard u_0 - u_1, located and held where it reaches
-// a derivative, a guard or a reset. Equality has no sign to change, so it is an opaque boolean:
-// meant for held signals, such as modes.
+// The first four operators have a relation with the smooth guard u_0 - u_1, located and held if it
+// reaches a derivative, a guard or a reset. Equality has no sign to change, so it is an opaque
+// boolean, meant for held signals such as modes.
 #pragma once
 
 #include "saltus/library/elementwise.hpp"

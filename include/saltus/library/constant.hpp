@@ -1,5 +1,5 @@
 // y = value.
-// out: shape of `value`. Parameter "value". Shown where it stands in the context: nothing is ever
+// out: shape of `value`. Parameter "value". The output is a view of the context: nothing is ever
 // computed.
 #pragma once
 

@@ -1,5 +1,5 @@
-// What elementwise blocks share: a scalar stands for a vector of equal entries, vectors must be of
-// one width.
+// The common part of elementwise blocks: a scalar counts as a vector of equal entries, and vectors
+// must have one width.
 #pragma once
 
 #include <algorithm>
@@ -12,12 +12,12 @@
 
 namespace saltus::detail {
 
-/// Entry i of a vector, or the one entry of a scalar.
+/// Entry i of a vector, or the only entry of a scalar.
 inline double entry(const VectorView& values, Index i) {
   return values[values.size() == 1 ? 0 : i];
 }
 
-/// The shape that fits them all; a ModelError if vectors of different widths meet.
+/// The shape that fits all of them; a ModelError if vectors of different widths meet.
 inline Shape stretched(const std::string& block, std::span<const Shape> shapes) {
   const Shape result = elementwise(shapes);
   const bool fit = std::ranges::all_of(shapes, [&](const Shape& shape) {
@@ -41,8 +41,8 @@ inline ShapeRule stretch(std::string block, std::vector<Shape> parameters = {}) 
   };
 }
 
-/// The width of a relation between the inputs and parameters of these shapes: the inputs decide
-/// unless one of the parameters is wider than one.
+/// The width of a relation between inputs and parameters of these shapes. The inputs decide it,
+/// unless a parameter is wider than one.
 inline std::optional<Index> relation_width(const std::string& block,
                                            const std::vector<Shape>& parameters) {
   const Shape shape = stretched(block, parameters);

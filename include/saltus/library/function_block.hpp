@@ -1,6 +1,6 @@
 // y = f(u), elementwise: any C++ callable from a number to a number or a bool.
-// in: any width. out: the same; boolean if f returns bool, and then opaque as in a ReduceBlock. A
-// Formula over u(0) in place of f is fused with its neighbours.
+// in: any width. out: the same width. If f returns bool, out is boolean and opaque, as in a
+// ReduceBlock. A Formula over u(0) in place of f is fused with its neighbours.
 #pragma once
 
 #include "saltus/library/callable.hpp"

@@ -1,11 +1,12 @@
 // dx/dt = u, y = x, elementwise; on a rising edge of reset_trigger x becomes reset_value, or
-// initial_state. Ports, each only if its option is on, in this order: in, reset_trigger,
-// reset_value, hold_trigger. in, reset_value and out have the shape of initial_state; the triggers
-// are one boolean each. out is a view of the state, no feedthrough. Parameters "initial_state"
-// (what a reset goes back to; the state itself is in the context), "lower_limit", "upper_limit".
-// With limits an entry stands still while it is at its limit and pushed outward, and goes on when u
-// turns; both facts are relations, so the derivative is smooth between instants. A Zeno hold after
-// ever faster resets is the engine's.
+// initial_state.
+// Ports, each only if its option is on, in this order: in, reset_trigger, reset_value,
+// hold_trigger. in, reset_value and out have the shape of initial_state; each trigger is one
+// boolean. out is a view of the state, without feedthrough. Parameters "initial_state" (the value
+// after a reset; the state itself is in the context), "lower_limit", "upper_limit".
+// With limits an entry remains constant while it is at its limit and pushed outward, and moves
+// again when u turns. Both facts are relations, so the derivative is smooth between instants. The
+// engine provides the Zeno hold after ever faster resets.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +21,7 @@ struct IntegratorOptions {
   bool enable_reset = false;                  ///< input reset_trigger
   bool enable_external_reset = false;         ///< input reset_value; needs enable_reset
   std::optional<double> zeno_tolerance = {};  ///< [s] overrides that of the simulator options
-  bool enable_limits = false;                 ///< the limits below count only with it
+  bool enable_limits = false;                 ///< without it the limits below have no effect
   std::optional<Value> lower_limit = {};
   std::optional<Value> upper_limit = {};
   bool enable_hold = false;  ///< input hold_trigger: dx/dt = 0 while it is true
@@ -90,8 +91,8 @@ inline void Integrator::declare_ports(const Options& options) {
     hold_ = declare_input_port({.name = "hold_trigger", .shape = Shape::scalar()});
 }
 
-/// At a limit counts as beyond it: a state that starts exactly there is held if it is pushed
-/// outward.
+/// A state at its limit counts as beyond it: a state that starts exactly there is held if it is
+/// pushed outward.
 inline void Integrator::declare_limits(const Options& options) {
   const Index n = options.initial_state.values.size();
   if (options.lower_limit) {
@@ -121,7 +122,7 @@ inline void Integrator::declare_limits(const Options& options) {
                               .formula = [](const auto& at) { return at.u(0); }});
 }
 
-/// u, but 0 on hold and where the state is pushed out of its limits.
+/// u, or 0 on hold and for entries that are pushed out of their limits.
 inline Formula Integrator::flow(bool limits) const {
   return [limits, hold = hold_, lower = lower_, upper = upper_, at_lower = at_lower_,
           at_upper = at_upper_, rising = rising_](const auto& at) {

@@ -1,4 +1,4 @@
-// All blocks. docs/blocks.md has one row for each, and says how to add one.
+// All blocks. docs/blocks.md has a row for each block, and says how to add one.
 #pragma once
 
 #include "saltus/library/abs.hpp"

@@ -1,4 +1,4 @@
-// y = (u_0; u_1; ...): the inputs one after the other.
+// y = (u_0; u_1; ...): the inputs in order.
 // in_0, in_1, ...: any widths. out: a vector of their total width.
 #pragma once
 

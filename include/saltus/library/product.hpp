@@ -1,4 +1,5 @@
-// y = 1 */ u_0 */ u_1 ..., elementwise, one operator an input: "*/" is u_0 / u_1, "/" is 1 / u_0.
+// y = 1 */ u_0 */ u_1 ..., elementwise, with one operator for each input: "*/" is u_0 / u_1, "/" is
+// 1 / u_0.
 // in_0, in_1, ...: scalars and vectors of one width. out: that width. A division by zero ends the
 // run with an error.
 #pragma once

@@ -1,5 +1,5 @@
 // y = amplitude for phase_delay + k period <= t < phase_delay + (k + pulse_width) period, k = 0, 1,
-// ...; else 0. out: shape of amplitude. Parameter "amplitude". Held; both edges are exact time
+// ...; otherwise 0. out: shape of amplitude. Parameter "amplitude". Held; both edges are exact time
 // events.
 #pragma once
 
@@ -11,9 +11,9 @@ namespace saltus {
 struct PulseOptions {
   Value amplitude = 1.0;
   double period = 1.0;  ///< [s] > 0
-  double pulse_width =
-      0.5;  ///< the fraction of the period in which the pulse is high, 0 <= pulse_width <= 1
-  double phase_delay = 0.0;  ///< [s] the first rise; 0 before it
+  /// The fraction of the period in which the pulse is high, 0 <= pulse_width <= 1.
+  double pulse_width = 0.5;
+  double phase_delay = 0.0;  ///< [s] the first rise; y is 0 before it
 };
 
 class Pulse final : public LeafSystem {
@@ -35,8 +35,8 @@ class Pulse final : public LeafSystem {
                          .shape = options.amplitude.shape(),
                          .reads = Reads::schedule});
     declare_periodic_update({}, period_, delay_, "rise");
-    // Always low or always high: no fall, or a fall that would fight with the next rise over a
-    // rounding error.
+    // If the pulse is always low or always high, it has no fall, or a fall within rounding of the
+    // next rise.
     if (fraction > 0.0 && fraction < 1.0)
       declare_periodic_update({}, period_, delay_ + width_, "fall");
   }

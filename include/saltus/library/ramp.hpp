@@ -1,7 +1,7 @@
 // y = start_value + slope max(0, t - start_time), elementwise.
 // out: elementwise of start_value and slope. Parameters "start_value", "slope" [1/s]. Continuous.
 // The kink at start_time is an exact time event, so no solver step spans it. The two branches agree
-// there: a stage at the very end of the step before, or an ulp past it, sees the value of both.
+// there: a stage at the very end of the step before, or an ulp past it, gets the value of both.
 #pragma once
 
 #include "saltus/library/elementwise.hpp"

@@ -1,8 +1,8 @@
 // y = f(u_0, u_1, ...): any C++ callable over all inputs.
 // f takes std::span<const double>, for scalar inputs (at most 32), or const Inputs&, for any
-// widths. It returns a double, a bool or an Eigen vector. A bool makes an opaque boolean: where it
-// reaches a derivative or a reset it is located by bisection; a Comparator, which has a smooth
-// guard, is faster. A Formula in place of f is fused with its neighbours.
+// widths. It returns a double, a bool or an Eigen vector. A bool makes an opaque boolean: if it
+// reaches a derivative or a reset, it is located by bisection. A Comparator has a smooth guard and
+// is faster. A Formula in place of f is fused with its neighbours.
 #pragma once
 
 #include "saltus/library/callable.hpp"
@@ -10,14 +10,14 @@
 namespace saltus {
 
 struct ReduceBlockOptions {
-  Shape shape = Shape::scalar();  ///< of the output; needed where f returns a vector: Shape::of(n)
+  Shape shape = Shape::scalar();  ///< of the output; needed if f returns a vector: Shape::of(n)
 };
 
 class ReduceBlock final : public LeafSystem {
  public:
   using Options = ReduceBlockOptions;
 
-  /// `function` must not change anything: it is called as often as the engine likes, by several
+  /// `function` must not change anything: the engine calls it any number of times, in several
   /// threads.
   template <class Function>
     requires(detail::OverScalars<Function> || detail::OverInputs<Function>)
@@ -42,7 +42,7 @@ class ReduceBlock final : public LeafSystem {
                          .boolean = detail::Truth<Result>});
   }
 
-  /// `formula` gives the entries of the output, of which there are `options.shape.size`.
+  /// `formula` computes the `options.shape.size` entries of the output.
   ReduceBlock(std::string name, int n_inputs, Formula formula, const Options& options = {})
       : LeafSystem(std::move(name)) {
     detail::require_count(this->name(), "input", n_inputs, 1);

@@ -1,7 +1,6 @@
 // y = min(max(u, lower_limit), upper_limit), elementwise; either limit may be missing.
-// in: any width. out: the width of u and the limits. Parameters "lower_limit", "upper_limit", those
-// that are given. Where y reaches a derivative, the limits are located and the side is held between
-// instants.
+// in: any width. out: the width of u and the limits. Parameters "lower_limit", "upper_limit", if
+// given. If y reaches a derivative, the limits are located and the side is held between instants.
 #pragma once
 
 #include <optional>
@@ -46,7 +45,7 @@ class Saturate final : public LeafSystem {
   }
 
  private:
-  /// Where it is, and whether u is beyond it.
+  /// The value of a limit, and whether u is beyond it.
   struct Limit {
     std::optional<ParameterIndex> value = {};
     RelationIndex beyond = {};

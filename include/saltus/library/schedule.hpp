@@ -1,4 +1,4 @@
-// Counting the ticks of a periodic time event from the time alone.
+// Counts the ticks of a periodic time event from the time alone.
 #pragma once
 
 #include <cmath>
@@ -7,15 +7,15 @@
 namespace saltus::detail {
 
 /// Time [s] since `offset`, a few roundings ahead. Times that differ by rounding only are one
-/// instant, so an event may be taken a few ulps before its time; without the lead it would be
-/// missed there, and nothing looks again.
+/// instant, so an event may be handled a few ulps before its time. Without the lead the tick would
+/// be missed there, and never counted later.
 inline double since(double time, double offset) {
   return time - offset +
          8.0 * std::numeric_limits<double>::epsilon() * (std::abs(time) + std::abs(offset));
 }
 
-/// Number k of the last tick at or before `time`; negative before the first, which is tick 0 at
-/// `offset`.
+/// Number k of the last tick at or before `time`. Tick 0 is at `offset`; before it the number is
+/// negative.
 inline double last_tick(double time, double period, double offset = 0.0) {
   return std::floor(since(time, offset) / period);
 }

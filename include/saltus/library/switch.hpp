@@ -1,8 +1,8 @@
-// y = true_value if control is true, else false_value; elementwise.
-// true_value, false_value: scalars and vectors of one width. control: one boolean, true where not
-// 0; with a threshold one real number, true where control >= threshold, located and held where y
-// reaches a derivative. A real signal that moves continuously needs the threshold: without it the
-// solver would see the jump.
+// y = true_value if control is true, otherwise false_value; elementwise.
+// true_value, false_value: scalars and vectors of one width. control: one boolean, true if not 0;
+// with a threshold one real number, true if control >= threshold, located and held if y reaches a
+// derivative. A real signal that changes continuously needs the threshold: without it the solver
+// would see the jump.
 #pragma once
 
 #include <optional>

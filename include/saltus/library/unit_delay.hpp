@@ -1,8 +1,8 @@
-// y[k] = u[k-1], y[0] = initial_state; held from tick k, at t = k dt, to the next.
+// y[k] = u[k-1], y[0] = initial_state; held from tick k, at t = k dt, to the next tick.
 // in, out: the shape of initial_state. Ticks are exact time events.
-// At a tick all outputs move on first, then all delays sample: y is worked out from the time,
-// before z is updated. Were y a view of z, a delay fed by a delay would sample the tick before, and
-// n in a row would delay 2n - 1 ticks.
+// At a tick all outputs change first, then all delays sample: y is computed from the time, before z
+// is updated. If y were a view of z, a delay that reads a delay would sample the tick before, and n
+// delays in a row would delay by 2n - 1 ticks.
 #pragma once
 
 #include "saltus/library/arguments.hpp"
@@ -34,7 +34,7 @@ class UnitDelay final : public LeafSystem {
   }
 
  private:
-  // z = (last tick sampled; y since then; u sampled then)
+  // z = (number of the last tick sampled; y since that tick; u sampled at it)
   void delayed(const At& at, VectorRef out) const {
     const bool moved_on = detail::last_tick(at.time, dt_) != at.z[0];
     out = at.z.segment(moved_on ? 1 + n_ : 1, n_);

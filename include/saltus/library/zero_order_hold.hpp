@@ -1,7 +1,7 @@
 // y(t) = u(k dt) for k dt <= t < (k+1) dt.
-// in, out: the shape of initial_state, which is shown before the first tick. Ticks are exact time
-// events. y is a view of the discrete state, so it costs nothing; whoever samples y at the same
-// tick still sees the value before.
+// in, out: the shape of initial_state, the value before the first tick. Ticks are exact time
+// events. y is a view of the discrete state, so it costs nothing. A block that samples y at the
+// same tick gets the value before it.
 #pragma once
 
 #include "saltus/library/arguments.hpp"
@@ -9,7 +9,7 @@
 namespace saltus {
 
 struct ZeroOrderHoldOptions {
-  Value initial_state = 0.0;  ///< its shape is that of the signal
+  Value initial_state = 0.0;  ///< its shape is the shape of the signal
 };
 
 class ZeroOrderHold final : public LeafSystem {

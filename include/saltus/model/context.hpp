@@ -18,7 +18,7 @@ namespace saltus {
 
 struct ContextEntry;  // context_entry.hpp
 
-/// Where the values of each leaf stand in a context. Shared by all contexts of one system.
+/// The places of each leaf's values in a context. All contexts of one system share it.
 struct Layout {
   struct Parameter {
     std::string name;
@@ -39,7 +39,7 @@ struct Layout {
   std::vector<Range> systems;
 };
 
-/// All values of a context, bare: to be written somewhere and read again.
+/// All values of a context without their layout, to be written to a file and read again.
 struct ContextValues {
   double time = 0.0;  ///< [s]
   Eigen::VectorXd continuous_state, discrete_state, parameters;
@@ -48,15 +48,15 @@ struct ContextValues {
   std::shared_ptr<const Continuation> continuation = {};
 };
 
-/// Time t [s], continuous state x, discrete state z, a mode per leaf, parameters p. A value: every
-/// `with_*` returns a new context and leaves the old one, and the system, unchanged. Throws
-/// ModelError for a wrong size, a value that is not finite, an unknown parameter or an unknown
-/// system.
+/// Time t [s], continuous state x, discrete state z, a mode per leaf, parameters p. A context is a
+/// value: every `with_*` returns a new context and leaves the old one, and the system, unchanged.
+/// It throws ModelError for a wrong size, a value that is not finite, an unknown parameter or an
+/// unknown system.
 class Context {
  public:
   Context() = default;
   explicit Context(std::shared_ptr<const Layout> layout) : layout_(std::move(layout)) {}
-  /// All values zero, for values that were saved.
+  /// A context with all values zero, to be filled with saved values.
   static Context zero(std::shared_ptr<const Layout> layout);
 
   double time() const noexcept { return time_; }
@@ -69,10 +69,10 @@ class Context {
 
   /// True where the events at exactly `time()` have happened already: a run that ended here.
   bool settled() const noexcept { return settled_; }
-  /// What the run that ended here knew beyond these values; null once they were changed by hand.
+  /// The further state of the run that ended here; null after a value was changed by hand.
   const Continuation* continuation() const noexcept { return continuation_.get(); }
 
-  /// Everything that changes, for saving; and a context of this layout with values that were saved.
+  /// Everything that changes, for saving; and a context of this layout with saved values.
   ContextValues values() const { return {time_, x_, z_, p_, modes_, settled_, continuation_}; }
   Context with_values(const ContextValues& values) const;
 
@@ -86,7 +86,7 @@ class Context {
     return with_discrete_state(vector_of(z));
   }
   Context with_mode(int mode) const;
-  /// A parameter by name, in a diagram by path: "ball.g". A scalar for a vector parameter fills it.
+  /// Sets a parameter by name, in a diagram by path: "ball.g". A scalar fills a vector parameter.
   Context with_parameter(std::string_view name, const Eigen::VectorXd& value) const;
   Context with_parameter(std::string_view name, double value) const;
   Eigen::VectorXd parameter(std::string_view name) const;
@@ -109,7 +109,7 @@ class Context {
   const Layout::Range& range(SystemId id) const;
   std::pair<const Layout::Leaf*, const Layout::Parameter*> find_parameter(
       std::string_view name) const;
-  /// A copy to be changed: what the run knew of the old values is not true of it.
+  /// A copy to be changed. It drops the continuation, which is not true of other values.
   Context changed() const {
     Context next = *this;
     next.continuation_.reset();

@@ -1,4 +1,4 @@
-// ContextEntry: where the values of one name stand in a context.
+// ContextEntry: the place of the values with one name in a context.
 #pragma once
 
 #include <charconv>
@@ -13,14 +13,14 @@
 
 namespace saltus {
 
-/// Some values of a context, found by name once and written often. Names are those of parameters,
-/// "g", and of the states: "x" and "z" for all of a block, "x[0]" for one of them, "mode". In a
-/// diagram the path of the block goes before: "ball.g", "ball.x[0]". An entry of a vector parameter
-/// is "k[2]". A parameter called x goes before the state x.
+/// Some values of a context, found by name once and written often. Names are the names of
+/// parameters, "g", and of the states: "x" and "z" for the whole state of a block, "x[0]" for one
+/// entry, "mode". In a diagram the path of the block is put before the name: "ball.g", "ball.x[0]".
+/// An entry of a vector parameter is "k[2]". A parameter called x hides the state x.
 struct ContextEntry {
   enum class Kind { parameter, continuous_state, discrete_state, mode };
   Kind kind = Kind::parameter;
-  Index first = 0;  ///< in the vector of all of its kind
+  Index first = 0;  ///< in the vector of all values of its kind
   Index size = 1;
 };
 
@@ -50,7 +50,7 @@ inline std::vector<std::pair<std::string, ContextEntry>> entries_of(const Layout
   return all;
 }
 
-/// How an entry is shown in a list of names: a short vector entry by entry.
+/// Adds an entry to a list of names: a short vector entry by entry.
 inline void add_names(std::vector<std::string>& names, const std::string& name,
                       const ContextEntry& entry) {
   using Kind = ContextEntry::Kind;
@@ -62,7 +62,7 @@ inline void add_names(std::vector<std::string>& names, const std::string& name,
 
 }  // namespace detail
 
-/// The names `find_entry` knows, in the order of the blocks; long vectors by one name.
+/// The names that `find_entry` accepts, in the order of the blocks; a long vector has one name.
 inline std::vector<std::string> entry_names(const Layout& layout) {
   std::vector<std::string> names;
   for (std::size_t l = 0; l < layout.leaves.size(); ++l) {
@@ -92,8 +92,9 @@ inline ContextEntry find_entry(const Layout& layout, std::string_view name) {
       text("unknown parameter or state '", name, "'", known_names(name, entry_names(layout))));
 }
 
-/// Writes `values` in place: as many as the entry has, or one that fills it. Throws ModelError for
-/// a wrong number of them, a value that is not finite, and a mode that is no integer.
+/// Writes `values` in place: as many as the entry has, or a single value that fills it. Throws
+/// ModelError for a wrong number of values, a value that is not finite, and a mode that is not an
+/// integer.
 inline void write_entry(Context& context, const ContextEntry& entry, std::span<const double> values,
                         std::string_view name) {
   using Kind = ContextEntry::Kind;
@@ -121,7 +122,7 @@ inline void write_entry(Context& context, const ContextEntry& entry, std::span<c
         context.modes_[static_cast<std::size_t>(at)] = static_cast<int>(value);
     }
   }
-  context.continuation_.reset();  // what a run knew of the old values is not true of these
+  context.continuation_.reset();  // the continuation is not true of other values
 }
 
 }  // namespace saltus

@@ -1,5 +1,5 @@
-// A context as JSON and back, to the last bit. Needs nlohmann/json, which nothing else here does:
-// include it where you use it.
+// A context as JSON and back, to the last bit. It needs nlohmann/json, as no other header here
+// does: include it where you use it.
 #pragma once
 
 #include <string>
@@ -50,7 +50,7 @@ inline Continuation continuation_from(const Json& json) {
   return c;
 }
 
-/// Reads a list of numbers into its place among the values of all blocks.
+/// Reads a list of numbers to its place among the values of all blocks.
 inline void read_numbers(const Json& block, const char* key, Eigen::Ref<Eigen::VectorXd> into,
                          const std::string& path) {
   const std::vector<double> numbers = block.at(key);
@@ -63,8 +63,8 @@ inline void read_numbers(const Json& block, const char* key, Eigen::Ref<Eigen::V
 
 }  // namespace detail
 
-/// The values of a context, block by block, and what the run that ended with it knew. Numbers are
-/// written so that reading gives the same bits.
+/// The values of a context, block by block, with the continuation of its run. Numbers are written
+/// so that reading them gives the same bits.
 inline std::string to_json(const Context& context) {
   const ContextValues v = context.values();
   detail::Json blocks = detail::Json::array();
@@ -84,8 +84,8 @@ inline std::string to_json(const Context& context) {
   return json.dump(1);
 }
 
-/// The context of `system` that to_json wrote. Throws ModelError for text that is none, and for a
-/// context of a system with other blocks.
+/// The context of `system` that to_json wrote. Throws ModelError for text that is not such a
+/// context, and for a context of a system with other blocks.
 inline Context context_from_json(const System& system, std::string_view json_text) {
   const Context blank = system.create_context();
   const auto& leaves = blank.layout().leaves;

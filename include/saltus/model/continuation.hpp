@@ -1,4 +1,4 @@
-// Continuation: what a run knows beyond the values of its context.
+// Continuation: the state of a run beyond the values of its context.
 #pragma once
 
 #include <array>
@@ -7,9 +7,10 @@
 
 namespace saltus {
 
-/// With it a run that goes on from `results.context` has the events of the unbroken run: on which
-/// side every guard and relation stands, which firings the Zeno monitors have seen, what rests. It
-/// belongs to the values it was saved with: a context that is changed by hand has none.
+/// A run that continues from `results.context` has the events of the unbroken run because of these
+/// values: the side of every guard and relation, the firings that the Zeno monitors have seen, the
+/// states that rest. They belong to the values they were saved with: a context that was changed by
+/// hand has none.
 struct Continuation {
   /// One guard.
   struct Guard {

@@ -1,4 +1,4 @@
-// What the declare_* methods of LeafSystem do and refuse, and how a context is made from
+// The checks and effects of the declare_* methods of LeafSystem, and the context made from
 // declarations.
 #pragma once
 
@@ -17,7 +17,7 @@ std::vector<std::string> names_of(const List& list) {
   return names;
 }
 
-/// Gives a nameless declaration a name, and refuses a second one of the same name.
+/// Names a nameless declaration, and refuses a second declaration with the same name.
 template <class List>
 void name_it(std::string& name, const List& others, std::string_view prefix,
              const std::string& block) {
@@ -28,7 +28,7 @@ void name_it(std::string& name, const List& others, std::string_view prefix,
   }
 }
 
-/// A formula is a function too; what is computed in two ways could differ.
+/// Refuses a formula beside a function: two computations of one value could differ.
 inline void take_formula(VectorFunction& function, const Formula& formula, std::string_view what,
                          const std::string& block) {
   if (!formula) return;
@@ -143,7 +143,8 @@ inline int LeafSystem::declare_mode_output(std::string port) {
 
 namespace detail {
 
-/// The options of a zero crossing that exclude each other, or that name what is not there.
+/// Refuses options of a zero crossing that exclude each other, or that name a missing mode, state
+/// or input.
 inline void require_sound(const ZeroCrossing& c, const Declarations& declared,
                           const std::string& block) {
   const auto refuse = [&](bool wrong, auto&&... why) {

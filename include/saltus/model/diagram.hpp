@@ -11,8 +11,8 @@
 
 namespace saltus {
 
-/// Made by DiagramBuilder. Owns its blocks; references that `add` returned stay valid as long as it
-/// lives.
+/// Made by DiagramBuilder. It owns its blocks; references that `add` returned remain valid as long
+/// as it lives.
 class Diagram final : public System {
  public:
   struct Child {
@@ -32,7 +32,7 @@ class Diagram final : public System {
     OutputPort port;
   };
 
-  /// A direct child by name; a ModelError lists the names there are.
+  /// A direct child by name; the ModelError for an unknown name lists the known names.
   const System& operator[](std::string_view child) const;
   const std::vector<Child>& children() const noexcept { return children_; }
   const std::vector<Wire>& wires() const noexcept { return wires_; }

@@ -13,12 +13,12 @@
 
 namespace saltus {
 
-/// Collects blocks and wires and is spent by `build`. Throws ModelError for a name used twice, a
-/// port of a block that was not added, an input with two sources, and, in `build`, for an input
-/// with none.
+/// Collects blocks and wires; `build` uses it up. Throws ModelError for a name used twice, a port
+/// of a block that was not added, an input with two sources, and, in `build`, for an input without
+/// a source.
 class DiagramBuilder {
  public:
-  /// Makes a block in place; its reference stays valid in the diagram.
+  /// Makes a block in place. The returned reference remains valid in the diagram.
   template <std::derived_from<System> Block, class... Arguments>
   Block& add(Arguments&&... arguments) {
     auto block = std::make_shared<Block>(std::forward<Arguments>(arguments)...);
@@ -27,7 +27,7 @@ class DiagramBuilder {
     return reference;
   }
 
-  /// Adds a block made before, for example a diagram:
+  /// Adds a block that exists already, for example a diagram:
   /// `add(std::make_shared<Diagram>(inner.build("inner")))`.
   void add(std::shared_ptr<const System> block) {
     require_unspent();
@@ -114,7 +114,7 @@ class DiagramBuilder {
     }
   }
 
-  /// What feeds an input, in words; empty if nothing does.
+  /// The source of an input, in words; empty if it has none.
   std::string source_of(InputPort to) const {
     if (const auto wire = sources_.find({to.system, to.index}); wire != sources_.end())
       return text("block '", name_of(diagram_.wires_[wire->second].from.system), "'");
@@ -134,7 +134,7 @@ class DiagramBuilder {
 
   Diagram diagram_{""};
   bool spent_ = false;
-  // For ten thousand blocks: where to look, not what to look through.
+  // Look-up tables: with ten thousand blocks a search of the lists would be slow.
   std::unordered_map<const System*, std::size_t> mine_;           // place in children_
   std::unordered_set<std::string> names_;                         // of children_
   std::map<std::pair<const System*, int>, std::size_t> sources_;  // inputs: place in wires_

@@ -1,4 +1,4 @@
-// What a leaf declares about its events: zero crossings, relations, edges, time events.
+// The declarations of a leaf about its events: zero crossings, relations, edges, time events.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@
 
 namespace saltus {
 
-/// In which direction a guard g fires. `crosses_zero` is either of the two after it.
+/// The direction in which a guard g fires. `crosses_zero` is either of the two after it.
 enum class Direction {
   none,
   crosses_zero,
@@ -34,7 +34,7 @@ inline constexpr std::array<std::pair<std::string_view, Direction>, 5> direction
 
 namespace detail {
 
-/// What stands under a name in a table; a ModelError with the nearest name if nothing does.
+/// The value with this name in a table; a ModelError with the nearest name if the table has none.
 template <class Table>
 auto value_of(const Table& table, std::string_view what, std::string_view name) {
   std::vector<std::string> known;
@@ -47,7 +47,7 @@ auto value_of(const Table& table, std::string_view what, std::string_view name) 
 
 }  // namespace detail
 
-/// The direction of that name; a ModelError with the nearest name if there is none.
+/// The direction with this name; a ModelError with the nearest name if there is none.
 inline Direction direction_from(std::string_view name) {
   return detail::value_of(direction_names, "direction", name);
 }
@@ -76,8 +76,8 @@ constexpr bool fires(Direction direction, int side, int now) {
   return false;
 }
 
-/// What becomes of a guard that is exactly at zero, or on its firing side already, when a run
-/// starts or its mode is entered.
+/// How a guard is armed that is exactly at zero, or already on its firing side, when a run starts
+/// or its mode is entered.
 enum class AtStart {
   automatic,  ///< at zero, headed for its firing side: with a reset map or a mode change it fires
               ///< at once (contact), without it waits; on its firing side: it waits to leave it
@@ -93,12 +93,13 @@ inline constexpr std::array<std::pair<std::string_view, AtStart>, 4> at_start_na
     {"error", AtStart::error},
 }};
 
-/// The one of that name; a ModelError with the nearest name if there is none.
+/// The value with this name; a ModelError with the nearest name if there is none.
 inline AtStart at_start_from(std::string_view name) {
   return detail::value_of(at_start_names, "at_start", name);
 }
 
-/// What a Zeno point means to a guard: the firings accumulate, or no time can pass between them.
+/// How a guard continues at its Zeno point, where its firings accumulate or no time can pass
+/// between them.
 class OnZeno {
  public:
   enum class Kind { hold, stop, error, mode };
@@ -106,7 +107,7 @@ class OnZeno {
   static constexpr OnZeno hold() { return {Kind::hold, 0}; }    ///< rest there, until released
   static constexpr OnZeno stop() { return {Kind::stop, 0}; }    ///< end the run: zeno_stop
   static constexpr OnZeno error() { return {Kind::error, 0}; }  ///< a SimulationError
-  /// Go on in this mode of the leaf, from the accumulation state.
+  /// Continue in this mode of the leaf, from the accumulation state.
   static constexpr OnZeno enter(int mode) { return {Kind::mode, mode}; }
 
   constexpr OnZeno() = default;
@@ -119,10 +120,10 @@ class OnZeno {
   int mode_ = 0;
 };
 
-/// A guard and what happens when it fires. Without reset map, mode change and `terminal` it is a
-/// monitor: its crossings are located and logged, and the trajectory is the same to the last bit as
-/// without it. With `size` n it is n guards that one call computes; each fires for itself, and its
-/// reset map finds in `At::entry` which one it was.
+/// A guard and its effect. Without reset map, mode change and `terminal` it is a monitor: its
+/// crossings are located and logged, and the trajectory has the same bits as without it. With
+/// `size` n it is n guards that one call computes. Each fires on its own, and its reset map reads
+/// the index of the guard that fired from `At::entry`.
 struct ZeroCrossing {
   std::string name = {};
   VectorFunction guard = {};  ///< g(t, x, z, m, u, p), `size` numbers
@@ -131,52 +132,53 @@ struct ZeroCrossing {
   std::optional<int> start_mode = {};  ///< seen in this mode only
   std::optional<int> end_mode = {};    ///< mode after it fired
   bool terminal = false;               ///< ends the run, after its reset map
-  int max_count = 1;  ///< of a terminal one: it ends the run when it fires this often
+  int max_count = 1;  ///< of a terminal event: it ends the run when it fires this often
   Index size = 1;     ///< number of guards
   AtStart at_start = AtStart::automatic;      ///< at zero, or beyond it, when integration begins
-  OnZeno on_zeno = OnZeno::hold();            ///< what its Zeno points mean
+  OnZeno on_zeno = OnZeno::hold();            ///< how it continues at its Zeno points
   std::optional<double> zeno_tolerance = {};  ///< [s] overrides SimulatorOptions::zeno_tolerance
-  /// The entries of the leaf's continuous state that rest on a hold, a list for each guard; all of
-  /// the state if not said.
+  /// The entries of the leaf's continuous state that rest on a hold, one list for each guard; all
+  /// entries if not given.
   std::vector<std::vector<int>> holds = {};
-  std::optional<std::vector<int>> inputs = {};  ///< the inputs the guard reads; all if not said
-  Formula formula = {};                         ///< instead of guard: what a plan may fuse
+  std::optional<std::vector<int>> inputs = {};  ///< the inputs the guard reads; all if not given
+  Formula formula = {};                         ///< in place of guard: a plan may fuse it
 };
 
-/// A boolean with a smooth guard behind it: true while g > 0. Held between instants, so that the
-/// solver sees neither the jump nor the kink it stands for.
+/// A boolean that a smooth guard decides: true while g > 0. It is held between instants, so the
+/// solver sees neither its jump nor a kink.
 struct Relation {
   std::string name = {};
   VectorFunction guard = {};        ///< as many numbers as the relation has entries
-  bool true_at_zero = false;        ///< what g == 0 means where no side is known yet
+  bool true_at_zero = false;        ///< its value for g == 0 while no side is known
   std::optional<Index> size = 1;    ///< number of entries; empty: that of the widest input
-  Reads reads = Reads::everything;  ///< what the guard reads
-  std::optional<std::vector<int>> inputs = {};  ///< the inputs the guard reads; all if not said
-  Formula formula = {};                         ///< instead of guard: what a plan may fuse
+  Reads reads = Reads::everything;  ///< the values that the guard reads
+  std::optional<std::vector<int>> inputs = {};  ///< the inputs the guard reads; all if not given
+  Formula formula = {};                         ///< in place of guard: a plan may fuse it
 };
 
 enum class Edge { rising, falling, either };
 
-/// A reset that follows an edge of a held signal. With `holds`, the leaf comes under the Zeno
-/// monitor and a hold ends when the signal falls back.
+/// A reset that follows an edge of a held signal. With `holds`, the leaf has a Zeno monitor, and a
+/// hold ends when the signal falls back.
 struct EdgeReset {
   std::string name = {};
-  int input = 0;  ///< the input that is watched, read as boolean: u != 0
+  int input = 0;  ///< the input to watch, read as a boolean: u != 0
   Edge edge = Edge::rising;
   ResetMap reset_map = {};
-  OnZeno on_zeno = OnZeno::hold();              ///< what its Zeno points mean
+  OnZeno on_zeno = OnZeno::hold();              ///< how it continues at its Zeno points
   std::optional<double> zeno_tolerance = {};    ///< [s] overrides SimulatorOptions::zeno_tolerance
-  std::optional<std::vector<int>> inputs = {};  ///< the inputs the reset map reads; all if not said
+  std::optional<std::vector<int>> inputs = {};  ///< the inputs the reset map reads; all if not
+                                                ///< given
 };
 
-/// An exact stop at `offset + k period`, k = 0, 1, ...; once at `offset` if the period is infinite.
-/// Counted by integers, so that 1000 periods of 1/3 s are 1000 ticks.
+/// An exact stop at `offset + k period`, k = 0, 1, ...; a single stop at `offset` if the period is
+/// infinite. Ticks are counted by integers, so 1000 periods of 1/3 s are 1000 ticks.
 struct TimeEvent {
   std::string name = {};
-  ResetMap update = {};  ///< optional: without it held outputs are read again
+  ResetMap update = {};  ///< optional: without it held outputs are evaluated again
   double period = std::numeric_limits<double>::infinity();  ///< [s]
   double offset = 0.0;                                      ///< [s]
-  std::optional<std::vector<int>> inputs = {};  ///< the inputs the update reads; all if not said
+  std::optional<std::vector<int>> inputs = {};  ///< the inputs the update reads; all if not given
 };
 
 }  // namespace saltus

@@ -1,4 +1,4 @@
-// Formula: what a block computes, entry by entry, as a call and as an expression to be fused.
+// Formula: the computation of a block, entry by entry, as a call and as an expression to be fused.
 #pragma once
 
 #include <functional>
@@ -13,7 +13,7 @@ namespace saltus {
 
 namespace detail {
 
-/// Where the symbols of one block come from: whoever writes its formula down as a graph.
+/// The symbols of one block, made by the pass that records its formula as a graph.
 class Symbols {
  public:
   virtual ~Symbols() = default;
@@ -27,9 +27,9 @@ class Symbols {
 
 }  // namespace detail
 
-/// What a formula sees where it gives one entry of an output, a derivative or a guard, "the entry":
-/// numbers (`Number` is double, or Pack for some entries at once), or symbols that stand for them.
-/// All have the same members.
+/// The argument of a formula that computes one entry of an output, a derivative or a guard, "the
+/// entry". Its values are numbers (`Number` is double, or Pack for several entries at once) or
+/// symbols for them. Both versions have the same members.
 template <class Number>
 class EntryAt {
  public:
@@ -38,17 +38,17 @@ class EntryAt {
   double time() const { return at_.time; }              ///< [s]
   Number x() const { return read(at_.x.data() + i_); }  ///< the entry of the continuous state
   double x(Index j) const { return at_.x[j]; }          ///< entry j of it
-  /// The entry of input k, of a scalar the only one; or entry j.
+  /// The entry of input k, or of a scalar input its only entry; with j, entry j.
   Number u(int k) const { return entry(at_.u[k]); }
   double u(int k, Index j) const { return at_.u[k][j]; }
   Index width(int k) const { return at_.u[k].size(); }  ///< of input k
-  /// The entry of a parameter, of a scalar the only one; or entry j.
+  /// The entry of a parameter, or of a scalar its only entry; with j, entry j.
   Number p(ParameterIndex k) const { return entry(at_.parameter(k)); }
   double p(ParameterIndex k, Index j) const { return at_.parameter(k)[j]; }
-  /// The truth of the entry of a relation as `At::relation`, or of entry j.
+  /// The truth of the entry of a relation, as `At::relation` gives it; with j, of entry j.
   Number relation(RelationIndex r) const { return read(at_.relation_values(r) + i_); }
   bool relation(RelationIndex r, Index j) const { return at_.relation(r, j); }
-  /// `a` where `truth` is not 0, else `b`; both are computed.
+  /// `a` if `truth` is not 0, otherwise `b`; both are computed.
   Number choose(const Number& truth, const Number& a, const Number& b) const {
     if constexpr (std::is_same_v<Number, Pack>) {
       return Pack::choose(truth, a, b);
@@ -98,12 +98,12 @@ class EntryAt<tape::Symbol> {
   Index i_;
 };
 
-/// One function template that gives one entry of an output, a derivative or a guard:
-/// `[](const auto& at) { return at.u(0) * at.u(1); }` where all entries are alike, `at` an EntryAt;
-/// else `[](const auto& at, Index i) { ... }` with the number of the entry. It is called with
-/// numbers where the block stands alone; a plan calls it with symbols, and computes the formulas of
-/// blocks that feed one another in one go, to the same bits. So it must read nothing but `at` and
-/// what never changes, and what decides between values is `at.choose`, or never changes.
+/// A function template that computes one entry of an output, a derivative or a guard. It is
+/// `[](const auto& at) { return at.u(0) * at.u(1); }` if all entries are alike, with `at` an
+/// EntryAt; otherwise `[](const auto& at, Index i) { ... }` with the index of the entry. A block
+/// that stands alone calls it with numbers. A plan calls it with symbols, and computes the formulas
+/// of blocks that feed one another together, to the same bits. So the function must read only `at`
+/// and constants, and must choose between values by `at.choose` or by a constant.
 class Formula {
  public:
   Formula() = default;
@@ -130,7 +130,7 @@ class Formula {
         }) {}
 
   explicit operator bool() const noexcept { return static_cast<bool>(function_); }
-  /// All entries, by calls with numbers.
+  /// Computes all entries, by calls with numbers.
   const VectorFunction& function() const noexcept { return function_; }
   /// Entry i, as an expression of these symbols.
   tape::Symbol symbol(detail::Symbols& symbols, Index i) const { return symbol_(symbols, i); }

@@ -1,4 +1,4 @@
-// Ports: a place to connect, with a shape and what the value behind it reads.
+// Ports: a place to connect, with a shape and the values that an output reads.
 #pragma once
 
 #include <functional>
@@ -16,7 +16,8 @@ namespace saltus {
 
 class System;
 
-/// Size of a signal; a scalar stays a scalar in the results, a vector of one entry stays a vector.
+/// Size of a signal. A scalar remains a scalar in the results, a vector of one entry remains a
+/// vector.
 struct Shape {
   Index size = 1;
   bool vector = false;
@@ -26,10 +27,10 @@ struct Shape {
   static constexpr Shape of(Index n) { return {n, true}; }
 };
 
-/// Shape of an output from the shapes of all inputs, where it is not fixed.
+/// Computes the shape of an output from the shapes of all inputs, if it is not fixed.
 using ShapeRule = std::function<Shape(std::span<const Shape>)>;
 
-/// Element by element, a scalar stretched to the width of the others: Gain, Adder, Abs.
+/// Element by element, with a scalar stretched to the width of the others: Gain, Adder, Abs.
 inline Shape elementwise(std::span<const Shape> inputs) {
   Shape result = Shape::scalar();
   for (const Shape& shape : inputs) {
@@ -43,33 +44,33 @@ struct EntryRange {
   Index first = 0, last = 0;
 };
 
-/// Which entries of input k entry i of an output, or of a derivative, reads; `widths` are those of
-/// all inputs. It may name too many, never too few: a stiff method takes what is not named for zero
-/// in its Jacobian. Not said: all of them.
+/// The entries of input k that entry i of an output, or of a derivative, reads; `widths` has the
+/// widths of all inputs. The rule may name too many entries, never too few: a stiff method assumes
+/// zero in its Jacobian for the others. All entries if not given.
 using EntryRule = std::function<EntryRange(Index i, int k, std::span<const Index> widths)>;
 
-/// Entry i reads entry i of each input, of a scalar the only one: Gain, Adder, Abs.
+/// Entry i reads entry i of each input, and of a scalar input its only entry: Gain, Adder, Abs.
 inline EntryRange entry_by_entry(Index i, int k, std::span<const Index> widths) {
   return widths[static_cast<std::size_t>(k)] == 1 ? EntryRange{0, 1} : EntryRange{i, i + 1};
 }
 
 struct InputDeclaration {
   std::string name = {};
-  std::optional<Shape> shape = {};  ///< empty: takes whatever is connected
+  std::optional<Shape> shape = {};  ///< empty: the shape of the connected output
 };
 
 struct OutputDeclaration {
   std::string name = {};
   VectorFunction calc = {};  ///< empty for a formula and for a view of a state or of parameters
   std::optional<Shape> shape = Shape::scalar();
-  ShapeRule shape_rule = {};  ///< used where `shape` is empty
+  ShapeRule shape_rule = {};  ///< used if `shape` is empty
   Reads reads = Reads::everything;
   std::optional<std::vector<int>> inputs =
-      {};                          ///< feedthrough: the inputs it reads; all if not said
+      {};                          ///< feedthrough: the inputs it reads; all if not given
   bool boolean = false;            ///< 0 or 1; held by bisection where it reaches a derivative
-  std::optional<Place> view = {};  ///< a state or parameter shown as it is, never copied
-  EntryRule entries = {};          ///< which entries of the inputs each of its entries reads
-  Formula formula = {};            ///< instead of calc: what a plan may fuse
+  std::optional<Place> view = {};  ///< a state or parameter shown directly, never copied
+  EntryRule entries = {};          ///< the entries of the inputs that each of its entries reads
+  Formula formula = {};            ///< in place of calc: a plan may fuse it
 };
 
 /// An output port of a system, to connect or to record.

@@ -1,5 +1,4 @@
-// context[id] and with_subcontext: cutting one system's values out of a context and splicing them
-// back.
+// context[id] and with_subcontext: take one system's values out of a context and write them back.
 #pragma once
 
 #include "saltus/model/context.hpp"

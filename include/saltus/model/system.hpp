@@ -1,4 +1,5 @@
-// System: what a leaf and a diagram share. Structure only: it never changes after construction.
+// System: the common part of a leaf and a diagram. Structure only: it never changes after
+// construction.
 #pragma once
 
 #include <atomic>
@@ -45,15 +46,15 @@ class System {
   const std::string& name() const noexcept { return name_; }
   SystemId system_id() const noexcept { return id_; }
 
-  /// What sort of block it is, for people: the name of its class.
+  /// The kind of block, for people: the name of its class.
   virtual std::string kind() const;
-  /// The system that this one stands for: itself, unless it is a handle on another.
+  /// The system that this object represents: itself, unless it is a handle to another system.
   virtual const System& itself() const { return *this; }
 
   virtual std::vector<std::string> input_names() const = 0;
   virtual std::vector<std::string> output_names() const = 0;
 
-  /// Ports by position or by name; a ModelError lists the names there are.
+  /// Ports by position or by name; the ModelError for an unknown name lists the known names.
   InputPort input(int index = 0) const { return {this, checked(index, input_names(), "input")}; }
   InputPort input(std::string_view port) const {
     return {this, find(port, input_names(), "input")};
@@ -68,11 +69,11 @@ class System {
   /// The default values of every block, at time t [s].
   Context create_context(double t = 0.0) const;
 
-  /// Appends this system's leaves and wires; `path` is the name under which it is known.
+  /// Appends the leaves and wires of this system; `path` is the name by which it is known.
   virtual void collect(Structure& out, const std::string& path) const = 0;
-  /// The leaf output behind an output port.
+  /// The leaf output that an output port shows.
   virtual LeafPort output_source(int index) const = 0;
-  /// The leaf input behind an input port.
+  /// The leaf input that an input port feeds.
   virtual LeafPort input_target(int index) const = 0;
 
  private:
@@ -98,7 +99,8 @@ class System {
   SystemId id_;
 };
 
-/// All of a system, nesting resolved. The root's own name is not part of the paths of its blocks.
+/// All leaves and wires of a system, with its nesting resolved. The root's own name is not part of
+/// the paths of its blocks.
 inline Structure structure_of(const System& root) {
   Structure structure;
   root.collect(structure, "");

@@ -1,9 +1,9 @@
 // A ball over a floor at 0 in air that resists with the square of the speed.
 //   dy/dt = v, dv/dt = -g - c v |v|      while it flies
 //   y+ = 0, v+ = -e v-                   when y falls to 0
-// State: height y [m], velocity v [m/s]. The flights are no polynomials, so that no method is exact
-// on them, and the right-hand side has a kink in its second derivative at each apex; the bounces
-// still accumulate, at a time that is known. Drag after Newton, Principia, book II, section 2.
+// State: height y [m], velocity v [m/s]. The flights are no polynomials, so no method is exact on
+// them. The right-hand side has a kink in its second derivative at each apex. The bounces
+// accumulate at a known time. Drag after Newton, Principia, book II, section 2.
 #pragma once
 
 #include "saltus/models/pieces.hpp"
@@ -47,8 +47,8 @@ class BallDrag final : public LeafSystem {
   BallDragParameters with_;
 };
 
-/// One flight from (y, v) at `begin`, with w = sqrt(g / c): up to the apex v = w tan(g d / w), down
-/// from it v = -w tanh(g d / w), where d > 0 is the time to or from the apex. Heights follow by
+/// One flight from (y, v) at `begin`, with w = sqrt(g / c): before the apex v = w tan(g d / w),
+/// after it v = -w tanh(g d / w), where d > 0 is the time to or from the apex. Heights follow by
 /// integration: w^2/g log cos and log cosh.
 struct DragFlight {
   Real g, w, begin, y, v;
@@ -58,7 +58,7 @@ struct DragFlight {
     return y +
            (v > 0 ? std::log1p(v * v / (w * w)) : -std::log1p(-v * v / (w * w))) * w * w / (2 * g);
   }
-  /// g times the apex over w^2: what decides the speed of impact.
+  /// g times the apex over w^2, which decides the speed of impact.
   Real drop() const { return g * apex() / (w * w); }
   Real impact() const {
     return begin + rise() + std::asinh(std::sqrt(std::expm1(2 * drop()))) * w / g;
@@ -75,7 +75,8 @@ struct DragFlight {
   }
 };
 
-/// Flights short against w/g are parabolas: what is left of them after 1e-18 s is 2 v/g / (1 - e).
+/// Flights short against w/g are parabolas: the flights after one of 1e-18 s take 2 v/g / (1 - e)
+/// together.
 inline Pieces<DragFlight> drag_flights(const BallDragParameters& with) {
   insist(with.g > 0 && with.c > 0, "ball with drag", "g > 0 and c > 0", std::min(with.g, with.c));
   insist(with.e > 0 && with.e < 1, "ball with drag", "0 < e < 1", with.e);
@@ -97,13 +98,12 @@ inline Pieces<DragFlight> drag_flights(const BallDragParameters& with) {
   }
 }
 
-/// Comes to rest at 8.54 s with the defaults. Records the state (y, v).
+/// The ball comes to rest at 8.54 s with the defaults. Records the state (y, v).
 ///
 /// Growth: an error dv of the speed makes all later flights 2 dv / g (1 + e + e^2 ...) longer, and
-/// the speed at a given time g times that wrong: 2 / (1 - e) = 10, 20 with the weights of speeds of
-/// 8 m/s and of those near 0. The errors of the flights fall at least like their lengths, and add
-/// up to 1 / (1
-/// - e) = 5 of the first.
+/// the error of the speed at a given time is g times that: 2 / (1 - e) = 10, or 20 with the weights
+/// of speeds of 8 m/s and of speeds near 0. The errors of the flights fall at least like their
+/// lengths, and add up to 1 / (1 - e) = 5 times the first error.
 inline Scene ball_drag(const BallDragParameters& with = {}) {
   Exact exact = pieces_answer("closed form: tan and tanh, flight by flight, in extended precision",
                               "ball.bounce", drag_flights(with));

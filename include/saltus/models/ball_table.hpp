@@ -1,10 +1,10 @@
 // A ball on a table that moves as A sin(w t), turned round relative to it.
 //   dy/dt = v, dv/dt = -g                          while it flies
 //   y+ = h, v+ = h' - e (v- - h')                  when y falls to the table, h = A sin(w t)
-// State: height y [m], velocity v [m/s]. The flights are parabolas, but the guard is not: where a
-// flight ends is a transcendental equation, and the motion of the table enlarges errors. With
-// larger A it is the scene of the period doublings of J. Guckenheimer, P. Holmes, Nonlinear
-// Oscillations, Dynamical Systems, and Bifurcations of Vector Fields, 1983, section 2.4.
+// State: height y [m], velocity v [m/s]. The flights are parabolas, but the guard is not: the end
+// of a flight is the root of a transcendental equation, and the motion of the table enlarges
+// errors. With a larger A the scene has the period doublings of J. Guckenheimer, P. Holmes,
+// Nonlinear Oscillations, Dynamical Systems, and Bifurcations of Vector Fields, 1983, section 2.4.
 #pragma once
 
 #include "saltus/models/pieces.hpp"
@@ -64,9 +64,9 @@ struct Parabola {
   }
 };
 
-/// Each landing is looked for in strides of a hundredth of a radian of the table. Flights shorter
-/// than ten of them are the beginning of a rest on the table, of which nothing is known: then the
-/// answer ends there, with none.
+/// The search for each landing steps by a hundredth of a radian of the table. Flights shorter than
+/// ten such steps are the beginning of a rest on the table, for which no answer is known: the
+/// answer ends there.
 inline std::optional<Pieces<Parabola>> table_flights(const BallTableParameters& with) {
   insist(with.g > 0 && with.w > 0, "ball on a table", "g > 0 and w > 0", std::min(with.g, with.w));
   insist(with.e >= 0 && with.e <= 1, "ball on a table", "0 <= e <= 1", with.e);
@@ -95,9 +95,9 @@ inline Exact table_answer(const BallTableParameters& with) {
 
 /// Twelve bounces with the defaults. Records the state (y, v).
 ///
-/// Growth: a table that moves up or down at a landing turns an error of its time into one of speed,
-/// by (1 + e) times its acceleration. Carried to the end, an error of the first flight is enlarged
-/// 121 times, of the second 55, the third 20; 250 in all (perturbed runs at 1e-13).
+/// Growth: a table that moves up or down at a landing turns an error of its time into an error of
+/// speed, (1 + e) times its acceleration as large. Carried to the end, an error of the first flight
+/// is enlarged 121 times, of the second 55, the third 20; 250 in all (perturbed runs at 1e-13).
 inline Scene ball_table(const BallTableParameters& with = {}) {
   const auto ball = std::make_shared<const BallTable>(with);
   return {.name = "ball on a sinusoidal table",

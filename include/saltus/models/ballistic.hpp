@@ -1,5 +1,5 @@
-// Ballistic: the exact motion of a ball that bounces on a floor, flight by flight, where the floor
-// may drop once.
+// Ballistic: the exact motion of a ball that bounces on a floor, flight by flight. The floor may
+// drop once.
 #pragma once
 
 #include <cmath>
@@ -13,8 +13,8 @@
 
 namespace saltus::models {
 
-/// A ball thrown from y0 with v0 over a floor at `floor`; at `drop_time` the floor is at `dropped`,
-/// which is lower.
+/// A ball thrown from y0 with v0 over a floor at `floor`; from `drop_time` on the floor is at
+/// `dropped`, which is lower.
 struct BallisticProblem {
   double g = 9.81;                    ///< [m/s^2] > 0
   double e = 1.0;                     ///< coefficient of restitution, 0 <= e <= 1
@@ -27,16 +27,16 @@ struct BallisticProblem {
 /// A flight from (y, v) at `begin` is y + v d - g d^2 / 2. It ends on the floor after d = (v + s) /
 /// g, with the speed s = sqrt(v^2 + 2 g (y - floor)), and the next one begins with e s. Flights
 /// from the floor last 2 v/g e^k: they accumulate at begin + 2 v / (g (1 - e)), and there the ball
-/// rests until the floor drops from under it. A drop in flight changes nothing but where the flight
-/// ends. In long double, so that no rounding of its own shows.
+/// rests until the floor drops from under it. A drop in flight changes only the end of the flight.
+/// The numbers are long double, so their own rounding does not show.
 class Ballistic {
  public:
   Ballistic(const BallisticProblem& problem, double t_end);
 
   const EventTimes& bounces() const noexcept { return bounces_; }
-  /// (y, v) at time t on a branch, which is continued where t lies outside of it.
+  /// (y, v) at time t on a branch, which is continued if t is outside it.
   Eigen::VectorXd state(double t, const Branch& branch) const;
-  /// The branch at time t; at the very time of a bounce the one behind it.
+  /// The branch at time t; exactly at a bounce, the branch after it.
   Branch branch_at(double t) const;
 
  private:
@@ -89,8 +89,8 @@ inline bool Ballistic::fly() {
   EventSeries& series = bounces_.series.back();
   for (;;) {
     const Flight f = flights.back();
-    // Flights from the floor that are shorter than 1e-18 s are the rest of the series. A ball that
-    // starts on the floor touches it first.
+    // Flights from the floor shorter than 1e-18 s are the rest of the series. A ball that starts on
+    // the floor touches it first.
     if (flights.size() > 1 && 2 * f.v < 1e-18L * g) {
       const Real rest = e < 1 ? f.begin + 2 * f.v / (g * (1 - e)) : f.begin;
       if (rest <= t_end_) series.accumulation = static_cast<double>(rest);

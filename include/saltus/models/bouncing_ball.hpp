@@ -2,8 +2,8 @@
 //   dy/dt = v, dv/dt = -g        while it flies
 //   y+ = |y-|, v+ = -e v-        when y falls to 0
 // State: height y [m], velocity v [m/s]. Parameters, in the context: g [m/s^2], e (coefficient of
-// restitution). Flights are parabolas, known exactly, and so is the Zeno time t1 (1 +
-// e) / (1 - e), t1 = sqrt(2 y0 / g). Newton's law of restitution; the scene is the first one of the
+// restitution). Flights are parabolas. They are known exactly, and so is the Zeno time t1 (1 + e) /
+// (1 - e), t1 = sqrt(2 y0 / g). Newton's law of restitution; the scene is the first one of the
 // tutorial "Bouncing Ball" of Collimator.
 #pragma once
 
@@ -47,13 +47,14 @@ struct BouncingBallParameters {
   double t_end = 12.0;  ///< [s]
 };
 
-/// Six bounces with the defaults; comes to rest at 27.13 s. Records "y", the state (y, v).
+/// The ball bounces six times with the defaults; with a longer span it comes to rest at 27.13 s.
+/// Records "y", the state (y, v).
 ///
-/// Growth: an error dv of the speed makes the flight 2 dv / g longer, and the heights behind it
-/// wrong by v times that: 14 * 2 / 9.81 = 2.9. Speeds of 14 m/s are held to rtol, a height 0 to
-/// atol alone, a hundredth of that: 4 000 of its tolerances. 4 000 to 8 000 from each flight, 27
-/// 000 from all six (perturbed runs at 1e-13), with the defaults. One-step methods make no such
-/// error.
+/// Growth: an error dv of the speed makes the flight 2 dv / g longer, and the heights after it are
+/// wrong by v times that: 14 * 2 / 9.81 = 2.9. The tolerance of a speed of 14 m/s is rtol, of a
+/// height 0 only atol, a hundredth of that: so the error is 4000 tolerances of the height. Each
+/// flight adds 4000 to 8000, all six add 27000 (perturbed runs at 1e-13), with the defaults.
+/// One-step methods make no such error.
 inline Scene bouncing_ball(const BouncingBallParameters& with = {}) {
   Exact exact = ballistic_answer({.g = with.g, .e = with.e, .y0 = with.y0, .v0 = with.v0},
                                  with.t_end, "ball.bounce");

@@ -1,11 +1,11 @@
-// The bouncing ball from blocks, over a floor that drops: two Integrators in a row, reset when y
-// falls below the floor.
+// The bouncing ball from blocks, over a floor that drops: two Integrators in a row, which are reset
+// when y falls below the floor.
 //   gravity -> integrator_v -> integrator_y        dv/dt = -g, dy/dt = v
 //   y < floor  ->  v := -e v, y := floor           Comparator, Gain "reset_v", Step "floor"
 // Heights in m, velocities in m/s. The ball comes to rest on the floor, at the Zeno point of its
 // bounces, and falls again when the floor drops from under it; a drop in flight only makes the
-// flight longer. Both are known exactly. The scene is the last one of the tutorial "Bouncing Ball"
-// of Collimator.
+// flight longer. Both motions are known exactly. The scene is the last one of the tutorial
+// "Bouncing Ball" of Collimator.
 #pragma once
 
 #include "saltus/library/library.hpp"
@@ -53,10 +53,10 @@ inline Diagram make_bouncing_ball_diagram(const BouncingBallDiagramParameters& w
 /// With the defaults the ball rests from 0.1285 s until the floor drops at 1 s, and bounces seven
 /// times more. Records "y" and "v".
 ///
-/// Growth: an error dy of the height is one of the speed of g / v dy = 70 dy at the first impact;
-/// it makes all later flights 2 dv / g (1 + e + ...) longer, and the speed at a given time 2 / (1 -
-/// e) = 10 times as wrong. With the defaults; one-step methods make no such error, multistep ones
-/// do in the shortest flights.
+/// Growth: an error dy of the height becomes an error of the speed of g / v dy = 70 dy at the first
+/// impact. It makes all later flights 2 dv / g (1 + e + ...) longer, and the error of the speed at
+/// a given time is 2 / (1 - e) = 10 times as large, with the defaults. One-step methods make no
+/// such error; multistep methods make it in the shortest flights.
 inline Scene bouncing_ball_diagram(const BouncingBallDiagramParameters& with = {}) {
   Exact exact = ballistic_answer({.g = with.g,
                                   .e = with.e,

@@ -109,8 +109,8 @@ inline Exact brusselator_reference(const BrusselatorParameters& with) {
 
 }  // namespace detail
 
-/// Records "y" at the start and at t = 10. The growth: see hires.hpp. It is no more than mildly
-/// stiff with N = 63: explicit methods go along at the edge of their stability.
+/// Records "y" at the start and at t = 10. The growth: see hires.hpp. With N = 63 it is only mildly
+/// stiff: explicit methods run at the edge of their stability.
 inline Scene brusselator(const BrusselatorParameters& with = {}) {
   const auto line = std::make_shared<const Brusselator>(with.n, with.alpha);
   return detail::with_rows_at_samples(

@@ -53,10 +53,11 @@ struct E5Parameters {
 namespace detail {
 
 /// The end of the Test Set at t = 1e13, y2 = 0.8867655517642120e-22, y3 = 0.8854814626268838e-22,
-/// is not used: it breaks y2 = y3 + y4 in its third digit. From t = 1e11 on y1 and y4 are nothing,
-/// y2 = y3 and dy2/dt = -M C y2^2, so that 1 / y2 grows by M C (1e13 - 1e11): from the value here
-/// at 1e11 to 0.88612335212910847e-22, all digits of what stands here. Nor is its y1 = 1.2e-291
-/// used: y1 < 1.76e-3 exp(-A t) is 1e-3429. From t = 1e12 on y1 and y4 are 0 to a double.
+/// is not used: it breaks y2 = y3 + y4 in its third digit. From t = 1e11 on y1 and y4 are
+/// negligible, y2 = y3 and dy2/dt = -M C y2^2, so 1 / y2 grows by M C (1e13 - 1e11): from the value
+/// here at 1e11 to 0.88612335212910847e-22, which agrees with the value here in all digits. Nor is
+/// its y1 = 1.2e-291 used: y1 < 1.76e-3 exp(-A t) is 1e-3429. From t = 1e12 on y1 and y4 are 0 to a
+/// double.
 inline Exact e5_reference() {
   return {.provenance =
               "Radau IIA of order 13 in 34 digits, agrees with order 9 to 14 digits"
@@ -102,10 +103,10 @@ inline Exact e5_reference() {
 
 }  // namespace detail
 
-/// Records "y" at the times of the reference. atol is a ninth of y2 at the end. Less is lost in
-/// the rounding of the right-hand side, whose terms reach 1e-12 while y2 - y3 - y4 must stay below
-/// 1e-25. The growth, see hires.hpp how, is that of errors which leave y2 - y3 - y4 as it is, and
-/// linear multistep methods make no others; one that broke it would be enlarged by 1.5e8.
+/// Records "y" at the times of the reference. atol is a ninth of y2 at the end. The rounding of the
+/// right-hand side loses less, although its terms reach 1e-12 while y2 - y3 - y4 must remain below
+/// 1e-25. The growth (measured as in hires.hpp) counts errors that keep y2 - y3 - y4, because
+/// linear multistep methods make no others; an error that broke it would be enlarged by 1.5e8.
 inline Scene e5(const E5Parameters& with = {}) {
   const auto pyrolysis = std::make_shared<const E5>();
   return detail::with_rows_at_samples(

@@ -1,13 +1,13 @@
 // Heated rod: the heat equation on a line, by the method of lines, with a coil around its left half
-// that a thermostat switches by the temperature at three quarters. Stiff by 4 kappa (N + 1)^2, of
-// any size, and hybrid; all of it is known exactly (heat_rod_modes.hpp).
+// that a thermostat switches by the temperature at three quarters. The scene is stiff with the rate
+// 4 kappa (N + 1)^2, of any size, and hybrid; its solution is known exactly (heat_rod_modes.hpp).
 //   du_i/dt = kappa ((N + 1) / L)^2 (u_{i-1} - 2 u_i + u_{i+1}) + (power where x_i <= L/2, heating)
 //   heating -> cooling when u at 3 L/4 rises to high; cooling -> heating when it falls to low
 // State: temperatures u_i [K] above the surroundings at x_i = i L / (N + 1), L = 1 m; both ends are
 // held at 0; u(0) = 0 and the coil is on. Parameters kappa [m^2/s] and power [K/s] in the context,
 // N, low, high in the block. The event "switch" is either change: its guard is high - u while
 // heating and u - low while cooling. The equation: J. Crank, The Mathematics of Diffusion; the
-// thermostat on it is the usual one of hybrid systems.
+// thermostat is the usual example of hybrid systems.
 #pragma once
 
 #include "saltus/models/heat_rod_modes.hpp"
@@ -55,11 +55,11 @@ class HeatRod final : public LeafSystem {
   ParameterIndex kappa_, power_;
 };
 
-/// Records "u", the state, at each step; ten switches with the defaults. The growth is measured:
-/// moved by 1e-5 (1 + u) in every node at t = 0.3, the rod errs by up to 10.4 times as much
-/// relative to 1 + u, and by less when moved at t = 0, 0.02, 0.05, 0.1, 0.2 or 0.5; with N = 31 and
-/// 127 it is alike. Errors of one sign are the worst, by the maximum principle. Conduction alone
-/// enlarges none: an early switch is what they turn into.
+/// Records "u", the state, at each step; ten switches with the defaults. The growth is measured: a
+/// change of 1e-5 (1 + u) in every node at t = 0.3 makes errors up to 10.4 times as large relative
+/// to 1 + u, and a change at t = 0, 0.02, 0.05, 0.1, 0.2 or 0.5 makes smaller ones; N = 31 and 127
+/// are alike. Errors of one sign are the worst, by the maximum principle. Conduction alone enlarges
+/// no error: errors become early switches.
 inline Scene heat_rod(const HeatRodProblem& with = {}) {
   Exact exact = detail::heat_rod_answer(with, "rod.switch");
   const auto rod = std::make_shared<const HeatRod>(with);

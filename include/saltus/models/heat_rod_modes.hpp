@@ -1,7 +1,7 @@
 // The heated rod exactly: the difference operator has the eigenvectors sin(k pi x_i) with the
-// eigenvalues -4 kappa (N + 1)^2 sin^2(k pi / (2 (N + 1))), so that between two switches each
-// coefficient a_k relaxes by itself: a_k(t) = r_k + (a_k - r_k) exp(lambda_k (t - begin)), r_k =
-// -s_k / lambda_k with the source s_k, or 0. The eigenvalues are in any text on finite
+// eigenvalues -4 kappa (N + 1)^2 sin^2(k pi / (2 (N + 1))), so between two switches each
+// coefficient a_k relaxes independently: a_k(t) = r_k + (a_k - r_k) exp(lambda_k (t - begin)), r_k
+// = -s_k / lambda_k with the source s_k, or 0. The eigenvalues are in any text on finite
 // differences, such as J. W. Thomas, Numerical Partial Differential Equations.
 #pragma once
 
@@ -33,7 +33,7 @@ class HeatRodModes {
   explicit HeatRodModes(const HeatRodProblem& problem);
 
   std::vector<double> switches() const;  ///< [s]
-  /// Temperatures at time t after `switches` switches, also beyond the ends of that piece.
+  /// The temperatures at time t after `switches` switches; t may be outside that piece.
   Eigen::VectorXd state(double t, std::size_t switches) const;
 
  private:
@@ -91,8 +91,9 @@ inline HeatRodModes::Piece HeatRodModes::follow(Real begin, const Vector& coeffi
   return {begin, rest, coefficients - rest};
 }
 
-/// The first time at which the sensor reaches its threshold: looked for in steps of a hundredth of
-/// the slowest mode's time, then halved down to rounding. After t_end if there is none before.
+/// The first time at which the sensor reaches its threshold. The search steps by a hundredth of the
+/// slowest mode's time, then halves the interval down to rounding. A time after t_end if there is
+/// none before.
 inline HeatRodModes::Real HeatRodModes::next_switch(const Piece& piece, bool heating) const {
   const auto reached = [&](Real t) {
     return heating ? sensed(piece, t) >= problem_.high : sensed(piece, t) <= problem_.low;

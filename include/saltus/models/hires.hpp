@@ -1,6 +1,6 @@
 // HIRES: high irradiance responses of photomorphogenesis, eight substances of which two are always
-// nearly in balance. The light-driven rise is over within a few units of time; the last reaction,
-// of y6 and y8, begins to matter when y6 has nearly gone, at t = 310, and goes fast.
+// nearly in balance. The light-driven rise ends within a few units of time. The last reaction, of
+// y6 and y8, begins to matter when y6 has nearly vanished, at t = 310, and is fast.
 //   dy1/dt = -1.71 y1 + 0.43 y2 + 8.32 y3 + 0.0007
 //   dy2/dt =  1.71 y1 - 8.75 y2
 //   dy3/dt = -10.03 y3 + 0.43 y4 + 0.035 y5
@@ -87,8 +87,8 @@ inline Exact hires_reference() {
 }  // namespace detail
 
 /// Records "y" at the times of the reference. The growth is the largest |W^-1 Phi W_s|, in the
-/// maximum norm, of the propagators Phi from any time s to the rows, W the scales atol/rtol + |y|:
-/// integrated with the equation.
+/// maximum norm, of the propagators Phi from any time s to the rows, W the scales atol/rtol + |y|.
+/// The propagators are integrated with the equation.
 inline Scene hires(const HiresParameters& with = {}) {
   const auto plant = std::make_shared<const Hires>();
   return detail::with_rows_at_samples(

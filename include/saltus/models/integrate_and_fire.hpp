@@ -2,10 +2,10 @@
 //   tau du/dt = -u + a + b sin(w t)      below the threshold
 //   u+ = reset                           when u rises to the threshold
 // State: membrane potential above rest, u [mV]; a and b are currents times the membrane's
-// resistance [mV]. A spike train between phase locking and none: where u only just reaches the
-// threshold, a spike is lost or won. L. Lapicque, J. Physiol. Pathol. Gen. 9 (1907) 620; J. P.
-// Keener, F. C. Hoppensteadt, J. Rinzel, "Integrate-and-fire models of nerve membrane response to
-// oscillatory input", SIAM J. Appl. Math. 41 (1981) 503.
+// resistance [mV]. The spike train is at the edge of phase locking: where u only just reaches the
+// threshold, a small error loses or adds a spike. L. Lapicque, J. Physiol. Pathol. Gen. 9 (1907)
+// 620; J. P. Keener, F. C. Hoppensteadt, J. Rinzel, "Integrate-and-fire models of nerve membrane
+// response to oscillatory input", SIAM J. Appl. Math. 41 (1981) 503.
 #pragma once
 
 #include <numbers>
@@ -49,7 +49,7 @@ class IntegrateAndFire final : public LeafSystem {
   IntegrateAndFireParameters with_;
 };
 
-/// The steady answer to the drive, and what is left of the reset.
+/// The steady answer to the drive, and the decaying part from the reset.
 struct Charging {
   IntegrateAndFireParameters with;
   Real begin, from;
@@ -66,7 +66,7 @@ struct Charging {
   }
 };
 
-/// Spikes are looked for in strides of a thousandth of tau.
+/// The search for spikes steps by a thousandth of tau.
 inline Pieces<Charging> spikes(const IntegrateAndFireParameters& with) {
   insist(with.tau > 0, "integrate and fire", "tau > 0", with.tau);
   insist(with.reset < with.threshold, "integrate and fire", "a reset below threshold", with.reset);
@@ -83,9 +83,9 @@ inline Pieces<Charging> spikes(const IntegrateAndFireParameters& with) {
 
 /// Records the potential.
 ///
-/// Growth: a spike resets the potential, and turns its error into one of time by 1 / (du/dt) there;
-/// the train is locked to the drive, which lets that die out. 2 to 3.5 from each of 17 pieces, 40
-/// in all (perturbed runs at 1e-13).
+/// Growth: a spike resets the potential, and turns its error into an error of time by 1 / (du/dt)
+/// there. The train is locked to the drive, so this error dies out. Each of 17 pieces adds 2 to
+/// 3.5, in total 40 (perturbed runs at 1e-13).
 inline Scene integrate_and_fire(const IntegrateAndFireParameters& with = {}) {
   const auto neuron = std::make_shared<const IntegrateAndFire>(with);
   return {.name = "integrate and fire",

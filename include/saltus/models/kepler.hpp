@@ -1,10 +1,11 @@
-// Kepler: a body about a fixed one, on an ellipse; slow far out, fast at its closest.
+// Kepler: a body on an ellipse about a fixed body; it is slow far out and fast at its closest
+// point.
 //   d^2 r / dt^2 = -mu r / |r|^3
-// State x, y, dx/dt, dy/dt: lengths in semi-major axes, a = 1, mu = 1, so that a turn takes 2 pi.
-// It starts at its closest, (1 - e, 0), with the speed sqrt((1 + e) / (1 - e)). Parameters: mu in
-// the context, the eccentricity e in the start. Monitor "apsis": r . dr/dt = 0, at t = k pi. Energy
-// -1/2 and angular momentum sqrt(1 - e^2) are conserved. The answer is exact: x = cos E - e, y =
-// sqrt(1 - e^2) sin E with E - e sin E = t, Kepler's equation.
+// State x, y, dx/dt, dy/dt: lengths in semi-major axes, a = 1, mu = 1, so a turn takes 2 pi. The
+// body starts at its closest point, (1 - e, 0), with the speed sqrt((1 + e) / (1 - e)). Parameters:
+// mu in the context, the eccentricity e in the start. Monitor "apsis": r . dr/dt = 0, at t = k pi.
+// Energy -1/2 and angular momentum sqrt(1 - e^2) are conserved. The answer is exact: x = cos E - e,
+// y = sqrt(1 - e^2) sin E with E - e sin E = t, Kepler's equation.
 #pragma once
 
 #include <cmath>
@@ -75,9 +76,9 @@ inline Exact kepler_answer(const KeplerParameters& with) {
 
 }  // namespace detail
 
-/// Records "r", the state, at each step. An error of the energy is one of the period, and shifts
-/// the body along the orbit, more with each turn: the growth with e = 0.6 over 60 (see hires.hpp
-/// how) is 1.9e4, from the closest point to the closest point nine turns later.
+/// Records "r", the state, at each step. An error of the energy is an error of the period, and
+/// shifts the body along the orbit, more with each turn. With e = 0.6 over 60 the growth (measured
+/// as in hires.hpp) is 1.9e4, from the closest point to the closest point nine turns later.
 inline Scene kepler(const KeplerParameters& with = {}) {
   const auto planet = std::make_shared<const Kepler>(with.e);
   return {

@@ -1,5 +1,5 @@
 // Lorenz: three modes of convection, the first known strange attractor. Errors grow like exp(0.9 t)
-// in the long run; the scene ends before that decides.
+// in the long run; the scene ends before this growth dominates.
 //   dx/dt = sigma (y - x),  dy/dt = x (rho - z) - y,  dz/dt = x y - beta z
 // State x, y, z, without units, as is time; (0, 1, 0) at the start. Parameters sigma = 10, rho =
 // 28, beta = 8/3. Monitor "section": z = rho - 1, the plane of the two fixed points, which the
@@ -68,8 +68,8 @@ inline Exact lorenz_reference(const LorenzParameters& with) {
 
 }  // namespace detail
 
-/// Records "x", the state, at the times of the reference. The growth up to t = 10, see hires.hpp
-/// how: most of it from the first turn, and small for this attractor.
+/// Records "x", the state, at the times of the reference. The growth up to t = 10 is measured as in
+/// hires.hpp. Most of it is from the first turn, and it is small for this attractor.
 inline Scene lorenz(const LorenzParameters& with = {}) {
   const auto convection = std::make_shared<const Lorenz>(with.sigma, with.rho, with.beta);
   return detail::with_rows_at_samples(

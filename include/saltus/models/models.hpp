@@ -1,4 +1,4 @@
-// All ready scenes, each with what is known about its outcome.
+// All ready scenes, each with its known answer.
 #pragma once
 
 #include "saltus/models/ball_drag.hpp"

@@ -1,10 +1,10 @@
-// Newton's cradle: n equal elastic balls that hang next to each other, a hair apart.
+// Newton's cradle: n equal elastic balls that hang next to each other, with a small gap.
 //   dx_i/dt = v_i, dv_i/dt = -w^2 (x_i - i d)    small swings about the place where ball i hangs
 //   v_i+ = v_{i+1}-, v_{i+1}+ = v_i-             when x_{i+1} - x_i falls to 0
-// State: places x [m], without the balls' diameters, velocities v [m/s]. The first ball is let go,
-// and the last one flies off: n - 1 impacts follow each other within d / v, after swings of half a
-// second. With d = 0 the number of impacts is a matter of rounding, for balls that rest at the same
-// place. E. Mariotte, Traite de la percussion ou choc des corps, 1673.
+// State: places x [m], without the balls' diameters, velocities v [m/s]. The first ball is
+// released, and the last one flies off: n - 1 impacts follow each other within d / v, after swings
+// of half a second. With d = 0 rounding decides the number of impacts, because balls rest at the
+// same place. E. Mariotte, Traite de la percussion ou choc des corps, 1673.
 #pragma once
 
 #include "saltus/models/pieces.hpp"
@@ -81,8 +81,8 @@ struct Swings {
   }
 };
 
-/// From impact to impact, the first one of all pairs each time; looked for in strides of a
-/// twentieth of a gap at full speed. A pair that has just met is apart again after one.
+/// Goes from impact to impact, each time to the first impact of all pairs. The search steps by a
+/// twentieth of a gap at full speed. A pair that has just met is apart again after one step.
 inline Pieces<Swings> swings(const NewtonsCradleParameters& with) {
   insist(with.balls >= 2, "Newton's cradle", "2 balls or more", with.balls);
   insist(with.w > 0, "Newton's cradle", "w > 0", with.w);
@@ -117,9 +117,9 @@ inline Pieces<Swings> swings(const NewtonsCradleParameters& with) {
 
 /// Three chains of four impacts with the defaults. Records the state: n places, n velocities.
 ///
-/// Growth: a swing does not enlarge an error, but v and x differ by w = 5, and the weights of a
-/// ball in motion and of one at rest by 2: 3 to 10 from each of 13 pieces, 83 in all (perturbed
-/// runs at 1e-13).
+/// Growth: a swing does not enlarge an error, but v and x differ by the factor w = 5, and the
+/// weights of a ball in motion and a ball at rest by 2. Each of 13 pieces adds 3 to 10, in total 83
+/// (perturbed runs at 1e-13).
 inline Scene newtons_cradle(const NewtonsCradleParameters& with = {}) {
   const auto cradle = std::make_shared<const NewtonsCradle>(with);
   const Index n = with.balls;

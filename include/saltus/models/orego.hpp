@@ -52,8 +52,8 @@ struct OregoParameters {
 
 namespace detail {
 
-/// The end of the Test Set, 1.000814870318523, 1228.178521549917, 132.0554942846706, differs from
-/// this one by 2e-14 and 2e-13 of its second and third entries.
+/// The end value of the Test Set, 1.000814870318523, 1228.178521549917, 132.0554942846706, differs
+/// from this value by 2e-14 and 2e-13 of its second and third entries.
 inline Exact orego_reference(const OregoParameters& with) {
   if (with.s != 77.27 || with.q != 8.375e-6 || with.w != 0.161)
     return {.provenance = "none: not the parameters of the literature"};
@@ -74,8 +74,9 @@ inline Exact orego_reference(const OregoParameters& with) {
 
 }  // namespace detail
 
-/// Records "y" at the times of the reference, which lie apart from the jumps; the growth is that at
-/// these rows (see hires.hpp how), where an error of time in a jump has become one of the creep.
+/// Records "y" at the times of the reference, which are not in a jump. The growth is measured at
+/// these rows as in hires.hpp; there an error of time in a jump has become an error of the slow
+/// motion.
 inline Scene orego(const OregoParameters& with = {}) {
   const auto reaction = std::make_shared<const Oregonator>(with.s, with.q, with.w);
   return detail::with_rows_at_samples(

@@ -1,5 +1,5 @@
-// Pieces: a known answer made of closed forms, one from each event to the next, joined at roots
-// that are found in extended precision.
+// Pieces: a known answer made of closed forms, one from each event to the next. They are joined at
+// roots found in extended precision.
 #pragma once
 
 #include <algorithm>
@@ -17,8 +17,8 @@ namespace saltus::models {
 
 using Real = long double;  ///< of closed forms, so that no rounding of their own shows
 
-/// Closed forms one after the other: piece n holds behind n events. `Piece` has the members
-/// `Real begin` and `Eigen::VectorXd state(Real t) const`, good for times outside the piece too.
+/// Closed forms in order: piece n is valid after n events. `Piece` has the members `Real begin` and
+/// `Eigen::VectorXd state(Real t) const`, which also accepts times outside the piece.
 template <class Piece>
 struct Pieces {
   std::vector<Piece> pieces = {};            ///< one at least
@@ -27,7 +27,7 @@ struct Pieces {
   Eigen::VectorXd rest = {};                 ///< the state from there on
 };
 
-/// The known answer for a scene whose events are those of `guard`.
+/// The known answer for a scene in which only `guard` has events.
 template <class Piece>
 Exact pieces_answer(std::string provenance, std::string guard, Pieces<Piece> all) {
   const auto known = std::make_shared<const Pieces<Piece>>(std::move(all));
@@ -39,7 +39,7 @@ Exact pieces_answer(std::string provenance, std::string guard, Pieces<Piece> all
           }};
 }
 
-/// The root of f between a and b, where its signs differ, to the last bit: bisection.
+/// The root of f between a and b, where its signs differ, to the last bit, by bisection.
 template <class Function>
 Real root_between(const Function& f, Real a, Real b) {
   const bool above = f(a) > 0;
@@ -50,8 +50,8 @@ Real root_between(const Function& f, Real a, Real b) {
   }
 }
 
-/// The first root of f after `begin`, looked for in strides; none before `end`. The sign of f one
-/// stride after `begin` is the one that it leaves.
+/// The first root of f after `begin`, searched in equal steps; no value if there is none before
+/// `end`. The sign of f one step after `begin` is the sign before the root.
 template <class Function>
 std::optional<Real> first_root(const Function& f, Real begin, Real stride, Real end) {
   const bool above = f(begin + stride) > 0;

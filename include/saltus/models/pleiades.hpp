@@ -1,5 +1,5 @@
 // Pleiades: seven bodies of mass 1 to 7 in a plane. Close encounters, the closest of bodies 1 and 7
-// at t = 1.23 and 1.68, ask for small steps and enlarge what was wrong before them.
+// at t = 1.23 and 1.68, need small steps and enlarge earlier errors.
 //   d^2 r_i / dt^2 = sum over j != i of m_j (r_j - r_i) / |r_j - r_i|^3,  m_j = j
 // State: x_1 to x_7, y_1 to y_7, dx/dt, dy/dt; without units, as is time. Energy, momentum and
 // angular momentum are conserved. E. Hairer, S. P. Norsett, G. Wanner, Solving Ordinary

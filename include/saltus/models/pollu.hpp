@@ -2,9 +2,9 @@
 //   dy/dt = sum over reactions of k (product of what reacts) (what comes - what goes)
 // State: concentrations [ppm], in the order of the source: NO2, NO, O(3P), O3, HO2, OH, HCHO, CO,
 // ALD, MEO2, C2O3, CO2, PAN, CH3O, HNO3, O(1D), SO2, SO4, NO3, N2O5; time in minutes. Rates are the
-// parameter k [1/min or 1/(ppm min)]. The fastest radicals follow the rest within 1e-11 min and are
-// as scarce as 4e-18 ppm. Nitrogen, sulphur and carbon are conserved. J. G. Verwer, SIAM J. Sci.
-// Comput. 15 (1994) 1243; Test Set for IVP Solvers, POLLU.
+// parameter k [1/min or 1/(ppm min)]. The fastest radicals follow the other substances within 1e-11
+// min and are as scarce as 4e-18 ppm. Nitrogen, sulphur and carbon are conserved. J. G. Verwer,
+// SIAM J. Sci. Comput. 15 (1994) 1243; Test Set for IVP Solvers, POLLU.
 #pragma once
 
 #include <array>
@@ -30,7 +30,7 @@ class Pollu final : public LeafSystem {
   }
 
  private:
-  /// Substances by number, 0 for none: one or two that react, up to three that come of it.
+  /// Substances by number, 0 for none: one or two that react, up to three products.
   struct Reaction {
     std::array<Index, 2> from;
     std::array<Index, 3> to;
@@ -61,7 +61,7 @@ class Pollu final : public LeafSystem {
                                                        {{19, 1}, {20, 0, 0}},   //
                                                        {{20, 0}, {19, 1, 0}}}};
 
-  /// Takes `rate` from what reacts and adds it to what comes.
+  /// Subtracts `rate` from the substances that react and adds it to the products.
   template <class Column>
   static void convert(const Reaction& r, double rate, Column&& xdot) {
     for (const Index i : r.from)

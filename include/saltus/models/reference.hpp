@@ -19,8 +19,8 @@ inline EventTimes firings(std::string guard, std::vector<double> times) {
   return {std::move(guard), {{.times = std::move(times)}}};
 }
 
-/// The answer without what lies behind t_end. Its events must be known up to `known_until` [s]; a
-/// span that goes on has no reference for them.
+/// The answer up to t_end. Its events must be known up to `known_until` [s]; a longer span has no
+/// reference for them.
 inline Exact until(double t_end, double known_until, Exact exact) {
   std::erase_if(exact.samples, [&](const Sample& sample) { return sample.time > t_end; });
   if (t_end > known_until) exact.events.clear();

@@ -2,8 +2,8 @@
 //   d2theta/dt2 = sin theta                     about the spoke that stands
 //   theta+ = theta- - 2 alpha, theta'+ = cos(2 alpha) theta'-    when theta rises to slope + alpha
 // State: angle of the spoke to the vertical theta [rad], its rate theta'; time in units of sqrt(l /
-// g), l the length of a spoke. Each step goes over the top of an inverted pendulum, where an error
-// grows like e^t; the impacts take energy, and lead to a limit cycle. T. McGeer, "Passive dynamic
+// g), l the length of a spoke. Each step passes the top of an inverted pendulum, where an error
+// grows like e^t. The impacts take energy and lead to a limit cycle. T. McGeer, "Passive dynamic
 // walking", Int. J. Robotics Research 9 (1990) 62; M. J. Coleman, A. Chatterjee, A. Ruina, "Motions
 // of a rimless spoked wheel", Dynamics and Stability of Systems 12 (1997) 139.
 #pragma once
@@ -47,9 +47,9 @@ class RimlessWheel final : public LeafSystem {
   RimlessWheelParameters with_;
 };
 
-/// What is known: the usual wheel, up to its tenth spoke. By energy, theta'^2 + 2 cos theta
-/// constant from spoke to spoke, and quadrature of dt = dtheta / theta' in 40 digits; Taylor series
-/// in 30 digits with the impacts solved for on them give the same, all 17 digits of each number.
+/// The known answer: the usual wheel, up to its tenth spoke. It uses energy (theta'^2 + 2 cos theta
+/// is constant from spoke to spoke) and quadrature of dt = dtheta / theta' in 40 digits. Taylor
+/// series in 30 digits, with the impacts as their roots, give the same 17 digits of each number.
 inline Exact rimless_wheel_answer(const RimlessWheelParameters& with) {
   if (!with.usual()) return {.provenance = "none: not the usual wheel"};
   Exact exact{.provenance = "quadrature in 40 digits; Taylor series agree to 17 digits",
@@ -81,9 +81,9 @@ inline Exact rimless_wheel_answer(const RimlessWheelParameters& with) {
 
 /// Ten spokes with the defaults. Records the state (theta, theta').
 ///
-/// Growth: d of theta' on landing is 2 d at the top, where the wheel is at its slowest, and a time
-/// of some 10 d; the impacts hardly lessen what is lost in time. 2 to 33 from each of 11 pieces,
-/// 270 in all (perturbed runs at 1e-13).
+/// Growth: an error d of theta' on landing becomes 2 d at the top, where the wheel is slowest, and
+/// an error of time of some 10 d, which the impacts hardly reduce. Each of 11 pieces adds 2 to 33,
+/// in total 270 (perturbed runs at 1e-13).
 inline Scene rimless_wheel(const RimlessWheelParameters& with = {}) {
   const auto wheel = std::make_shared<const RimlessWheel>(with);
   Scene scene{

@@ -1,6 +1,6 @@
 // Ring modulator: four diodes in a ring mix a signal of 1 kHz with a carrier of 10 kHz. The
 // parasitic capacitance Cs makes it stiff and adds oscillations of 5 MHz, which are lightly damped:
-// a nonlinear circuit where a stiff method has to resolve what is fast.
+// a nonlinear circuit in which a stiff method must resolve the fast oscillations.
 //   C  dy1/dt = y8 - y10/2 + y11/2 + y14 - y1/R        C dy2/dt = y9 - y12/2 + y13/2 + y15 - y2/R
 //   Cs dy3/dt = y10 - q1 + q4                         Cs dy4/dt = -y11 + q2 - q3
 //   Cs dy5/dt = y12 + q1 - q3                         Cs dy6/dt = -y13 - q2 + q4

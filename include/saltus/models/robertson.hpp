@@ -7,7 +7,7 @@
 // 0). The rates are parameters k1, k2, k3. Two monitors, as in the example cvRoberts_dns of
 // SUNDIALS: y1 = 1e-4 and y3 = 0.01. H. H. Robertson, "The solution of a set of reaction rate
 // equations", in J. Walsh (ed.), Numerical Analysis, 1966; E. Hairer, G. Wanner, Solving Ordinary
-// Differential Equations II, p. 144, ROBER. It shows what a stiff method is for.
+// Differential Equations II, p. 144, ROBER. It shows the use of a stiff method.
 #pragma once
 
 #include "saltus/report/scene.hpp"
@@ -55,10 +55,9 @@ struct RobertsonParameters {
 namespace detail {
 
 /// To 16 digits, by Radau IIA of order 13 in 40 digits, 20 steps to a decade; order 9 gives the
-/// same to 6e-13. The known value at 1e11 s (Test Set for IVP Solvers,
-/// ROBER: 2.083340149701255e-8, 8.333360770334713e-14, 0.9999999791665050) comes out with a
-/// difference of 2e-14 of it. The value at 4e10 s in cvRoberts_dns (5.20834743e-8, 2.08333908e-13)
-/// is good to 6 digits.
+/// same to 6e-13. The known value at 1e11 s (Test Set for IVP Solvers, ROBER: 2.083340149701255e-8,
+/// 8.333360770334713e-14, 0.9999999791665050) differs from the result by 2e-14 of its size. The
+/// value at 4e10 s in cvRoberts_dns (5.20834743e-8, 2.08333908e-13) is good to 6 digits.
 inline const std::vector<Sample>& robertson_samples() {
   static const std::vector<Sample> samples{
       {4e-1, Eigen::Vector3d(0.98517211386098986, 3.3863953789749041e-5, 0.014794022185220389)},
@@ -79,7 +78,7 @@ inline const std::vector<Sample>& robertson_samples() {
 
 }  // namespace detail
 
-/// What is known of the original rates, up to t_end; nothing is of others.
+/// The known answer for the original rates, up to t_end; for other rates none is known.
 inline Exact robertson_answer(const RobertsonParameters& with) {
   if (with.k1 != 0.04 || with.k2 != 1e4 || with.k3 != 3e7)
     return {.provenance = "none: not the original rates"};
@@ -97,8 +96,8 @@ inline Exact robertson_answer(const RobertsonParameters& with) {
   return exact;
 }
 
-/// Records "y" at the times of the reference, 0.4, 4, 40, ... s. atol is that small for y2, which
-/// reaches 3.6e-5 and ends at 2e-13. The growth: see hires.hpp.
+/// Records "y" at the times of the reference, 0.4, 4, 40, ... s. atol is so small because of y2,
+/// which reaches 3.6e-5 and ends at 2e-13. The growth: see hires.hpp.
 inline Scene robertson(const RobertsonParameters& with = {}) {
   const auto reaction = std::make_shared<const Robertson>(with.k1, with.k2, with.k3);
   Scene scene{

@@ -1,11 +1,11 @@
-// A slender block that rocks on its two lower edges after it was let go tilted.
+// A slender block that rocks on its two lower edges after it was released tilted.
 //   d2theta/dt2 = p^2 (theta - alpha)    on its right edge, theta > 0
 //   d2theta/dt2 = p^2 (theta + alpha)    on its left edge, theta < 0
 //   theta'+ = r theta'-                  when theta comes to 0, and the edge changes
-// State: tilt theta [rad], theta' [rad/s]. Unstable between impacts, at rate p; the impacts, which
-// no reset turns round, accumulate, and the block stands still. G. W. Housner, "The behavior of
-// inverted pendulum structures during earthquakes", Bull. Seismol. Soc. Am. 53 (1963) 403,
-// equations for slender blocks.
+// State: tilt theta [rad], theta' [rad/s]. Between impacts the motion is unstable, at rate p. The
+// impacts accumulate, although no reset turns the motion round, and the block comes to rest. G. W.
+// Housner, "The behavior of inverted pendulum structures during earthquakes", Bull. Seismol. Soc.
+// Am. 53 (1963) 403, equations for slender blocks.
 #pragma once
 
 #include "saltus/models/pieces.hpp"
@@ -62,8 +62,9 @@ struct Rock {
   }
 };
 
-/// From 0 with the rate u it is back after 2/p artanh(u / (p alpha)), with the rate u again; next
-/// with r u. Where artanh x = x to rounding what is left is a geometric series.
+/// From 0 with the rate u the block returns after 2/p artanh(u / (p alpha)), with the rate u again;
+/// the next swing has the rate r u. Once artanh x = x to rounding, the remaining swings are a
+/// geometric series.
 inline Pieces<Rock> rocks(const RockingBlockParameters& with) {
   insist(with.p > 0, "rocking block", "p > 0", with.p);
   insist(with.r > 0 && with.r < 1, "rocking block", "0 < r < 1", with.r);
@@ -87,13 +88,13 @@ inline Pieces<Rock> rocks(const RockingBlockParameters& with) {
   }
 }
 
-/// Stands still from 11.04 s on with the defaults. Records the state (theta, theta').
+/// The block is at rest from 11.04 s on with the defaults. Records the state (theta, theta').
 ///
 /// Growth: an error of theta' moves the next impact by 2 / (p^2 (alpha - theta)) and all later
-/// ones, together 1 / (1 - r) = 10 times; seen in theta' again with the acceleration p^2 alpha.
-/// With the weights of a fast block and a slow one 60 to 150 from each of the large swings
-/// (perturbed runs at 1e-13). The errors of the swings fall at least like their lengths, and add up
-/// to 10 of the first.
+/// impacts, together 1 / (1 - r) = 10 times as far. It shows in theta' again by the acceleration
+/// p^2 alpha. With the weights of a fast block and a slow one, each of the large swings adds 60 to
+/// 150 (perturbed runs at 1e-13). The errors of the swings fall at least like their lengths, and
+/// add up to 10 times the first error.
 inline Scene rocking_block(const RockingBlockParameters& with = {}) {
   const auto block = std::make_shared<const RockingBlock>(with);
   return {

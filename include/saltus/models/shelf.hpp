@@ -1,4 +1,4 @@
-// The shelf: every ready scene under the name that command lines, benchmarks and tests know it by.
+// The shelf: every ready scene by the name that command lines, benchmarks and tests use.
 #pragma once
 
 #include <functional>
@@ -19,7 +19,7 @@ struct ShelfEntry {
   std::string title;                ///< one line: what it is, and what it is hard for
   std::function<Scene()> make;      ///< the scene with its usual parameters
   SceneParameters parameters = {};  ///< these
-  /// The scene with some of them changed, and its known answer with them where that is possible.
+  /// The scene with some parameters changed, and its known answer for them if there is one.
   std::function<Scene(const SceneParameters&)> make_with = {};
   bool quick = true;  ///< short enough to run by every method in each test
 };
@@ -27,11 +27,11 @@ struct ShelfEntry {
 /// All scenes, hybrid ones first. They are compiled into the library.
 const std::vector<ShelfEntry>& shelf();
 
-/// The scene of that name. Throws ModelError, with the names there are, where there is none.
+/// The scene with this name. Throws ModelError with the known names if there is none.
 Scene scene(std::string_view name);
 
 /// The same with some of its parameters changed. Throws ModelError for an unknown name, with the
-/// nearest one, and for a value that the scene has no meaning for.
+/// nearest one, and for a value without meaning in the scene.
 Scene scene(std::string_view name, const SceneParameters& with);
 
 }  // namespace saltus::models

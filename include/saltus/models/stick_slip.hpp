@@ -2,7 +2,7 @@
 // friction, and slips under the lower kinetic one until its speed is the belt's again.
 //   dx/dt = v, dv/dt = 0                          in mode `stick`, until k x rises to fs
 //   dx/dt = v, m dv/dt = fk - k x                 in mode `slip`, until v rises to the belt's speed
-// State: place x [m], velocity v [m/s]. Two modes of different order, and a guard that stands at
+// State: place x [m], velocity v [m/s]. It has two modes of different order, and a guard that is at
 // zero when its mode begins. J. P. Den Hartog, Mechanical Vibrations, 1934, chapter VII, on
 // self-excited vibrations.
 #pragma once
@@ -67,8 +67,8 @@ struct Ride {
   }
 };
 
-/// A slip begins at fs / k and ends, with the same speed on the other side of the centre fk / k,
-/// after 2 (pi - atan(w a / belt)) / w.
+/// A slip begins at fs / k. It ends after 2 (pi - atan(w a / belt)) / w, with the same speed on the
+/// other side of the centre fk / k.
 inline Pieces<Ride> rides(const StickSlipParameters& with) {
   insist(with.m > 0 && with.k > 0, "stick-slip", "m > 0 and k > 0", std::min(with.m, with.k));
   insist(with.belt > 0, "stick-slip", "belt > 0", with.belt);
@@ -89,9 +89,10 @@ inline Pieces<Ride> rides(const StickSlipParameters& with) {
 
 /// Nine events with the defaults. Records the state (x, v).
 ///
-/// Growth: an error of x is a time of 1 / belt when it slips, and of v, accelerated by (fs - fk) /
-/// m, as much as (fs - fk) / (m belt) = 4: 40 in weights of 1.1 and 0.1. A slip ends at fk - (x -
-/// fk), so that all nine events carry it on: 500 in all (perturbed runs at 1e-13).
+/// Growth: an error of x becomes an error of time by 1 / belt when the mass slips, and an error of
+/// v, with the acceleration (fs - fk) / m, by (fs - fk) / (m belt) = 4: a factor of 40 in weights
+/// of 1.1 and 0.1. A slip ends at fk - (x - fk), so all nine events carry the error on: 500 in
+/// total (perturbed runs at 1e-13).
 inline Scene stick_slip(const StickSlipParameters& with = {}) {
   const auto mass = std::make_shared<const StickSlip>(with);
   return {.name = "stick-slip",

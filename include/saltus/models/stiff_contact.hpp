@@ -1,10 +1,10 @@
-// A mass that falls on a stiff damped spring, bounces a few times and comes to stand on it.
+// A mass that falls on a stiff damped spring, bounces a few times and comes to rest on it.
 //   dy/dt = v, dv/dt = -g                       above the floor, y > 0
 //   dy/dt = v, dv/dt = -g - (k y + d v) / m     in contact
-// State: height y [m], velocity v [m/s]. A contact lasts 1e-4 s between flights of a second, and
-// once the mass stands the scene is stiff: rates of 1e4 /s, nothing that moves. K. L. Johnson,
-// Contact Mechanics, 1985, for linear springs as models of impact; the spring and damper are
-// Kelvin's and Voigt's.
+// State: height y [m], velocity v [m/s]. A contact lasts 1e-4 s between flights of a second. Once
+// the mass rests the scene is stiff: rates of 1e4 /s, and nothing moves. K. L. Johnson, Contact
+// Mechanics, 1985, for linear springs as models of impact; the spring and damper are Kelvin's and
+// Voigt's.
 #pragma once
 
 #include "saltus/models/pieces.hpp"
@@ -76,7 +76,7 @@ struct Touch {
     const auto [height, speed] = at(t);
     return Eigen::Vector2d(static_cast<double>(height), static_cast<double>(speed));
   }
-  /// Where a contact ends: within one turn, or never.
+  /// The end of a contact: within one turn, or never.
   std::optional<Real> end() const {
     if (!touches) return begin + (v + std::sqrt(v * v + 2 * g * y)) / g;
     const Real turn = 2 * std::acos(Real(-1)) / ring();
@@ -100,11 +100,12 @@ inline Pieces<Touch> touches(const StiffContactParameters& with) {
   }
 }
 
-/// Three contacts, the last of which stays, with the defaults. Records the state (y, v).
+/// There are three contacts with the defaults; the last one does not end. Records the state (y, v).
 ///
 /// Growth: an error rtol y0 of the height moves the touch by rtol y0 / v and the speed at a given
-/// time of the contact, at accelerations up to w v, by rtol w y0 = 3e-5 m/s; where that passes zero
-/// it counts against atol. Half of w y0 rtol / atol = 3e5 is left there of the damped swing.
+/// time of the contact, at accelerations up to w v, by rtol w y0 = 3e-5 m/s; where the speed passes
+/// zero the error counts against atol. There the damped swing has half of w y0 rtol / atol = 3e5
+/// left.
 inline Scene stiff_contact(const StiffContactParameters& with = {}) {
   const auto mass = std::make_shared<const StiffContact>(with);
   return {

@@ -1,8 +1,8 @@
 // A room that a thermostat keeps between two temperatures.
 //   dT/dt = (T_heater - T) / tau  in mode `on`,  off when T rises to `high`
 //   dT/dt = (T_outside - T) / tau in mode `off`, on when T falls to `low`
-// State: temperature T [degC]. Two exponentials and two modes; what is hard is only that it goes
-// on: errors of time add up from switch to switch. T. A. Henzinger, "The theory of hybrid
+// State: temperature T [degC]. It has two exponentials and two modes. Only its length makes it
+// hard: errors of time add up from switch to switch. T. A. Henzinger, "The theory of hybrid
 // automata", LICS 1996, figure 1.
 #pragma once
 
@@ -81,8 +81,8 @@ inline Pieces<Exponential> switches(const ThermostatParameters& with) {
 /// 159 switches with the defaults. Records the temperature.
 ///
 /// Growth: an error dT moves the switch by tau dT over the rate there, 19 or 9 degrees, and the
-/// temperature behind it by the rates' ratio, 2.1 or 1; so it is carried on through all switches,
-/// and those of 160 pieces add up to 1.6 of 160.
+/// temperature after it by the ratio of the rates, 2.1 or 1. So all switches carry the error on,
+/// and the errors of 160 pieces add up to 1.6 times 160.
 inline Scene thermostat(const ThermostatParameters& with = {}) {
   const auto room = std::make_shared<const Thermostat>(with);
   return {

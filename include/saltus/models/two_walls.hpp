@@ -1,9 +1,9 @@
 // A ball between two walls, without gravity.
 //   dx/dt = v, dv/dt = 0                 between the walls
 //   v+ = -e v-                           when x falls to 0 or rises to L
-// State: place x [m], velocity v [m/s]. Nothing is left to integrate: a method that chooses its own
-// step takes one of any length, and may cross the ball's whole way several times in it. What is
-// measured is the search for roots alone.
+// State: place x [m], velocity v [m/s]. There is nothing to integrate: a method that chooses its
+// own step takes a step of any length, and may cross the distance between the walls several times
+// in it. The scene measures only the search for roots.
 #pragma once
 
 #include "saltus/models/pieces.hpp"
@@ -67,8 +67,8 @@ inline Pieces<Way> ways(const TwoWallsParameters& with) {
 
 /// A hundred impacts with the defaults. Records the state (x, v).
 ///
-/// Growth: an error of the speed at the start is one of the place t_end times as large, in weights
-/// of 2 and 1. No method makes one: dv/dt = 0.
+/// Growth: an error of the speed at the start becomes an error of the place t_end times as large,
+/// in weights of 2 and 1. No method makes this error: dv/dt = 0.
 inline Scene two_walls(const TwoWallsParameters& with = {}) {
   const auto ball = std::make_shared<const TwoWalls>(with);
   Scene scene{

@@ -1,6 +1,6 @@
-// Van der Pol's oscillator: x'' = mu (1 - x^2) x' - x. With a large mu it creeps for a time of
-// order mu and then jumps within one of order 1/mu, so a method has to be stiff and to change its
-// step by six orders of magnitude.
+// Van der Pol's oscillator: x'' = mu (1 - x^2) x' - x. With a large mu it moves slowly for a time
+// of order mu and then jumps within a time of order 1/mu. So a method must be stiff and must change
+// its step by six orders of magnitude.
 //   dx/dt = v, dv/dt = mu (1 - x^2) v - x
 // State x, v, without units; time in units of the period of the small oscillation over 2 pi. x(0) =
 // 2, v(0) = 0. Monitor "zero": x = 0, in the middle of a jump. Parameter mu in the context. B. van
@@ -43,9 +43,9 @@ struct VanDerPolParameters {
   double t_end = 2000.0;  ///< two mu: the span of the literature
 };
 
-/// What is known: mu = 1000 from (2, 0), at t = 2000. The literature has 1.706167732170483,
+/// The known answer: mu = 1000 from (2, 0), at t = 2000. The literature gives 1.706167732170483,
 /// -8.928097010247975e-4 (Test Set for IVP Solvers, VDPOL, by RADAU in 19 digits). A run of DOPRI5
-/// in 34 digits at tolerances 1e-15 and 1e-17 differs from it by 2e-14 and gave the crossings too;
+/// in 34 digits at tolerances 1e-15 and 1e-17 differs from it by 2e-14 and also gave the crossings;
 /// its two runs agree to 3e-16 in the state and 2e-13 s in the crossings.
 inline Exact van_der_pol_answer(const VanDerPolParameters& with) {
   if (with.mu != 1000.0 || with.x0 != 2.0 || with.v0 != 0.0)

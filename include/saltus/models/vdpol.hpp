@@ -1,12 +1,12 @@
-// VDPOL: Van der Pol's oscillator with the time in units of mu, as the literature of stiff methods
-// has it; epsilon = 1 / mu^2.
+// VDPOL: Van der Pol's oscillator with the time in units of mu, as in the literature of stiff
+// methods; epsilon = 1 / mu^2.
 //   dx/dt = v, dv/dt = ((1 - x^2) v - x) / epsilon
-// State x, v, without units, as is time; x(0) = 2, v(0) = 0. A transient of epsilon, a creep until
-// t = 0.807, a jump that lasts about epsilon and in which v reaches 4/3 / sqrt(epsilon), and so on.
-// Parameter epsilon: 1e-6 (mu = 1000) in the Test Set, 1e-12 (mu = 1e6) to go further. Monitor
-// "zero": x = 0, in the middle of a jump. van_der_pol.hpp has the same equation in its own time.
-// E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, p. 4 and 144; Test Set for IVP
-// Solvers, VDPOL.
+// State x, v, without units, as is time; x(0) = 2, v(0) = 0. A transient of epsilon, a slow motion
+// until t = 0.807, a jump that lasts about epsilon and in which v reaches 4/3 / sqrt(epsilon), and
+// so on. Parameter epsilon: 1e-6 (mu = 1000) in the Test Set, 1e-12 (mu = 1e6) to go further.
+// Monitor "zero": x = 0, in the middle of a jump. van_der_pol.hpp has the same equation in its own
+// time. E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, p. 4 and 144; Test Set
+// for IVP Solvers, VDPOL.
 #pragma once
 
 #include "saltus/models/reference.hpp"
@@ -73,9 +73,9 @@ inline Exact vdpol_reference(double epsilon) {
 
 }  // namespace detail
 
-/// Records "x", the state (x, v), at the times of the reference, which lie on the creep. The growth
-/// is that at these rows (see hires.hpp how): within a jump it is 1 / sqrt(epsilon), after it a
-/// little shift of time remains.
+/// Records "x", the state (x, v), at the times of the reference, which are in the slow motion. The
+/// growth is measured at these rows as in hires.hpp. Within a jump it is 1 / sqrt(epsilon); after
+/// the jump a small shift of time remains.
 inline Scene vdpol(const VdpolParameters& with = {}) {
   const auto oscillator = std::make_shared<const Vdpol>(with.epsilon);
   return detail::with_rows_at_samples(

@@ -1,4 +1,4 @@
-// Two draining tanks and one tap that is turned to the tank that has come down to its mark.
+// Two draining tanks and one tap. The tap turns to a tank when that tank has drained to its mark.
 //   dx1/dt = (w in mode `first`) - v1,  dx2/dt = (w in mode `second`) - v2
 //   first -> second when x2 falls to r2,  second -> first when x1 falls to r1
 // State: volumes x1, x2 [m^3]. With w < v1 + v2 the switches accumulate at (x1 + x2 - r1 - r2) /
@@ -62,8 +62,8 @@ struct Filling {
   }
 };
 
-/// Each time the tank without inflow drains to its mark; the times of that shrink geometrically,
-/// and those below 1e-18 of the first are left out.
+/// Each time the tank without inflow drains to its mark. These times shrink geometrically; times
+/// below 1e-18 of the first are left out.
 inline Pieces<Filling> fillings(const WaterTanksParameters& with) {
   insist(with.v1 > 0 && with.v1 < with.w, "water tanks", "0 < v1 < w", with.v1);
   insist(with.v2 > 0 && with.v2 < with.w, "water tanks", "0 < v2 < w", with.v2);
@@ -88,10 +88,11 @@ inline Pieces<Filling> fillings(const WaterTanksParameters& with) {
   return all;
 }
 
-/// Both tanks stand at their marks from 8 s on with the defaults. Records the state (x1, x2).
+/// Both tanks are at their marks from 8 s on with the defaults. Records the state (x1, x2).
 ///
-/// Growth: an error of a volume is a time of 1 / (v1 + v2 - w) = 4 s per m^3, in which the volumes
-/// change by half of that, in weights of 2 and 1. No method makes one: all rates are constant.
+/// Growth: an error of a volume becomes an error of time of 1 / (v1 + v2 - w) = 4 s per m^3, in
+/// which the volumes change by half of that, in weights of 2 and 1. No method makes this error: all
+/// rates are constant.
 inline Scene water_tanks(const WaterTanksParameters& with = {}) {
   const auto tanks = std::make_shared<const WaterTanks>(with);
   return {

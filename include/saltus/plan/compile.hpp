@@ -1,4 +1,4 @@
-// compile(system, taps): from a system to its plan.
+// compile(system, taps) makes the plan of a system.
 #pragma once
 
 #include <memory>
@@ -8,8 +8,8 @@
 namespace saltus {
 
 /// Compiles a system and the signals to record into a plan. Throws ModelError for an open input, an
-/// algebraic loop (printed as the path it is), widths that do not fit, a recorded signal of another
-/// system. The plan refers to the system, which has to live as long.
+/// algebraic loop (printed as its path of ports), widths that do not fit, and a recorded signal of
+/// another system. The plan refers to the system, which must outlive it.
 std::shared_ptr<const Plan> compile(const System& system, const RecordedSignals& recorded = {});
 
 }  // namespace saltus

@@ -1,5 +1,5 @@
-// Plan: a system compiled to flat lists. Structure only, immutable after compile(), shared by
-// threads.
+// Plan: a system compiled to flat lists. It is structure only, never changes after compile(), and
+// threads share it.
 #pragma once
 
 #include <memory>
@@ -11,21 +11,21 @@
 
 namespace saltus {
 
-/// An output or a relation: one value that others read.
+/// An output or a relation: a value that other nodes read.
 struct Node {
   int leaf = -1;
-  int index = -1;  // of the output or the relation within its leaf
+  int index = -1;  // the number of the output or the relation within its leaf
   bool relation = false;
   bool boolean = false;
   Shape shape = {};
   bool shaped = false;  // the shape is known
-  Place place =
-      {};  // where its value lives; a view of a state or a parameter has no place of its own
+  // The place of its value; a view of a state or a parameter has no place of its own.
+  Place place = {};
   bool view = false;
-  std::vector<int> needs = {};  // nodes read when it is computed
+  std::vector<int> needs = {};  // the nodes it reads when it is computed
   Rate rate = Rate::constant;
   bool located = false;  // a relation, or an opaque boolean, that is held between instants
-  bool used = false;     // somebody reads it
+  bool used = false;     // some node or leaf reads it
 
   bool opaque() const { return located && !relation; }
 };
@@ -34,33 +34,33 @@ struct PlanLeaf {
   const LeafSystem* system = nullptr;
   std::string path = {};
   Index x = 0, nx = 0, z = 0, nz = 0, p = 0, np = 0;
-  std::vector<int> inputs = {};  // node behind each input
+  std::vector<int> inputs = {};  // the node that feeds each input
   std::vector<Place> input_places = {};
-  std::vector<int> outputs = {};    // node of each output
-  std::vector<int> relations = {};  // node of each relation
+  std::vector<int> outputs = {};    // the node of each output
+  std::vector<int> relations = {};  // the node of each relation
 
   const Declarations& declared() const { return system->declarations(); }
 };
 
-/// One vector of guards that is computed by one call.
+/// A vector of guards that one call computes.
 struct GuardGroup {
   enum class Kind { crossing, relation, opaque };
   Kind kind = Kind::crossing;
   int leaf = -1;
-  int index = -1;  // zero crossing of the leaf; else the node
-  Index slot = 0;  // first of its places in the vector of all guards
+  int index = -1;  // the zero crossing of the leaf, or the node
+  Index slot = 0;  // its first place in the vector of all guards
   Index size = 1;
   Direction direction = Direction::crosses_zero;
   bool monitor = false;
   std::string name = {};         // "block.guard"
-  std::vector<int> leaves = {};  // blocks whose continuous state moves it
+  std::vector<int> leaves = {};  // the blocks whose continuous state changes it
 };
 
-/// A watched held signal with a reset behind it.
+/// A held signal with a reset at its edge.
 struct EdgeWatch {
   int leaf = -1;
   int index = -1;                   // edge reset of the leaf
-  int node = -1;                    // the watched signal
+  int node = -1;                    // the signal
   std::vector<int> relations = {};  // located nodes that decide it
   std::vector<int> reads = {};      // nodes its reset map reads
   std::string name = {};            // "block.reset"
@@ -78,18 +78,18 @@ struct Tap {
   int node = -1;
 };
 
-/// A list of nodes as it is carried out, with what it is for: the odes, or the guards. Formulas
-/// that feed one another are one function over all of the machine's memory, which writes down only
-/// what others read; the rest are calls in between.
+/// A list of nodes as the machine executes it, followed by its sinks, the odes or the guards.
+/// Formulas that feed one another are one function over all of the machine's memory, which stores
+/// only values that other nodes read. The others are calls in between.
 struct Walk {
   struct Stage {
-    VectorFunction fused = {};  // into `y`; empty: nothing
+    VectorFunction fused = {};  // into `y`; empty: no formula
     std::vector<int> calls = {};
   };
   std::vector<Stage> stages = {};
-  VectorFunction last = {};      // into `xdot`, or the vector of guards; empty: nothing was fused
-  std::vector<int> nodes = {};   // that have no call any more
-  std::vector<char> fused = {};  // of each ode, or group of guards: it is in `last`
+  VectorFunction last = {};      // into `xdot`, or the vector of guards; empty if nothing is fused
+  std::vector<int> nodes = {};   // nodes that no longer have a call
+  std::vector<char> fused = {};  // for each ode, or group of guards: it is in `last`
 
   bool fuses() const { return last || !nodes.empty(); }
 };
@@ -97,27 +97,29 @@ struct Walk {
 struct Plan {
   std::vector<PlanLeaf> leaves;
   std::vector<Node> nodes;
-  std::vector<int> order;  // all nodes, each after what it needs
+  std::vector<int> order;  // all nodes, each after the nodes it needs
 
-  // What is computed when. Each list is a part of `order`; nothing else is ever computed.
+  // The nodes to compute at each occasion. Each list is a part of `order`; nothing else is ever
+  // computed.
   std::vector<int> constants;  // once, at run start
-  std::vector<int> instants;   // at instants: held outputs, and what resets, updates and edges read
+  std::vector<int> instants;   // at instants: held outputs, and the values that resets, updates and
+                               // edges read
   std::vector<int> derivatives;  // before the odes
   std::vector<int> guard_needs;  // before the guards
   std::vector<int> tap_needs;    // before a row is recorded
-  std::vector<int>
-      restarting;  // held nodes the derivatives read: if one changes, the solver restarts
+  // Held nodes that the derivatives read: if one changes, the solver restarts.
+  std::vector<int> restarting;
 
   std::vector<int> odes;  // leaves with a continuous state
   std::vector<GuardGroup> guards;
   std::vector<EdgeWatch> edges;
   std::vector<ScheduledEvent> schedule;
   std::vector<Tap> taps;
-  Walk derivative_walk, guard_walk;  // of derivatives with odes, and of guard_needs with guards
+  Walk derivative_walk, guard_walk;  // derivatives with odes, and guard_needs with guards
 
   Index nx = 0, nz = 0, np = 0, ny = 0, guard_slots = 0;
 
-  /// What was kept, folded and dropped, and why; one line a fact.
+  /// Says what was kept, folded and dropped, and why, with one line for each fact.
   std::string describe() const;
 
   /// "block.port"
@@ -137,7 +139,7 @@ struct Plan {
   }
 };
 
-/// A signal to record, under a name of the user's choice.
+/// The signals to record, with names that the user chooses.
 using RecordedSignals = std::vector<std::pair<std::string, OutputPort>>;
 
 }  // namespace saltus

@@ -1,4 +1,4 @@
-// How often a value is computed: the fastest of what it reads itself and of what it is fed.
+// The rate of a value: the fastest rate of the values that it reads and of its inputs.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@ enum class Rate {
   continuous,  ///< in the right-hand side, the guards or the taps that need it
 };
 
-/// The rate of a value by what it reads apart from inputs and relations.
+/// The rate of a value by the values it reads, apart from inputs and relations.
 constexpr Rate own_rate(Reads reads, bool has_x, bool has_z, bool has_modes) {
   if (has(reads, Reads::time)) return Rate::continuous;
   if (has_x && has(reads, Reads::continuous_state)) return Rate::continuous;

@@ -1,4 +1,4 @@
-// Achieved: how far a run is from the known answer. Event times are judged apart from states.
+// Achieved: the distance of a run from the known answer. Event times are judged apart from states.
 #pragma once
 
 #include <algorithm>
@@ -11,17 +11,18 @@
 
 namespace saltus {
 
-/// Worst errors of one run; NaN where there was nothing to compare.
+/// Worst errors of one run; NaN if there was nothing to compare.
 struct Achieved {
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-  double error = unknown;        ///< max over rows and components of |x - exact|
-  double scaled = unknown;       ///< the same over atol + rtol |exact|; large where a component
-                                 ///< passes zero
+  double error = unknown;  ///< max over rows and components of |x - exact|
+  /// The same divided by atol + rtol |exact|; large where a component passes zero.
+  double scaled = unknown;
   double event_error = unknown;  ///< [s] over events, matched by index
-  /// Events too many or too few; holds not entered or not released count as one.
+  /// The number of events too many or too few. A hold that was not entered or not released counts
+  /// as one.
   std::int64_t event_mismatch = 0;
-  double penetration = unknown;         ///< max(-gap) over rows, 0 where the gap stays positive
+  double penetration = unknown;         ///< max(-gap) over rows, 0 if the gap stays positive
   double invariant_drift = unknown;     ///< the largest of `drifts`
   std::vector<double> drifts = {};      ///< max |value - value at the start|, for each invariant
   double accumulation_error = unknown;  ///< [s] of the predicted Zeno times
@@ -31,7 +32,7 @@ struct Achieved {
 
 namespace detail {
 
-/// max that forgets NaN on the left and keeps it on the right: a run that gives NaN has no small
+/// A max that drops NaN on the left and keeps NaN on the right: a run that gives NaN has no small
 /// error.
 inline void raise(double& worst, double value) {
   if (std::isnan(worst) || !(value <= worst)) worst = value;
@@ -43,7 +44,7 @@ inline void compare_series(Achieved& a, const EventSeries& exact, const EventSer
   for (std::size_t i = 0; i < both; ++i)
     raise(a.event_error, std::abs(found.times[i] - exact.times[i]));
   const bool rests = exact.accumulation <= end, held = std::isfinite(found.accumulation);
-  // A hold stands for the infinitely many events behind it.
+  // A hold represents the infinitely many events after it.
   const std::size_t expected = rests && held ? both : exact.times.size();
   a.event_mismatch +=
       std::abs(static_cast<std::int64_t>(found.times.size()) - static_cast<std::int64_t>(expected));
@@ -64,7 +65,7 @@ inline void compare_events(Achieved& a, const EventTimes& exact, const Results& 
   for (std::size_t i = 0; i < most; ++i) compare_series(a, expected[i], found[i], end);
 }
 
-/// One row of the recorded signals, one after the other.
+/// One row of the recorded signals, concatenated.
 inline Eigen::VectorXd row_of(const Results& results, std::size_t row) {
   Index width = 0, at = 0;
   for (const RecordedSignal& signal : results.signals) width += signal.shape.size;
@@ -103,9 +104,9 @@ inline void compare_states(Achieved& a, const Exact& exact, const Results& resul
   }
 }
 
-/// Whether an event of the known answer lies so near that the two trajectories may stand on
-/// different sides of it: within twice the worst event error, but for at most a hundredth of the
-/// span, or a run that misses an event would be spared.
+/// Whether an event of the known answer is so near that the two trajectories may be on different
+/// sides of it: within twice the worst event error. This bound is at most a hundredth of the span;
+/// otherwise a run that misses an event would be spared.
 inline bool near_event(const Exact& exact, double t, double event_error, double span) {
   if (std::isnan(event_error)) return false;
   const double reach = std::min(2.0 * event_error, 0.01 * span);
@@ -117,8 +118,7 @@ inline bool near_event(const Exact& exact, double t, double event_error, double 
   });
 }
 
-/// A sample that the run has no row for is not compared: a run that ended early says so in its
-/// status.
+/// Compares the samples for which the run has a row. A run that ended early says so in its status.
 inline void compare_samples(Achieved& a, const Scene& scene, const Results& results,
                             const SimulatorOptions& options) {
   const double span = scene.span.end - scene.span.begin;
@@ -131,7 +131,8 @@ inline void compare_samples(Achieved& a, const Scene& scene, const Results& resu
   }
 }
 
-/// What needs no known answer: how deep the rows are under a surface, how far invariants drift.
+/// Judges the rows without a known answer: how deep they are under a surface, and how far
+/// invariants drift.
 inline void judge_rows(Achieved& a, const Scene& scene, const Results& results) {
   if (!scene.gap && scene.invariants.empty()) return;
   std::vector<double> start;
@@ -150,7 +151,7 @@ inline void judge_rows(Achieved& a, const Scene& scene, const Results& results) 
 
 }  // namespace detail
 
-/// Compares a run of the scene with what is known. Needs the event log and, for states, the
+/// Compares a run of the scene with the known answer. It needs the event log and, for states, the
 /// recorded signals.
 inline Achieved achieved(const Scene& scene, const Results& results,
                          const SimulatorOptions& options) {

@@ -1,4 +1,4 @@
-// Environment: where figures were measured, without which run times mean nothing.
+// Environment: the machine and versions of a measurement, without which run times mean nothing.
 #pragma once
 
 #include <string>
@@ -6,15 +6,15 @@
 namespace saltus {
 
 struct Environment {
-  std::string cpu;       ///< as the system calls it; "unknown" where it does not say
-  int cores = 0;         ///< logical ones, of the machine
+  std::string cpu;       ///< as the system calls it; "unknown" if it does not say
+  int cores = 0;         ///< logical cores of the machine
   std::string compiler;  ///< of the library, with its version
   std::string build;     ///< "optimised" or "not optimised"
-  std::string sundials;  ///< version of the library that is linked
+  std::string sundials;  ///< version of the linked library
   std::string saltus;    ///< version
 };
 
-/// Of this machine and this build.
+/// The environment of this machine and this build.
 Environment environment();
 
 }  // namespace saltus

@@ -1,4 +1,4 @@
-// Observed: what a run's event log says about a guard, in the terms of a known answer.
+// Observed: the events of a guard in a run's log, in the terms of a known answer.
 #pragma once
 
 #include <string_view>
@@ -9,8 +9,8 @@
 
 namespace saltus {
 
-/// Whether an event is one of the guard "bounce", or "ball.bounce"; "ball.*" is any event of the
-/// block, its time events too.
+/// Whether an event belongs to the guard "bounce", or "ball.bounce"; "ball.*" means any event of
+/// the block, including its time events.
 inline bool is_of(const Event& event, std::string_view guard) {
   if (event.name == guard) return true;
   if (guard.ends_with(".*")) return event.block == guard.substr(0, guard.size() - 2);
@@ -19,8 +19,7 @@ inline bool is_of(const Event& event, std::string_view guard) {
          guard.ends_with(event.name);
 }
 
-/// The events of a guard as they happened; accumulation times as they were predicted on entering a
-/// hold.
+/// The events of a guard as they happened; accumulation times as predicted at the entry of a hold.
 inline std::vector<EventSeries> observed_series(const EventLog& log, std::string_view guard) {
   std::vector<EventSeries> series(1);
   for (std::size_t i = 0; i < log.size(); ++i) {
@@ -38,12 +37,12 @@ inline std::vector<EventSeries> observed_series(const EventLog& log, std::string
   return series;
 }
 
-/// Follows a log row by row, and says on which branch the trajectory is.
+/// Follows a log row by row and gives the branch of the trajectory.
 class BranchWalk {
  public:
   BranchWalk(const EventLog& log, std::string_view guard) : log_(&log), guard_(guard) {}
 
-  /// The branch of the row (t, j). Rows have to be asked for in their order.
+  /// The branch of the row (t, j). Rows must be asked for in their order.
   const Branch& at(double t, int jump) {
     for (; next_ < log_->size(); ++next_) {
       const Event event = (*log_)[next_];

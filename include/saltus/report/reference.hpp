@@ -1,4 +1,4 @@
-// Reference: what the rows of a report are compared with, and how good it is.
+// Reference: the answer that the rows of a report are compared with, and its own accuracy.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@ namespace saltus {
 enum class ReferenceKind {
   exact,   ///< a closed form
   stored,  ///< numbers computed elsewhere, with their provenance
-  run      ///< runs of this scene, made by the report, two orders tighter and by another method
+  run      ///< runs of this scene by the report, two orders tighter and by another method
 };
 
 inline std::string_view to_string(ReferenceKind kind) {
@@ -25,7 +25,7 @@ inline std::string_view to_string(ReferenceKind kind) {
   return names[static_cast<std::size_t>(kind)];
 }
 
-/// A run that others are compared with.
+/// A run that other runs are compared with.
 struct ReferenceRun {
   std::string method;
   double rtol = 0.0, atol = 0.0;
@@ -35,24 +35,24 @@ struct ReferenceRun {
 struct Reference {
   ReferenceKind kind = ReferenceKind::exact;
   std::string provenance = {};
-  /// Of kind run: how wrong it may be, in states and [s] in event times. NaN of the other kinds,
-  /// whose provenance says it.
+  /// Of kind run: a bound of its error, in states and [s] in event times. NaN for the other kinds,
+  /// whose provenance gives it.
   double bound = Achieved::unknown, event_bound = Achieved::unknown;
   std::vector<ReferenceRun> runs = {};  ///< one, or two by different methods
 };
 
 struct ReferenceOptions {
-  double rtol = 1e-12;  ///< the tightest of the report
+  double rtol = 1e-12;  ///< the tightest tolerance of the report
   double atol_over_rtol = 1e-2;
-  int points = 100;         ///< output times, where the scene's save_at is empty
+  int points = 100;         ///< output times, if the scene's save_at is empty
   double time_limit = 5.0;  ///< [s] wall time of one run
-  /// Called after each run; what it throws ends the search.
+  /// Called after each run; an exception from it ends the search.
   std::function<void(const Results*)> between = {};
 };
 
 namespace detail {
 
-/// Two digits: what an error, or a time, is good for. "-" where nothing is known.
+/// A number with two digits, the precision of an error or a time. "-" if it is unknown.
 inline std::string short_number(double value) {
   if (std::isnan(value)) return "-";
   std::array<char, 32> buffer{};
@@ -62,7 +62,7 @@ inline std::string short_number(double value) {
 
 inline bool is_known(const Exact& exact) { return exact.state || !exact.samples.empty(); }
 
-/// Options of a run that gives up after `limit` seconds of wall time, or when `asked` says so.
+/// Options of a run that ends after `limit` seconds of wall time, or when `asked` returns true.
 inline SimulatorOptions bounded(SimulatorOptions options, double limit) {
   options.interrupt = [limit, asked = std::move(options.interrupt),
                        start = std::chrono::steady_clock::now()] {
@@ -80,7 +80,7 @@ inline std::vector<double> even_times(TimeSpan span, int points) {
   return times;
 }
 
-/// Names of all events that a run can log but those of the clock.
+/// The names of all events that a run can log, except time events.
 inline std::vector<std::string> guard_names(const Scene& scene, const SimulatorOptions& options) {
   const Simulator simulator(*scene.system, options);
   std::vector<std::string> names;
@@ -89,7 +89,7 @@ inline std::vector<std::string> guard_names(const Scene& scene, const SimulatorO
   return names;
 }
 
-/// What a run says, in the terms of a known answer.
+/// The result of a run, in the terms of a known answer.
 inline Exact answer_of(const Scene& scene, const Results& results,
                        const std::vector<std::string>& guards) {
   Exact answer;
@@ -104,7 +104,7 @@ inline Exact answer_of(const Scene& scene, const Results& results,
   return answer;
 }
 
-/// A run that comes to its end: two orders tighter than asked, or one where the method refuses
+/// A run that reaches its end: two orders tighter than asked, or one order if the method refuses
 /// that.
 inline std::optional<ReferenceRun> reference_run(const Scene& scene, const std::string& method,
                                                  const ReferenceOptions& with,
@@ -131,8 +131,8 @@ inline std::optional<ReferenceRun> reference_run(const Scene& scene, const std::
   return std::nullopt;
 }
 
-/// Methods in the order in which they are tried: those that suit the scene, those that are exacter
-/// at one tolerance first; then one that does not suit, which may come to the end all the same.
+/// Methods in the order of trial: first those that suit the scene, those that are more accurate at
+/// a given tolerance first; then a method that does not suit the scene but may still reach the end.
 inline std::vector<std::string> reference_methods(const Scene& scene) {
   std::vector<std::string> suit, others;
   for (const char* method : {"dop853", "dopri5", "adams", "bdf"}) {
@@ -143,7 +143,7 @@ inline std::vector<std::string> reference_methods(const Scene& scene) {
   return suit;
 }
 
-/// The largest differences of two answers, in states and in event times.
+/// The largest differences between two answers, in states and in event times.
 inline std::pair<double, double> difference(const Scene& scene, const ReferenceRun& a,
                                             const ReferenceRun& b) {
   Achieved worst;
@@ -173,10 +173,10 @@ inline std::string name_of(const ReferenceRun& run) {
   return text(run.method, " at rtol ", run.rtol, ", atol ", run.atol);
 }
 
-/// How wrong the runs may be: twice the difference of two methods, for the better of two so
-/// different ones is hardly more than half as wrong as the other. But no less than what every
-/// method is held to here: 10 (rtol |x| + atol) times the growth; and 100 eps (|t| + h) of an event
-/// time, h <= |t|.
+/// The error bound of the runs: twice the difference of two methods, because the better of two so
+/// different methods is hardly more than half as wrong as the other. The bound is at least the
+/// limit for every method here: 10 (rtol |x| + atol) times the growth; and for an event time 100
+/// eps (|t| + h), h <= |t|.
 inline void judge(Reference& reference, const Scene& scene) {
   const ReferenceRun& first = reference.runs.front();
   const double held = 10.0 * (first.rtol * largest_state(first.answer) + first.atol) * scene.growth;
@@ -203,10 +203,9 @@ inline void judge(Reference& reference, const Scene& scene) {
 
 }  // namespace detail
 
-/// What is known about a scene; and where states, or the event times of a scene with guards, are
-/// not, what runs of it say: two runs by different methods at the output times, so that each method
-/// is compared with another one. Throws ModelError where no state is known and no method comes to
-/// the end.
+/// The known answer of a scene. If states are unknown, or the event times of a scene with guards,
+/// they come from two runs by different methods at the output times, so that each method is
+/// compared with another one. Throws ModelError if no state is known and no method reaches the end.
 inline Reference reference_for(const Scene& scene, const ReferenceOptions& with) {
   const Exact& exact = scene.exact;
   const bool closed = exact.state || exact.samples_are_exact;

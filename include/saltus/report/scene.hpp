@@ -1,4 +1,4 @@
-// Scene: a system with all that a run of it needs, and what is known about the outcome.
+// Scene: a system with everything that a run of it needs, and its known answer.
 #pragma once
 
 #include <functional>
@@ -11,8 +11,8 @@
 
 namespace saltus {
 
-/// What does not change along the true solution. `value(t, row)` takes one row of the recorded
-/// signals, one after the other; its drift is max |value - value at the start|.
+/// A quantity that is constant along the true solution. `value(t, row)` takes one row of the
+/// recorded signals, concatenated; its drift is max |value - value at the start|.
 struct Invariant {
   std::string name;  ///< "energy"
   std::function<double(double t, const Eigen::VectorXd& row)> value;
@@ -26,13 +26,13 @@ struct Scene {
   SimulatorOptions options = {};  ///< with recorded_signals in the order of Exact::state
   Exact exact = {};
   std::vector<Invariant> invariants = {};
-  /// Distance to the surface that the trajectory must not pass, of one row; the penetration depth
-  /// is max(-gap). Empty: no surface.
+  /// The distance of one row to the surface that the trajectory must not pass; the penetration
+  /// depth is max(-gap). Empty: no surface.
   std::function<double(double t, const Eigen::VectorXd& row)> gap = {};
   std::vector<std::string> methods = {"dopri5", "dop853", "adams", "bdf",
                                       "auto"};  ///< those that suit the scene
-  double growth = 1.0;  ///< by how much the problem enlarges an error made on its way; >= 1
-  /// Makes the system anew, for the time of a cold run. Empty: that begins with `system`.
+  double growth = 1.0;  ///< the factor by which the problem enlarges earlier errors; >= 1
+  /// Makes the system anew, for the time of a cold run. Empty: a cold run begins with `system`.
   std::function<std::shared_ptr<const System>()> build = {};
 };
 

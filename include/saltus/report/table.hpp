@@ -27,7 +27,7 @@ inline std::string short_time(double seconds) {
   return buffer.data();
 }
 
-/// How far the quartiles are apart, as a part of the median.
+/// The distance between the quartiles, as a part of the median.
 inline std::string spread(const Timing& timing) {
   if (std::isnan(timing.warm)) return "-";
   std::array<char, 32> buffer{};
@@ -36,7 +36,7 @@ inline std::string spread(const Timing& timing) {
   return buffer.data();
 }
 
-/// A column of a table: it is left out where nobody knows anything.
+/// A column of a table. It is left out if all its values are unknown.
 struct Column {
   std::string title;
   std::vector<std::string> cells;
@@ -96,8 +96,8 @@ inline std::vector<Column> columns_of(const std::vector<WorkRow>& rows) {
 
 }  // namespace detail
 
-/// Rows for reading. Errors are absolute, times in seconds; "off" counts events too many or too
-/// few. Columns in which nothing is known are left out.
+/// Writes rows for people to read. Errors are absolute, times in seconds; "off" counts events too
+/// many or too few. Columns without a known value are left out.
 inline void write_text(std::ostream& out, const std::vector<WorkRow>& rows) {
   std::vector<detail::Column> columns = detail::columns_of(rows);
   std::erase_if(columns, [](const detail::Column& column) { return column.empty(); });
@@ -119,7 +119,7 @@ inline void write_text(std::ostream& out, const std::vector<WorkRow>& rows) {
   }
 }
 
-/// The rows, with what they were compared with above and the visible orders below.
+/// Writes the rows, with their reference above and the visible orders below.
 inline void write_text(std::ostream& out, const WorkReport& report) {
   out << report.scene << ", t = " << report.span.begin << " to " << report.span.end
       << " s\nerrors against (" << to_string(report.reference.kind)

@@ -1,4 +1,4 @@
-// Timing: what one run costs, cold and warm.
+// Timing: the cost of one run, cold and warm.
 #pragma once
 
 #include <algorithm>
@@ -11,19 +11,19 @@
 
 namespace saltus {
 
-/// Run times of one scene with one method, nothing recorded. NaN where the run did not end well.
+/// Run times of one scene with one method; nothing is recorded. NaN if the run did not end well.
 struct Timing {
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
   double warm = unknown;  ///< [s] median of runs of a simulator used before
   double quartile1 = unknown, quartile3 = unknown;  ///< [s] half of the warm runs lie between them
   int repeats = 0;                                  ///< warm runs that were timed
-  double cold = unknown;  ///< [s] median: the system made where the scene says how, its plan, and
-                          ///< the first run
+  /// [s] median of the time to make the system, if the scene says how, its plan, and its first run.
+  double cold = unknown;
 };
 
 struct TimingOptions {
-  double least_time = 0.1;  ///< [s] warm runs are repeated for at least this long
+  double least_time = 0.1;  ///< [s] warm runs are repeated for at least this time
   int most_repeats = 10000;
   int most_cold = 5;  ///< cold runs, within half of least_time; at least one
 };
@@ -34,9 +34,9 @@ inline double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// The value below which a fraction q of them lies: linear between neighbours, definition 7 of R.
-/// J. Hyndman, Y. Fan, "Sample quantiles in statistical packages", The American Statistician 50
-/// (1996) 361.
+/// The value below which a fraction q of the values lies, linear between neighbours: definition 7
+/// of R. J. Hyndman, Y. Fan, "Sample quantiles in statistical packages", The American Statistician
+/// 50 (1996) 361.
 inline double quantile(std::vector<double> values, double q) {
   if (values.empty()) return Timing::unknown;
   std::ranges::sort(values);
@@ -47,7 +47,7 @@ inline double quantile(std::vector<double> values, double q) {
   return values[below] + rest * (above - values[below]);
 }
 
-/// Times of `once`, again and again for `seconds`, `most` times at most; `between` is not timed.
+/// Times of `once`, repeated for `seconds`, at most `most` times; `between` is not timed.
 template <class Once, class Between>
 std::vector<double> repeated(Once&& once, Between&& between, double seconds, int most) {
   std::vector<double> times;
@@ -63,8 +63,8 @@ std::vector<double> repeated(Once&& once, Between&& between, double seconds, int
 
 }  // namespace detail
 
-/// Times runs of a scene with these options. Nothing but events is recorded; `between`, if there is
-/// one, is called between runs and may throw to end it.
+/// Times runs of a scene with these options. Only events are recorded. `between`, if any, is called
+/// between runs and may throw to end them.
 template <class Between>
 Timing time_of_run(const Scene& scene, SimulatorOptions options, const TimingOptions& timing,
                    Between&& between) {
@@ -85,7 +85,7 @@ Timing time_of_run(const Scene& scene, SimulatorOptions options, const TimingOpt
       },
       between, timing.least_time / 2, std::max(1, timing.most_cold));
   Simulator simulator(*scene.system, options);
-  run(simulator);  // what a first run makes is there from now on
+  run(simulator);  // warm runs find everything that a first run makes
   const auto warm =
       detail::repeated([&] { run(simulator); }, between, timing.least_time, timing.most_repeats);
   return {.warm = detail::quantile(warm, 0.5),

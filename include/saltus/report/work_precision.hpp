@@ -1,4 +1,4 @@
-// Work and precision: what error a method achieves at a tolerance, and what that costs.
+// Work and precision: the error of a method at a tolerance, and its cost.
 #pragma once
 
 #include <map>
@@ -21,31 +21,31 @@ struct WorkRow {
   Achieved achieved = {};
   Timing timing = {};
   Statistics statistics = {};
-  double largest = 0.0;  ///< largest number recorded
+  double largest = 0.0;  ///< the largest recorded number
   Status status = Status::reached_end;
-  std::string message = {};  ///< why, where the status is none of the good ones
+  std::string message = {};  ///< the reason, if the status is not a good one
 };
 
 struct WorkOptions {
-  std::vector<std::string> methods = {};  ///< none: those that suit the scene
+  std::vector<std::string> methods = {};  ///< empty: those that suit the scene
   std::vector<double> rtols = {1e-4, 1e-6, 1e-8, 1e-10, 1e-12};
-  double atol_over_rtol = 0.0;  ///< 0: that of the scene's own options
+  double atol_over_rtol = 0.0;  ///< 0: the ratio of the scene's own options
   TimingOptions timing = {};
-  double time_limit = 5.0;  ///< [s] a longer run is stopped, and shown as interrupted
-  /// Called after each run and between timed ones; what it throws ends the report.
+  double time_limit = 5.0;  ///< [s] a longer run is stopped and shown as interrupted
+  /// Called after each run and between timed runs; an exception from it ends the report.
   std::function<void(const Results*)> between = {};
 };
 
-/// All rows, what they were compared with, and where they were measured.
+/// All rows, their reference, and the environment of the measurement.
 struct WorkReport {
   std::string scene = {}, title = {};
   TimeSpan span = {};
   double growth = 1.0;
   Reference reference = {};
-  bool cold_makes_system = false;  ///< whether cold runs begin before the system, or with its plan
+  bool cold_makes_system = false;  ///< whether cold runs make the system, or begin with its plan
   std::vector<std::string> invariants = {};  ///< names, in the order of Achieved::drifts
   std::vector<WorkRow> rows = {};
-  std::map<std::string, double> orders = {};  ///< visible order by method; NaN if none is
+  std::map<std::string, double> orders = {};  ///< visible order by method; NaN if there is none
   Environment environment = {};
 };
 
@@ -63,7 +63,7 @@ inline double largest_of(const Results& results) {
   return largest;
 }
 
-/// A run, or the reason why there is none: a tolerance that the method refuses, for example.
+/// A run, or the reason why there is none: for example, the method refuses a tolerance.
 inline std::optional<Results> attempt(WorkRow& row, const Scene& scene,
                                       const SimulatorOptions& options, double limit) {
   try {
@@ -75,7 +75,7 @@ inline std::optional<Results> attempt(WorkRow& row, const Scene& scene,
   }
 }
 
-/// Compares, counts and times one run that may fail.
+/// Compares, counts and times one run, which may fail.
 inline void fill(WorkRow& row, const Scene& scene, const SimulatorOptions& options,
                  const WorkOptions& work) {
   const auto results = attempt(row, scene, options, work.time_limit);
@@ -93,8 +93,8 @@ inline void fill(WorkRow& row, const Scene& scene, const SimulatorOptions& optio
   row.timing = time_of_run(scene, options, work.timing, [&] { between(work, nullptr); });
 }
 
-/// Where rounding takes over: sums of `steps` roundings of the largest state, enlarged as the scene
-/// enlarges errors, ten times that to be sure; or three times what the reference may be wrong.
+/// The error at which rounding dominates: `steps` roundings of the largest state, times the growth
+/// of the scene, times ten to be safe; or three times the bound of the reference.
 inline double rounding_floor(const WorkReport& report, double largest, double steps) {
   const double eps = std::numeric_limits<double>::epsilon();
   const double rounding = 10.0 * eps * largest * std::sqrt(steps) * report.growth;
@@ -102,9 +102,9 @@ inline double rounding_floor(const WorkReport& report, double largest, double st
   return std::max(rounding, std::isnan(bound) ? 0.0 : 3.0 * bound);
 }
 
-/// Of the methods whose order is fixed; the others change it with the tolerance. Runs that begin
-/// anew in more than one step of ten do not count, for there events decide how long steps are; nor
-/// do those with a wrong number of events.
+/// The visible order of a method with a fixed order; the other methods change theirs with the
+/// tolerance. Runs that restart in more than one step of ten do not count, because events decide
+/// the length of their steps; nor do runs with a wrong number of events.
 inline double visible_order(const WorkReport& report, const std::string& method) {
   const Method which = method_from(method);
   if (which != Method::dopri5 && which != Method::dop853) return Achieved::unknown;
@@ -121,7 +121,7 @@ inline double visible_order(const WorkReport& report, const std::string& method)
   return saltus::visible_order(std::move(runs), rounding_floor(report, largest, most));
 }
 
-/// The scene as a report runs it: with output times, where it is compared at those.
+/// The scene as a report runs it: with output times, if it is compared at these.
 inline Scene prepared(Scene scene, const WorkOptions& work) {
   ReferenceOptions defaults;
   if (!is_known(scene.exact) && scene.options.save_at.empty())
@@ -140,8 +140,8 @@ inline Scene prepared(Scene scene, const WorkOptions& work) {
 
 }  // namespace detail
 
-/// Runs the scene once for the errors, then again and again for the time. A run that fails, or that
-/// is refused, gives a row that says so.
+/// Runs the scene once for the errors, then repeatedly for the time. A run that fails, or that is
+/// refused, gives a row with its reason.
 inline WorkRow measure(Scene scene, const SimulatorOptions& options, const Reference& reference,
                        const WorkOptions& work = {}) {
   WorkRow row{.method = options.ode_solver_method, .rtol = options.rtol, .atol = options.atol};
@@ -160,8 +160,8 @@ inline WorkRow measure(Scene scene, const SimulatorOptions& options, const Refer
   return row;
 }
 
-/// A row for each method at each tolerance; the scene's other options stay as they are. Throws
-/// ModelError for a method that does not exist, and where there is nothing to compare with.
+/// A row for each method at each tolerance; the other options of the scene remain unchanged. Throws
+/// ModelError for a method that does not exist, and if there is nothing to compare with.
 inline WorkReport work_precision(Scene scene, const WorkOptions& work = {}) {
   scene = detail::prepared(std::move(scene), work);
   const double ratio =

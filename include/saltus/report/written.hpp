@@ -16,7 +16,7 @@ namespace saltus {
 
 namespace detail {
 
-/// What stands in one column. Names are the keys of JSON and the heads of CSV.
+/// The contents of one column. Names are the keys of JSON and the headers of CSV.
 struct Cell {
   std::string name;
   std::variant<double, std::int64_t, std::string> value;
@@ -61,8 +61,8 @@ inline std::vector<Cell> cells_of(const WorkRow& row, const std::vector<std::str
   return cells;
 }
 
-/// The value as CSV or JSON has it: `escape` stands before a quote within quotes, `unknown` for a
-/// number nobody knows. Numbers are the shortest that give the same bits when read.
+/// The value in CSV or JSON: `escape` comes before a quote within quotes, `unknown` replaces an
+/// unknown number. Numbers are the shortest that give the same bits when read.
 inline std::string written(const Cell& cell, char escape, std::string_view unknown) {
   if (const auto* number = std::get_if<double>(&cell.value)) {
     return std::isfinite(*number) ? text(*number) : std::string(unknown);
@@ -85,13 +85,13 @@ inline std::string object_of(const std::vector<Cell>& cells) {
   return out + "}";
 }
 
-/// Machine and versions.
+/// The columns for machine and versions.
 inline std::vector<Cell> cells_of(const Environment& e) {
   return {{"cpu", e.cpu},     {"cores", std::int64_t{e.cores}}, {"compiler", e.compiler},
           {"build", e.build}, {"sundials", e.sundials},         {"saltus", e.saltus}};
 }
 
-/// What the rows were compared with.
+/// The columns for the reference.
 inline std::vector<Cell> cells_of(const Reference& reference) {
   return {{"kind", std::string(to_string(reference.kind))},
           {"provenance", reference.provenance},
@@ -101,8 +101,8 @@ inline std::vector<Cell> cells_of(const Reference& reference) {
 
 }  // namespace detail
 
-/// Lines of "# name: value" about the scene, the reference and the machine, one line of names, then
-/// one line for each row. Unknown values are empty.
+/// Writes lines of "# name: value" about the scene, the reference and the machine, then a line of
+/// names, then a line for each row. Unknown values are empty.
 inline void write_csv(std::ostream& out, const WorkReport& report) {
   out << "# scene: " << report.scene << "\n";
   for (const auto& cell : detail::cells_of(report.reference))
@@ -120,8 +120,8 @@ inline void write_csv(std::ostream& out, const WorkReport& report) {
          [](const detail::Cell& cell) { return detail::written(cell, '"', ""); });
 }
 
-/// One object: what was run where and against what, "orders" by method, and "rows". Unknown values
-/// are null.
+/// Writes one object: the scene, the reference, the machine, "orders" by method, and "rows".
+/// Unknown values are null.
 inline void write_json(std::ostream& out, const WorkReport& report) {
   using detail::cells_of, detail::object_of;
   std::vector<detail::Cell> orders;

@@ -71,8 +71,7 @@ class EventLog {
   /// "ball.bounce" of every event that is declared, whether it fired or not.
   const std::vector<std::string>& names() const noexcept { return names_; }
 
-  // --- for the engine
-  // -------------------------------------------------------------------------------------------
+  // --- for the engine --------------------------------------------------------------------------
   struct Row {
     double time;
     int jump, direction;

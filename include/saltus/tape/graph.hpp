@@ -1,5 +1,5 @@
-// Graph: expressions over the time, states, parameters and inputs of a block. Equal ones are one
-// node.
+// Graph: expressions over the time, states, parameters and inputs of a block. Equal expressions are
+// one node.
 #pragma once
 
 #include <array>
@@ -14,32 +14,33 @@
 
 namespace saltus::tape {
 
-/// Names one expression of a graph. Operands have smaller numbers than what is made of them.
+/// Identifies one expression of a graph. Operands have smaller numbers than the expression that
+/// uses them.
 struct Node {
   int id = -1;
   auto operator<=>(const Node&) const = default;
 };
 
-/// What a node stands for.
+/// The definition of a node.
 struct Expression {
   Op op = Op::constant;
   std::array<Node, 3> operands = {};  ///< as many as `operand_count(op)`
   double value = 0.0;                 ///< of a constant
-  Index index = 0;                    ///< of a variable: which entry
-  int port = 0;                       ///< of an input: which one
+  Index index = 0;                    ///< of a variable: the number of its entry
+  int port = 0;                       ///< of an input: the number of its port
 };
 
-/// Expressions, made from small to large.
+/// Expressions, built from small to large.
 ///
-/// Asking twice for the same expression gives the same node, with the operands of `add`, `mul` and
-/// the like in any order. What has only constants in it is computed at once, by the functions that
-/// a tape runs. Beyond that only identities that hold to the last bit, signs of zeros and NaN
-/// among them, make an expression shorter: x*1, x - 0, -(-x), x/2 = x*0.5, select of a constant.
-/// `gt` and `ge` become `lt` and `le` with their operands exchanged.
+/// A second request for the same expression gives the same node; for `add`, `mul` and the like the
+/// order of the operands does not matter. An expression of constants is computed at once, by the
+/// functions that a tape runs. Apart from that, an expression is made shorter only by identities
+/// that hold to the last bit, including signs of zeros and NaN: x*1, x - 0, -(-x), x/2 = x*0.5,
+/// select of a constant. `gt` and `ge` become `lt` and `le` with their operands exchanged.
 ///
 /// One rule changes bits: `pow` with the constant exponent 2, 0.5 or -1 becomes x*x, sqrt(x), 1/x,
-/// as in NumPy's arrays, and with 3 or 4 (x*x)*x or (x*x)*(x*x), much quicker than `std::pow` and
-/// within 1 or 1.5 units in the last place of the exact power.
+/// as in NumPy's arrays. With 3 or 4 it becomes (x*x)*x or (x*x)*(x*x), which is much quicker than
+/// `std::pow` and within 1 or 1.5 units in the last place of the exact power.
 class Graph {
  public:
   Node constant(double value);
@@ -51,7 +52,7 @@ class Graph {
   Node parameter(Index i);         ///< at.p[i]
   Node input(int k, Index i);      ///< at.u[k][i]
 
-  /// Any operation; ModelError if it takes another number of operands or one of them is not a node
+  /// Any operation; ModelError if it takes another number of operands or an operand is not a node
   /// of this graph.
   Node apply(Op op, std::span<const Node> operands);
   Node unary(Op op, Node a) { return apply(op, std::array{a}); }
@@ -60,9 +61,9 @@ class Graph {
 
   /// The number, if the node is constant.
   std::optional<double> value(Node node) const;
-  /// What a node stands for; ModelError if it is not a node of this graph.
+  /// The definition of a node; ModelError if it is not a node of this graph.
   const Expression& operator[](Node node) const;
-  /// Nodes made so far.
+  /// The number of nodes.
   int size() const noexcept { return static_cast<int>(expressions_.size()); }
 
  private:

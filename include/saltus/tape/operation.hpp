@@ -1,4 +1,4 @@
-// Op: what a node of an expression graph is, with its name and the number of its operands.
+// Op: the operation of a node in an expression graph, its name and the number of its operands.
 #pragma once
 
 #include <optional>
@@ -6,22 +6,22 @@
 
 namespace saltus::tape {
 
-/// What a node is. All numbers are doubles, a truth is 0.0 or 1.0; any number but 0 counts as true,
-/// NaN among them. In Python an operation is called by the word that stands here.
+/// The operation of a node. All numbers are doubles; a truth is 0.0 or 1.0, and any number except 0
+/// counts as true, including NaN. Python names an operation by the word used here.
 ///
-/// Every operation gives, to the last bit, what the function of that name in <cmath> gives; NaN and
-/// infinity go through as they do in NumPy.
+/// Every operation gives, to the last bit, the result of the <cmath> function of its name. NaN and
+/// infinity propagate as in NumPy.
 enum class Op : unsigned char {
-  // what a graph begins with
+  // the leaves of a graph
   constant,
   time,              ///< [s]
   continuous_state,  ///< x[i]
   discrete_state,    ///< z[i]
   mode,
-  entry,      ///< in a reset map: which guard of a vector of them fired
+  entry,      ///< in a reset map: the index of the guard that fired, in a vector of guards
   parameter,  ///< p[i], counted over all parameters of the block
   input,      ///< u[k][i]
-  // of one operand
+  // one operand
   neg,
   abs,
   sqrt,
@@ -49,9 +49,9 @@ enum class Op : unsigned char {
   ceil,
   trunc,
   rint,         ///< to the nearest whole number, halves to the even one
-  sign,         ///< -1, 0 or 1; of NaN NaN
-  logical_not,  ///< 1 for 0, else 0
-  // of two
+  sign,         ///< -1, 0 or 1; NaN of NaN
+  logical_not,  ///< 1 for 0, otherwise 0
+  // two operands
   add,
   sub,
   mul,
@@ -61,10 +61,10 @@ enum class Op : unsigned char {
   hypot,
   copysign,
   mod,           ///< remainder with the sign of the second operand: Python's %
-  fmod,          ///< remainder with the sign of the first
+  fmod,          ///< remainder with the sign of the first operand
   floor_divide,  ///< Python's //
-  minimum,       ///< NaN where one of them is NaN
-  maximum,       ///< NaN where one of them is NaN
+  minimum,       ///< NaN if an operand is NaN
+  maximum,       ///< NaN if an operand is NaN
   lt,
   le,
   gt,
@@ -73,34 +73,34 @@ enum class Op : unsigned char {
   ne,
   logical_and,
   logical_or,
-  // of three
-  select,  ///< select(c, a, b) is a where c is true, else b
+  // three operands
+  select,  ///< select(c, a, b) is a if c is true, otherwise b
 };
 
 inline constexpr int operation_count = static_cast<int>(Op::select) + 1;
 
-/// How many nodes an operation takes: 0 for a constant or a variable, else 1, 2 or 3.
+/// The number of operands of an operation: 0 for a constant or a variable, otherwise 1, 2 or 3.
 constexpr int operand_count(Op op) {
   if (op <= Op::input) return 0;
   if (op <= Op::logical_not) return 1;
   return op == Op::select ? 3 : 2;
 }
 constexpr bool is_variable(Op op) { return op > Op::constant && op <= Op::input; }
-/// An operation whose result is 0 or 1.
+/// Whether the result of the operation is 0 or 1.
 constexpr bool is_truth(Op op) {
   return op == Op::logical_not || (op >= Op::lt && op <= Op::logical_or);
 }
-/// op(a, b) is op(b, a), to the last bit.
+/// Whether op(a, b) is op(b, a), to the last bit.
 constexpr bool is_commutative(Op op) {
   return op == Op::add || op == Op::mul || op == Op::eq || op == Op::ne || op == Op::logical_and ||
          op == Op::logical_or;
 }
 
-/// The word for it: "add".
+/// The name of the operation: "add".
 std::string_view name(Op op);
-/// The operation of that name; empty if there is none.
+/// The operation with this name; empty if there is none.
 std::optional<Op> operation(std::string_view name);
-/// As `operation`; ModelError with the nearest known name if there is none.
+/// As `operation`, but throws ModelError with the nearest known name if there is none.
 Op known_operation(std::string_view name);
 
 }  // namespace saltus::tape

@@ -1,4 +1,4 @@
-// Symbol: a node of a graph that is calculated with as with a number.
+// Symbol: a node of a graph, with the operations of a number.
 #pragma once
 
 #include <initializer_list>
@@ -7,18 +7,18 @@
 
 namespace saltus::tape {
 
-/// A number of which only the formula is known: a node of a graph, or a constant that no graph has
-/// seen yet. A function template over doubles that is called with symbols leaves the graph of what
-/// it computes, operation by operation and in the same order, so that its tape gives the same
-/// numbers to the last bit. Comparisons give symbols too, 0 or 1: a symbol decides no `if`. There
-/// is no `pow`: a graph makes products of some powers, which are not to the last bit what
-/// `std::pow` gives.
+/// A number known only by its formula: a node of a graph, or a constant that is not yet in a graph.
+/// If a function template over doubles is called with symbols, it builds the graph of its
+/// computation, operation by operation and in the same order, so the tape of that graph gives the
+/// same numbers to the last bit. Comparisons give symbols too, 0 or 1, so a symbol cannot decide an
+/// `if`. There is no `pow`, because a graph replaces some powers by products, which differ from
+/// `std::pow` in the last bit.
 class Symbol {
  public:
   Symbol(double value = 0.0) : value_(value) {}  // NOLINT(google-explicit-constructor): a number
   Symbol(Graph& graph, Node node) : graph_(&graph), node_(node) {}
 
-  /// As a node of `graph`, the one that its variables come from.
+  /// The node in `graph`, which must be the graph of its variables.
   Node in(Graph& graph) const { return graph_ == nullptr ? graph.constant(value_) : node_; }
 
   friend Symbol operator+(const Symbol& a, const Symbol& b) { return apply(Op::add, {a, b}); }
@@ -38,7 +38,7 @@ class Symbol {
   friend Symbol operator==(const Symbol& a, const Symbol& b) { return apply(Op::eq, {a, b}); }
   friend Symbol operator!=(const Symbol& a, const Symbol& b) { return apply(Op::ne, {a, b}); }
 
-  // Those of <cmath>, found where `using std::sin;` makes the call sin(u) good for numbers too.
+  // The functions of <cmath>. With `using std::sin;` a call sin(u) works for numbers too.
   friend Symbol abs(const Symbol& a) { return apply(Op::abs, {a}); }
   friend Symbol sqrt(const Symbol& a) { return apply(Op::sqrt, {a}); }
   friend Symbol cbrt(const Symbol& a) { return apply(Op::cbrt, {a}); }
@@ -63,7 +63,7 @@ class Symbol {
   static Symbol apply(Op op, std::initializer_list<Symbol> operands);
 
  private:
-  Graph* graph_ = nullptr;  ///< none: a constant
+  Graph* graph_ = nullptr;  ///< null: a constant
   Node node_ = {};
   double value_ = 0.0;
 };

@@ -17,7 +17,7 @@ struct Style {
   const char* says;
 };
 
-/// Okabe and Ito's blue and vermilion: told apart by the colour-blind as well.
+/// Okabe and Ito's blue and vermilion, which colour-blind readers can distinguish.
 Style style_of(Flow flow) {
   switch (flow) {
     case Flow::continuous:
@@ -61,14 +61,14 @@ std::string escaped(std::string_view raw) {
   return out;
 }
 
-/// The same where a line break is not possible.
+/// The same, if a line break is not possible.
 std::string in_one_line(std::string_view raw) {
   std::string flat(raw);
   std::ranges::replace(flat, '\n', ' ');
   return escaped(flat);
 }
 
-/// A string between quotes. Graphviz takes \n, \l, \N in it for escapes: a backslash is doubled.
+/// A quoted string. Graphviz reads \n, \l, \N in it as escapes, so a backslash is doubled.
 std::string quoted(std::string_view raw) {
   std::string out = "\"";
   for (const char c : raw) {
@@ -78,7 +78,7 @@ std::string quoted(std::string_view raw) {
   return out + "\"";
 }
 
-/// A font that Graphviz has to print its argument in; empty words make a table that is none.
+/// Its argument in a font. Without words it is empty, because Graphviz refuses an empty font.
 std::string words(std::string_view html, std::string_view attributes) {
   return html.empty() ? std::string() : text("<FONT ", attributes, ">", html, "</FONT>");
 }
@@ -87,7 +87,7 @@ std::string small_print(const Style& style) {
   return text("POINT-SIZE=\"8\" COLOR=\"", style.small, "\"");
 }
 
-/// One column of a block's table: a cell for each port, where wires end.
+/// A column of a block's table: a cell for each port, at which wires end.
 std::string ports_cell(const std::vector<std::string>& ports, char side, const Style& style) {
   std::string rows;
   for (std::size_t i = 0; i < ports.size(); ++i) {
@@ -136,7 +136,7 @@ std::string block_line(const Block& block, std::size_t i) {
   return text("b", i, " [label=", label_of(block, style), " ", common, inner, dotted, "];\n");
 }
 
-/// Where a wire ends: at its port if the block shows them, else at the middle of its side.
+/// The end of a wire: its port if the block shows ports, otherwise the middle of its side.
 std::string end_of(const Block& block, int number, char side, int port) {
   const bool shown = side == 'i' ? shows_inputs(block) : shows_outputs(block);
   const char* compass = side == 'i' ? ":w" : ":e";
@@ -158,7 +158,7 @@ std::string wire_line(const Picture& picture, const Wire& wire) {
          text(" edgetooltip=", quoted(text(from.name, " → ", to.name, ".", target, says)), "];\n");
 }
 
-/// Blocks of a frame and the frames in it.
+/// Writes the blocks of a frame and the frames in it.
 void write_frame(std::string& out, const Picture& picture, int frame, const std::string& indent) {
   for (std::size_t i = 0; i < picture.blocks.size(); ++i) {
     if (picture.blocks[i].frame == frame) out += indent + block_line(picture.blocks[i], i);
@@ -172,7 +172,7 @@ void write_frame(std::string& out, const Picture& picture, int frame, const std:
   }
 }
 
-/// What the colours and lines mean, of those that are there.
+/// The meaning of the colours and lines that the picture uses.
 std::string legend_of(const Picture& picture) {
   std::string cells;
   int entries = 0;
@@ -196,7 +196,7 @@ std::string legend_of(const Picture& picture) {
                  "</TD></TR>");
   const bool plain =
       entries == 0 || (entries == 1 && cells.find("continuous") != std::string::npos);
-  if (plain && trouble.empty()) return "";  // nothing to be told from
+  if (plain && trouble.empty()) return "";  // nothing to explain
   const std::string row = cells.empty() ? std::string() : text("<TR>", cells, "</TR>");
   return text("<<TABLE BORDER=\"0\" CELLBORDER=\"0\" CELLSPACING=\"6\">", trouble, row,
               "</TABLE>>");

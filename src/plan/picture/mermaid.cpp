@@ -12,8 +12,8 @@ using Block = Picture::Block;
 using Flow = Picture::Flow;
 using Wire = Picture::Wire;
 
-/// Text of a label. Mermaid's entities are written #number; and everything that could end a label
-/// or begin something else becomes one.
+/// The text of a label. Mermaid writes an entity as #number;, and every character that could end a
+/// label or begin something else becomes an entity.
 std::string escaped(std::string_view raw) {
   std::string out;
   for (const char c : raw) {
@@ -122,7 +122,7 @@ void write_frame(std::string& out, const Picture& picture, int frame, const std:
   }
 }
 
-/// The colours of wires: Mermaid knows them by their number.
+/// The colours of wires, which Mermaid identifies by number.
 std::string link_styles(const Picture& picture) {
   std::string out;
   for (const Flow flow :
@@ -154,7 +154,7 @@ std::string legend_of(const Picture& picture) {
   if (!picture.trouble.empty())
     out += text("    trouble[\"", escaped(picture.trouble), "\"]:::unknown\n");
   const bool plain = picture.trouble.empty() && std::ranges::count(out, '\n') == 1 &&
-                     out.find("key_continuous") != std::string::npos;  // nothing to be told from
+                     out.find("key_continuous") != std::string::npos;  // nothing to explain
   return out.empty() || plain ? "" : text("  subgraph legend\n", out, "  end\n");
 }
 
@@ -186,7 +186,7 @@ std::set<int> modes_of(const Declarations& d) {
   return modes;
 }
 
-/// Negative modes too have a name that Mermaid takes.
+/// A name that Mermaid accepts, for negative modes too.
 std::string state_name(int mode) { return mode < 0 ? text("m_", -mode) : text("m", mode); }
 
 std::string transitions(const ZeroCrossing& crossing, int from) {

@@ -1,4 +1,4 @@
-// What the passes of a picture share.
+// Declarations shared by the passes of a picture.
 #pragma once
 
 #include "saltus/plan/picture.hpp"
@@ -7,7 +7,7 @@ namespace saltus::detail {
 
 /// How an input of a leaf is read.
 struct Reading {
-  bool flow = false;   // by a derivative, or by an output that somebody reads
+  bool flow = false;   // by a derivative, or by an output that is itself read
   bool event = false;  // by a guard, a reset map or an update
 };
 
@@ -15,13 +15,13 @@ struct Reading {
 using Readings = std::vector<std::vector<Reading>>;
 Readings readings_of(const Plan& plan);
 
-/// What the plan makes of a leaf: how often it is computed, or that it never is.
+/// The rate of a leaf in the plan, or that it is never computed.
 Picture::Flow flow_of(const Plan& plan, const PlanLeaf& leaf);
-/// The same of the value on a wire.
+/// The same for the value on a wire.
 Picture::Flow flow_of(const Node& node);
 
-/// Lines under the name of a leaf: its states, modes, zero crossings and time events. Without a
-/// plan how its booleans are located is not known.
+/// Lines below the name of a leaf: its states, modes, zero crossings and time events. Without a
+/// plan it is not known how its booleans are located.
 std::vector<std::string> notes_of(const LeafSystem& leaf, const Plan* plan, int number);
 /// A zero crossing in few words: "bounce ↓ reset".
 std::string words_of(const ZeroCrossing& crossing);

@@ -1,4 +1,4 @@
-// From a system to the blocks, frames and wires of its picture.
+// Makes the blocks, frames and wires of a system's picture.
 #include "saltus/plan/picture.hpp"
 
 #include <map>
@@ -15,7 +15,7 @@ namespace {
 using namespace detail;
 using Block = Picture::Block;
 
-/// What an open input of the drawn system shall be fed with: a continuous signal of its width.
+/// Feeds an open input of the drawn system with a continuous signal of its width.
 class Open final : public LeafSystem {
  public:
   explicit Open(LeafPort target) {
@@ -26,7 +26,7 @@ class Open final : public LeafSystem {
   }
 };
 
-/// The system with its inputs fed, so that it compiles; its leaves come first.
+/// The system with all its inputs fed, so that it compiles; its own leaves come first.
 std::unique_ptr<const System> closed(const System& system) {
   DiagramBuilder builder;
   builder.add(std::shared_ptr<const System>(std::shared_ptr<void>(), &system));
@@ -36,7 +36,7 @@ std::unique_ptr<const System> closed(const System& system) {
   return std::make_unique<Diagram>(builder.build());
 }
 
-/// Walks the system as it was built: frames for diagrams, blocks for leaves.
+/// Walks the system as it was built: a frame for each diagram, a block for each leaf.
 class Drawing {
  public:
   Drawing(const System& root, const PictureOptions& options) : root_(root), options_(options) {
@@ -54,7 +54,7 @@ class Drawing {
   }
 
  private:
-  struct Ends {  // where the wires of a system end: the block, or one block for each port
+  struct Ends {  // the ends of a system's wires: the block, or one block for each port
     std::vector<int> inputs, outputs;
     int block = -1;
   };
@@ -121,8 +121,7 @@ class Drawing {
     return static_cast<int>(picture_.blocks.size()) - 1;
   }
 
-  /// The ports of a diagram are small blocks at its border, that what is wired to them goes
-  /// through.
+  /// The ports of a diagram are small blocks at its border; wires pass through them.
   void add_ports(const Diagram& diagram, Ends& ends, int frame) {
     const auto border = [&](Block::Kind kind, const std::vector<std::string>& names) {
       std::vector<int> blocks;
@@ -163,7 +162,8 @@ class Drawing {
                            : End{ends.inputs[static_cast<std::size_t>(port.index)], 0};
   }
 
-  /// `leaf` is the leaf's port at its end: an input that reads it, or the output behind it.
+  /// `leaf` is the leaf's port at the end of the wire: an input that reads it, or the output that
+  /// feeds it.
   void add_wire(End from, End to, LeafPort port, bool input) {
     Picture::Wire wire{
         .from = from.first, .output = from.second, .to = to.first, .input = to.second};
@@ -183,7 +183,7 @@ class Drawing {
     picture_.wires.push_back(wire);
   }
 
-  /// A port at a border is drawn like what flows through it.
+  /// A port at a border has the colour of the signal through it.
   void show(int block, Picture::Flow flow) {
     Block& port = picture_.blocks[static_cast<std::size_t>(block)];
     if (port.kind == Block::Kind::input || port.kind == Block::Kind::output) {

@@ -1,4 +1,4 @@
-// Who reads what, and what the plan made of it.
+// Finds the readers of each input, and the rate of each value in the plan.
 #include "parts.hpp"
 
 namespace saltus::detail {
@@ -15,7 +15,7 @@ void mark(std::vector<Reading>& inputs, const Named& named, bool Reading::*how) 
   for (int i : *named) inputs[static_cast<std::size_t>(i)].*how = true;
 }
 
-/// By the derivative, and by what is computed for a reader.
+/// Marks the inputs that the derivative reads, and those of outputs that some node reads.
 void mark_flow(const Plan& plan, const PlanLeaf& leaf, std::vector<Reading>& inputs) {
   const Declarations& d = leaf.declared();
   if (leaf.nx > 0 && d.continuous.ode && has(d.continuous.reads, Reads::inputs))

@@ -1,4 +1,4 @@
-// Nested diagrams to leaves and nodes: who reads whom, and the shape of every signal.
+// Resolves nested diagrams to leaves and nodes: the readers and the shape of every signal.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 
 namespace saltus::detail {
 
-/// The inputs that something reads: those it names, else all.
+/// The inputs that a computation reads: those it names, otherwise all.
 inline std::vector<int> read_inputs(const std::optional<std::vector<int>>& named,
                                     const PlanLeaf& leaf) {
   if (!named) return leaf.inputs;
@@ -27,7 +27,7 @@ inline std::vector<int> read_inputs(const std::optional<std::vector<int>>& named
   return nodes;
 }
 
-/// One node for each output and relation of a leaf, the last in the plan.
+/// Adds one node for each output and each relation of a leaf, as the last nodes of the plan.
 inline void add_nodes(Plan& plan, PlanLeaf& leaf) {
   const Declarations& d = leaf.declared();
   const int number = static_cast<int>(plan.leaves.size());
@@ -45,9 +45,9 @@ inline void add_nodes(Plan& plan, PlanLeaf& leaf) {
     plan.nodes.push_back({.leaf = number, .index = i, .relation = true, .boolean = true});
 }
 
-/// Leaves with their places in the flat arrays, and their nodes.
+/// Adds the leaves, with their places in the flat arrays, and their nodes.
 inline void add_leaves(Plan& plan, Structure& structure) {
-  plan.leaves.reserve(structure.leaves.size());  // so that none is moved, and few nodes are
+  plan.leaves.reserve(structure.leaves.size());  // so no leaf is moved, and few nodes are
   plan.nodes.reserve(structure.leaves.size());
   for (auto& [system, path] : structure.leaves) {
     const Declarations& d = system->declarations();
@@ -62,7 +62,7 @@ inline void add_leaves(Plan& plan, Structure& structure) {
   }
 }
 
-/// Which leaf of a plan a system is.
+/// Finds the number of a system's leaf in a plan.
 class LeafNumbers {
  public:
   explicit LeafNumbers(const Plan& plan) {
@@ -78,7 +78,7 @@ class LeafNumbers {
   std::unordered_map<const LeafSystem*, std::size_t> numbers_;
 };
 
-/// The node behind every input; an open input of the root is an error.
+/// Finds the node that feeds each input; an open input of the root is an error.
 inline void add_wires(Plan& plan, const Structure& structure, const LeafNumbers& numbers) {
   for (const auto& [from, to] : structure.wires) {
     plan.leaves[numbers.find(to.leaf).value()].inputs[static_cast<std::size_t>(to.index)] =
@@ -94,7 +94,7 @@ inline void add_wires(Plan& plan, const Structure& structure, const LeafNumbers&
   }
 }
 
-/// What each node reads when it is computed.
+/// Finds the nodes that each node reads when it is computed.
 inline void add_needs(Plan& plan) {
   for (Node& node : plan.nodes) {
     if (node.view) continue;
@@ -112,7 +112,7 @@ inline void add_needs(Plan& plan) {
   }
 }
 
-/// The shapes of a leaf's inputs, or nothing while one of them is unknown.
+/// The shapes of a leaf's inputs, or nothing while the shape of an input is unknown.
 inline std::optional<std::vector<Shape>> input_shapes(const Plan& plan, const PlanLeaf& leaf) {
   std::vector<Shape> shapes;
   for (int input : leaf.inputs) {
@@ -122,7 +122,7 @@ inline std::optional<std::vector<Shape>> input_shapes(const Plan& plan, const Pl
   return shapes;
 }
 
-/// Gives a node its shape if what decides it is known.
+/// Sets the shape of a node if everything that decides it is known.
 inline bool shape_node(const Plan& plan, Node& node) {
   const std::optional<Shape> fixed = [&]() -> std::optional<Shape> {
     if (!node.relation) return plan.output_of(node).shape;
@@ -139,8 +139,8 @@ inline bool shape_node(const Plan& plan, Node& node) {
   return node.shaped = true;
 }
 
-/// Gives their shapes to what can have one: all nodes in turn, then those of leaves whose last
-/// unknown input became known. Each wire is followed once.
+/// Sets all shapes that can be known: of all nodes in turn, then of the nodes of each leaf whose
+/// last unknown input became known. Each wire is followed once.
 class Shaping {
  public:
   explicit Shaping(Plan& plan) : plan_(plan) {
@@ -174,16 +174,16 @@ class Shaping {
 
   Plan& plan_;
   Lists readers_;
-  std::vector<int> unknown_;  // inputs of each leaf
-  std::vector<int> known_;    // nodes whose readers have not been told
+  std::vector<int> unknown_;  // number of inputs of each leaf whose shape is unknown
+  std::vector<int> known_;    // nodes whose readers do not know the shape yet
 };
 
-/// Shapes spread along the wires until all are known.
+/// Spreads shapes along the wires until all are known.
 inline void add_shapes(Plan& plan) {
   Shaping(plan).run();
   for (Node& node : plan.nodes) {
     if (!node.shaped) {
-      Ordering(plan).run();  // an algebraic loop is the likelier cause: it throws with the path
+      Ordering(plan).run();  // more often the cause is an algebraic loop: this throws with its path
       throw ModelError(text("the width of output '", plan.name_of(node),
                             "' depends on itself around a loop; put a block of known width, for "
                             "example an Integrator "
@@ -192,7 +192,8 @@ inline void add_shapes(Plan& plan) {
   }
 }
 
-/// Every input gets the shape it asked for, and elementwise blocks get equal widths.
+/// Checks that every input gets the shape it asked for, and that elementwise blocks get equal
+/// widths.
 inline void check_shapes(const Plan& plan) {
   for (const PlanLeaf& leaf : plan.leaves) {
     for (std::size_t i = 0; i < leaf.inputs.size(); ++i) {
@@ -207,7 +208,7 @@ inline void check_shapes(const Plan& plan) {
   }
 }
 
-/// Places: views show a state or parameters; everything else gets room in `y`.
+/// Assigns places: views show a state or parameters; every other value gets a place in `y`.
 inline void add_places(Plan& plan) {
   for (Node& node : plan.nodes) {
     if (!node.view) {
@@ -227,7 +228,7 @@ inline void add_places(Plan& plan) {
   }
 }
 
-/// Leaves, wires and who reads whom.
+/// Finds leaves, wires and readers.
 inline Plan flatten(const System& system) {
   Structure structure = structure_of(system);
   Plan plan;
@@ -237,7 +238,8 @@ inline Plan flatten(const System& system) {
   return plan;
 }
 
-/// Shapes and places; after the order, so that an algebraic loop is called that.
+/// Finds shapes and places. It runs after the order is known, so that an algebraic loop is reported
+/// as a loop.
 inline void lay_out(Plan& plan) {
   add_shapes(plan);
   check_shapes(plan);

@@ -1,4 +1,4 @@
-// Lists: a list for each of many numbers, in two arrays.
+// Lists: many short lists in two arrays, one list for each number.
 #pragma once
 
 #include <span>
@@ -7,7 +7,8 @@
 
 namespace saltus::detail {
 
-/// Who follows whom, from pairs (number, follower) in any order; of one number in theirs.
+/// Built from pairs (number, follower) in any order: the followers of each number, in the order of
+/// their pairs.
 class Lists {
  public:
   Lists() = default;

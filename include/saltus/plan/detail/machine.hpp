@@ -13,40 +13,41 @@
 
 namespace saltus {
 
-/// Puts the states of blocks that rest on a moving surface where the surface is.
+/// Moves the states of blocks that rest on a moving surface with that surface.
 class Carrier {
  public:
   virtual ~Carrier() = default;
-  /// The states it carries, from t and all the others.
+  /// Sets the states it carries, from t and all other states.
   virtual void carry(double t, double* x) = 0;
-  /// How fast these states move with their surface, for the control of the step size.
+  /// The derivatives of these states with their surface, for the control of the step size.
   virtual void rates(double t, const double* x, double* xdot) = 0;
-  /// In place of the guards of these blocks: below zero while they press on their surface.
+  /// The guards in place of those of the carried blocks: below zero while a block presses on its
+  /// surface.
   virtual void lift(double t, const double* x, double* g) = 0;
 };
 
-/// A number that is NaN or Inf, in words.
+/// Describes a number that is NaN or Inf.
 struct NotFinite {
   std::string block = {};  ///< path
   std::string what = {};   ///< "the derivative of block 'ball'"
   std::string entry = {};  ///< "xdot[1] = nan where x = [10, -3]"
 };
 
-/// x, z, p, modes and signals of one run. Threads share a plan; each has a machine of its own.
-/// Nothing here allocates after construction.
+/// x, z, p, modes and signals of one run. Threads share a plan; each has its own machine. Nothing
+/// in this class allocates after construction.
 class Machine {
  public:
   explicit Machine(std::shared_ptr<const Plan> plan);
   Machine(const Machine&) = delete;  // views_ point into it
   Machine& operator=(const Machine&) = delete;
 
-  /// Copies a context in and computes the constant outputs.
+  /// Copies a context to the machine and computes the constant outputs.
   void load(const Context& context);
-  /// The values of now, as a context of the same layout.
+  /// The present values, as a context of the same layout.
   Context save(const Context& like, double t,
                std::shared_ptr<const Continuation> continuation) const;
 
-  /// xdot(t, x), everything else held as it is.
+  /// xdot(t, x), with everything else held.
   [[gnu::always_inline]] void derivative(double t, const double* state, double* xdot) {
     if (lone_ode_ == nullptr || at_rest_ > 0 || carrier != nullptr)
       return carried_derivative(t, state, xdot);
@@ -55,7 +56,7 @@ class Machine {
     const VectorRef out(xdot, lone_ode_->size);
     (*lone_ode_->function)(*lone_ode_->system, seen_by(*lone_ode_, t), out);
   }
-  /// All guards that can fire now, into their slots of g.
+  /// Evaluates all guards that can fire now, into their slots of g.
   void guards(double t, const double* state, double* g) {
     if (lone_guard_ == nullptr || carrier != nullptr) return carried_guards(t, state, g);
     ++guard_calls;
@@ -64,39 +65,41 @@ class Machine {
     (*lone_guard_->function)(*lone_guard_->system, seen_by(*lone_guard_, t), out);
   }
 
-  /// For steps compiled together with the right-hand side: it, where nothing else has to be
-  /// computed; else null. `compiled_at` shows what it sees but for t and x.
+  /// The right-hand side, if a compiled step may call it directly: one leaf, no needed outputs,
+  /// nothing held or carried. Otherwise null. `compiled_at` shows its arguments except t and x.
   const VectorFunction* compiled() const noexcept {
     return at_rest_ > 0 || carrier != nullptr ? nullptr : compiled_;
   }
   const At& compiled_at() { return seen_by(*lone_ode_, 0.0); }
   const LeafSystem& compiled_leaf() const { return *lone_ode_->system; }
 
-  /// The same two at exactly this state, whatever is carried.
+  /// Derivative and guards at exactly this state, even while a block is carried.
   void flow(double t, const double* state, double* xdot);
   void guards_at(double t, const double* state, double* g);
 
-  /// Computes the held outputs and what resets, updates and edges read, at (t, x) of the machine.
+  /// Computes the held outputs, and the values that resets, updates and edges read, at (t, x) of
+  /// the machine.
   void evaluate_instant(double t) {
     at_home();
     run(instant_calls_, t);
   }
-  /// Of these what moves between instants too, at (t, x).
+  /// Of these values, computes again those that change between instants too, at (t, x).
   void evaluate_moving(double t, const double* state) {
     bases_[0] = state;
     run(moving_calls_, t);
   }
-  /// Computes what the recorded rows show, at (t, x).
+  /// Computes the values that the recorded rows show, at (t, x).
   void evaluate_taps(double t, const double* state) {
     bases_[0] = carried(t, state);
     run(tap_calls_, t);
   }
 
-  /// What leaf i sees at time t; its continuous state from the last (t, x) asked for.
+  /// The arguments of leaf i at time t; its continuous state is that of the last (t, x).
   At at(std::size_t leaf, double t) {
     const PlanLeaf& of = plan_->leaves[leaf];
     return seen_by({nullptr, of.system, leaf, &views_[leaf], of.x, of.nx}, t);
   }
+<<<<<<< HEAD
   /// xdot of leaf i alone, at time t and the state that `at` shows.
   void leaf_derivative(std::size_t leaf, double t, VectorRef xdot) {
     ++rhs_calls;
@@ -104,13 +107,16 @@ class Machine {
     of.declared().continuous.ode(*of.system, at(leaf, t), xdot);
   }
   /// Makes `at` see the machine's own x again.
+=======
+  /// Makes `at` show the machine's own x again.
+>>>>>>> prose
   void at_home() { bases_[0] = x.data(); }
 
-  /// The state as it is seen: with what rests on a moving surface put there.
+  /// The state with all carried entries moved to their surface.
   const double* carried(double t, const double* state) {
     return carrier == nullptr ? state : carry(t, state);
   }
-  /// Computes what the derivatives read at (t, x), so that `at` shows it.
+  /// Computes the values that the derivatives read at (t, x), so that `at` shows them.
   void evaluate_derivative_needs(double t, const double* state) {
     bases_[0] = state;
     run(needs_of_derivatives_, t);
@@ -132,10 +138,11 @@ class Machine {
   bool truth(int node) const { return *value(plan_->node(node).place) != 0.0; }
   const Plan& plan() const noexcept { return *plan_; }
   const std::shared_ptr<const Plan>& shared_plan() const noexcept { return plan_; }
-  /// The continuous state that was last asked for, with what rests on a moving surface put there.
+  /// The continuous state of the last call, with all carried entries moved to their surface.
   const double* seen_state() const noexcept { return bases_[0]; }
 
-  /// The first number that is not finite at (t, x), of what derivatives read, then of them.
+  /// The first number that is not finite at (t, x): first among the values that derivatives read,
+  /// then among the derivatives.
   std::optional<NotFinite> not_finite(double t, const double* state);
 
   Eigen::VectorXd x, z, p, y;
@@ -144,13 +151,14 @@ class Machine {
   std::int64_t rhs_calls = 0, guard_calls = 0, jacobian_calls = 0;
 
  private:
-  /// A function of a leaf, with all that a call needs at hand: it is called some ten times a step.
+  /// A function of a leaf with everything that a call needs, because it is called some ten times a
+  /// step.
   struct Call {
     const VectorFunction* function;
     const LeafSystem* system;
     std::size_t leaf;
-    At* at;         // what the leaf sees, in views_
-    Index x, size;  // where its states begin, and how many there are
+    At* at;         // the arguments of the leaf, in views_
+    Index x, size;  // the first of its states, and their number
   };
   struct OutputCall : Call {
     Index to, width;  // in y
@@ -165,7 +173,7 @@ class Machine {
   void carried_guards(double t, const double* state, double* g);
   const double* carry(double t, const double* state);
 
-  /// What leaf i sees now. Only what moves from call to call is set anew.
+  /// The present arguments of leaf i. Only the values that change from call to call are set again.
   const At& seen_by(const Call& call, double t) {
     At& at = *call.at;
     at.time = t;
@@ -202,23 +210,29 @@ class Machine {
 
   std::shared_ptr<const Plan> plan_;
   Bases bases_{};
-  Place place_of_z_;       // all of it, for what is fused
-  std::vector<At> views_;  // one for each leaf, and one of all for what is fused
+  Place place_of_z_;       // all of z, for fused functions
+  std::vector<At> views_;  // one for each leaf, and one of the whole machine for fused functions
   std::vector<const double*> relation_values_;
   std::vector<OutputCall> constant_calls_, instant_calls_, moving_calls_, derivative_calls_,
       guard_calls_list_, tap_calls_;
+<<<<<<< HEAD
   std::vector<Call> odes_;  // of leaves that have one, and what is fused of them
   std::vector<OutputCall> needs_of_derivatives_;  // every one by a call of its own
+=======
+  std::vector<Call> odes_;                        // of leaves that have one, and the fused function
+  std::vector<OutputCall> needs_of_derivatives_;  // each with its own call
+  std::vector<Call> single_odes_;
+>>>>>>> prose
   std::vector<GuardCall> groups_;
   std::optional<GuardCall> fused_guards_;
-  /// Where it is the only one, and nothing has to be computed for it, it is called without a walk.
+  /// If this is the only ode, and it needs no computed values, it is called without a walk.
   const Call* lone_ode_ = nullptr;
   const GuardCall* lone_guard_ = nullptr;
   const VectorFunction* compiled_ = nullptr;
   std::vector<int> active_, called_;  // groups that can fire, and those of them that are not fused
-  std::vector<int> rests_;            // entries of x: how many holds they are under
-  std::vector<Index> resting_of_;     // leaves: how many of their states are at rest
-  Index at_rest_ = 0;                 // all in all
+  std::vector<int> rests_;            // entries of x: the number of holds on each
+  std::vector<Index> resting_of_;     // leaves: the number of their states at rest
+  Index at_rest_ = 0;                 // in total
   std::vector<std::size_t> leaf_of_state_;
   Eigen::VectorXd carried_x_;
 };

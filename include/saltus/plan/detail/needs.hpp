@@ -1,5 +1,5 @@
-// Needs: what the derivatives, the guards, the instants and the taps read. Nothing else is ever
-// computed.
+// Needs: the values that the derivatives, the guards, the instants and the taps read. Nothing else
+// is ever computed.
 #pragma once
 
 #include "saltus/plan/detail/flatten.hpp"
@@ -8,7 +8,8 @@ namespace saltus::detail {
 
 using Marks = std::vector<char>;
 
-/// Marks nodes and all they read, down to what `stop` says is not computed again.
+/// Marks nodes and everything they read, except beyond the nodes that `stop` names as not computed
+/// again.
 template <class Stop>
 void spread(const Plan& plan, const std::vector<int>& from, Marks& marks, Stop stop) {
   std::vector<int> open;
@@ -33,8 +34,8 @@ inline void append_inputs(std::vector<int>& list, const std::optional<std::vecto
   append(list, named ? read_inputs(named, leaf) : leaf.inputs);
 }
 
-/// The nodes that the functions of the leaves read. Found in one walk: it leads through all that a
-/// large diagram declares, which is more than a cache holds.
+/// The nodes that the functions of the leaves read. One walk finds all of them, because it visits
+/// every declaration of a large diagram, which is more than a cache holds.
 struct Roots {
   std::vector<int> derivatives;  // odes
   std::vector<int> events;       // guards of zero crossings; signals watched for edges
@@ -81,8 +82,8 @@ inline Roots find_roots(const Plan& plan) {
   return roots;
 }
 
-/// A relation, or a boolean output we cannot see into, is located when, and only when, it reaches a
-/// derivative, a guard or an edge: there its jump would spoil the solver's smooth picture.
+/// A relation, or an opaque boolean output, is located if and only if it reaches a derivative, a
+/// guard or an edge: its jump there would break the smoothness that the solver assumes.
 inline void find_located(Plan& plan, const Roots& roots) {
   Marks reached(plan.nodes.size());
   const auto never = [](const Node&) { return false; };
@@ -94,15 +95,15 @@ inline void find_located(Plan& plan, const Roots& roots) {
   }
 }
 
-/// The rate of a node by what it reads itself.
+/// The rate of a node by the values it reads itself.
 inline Rate own_rate(const Plan& plan, const Node& node) {
   const PlanLeaf& leaf = plan.leaf_of(node);
   const Reads reads = node.relation ? plan.relation_of(node).reads : plan.output_of(node).reads;
   return own_rate(reads, leaf.nx > 0, leaf.nz > 0, leaf.declared().has_modes);
 }
 
-/// The rates of all nodes before their order is known: each that rises lifts its readers, and none
-/// rises more than twice.
+/// The rates of all nodes before their order is known. A node whose rate rises raises its readers;
+/// no rate rises more than twice.
 inline std::vector<Rate> spread_rates(const Plan& plan) {
   std::vector<std::pair<int, int>> reads;
   std::vector<Rate> rates;
@@ -130,8 +131,8 @@ inline std::vector<Rate> spread_rates(const Plan& plan) {
   return rates;
 }
 
-/// A relation over constant or held values moves at instants only: it is read in order like any
-/// output, and is no guard.
+/// A relation over constant or held values changes at instants only. It is evaluated in order, like
+/// any output, and is no guard.
 inline void release_held_relations(Plan& plan) {
   const bool any = std::ranges::any_of(plan.nodes, &Node::relation);
   const std::vector<Rate> rates = any ? spread_rates(plan) : std::vector<Rate>();
@@ -140,7 +141,7 @@ inline void release_held_relations(Plan& plan) {
   }
 }
 
-/// Rates spread along the order; a reached boolean that would be continuous is an opaque one,
+/// Spreads rates along the order. A reached boolean that would be continuous is opaque, so it is
 /// located and held.
 inline void find_rates(Plan& plan) {
   for (int i : plan.order) {
@@ -149,11 +150,11 @@ inline void find_rates(Plan& plan) {
     for (int need : node.needs) node.rate = faster(node.rate, plan.node(need).rate);
     if (!node.relation && node.boolean && node.used && node.rate == Rate::continuous)
       node.located = true;
-    if (node.located) node.rate = Rate::held;  // what it reads may stand behind it in the order
+    if (node.located) node.rate = Rate::held;  // the nodes it reads may come later in the order
   }
 }
 
-/// What has to be computed for `roots`, in order: the nodes of one rate.
+/// The nodes of one rate that `roots` needs, in order.
 inline std::vector<int> slice(const Plan& plan, const Marks& marks, Rate rate) {
   std::vector<int> list;
   for (int i : plan.order) {
@@ -164,7 +165,7 @@ inline std::vector<int> slice(const Plan& plan, const Marks& marks, Rate rate) {
   return list;
 }
 
-/// The inputs behind located relations and opaque booleans: what their guards read.
+/// The inputs of located relations and opaque booleans, which their guards read.
 inline std::vector<int> located_needs(const Plan& plan) {
   std::vector<int> roots;
   for (const Node& node : plan.nodes) {
@@ -173,7 +174,7 @@ inline std::vector<int> located_needs(const Plan& plan) {
   return roots;
 }
 
-/// The lists of the plan.
+/// Fills the lists of the plan.
 inline void find_slices(Plan& plan, const Roots& roots) {
   const auto held = [](const Node& node) { return node.rate != Rate::continuous; };
   const auto never = [](const Node&) { return false; };

@@ -1,5 +1,5 @@
-// Feedthrough order: every node after what it needs; an algebraic loop is reported as the path it
-// is.
+// Feedthrough order: each node follows the nodes it needs; an algebraic loop is reported as its
+// path.
 #pragma once
 
 #include "saltus/plan/plan.hpp"
@@ -24,7 +24,7 @@ class Ordering {
   enum class Mark : char { fresh, open, done };
   struct Open {
     int node;
-    std::size_t next;  // of what it needs
+    std::size_t next;  // the next of the nodes it needs
   };
 
   void enter(int i) {
@@ -35,7 +35,7 @@ class Ordering {
     path_.push_back({i, 0});
   }
 
-  /// With the last of the path: to the next thing it needs, or done.
+  /// Continues with the last node of the path: goes to the next node it needs, or finishes it.
   void go_on() {
     Open& last = path_.back();
     const Node& node = plan_.node(last.node);
@@ -47,7 +47,7 @@ class Ordering {
   }
 
   [[noreturn]] void throw_loop(int start) const {
-    // path_ runs from reader to what it reads; the signal flows the other way round.
+    // path_ runs from a reader to the nodes it reads; the signal flows the other way round.
     const auto first = std::ranges::find(path_, start, &Open::node);
     std::string message = "algebraic loop: each output depends on the next at the same time\n";
     for (auto it = first; it != path_.end(); ++it)
@@ -61,7 +61,7 @@ class Ordering {
 
   const Plan& plan_;
   std::vector<Mark> mark_;
-  std::vector<Open> path_;  // from reader to what it reads
+  std::vector<Open> path_;  // from reader to read node
   std::vector<int> order_;
 };
 

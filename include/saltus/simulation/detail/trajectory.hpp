@@ -56,8 +56,7 @@ class Trajectory {
   const Context& start() const noexcept { return start_; }
   SimulatorOptions tolerances() const { return {.rtol = rtol_, .atol = atol_}; }
 
-  // --- for the engine
-  // -------------------------------------------------------------------------------------------
+  // --- for the engine --------------------------------------------------------------------------
   void start(std::shared_ptr<const Plan> plan, const Context& from,
              const SimulatorOptions& options);
   /// The state before anything happened at the beginning.

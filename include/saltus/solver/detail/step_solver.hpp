@@ -1,4 +1,5 @@
-// What all methods share: a step is taken whole, then delivered up to the first root in it.
+// The common part of all methods: the method takes a whole step, then the step is delivered up to
+// the first root in it.
 #pragma once
 
 #include "saltus/solver/detail/locate.hpp"
@@ -6,14 +7,14 @@
 
 namespace saltus {
 
-/// A method derives from it and says
+/// A method derives from this class and provides four functions:
 ///   begin(start)       start at (t1_, x1_)
-///   undo()             after a step that threw: t1_ and x1_ as before it
-///   step(t_stop)       go from t1_ to a new t1_ <= t_stop; x1_ becomes the state there, length_
-///   the size of the step inside_step(u, x)  the state at offset u from the beginning of the step,
-///   0 <= u <= length_
-/// The rest, roots included, stands here. After a root that changes nothing continuous, the rest of
-/// the same step is delivered: the trajectory stays what it was.
+///   undo()             restore t1_ and x1_ after a step that threw
+///   step(t_stop)       go from t1_ to a new t1_ <= t_stop; set x1_ to the state there and length_
+///                      to the size of the step
+///   inside_step(u, x)  the state at offset u from the beginning of the step, 0 <= u <= length_
+/// This class does everything else, roots included. After a root that changes nothing continuous
+/// the rest of the same step is delivered: the trajectory is the same as without the root.
 template <class Method, class Interface = Solver>
 class StepSolver : public Interface {
  public:
@@ -72,8 +73,7 @@ class StepSolver : public Interface {
   double time() const final { return time_; }
   const Eigen::VectorXd& state() const final { return delivered_ ? x1_ : state_; }
 
-  // --- one step without a look at the guards, for a method that lets another one start for it
-  // --------------------
+  // --- one step that looks at no guard, for a method that starts with the steps of another -------
   void begin_at(double t, const Eigen::VectorXd& x, const Start& start) {
     t0_ = t1_ = t, x1_ = x;
     self().begin(start);
