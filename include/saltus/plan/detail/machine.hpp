@@ -99,7 +99,6 @@ class Machine {
     const PlanLeaf& of = plan_->leaves[leaf];
     return seen_by({nullptr, of.system, leaf, &views_[leaf], of.x, of.nx}, t);
   }
-<<<<<<< HEAD
   /// xdot of leaf i alone, at time t and the state that `at` shows.
   void leaf_derivative(std::size_t leaf, double t, VectorRef xdot) {
     ++rhs_calls;
@@ -107,9 +106,6 @@ class Machine {
     of.declared().continuous.ode(*of.system, at(leaf, t), xdot);
   }
   /// Makes `at` see the machine's own x again.
-=======
-  /// Makes `at` show the machine's own x again.
->>>>>>> prose
   void at_home() { bases_[0] = x.data(); }
 
   /// The state with all carried entries moved to their surface.
@@ -215,14 +211,8 @@ class Machine {
   std::vector<const double*> relation_values_;
   std::vector<OutputCall> constant_calls_, instant_calls_, moving_calls_, derivative_calls_,
       guard_calls_list_, tap_calls_;
-<<<<<<< HEAD
   std::vector<Call> odes_;  // of leaves that have one, and what is fused of them
   std::vector<OutputCall> needs_of_derivatives_;  // every one by a call of its own
-=======
-  std::vector<Call> odes_;                        // of leaves that have one, and the fused function
-  std::vector<OutputCall> needs_of_derivatives_;  // each with its own call
-  std::vector<Call> single_odes_;
->>>>>>> prose
   std::vector<GuardCall> groups_;
   std::optional<GuardCall> fused_guards_;
   /// If this is the only ode, and it needs no computed values, it is called without a walk.
