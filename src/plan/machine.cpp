@@ -133,30 +133,28 @@ void Machine::load(const Context& context) {
   modes = context.modes();
   std::ranges::fill(rests_, 0), std::ranges::fill(resting_of_, 0), at_rest_ = 0;
   y.setZero();
-  carrier = nullptr;
+  carrier_ = nullptr;
   rhs_calls = guard_calls = jacobian_calls = 0;
-  at_home();
-  run(constant_calls_, context.time());
+  run(constant_calls_, context.time(), x.data());
   select_guards();
 }
 
 void Machine::carried_derivative(double t, const double* state, double* xdot) {
-  if (carrier == nullptr) return flow(t, state, xdot);
+  if (carrier_ == nullptr) return flow(t, state, xdot);
   const double* x_now = carried(t, state);
   flow(t, x_now, xdot);
-  carrier->rates(t, x_now, xdot);
+  carrier_->rates(t, x_now, xdot);
 }
 
 void Machine::carried_guards(double t, const double* state, double* g) {
   const double* x_now = carried(t, state);
   guards_at(t, x_now, g);
-  if (carrier != nullptr) carrier->lift(t, x_now, g);
+  if (carrier_ != nullptr) carrier_->lift(t, x_now, g);
 }
 
 void Machine::flow(double t, const double* state, double* xdot) {
   ++rhs_calls;
-  bases_[0] = state;
-  run(derivative_calls_, t);
+  run(derivative_calls_, t, state);
   if (at_rest_ > 0) {
     for (const Call& ode : odes_) ode_with_rest(ode, t, xdot);
     return;
@@ -166,8 +164,7 @@ void Machine::flow(double t, const double* state, double* xdot) {
 
 void Machine::guards_at(double t, const double* state, double* g) {
   ++guard_calls;
-  bases_[0] = state;
-  run(guard_calls_list_, t);
+  run(guard_calls_list_, t, state);
   if (fused_guards_) guard(*fused_guards_, t, g);
   for (int i : called_) guard(groups_[static_cast<std::size_t>(i)], t, g);
 }
@@ -193,7 +190,7 @@ void Machine::guard(const GuardCall& call, double t, double* g) {
 
 const double* Machine::carry(double t, const double* state) {
   carried_x_ = VectorView(state, x.size());
-  carrier->carry(t, carried_x_.data());
+  carrier_->carry(t, carried_x_.data());
   return carried_x_.data();
 }
 

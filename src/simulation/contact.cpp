@@ -3,15 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "saltus/simulation/detail/thresholds.hpp"
 
 namespace saltus {
 
-namespace {
-
-constexpr double eps = std::numeric_limits<double>::epsilon();
-
-}  // namespace
+using namespace thresholds;
 
 Contacts::Contacts(Machine& machine, const SimulatorOptions& options)
     : machine_(&machine), absolute_(options.atol / options.rtol) {
@@ -24,10 +21,7 @@ Contacts::Contacts(Machine& machine, const SimulatorOptions& options)
   present_.reserve(of_slot_.size());
 }
 
-void Contacts::clear() {
-  present_.clear();
-  engage();
-}
+void Contacts::clear() { present_.clear(); }
 
 SurfaceContact* Contacts::on(int slot) {
   if (std::ranges::find(present_, slot) == present_.end()) return nullptr;
@@ -44,14 +38,7 @@ SurfaceContact& Contacts::add(int slot) {
   return contact = std::move(fresh);
 }
 
-void Contacts::remove(int slot) {
-  std::erase(present_, slot);
-  engage();
-}
-
-void Contacts::engage() {
-  machine_->carrier = std::ranges::any_of(all(), &SurfaceContact::carried) ? this : nullptr;
-}
+void Contacts::remove(int slot) { std::erase(present_, slot); }
 
 /// One application of all reset maps, each from the same state; only what rests is kept of it.
 void Contacts::reset(const SurfaceContact& contact, double t, const double* from, double* to) {
@@ -60,7 +47,7 @@ void Contacts::reset(const SurfaceContact& contact, double t, const double* from
   trial_ = VectorView(from, trial_.size());
   for (const SurfaceContact::Member& member : contact.members) {
     const PlanLeaf& leaf = machine_->plan().leaves[static_cast<std::size_t>(member.leaf)];
-    At at = machine_->at(static_cast<std::size_t>(member.leaf), t);
+    At at = machine_->at(static_cast<std::size_t>(member.leaf), t, from);
     at.entry = member.entry;
     z_.segment(leaf.z, leaf.nz) = at.z;
     int mode = at.mode;
@@ -78,19 +65,18 @@ double Contacts::extrapolate(const SurfaceContact& contact, double* x) {
     const double first = once_[i] - begun_[i], second = twice_[i] - once_[i];
     const double size = std::max(
         {std::abs(original_[i]), std::abs(begun_[i]), std::abs(once_[i]), std::abs(twice_[i])});
-    furthest = std::max(furthest, std::abs(first) / (64.0 * eps * size + 1e-300));
+    furthest = std::max(furthest, std::abs(first) / (fixed_point_roundings * eps * size + 1e-300));
     const double limit = begun_[i] - first * first / (second - first);
-    const bool told = std::abs(first) > 64.0 * eps * size && std::isfinite(limit);
+    const bool told = std::abs(first) > fixed_point_roundings * eps * size && std::isfinite(limit);
     x[i] = told ? limit : once_[i];
   }
   return furthest;
 }
 
 bool Contacts::settle(const SurfaceContact& contact, double t, double* x) {
-  constexpr int rounds = 6;  // one for an affine map, and one to see that it was
   begun_ = VectorView(x, begun_.size());
   original_ = begun_;
-  for (int round = 0; round < rounds; ++round) {
+  for (int round = 0; round < fixed_point_rounds; ++round) {
     reset(contact, t, begun_.data(), once_.data());
     reset(contact, t, once_.data(), twice_.data());
     const double furthest = extrapolate(contact, begun_.data());
@@ -132,7 +118,7 @@ double Contacts::lift(const SurfaceContact& contact, double t, const double* x) 
 
 void Contacts::choose_look_ahead(SurfaceContact& contact, double t, const double* x,
                                  double longest) {
-  const double brief = std::max(1e-9 * longest, 1024.0 * eps * std::abs(t));
+  const double brief = std::max(brief_of_run * longest, brief_roundings * eps * std::abs(t));
   free(contact, true);
   machine_->flow(t, x, f_.data());
   trial_ = VectorView(x, f_.size()) + brief * f_;
@@ -140,10 +126,10 @@ void Contacts::choose_look_ahead(SurfaceContact& contact, double t, const double
   free(contact, false);
   // A movement of 1e9 eps of a state leaves nine digits less its rounding to tell its sign by, and
   // is as small as the square root of that.
-  double d = 1e-3 * longest;
+  double d = look_ahead_of_run * longest;
   for (const Index i : contact.states) {
     const double bend = std::abs(f1_[i] - f_[i]) / brief, size = std::abs(x[i]) + absolute_;
-    if (bend > 0.0) d = std::min(d, std::sqrt(1e9 * eps * size / bend));
+    if (bend > 0.0) d = std::min(d, std::sqrt(visible_lift * size / bend));
   }
   contact.look_ahead = std::max(d, brief);
 }
@@ -152,15 +138,16 @@ bool Contacts::moves(const SurfaceContact& contact, double t, const double* x, d
   const double lifted = lift(contact, t, x);
   machine_->flow(t, x, slow_.data());
   double d = contact.look_ahead;
-  for (int probe = 0; probe < 4 && d <= longest; ++probe, d *= 30.0) {
+  for (int probe = 0; probe < probes && d <= longest; ++probe, d *= probe_growth) {
     stood_ = later_ = VectorView(x, slow_.size()) + d * slow_;
     if (!settle(contact, t + d, later_.data())) return false;
     for (const Index i : contact.states) {
-      if (std::abs(later_[i] - stood_[i]) > 1e3 * eps * (std::abs(stood_[i]) + absolute_))
+      if (std::abs(later_[i] - stood_[i]) >
+          moved_roundings * eps * (std::abs(stood_[i]) + absolute_))
         return true;
     }
     const double change = std::abs(lift(contact, t + d, later_.data()) - lifted);
-    if (!contact.opaque && change > 1e-5 * std::abs(lifted)) return true;
+    if (!contact.opaque && change > changed_force * std::abs(lifted)) return true;
   }
   return false;
 }

@@ -35,15 +35,14 @@ void DenseOutput::hold(const Trajectory::Held& held) {
   }
   contacts_.clear();
   for (const SurfaceContact& contact : held.contacts) contacts_.add(contact);
-  contacts_.engage();
+  machine_.carry_by(contacts_.moving() ? &contacts_ : nullptr);
 }
 
 void DenseOutput::move_to(double t, Side side) {
   const Trajectory::Spot spot = trajectory_->spot(t, side);
   if (const Trajectory::Held& held = trajectory_->held(spot); &held != now_) hold(held);
   trajectory_->state(spot, t, x_.data());
-  machine_.evaluate_taps(t, x_.data());
-  state_ = machine_.seen_state();
+  values_ = machine_.evaluate_taps(t, x_.data());
 }
 
 const Eigen::VectorXd& Moment::output(std::string_view name) const {

@@ -15,9 +15,11 @@ Run::Run(const System& system, SimulatorOptions options)
 Run::Run(std::shared_ptr<const Plan> plan, SimulatorOptions options)
     : options_(checked(std::move(options))),
       machine_(std::move(plan)),
-      instant_(machine_, watch_, options_, results_),
+      guards_(machine_.plan()),
+      instant_(machine_, guards_, options_, results_),
       calendar_(machine_.plan()),
-      method_(method_from(options_.ode_solver_method)) {}
+      method_(method_from(options_.ode_solver_method)),
+      chattering_(options_) {}
 
 void Run::initialize(const Context& context) {
   machine_.load(context);
@@ -31,8 +33,9 @@ void Run::initialize(const Context& context) {
   if (options_.dense_output) results_.trajectory.start(machine_.shared_plan(), begin_, options_);
   calendar_.begin(time_, context.settled());
   begun_ = solver_started_ = over_ = false;
-  next_save_ = 0, ticks_ = 0, stuck_ = fluttering_ = {}, recent_ = idle_ = {0, time_};
-  at_root_ = machine_.x;
+  next_save_ = 0, ticks_ = 0;
+  chattering_.begin(time_, machine_.x);
+  row_ = machine_.x;
 }
 
 void Run::start_recorder() {
@@ -120,14 +123,13 @@ Status Run::step(double t_end) {
       std::min({t_end, calendar_.next(), last_instant_ + options_.max_major_step_length});
   const double from = time_;
   StopReason reason = StopReason::stop_time;
-  if (options_.dense_output)
-    results_.trajectory.depart(solver_started_ ? solver_->state() : machine_.x);
+  if (options_.dense_output) results_.trajectory.depart(present_state());
   move_to(t_stop, reason);
   if (options_.dense_output) keep_step(from);
-  for (const MonitorHit& hit : watch_.monitors) {
-    solver_->interpolate(hit.t, machine_.x.data());
-    carry(hit.t);
-    instant_.log_monitor(hit, machine_.x.data());
+  for (const MonitorHit& hit : guards_.monitors) {
+    solver_->interpolate(hit.t, row_.data());
+    machine_.put_carried(hit.t, row_.data());
+    instant_.log_monitor(hit, row_.data());
   }
   record_step(from);
   if (reason == StopReason::step) return Status::reached_end;
@@ -136,14 +138,14 @@ Status Run::step(double t_end) {
 
 /// Lets the solver move, where something moves.
 void Run::move_to(double t_stop, StopReason& reason) {
-  watch_.monitors.clear();
-  if (plan().nx == 0 && !watch_.any()) {
+  guards_.monitors.clear();
+  if (plan().nx == 0 && guards_.active().empty()) {
     time_ = t_stop;
     return;
   }
   if (!solver_started_) {
     if (!solver_)
-      solver_ = make_solver(plan().nx == 0 ? Method::dopri5 : method_, machine_, watch_,
+      solver_ = make_solver(plan().nx == 0 ? Method::dopri5 : method_, machine_, guards_,
                             solver_options());
     solver_->restart(time_, machine_.x, {.first = true});
     solver_started_ = true;
@@ -163,8 +165,7 @@ SolverOptions Run::solver_options() const {
 
 /// The instant at time_, where there is one; restarts the solver if it has to forget.
 Status Run::settle(StopReason reason, double t_end, bool at_start) {
-  if (solver_started_) machine_.x = solver_->state(), carry(time_);
-  machine_.at_home();
+  if (solver_started_) take_state();
   ++results_.statistics.instants;
   last_instant_ = time_;
   results_.trajectory.instant();
@@ -173,53 +174,26 @@ Status Run::settle(StopReason reason, double t_end, bool at_start) {
   if (reason != StopReason::root && due_.empty() && !at_start)
     return Status::reached_end;  // a major step's end only
   record(time_, machine_.x.data());
-  const bool idle = reason == StopReason::root && !moved();
-  const Instant::Outcome outcome = instant_.run(time_, due_, t_end - time_, at_start);
+  const bool at_root = reason == StopReason::root, idle = at_root && chattering_.idle(machine_.x);
+  const Outcome outcome = instant_.run(time_, due_, t_end - time_, at_start);
   if (outcome.restart && solver_started_)
     solver_->restart(time_, machine_.x, {.horizon = outcome.horizon, .flow = instant_.flow()});
   if (outcome.terminal) return end(Status::terminal);
   if (outcome.zeno_stop) return end(Status::zeno_stop);
-  if (outcome.chatters) told_ = {outcome.events, time_};
-  stuck_.next(outcome.stuck, time_);
-  fluttering_.next(outcome.flutters, time_);
-  if (outcome.chatters || (reason == StopReason::root && chatters(t_end, idle)))
-    return chattering();
+  const Chattering::Seen seen{time_, at_root, t_end - begin_.time()};
+  if (chattering_.chatters(outcome, seen, idle, machine_.x)) return end_chattering();
   return Status::reached_end;
 }
 
-Status Run::chattering() {
-  const std::string& name = instant_.last_event();
+Status Run::end_chattering() {
+  const std::string& name = instant_.journal().last_event();
   results_.block = name.substr(0, name.rfind('.'));
   return end(Status::chattering,
              text("t = ", time_, " s: guard '", name.substr(name.rfind('.') + 1), "' of block '",
-                  results_.block, "' fired ", told_.count, " times in ", time_ - told_.since,
+                  results_.block, "' fired ", chattering_.found().count, " times in ",
+                  time_ - chattering_.found().since,
                   " s: time does not advance. Give it hysteresis, a zeno_tolerance above 0 s, or a "
                   "mode of its own for the motion along the switching surface"));
-}
-
-/// Events go on, and time does not: a thousand times at rest without a Zeno monitor; two hundred
-/// times in a row a relation whose both sides lead back to its surface; a thousand
-/// roots within what rounding leaves of time; ten thousand in 1e-7 of the run, which would be 1e11
-/// in all, between which no state moves by its tolerance.
-bool Run::chatters(double t_end, bool idle) {
-  const double rounding = 1e6 * std::numeric_limits<double>::epsilon() * std::abs(time_);
-  if (stuck_.count >= 1000) return chatters_as(stuck_);
-  if (fluttering_.count >= 200) return chatters_as(fluttering_);
-  if (recent_.full(1000, time_) && time_ - recent_.since <= rounding) return chatters_as(recent_);
-  at_root_ = machine_.x;
-  if (!idle) idle_ = {0, time_};
-  if (idle_.full(10'000, time_) && time_ - idle_.since <= 1e-7 * (t_end - begin_.time()))
-    return chatters_as(idle_);
-  return false;
-}
-
-/// Whether some state has moved by its tolerance since the last root.
-bool Run::moved() const {
-  for (Index i = 0; i < at_root_.size(); ++i) {
-    const double tolerance = options_.atol + options_.rtol * std::abs(machine_.x[i]);
-    if (!(std::abs(machine_.x[i] - at_root_[i]) <= tolerance)) return true;
-  }
-  return false;
 }
 
 bool Run::interrupted() {
@@ -242,11 +216,11 @@ void Run::record_step(double from) {
   while (next_save_ < wanted.size() && wanted[next_save_] < from) ++next_save_;
   for (; next_save_ < wanted.size() && wanted[next_save_] <= time_; ++next_save_) {
     const double t = wanted[next_save_];
-    if (solver_started_ && t < time_) solver_->interpolate(t, machine_.x.data());
-    record(t, t < time_ || !solver_started_ ? machine_.x.data() : solver_->state().data());
+    const bool inside = solver_started_ && t < time_;
+    if (inside) solver_->interpolate(t, row_.data());
+    record(t, inside ? row_.data() : present_state().data());
   }
-  if (steps_recorded())
-    record(time_, solver_started_ ? solver_->state().data() : machine_.x.data());
+  if (steps_recorded()) record(time_, present_state().data());
 }
 
 /// For dense output: the polynomial, or the two, of the step from `from` to now.
@@ -261,9 +235,9 @@ void Run::keep_step(double from) {
   };
   const double joint = degree == 0 ? from : solver_->joint();
   if (from < joint && joint < time_) {
-    solver_->interpolate(joint, machine_.x.data());
-    add(from, joint, machine_.x);
-    results_.trajectory.depart(machine_.x);
+    solver_->interpolate(joint, row_.data());
+    add(from, joint, row_);
+    results_.trajectory.depart(row_);
     from = joint;
   }
   add(from, time_, solver_->state());
@@ -287,9 +261,8 @@ Status Run::end(Status status, std::string message) {
 void Run::finish() {
   const bool at_instant =
       results_.status == Status::terminal || results_.status == Status::zeno_stop;
-  if (solver_started_ && !at_instant) machine_.x = solver_->state(), carry(time_);
+  if (solver_started_ && !at_instant) take_state();
   if (results_.status != Status::failed) record(time_, machine_.x.data());
-  machine_.at_home();
   if (options_.dense_output)
     results_.trajectory.close(time_, machine_, instant_.contacts(),
                               results_.status != Status::failed);
@@ -301,7 +274,7 @@ void Run::finish() {
   s.right_hand_side_calls = machine_.rhs_calls;
   s.guard_calls = machine_.guard_calls;
   s.jacobian_calls = machine_.jacobian_calls;
-  s.events_by_name = instant_.counts();
+  s.events_by_name = instant_.journal().counts();
 }
 
 Context Run::context() const {

@@ -14,8 +14,8 @@ namespace {
 /// Arenstorf, Van der Pol with mu = 1: from 1e-6 (0.8) on, 0.5 to 0.9 at 1e-7, 0.3 at 1e-12. A ball
 /// with drag, where each flight is cut short by its end and the inside of each step is looked at:
 /// 1.6 at 1e-9, 1.0 at 1e-10, 0.8 at 1e-12.
-double order_8_pays(const Watch& watch) {
-  const bool stops = std::ranges::any_of(watch.slots, [](const auto& s) { return !s.monitor; });
+double order_8_pays(const GuardSet& guards) {
+  const bool stops = std::ranges::any_of(guards, [](const Guard& each) { return !each.monitor; });
   return stops ? 1e-10 : 1e-7;
 }
 
@@ -32,22 +32,22 @@ void require_linear_solver(std::string_view linear_solver, std::string_view meth
   }
 }
 
-std::unique_ptr<Solver> make_solver(Method method, Machine& machine, Watch& watch,
+std::unique_ptr<Solver> make_solver(Method method, Machine& machine, GuardSet& guards,
                                     const SolverOptions& options) {
   switch (method) {
     case Method::automatic:
-      return std::make_unique<AutoSolver>(machine, watch, options,
-                                          options.rtol <= order_8_pays(watch)
-                                              ? make_dop853(machine, watch, options)
-                                              : make_dopri5(machine, watch, options));
+      return std::make_unique<AutoSolver>(machine, guards, options,
+                                          options.rtol <= order_8_pays(guards)
+                                              ? make_dop853(machine, guards, options)
+                                              : make_dopri5(machine, guards, options));
     case Method::dopri5:
-      return make_dopri5(machine, watch, options);
+      return make_dopri5(machine, guards, options);
     case Method::dop853:
-      return make_dop853(machine, watch, options);
+      return make_dop853(machine, guards, options);
     case Method::adams:
-      return make_cvode(machine, watch, options, CvodeMethod::adams);
+      return make_cvode(machine, guards, options, CvodeMethod::adams);
     case Method::bdf:
-      return make_cvode(machine, watch, options, CvodeMethod::bdf);
+      return make_cvode(machine, guards, options, CvodeMethod::bdf);
   }
   return nullptr;
 }

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "linear/linear_system.hpp"
-#include "saltus/solver/detail/watch.hpp"
+#include "saltus/solver/detail/guard_set.hpp"
 #include "sundials_compat.hpp"
 
 namespace saltus {
@@ -17,7 +17,7 @@ namespace saltus {
 /// The user data of a CVODE object: right-hand side, guards, and for BDF the linear system.
 class CvodeScene {
  public:
-  CvodeScene(Machine& machine, Watch& watch) : machine_(&machine), watch_(&watch) {}
+  CvodeScene(Machine& machine, GuardSet& guards) : machine_(&machine), guards_(&guards) {}
   CvodeScene(const CvodeScene&) = delete;  // CVODE knows its address
   CvodeScene& operator=(const CvodeScene&) = delete;
 
@@ -55,19 +55,20 @@ class CvodeScene {
   /// Only a scene with guards that stop the solver has root-finding. CVodeReInit would keep guards
   /// switched off that were zero once; none is, since CVODE is never shown a zero: shown().
   void watch_guards(void* cvode) {
-    if (std::ranges::all_of(watch_->slots, &GuardSlot::monitor)) return;
-    directions_.resize(watch_->slots.size()), asked_.resize(watch_->slots.size());
+    if (std::ranges::all_of(*guards_, &Guard::monitor)) return;
+    directions_.resize(guards_->size()), asked_.resize(guards_->size());
     CVodeRootInit(cvode, static_cast<int>(directions_.size()), root_functions);
     CVodeSetNoInactiveRootWarn(cvode);
   }
 
-  /// The directions of now: a guard on Zeno hold is watched the other way round.
+  /// The present directions: the guard of a carried block is watched for its lift.
   void aim(void* cvode) {
     if (directions_.empty()) return;
-    std::ranges::transform(watch_->slots, directions_.begin(), [](const GuardSlot& slot) {
-      return slot.direction == Direction::positive_then_non_positive   ? -1
-             : slot.direction == Direction::negative_then_non_negative ? 1
-                                                                       : 0;
+    std::ranges::transform(*guards_, directions_.begin(), [](const Guard& guard) {
+      const Direction direction = guard.watched_direction();
+      return direction == Direction::positive_then_non_positive   ? -1
+             : direction == Direction::negative_then_non_negative ? 1
+                                                                  : 0;
     });
     CVodeSetRootDirection(cvode, directions_.data());
   }
@@ -121,26 +122,27 @@ class CvodeScene {
       self->machine_->guards(t, N_VGetArrayPointer(x), g);
       std::copy_n(g, self->asked_.size(), self->asked_.data());
       self->asked_at_ = t;
-      for (std::size_t k = 0; k < self->watch_->slots.size(); ++k) g[k] = self->shown(k, t, g[k]);
+      for (std::size_t k = 0; k < self->guards_->size(); ++k) g[k] = self->shown(k, t, g[k]);
       return 0;
     });
   }
 
   double shown(std::size_t k, double t, double value) const {
-    const GuardSlot& slot = watch_->slots[k];
+    const Guard& guard = (*guards_)[k];
     constexpr double tiny =
         1e-100;  // CVODE multiplies values to compare signs: nothing it sees may underflow then
-    if (!slot.active || slot.monitor) return 1.0;
-    if (slot.leaving) return std::abs(value) > slot.band ? -tiny : tiny;
-    if (slot.direction == Direction::edge_detection) return value == slot.base ? 1.0 : -1.0;
-    const double side = slot.side < 0 ? -tiny : tiny;
-    if (slot.waits() && t == begun_at_) return side;
-    if (std::abs(value) > slot.band) return std::copysign(std::max(std::abs(value), tiny), value);
-    return slot.waits() || slot.side == 0 ? side : -side;
+    if (!guard.active || guard.monitor) return 1.0;
+    if (guard.phase == Phase::resting) return std::abs(value) > guard.error ? -tiny : tiny;
+    if (guard.watched_direction() == Direction::edge_detection)
+      return value == guard.base ? 1.0 : -1.0;
+    const double side = guard.side < 0 ? -tiny : tiny;
+    if (guard.waits() && t == begun_at_) return side;
+    if (std::abs(value) > guard.error) return std::copysign(std::max(std::abs(value), tiny), value);
+    return guard.waits() || guard.side == 0 ? side : -side;
   }
 
   Machine* machine_;
-  Watch* watch_;
+  GuardSet* guards_;
   std::exception_ptr error_;
   std::optional<LinearSystem> linear_;
   std::vector<int> directions_;  // of the guards; empty without root-finding

@@ -22,15 +22,15 @@ namespace {
 
 class CvodeSolver final : public StepSolver<CvodeSolver> {
  public:
-  CvodeSolver(Machine& machine, Watch& watch, const SolverOptions& options, CvodeMethod method)
-      : StepSolver(machine, watch, options),
+  CvodeSolver(Machine& machine, GuardSet& guards, const SolverOptions& options, CvodeMethod method)
+      : StepSolver(machine, guards, options),
         method_(method),
         context_(sun::make_context()),
         y_(make_vector(n_, context_.get())),
         dky_(N_VClone(y_.get())),
-        scene_(machine, watch),
+        scene_(machine, guards),
         cvode_(CVodeCreate(method == CvodeMethod::adams ? CV_ADAMS : CV_BDF, context_.get())),
-        starter_(machine, watch, options) {
+        starter_(machine, guards, options) {
     if (!cvode_ || !y_ || !dky_) throw Error("SUNDIALS: out of memory");
     hook_ = {
         [](const char* message, void* self) { static_cast<CvodeSolver*>(self)->note(message); },
@@ -177,8 +177,8 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
   /// A guard that was at zero when this stretch began, found at zero again within the two steps of
   /// order 1.
   bool too_coarse() const {
-    return steps_ < 2 && std::ranges::any_of(watch_->slots, [](const GuardSlot& slot) {
-             return slot.active && slot.fresh && !slot.monitor;
+    return steps_ < 2 && std::ranges::any_of(*guards_, [](const Guard& guard) {
+             return guard.active && guard.at_zero() && !guard.monitor;
            });
   }
 
@@ -229,9 +229,9 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
 
 }  // namespace
 
-std::unique_ptr<Solver> make_cvode(Machine& machine, Watch& watch, const SolverOptions& options,
+std::unique_ptr<Solver> make_cvode(Machine& machine, GuardSet& guards, const SolverOptions& options,
                                    CvodeMethod method) {
-  return std::make_unique<CvodeSolver>(machine, watch, options, method);
+  return std::make_unique<CvodeSolver>(machine, guards, options, method);
 }
 
 }  // namespace saltus

@@ -6,9 +6,9 @@ namespace saltus {
 
 template class RungeKutta<Dop853>;
 
-std::unique_ptr<OneStepSolver> make_dop853(Machine& machine, Watch& watch,
+std::unique_ptr<OneStepSolver> make_dop853(Machine& machine, GuardSet& guards,
                                            const SolverOptions& options) {
-  return make_one_step<Dop853>(machine, watch, options);
+  return make_one_step<Dop853>(machine, guards, options);
 }
 
 }  // namespace saltus

@@ -6,9 +6,9 @@ namespace saltus {
 
 template class RungeKutta<Dopri5>;
 
-std::unique_ptr<OneStepSolver> make_dopri5(Machine& machine, Watch& watch,
+std::unique_ptr<OneStepSolver> make_dopri5(Machine& machine, GuardSet& guards,
                                            const SolverOptions& options) {
-  return make_one_step<Dopri5>(machine, watch, options);
+  return make_one_step<Dopri5>(machine, guards, options);
 }
 
 }  // namespace saltus

@@ -72,10 +72,10 @@ void Jacobian::add_own(int number) {
 bool Jacobian::operator()(double t, const double* x, const double* xdot, const Increments& by,
                           double* out) {
   ++machine_->jacobian_calls;
-  if (machine_->carrier != nullptr || colours() > 0) xdot = begin_at(t, x, xdot);
+  if (machine_->carries() || colours() > 0) xdot = begin_at(t, x, xdot);
   if (colours() > 0 && !differences(t, x, xdot, by, out)) return false;
   if (own_.empty()) return true;
-  machine_->evaluate_derivative_needs(t, machine_->carrier != nullptr ? x_.data() : x);
+  machine_->evaluate_derivative_needs(t, machine_->carries() ? x_.data() : x);
   return std::ranges::all_of(own_, [&](const Own& own) { return take(own, t, x, xdot, by, out); });
 }
 
@@ -83,7 +83,7 @@ bool Jacobian::operator()(double t, const double* x, const double* xdot, const I
 /// of the surface in it, where something is carried.
 const double* Jacobian::begin_at(double t, const double* x, const double* xdot) {
   std::copy_n(machine_->carried(t, x), x_.size(), x_.data());
-  if (machine_->carrier == nullptr) return xdot;
+  if (!machine_->carries()) return xdot;
   machine_->flow(t, x_.data(), base_.data());
   return base_.data();
 }
@@ -176,7 +176,8 @@ bool Jacobian::take(const Own& own, double t, const double* x, const double* xdo
   const PlanLeaf& leaf = machine_->plan().leaves[static_cast<std::size_t>(own.leaf)];
   const ContinuousState& state = leaf.declared().continuous;
   block_.head(own.size).setZero();
-  const At at = machine_->at(static_cast<std::size_t>(own.leaf), t);
+  const double* seen = machine_->carries() ? x_.data() : x;
+  const At at = machine_->at(static_cast<std::size_t>(own.leaf), t, seen);
   if (state.sparse_jacobian)
     state.sparse_jacobian(*leaf.system, at, VectorRef(block_.data(), own.size));
   else
@@ -227,7 +228,7 @@ std::string Jacobian::text_of(const Copy& bad, const PlanLeaf& leaf, double t) {
 
 void Jacobian::ode_of(const PlanLeaf& leaf, double t, Eigen::VectorXd& xdot) {
   const auto number = static_cast<std::size_t>(&leaf - machine_->plan().leaves.data());
-  machine_->leaf_derivative(number, t, VectorRef(xdot.data() + leaf.x, leaf.nx));
+  machine_->leaf_derivative(number, t, x_.data(), VectorRef(xdot.data() + leaf.x, leaf.nx));
 }
 
 std::string Jacobian::words() const {

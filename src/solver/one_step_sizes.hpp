@@ -6,19 +6,19 @@
 namespace saltus {
 
 template <Tableau Method>
-std::unique_ptr<OneStepSolver> make_one_step(Machine& machine, Watch& watch,
+std::unique_ptr<OneStepSolver> make_one_step(Machine& machine, GuardSet& guards,
                                              const SolverOptions& options) {
   switch (machine.plan().nx) {
     case 1:
-      return std::make_unique<RungeKutta<Method, 1>>(machine, watch, options);
+      return std::make_unique<RungeKutta<Method, 1>>(machine, guards, options);
     case 2:
-      return std::make_unique<RungeKutta<Method, 2>>(machine, watch, options);
+      return std::make_unique<RungeKutta<Method, 2>>(machine, guards, options);
     case 3:
-      return std::make_unique<RungeKutta<Method, 3>>(machine, watch, options);
+      return std::make_unique<RungeKutta<Method, 3>>(machine, guards, options);
     case 4:
-      return std::make_unique<RungeKutta<Method, 4>>(machine, watch, options);
+      return std::make_unique<RungeKutta<Method, 4>>(machine, guards, options);
     default:
-      return std::make_unique<RungeKutta<Method>>(machine, watch, options);
+      return std::make_unique<RungeKutta<Method>>(machine, guards, options);
   }
 }
 

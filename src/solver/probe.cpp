@@ -53,7 +53,6 @@ class Neighbourhood {
     sizes_ = here_.cwiseAbs().cwiseMax(typical > 0.0 ? typical : 1.0);
     machine.evaluate_derivative_needs(t, x_.data());
   }
-  ~Neighbourhood() { machine_->at_home(); }
   Neighbourhood(const Neighbourhood&) = delete;
   Neighbourhood& operator=(const Neighbourhood&) = delete;
 
@@ -89,7 +88,9 @@ class Neighbourhood {
     x_[leaf_.x + j] += distance * part * sizes_[j];
   }
 
-  void call() { machine_->leaf_derivative(number_, t_, VectorRef(f_.data(), f_.size())); }
+  void call() {
+    machine_->leaf_derivative(number_, t_, x_.data(), VectorRef(f_.data(), f_.size()));
+  }
 
   Machine* machine_;
   const PlanLeaf& leaf_;

@@ -27,10 +27,10 @@ StepErrors step_errors(int n) {
   const Leaf leaf = logistic();
   saltus::Machine machine(saltus::compile(leaf));
   machine.load(leaf.create_context());
-  saltus::Watch watch;
+  saltus::GuardSet guards;
   const double h = 4.0 / n;
   // A tolerance that everything meets: the steps are h.
-  saltus::RungeKutta<Method> solver(machine, watch, {.rtol = 1e6, .atol = 1e6, .max_step = h});
+  saltus::RungeKutta<Method> solver(machine, guards, {.rtol = 1e6, .atol = 1e6, .max_step = h});
   solver.restart(0.0, machine.x, {.first = true});
   StepErrors worst;
   for (int i = 1; i <= n; ++i) {

@@ -19,13 +19,13 @@ struct Bare {
       : leaf("bare",
              [&](Leaf& l) { l.declare_continuous_state({.initial = vec({0.0}), .ode = f}); }),
         machine(compile(leaf)),
-        solver(machine, watch, {.rtol = tolerance, .atol = tolerance, .max_step = max_step}) {
+        solver(machine, guards, {.rtol = tolerance, .atol = tolerance, .max_step = max_step}) {
     machine.load(leaf.create_context());
     solver.restart(0.0, machine.x, {.first = true});
   }
   Leaf leaf;
   Machine machine;
-  Watch watch;
+  GuardSet guards;
   RungeKutta<Dop853> solver;
 };
 
@@ -97,8 +97,8 @@ TEST_CASE("the dense output meets both ends of the step to the last bit", "[dop8
   const Leaf leaf = logistic();
   Machine machine(compile(leaf));
   machine.load(leaf.create_context());
-  Watch watch;
-  RungeKutta<Dop853> solver(machine, watch, {.rtol = 1e-8, .atol = 1e-10});
+  GuardSet guards;
+  RungeKutta<Dop853> solver(machine, guards, {.rtol = 1e-8, .atol = 1e-10});
   solver.restart(0.0, machine.x, {.first = true});
   for (int i = 0; i < 8; ++i) {
     const double t0 = solver.time(), x0 = solver.state()[0];

@@ -31,8 +31,8 @@ TEST_CASE("DOP853's dense output is as good as its steps where stability makes t
   const Leaf leaf = fast_lag();
   Machine machine(compile(leaf));
   machine.load(leaf.create_context());
-  Watch watch;
-  RungeKutta<Dop853> solver(machine, watch, {.rtol = rtol, .atol = rtol});
+  GuardSet guards;
+  RungeKutta<Dop853> solver(machine, guards, {.rtol = rtol, .atol = rtol});
   solver.restart(0.0, machine.x, {.first = true});
   double ends = 0.0, inside = 0.0, x = 0.0;
   while (solver.time() < 3.0) {
@@ -57,8 +57,8 @@ TEST_CASE("looking into steps of DOP853 changes no bit of them", "[dop853]") {
     const Leaf leaf = fast_lag();
     Machine machine(compile(leaf));
     machine.load(leaf.create_context());
-    Watch watch;
-    RungeKutta<Dop853> solver(machine, watch, {.rtol = 1e-5, .atol = 1e-5});
+    GuardSet guards;
+    RungeKutta<Dop853> solver(machine, guards, {.rtol = 1e-5, .atol = 1e-5});
     solver.restart(0.0, machine.x, {.first = true});
     std::vector<double> all;
     for (double x = 0.0; solver.time() < 3.0;) {
@@ -77,8 +77,8 @@ TEST_CASE("the dense output of DOP853 is continuous in the middle of a step, and
   const Leaf leaf = fast_lag();
   Machine machine(compile(leaf));
   machine.load(leaf.create_context());
-  Watch watch;
-  RungeKutta<Dop853> solver(machine, watch, {.rtol = 1e-4, .atol = 1e-4});
+  GuardSet guards;
+  RungeKutta<Dop853> solver(machine, guards, {.rtol = 1e-4, .atol = 1e-4});
   solver.restart(0.0, machine.x, {.first = true});
   int joints = 0;
   while (solver.time() < 3.0) {

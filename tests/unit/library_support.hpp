@@ -44,9 +44,9 @@ class Bench {
   std::vector<double> output(int k = 0, double t = 0.0) {
     machine_.load(diagram_.create_context(t));
     machine_.evaluate_instant(t);
-    machine_.evaluate_taps(t, machine_.x.data());
+    const auto values = machine_.evaluate_taps(t, machine_.x.data());
     const saltus::Place& place = node(k).place;
-    const double* first = machine_.value(place);
+    const double* first = values(place);
     return {first, first + place.size};
   }
   const saltus::Node& node(int k = 0) const {

@@ -142,6 +142,9 @@ struct ZeroCrossing {
   std::vector<std::vector<int>> holds = {};
   std::optional<std::vector<int>> inputs = {};  ///< the inputs the guard reads; all if not given
   Formula formula = {};                         ///< in place of guard: a plan may fuse it
+
+  /// Whether its firing writes a state or a mode.
+  bool has_effect() const { return reset_map || end_mode; }
 };
 
 /// A boolean that a smooth guard decides: true while g > 0. It is held between instants, so the

@@ -2,6 +2,7 @@
 // threads share it.
 #pragma once
 
+#include <concepts>
 #include <memory>
 #include <string>
 #include <vector>
@@ -54,6 +55,9 @@ struct GuardGroup {
   bool monitor = false;
   std::string name = {};         // "block.guard"
   std::vector<int> leaves = {};  // the blocks whose continuous state changes it
+
+  bool is_crossing() const { return kind == Kind::crossing; }
+  bool is_opaque() const { return kind == Kind::opaque; }
 };
 
 /// A held signal with a reset at its edge.
@@ -127,15 +131,35 @@ struct Plan {
     const std::string& port = node.relation ? relation_of(node).name : output_of(node).name;
     return text(leaf_of(node).path, ".", port);
   }
-  const PlanLeaf& leaf_of(const Node& node) const {
-    return leaves[static_cast<std::size_t>(node.leaf)];
+
+  // The lists by number, of any integer type.
+  const Node& node(std::integral auto i) const { return nodes[static_cast<std::size_t>(i)]; }
+  const PlanLeaf& leaf(std::integral auto i) const { return leaves[static_cast<std::size_t>(i)]; }
+  const GuardGroup& guard(std::integral auto i) const {
+    return guards[static_cast<std::size_t>(i)];
   }
-  const Node& node(int i) const { return nodes[static_cast<std::size_t>(i)]; }
+  const EdgeWatch& edge(std::integral auto i) const { return edges[static_cast<std::size_t>(i)]; }
+  const ScheduledEvent& scheduled(std::integral auto i) const {
+    return schedule[static_cast<std::size_t>(i)];
+  }
+
+  // What stands behind an entry of the lists.
+  const PlanLeaf& leaf_of(const Node& node) const { return leaf(node.leaf); }
   const OutputDeclaration& output_of(const Node& node) const {
     return leaf_of(node).declared().outputs[static_cast<std::size_t>(node.index)];
   }
   const Relation& relation_of(const Node& node) const {
     return leaf_of(node).declared().relations[static_cast<std::size_t>(node.index)];
+  }
+  /// Of a group of zero crossings.
+  const ZeroCrossing& crossing_of(const GuardGroup& group) const {
+    return leaf(group.leaf).declared().zero_crossings[static_cast<std::size_t>(group.index)];
+  }
+  const EdgeReset& reset_of(const EdgeWatch& edge) const {
+    return leaf(edge.leaf).declared().edge_resets[static_cast<std::size_t>(edge.index)];
+  }
+  const TimeEvent& time_event_of(const ScheduledEvent& event) const {
+    return leaf(event.leaf).declared().time_events[static_cast<std::size_t>(event.index)];
   }
 };
 

@@ -21,11 +21,11 @@ class DenseOutput {
   /// Throws ModelError for a time outside the run, and what a function of the model throws.
   void move_to(double t, Side side = Side::right);
   /// The continuous state of all blocks there.
-  VectorView state() const { return {state_, machine_.plan().nx}; }
+  VectorView state() const { return {values_.state(), machine_.plan().nx}; }
   /// Recorded signal number i there.
   VectorView signal(std::size_t i) const {
     const Place& place = machine_.plan().node(machine_.plan().taps[i].node).place;
-    return {machine_.value(place), place.size};
+    return {values_(place), place.size};
   }
   const std::vector<Tap>& taps() const { return machine_.plan().taps; }
 
@@ -37,7 +37,7 @@ class DenseOutput {
   Contacts contacts_;
   const Trajectory::Held* now_ = nullptr;
   Eigen::VectorXd x_;
-  const double* state_ = nullptr;
+  Values values_;
 };
 
 /// A moment of a run.

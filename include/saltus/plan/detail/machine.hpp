@@ -33,6 +33,21 @@ struct NotFinite {
   std::string entry = {};  ///< "xdot[1] = nan where x = [10, -3]"
 };
 
+/// Where values are after an evaluation: a view that lasts until the next one.
+class Values {
+ public:
+  Values() = default;
+  explicit Values(const Bases& bases) : bases_(bases) {}
+  const double* operator()(const Place& place) const {
+    return bases_[static_cast<std::size_t>(place.space)] + place.offset;
+  }
+  /// The continuous state that the evaluation saw, with carried entries on their surfaces.
+  const double* state() const noexcept { return bases_[0]; }
+
+ private:
+  Bases bases_{};
+};
+
 /// x, z, p, modes and signals of one run. Threads share a plan; each has its own machine. Nothing
 /// in this class allocates after construction.
 class Machine {
@@ -49,7 +64,7 @@ class Machine {
 
   /// xdot(t, x), with everything else held.
   [[gnu::always_inline]] void derivative(double t, const double* state, double* xdot) {
-    if (lone_ode_ == nullptr || at_rest_ > 0 || carrier != nullptr)
+    if (lone_ode_ == nullptr || at_rest_ > 0 || carrier_ != nullptr)
       return carried_derivative(t, state, xdot);
     ++rhs_calls;
     bases_[0] = state;
@@ -58,7 +73,7 @@ class Machine {
   }
   /// Evaluates all guards that can fire now, into their slots of g.
   void guards(double t, const double* state, double* g) {
-    if (lone_guard_ == nullptr || carrier != nullptr) return carried_guards(t, state, g);
+    if (lone_guard_ == nullptr || carrier_ != nullptr) return carried_guards(t, state, g);
     ++guard_calls;
     bases_[0] = state;
     const VectorRef out(g + lone_guard_->slot, lone_guard_->width);
@@ -68,7 +83,7 @@ class Machine {
   /// The right-hand side, if a compiled step may call it directly: one leaf, no needed outputs,
   /// nothing held or carried. Otherwise null. `compiled_at` shows its arguments except t and x.
   const VectorFunction* compiled() const noexcept {
-    return at_rest_ > 0 || carrier != nullptr ? nullptr : compiled_;
+    return at_rest_ > 0 || carrier_ != nullptr ? nullptr : compiled_;
   }
   const At& compiled_at() { return seen_by(*lone_ode_, 0.0); }
   const LeafSystem& compiled_leaf() const { return *lone_ode_->system; }
@@ -79,43 +94,38 @@ class Machine {
 
   /// Computes the held outputs, and the values that resets, updates and edges read, at (t, x) of
   /// the machine.
-  void evaluate_instant(double t) {
-    at_home();
-    run(instant_calls_, t);
-  }
+  void evaluate_instant(double t) { run(instant_calls_, t, x.data()); }
   /// Of these values, computes again those that change between instants too, at (t, x).
-  void evaluate_moving(double t, const double* state) {
-    bases_[0] = state;
-    run(moving_calls_, t);
-  }
-  /// Computes the values that the recorded rows show, at (t, x).
-  void evaluate_taps(double t, const double* state) {
-    bases_[0] = carried(t, state);
-    run(tap_calls_, t);
+  void evaluate_moving(double t, const double* state) { run(moving_calls_, t, state); }
+  /// Computes the values that the recorded rows show, at (t, x), and returns where they are.
+  Values evaluate_taps(double t, const double* state) {
+    run(tap_calls_, t, carried(t, state));
+    return Values(bases_);
   }
 
-  /// The arguments of leaf i at time t; its continuous state is that of the last (t, x).
-  At at(std::size_t leaf, double t) {
+  /// The arguments of a leaf's functions at time t and this state of the whole machine; a view that
+  /// lasts until the next evaluation. Inputs are those of the last evaluation.
+  At at(std::size_t leaf, double t, const double* state) {
+    bases_[0] = state;
     const PlanLeaf& of = plan_->leaves[leaf];
     return seen_by({nullptr, of.system, leaf, &views_[leaf], of.x, of.nx}, t);
   }
-  /// xdot of leaf i alone, at time t and the state that `at` shows.
-  void leaf_derivative(std::size_t leaf, double t, VectorRef xdot) {
+  /// The same at the machine's own state.
+  At at(std::size_t leaf, double t) { return at(leaf, t, x.data()); }
+  /// xdot of one leaf at time t and this state of the whole machine.
+  void leaf_derivative(std::size_t leaf, double t, const double* state, VectorRef xdot) {
     ++rhs_calls;
     const PlanLeaf& of = plan_->leaves[leaf];
-    of.declared().continuous.ode(*of.system, at(leaf, t), xdot);
+    of.declared().continuous.ode(*of.system, at(leaf, t, state), xdot);
   }
-  /// Makes `at` see the machine's own x again.
-  void at_home() { bases_[0] = x.data(); }
 
   /// The state with all carried entries moved to their surface.
   const double* carried(double t, const double* state) {
-    return carrier == nullptr ? state : carry(t, state);
+    return carrier_ == nullptr ? state : carry(t, state);
   }
   /// Computes the values that the derivatives read at (t, x), so that `at` shows them.
   void evaluate_derivative_needs(double t, const double* state) {
-    bases_[0] = state;
-    run(needs_of_derivatives_, t);
+    run(needs_of_derivatives_, t, state);
   }
 
   /// Entry i of x has zero derivative from now on, until `move` was called as often as `rest`.
@@ -123,19 +133,28 @@ class Machine {
   void move(Index i) { change_rest(i, -1); }
   bool rests(Index i) const { return rests_[static_cast<std::size_t>(i)] > 0; }
 
+  /// Who puts blocks on a moving surface where it is, while there are any; null: nobody.
+  void carry_by(Carrier* carrier) noexcept { carrier_ = carrier; }
+  bool carries() const noexcept { return carrier_ != nullptr; }
+  /// Puts the blocks that are carried where their surfaces are at t.
+  void put_carried(double t, double* state) {
+    if (carrier_ != nullptr) carrier_->carry(t, state);
+  }
+
   /// Chooses the guards that can fire in the present modes.
   void select_guards();
   const std::vector<int>& active_guards() const noexcept { return active_; }
 
+  /// A value at the machine's own state.
   const double* value(const Place& place) const {
-    return bases_[static_cast<std::size_t>(place.space)] + place.offset;
+    return place.space == Space::x ? x.data() + place.offset : Values(bases_)(place);
   }
   double* signal(int node) { return y.data() + plan_->node(node).place.offset; }
   bool truth(int node) const { return *value(plan_->node(node).place) != 0.0; }
+  /// The held truth of one entry of a relation, 0 or 1.
+  double& truth_at(int node, Index entry) { return signal(node)[entry]; }
   const Plan& plan() const noexcept { return *plan_; }
   const std::shared_ptr<const Plan>& shared_plan() const noexcept { return plan_; }
-  /// The continuous state of the last call, with all carried entries moved to their surface.
-  const double* seen_state() const noexcept { return bases_[0]; }
 
   /// The first number that is not finite at (t, x): first among the values that derivatives read,
   /// then among the derivatives.
@@ -143,7 +162,6 @@ class Machine {
 
   Eigen::VectorXd x, z, p, y;
   std::vector<int> modes;
-  Carrier* carrier = nullptr;  ///< while a block rests on a surface that moves
   std::int64_t rhs_calls = 0, guard_calls = 0, jacobian_calls = 0;
 
  private:
@@ -181,7 +199,8 @@ class Machine {
     const PlanLeaf& of = plan_->leaves[leaf];
     return {&function, of.system, leaf, &views_[leaf], of.x, of.nx};
   }
-  void run(const std::vector<OutputCall>& calls, double t) {
+  void run(const std::vector<OutputCall>& calls, double t, const double* state) {
+    bases_[0] = state;
     for (const OutputCall& call : calls) {
       const VectorRef out(y.data() + call.to, call.width);
       (*call.function)(*call.system, seen_by(call, t), out);
@@ -211,8 +230,8 @@ class Machine {
   std::vector<const double*> relation_values_;
   std::vector<OutputCall> constant_calls_, instant_calls_, moving_calls_, derivative_calls_,
       guard_calls_list_, tap_calls_;
-  std::vector<Call> odes_;  // of leaves that have one, and what is fused of them
-  std::vector<OutputCall> needs_of_derivatives_;  // every one by a call of its own
+  std::vector<Call> odes_;                        // of leaves that have one, and the fused function
+  std::vector<OutputCall> needs_of_derivatives_;  // each with its own call
   std::vector<GuardCall> groups_;
   std::optional<GuardCall> fused_guards_;
   /// If this is the only ode, and it needs no computed values, it is called without a walk.
@@ -224,6 +243,7 @@ class Machine {
   std::vector<Index> resting_of_;     // leaves: the number of their states at rest
   Index at_rest_ = 0;                 // in total
   std::vector<std::size_t> leaf_of_state_;
+  Carrier* carrier_ = nullptr;  // while a block rests on a surface that moves
   Eigen::VectorXd carried_x_;
 };
 

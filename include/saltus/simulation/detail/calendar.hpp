@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "saltus/plan/plan.hpp"
+#include "saltus/simulation/detail/thresholds.hpp"
 
 namespace saltus {
 
@@ -55,7 +56,7 @@ class Calendar {
   static constexpr double infinite = std::numeric_limits<double>::infinity();
   /// Times that differ by rounding only are one instant: 3 * 0.1 and 0.3.
   static double slack(double t) {
-    return 4.0 * std::numeric_limits<double>::epsilon() * std::abs(t);
+    return thresholds::tick_roundings * thresholds::eps * std::abs(t);
   }
 
   double time_of(std::size_t i) const {

@@ -1,6 +1,7 @@
 // Contacts: blocks at rest on a surface, and what becomes of them while the surface moves.
 #pragma once
 
+#include <algorithm>
 #include <ranges>
 #include <vector>
 
@@ -22,7 +23,7 @@ struct SurfaceContact {
   bool opaque = false;
   bool carried = false;     // the surface moves, and the blocks with it
   bool pressed_on = false;  // the flow led into the surface when it was last asked
-  double band = 0.0;        // within it the guard is at zero
+  double error = 0.0;       // within it the guard is at zero
   double look_ahead = 0.0;  // [s] see lift
   std::vector<Member> members = {};
   std::vector<Index> states = {};  // entries of x that rest
@@ -60,8 +61,8 @@ class Contacts final : public Carrier {
   bool moves(const SurfaceContact& contact, double t, const double* x, double longest);
   /// The time in which curvature lifts the states well off their rounding.
   void choose_look_ahead(SurfaceContact& contact, double t, const double* x, double longest);
-  /// Tells the machine whether there is anything to carry.
-  void engage();
+  /// Whether the surface under some block moves, so that the machine has to be told to carry it.
+  bool moving() const { return std::ranges::any_of(all(), &SurfaceContact::carried); }
 
   void carry(double t, double* x) override;
   void rates(double t, const double* x, double* xdot) override;

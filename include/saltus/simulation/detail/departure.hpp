@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "saltus/plan/detail/machine.hpp"
+#include "saltus/simulation/detail/thresholds.hpp"
 #include "saltus/simulation/options.hpp"
 
 namespace saltus {
@@ -38,7 +39,9 @@ class Departure {
     t_ = t, x_ = &x;
     machine_->derivative(t, x.data(), f_.data());
     longest_ = longest;  // a run of no length has sides too
-    if (longest < 1.0) longest_ = std::max(longest, std::min(1.0, 1e9 * quickest()));
+    using namespace thresholds;
+    if (longest < short_run)
+      longest_ = std::max(longest, std::min(short_run, short_run_looks * quickest()));
     disturbed_ = looked_ = false;
   }
 
@@ -52,7 +55,10 @@ class Departure {
   }
 
   /// What thirty tolerances of the states leave uncertain of a guard where it stands.
-  double tolerance(Index slot) { return 30.0 * (rounding(slot) * rtol_ / (16.0 * eps) + atol_); }
+  double tolerance(Index slot) {
+    using namespace thresholds;
+    return lift_off_tolerances * (rounding(slot) * rtol_ / (state_roundings * eps) + atol_);
+  }
 
   /// `hair`: a guard within it is at zero too, and is followed until it has left that as well.
   /// `expected`: a side that makes no difference to being at zero, so that its rounding need not be
@@ -75,8 +81,8 @@ class Departure {
     const double near = (guard_after(0.5 * d, slot) - g0(slot)) / (0.5 * d);
     const double g = guard_after(d, slot), far = (g - g0(slot)) / d,
                  extrapolated = 2.0 * near - far;
-    const double noise =
-        std::max(1e-6 * std::abs(far - near), 4.0 * rounding_after(d, slot, g) / d);
+    const double noise = std::max(thresholds::slope_noise * std::abs(far - near),
+                                  4.0 * rounding_after(d, slot, g) / d);
     return std::abs(extrapolated) > noise ? extrapolated : 0.0;
   }
 
@@ -89,9 +95,7 @@ class Departure {
   }
 
  private:
-  static constexpr double amount =
-      1e-7;  // of the disturbance: large against rounding, small against curvature
-  static constexpr double eps = std::numeric_limits<double>::epsilon();
+  static constexpr double amount = thresholds::disturbance, eps = thresholds::eps;
 
   Side follow(const GuardGroup& group, Index slot, double hair, int expected) {
     Side result{.rounding = hair};
@@ -99,19 +103,20 @@ class Departure {
     double d = first_time(group);
     double g = guard_after(d, slot);
     // Not much further than the tolerance sees: what lies behind is the solver's to find.
-    for (double furthest = std::min(longest_, std::max(3e5 * d, lift_time(group, d)));;
-         g = guard_after(d, slot)) {
+    for (double furthest =
+             std::min(longest_, std::max(thresholds::furthest_look * d, lift_time(group, d)));
+         ; g = guard_after(d, slot)) {
       const int side = (g > 0.0) - (g < 0.0);
       // A guard that moves as the states do is beyond doubt.
       if (side != 0 && (side == expected || expected == either_side) &&
-          std::abs(g) > std::max(hair, 1e-3 * largest_move()))
+          std::abs(g) > std::max(hair, thresholds::doubtless_move * largest_move()))
         return result.side = side, result;
       const double rounding = opaque ? 0.0 : rounding_after(d, slot, g);
       result.rounding = std::max(hair, rounding);
       if (std::abs(g) > result.rounding && (!opaque || has_moved(group)))
         return result.side = side, result;
       if (std::abs(g) > rounding && !opaque) furthest = longest_;
-      d *= 8.0;
+      d *= thresholds::look_growth;
       if (d > furthest) return result;
     }
   }
@@ -148,18 +153,18 @@ class Departure {
   /// hardly does so within the run says nothing: what moves the guard is the time, or another
   /// block.
   double first_time(const GuardGroup& group) const {
-    double d = 1e-9 * longest_;  // for a guard that no state moves
+    double d = thresholds::first_look_of_run * longest_;  // for a guard that no state moves
     bool moved = false;
     for (int leaf : group.leaves) {
       const PlanLeaf& of = machine_->plan().leaves[static_cast<std::size_t>(leaf)];
       for (Index i = of.x; i < of.x + of.nx; ++i) {
         const double time = (rtol_ * std::abs((*x_)[i]) + atol_) / std::abs(f_[i]);
-        if (!(time <= 1e-3 * longest_)) continue;
+        if (!(time <= thresholds::slow_state_of_run * longest_)) continue;
         d = moved ? std::min(d, time) : time;
         moved = true;
       }
     }
-    return std::max(d, 64.0 * eps * std::abs(t_));
+    return std::max(d, thresholds::time_roundings * eps * std::abs(t_));
   }
 
   /// The time after which curvature has lifted the states off their own rounding, from f and f1
@@ -170,10 +175,12 @@ class Departure {
       const PlanLeaf& of = machine_->plan().leaves[static_cast<std::size_t>(leaf)];
       for (Index i = of.x; i < of.x + of.nx; ++i) {
         const double bend = std::abs(f1_[i] - f_[i]) / d;
-        if (bend > 0.0) time = std::max(time, std::sqrt(64.0 * eps * std::abs((*x_)[i]) / bend));
+        if (bend > 0.0)
+          time = std::max(time,
+                          std::sqrt(thresholds::time_roundings * eps * std::abs((*x_)[i]) / bend));
       }
     }
-    return std::min(16.0 * time, 1e-2 * longest_);
+    return std::min(thresholds::lift_times * time, thresholds::lift_of_run * longest_);
   }
 
   double guard_after(double d, Index slot) {
@@ -215,8 +222,10 @@ class Departure {
     trial_ = x1_ + d * (f_disturbed_ - f_);
     machine_->guards(t_ + d, trial_.data(), g_disturbed_.data());
     const double through_f = std::abs(g_disturbed_[slot] - g);
-    machine_->guards(t_ + d + 64.0 * eps * std::abs(t_), x1_.data(), g_disturbed_.data());
-    return 16.0 * eps / amount * (through_x + through_f) + 0.25 * std::abs(g_disturbed_[slot] - g);
+    machine_->guards(t_ + d + thresholds::time_roundings * eps * std::abs(t_), x1_.data(),
+                     g_disturbed_.data());
+    return thresholds::state_roundings * eps / amount * (through_x + through_f) +
+           0.25 * std::abs(g_disturbed_[slot] - g);
   }
 
   /// For a guard that only says yes or no: whether each state it reads has moved by more than its
@@ -225,7 +234,9 @@ class Departure {
     for (int leaf : group.leaves) {
       const PlanLeaf& of = machine_->plan().leaves[static_cast<std::size_t>(leaf)];
       for (Index i = of.x; i < of.x + of.nx; ++i) {
-        if (move_[i] != 0.0 && std::abs(move_[i]) <= 16.0 * eps * std::abs((*x_)[i])) return false;
+        if (move_[i] != 0.0 &&
+            std::abs(move_[i]) <= thresholds::state_roundings * eps * std::abs((*x_)[i]))
+          return false;
       }
     }
     return true;

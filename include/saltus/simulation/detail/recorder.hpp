@@ -21,18 +21,18 @@ class Recorder {
   /// A row at (t, j) of the state x.
   void record(double t, int jump, const double* x) {
     if (only_ != nullptr && !asked_for(t)) return;
-    machine_->evaluate_taps(t, x);
+    const Values values = machine_->evaluate_taps(t, x);
     const auto& taps = machine_->plan().taps;
     for (const Tap& tap : taps) {
       const Place& place = machine_->plan().node(tap.node).place;
-      if (!VectorView(machine_->value(place), place.size).allFinite()) throw_not_finite(t, tap);
+      if (!VectorView(values(place), place.size).allFinite()) throw_not_finite(t, tap);
     }
     if (only_ != nullptr && !results_->time.empty() && results_->time.back() == t) drop();
     results_->time.push_back(t);
     results_->jump.push_back(jump);
     for (std::size_t i = 0; i < taps.size(); ++i) {
       const Place& place = machine_->plan().node(taps[i].node).place;
-      const double* value = machine_->value(place);
+      const double* value = values(place);
       results_->signals[i].values.insert(results_->signals[i].values.end(), value,
                                          value + place.size);
     }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "saltus/simulation/detail/calendar.hpp"
+#include "saltus/simulation/detail/chattering.hpp"
 #include "saltus/simulation/detail/instant.hpp"
 #include "saltus/solver/detail/choose.hpp"
 
@@ -40,40 +41,25 @@ class Run {
   void keep_step(double from);
   bool steps_recorded() const { return options_.save_steps.value_or(options_.save_at.empty()); }
   bool interrupted();
-  /// Events in a row, since a time.
-  struct Series {
-    std::int64_t count = 0;
-    double since = 0.0;
-    /// Counts one more that follows at t; forgets them where none does.
-    void next(bool follows, double t) {
-      *this = follows ? Series{count + 1, count == 0 ? t : since} : Series{};
-    }
-    /// Counts one more; true when that makes `size`, and then begins anew at t unless it is kept.
-    bool full(std::int64_t size, double t) {
-      if (count >= size) *this = {0, t};
-      return ++count >= size;
-    }
-  };
-  bool chatters(double t_end, bool idle);
-  bool chatters_as(const Series& series) {
-    told_ = series;
-    return true;
-  }
-  bool moved() const;
-  Status chattering();
+  Status end_chattering();
   static SimulatorOptions checked(SimulatorOptions options);
   SolverOptions solver_options() const;
   Status end(Status status, std::string message = {});
   void fail(std::string message);
   void finish();
-  /// Puts what rests on a moving surface where that is at t.
-  void carry(double t) {
-    if (machine_.carrier != nullptr) machine_.carrier->carry(t, machine_.x.data());
+  /// The solver's state, or the machine's while no solver is at work.
+  const Eigen::VectorXd& present_state() const {
+    return solver_started_ ? solver_->state() : machine_.x;
+  }
+  /// The machine takes over the solver's state, with carried blocks on their surfaces.
+  void take_state() {
+    machine_.x = solver_->state();
+    machine_.put_carried(time_, machine_.x.data());
   }
 
   SimulatorOptions options_;
   Machine machine_;
-  Watch watch_;
+  GuardSet guards_;
   Results results_;
   Instant instant_;
   Calendar calendar_;
@@ -86,9 +72,8 @@ class Run {
   std::vector<int> due_;
   std::size_t next_save_ = 0;
   std::int64_t ticks_ = 0;
-  Series stuck_, fluttering_, recent_, idle_;  // see chatters
-  Series told_;                                // what the message says
-  Eigen::VectorXd at_root_;                    // x at the last root
+  Chattering chattering_;
+  Eigen::VectorXd row_;  // a state inside the last step
   std::chrono::steady_clock::time_point asked_{};
 };
 

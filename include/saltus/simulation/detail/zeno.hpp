@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include "saltus/model/continuation.hpp"
+#include "saltus/simulation/detail/thresholds.hpp"
 
 namespace saltus {
 
@@ -40,7 +41,7 @@ class ZenoMonitor {
   /// more than the rounding of the event times explains. A steady fast rhythm does not.
   bool accumulates() const {
     if (!(gap(0) <= tolerance_) || !std::isfinite(gap(2))) return false;
-    const double rounding = 8.0 * std::numeric_limits<double>::epsilon() * std::abs(times_[0]);
+    const double rounding = thresholds::gap_roundings * thresholds::eps * std::abs(times_[0]);
     return gap(1) - gap(0) > rounding && gap(2) - gap(1) > rounding;
   }
 
@@ -48,7 +49,8 @@ class ZenoMonitor {
   double remainder() const {
     // A slow series amplifies the rounding of event times by 1 / (1 - q)^2: there the ratio of two
     // gaps further apart.
-    const double last = gap(0) / gap(1), q = last > 0.9 ? std::sqrt(gap(0) / gap(2)) : last;
+    const double last = gap(0) / gap(1),
+                 q = last > thresholds::slow_series ? std::sqrt(gap(0) / gap(2)) : last;
     return q / (1.0 - q);
   }
   double accumulation_time() const { return times_[0] + gap(0) * remainder(); }

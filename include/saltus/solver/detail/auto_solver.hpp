@@ -18,13 +18,13 @@ namespace saltus {
 /// them (L. Petzold, SIAM J. Sci. Stat. Comput. 4 (1983) 136). That is asked when a stretch of BDF
 /// is restarted, and every fifty of its steps, where it has to be so several times running: two at
 /// first, twice as often after each return that did not last, so that the two do not play ball.
-/// They share the Watch, so no guard notices. CVODE is made when it is first needed.
+/// They share the guard records, so no guard is armed anew. CVODE is made when it is first needed.
 class AutoSolver final : public Solver {
  public:
-  AutoSolver(Machine& machine, Watch& watch, const SolverOptions& options,
+  AutoSolver(Machine& machine, GuardSet& guards, const SolverOptions& options,
              std::unique_ptr<OneStepSolver> one_step)
       : machine_(&machine),
-        watch_(&watch),
+        guards_(&guards),
         options_(options),
         explicit_(std::move(one_step)),
         radius_(machine, options) {
@@ -51,7 +51,6 @@ class AutoSolver final : public Solver {
   void interpolate(double t, double* x) override { now().interpolate(t, x); }
   int degree() const override { return now().degree(); }
   double joint() override { return now().joint(); }
-  const std::vector<Firing>& roots() const override { return watch_->fired; }
   double time() const override { return now().time(); }
   const Eigen::VectorXd& state() const override { return now().state(); }
   bool at_step_end() const override { return now().at_step_end(); }
@@ -133,7 +132,7 @@ class AutoSolver final : public Solver {
     past_.back().end = t;
     begun_ = t;
     stiff_ = stiff;
-    if (stiff && !bdf_) bdf_ = make_cvode(*machine_, *watch_, options_, CvodeMethod::bdf);
+    if (stiff && !bdf_) bdf_ = make_cvode(*machine_, *guards_, options_, CvodeMethod::bdf);
     steps_before_ = now().statistics().steps;
   }
 
@@ -142,7 +141,7 @@ class AutoSolver final : public Solver {
   }
 
   Machine* machine_;
-  Watch* watch_;
+  GuardSet* guards_;
   SolverOptions options_;
   std::unique_ptr<OneStepSolver> explicit_;
   std::unique_ptr<Solver> bdf_;

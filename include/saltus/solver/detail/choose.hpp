@@ -38,7 +38,7 @@ void require_linear_solver(std::string_view linear_solver, std::string_view meth
 
 /// The solver of a method for one run. CVODE is made only where it is asked for, or once "auto"
 /// needs it.
-std::unique_ptr<Solver> make_solver(Method method, Machine& machine, Watch& watch,
+std::unique_ptr<Solver> make_solver(Method method, Machine& machine, GuardSet& guards,
                                     const SolverOptions& options);
 
 }  // namespace saltus

@@ -15,7 +15,7 @@ enum class CvodeMethod {
 /// A. C. Hindmarsh et al., "SUNDIALS: Suite of nonlinear and differential/algebraic equation
 /// solvers", ACM TOMS 31 (2005) 363. Its own root-finding watches the guards; a root it returns is
 /// polished on its interpolant.
-std::unique_ptr<Solver> make_cvode(Machine& machine, Watch& watch, const SolverOptions& options,
+std::unique_ptr<Solver> make_cvode(Machine& machine, GuardSet& guards, const SolverOptions& options,
                                    CvodeMethod method);
 
 }  // namespace saltus

@@ -17,7 +17,7 @@ class Glance : protected Narrower {
  protected:
   static constexpr double never = std::numeric_limits<double>::infinity();
 
-  Glance(Machine& machine, Watch& watch) : Narrower(machine, watch) {
+  Glance(Machine& machine, GuardSet& guards) : Narrower(machine, guards) {
     const auto slots = static_cast<std::size_t>(machine.plan().guard_slots);
     for (auto* values : {&earlier_, &speed_}) values->assign(slots, 1.0);
     plain_.reserve(slots);
@@ -26,18 +26,20 @@ class Glance : protected Narrower {
   /// What was seen of the guards before a restart says nothing.
   void forget() { earlier_at_ = never, version_ = -1; }
 
-  /// Whether the engine has changed slots since they were looked up.
-  bool outdated() const { return version_ != watch_->version; }
-  void look_up_slots() {
-    version_ = watch_->version;
+  /// Whether the engine has written guard records since they were looked up.
+  bool outdated() const { return version_ != guards_->version(); }
+  void look_up_guards() {
+    version_ = guards_->version();
     set_limits();
     plain_.clear();
     jumps_ = false;
-    for (const std::size_t k : watch_->active) {
-      plain_.push_back(watch_->slots[k].plain_side());
-      jumps_ = jumps_ || watch_->slots[k].jumps;
+    for (const std::size_t k : guards_->active()) {
+      plain_.push_back((*guards_)[k].plain_side());
+      jumps_ = jumps_ || (*guards_)[k].jumps;
     }
   }
+  /// After a root the records are not looked up: the engine writes them next.
+  void forget_guards() { version_ = -1; }
 
   /// Whether a step, high_ looked at at its end, needs no look inside: no guard could get to zero
   /// and back even if it moved eight times as fast as it was seen to of late (the bound of B. O.
@@ -46,8 +48,8 @@ class Glance : protected Narrower {
   bool out_of_reach(double from, double to) const {
     if (jumps_) return false;
     for (std::size_t i = 0; i < plain_.size(); ++i) {
-      const std::size_t k = watch_->active[i];
-      const double now = plain_[i] * high_[k], before = plain_[i] * watch_->g[k];
+      const std::size_t k = guards_->active()[i];
+      const double now = plain_[i] * high_[k], before = plain_[i] * guards_->g[k];
       const double moves = std::max(std::abs(now - before), speed_[k] * (to - from));
       if (!(now > 0.0 && now + before > 8.0 * moves)) return false;
     }
@@ -59,11 +61,11 @@ class Glance : protected Narrower {
   /// between. So it is in most steps.
   bool calm(double from, double to) const {
     const double r = (to - from) / (from - earlier_at_);
-    const bool dips = earlier_at_ != never && watch_->scan_points > 0;
+    const bool dips = earlier_at_ != never && guards_->scan_points > 0;
     for (std::size_t i = 0; i < plain_.size(); ++i) {
       const double side = plain_[i];
-      const std::size_t k = watch_->active[i];
-      const double now = side * high_[k], before = side * watch_->g[k];
+      const std::size_t k = guards_->active()[i];
+      const double now = side * high_[k], before = side * guards_->g[k];
       if (!(now > 0.0 && now < never)) return false;  // never is infinite
       if (!dips) continue;
       const double rise = now - before, earlier_rise = before - side * earlier_[k];
@@ -74,31 +76,31 @@ class Glance : protected Narrower {
     return true;
   }
   void shift_all(double from, double to) {
-    for (const std::size_t k : watch_->active) {
-      speed_[k] = std::max(0.5 * speed_[k], std::abs(high_[k] - watch_->g[k]) / (to - from));
-      earlier_[k] = watch_->g[k], watch_->g[k] = high_[k];
+    for (const std::size_t k : guards_->active()) {
+      speed_[k] = std::max(0.5 * speed_[k], std::abs(high_[k] - guards_->g[k]) / (to - from));
+      earlier_[k] = guards_->g[k], guards_->g[k] = high_[k];
     }
     earlier_at_ = from;
   }
 
   /// The look at `from` is the one before the next look.
   void shift(double from) {
-    earlier_ = watch_->g;
+    earlier_ = guards_->g;
     earlier_at_ = from;
   }
 
   /// Takes over the sides at high_, where nothing fired.
   void follow() {
     for (std::size_t i = 0; i < limits_.size(); ++i) {
-      const std::size_t k = watch_->active[i];
-      GuardSlot& slot = watch_->slots[k];
+      const std::size_t k = guards_->active()[i];
+      const Guard& guard = (*guards_)[k];
       const bool stays =
-          !slot.waits() && (slot.side > 0 ? high_[k] > 0.0 : slot.side < 0 && high_[k] < 0.0);
-      watch_->g[k] = high_[k];
+          !guard.waits() && (guard.side > 0 ? high_[k] > 0.0 : guard.side < 0 && high_[k] < 0.0);
+      guards_->g[k] = high_[k];
       if (stays) continue;
-      slot.follow(high_[k]);
-      limits_[i] = slot.limits();
-      plain_[i] = slot.plain_side();
+      guards_->follow(k, high_[k]);
+      limits_[i] = guard.limits();
+      plain_[i] = guard.plain_side();
     }
   }
 
@@ -106,9 +108,9 @@ class Glance : protected Narrower {
   double earlier_at_ = never;    // its offset, below zero if it was in the step before
 
  private:
-  std::vector<double> plain_;  // of the active slots: see GuardSlot::plain_side
+  std::vector<double> plain_;  // of the active guards: see Guard::plain_side
   std::vector<double> speed_;  // [1/s] how fast each guard was seen to move of late
-  std::int64_t version_ = -1;  // of the slots that limits_ and plain_ tell of
+  std::int64_t version_ = -1;  // of the records that limits_ and plain_ were made of
   bool jumps_ = false;         // an active guard takes two values only
 };
 

@@ -16,7 +16,7 @@ namespace saltus {
 /// dips across zero and back (pairs of roots); the first interval in which one crosses is narrowed.
 class Locator : private Glance {
  public:
-  Locator(Machine& machine, Watch& watch) : Glance(machine, watch) {
+  Locator(Machine& machine, GuardSet& guards) : Glance(machine, guards) {
     const auto slots = static_cast<std::size_t>(machine.plan().guard_slots);
     for (auto* values : {&at_root_, &before_, &end_}) values->assign(slots, 1.0);
   }
@@ -28,12 +28,12 @@ class Locator : private Glance {
   bool find(double t0, double from, double to, const double* end, const double* guards,
             const Interpolate& interpolate) {
     t0_ = t0;
-    if (outdated()) look_up_slots();
+    if (outdated()) look_up_guards();
     if (guards != nullptr)
       std::copy_n(guards, high_.size(), high_.data());
     else
       look(to, end, interpolate, high_);
-    const bool skips = watch_->scan_points > 0 && out_of_reach(from, to);
+    const bool skips = guards_->scan_points > 0 && out_of_reach(from, to);
     if (!skips || skipped_ >= patience_) return find_inside(from, to, end, skips, interpolate);
     ++skipped_;
     shift_all(from, to);
@@ -60,7 +60,7 @@ class Locator : private Glance {
     skipped_ = 0;
     end_.swap(high_);
     end_at_ = to;
-    const int pieces = watch_->scan_points + 1;
+    const int pieces = guards_->scan_points + 1;
     const double piece_length = (to - from) / pieces;
     for (int piece = 1; piece <= pieces; ++piece) {
       const bool last = piece == pieces;
@@ -88,7 +88,7 @@ class Locator : private Glance {
       if (!looked) look(to, end, interpolate, high_);
       double high = to;
       if (!note_crossed(high_)) {
-        const double dip = watch_->scan_points > 0 ? find_dip(from, to, interpolate) : never;
+        const double dip = guards_->scan_points > 0 ? find_dip(from, to, interpolate) : never;
         if (dip == never) {
           shift(from);
           follow();
@@ -104,11 +104,11 @@ class Locator : private Glance {
         }
       }
       const double before = from;
-      before_ = watch_->g;
+      before_ = guards_->g;
       // A look that does not depend on the other guards: no monitor may change a bit of a root.
       third_ = end_, third_at_ = high < end_at_ ? end_at_ : never;
       from = narrow(from, high, interpolate);
-      if (between && watch_->active.size() > 1 && watch_->scan_points > 0) {
+      if (between && guards_->active().size() > 1 && guards_->scan_points > 0) {
         if (find_before(before, from, interpolate)) return true;
       } else if (from - before > 1e-3 * (to - before)) {
         earlier_.swap(before_);
@@ -125,8 +125,8 @@ class Locator : private Glance {
   template <class Interpolate>
   bool find_before(double from, double root, const Interpolate& interpolate) {
     at_root_ = high_;
-    const double piece = (root - from) / (watch_->scan_points + 1);
-    for (int i = 1; i <= watch_->scan_points; ++i) {
+    const double piece = (root - from) / (guards_->scan_points + 1);
+    for (int i = 1; i <= guards_->scan_points; ++i) {
       const double next = std::min(root, from + piece);
       if (from < next) look(next, nullptr, interpolate, high_);
       if (find_in(from, next, nullptr, interpolate, false)) return true;
@@ -140,17 +140,15 @@ class Locator : private Glance {
   /// A monitor located exactly on zero: the side it leaves to, a hair further on.
   template <class Interpolate>
   void leave_zero_of_monitors(double from, double to, const Interpolate& interpolate) {
-    const auto unsure = [&](std::size_t k) { return watch_->slots[k].side == 0; };
+    const auto unsure = [&](std::size_t k) { return (*guards_)[k].side == 0; };
     if (std::ranges::none_of(crossed_, unsure)) return;
     const double resolution = std::numeric_limits<double>::epsilon() * (std::abs(t0_) + from);
     look(std::min(to, from + std::max(64.0 * resolution, 1e-9 * (to - from))), nullptr, interpolate,
          middle_);
     for (const std::size_t k : crossed_) {
-      GuardSlot& slot = watch_->slots[k];
-      if (slot.side == 0)
-        slot.side = static_cast<signed char>((middle_[k] > 0.0) - (middle_[k] < 0.0));
+      if (unsure(k)) guards_->leave_to(k, sign_of(middle_[k]));
     }
-    look_up_slots();
+    look_up_guards();
   }
 
   /// Where between two looks a guard seems to cross zero and come back: the vertex of the parabola
@@ -160,17 +158,17 @@ class Locator : private Glance {
   template <class Interpolate>
   double find_dip(double from, double to, const Interpolate& interpolate) {
     if (earlier_at_ == never) return never;
-    for (const std::size_t k : watch_->active) {
-      const GuardSlot& slot = watch_->slots[k];
-      if (slot.side == 0 || slot.fresh || slot.jumps || slot.leaving) continue;
+    for (const std::size_t k : guards_->active()) {
+      const Guard& guard = (*guards_)[k];
+      if (guard.side == 0 || guard.at_zero() || guard.jumps) continue;
       Dip dip{{earlier_at_, from, to},
-              {slot.side * earlier_[k], slot.side * watch_->g[k], slot.side * high_[k]}};
+              {guard.side * earlier_[k], guard.side * guards_->g[k], guard.side * high_[k]}};
       // A touch within rounding is none; nor is a vertex far above zero.
       const double size = std::max({dip.g[0], dip.g[1], dip.g[2]});
       double u = dip.vertex(0.25 * size);
       for (int round = 0; round < 6 && u > from && u < to; ++round) {
         look(u, nullptr, interpolate, middle_);
-        const double g = slot.side * middle_[k];
+        const double g = guard.side * middle_[k];
         if (g < -1e-12 * size) return u;
         dip.replace(u, g);
         u = dip.vertex(0.5 * dip.g[1]);
@@ -180,45 +178,44 @@ class Locator : private Glance {
   }
 
   [[noreturn]] void throw_not_finite(std::size_t k, double t) const {
-    const auto holds = [k](const GuardGroup& g) {
-      return static_cast<Index>(k) >= g.slot && static_cast<Index>(k) < g.slot + g.size;
-    };
-    const GuardGroup& group = *std::ranges::find_if(machine_->plan().guards, holds);
+    const Plan& plan = machine_->plan();
+    const GuardGroup& group = plan.guards[static_cast<std::size_t>((*guards_)[k].group)];
     throw SimulationError(text("t = ", t, " s: guard '", group.name,
                                "' is not finite (NaN or Inf); check it at this state"),
-                          t, machine_->plan().leaves[static_cast<std::size_t>(group.leaf)].path);
+                          t, plan.leaves[static_cast<std::size_t>(group.leaf)].path);
   }
 
   /// A monitor goes over to the other side, and is at zero until it is clearly off.
-  void pass_monitor(GuardSlot& slot, const Firing& firing, double u) {
+  void pass_monitor(const Firing& firing, double u) {
     const auto k = static_cast<std::size_t>(firing.slot);
-    watch_->monitors.push_back({t0_ + u, firing});
-    if (slot.direction == Direction::edge_detection) return;
-    slot.side = static_cast<signed char>((high_[k] > 0.0) - (high_[k] < 0.0));
-    slot.fresh = true, slot.band = noise_[k];
+    guards_->monitors.push_back({t0_ + u, firing});
+    if ((*guards_)[k].direction == Direction::edge_detection) return;
+    guards_->pass(k, sign_of(high_[k]), noise_[k]);
   }
 
   /// Notes what fired at offset u; true if one of them is no monitor.
   bool take(double u) {
     root_ = u;
-    watch_->fired.clear();
-    for (std::size_t k : crossed_) {
-      GuardSlot& slot = watch_->slots[k];
+    guards_->fired_at_root.clear();
+    for (const std::size_t k : crossed_) {
+      const Guard& guard = (*guards_)[k];
       if (!std::isfinite(high_[k])) throw_not_finite(k, t0_ + u);
-      const Firing firing{static_cast<int>(k), slot.side, slot.fresh};
-      if (slot.monitor)
-        pass_monitor(slot, firing, u);
+      const Firing firing{static_cast<int>(k), guard.side, guard.at_zero()};
+      if (guard.monitor)
+        pass_monitor(firing, u);
       else
-        watch_->fired.push_back(firing);
+        guards_->fired_at_root.push_back(firing);
     }
-    for (const std::size_t k : watch_->active) {
-      GuardSlot& slot = watch_->slots[k];
-      watch_->follow(k, high_[k]);
+    for (const std::size_t k : guards_->active()) {
+      const Guard& guard = (*guards_)[k];
+      guards_->g[k] = high_[k];
+      guards_->follow(k, high_[k]);
       // Exactly on zero it takes the side it leaves to.
-      if (!slot.leaving && slot.crossed(high_[k])) slot.side = 0;
+      if (guard.phase != Phase::resting && guard.crossed(high_[k])) guards_->leave_to(k, 0);
     }
-    if (watch_->fired.empty()) look_up_slots();  // else the instant changes them again
-    return !watch_->fired.empty();
+    const bool stops = !guards_->fired_at_root.empty();
+    stops ? forget_guards() : look_up_guards();
+    return stops;
   }
 
   static constexpr int least_patience = 7;

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "saltus/plan/detail/machine.hpp"
-#include "saltus/solver/detail/watch.hpp"
+#include "saltus/solver/detail/guard_set.hpp"
 
 namespace saltus {
 
@@ -22,8 +22,8 @@ namespace saltus {
 /// any |t| allows, so that a state lands on its surface late in a long run as well as early.
 class Narrower {
  protected:
-  Narrower(Machine& machine, Watch& watch)
-      : machine_(&machine), watch_(&watch), x_(static_cast<std::size_t>(machine.plan().nx)) {
+  Narrower(Machine& machine, GuardSet& guards)
+      : machine_(&machine), guards_(&guards), x_(static_cast<std::size_t>(machine.plan().nx)) {
     const auto slots = static_cast<std::size_t>(machine.plan().guard_slots);
     for (auto* values : {&low_, &high_, &middle_, &third_, &noise_}) values->assign(slots, 1.0);
     crossed_.reserve(slots), limits_.reserve(slots);
@@ -37,14 +37,14 @@ class Narrower {
     machine_->guards(t0_ + u, known == nullptr ? x_.data() : known, values.data());
   }
 
-  /// Where the active guards fire, as their slots stand now.
+  /// Where the active guards fire, by their present records.
   void set_limits() {
     limits_.clear();
-    for (const std::size_t k : watch_->active) limits_.push_back(watch_->slots[k].limits());
+    for (const std::size_t k : guards_->active()) limits_.push_back((*guards_)[k].limits());
   }
 
   bool fired(std::size_t i, const std::vector<double>& values) const {
-    const double value = values[watch_->active[i]];
+    const double value = values[guards_->active()[i]];
     return !(value > limits_[i].first && value < limits_[i].second);  // so does what is not finite
   }
 
@@ -56,7 +56,7 @@ class Narrower {
     if (i == count) return false;
     crossed_.clear();
     for (; i < count; ++i) {
-      if (fired(i, values)) crossed_.push_back(watch_->active[i]);
+      if (fired(i, values)) crossed_.push_back(guards_->active()[i]);
     }
     return true;
   }
@@ -66,7 +66,7 @@ class Narrower {
   /// third_at_, another look nearby; infinite if there is none.
   template <class Interpolate>
   double narrow(double low, double high, const Interpolate& interpolate) {
-    low_ = watch_->g;
+    low_ = guards_->g;
     int kept = 0;   // how often in a row the low (> 0) or high (< 0) end was kept: Illinois halves
                     // its value
     int zeros = 0;  // looks in a row that found nothing but exact zeros
@@ -100,22 +100,23 @@ class Narrower {
   }
 
   Machine* machine_;
-  Watch* watch_;
+  GuardSet* guards_;
   std::vector<double> low_, high_, middle_, third_;
   double third_at_ = 0.0;
   std::vector<double> noise_;  // of guards about their root: interpolants waver by a rounding
   std::vector<std::size_t> crossed_;
-  std::vector<std::pair<double, double>> limits_;  // of the active slots
+  std::vector<std::pair<double, double>> limits_;  // of the active guards
   double t0_ = 0.0;
 
  private:
   /// A guard that waits, seen on its armed side, is an ordinary one from there on.
   void leave_zero() {
     for (std::size_t i = 0; i < limits_.size(); ++i) {
-      GuardSlot& slot = watch_->slots[watch_->active[i]];
-      if (!slot.waits() || slot.sign(low_[watch_->active[i]]) != slot.side) continue;
-      slot.fresh = false, slot.band = 0.0;
-      limits_[i] = slot.limits();
+      const std::size_t k = guards_->active()[i];
+      const Guard& guard = (*guards_)[k];
+      if (!guard.waits() || guard.sign(low_[k]) != guard.side) continue;
+      guards_->leave_zero(k);
+      limits_[i] = guard.limits();
     }
   }
 
@@ -129,9 +130,9 @@ class Narrower {
     if (high - low <= 3.0 * resolution) return low + 0.5 * (high - low);
     double fraction = 2.0;  // of the interval, from low
     for (std::size_t k : crossed_) {
-      const GuardSlot& slot = watch_->slots[k];
+      const Guard& guard = (*guards_)[k];
       const double a = std::abs(low_[k]) * weight, b = std::abs(high_[k]);
-      const bool blind = slot.jumps || slot.waits() || !(a > 0.0) ||
+      const bool blind = guard.jumps || guard.waits() || !(a > 0.0) ||
                          !(a + b < std::numeric_limits<double>::infinity());
       fraction = std::min(fraction, blind           ? 0.5
                                     : weight == 1.0 ? parabola(k, low, high)

@@ -19,9 +19,9 @@ class OneStepSolver : public Solver {
 
 /// Each is compiled once for one to four states, where the whole arithmetic of a step unrolls, and
 /// once for any number; each in a file of its own: together in one, the compiler inlines less.
-std::unique_ptr<OneStepSolver> make_dopri5(Machine& machine, Watch& watch,
+std::unique_ptr<OneStepSolver> make_dopri5(Machine& machine, GuardSet& guards,
                                            const SolverOptions& options);
-std::unique_ptr<OneStepSolver> make_dop853(Machine& machine, Watch& watch,
+std::unique_ptr<OneStepSolver> make_dop853(Machine& machine, GuardSet& guards,
                                            const SolverOptions& options);
 
 }  // namespace saltus

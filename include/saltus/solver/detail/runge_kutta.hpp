@@ -21,8 +21,8 @@ namespace saltus {
 template <Tableau Method, int N = 0>
 class RungeKutta final : public StepSolver<RungeKutta<Method, N>, OneStepSolver> {
  public:
-  RungeKutta(Machine& machine, Watch& watch, const SolverOptions& options)
-      : Base(machine, watch, options),
+  RungeKutta(Machine& machine, GuardSet& guards, const SolverOptions& options)
+      : Base(machine, guards, options),
         x0_(n_),
         scratch_(n_),
         k_(n_),

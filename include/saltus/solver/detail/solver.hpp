@@ -7,16 +7,16 @@
 #include <vector>
 
 #include "saltus/plan/detail/machine.hpp"
+#include "saltus/solver/detail/guard_set.hpp"
 #include "saltus/solver/detail/linear_solver.hpp"
 #include "saltus/solver/statistics.hpp"
-#include "saltus/solver/detail/watch.hpp"
 
 namespace saltus {
 
 enum class StopReason {
   step,       ///< one accepted minor step, nothing else
   stop_time,  ///< exactly the time that was asked for
-  root        ///< a guard fired: see Watch::fired
+  root        ///< a guard fired: see GuardSet::fired_at_root
 };
 
 /// What a solver needs to know beyond the scene.
@@ -56,8 +56,6 @@ class Solver {
   /// The time [s] within the last step where that goes over from one polynomial to the next; before
   /// the step where there is but one.
   virtual double joint() { return -std::numeric_limits<double>::infinity(); }
-  /// The guards that fired, after StopReason::root.
-  virtual const std::vector<Firing>& roots() const = 0;
   virtual const SolverStatistics& statistics() const = 0;
 
   /// Which method was used when, in order of time.

@@ -18,13 +18,13 @@ namespace saltus {
 template <class Method, class Interface = Solver>
 class StepSolver : public Interface {
  public:
-  StepSolver(Machine& machine, Watch& watch, const SolverOptions& options)
+  StepSolver(Machine& machine, GuardSet& guards, const SolverOptions& options)
       : machine_(&machine),
-        watch_(&watch),
+        guards_(&guards),
         options_(options),
         n_(machine.plan().nx),
         x1_(n_),
-        locator_(machine, watch),
+        locator_(machine, guards),
         state_(n_) {}
 
   void restart(double t, const Eigen::VectorXd& x, const Start& start) final {
@@ -41,11 +41,12 @@ class StepSolver : public Interface {
   }
 
   StopReason advance(double t_stop) final {
-    watch_->monitors.clear();
+    guards_->monitors.clear();
     if (delivered_) take_step(t_stop);
     const auto inside = [this](double u, double* x) { self().inside_step(u, x); };
-    if (watch_->any() && locator_.find(t0_, offset_, length_, x1_.data(),
-                                       offset_ == 0.0 ? self().end_guards() : nullptr, inside)) {
+    if (!guards_->active().empty() &&
+        locator_.find(t0_, offset_, length_, x1_.data(),
+                      offset_ == 0.0 ? self().end_guards() : nullptr, inside)) {
       offset_ = locator_.offset();
       delivered_ = offset_ >= length_;
       time_ = delivered_ ? t1_ : t0_ + offset_;
@@ -64,7 +65,6 @@ class StepSolver : public Interface {
       self().inside_step(t - t0_, x);
   }
 
-  const std::vector<Firing>& roots() const final { return watch_->fired; }
   const SolverStatistics& statistics() const override { return statistics_; }
   std::vector<Stretch> stretches() const final {
     return {{this->method(), run_begun_, time_, this->statistics().steps}};
@@ -90,7 +90,7 @@ class StepSolver : public Interface {
   const double* end_guards() const { return nullptr; }
 
   Machine* machine_;
-  Watch* watch_;
+  GuardSet* guards_;
   SolverOptions options_;
   Index n_;
   double t0_ = 0.0, t1_ = 0.0, length_ = 0.0;  // [s] of the last step

@@ -1,0 +1,222 @@
+// Decisions: on which side a guard goes on, whether it fires at once, whether it rests. Functions
+// of values: what they need of the flow they ask for, for that costs right-hand sides.
+//
+// The law: a guard is at zero within its error; its side is known only beyond it; within it the
+// flow decides (docs/semantics.md, 2.2 to 2.5).
+#pragma once
+
+#include <cmath>
+#include <optional>
+
+#include "saltus/simulation/detail/thresholds.hpp"
+#include "saltus/solver/detail/guard.hpp"
+
+namespace saltus {
+
+/// What a guard that begins at zero or beyond it does by its author's wish (2.4).
+///
+///     at_start       g off zero, armed side   g = 0              g on the firing side
+///     automatic      by the flow              by the flow        by the flow
+///     error          by the flow              refuse             refuse
+///     fire           by the flow              fire               fire
+///     ignore         by the flow              wait               by the flow: it waits anyway
+///
+/// A guard of either direction has no firing side until it is armed; edge_detection has none.
+enum class Beginning { by_flow, refuse, fire, wait };
+
+constexpr Beginning decide_beginning(AtStart wish, Direction direction, double g) {
+  if (wish == AtStart::automatic || direction == Direction::edge_detection)
+    return Beginning::by_flow;
+  const bool beyond = firing_side(direction) * g > 0.0 && direction != Direction::crosses_zero;
+  if (g != 0.0 && !beyond) return Beginning::by_flow;
+  if (wish == AtStart::error) return Beginning::refuse;
+  if (wish == AtStart::fire) return Beginning::fire;
+  return g == 0.0 ? Beginning::wait : Beginning::by_flow;
+}
+
+/// The side the flow takes a guard to (0: none within its error), and that error.
+struct FlowSide {
+  int side = 0;
+  double error = 0.0;
+};
+
+/// What is known of a zero crossing when integration is about to go on.
+struct CrossingFacts {
+  Direction direction = Direction::crosses_zero;
+  Phase phase = Phase::armed;
+  int side = 0;           ///< its side until now
+  double g = 0.0;         ///< its value
+  double error = 0.0;     ///< until now
+  bool at_start = false;  ///< the run begins here
+  bool entered = false;   ///< its mode was entered in this instant
+  bool fired = false;     ///< in this instant
+  int came_from = 0;      ///< the side it fired from
+  bool effect = false;    ///< it writes a state or a mode
+  bool reset = false;     ///< by a reset map
+  int resets = 0;         ///< reset maps that wrote continuous state in this instant
+
+  bool either() const { return direction == Direction::crosses_zero; }
+  bool wrote() const { return resets > 0; }
+};
+
+/// Whether a zero crossing has to be armed by the flow. `uncertainty()`: what rounding of the
+/// states and of the time leaves uncertain of its value.
+///
+///     fired in this instant                                    yes
+///     at zero, or within its error while it waits              yes, unless it waits and nothing
+///                                                              was written: dormant as before
+///     mode just entered, within what rounding leaves           yes
+///     otherwise                                                no: it keeps the side it has
+template <class Uncertainty>
+bool needs_flow(const CrossingFacts& guard, const Uncertainty& uncertainty) {
+  if (guard.fired) return true;
+  const bool waits = guard.phase == Phase::waiting;
+  const bool at_zero = guard.g == 0.0 || (waits && std::abs(guard.g) <= guard.error) ||
+                       (guard.entered && std::abs(guard.g) <= uncertainty());
+  return at_zero && !(waits && !guard.wrote());
+}
+
+/// How a guard goes on. Without a phase it keeps phase and side, and takes over the error.
+struct Arming {
+  enum class Then { go_on, fire, rest };
+  std::optional<Phase> phase = {};
+  int side = 0;
+  Then then = Then::go_on;
+  int from = 0;  ///< the side that a firing at once comes from
+  bool operator==(const Arming&) const = default;
+};
+
+/// A guard at zero that has not fired. One with an effect that the flow takes to its firing side is
+/// in contact and fires at once, if a run begins so or a reset just turned the flow round; all
+/// others wait until they have been clearly off zero (2.3). Where the flow keeps a guard at zero it
+/// is dormant (2.6): it keeps its armed side.
+///
+///     effect  flow to        begins or turned   then     waits on
+///     yes     firing side    yes                fire     the flow's side
+///     yes     firing side    no                 go on    the flow's side
+///     yes     none           -                  go on    its armed side
+///     no      none           -                  go on    no side
+///     -       armed side     -                  go on    the flow's side
+///
+/// A guard of either direction is in contact at the start only if its slope is zero.
+template <class Ask>
+Arming decide_at_zero(const CrossingFacts& guard, FlowSide flow, const Ask& ask) {
+  if (guard.direction == Direction::edge_detection) return {};
+  const int firing = firing_side(guard.direction);
+  const int armed = guard.either() ? guard.side : -firing;
+  const bool not_beyond = guard.either() || guard.side != firing;
+  const bool across =
+      flow.side != 0 && (guard.either() ? flow.side == -armed : flow.side == firing);
+  const bool begins =
+      guard.at_start && flow.side == firing && (!guard.either() || ask.slope() == 0.0);
+  const bool turned = guard.wrote() && across && not_beyond;
+  const bool dormant = flow.side == 0 && guard.effect && not_beyond;
+  Arming arming{.phase = Phase::waiting, .side = dormant ? armed : flow.side};
+  if (guard.effect && (begins || turned))
+    arming.then = Arming::Then::fire, arming.from = -flow.side;
+  return arming;
+}
+
+/// A guard that has fired in this instant (2.5).
+///
+///     reset map   flow leads           value          then
+///     yes         back to firing side  beyond error,  go on, armed: it is about to cross
+///                                      armed side
+///     yes         back                 within error   fire, where another reset of this instant
+///                                                     sent it back and its own turns it
+///     yes         back                 within error   rest, where the flow was not merely passed
+///                                                     through, or the flight was too low to see
+///     -           anywhere else        -              go on; it waits on the flow's side
+///
+/// Where the flow keeps it at zero, a reset that wrote keeps it armed where it came from; a guard
+/// that was passed through has no side.
+template <class Ask>
+Arming decide_fired(const CrossingFacts& guard, FlowSide flow, const Ask& ask) {
+  const int from = guard.came_from;
+  if (guard.reset && flow.side == -from && from * guard.g > flow.error)
+    return {.phase = Phase::armed, .side = from};
+  const int kept = guard.reset && guard.wrote() ? from : 0;
+  Arming arming{.phase = Phase::waiting, .side = flow.side != 0 ? flow.side : kept};
+  if (!guard.reset) return arming;
+  const bool low = ask.too_low();
+  if (!(flow.side == -from || low) || !(std::abs(guard.g) <= flow.error)) return arming;
+  if (guard.resets > 1 && ask.reset_turns())
+    arming.then = Arming::Then::fire, arming.from = from;
+  else if (low || ask.leads_back())
+    arming.then = Arming::Then::rest, arming.side = from;
+  return arming;
+}
+
+/// A zero crossing that needs the flow.
+///
+///     mode just entered, and the flow of the mode before led the other way: both modes lead to
+///     the surface, and it fires (4.7)
+///     fired                                                     decide_fired
+///     otherwise                                                 decide_at_zero
+///
+/// A hop lower than the tolerance begins on the other side than the one it was seen to end on: in a
+/// mode just entered the slope decides against the side.
+template <class Ask>
+Arming decide_crossing(const CrossingFacts& guard, FlowSide flow, const Ask& ask) {
+  if (guard.entered && !guard.fired && flow.side * ask.slope() < 0.0) flow.side = -flow.side;
+  const bool its_side = guard.either() ? flow.side != 0 : flow.side == firing_side(guard.direction);
+  if (guard.entered && guard.effect && its_side && ask.turned_round(flow.side))
+    return {.then = Arming::Then::fire, .from = -flow.side};
+  return guard.fired ? decide_fired(guard, flow, ask) : decide_at_zero(guard, flow, ask);
+}
+
+/// Whether a guard was merely passed through: before the reset the flow went the same way, and the
+/// reset did not all but stop it. Both are slopes towards the firing side.
+constexpr bool passed_through(double onward, double before) {
+  return before > 0.0 && onward > thresholds::stopped_slope * before;
+}
+
+/// What is known of a relation that is read again after a commit.
+struct RelationFacts {
+  bool opaque = false;  ///< a boolean function: its value is only a sign
+  bool truth = false;   ///< until now
+  double g = 0.0;       ///< its value
+  bool fired = false;   ///< in this instant
+  int came_from = 0;    ///< the side it fired from
+  bool turned = false;  ///< it was turned by an earlier reading in this instant
+  bool wrote = false;   ///< reset maps wrote continuous state in this instant
+
+  /// The side that its crossing, or its truth, says.
+  int crossed_to() const { return fired ? -came_from : truth ? 1 : -1; }
+};
+
+/// The side of a relation by its value alone (3.5); 0: it keeps its truth. Without a value when the
+/// flow has to be asked.
+///
+///     fired   states written   value                     side
+///     yes     no               rounding                  the crossing's
+///     yes     yes              smooth                    ask
+///     yes     yes              opaque, the crossing's    its value's
+///     yes     yes              opaque, otherwise         ask
+///     no      yes              zero, turned before       ask
+///     no      -                otherwise                 its value's
+constexpr std::optional<int> decide_relation(const RelationFacts& relation) {
+  if (relation.fired && !relation.wrote) return relation.crossed_to();
+  const int side = sign_of(relation.g);
+  const bool touched = relation.fired || (relation.turned && relation.g == 0.0);
+  if (relation.wrote && touched && (!relation.opaque || side != relation.crossed_to())) return {};
+  return side;
+}
+
+/// On which side a relation goes on.
+///
+///     opaque                                       as its truth, phase unchanged
+///     clearly on its side, not fired               unchanged
+///     frozen: it keeps its truth on a hold         waits within its value
+///     otherwise                                    waits within the flow's error; fires at once
+///                                                  where the flow takes it to the other side
+enum class RelationArming { by_truth, unchanged, within_value, by_flow };
+
+constexpr RelationArming decide_relation_arming(bool opaque, int sign, int side, bool fired,
+                                                bool frozen) {
+  if (opaque) return RelationArming::by_truth;
+  if (sign == side && !fired) return RelationArming::unchanged;
+  return frozen ? RelationArming::within_value : RelationArming::by_flow;
+}
+
+}  // namespace saltus

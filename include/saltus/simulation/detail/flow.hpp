@@ -1,0 +1,86 @@
+// Flow: to which side the flow takes a guard at the present state, asked for when needed.
+#pragma once
+
+#include "saltus/simulation/detail/decisions.hpp"
+#include "saltus/simulation/detail/departure.hpp"
+
+namespace saltus {
+
+/// Keeps the departure from the present (t, x) until something that f reads is written.
+class Flow {
+ public:
+  Flow(Machine& machine, const SimulatorOptions& options)
+      : machine_(&machine), departure_(machine, options) {}
+
+  /// An instant begins at t; `longest` [s] bounds how far ahead the flow is followed.
+  void open(double t, double longest) { t_ = t, longest_ = longest, known_ = false; }
+  /// The state, or something else that f reads, was written.
+  void forget() noexcept { known_ = false; }
+  /// f at the present state, if it is known.
+  const Eigen::VectorXd* known() const noexcept { return known_ ? &departure_.flow() : nullptr; }
+
+  /// The side it takes a guard to, from the present state: see Departure::of.
+  Departure::Side side(const GuardGroup& group, Index slot, double error, int expected) {
+    depart();
+    return departure_.of(group, slot, error, expected);
+  }
+  /// dg/dt along the flow from the present state.
+  double slope(const GuardGroup& group, Index slot) {
+    depart();
+    return departure_.slope(group, slot);
+  }
+  /// What rounding leaves uncertain of a guard at the present state.
+  double rounding(Index slot) {
+    depart();
+    return departure_.rounding(slot);
+  }
+  /// dg/dt along another f through the present state.
+  double slope_along(const Eigen::VectorXd& f, const GuardGroup& group, Index slot) {
+    return departure_.slope_along(f, group, slot);
+  }
+
+  /// dg/dt along the flow from another state.
+  double slope_from(const Eigen::VectorXd& x, const GuardGroup& group, Index slot) {
+    depart_from(x, longest_);
+    return departure_.slope(group, slot);
+  }
+  /// The side within a look of at most `longest` [s].
+  Departure::Side side_within(double longest, const GuardGroup& group, Index slot, double error,
+                              int expected) {
+    depart_from(machine_->x, longest);
+    return departure_.of(group, slot, error, expected);
+  }
+  /// Whether the flow after a reset leads straight back across a guard that fired coming from
+  /// `from`: nothing can move until something else does. Not so where the guard was merely passed
+  /// through: there the flow from x_before, before the reset, went the same way.
+  bool leads_back(const GuardGroup& group, Index slot, int from, const Eigen::VectorXd& x_before) {
+    const bool known = known_;
+    const double onward = -from * slope(group, slot);
+    known_ = known;
+    if (!(onward > 0.0)) return true;
+    return !passed_through(onward, -from * slope_from(x_before, group, slot));
+  }
+  /// What the tolerance of the run leaves uncertain of a guard at the present state; nothing of a
+  /// guard that is only a sign.
+  double tolerance(Index slot, bool opaque) {
+    depart_from(machine_->x, longest_);
+    return opaque ? 0.0 : departure_.tolerance(slot);
+  }
+
+ private:
+  void depart() {
+    if (!known_) departure_.from(t_, machine_->x, longest_);
+    known_ = true;
+  }
+  void depart_from(const Eigen::VectorXd& x, double longest) {
+    departure_.from(t_, x, longest);
+    known_ = false;
+  }
+
+  Machine* machine_;
+  Departure departure_;
+  double t_ = 0.0, longest_ = 0.0;
+  bool known_ = false;  // departure_ is that of the present state
+};
+
+}  // namespace saltus

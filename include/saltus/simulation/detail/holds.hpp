@@ -1,0 +1,77 @@
+// Holds: when the firings of a guard accumulate, and which states rest then.
+#pragma once
+
+#include <deque>
+#include <span>
+#include <vector>
+
+#include "saltus/simulation/detail/flow.hpp"
+#include "saltus/simulation/detail/journal.hpp"
+#include "saltus/simulation/detail/zeno.hpp"
+
+namespace saltus {
+
+/// The Zeno monitors: one for each guard with an effect, one for each watched edge. It knows which
+/// states rest; what their guards do meanwhile is the business of ContactGuards.
+class Holds {
+ public:
+  struct Hold {
+    ZenoMonitor monitor{};
+    int leaf = -1, source = -1;
+    Index entry = 0;
+    OnZeno on_zeno = {};
+    std::span<const Index> states = {};  ///< entries of x that rest
+  };
+
+  Holds(Machine& machine, const GuardSet& guards, const SimulatorOptions& options, Flow& flow,
+        Transition& transition, Journal& journal, Present& present);
+
+  /// A run begins: nothing rests.
+  void begin();
+
+  Hold& of_guard(std::size_t k) { return of_guards_[k]; }
+  const Hold& of_guard(std::size_t k) const { return of_guards_[k]; }
+  Hold& of_edge(std::size_t e) { return of_edges_[e]; }
+  const Hold& of_edge(std::size_t e) const { return of_edges_[e]; }
+  bool any() const noexcept { return count_ > 0; }
+  /// Whether the states that rest were written by the pass that is about to be committed.
+  bool kicked(const Hold& hold) const;
+
+  /// The firings of a guard accumulate, or its flow leads straight back: what its author said of
+  /// that. `in_pass`: the modes to come may still be written.
+  void come_to_rest(Hold& hold, double predicted, bool in_pass);
+  void release(Hold& hold);
+  /// After a firing whose reset map wrote: rest if the firings accumulate; otherwise how soon the
+  /// next one may follow. Returns whether it rests.
+  bool look_for_accumulation(Hold& hold);
+  /// A relation at rest holds the blocks whose edges it set off; false if one has no monitor.
+  bool hold_edges(const std::vector<int>& edges, int node);
+
+  /// Its share of what a run that goes on has to know: the last firings of each monitor.
+  std::vector<Continuation::Firings> save() const;
+  bool fits(const Continuation& from) const {
+    return from.firings.size() == of_guards_.size() + of_edges_.size();
+  }
+  void load(const Continuation& from);
+
+ private:
+  void add_guards(const GuardSet& guards);
+  void add_edges();
+  std::span<const Index> whole(const PlanLeaf& leaf) const;
+  void rest(Hold& hold, double predicted);
+  [[noreturn]] void throw_accumulation(const Hold& hold, double predicted) const;
+
+  Machine* machine_;
+  const SimulatorOptions* options_;
+  Flow* flow_;
+  Transition* transition_;
+  Journal* journal_;
+  Present* present_;
+  std::vector<Index> states_;              // all entries of x: a whole leaf rests with a part of it
+  std::deque<std::vector<Index>> chosen_;  // the states that guards with `holds` name
+  std::vector<Hold> of_guards_, of_edges_;
+  Eigen::VectorXd gathered_;  // the states of one hold
+  int count_ = 0;             // holds now
+};
+
+}  // namespace saltus

@@ -1,0 +1,81 @@
+// Journal: names and counts of all sources of events, the chain of causes, the event log.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "saltus/simulation/detail/present.hpp"
+#include "saltus/simulation/detail/transition.hpp"
+#include "saltus/simulation/options.hpp"
+#include "saltus/simulation/results.hpp"
+#include "saltus/solver/detail/guard_set.hpp"
+
+namespace saltus {
+
+/// A source of events has a number: guard groups first, then watched edges, then scheduled events.
+class Journal {
+ public:
+  Journal(const Machine& machine, const Transition& transition, const SimulatorOptions& options,
+          Results& results);
+
+  /// A run begins: no event has happened yet.
+  void begin();
+  /// An instant begins: its chain of causes is empty.
+  void open(double t);
+  /// Events noted from now on belong to the pass that makes the jump count `jump`.
+  void at_jump(int jump) noexcept { jump_ = jump; }
+
+  int source_of(Cause cause, int index) const;
+  /// "block.event"
+  const std::string& name_of(int source) const;
+
+  struct Entry {
+    EventKind kind;
+    int source;
+    int leaf;
+    int direction = 0;
+    double predicted = std::numeric_limits<double>::quiet_NaN();
+    Index entry = 0;
+  };
+  void note(const Entry& entry);
+  /// The crossing of a monitor, which changes nothing, at the state x.
+  void note_monitor(const MonitorHit& hit, const Guard& guard, int jump, const double* x);
+  /// A link of the chain of causes.
+  void cause(int source);
+
+  /// Whether the next firing of a terminal guard is the one that ends the run.
+  bool ends_run(std::size_t group) const;
+  /// Events noted in this instant.
+  int events() const noexcept { return events_; }
+  /// "block.event" of the last event; empty before the first one.
+  const std::string& last_event() const;
+  /// How often each event happened, by name; events that did not happen are left out.
+  std::vector<std::pair<std::string, std::int64_t>> counts() const;
+  [[noreturn]] void throw_no_end() const;
+
+  /// Its share of what a run that goes on has to know: how often each guard has fired.
+  std::vector<std::int64_t> save() const;
+  bool fits(const Continuation& from) const { return from.counts.size() == earlier_.size(); }
+  void load(const Continuation& from) { earlier_ = from.counts; }
+
+ private:
+  void add(const Entry& entry, double t, int jump, const double* before, const double* after);
+
+  const Machine* machine_;
+  const Plan* plan_;
+  const Transition* transition_;
+  const SimulatorOptions* options_;
+  Results* results_;
+  double t_ = 0.0;
+  int jump_ = 0, events_ = 0;
+  int last_source_ = -1;
+  std::vector<std::int64_t> counts_;   // events of each source, in this run
+  std::vector<std::int64_t> earlier_;  // firings of each guard before this run
+  std::vector<int> chain_;             // sources of what happened in this instant
+};
+
+}  // namespace saltus

@@ -1,0 +1,47 @@
+// Relations: comparisons and booleans whose truth is held between instants.
+#pragma once
+
+#include "saltus/simulation/detail/contact_guards.hpp"
+
+namespace saltus {
+
+/// Flips the truths whose roots were found, and reads all of them again after a commit.
+class Relations {
+ public:
+  Relations(Machine& machine, GuardSet& guards, const SimulatorOptions& options, Flow& flow,
+            Edges& edges, Holds& holds, ContactGuards& contacts, const Transition& transition,
+            Journal& journal, Present& present);
+
+  /// A run begins: truths by the signs of now. Relations may read each other.
+  void begin(double t);
+  /// A root was found: the relation takes the side the crossing says, for its value there may be
+  /// exactly zero.
+  void flip(const Firing& firing);
+  /// After a commit: held outputs and truths follow what was written.
+  void read_again();
+  /// On which side integration goes on.
+  void arm(std::size_t k);
+
+  std::vector<double> save() const;
+  bool fits(const Continuation& from) const;
+  void load(const Continuation& from);
+
+ private:
+  bool read(const GuardGroup& group, std::size_t k);
+  int side_by_flow(const GuardGroup& group, std::size_t k, int crossed_to);
+  bool reads_changed(int node) const;
+  double& truth(std::size_t k) const;
+
+  Machine* machine_;
+  GuardSet* guards_;
+  const SimulatorOptions* options_;
+  Flow* flow_;
+  Edges* edges_;
+  Holds* holds_;
+  ContactGuards* contacts_;
+  const Transition* transition_;
+  Journal* journal_;
+  Present* present_;
+};
+
+}  // namespace saltus

@@ -1,0 +1,131 @@
+// The numbers that the instants of a run are tuned with: name, unit, derivation, and the test that
+// fails without it.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+
+namespace saltus::thresholds {
+
+inline constexpr double eps = std::numeric_limits<double>::epsilon();
+
+// --- when a guard is at zero: departure.hpp, present.hpp, crossing_arming.cpp
+
+/// [1] Relative disturbance of x, f and t by which the rounding of a guard is measured: far above
+/// eps, so that the difference of two guards has eight digits, and so small that curvature, of
+/// order 1e-14, shows in none of them. tests/semantics/guards_noise_test.cpp
+inline constexpr double disturbance = 1e-7;
+/// [eps] Rounding that a state carries after a step: a dozen stages, each with one rounding, and
+/// the reset map. tests/semantics/guards_noise_test.cpp
+inline constexpr double state_roundings = 16.0;
+/// [eps |t|] Times closer than this may be the same time after a location; a flight of that
+/// length cannot be told from rest. tests/laws/long_runs_test.cpp
+inline constexpr double time_roundings = 64.0;
+/// [eps |t|] within which a root is located: two of the bracket's, and those of t + u.
+inline constexpr double location_roundings = 8.0;
+/// [1] of the guard's value at its root: Illinois leaves a bracket of two resolutions, over which
+/// a guard doubles at most, and the flow adds the same again on the way back.
+/// tests/laws/newtons_cradle_test.cpp
+inline constexpr double location_error = 4.0;
+/// [1] of the guard's value where it fired on leaving its error: that error itself, and one part in
+/// a hundred for the rounding of the reset.
+inline constexpr double kept_error = 1.01;
+/// [tolerances of the states] within which a guard that leaves a falling surface is still at zero:
+/// it gets off as the third power of time, while the error of the state grows as the first.
+/// tests/semantics/zeno_liftoff_test.cpp
+inline constexpr double lift_off_tolerances = 30.0;
+
+// --- how far the flow is followed from a guard at zero: departure.hpp
+
+/// [1] by which the time grows from look to look. Eight is a power of two: times stay exact.
+inline constexpr double look_growth = 8.0;
+/// [first looks] No further than this; what lies behind is the solver's to find: six looks.
+inline constexpr double furthest_look = 3e5;
+/// [of the run] first look at a guard that no state moves.
+inline constexpr double first_look_of_run = 1e-9;
+/// [of the run] A state that takes longer than this to move by its tolerance says nothing.
+inline constexpr double slow_state_of_run = 1e-3;
+/// [of the largest move of the states] A guard that moves by this moves as the states do: its side
+/// is beyond doubt, and its rounding need not be measured.
+inline constexpr double doubtless_move = 1e-3;
+/// [lift times] and [of the run]: how far a look may go to see curvature rise above rounding.
+inline constexpr double lift_times = 16.0;
+inline constexpr double lift_of_run = 1e-2;
+/// [s] A run that is shorter than this is no scale to look ahead by; [1] the share of `furthest`
+/// that the fastest state's own scale is multiplied by then.
+inline constexpr double short_run = 1.0;
+inline constexpr double short_run_looks = 1e9;
+/// [1] of the difference of two slopes that extrapolation leaves of their curvature.
+inline constexpr double slope_noise = 1e-6;
+/// [1] of the slope before a reset: less than this is a stop, not a passage.
+/// tests/unit/decisions_test.cpp
+inline constexpr double stopped_slope = 1e-6;
+
+// --- contacts with surfaces that move: contact.cpp, contact_guards.cpp
+
+/// [rounds] of Aitken's extrapolation: one for an affine map, one to see that it was, and four for
+/// maps that are nearly so. tests/semantics/zeno_moving_floor_test.cpp
+inline constexpr int fixed_point_rounds = 6;
+/// [eps of the size of a state] A reset that moves a state by less has reached its fixed point.
+inline constexpr double fixed_point_roundings = 64.0;
+/// [eps] relative movement of a state by curvature that leaves nine digits less its rounding to
+/// tell its sign by.
+inline constexpr double visible_lift = 1e9 * eps;
+/// [of the run] and [eps |t|]: shortest and longest look ahead.
+inline constexpr double brief_of_run = 1e-9;
+inline constexpr double brief_roundings = 1024.0;
+inline constexpr double look_ahead_of_run = 1e-3;
+/// [looks] ahead that find out whether a surface moves, each `probe_growth` times as far: up to
+/// 3e4 looks ahead.
+inline constexpr int probes = 4;
+inline constexpr double probe_growth = 30.0;
+/// [eps of the size of a state] A fixed point that differs from the held state by more moves.
+inline constexpr double moved_roundings = 1e3;
+/// [1] A force on the surface that changes by more than this part changes.
+inline constexpr double changed_force = 1e-5;
+/// [errors] A held guard that is further beyond zero has been carried into its surface.
+/// tests/semantics/zeno_stairs_test.cpp
+inline constexpr double clearly_beyond = 1e3;
+/// [1] by which the error of a contact grows where the guard wavered out of it.
+inline constexpr double wavered = 2.0;
+
+// --- Zeno points: zeno.hpp, holds.cpp
+
+/// [eps |t|] Gaps that shrink by less shrink by the rounding of the event times.
+/// tests/laws/rhythms_test.cpp
+inline constexpr double gap_roundings = 8.0;
+/// [1] From this ratio of gaps on, the ratio is taken over two gaps: a slow series amplifies the
+/// rounding of event times by 1 / (1 - q)^2. tests/unit/zeno_test.cpp
+inline constexpr double slow_series = 0.9;
+/// [1] The next firing may follow within this many of the last gaps.
+inline constexpr double next_gap = 1.2;
+
+// --- chattering: chattering.cpp (tests/errors/chattering_test.cpp, tests/unit/chattering_test.cpp)
+
+/// [flips] of a relation in one instant: both sides lead back to its surface.
+inline constexpr int fluttering_flips = 3;
+/// [events] A guard at rest without a Zeno monitor fires as often as the solver can step; a
+/// thousand times is no approach to anything.
+inline constexpr std::int64_t stuck_firings = 1000;
+/// [events] A relation that flips back within its instant slides; each flip costs a restart, so
+/// two hundred of them in a row already cost more than any smooth stretch.
+inline constexpr std::int64_t flutters = 200;
+/// [events] of roots within `root_rounding` roundings of the time: time does not advance.
+inline constexpr std::int64_t roots_in_rounding = 1000;
+inline constexpr double root_rounding = 1e6 * eps;
+/// [events] within `idle_share` of the run, between which no state moves by its tolerance: at this
+/// rate the run would have 1e11 events.
+inline constexpr std::int64_t idle_roots = 10'000;
+inline constexpr double idle_share = 1e-7;
+
+// --- journal and calendar
+
+/// [causes] that a chain remembers: four times the default of max_passes.
+inline constexpr std::size_t remembered_causes = 400;
+/// [causes] at its end that a message shows.
+inline constexpr std::size_t shown_causes = 6;
+/// [eps |t|] Times that differ by rounding only are one instant: 3 * 0.1 and 0.3.
+/// tests/unit/calendar_test.cpp
+inline constexpr double tick_roundings = 4.0;
+
+}  // namespace saltus::thresholds

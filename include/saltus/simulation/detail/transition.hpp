@@ -1,0 +1,65 @@
+// Transition: the step from x- to x+: what reset maps and updates write, committed together.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "saltus/plan/detail/machine.hpp"
+
+namespace saltus {
+
+/// Holds the values before the instant and those to come. Reset maps of one pass write the values
+/// to come; `commit` makes them the present ones. It knows nothing of guards.
+class Transition {
+ public:
+  explicit Transition(Machine& machine) : machine_(&machine) {}
+
+  /// The instant begins: the present values are x-, z-, y-.
+  void open();
+  /// A pass begins: the values to come are the present ones.
+  void begin_pass();
+
+  /// One call of a reset map or an update.
+  struct Call {
+    const ResetMap* map;
+    int leaf;
+    Index entry;              ///< which guard of a vector of them
+    bool reads_before;        ///< an update reads x- z-; a reset map sees what the one before wrote
+    double t;                 ///< [s]
+    std::string_view source;  ///< "block.event", for errors
+  };
+  /// Runs it. Returns whether it wrote continuous state.
+  bool run(const Call& call);
+  void enter_mode(int leaf, int mode) { modes_next_[static_cast<std::size_t>(leaf)] = mode; }
+
+  /// The values to come become the present ones. Returns whether a mode changed.
+  bool commit();
+
+  /// Whether the value at that place is another one than before the instant.
+  bool changed(const Place& place) const;
+  bool held_outputs_changed() const;
+  /// Whether the solver's f or x is another one than before the instant.
+  bool restarts() const;
+
+  bool pass_wrote() const noexcept { return pass_wrote_; }  ///< the last pass wrote states
+  bool wrote_x() const noexcept { return effects_ > 0; }    ///< some pass of this instant did
+  int effects() const noexcept { return effects_; }  ///< reset maps that wrote continuous state
+  bool entered_mode() const noexcept { return entered_; }  ///< in some pass of this instant
+
+  const Eigen::VectorXd& before() const noexcept { return x_minus_; }
+  Eigen::VectorXd& next() noexcept { return x_next_; }
+  const Eigen::VectorXd& next() const noexcept { return x_next_; }
+  /// The modes before the last commit that changed any.
+  std::vector<int>& modes_before() noexcept { return modes_before_; }
+
+ private:
+  bool derivatives_read_discrete_state(int leaf) const;
+
+  Machine* machine_;
+  Eigen::VectorXd x_minus_, z_minus_, y_minus_, x_next_, z_next_;
+  std::vector<int> modes_next_, modes_before_;
+  bool pass_wrote_ = false, entered_ = false, restarts_ = false;
+  int effects_ = 0;
+};
+
+}  // namespace saltus

@@ -1,0 +1,122 @@
+// Guard: all that is known of one guard of a run, and when it fires.
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "saltus/model/event.hpp"
+
+namespace saltus {
+
+/// The side a guard fires on reaching; for either direction the lower one.
+constexpr int firing_side(Direction direction) {
+  return direction == Direction::negative_then_non_negative ? 1 : -1;
+}
+
+/// The sign of a value: -1, 0 or +1.
+constexpr signed char sign_of(double value) {
+  return static_cast<signed char>((value > 0.0) - (value < 0.0));
+}
+
+/// Of a guard that does not wait after a firing: no time [s].
+inline constexpr double not_armed = std::numeric_limits<double>::quiet_NaN();
+
+/// How a guard is watched while the solver works.
+enum class Phase : signed char {
+  unseen,   ///< no side yet: the first sign it takes is its side
+  armed,    ///< on its side: fires on reaching zero or the other side, in its direction
+  waiting,  ///< at zero within its error: fires only after it has left zero for its side
+  resting,  ///< its block is at rest: fires on leaving its error, to either side
+  carried   ///< its block moves with a surface; its value is the lift, and fires on rising to zero
+};
+
+/// How a guard was declared.
+struct GuardTraits {
+  Direction direction = Direction::crosses_zero;
+  bool monitor = false;  ///< located and logged, stops nothing
+  bool jumps = false;    ///< takes only two values: located by bisection
+  int group = -1;        ///< in the list of guards of the plan
+  int entry = 0;         ///< which one of that group
+};
+
+/// The record of one guard. GuardSet is its only writer.
+///
+///     phase      side        error
+///     unseen     0           of an earlier stay in its mode
+///     armed      +1, -1      0; above 0 until the next look where a guard fires by decision
+///     waiting    +1, -1, 0   what counts as zero; side 0: the one it leaves to
+///     resting    +1, -1, 0   what counts as zero
+///     carried    -1          0
+struct Guard : GuardTraits {
+  Phase phase = Phase::unseen;
+  signed char side = 0;         ///< +1, -1: armed there
+  signed char came_from = 0;    ///< the side the last firing came from
+  bool active = false;          ///< can fire in the present modes
+  bool was_active = false;      ///< could fire in the modes before
+  bool rests = false;           ///< a relation that keeps its truth while its blocks rest
+  double error = 0.0;           ///< values within it count as zero
+  double base = 0.0;            ///< edge_detection: the value it had
+  double armed_at = not_armed;  ///< [s] when it began to wait after a firing
+
+  /// The direction it is watched in: that of its lift while its block is carried.
+  Direction watched_direction() const {
+    return phase == Phase::carried ? Direction::negative_then_non_negative : direction;
+  }
+
+  /// The sign of a value; 0 within the error.
+  int sign(double value) const { return std::abs(value) <= error ? 0 : sign_of(value); }
+
+  /// Whether it has not been seen off zero since integration began.
+  bool at_zero() const noexcept { return phase == Phase::waiting || phase == Phase::resting; }
+
+  /// Whether it has to be clearly off zero before it can fire. A guard that fired within its error
+  /// would fire early, by the whole error, or again at once.
+  bool waits() const noexcept { return at_zero() || error > 0.0; }
+
+  /// Whether it has fired when it has this value.
+  bool crossed(double value) const {
+    if (phase == Phase::resting) return std::abs(value) > error;
+    const Direction watched = watched_direction();
+    if (watched == Direction::edge_detection) return value != base;
+    const int now = sign(value);
+    // A guard at zero that waits has not left it: only the strict far side counts.
+    return side != 0 && (now != 0 || !waits()) && fires(watched, side, now);
+  }
+
+  /// Where it fires: at values <= first or >= second. The same as crossed(), for many values.
+  std::pair<double, double> limits() const {
+    constexpr double never = std::numeric_limits<double>::infinity();
+    if (phase == Phase::resting)
+      return {-std::nextafter(error, never), std::nextafter(error, never)};
+    const Direction watched = watched_direction();
+    if (watched == Direction::edge_detection)
+      return {std::nextafter(base, -never), std::nextafter(base, never)};
+    const double reach = error > 0.0               ? std::nextafter(error, never)
+                         : phase == Phase::waiting ? std::numeric_limits<double>::denorm_min()
+                                                   : 0.0;
+    const bool falls = side > 0 && fires(watched, 1, -1), rises = side < 0 && fires(watched, -1, 1);
+    return {falls ? -reach : -never, rises ? reach : never};
+  }
+
+  /// The side of a guard of which nothing matters but whether it stays there; otherwise 0.
+  double plain_side() const noexcept {
+    return waits() || watched_direction() == Direction::edge_detection ? 0.0 : side;
+  }
+};
+
+/// A guard that fired, and the side it came from.
+struct Firing {
+  static constexpr int lifts_off = 2;  ///< in place of a side: the flow leads off a contact
+  int slot = -1;
+  int from = 0;
+  bool at_zero = false;  ///< it had not been clearly off zero since integration began
+};
+
+/// A monitor's crossing inside the last step.
+struct MonitorHit {
+  double t = 0.0;
+  Firing firing = {};
+};
+
+}  // namespace saltus

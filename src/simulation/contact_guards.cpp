@@ -1,0 +1,280 @@
+// Guards of blocks at rest: found, armed, woken, let go.
+#include "saltus/simulation/detail/contact_guards.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace saltus {
+
+ContactGuards::ContactGuards(Machine& machine, GuardSet& guards, const SimulatorOptions& options,
+                             Flow& flow, Edges& edges, Holds& holds, const Transition& transition,
+                             Present& present)
+    : machine_(&machine),
+      guards_(&guards),
+      flow_(&flow),
+      edges_(&edges),
+      holds_(&holds),
+      transition_(&transition),
+      present_(&present),
+      contacts_(machine, options) {}
+
+void ContactGuards::begin() {
+  contacts_.clear();
+  engage();
+}
+
+const GuardGroup& ContactGuards::group_of(std::size_t k) const {
+  return machine_->plan().guard((*guards_)[k].group);
+}
+
+void ContactGuards::engage() { machine_->carry_by(contacts_.moving() ? &contacts_ : nullptr); }
+
+// --- the contact behind a guard
+
+/// Made where there is none yet; null where no block rests on this guard alone.
+SurfaceContact* ContactGuards::contact_of(std::size_t k) {
+  const bool crossing = group_of(k).is_crossing();
+  if (crossing ? !holds_->of_guard(k).monitor.holding : !(*guards_)[k].rests) return nullptr;
+  return crossing ? contact_of_crossing(k) : contact_of_relation(k);
+}
+
+SurfaceContact* ContactGuards::contact_of_crossing(std::size_t k) {
+  if (SurfaceContact* known = contacts_.on(static_cast<int>(k))) return known;
+  const GuardGroup& group = group_of(k);
+  const Holds::Hold& hold = holds_->of_guard(k);
+  if (hold.states.empty()) return nullptr;
+  SurfaceContact& made = contacts_.add(static_cast<int>(k));
+  engage();
+  made.pressed = firing_side(group.direction);
+  made.states.assign(hold.states.begin(), hold.states.end());
+  if (const ResetMap& map = machine_->plan().crossing_of(group).reset_map)
+    made.members.push_back({hold.leaf, &map, hold.entry});
+  return &made;
+}
+
+/// Whether the block behind an edge rests on this relation, and on no other.
+bool ContactGuards::rests_on(std::size_t e, int node) const {
+  const std::vector<int>& relations = machine_->plan().edges[e].relations;
+  return holds_->of_edge(e).monitor.holding && relations.size() == 1 && relations.front() == node;
+}
+
+/// Made anew when another block has come to rest on it.
+SurfaceContact* ContactGuards::contact_of_relation(std::size_t k) {
+  const GuardGroup& group = group_of(k);
+  const Plan& plan = machine_->plan();
+  std::size_t count = 0, states = 0;
+  for (std::size_t e = 0; e < plan.edges.size(); ++e)
+    if (rests_on(e, group.index)) ++count, states += holds_->of_edge(e).states.size();
+  SurfaceContact* known = contacts_.on(static_cast<int>(k));
+  if (known && known->members.size() == count) return known;
+  if (states == 0) return nullptr;
+  SurfaceContact& made = contacts_.add(static_cast<int>(k));
+  engage();
+  made.pressed = machine_->truth_at(group.index, (*guards_)[k].entry) != 0.0 ? 1 : -1;
+  made.opaque = group.is_opaque();
+  for (std::size_t e = 0; e < plan.edges.size(); ++e) {
+    if (!rests_on(e, group.index)) continue;
+    const std::span<const Index> rest = holds_->of_edge(e).states;
+    made.members.push_back({plan.edges[e].leaf, &edges_->reset_of(e).reset_map, 0});
+    made.states.insert(made.states.end(), rest.begin(), rest.end());
+  }
+  return &made;
+}
+
+void ContactGuards::leave(std::size_t k) {
+  if (contacts_.on(static_cast<int>(k)) == nullptr) return;
+  contacts_.remove(static_cast<int>(k));
+  engage();
+  guards_->leave_rest(k);
+}
+
+// --- arming
+
+void ContactGuards::arm_crossing(std::size_t k) {
+  const Guard& guard = (*guards_)[k];
+  const Departure::Side flow = flow_->side(group_of(k), static_cast<Index>(k), 0.0, 0);
+  const SurfaceContact* known = contacts_.on(static_cast<int>(k));
+  const double before = present_->now[k].fired ? present_->location_error(k)
+                        : known                ? known->error
+                                               : guard.error;
+  if (SurfaceContact* contact = contact_of(k))
+    arm(*contact, std::max({flow.rounding, std::abs(present_->g[k]), before}));
+}
+
+/// The value of an opaque boolean says nothing at rest.
+void ContactGuards::arm_relation(std::size_t k) {
+  const bool opaque = group_of(k).is_opaque();
+  const SurfaceContact* known = contacts_.on(static_cast<int>(k));
+  double error = known ? known->error : 0.0;
+  if (!opaque && !(known && known->carried)) {
+    const Departure::Side flow = flow_->side(group_of(k), static_cast<Index>(k), 0.0, 0);
+    error = std::max({error, flow.rounding, std::abs(present_->g[k]),
+                      present_->now[k].fired ? present_->location_error(k) : 0.0});
+  }
+  guards_->wait(k, (*guards_)[k].side, error);
+  if (SurfaceContact* contact = contact_of(k))
+    arm(*contact, error);
+  else if (opaque)
+    guards_->turn(k, 0);
+}
+
+/// Where its surface moves a block is carried, and its guard is the lift off it. The contact ends
+/// where the flow, that led into the surface, now leads off it.
+void ContactGuards::arm(SurfaceContact& contact, double error) {
+  const auto k = static_cast<std::size_t>(contact.slot);
+  contact.error = error;
+  if (!contact.members.empty() && !follow_surface(contact)) return;
+  engage();
+  if (contact.carried)
+    guards_->carry(k);
+  else if (contact.opaque)
+    guards_->wait(k, 0, error);
+  else
+    guards_->rest(k, contact.pressed, error);
+}
+
+/// Whether the contact is carried, and the lift then; false if its flow leads off the surface.
+bool ContactGuards::follow_surface(SurfaceContact& contact) {
+  const double t = present_->t, longest = present_->longest;
+  double* x = machine_->x.data();
+  if (contact.look_ahead == 0.0) {
+    // Exactly at rest: the last reset left a flight too short to be seen.
+    if (transition_->wrote_x() && contacts_.settle(contact, t, x)) present_->outcome.restart = true;
+    contacts_.choose_look_ahead(contact, t, x, longest);
+  }
+  const bool moves = contact.carried || contacts_.moves(contact, t, x, longest);
+  if (moves) contact.carried = contacts_.settle(contact, t, x);
+  const double lift = contacts_.lift(contact, t, x);
+  contact.carried = contact.carried && lift < 0.0;
+  if (contact.pressed_on && lift > 0.0) {
+    present_->firings.push_back({contact.slot, Firing::lifts_off});
+    return false;
+  }
+  contact.pressed_on = lift < 0.0;
+  if (contact.carried) guards_->g[static_cast<std::size_t>(contact.slot)] = lift;
+  return true;
+}
+
+// --- off the surface
+
+ContactGuards::Taken ContactGuards::take(const Firing& firing) {
+  SurfaceContact* contact = contacts_.empty() ? nullptr : contacts_.on(firing.slot);
+  if (firing.from == Firing::lifts_off) {
+    if (contact == nullptr) return Taken::yes;
+    let_go(*contact);
+    return Taken::let_go;
+  }
+  if (present_->pass > 0 || contact == nullptr) return Taken::no;
+  return wake(*contact) ? Taken::let_go : Taken::yes;
+}
+
+/// A contact whose surface begins to move, or whose flow leads off it: true if it lets go.
+bool ContactGuards::wake(SurfaceContact& contact) {
+  const auto k = static_cast<std::size_t>(contact.slot);
+  const double t = present_->t;
+  double* x = machine_->x.data();
+  if (!contact.carried) {
+    machine_->guards_at(t, x, present_->g.data());
+    const double g = present_->g[k];
+    contact.carried = !contact.members.empty() && contacts_.settle(contact, t, x) &&
+                      contacts_.lift(contact, t, x) < 0.0;
+    if (contact.carried) return false;
+    if (!(g * -contact.pressed > 0.0)) {
+      contact.error = std::max(contact.error, thresholds::wavered * std::abs(g));
+      return false;
+    }
+  }
+  let_go(contact);
+  return true;
+}
+
+/// Off a surface that falls away the guard gets as the third power of time: until it is clear of it
+/// by more than the tolerance, it is at zero.
+void ContactGuards::let_go(SurfaceContact& contact) {
+  const auto k = static_cast<std::size_t>(contact.slot);
+  const GuardGroup& group = group_of(k);
+  const int armed = -contact.pressed;
+  const double error = std::max(contact.error, flow_->tolerance(contact.slot, contact.opaque));
+  leave(k);
+  guards_->wait(k, armed, error);
+  if (group.is_crossing()) return holds_->release(holds_->of_guard(k));
+  guards_->keep_truth(k, false);
+  machine_->truth_at(group.index, (*guards_)[k].entry) = armed > 0 ? 1.0 : 0.0;
+}
+
+void ContactGuards::look_at_held(std::size_t k) {
+  const SurfaceContact* contact = contacts_.on(static_cast<int>(k));
+  const int pressed = firing_side(group_of(k).direction);
+  const double error = contact ? contact->error : (*guards_)[k].error, g = present_->g[k];
+  if (std::abs(g) <= error) return;
+  if (g * pressed < 0.0) {
+    leave(k);
+    holds_->release(holds_->of_guard(k));
+    guards_->turn(k, -pressed);
+  } else if (std::abs(g) > thresholds::clearly_beyond * error) {
+    present_->fire(k, -pressed);
+  }
+}
+
+bool ContactGuards::still_at_rest(std::size_t k) {
+  SurfaceContact* contact = contacts_.on(static_cast<int>(k));
+  if (contact == nullptr) return false;
+  if (contact->opaque) return contacts_.lift(*contact, present_->t, machine_->x.data()) < 0.0;
+  const double g = present_->g[k];
+  return std::abs(g) <= contact->error || g * contact->pressed > 0.0;
+}
+
+void ContactGuards::keep_relations_of(const EdgeWatch& edge) {
+  for (std::size_t k = 0; k < guards_->size(); ++k) {
+    const GuardGroup& group = group_of(k);
+    if (group.is_crossing() ||
+        std::ranges::find(edge.relations, group.index) == edge.relations.end())
+      continue;
+    present_->now[k].frozen = true;
+    guards_->keep_truth(k, true);
+  }
+}
+
+// --- holds that end in a commit
+
+void ContactGuards::release_unseen() {
+  for (std::size_t k = 0; k < guards_->size(); ++k) {
+    Holds::Hold& hold = holds_->of_guard(k);
+    if (!hold.monitor.holding || present_->now[k].fired_in_pass || (*guards_)[k].active) continue;
+    leave(k);
+    holds_->release(hold);
+  }
+}
+
+void ContactGuards::release_kicked() {
+  for (std::size_t k = 0; k < guards_->size(); ++k) {
+    Holds::Hold& hold = holds_->of_guard(k);
+    if (!holds_->kicked(hold) || present_->now[k].fired_in_pass) continue;
+    leave(k);
+    holds_->release(hold);
+    guards_->turn(k, 0);
+  }
+  for (std::size_t e = 0; e < machine_->plan().edges.size(); ++e) {
+    const bool own = edges_->is_carried(e) || edges_->has_fired(e);
+    if (!own && holds_->kicked(holds_->of_edge(e))) release_kicked_edge(e);
+  }
+}
+
+void ContactGuards::release_kicked_edge(std::size_t e) {
+  holds_->release(holds_->of_edge(e));
+  const std::vector<int>& relations = machine_->plan().edges[e].relations;
+  for (std::size_t k = 0; k < guards_->size(); ++k) {
+    if (!(*guards_)[k].rests || std::ranges::find(relations, group_of(k).index) == relations.end())
+      continue;
+    leave(k);
+    guards_->keep_truth(k, false);
+  }
+}
+
+void ContactGuards::load() {
+  for (const std::size_t k : guards_->active()) {
+    if (SurfaceContact* contact = contact_of(k)) arm(*contact, (*guards_)[k].error);
+  }
+}
+
+}  // namespace saltus

@@ -1,0 +1,173 @@
+// Arming of zero crossings: facts collected, decisions carried out.
+#include "saltus/simulation/detail/crossing_arming.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace saltus {
+
+CrossingArming::CrossingArming(Machine& machine, GuardSet& guards, Flow& flow, Holds& holds,
+                               ContactGuards& contacts, Transition& transition, Present& present)
+    : machine_(&machine),
+      guards_(&guards),
+      flow_(&flow),
+      holds_(&holds),
+      contacts_(&contacts),
+      transition_(&transition),
+      present_(&present) {}
+
+const GuardGroup& CrossingArming::group_of(std::size_t k) const {
+  return machine_->plan().guard((*guards_)[k].group);
+}
+
+CrossingFacts CrossingArming::facts_of(std::size_t k, bool at_start) const {
+  const Guard& guard = (*guards_)[k];
+  const ZeroCrossing& crossing = machine_->plan().crossing_of(group_of(k));
+  return {.direction = guard.direction,
+          .phase = guard.phase,
+          .side = guard.side,
+          .g = present_->g[k],
+          .error = guard.error,
+          .at_start = at_start,
+          .entered = transition_->entered_mode() && !guard.was_active,
+          .fired = present_->now[k].fired,
+          .came_from = guard.came_from,
+          .effect = crossing.has_effect(),
+          .reset = static_cast<bool>(crossing.reset_map),
+          .resets = transition_->effects()};
+}
+
+/// What the decisions ask of the flow about guard k.
+struct CrossingArming::Ask {
+  CrossingArming* arming;
+  const GuardGroup* group;
+  std::size_t k;
+  int from;
+  double error;
+
+  Index slot() const { return static_cast<Index>(k); }
+  Flow& flow() const { return *arming->flow_; }
+  const Eigen::VectorXd& before() const { return arming->transition_->before(); }
+
+  double slope() const { return flow().slope(*group, slot()); }
+  /// Whether the flight that ended here was too low to be told from rest: its height, slope times a
+  /// quarter of its time for a parabola, is within the error.
+  bool too_low() const {
+    const double flight = arming->present_->now[k].flight;
+    if (std::isnan(flight) || !arming->transition_->wrote_x()) return false;
+    return std::abs(flow().slope_from(before(), *group, slot())) * flight <= 4.0 * error;
+  }
+  bool leads_back() const {
+    return arming->transition_->wrote_x() && flow().leads_back(*group, slot(), from, before());
+  }
+  bool reset_turns() const { return arming->reset_turns(*group, k); }
+  bool turned_round(int side) const { return arming->turned_round(*group, k, side); }
+};
+
+void CrossingArming::arm(std::size_t k, bool at_start) {
+  const GuardGroup& group = group_of(k);
+  const auto slot = static_cast<Index>(k);
+  const CrossingFacts facts = facts_of(k, at_start);
+  if (!facts.fired && (at_start || facts.entered) && begins_as_wished(group, k)) return;
+  // As far as it gets within the rounding of the time cannot be told from zero either.
+  const auto uncertainty = [&] {
+    const double time = thresholds::location_roundings * thresholds::eps * std::abs(present_->t);
+    const double moved = time * std::abs(flow_->slope(group, slot));
+    return flow_->rounding(slot) + moved;
+  };
+  if (!needs_flow(facts, uncertainty)) return;
+  const double error = facts.fired ? present_->location_error(k)
+                       : facts.entered || facts.phase == Phase::waiting ? std::abs(facts.g)
+                                                                        : 0.0;
+  const Departure::Side flow = flow_->side(group, slot, error, facts.fired ? facts.came_from : 0);
+  const Ask ask{this, &group, k, facts.came_from, flow.rounding};
+  carry_out(k, decide_crossing(facts, {flow.side, flow.rounding}, ask), flow.rounding);
+}
+
+/// What the guard's author said of a guard that begins at zero or beyond it: true if that settled
+/// it.
+bool CrossingArming::begins_as_wished(const GuardGroup& group, std::size_t k) {
+  const double g = present_->g[k];
+  switch (decide_beginning(machine_->plan().crossing_of(group).at_start, group.direction, g)) {
+    case Beginning::by_flow:
+      return false;
+    case Beginning::refuse:
+      throw SimulationError(
+          text("t = ", present_->t, " s: guard '", group.name, "' begins ",
+               g == 0.0 ? "at zero" : "beyond zero", " (", g,
+               "), and its at_start is \"error\"; begin on its armed side, or choose "
+               "\"auto\", \"ignore\" or \"fire\""),
+          present_->t, machine_->plan().leaf(group.leaf).path);
+    case Beginning::fire:
+      present_->fire(k, -firing_side(group.direction));
+      return true;
+    case Beginning::wait: {
+      const Departure::Side flow = flow_->side(group, static_cast<Index>(k), 0.0, 0);
+      guards_->wait(k, flow.side, flow.rounding);
+      return true;
+    }
+  }
+  return false;
+}
+
+void CrossingArming::carry_out(std::size_t k, const Arming& arming, double error) {
+  if (!arming.phase)
+    guards_->set_error(k, error);
+  else if (*arming.phase == Phase::armed)
+    guards_->arm(k, arming.side);
+  else
+    guards_->wait(k, arming.side, error);
+  if (arming.then == Arming::Then::fire) present_->fire(k, arming.from);
+  if (arming.then != Arming::Then::rest) return;
+  Holds::Hold& hold = holds_->of_guard(k);
+  guards_->set_error(k, std::abs(present_->g[k]));  // without a monitor it fires as soon as it can
+  if (!hold.monitor.on()) {
+    present_->outcome.stuck = true;
+    return;
+  }
+  holds_->come_to_rest(hold, present_->t, false);
+  if (hold.monitor.holding) contacts_->arm_crossing(k);
+}
+
+/// Whether the guard's own reset map, applied to the state now, sends the flow off to its armed
+/// side.
+bool CrossingArming::reset_turns(const GuardGroup& group, std::size_t k) {
+  const PlanLeaf& of = machine_->plan().leaf(group.leaf);
+  trial_ = machine_->x, trial_z_ = machine_->z;
+  machine_->evaluate_instant(present_->t);
+  At at = machine_->at(static_cast<std::size_t>(group.leaf), present_->t);
+  at.entry = (*guards_)[k].entry;
+  int mode = at.mode;
+  Next next({trial_.data() + of.x, of.nx}, {trial_z_.data() + of.z, of.nz}, mode, of.path);
+  machine_->plan().crossing_of(group).reset_map(*of.system, at, next);
+  return (*guards_)[k].came_from * flow_->slope_from(trial_, group, static_cast<Index>(k)) > 0.0;
+}
+
+/// Whether the flow of the mode before led a guard that is at zero the other way: both lead to the
+/// same surface.
+bool CrossingArming::turned_round(const GuardGroup& group, std::size_t k, int side) {
+  flow_before_.resize(machine_->x.size());
+  std::swap(machine_->modes, transition_->modes_before());
+  machine_->derivative(present_->t, machine_->x.data(), flow_before_.data());
+  std::swap(machine_->modes, transition_->modes_before());
+  const double before = flow_->slope_along(flow_before_, group, static_cast<Index>(k));
+  return side > 0 ? before < 0.0 : before > 0.0;
+}
+
+bool CrossingArming::goes_against(const Firing& firing) {
+  const auto k = static_cast<std::size_t>(firing.slot);
+  const Guard& guard = (*guards_)[k];
+  const GuardGroup& group = group_of(k);
+  if (std::isnan(guard.armed_at) || guard.monitor || guard.direction == Direction::edge_detection)
+    return false;
+  // A guard that was seen clearly off zero in between is beyond doubt.
+  if (!group.is_opaque() && !firing.at_zero) return false;
+  const double location = thresholds::location_error * std::abs(present_->now[k].g_minus);
+  const Departure::Side flow = flow_->side_within(present_->t - guard.armed_at, group,
+                                                  static_cast<Index>(k), location, -firing.from);
+  if (flow.side != firing.from) return false;
+  guards_->wait(k, firing.from, std::max({guard.error, location, flow.rounding}));
+  return true;
+}
+
+}  // namespace saltus

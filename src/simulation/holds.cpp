@@ -1,0 +1,187 @@
+// Holds: which states rest, from when, until when.
+#include "saltus/simulation/detail/holds.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace saltus {
+
+Holds::Holds(Machine& machine, const GuardSet& guards, const SimulatorOptions& options, Flow& flow,
+             Transition& transition, Journal& journal, Present& present)
+    : machine_(&machine),
+      options_(&options),
+      flow_(&flow),
+      transition_(&transition),
+      journal_(&journal),
+      present_(&present),
+      states_(static_cast<std::size_t>(machine.plan().nx)) {
+  std::iota(states_.begin(), states_.end(), Index{0});
+  add_guards(guards);
+  add_edges();
+}
+
+std::span<const Index> Holds::whole(const PlanLeaf& leaf) const {
+  return std::span<const Index>(states_).subspan(static_cast<std::size_t>(leaf.x),
+                                                 static_cast<std::size_t>(leaf.nx));
+}
+
+void Holds::add_guards(const GuardSet& guards) {
+  const Plan& plan = machine_->plan();
+  for (const Guard& guard : guards) {
+    Hold& hold = of_guards_.emplace_back();
+    const GuardGroup& group = plan.guard(guard.group);
+    if (!group.is_crossing() || !plan.crossing_of(group).has_effect()) continue;
+    const ZeroCrossing& crossing = plan.crossing_of(group);
+    const PlanLeaf& leaf = plan.leaf(group.leaf);
+    hold = {.monitor = ZenoMonitor(crossing.zeno_tolerance.value_or(options_->zeno_tolerance)),
+            .leaf = group.leaf,
+            .source = guard.group,
+            .entry = guard.entry,
+            .on_zeno = crossing.on_zeno,
+            .states = whole(leaf)};
+    if (crossing.holds.empty()) continue;
+    std::vector<Index>& chosen = chosen_.emplace_back();
+    for (const int i : crossing.holds[static_cast<std::size_t>(guard.entry)])
+      chosen.push_back(leaf.x + i);
+    hold.states = chosen;
+  }
+}
+
+void Holds::add_edges() {
+  const Plan& plan = machine_->plan();
+  for (std::size_t e = 0; e < plan.edges.size(); ++e) {
+    const EdgeReset& reset = plan.reset_of(plan.edges[e]);
+    of_edges_.push_back(
+        {.monitor = ZenoMonitor(reset.zeno_tolerance.value_or(options_->zeno_tolerance)),
+         .leaf = plan.edges[e].leaf,
+         .source = journal_->source_of(Cause::edge, static_cast<int>(e)),
+         .on_zeno = reset.on_zeno,
+         .states = whole(plan.leaf(plan.edges[e].leaf))});
+  }
+}
+
+void Holds::begin() {
+  for (auto* holds : {&of_guards_, &of_edges_}) {
+    for (Hold& hold : *holds) hold.monitor.forget();
+  }
+  count_ = 0;
+}
+
+bool Holds::kicked(const Hold& hold) const {
+  return hold.monitor.holding && std::ranges::any_of(hold.states, [&](Index i) {
+           return transition_->next()[i] != machine_->x[i];
+         });
+}
+
+void Holds::come_to_rest(Hold& hold, double predicted, bool in_pass) {
+  using Kind = OnZeno::Kind;
+  const Kind kind = hold.on_zeno.kind();
+  const bool there = kind == Kind::mode &&
+                     machine_->modes[static_cast<std::size_t>(hold.leaf)] == hold.on_zeno.mode();
+  if (kind == Kind::hold || there) return rest(hold, predicted);
+  if (kind == Kind::stop && present_->outcome.zeno_stop) return;
+  if (kind == Kind::error) throw_accumulation(hold, predicted);
+  journal_->note({.kind = EventKind::zeno_enter,
+                  .source = hold.source,
+                  .leaf = hold.leaf,
+                  .predicted = predicted,
+                  .entry = hold.entry});
+  hold.monitor.forget();
+  if (kind == Kind::stop)
+    present_->outcome.zeno_stop = true;
+  else if (in_pass)
+    transition_->enter_mode(hold.leaf, hold.on_zeno.mode());
+  else
+    present_->actions.push_back(
+        {hold.leaf, Cause::zeno, hold.source, -1, hold.on_zeno.mode(), false});
+}
+
+void Holds::throw_accumulation(const Hold& hold, double predicted) const {
+  throw SimulationError(
+      text("t = ", present_->t, " s: the firings of '", journal_->name_of(hold.source),
+           "' accumulate at t = ", predicted,
+           " s (a Zeno point), and its on_zeno is \"error\"; choose \"hold\", \"stop\" or a mode "
+           "to go on in"),
+      present_->t, machine_->plan().leaf(hold.leaf).path);
+}
+
+void Holds::rest(Hold& hold, double predicted) {
+  hold.monitor.holding = true, ++count_;
+  for (const Index i : hold.states) machine_->rest(i);
+  present_->outcome.horizon = std::numeric_limits<double>::infinity();
+  present_->outcome.restart = true;
+  flow_->forget();
+  journal_->note({.kind = EventKind::zeno_enter,
+                  .source = hold.source,
+                  .leaf = hold.leaf,
+                  .predicted = predicted,
+                  .entry = hold.entry});
+}
+
+void Holds::release(Hold& hold) {
+  hold.monitor.forget(), --count_;
+  for (const Index i : hold.states) machine_->move(i);
+  present_->outcome.restart = true;
+  flow_->forget();
+  journal_->note({.kind = EventKind::zeno_release,
+                  .source = hold.source,
+                  .leaf = hold.leaf,
+                  .entry = hold.entry});
+}
+
+bool Holds::look_for_accumulation(Hold& hold) {
+  Eigen::VectorXd& next = transition_->next();
+  gathered_.resize(static_cast<Index>(hold.states.size()));
+  for (std::size_t i = 0; i < hold.states.size(); ++i)
+    gathered_[static_cast<Index>(i)] = next[hold.states[i]];
+  if (!hold.monitor.on() || !hold.monitor.accumulates()) {
+    hold.monitor.remember(gathered_);
+    double& horizon = present_->outcome.horizon;
+    if (const double gap = hold.monitor.gap(); std::isfinite(gap))
+      horizon = std::min(horizon, std::max(thresholds::next_gap * gap, present_->least_time()));
+    return false;
+  }
+  hold.monitor.accumulate(gathered_);
+  for (std::size_t i = 0; i < hold.states.size(); ++i)
+    next[hold.states[i]] = gathered_[static_cast<Index>(i)];
+  come_to_rest(hold, hold.monitor.accumulation_time(), true);
+  return hold.monitor.holding;
+}
+
+bool Holds::hold_edges(const std::vector<int>& edges, int node) {
+  bool all = true;
+  for (const int e : edges) {
+    const std::vector<int>& relations = machine_->plan().edge(e).relations;
+    Hold& hold = of_edges_[static_cast<std::size_t>(e)];
+    if (hold.monitor.holding || std::ranges::find(relations, node) == relations.end()) continue;
+    if (hold.monitor.on())
+      come_to_rest(hold, present_->t, false);
+    else
+      all = false;
+  }
+  return all;
+}
+
+std::vector<Continuation::Firings> Holds::save() const {
+  std::vector<Continuation::Firings> firings;
+  for (const auto* holds : {&of_guards_, &of_edges_}) {
+    for (const Hold& hold : *holds) firings.push_back(hold.monitor.save());
+  }
+  return firings;
+}
+
+void Holds::load(const Continuation& from) {
+  auto firings = from.firings.begin();
+  for (auto* holds : {&of_guards_, &of_edges_}) {
+    for (Hold& hold : *holds) {
+      hold.monitor.load(*firings++);
+      if (!hold.monitor.holding) continue;
+      ++count_;
+      for (const Index i : hold.states) machine_->rest(i);
+    }
+  }
+}
+
+}  // namespace saltus

@@ -1,0 +1,88 @@
+// An instant's memory: made once, cleaned for each run, saved and loaded between runs.
+#include "saltus/simulation/detail/instant.hpp"
+
+namespace saltus {
+
+Instant::Instant(Machine& machine, GuardSet& guards, const SimulatorOptions& options,
+                 Results& results)
+    : machine_(&machine),
+      guards_(&guards),
+      options_(&options),
+      present_(guards.size()),
+      transition_(machine),
+      journal_(machine, transition_, options, results),
+      flow_(machine, options),
+      edges_(machine),
+      holds_(machine, guards, options, flow_, transition_, journal_, present_),
+      contacts_(machine, guards, options, flow_, edges_, holds_, transition_, present_),
+      relations_(machine, guards, options, flow_, edges_, holds_, contacts_, transition_, journal_,
+                 present_),
+      crossings_(machine, guards, flow_, holds_, contacts_, transition_, present_) {
+  guards.scan_points = options.event_scan_points;
+}
+
+void Instant::begin(double t, Recorder* recorder) {
+  jump_ = 0, recorder_ = recorder;
+  present_.open(t, 0.0);
+  transition_.open();
+  journal_.begin();
+  flow_.open(t, 0.0);
+  holds_.begin();
+  contacts_.begin();
+  guards_->clear();
+  select_guards();
+  relations_.begin(t);
+  look_at_guards();
+  edges_.begin();
+}
+
+/// The first values: a zero crossing off zero is on its side.
+void Instant::look_at_guards() {
+  for (std::size_t k = 0; k < guards_->size(); ++k) {
+    if (plan().guard((*guards_)[k].group).is_crossing())
+      guards_->see(k, present_.g[k]);
+    else
+      guards_->g[k] = present_.g[k];
+  }
+}
+
+void Instant::select_guards() {
+  machine_->select_guards();
+  guards_->select(machine_->active_guards(), plan());
+}
+
+Continuation Instant::save() const {
+  return {.jump = jump_,
+          .relations = relations_.save(),
+          .guards = guards_->save(),
+          .firings = holds_.save(),
+          .edges = edges_.save(),
+          .counts = journal_.save()};
+}
+
+bool Instant::fits(const Continuation& from) const {
+  return relations_.fits(from) && guards_->fits(from) && holds_.fits(from) && edges_.fits(from) &&
+         journal_.fits(from);
+}
+
+void Instant::resume(double t, Recorder* recorder, const Continuation& from, double longest) {
+  begin(t, recorder);
+  jump_ = from.jump;
+  present_.open(t, longest);
+  flow_.open(t, longest);
+  relations_.load(from);
+  holds_.load(from);
+  edges_.load(from);
+  journal_.load(from);
+  machine_->evaluate_instant(t);
+  if (!plan().guards.empty()) machine_->guards(t, machine_->x.data(), present_.g.data());
+  guards_->load(from);
+  guards_->g = present_.g;
+  contacts_.load();
+}
+
+void Instant::log_monitor(const MonitorHit& hit, const double* x) {
+  journal_.note_monitor(hit, (*guards_)[static_cast<std::size_t>(hit.firing.slot)], jump_, x);
+}
+
+}  // namespace saltus

@@ -1,0 +1,136 @@
+// Journal: what happened, by name, in order, and how often.
+#include "saltus/simulation/detail/journal.hpp"
+
+#include <algorithm>
+
+namespace saltus {
+
+namespace {
+
+/// Names of what is declared and can never fire. A user who asks for it by name made no mistake.
+void add_silent(const Plan& plan, std::vector<std::string>& names) {
+  for (const PlanLeaf& leaf : plan.leaves) {
+    for (const ZeroCrossing& crossing : leaf.declared().zero_crossings) {
+      if (crossing.direction == Direction::none)
+        names.push_back(text(leaf.path, ".", crossing.name));
+    }
+  }
+  for (const Node& node : plan.nodes) {
+    if (node.relation && !node.located) names.push_back(plan.name_of(node));
+  }
+}
+
+}  // namespace
+
+Journal::Journal(const Machine& machine, const Transition& transition,
+                 const SimulatorOptions& options, Results& results)
+    : machine_(&machine),
+      plan_(&machine.plan()),
+      transition_(&transition),
+      options_(&options),
+      results_(&results) {
+  std::vector<std::string> names;
+  for (const GuardGroup& group : plan_->guards) names.push_back(group.name);
+  for (const EdgeWatch& edge : plan_->edges) names.push_back(edge.name);
+  for (const ScheduledEvent& event : plan_->schedule) names.push_back(event.name);
+  counts_.assign(names.size(), 0), earlier_.assign(plan_->guards.size(), 0);
+  add_silent(*plan_, names);
+  results.events.begin(std::move(names));
+}
+
+void Journal::begin() {
+  last_source_ = -1;
+  std::ranges::fill(counts_, 0), std::ranges::fill(earlier_, 0);
+  results_->events.clear();
+}
+
+void Journal::open(double t) {
+  t_ = t, events_ = 0;
+  chain_.clear();
+}
+
+int Journal::source_of(Cause cause, int index) const {
+  const auto groups = static_cast<int>(plan_->guards.size()),
+             edges = static_cast<int>(plan_->edges.size());
+  return cause == Cause::crossing ? index
+         : cause == Cause::edge   ? groups + index
+                                  : groups + edges + index;
+}
+
+const std::string& Journal::name_of(int source) const {
+  const auto groups = static_cast<int>(plan_->guards.size()),
+             edges = static_cast<int>(plan_->edges.size());
+  if (source < groups) return plan_->guard(source).name;
+  if (source < groups + edges) return plan_->edge(source - groups).name;
+  return plan_->scheduled(source - groups - edges).name;
+}
+
+void Journal::note(const Entry& entry) {
+  ++results_->statistics.events, ++events_;
+  last_source_ = entry.source;
+  if (entry.kind != EventKind::zeno_enter && entry.kind != EventKind::zeno_release)
+    ++counts_[static_cast<std::size_t>(entry.source)];
+  add(entry, t_, jump_, machine_->x.data(), transition_->next().data());
+}
+
+void Journal::note_monitor(const MonitorHit& hit, const Guard& guard, int jump, const double* x) {
+  ++counts_[static_cast<std::size_t>(guard.group)];
+  add({.kind = EventKind::zero_crossing,
+       .source = guard.group,
+       .leaf = plan_->guard(guard.group).leaf,
+       .direction = -hit.firing.from,
+       .entry = guard.entry},
+      hit.t, jump, x, x);
+}
+
+void Journal::add(const Entry& entry, double t, int jump, const double* before,
+                  const double* after) {
+  if (!options_->record_events) return;
+  const PlanLeaf& of = plan_->leaf(entry.leaf);
+  results_->events.add({t, jump, entry.direction, entry.kind, entry.source, entry.predicted, 0,
+                        static_cast<std::size_t>(of.nx), static_cast<int>(entry.entry)},
+                       before + of.x, after + of.x);
+}
+
+void Journal::cause(int source) {
+  if (chain_.size() < thresholds::remembered_causes) chain_.push_back(source);
+}
+
+bool Journal::ends_run(std::size_t group) const {
+  const ZeroCrossing& crossing = plan_->crossing_of(plan_->guards[group]);
+  return crossing.terminal && earlier_[group] + counts_[group] + 1 >= crossing.max_count;
+}
+
+std::vector<std::pair<std::string, std::int64_t>> Journal::counts() const {
+  std::vector<std::pair<std::string, std::int64_t>> named;
+  for (std::size_t i = 0; i < counts_.size(); ++i) {
+    if (counts_[i] > 0) named.emplace_back(name_of(static_cast<int>(i)), counts_[i]);
+  }
+  return named;
+}
+
+const std::string& Journal::last_event() const {
+  static const std::string none;
+  return last_source_ < 0 ? none : name_of(last_source_);
+}
+
+void Journal::throw_no_end() const {
+  std::string causes;
+  const std::size_t first =
+      chain_.size() > thresholds::shown_causes ? chain_.size() - thresholds::shown_causes : 0;
+  for (std::size_t i = first; i < chain_.size(); ++i)
+    causes += text(i == first ? "'" : " -> '", name_of(chain_[i]), "'");
+  const std::string last = chain_.empty() ? std::string() : name_of(chain_.back());
+  throw SimulationError(text("t = ", t_, " s: this instant does not come to an end: more than ",
+                             options_->max_passes, " passes; the events set each other off: ... ",
+                             causes, " ...; break the loop, or raise max_passes"),
+                        t_, last.substr(0, last.rfind('.')));
+}
+
+std::vector<std::int64_t> Journal::save() const {
+  std::vector<std::int64_t> firings = earlier_;
+  for (std::size_t i = 0; i < firings.size(); ++i) firings[i] += counts_[i];
+  return firings;
+}
+
+}  // namespace saltus

@@ -1,0 +1,186 @@
+// Relations: truths held between instants, flipped and read again.
+#include "saltus/simulation/detail/relations.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "saltus/simulation/detail/decisions.hpp"
+
+namespace saltus {
+
+Relations::Relations(Machine& machine, GuardSet& guards, const SimulatorOptions& options,
+                     Flow& flow, Edges& edges, Holds& holds, ContactGuards& contacts,
+                     const Transition& transition, Journal& journal, Present& present)
+    : machine_(&machine),
+      guards_(&guards),
+      options_(&options),
+      flow_(&flow),
+      edges_(&edges),
+      holds_(&holds),
+      contacts_(&contacts),
+      transition_(&transition),
+      journal_(&journal),
+      present_(&present) {}
+
+double& Relations::truth(std::size_t k) const {
+  const Guard& guard = (*guards_)[k];
+  return machine_->truth_at(machine_->plan().guard(guard.group).index, guard.entry);
+}
+
+/// Once round for each of them is enough, or they chase each other.
+void Relations::begin(double t) {
+  const Plan& plan = machine_->plan();
+  for (std::size_t round = 0; round <= plan.guards.size(); ++round) {
+    bool changed = false;
+    machine_->evaluate_instant(t);
+    if (!plan.guards.empty()) machine_->guards(t, machine_->x.data(), present_->g.data());
+    for (std::size_t k = 0; k < guards_->size(); ++k) {
+      const GuardGroup& group = plan.guard((*guards_)[k].group);
+      if (group.is_crossing()) continue;
+      const Node& node = plan.node(group.index);
+      const bool at_zero = node.relation && plan.relation_of(node).true_at_zero;
+      const double g = present_->g[k];
+      const bool now = g > 0.0 || (g == 0.0 && at_zero);
+      changed = changed || (truth(k) != 0.0) != now;
+      truth(k) = now ? 1.0 : 0.0;
+      guards_->turn(k, now ? 1 : -1);
+    }
+    if (!changed) break;
+  }
+}
+
+void Relations::flip(const Firing& firing) {
+  const auto k = static_cast<std::size_t>(firing.slot);
+  const Guard& guard = (*guards_)[k];
+  if (++present_->now[k].flips == thresholds::fluttering_flips) present_->outcome.flutters = true;
+  truth(k) = firing.from < 0 ? 1.0 : 0.0;
+  guards_->turn(k, firing.from < 0 ? 1 : -1);
+  journal_->note({.kind = EventKind::zero_crossing,
+                  .source = guard.group,
+                  .leaf = machine_->plan().guard(guard.group).leaf,
+                  .direction = -firing.from});
+}
+
+void Relations::read_again() {
+  machine_->evaluate_instant(present_->t);
+  if (machine_->plan().guards.empty()) return;
+  for (int round = 0; round < options_->max_passes; ++round) {
+    bool flipped = false;
+    machine_->guards_at(present_->t, machine_->x.data(), present_->g.data());
+    for (const std::size_t k : guards_->active()) {
+      const GuardGroup& group = machine_->plan().guard((*guards_)[k].group);
+      if (!group.is_crossing()) flipped = read(group, k) || flipped;
+    }
+    if (!flipped) return;
+    machine_->evaluate_instant(present_->t);
+  }
+}
+
+/// The truth of a relation now; true if that is a new one. At its own zero it keeps the truth it
+/// has, until `arm` asks where the flow goes; after it fired and a reset wrote, it takes the side
+/// the flow takes it to.
+bool Relations::read(const GuardGroup& group, std::size_t k) {
+  GuardNow& now = present_->now[k];
+  if (now.frozen || ((*guards_)[k].rests && !reads_changed(group.index))) return false;
+  if (contacts_->still_at_rest(k)) return false;
+  const bool was = truth(k) != 0.0;
+  const RelationFacts facts{.opaque = group.is_opaque(),
+                            .truth = was,
+                            .g = present_->g[k],
+                            .fired = now.fired,
+                            .came_from = (*guards_)[k].came_from,
+                            .turned = now.turned,
+                            .wrote = transition_->wrote_x()};
+  const std::optional<int> by_value = decide_relation(facts);
+  const int side = by_value ? *by_value : side_by_flow(group, k, facts.crossed_to());
+  if (side == 0) return false;
+  guards_->turn(k, side);
+  if ((side > 0) == was) return false;
+  guards_->keep_truth(k, false);
+  now.turned = true;
+  contacts_->leave(k);
+  truth(k) = side > 0 ? 1.0 : 0.0;
+  if (!machine_->plan().restarting.empty()) flow_->forget();
+  return true;
+}
+
+/// The side the flow takes a relation to; that of its crossing where it leads nowhere. Where it
+/// leads back to the side that set off a reset, the blocks behind it come to rest.
+int Relations::side_by_flow(const GuardGroup& group, std::size_t k, int crossed_to) {
+  const auto slot = static_cast<Index>(k);
+  const bool opaque = group.is_opaque();
+  GuardNow& now = present_->now[k];
+  const Departure::Side flow =
+      flow_->side(group, slot, opaque ? 0.0 : thresholds::location_error * std::abs(now.g_minus),
+                  opaque ? 0 : Departure::either_side);
+  if (flow.side == 0) return crossed_to;
+  const bool rests = flow.side == crossed_to && edges_->set_off_by(group.index) &&
+                     (opaque || flow_->leads_back(group, slot, -crossed_to, transition_->before()));
+  if (!rests) return flow.side;
+  now.frozen = true;
+  if (holds_->hold_edges(edges_->fired(), group.index)) {
+    guards_->keep_truth(k, true);
+    return flow.side;
+  }
+  present_->outcome.stuck = true;  // no monitor: it fires again as soon as it can
+  return -crossed_to;
+}
+
+/// Whether something that a relation reads was written in this instant. At rest its own value is
+/// rounding.
+bool Relations::reads_changed(int node) const {
+  const Plan& plan = machine_->plan();
+  return std::ranges::any_of(plan.node(node).needs, [&](int need) {
+    const Node& read = plan.node(need);
+    if (read.rate != Rate::continuous || read.view) return transition_->changed(read.place);
+    return transition_->wrote_x() || reads_changed(need);
+  });
+}
+
+/// A relation near its zero may only leave it, not cross it, until it has been clearly off.
+void Relations::arm(std::size_t k) {
+  const Guard& guard = (*guards_)[k];
+  if (guard.rests) return contacts_->arm_relation(k);
+  const GuardGroup& group = machine_->plan().guard(guard.group);
+  const GuardNow& now = present_->now[k];
+  const int side = guard.side;
+  switch (decide_relation_arming(group.is_opaque(), sign_of(present_->g[k]), side, now.fired,
+                                 now.frozen)) {
+    case RelationArming::by_truth:
+      return guards_->turn(k, truth(k) != 0.0 ? 1 : -1);
+    case RelationArming::unchanged:
+      return;
+    case RelationArming::within_value:
+      return guards_->wait(k, side, std::abs(present_->g[k]));
+    case RelationArming::by_flow:
+      break;
+  }
+  const Departure::Side flow = flow_->side(group, static_cast<Index>(k),
+                                           now.fired ? present_->location_error(k) : 0.0, side);
+  guards_->wait(k, side, flow.rounding);
+  if (flow.side != 0 && flow.side != side) present_->fire(k, side);
+}
+
+std::vector<double> Relations::save() const {
+  std::vector<double> truths;
+  for (std::size_t k = 0; k < guards_->size(); ++k) {
+    if (!machine_->plan().guard((*guards_)[k].group).is_crossing()) truths.push_back(truth(k));
+  }
+  return truths;
+}
+
+bool Relations::fits(const Continuation& from) const {
+  const auto relations = std::ranges::count_if(*guards_, [&](const Guard& guard) {
+    return !machine_->plan().guard(guard.group).is_crossing();
+  });
+  return static_cast<std::size_t>(relations) == from.relations.size();
+}
+
+void Relations::load(const Continuation& from) {
+  auto saved = from.relations.begin();
+  for (std::size_t k = 0; k < guards_->size(); ++k) {
+    if (!machine_->plan().guard((*guards_)[k].group).is_crossing()) truth(k) = *saved++;
+  }
+}
+
+}  // namespace saltus
