@@ -1,0 +1,78 @@
+// When a run of events is a chatter: counts and times only.
+#include "saltus/simulation/detail/chattering.hpp"
+
+#include "saltus/simulation/detail/thresholds.hpp"
+#include "support/catch.hpp"
+
+using namespace saltus;
+
+namespace {
+
+const Eigen::VectorXd still = Eigen::VectorXd::Zero(1);
+
+Chattering begun() {
+  Chattering chattering({.rtol = 1e-6, .atol = 1e-8});
+  chattering.begin(0.0, still);
+  return chattering;
+}
+
+/// How many instants, one each `gap` seconds, until it says so; `most` + 1 if it does not.
+int instants_until(Chattering& chattering, const Outcome& outcome, double gap, bool idle, int most,
+                   double length_of_run = 1.0) {
+  for (int i = 1; i <= most; ++i) {
+    if (chattering.chatters(outcome, {1.0 + i * gap, true, length_of_run}, idle, still)) return i;
+  }
+  return most + 1;
+}
+
+}  // namespace
+
+TEST_CASE("A guard without a monitor that fires again and again chatters after a thousand times") {
+  Chattering chattering = begun();
+  CHECK(instants_until(chattering, {.stuck = true}, 1e-3, false, 2000) ==
+        thresholds::stuck_firings);
+  CHECK(chattering.found().count == thresholds::stuck_firings);
+}
+
+TEST_CASE("A thousand firings with one calm instant among them do not chatter") {
+  Chattering chattering = begun();
+  CHECK(instants_until(chattering, {.stuck = true}, 1e-3, false, 999) == 1000);
+  CHECK_FALSE(chattering.chatters({}, {3.0, true, 1.0}, false, still));
+  CHECK(instants_until(chattering, {.stuck = true}, 1e-3, false, 999) == 1000);
+}
+
+TEST_CASE("A relation that flips back two hundred times in a row chatters") {
+  Chattering chattering = begun();
+  CHECK(instants_until(chattering, {.flutters = true}, 1e-3, false, 500) == thresholds::flutters);
+}
+
+TEST_CASE("An instant that does not end chatters at once, and says how many events it had") {
+  Chattering chattering = begun();
+  CHECK(chattering.chatters({.chatters = true, .events = 7}, {2.0, false, 1.0}, false, still));
+  CHECK(chattering.found().count == 7);
+  CHECK(chattering.found().since == 2.0);
+}
+
+TEST_CASE("Roots within the rounding of the time chatter; a fast rhythm does not") {
+  Chattering close = begun(), fast = begun();
+  CHECK(instants_until(close, {}, 1e-14, false, 3000) <= 2 * thresholds::roots_in_rounding);
+  CHECK(instants_until(fast, {}, 1e-9, false, 3000) == 3001);
+}
+
+TEST_CASE(
+    "Ten thousand roots in a ten-millionth of the run, between which nothing moves, chatter") {
+  Chattering still_run = begun(), moving = begun(), longer = begun();
+  // 1e4 roots each 1e-12 s take 1e-8 s: a 1e-7 part of a run of 0.1 s or more.
+  CHECK(instants_until(still_run, {}, 1e-12, true, 30'000, 1.0) <= 2 * thresholds::idle_roots);
+  CHECK(instants_until(moving, {}, 1e-12, false, 30'000, 1.0) == 30'001);
+  CHECK(instants_until(longer, {}, 1e-12, true, 30'000, 1e-3) == 30'001);
+}
+
+TEST_CASE("A state that moved by its tolerance since the last root is not idle") {
+  Chattering chattering = begun();
+  CHECK(chattering.idle(still));
+  CHECK(chattering.idle(Eigen::VectorXd::Constant(1, 0.9e-8)));
+  CHECK_FALSE(chattering.idle(Eigen::VectorXd::Constant(1, 1.1e-8)));
+  CHECK_FALSE(
+      chattering.idle(Eigen::VectorXd::Constant(1, std::numeric_limits<double>::quiet_NaN())));
+}

@@ -1,0 +1,283 @@
+// The decisions of an instant, row by row of their tables. No run, no machine: values only.
+#include "saltus/simulation/detail/decisions.hpp"
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "support/catch.hpp"
+
+using namespace saltus;
+
+namespace {
+
+constexpr auto falls = Direction::positive_then_non_positive;
+constexpr auto rises = Direction::negative_then_non_negative;
+constexpr auto either = Direction::crosses_zero;
+constexpr auto edge = Direction::edge_detection;
+constexpr double eps = 1e-12;  // an error bound for the rows
+
+/// What a row says of the flow. Asking for anything else fails the test: it costs right-hand sides.
+struct Answers {
+  std::optional<double> slope_ = {};
+  std::optional<bool> low = {}, back = {}, turns = {}, round = {};
+
+  template <class T>
+  static T said(const std::optional<T>& answer, const char* what) {
+    if (!answer) throw std::logic_error(std::string("asked for ") + what);
+    return *answer;
+  }
+  double slope() const { return said(slope_, "the slope"); }
+  bool too_low() const { return said(low, "the height of the flight"); }
+  bool leads_back() const { return said(back, "the flow before"); }
+  bool reset_turns() const { return said(turns, "another reset"); }
+  bool turned_round(int) const { return said(round, "the flow of the mode before"); }
+};
+
+const Arming waits_at(int side) { return {.phase = Phase::waiting, .side = side}; }
+const Arming fires_from(int from, int side) {
+  return {.phase = Phase::waiting, .side = side, .then = Arming::Then::fire, .from = from};
+}
+const Arming rests_at(int side) {
+  return {.phase = Phase::waiting, .side = side, .then = Arming::Then::rest};
+}
+
+struct Row {
+  std::string name;
+  CrossingFacts guard;
+  FlowSide flow;
+  Answers flow_says;
+  Arming expected;
+};
+
+void check(const std::vector<Row>& table) {
+  for (const Row& row : table) {
+    INFO(row.name);
+    CHECK(decide_crossing(row.guard, row.flow, row.flow_says) == row.expected);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("A guard that begins at zero or beyond does what its author said") {
+  struct Begins {
+    AtStart wish;
+    Direction direction;
+    double g;
+    Beginning expected;
+  };
+  const auto automatic = AtStart::automatic, error = AtStart::error, fire = AtStart::fire,
+             ignore = AtStart::ignore;
+  const std::vector<Begins> table = {
+      {automatic, falls, 1.0, Beginning::by_flow},  {automatic, falls, 0.0, Beginning::by_flow},
+      {automatic, falls, -1.0, Beginning::by_flow}, {error, falls, 1.0, Beginning::by_flow},
+      {error, falls, 0.0, Beginning::refuse},       {error, falls, -1.0, Beginning::refuse},
+      {error, rises, 1.0, Beginning::refuse},       {error, rises, -1.0, Beginning::by_flow},
+      {fire, falls, 1.0, Beginning::by_flow},       {fire, falls, 0.0, Beginning::fire},
+      {fire, falls, -1.0, Beginning::fire},         {ignore, falls, 1.0, Beginning::by_flow},
+      {ignore, falls, 0.0, Beginning::wait},        {ignore, falls, -1.0, Beginning::by_flow},
+      {fire, either, -1.0, Beginning::by_flow},     {fire, either, 0.0, Beginning::fire},
+      {fire, edge, 0.0, Beginning::by_flow},        {error, edge, 0.0, Beginning::by_flow}};
+  for (const Begins& row : table) {
+    INFO(static_cast<int>(row.wish) << " " << to_string(row.direction) << " " << row.g);
+    CHECK(decide_beginning(row.wish, row.direction, row.g) == row.expected);
+  }
+}
+
+TEST_CASE("The flow is asked about guards at zero, and about no others") {
+  const auto unasked = []() -> double { throw std::logic_error("asked for the uncertainty"); };
+  const auto wide = [] { return 1e-9; };
+  const CrossingFacts off{.g = 1.0}, at{.g = 0.0}, fired{.g = 1.0, .fired = true};
+  CHECK_FALSE(needs_flow(off, unasked));
+  CHECK(needs_flow(at, unasked));
+  CHECK(needs_flow(fired, unasked));
+  CrossingFacts waits{.phase = Phase::waiting, .g = 1e-13, .error = eps};
+  CHECK_FALSE(needs_flow(waits, unasked));  // dormant as before
+  waits.resets = 1;
+  CHECK(needs_flow(waits, unasked));  // a reset wrote: look again
+  waits.g = 1e-3;
+  CHECK_FALSE(needs_flow(waits, unasked));
+  CHECK(needs_flow({.g = 1e-10, .entered = true}, wide));
+  CHECK_FALSE(needs_flow({.g = 1e-8, .entered = true}, wide));
+}
+
+TEST_CASE("A guard at zero that has not fired: contact, dormant, or waiting") {
+  const CrossingFacts bounce{
+      .direction = falls, .phase = Phase::armed, .side = 1, .effect = true, .reset = true};
+  const auto with = [&](auto change) {
+    CrossingFacts facts = bounce;
+    change(facts);
+    return facts;
+  };
+  const CrossingFacts starts = with([](auto& f) { f.at_start = true; });
+  const CrossingFacts turned = with([](auto& f) { f.resets = 1; });
+  const CrossingFacts monitor =
+      with([](auto& f) { f.effect = f.reset = false, f.at_start = true; });
+  const CrossingFacts both = with([](auto& f) { f.direction = either, f.at_start = true; });
+  check({
+      {"begins at zero, headed down: contact", starts, {-1, eps}, {}, fires_from(1, -1)},
+      {"begins at zero, headed up: it flies", starts, {1, eps}, {}, waits_at(1)},
+      {"begins at zero and stays: dormant, armed above", starts, {0, eps}, {}, waits_at(1)},
+      {"a monitor that begins at zero waits", monitor, {-1, eps}, {}, waits_at(-1)},
+      {"a dormant monitor has no side", monitor, {0, eps}, {}, waits_at(0)},
+      {"a reset of another guard turned the flow round", turned, {-1, eps}, {}, fires_from(1, -1)},
+      {"a reset of another guard sent it off", turned, {1, eps}, {}, waits_at(1)},
+      {"neither begins nor turned: it waits", bounce, {-1, eps}, {}, waits_at(-1)},
+      {"either direction, slope zero, is in contact",
+       both,
+       {-1, eps},
+       {.slope_ = 0.0},
+       fires_from(1, -1)},
+      {"either direction, passing through, is not",
+       both,
+       {-1, eps},
+       {.slope_ = -1.0},
+       waits_at(-1)},
+      {"on its firing side already: no contact by a reset",
+       with([](auto& f) { f.resets = 1, f.side = -1; }),
+       {-1, eps},
+       {},
+       waits_at(-1)},
+      {"edge_detection has no side", with([](auto& f) { f.direction = edge; }), {-1, eps}, {}, {}},
+  });
+}
+
+TEST_CASE("A guard that fired: off, back, at rest, or passed through") {
+  const CrossingFacts bounce{.direction = falls,
+                             .phase = Phase::armed,
+                             .side = 1,
+                             .g = 0.0,
+                             .fired = true,
+                             .came_from = 1,
+                             .effect = true,
+                             .reset = true,
+                             .resets = 1};
+  const auto with = [&](auto change) {
+    CrossingFacts facts = bounce;
+    change(facts);
+    return facts;
+  };
+  const CrossingFacts plain = with([](auto& f) { f.reset = f.effect = false, f.resets = 0; });
+  const CrossingFacts silent = with([](auto& f) { f.resets = 0; });
+  const CrossingFacts two = with([](auto& f) { f.resets = 2; });
+  check({
+      {"the flow leads off", bounce, {1, eps}, {.low = false}, waits_at(1)},
+      {"the flow leads straight back: at rest",
+       bounce,
+       {-1, eps},
+       {.low = false, .back = true},
+       rests_at(1)},
+      {"it was merely passed through",
+       bounce,
+       {-1, eps},
+       {.low = false, .back = false},
+       waits_at(-1)},
+      {"the flight was too low to see: at rest", bounce, {1, eps}, {.low = true}, rests_at(1)},
+      {"clearly above, headed down: armed, about to cross",
+       with([](auto& f) { f.g = 1.0; }),
+       {-1, eps},
+       {},
+       {.phase = Phase::armed, .side = 1}},
+      {"beyond its error, headed down: no rest",
+       with([](auto& f) { f.g = -1.0; }),
+       {-1, eps},
+       {.low = false},
+       waits_at(-1)},
+      {"another reset sent it back, its own turns it: again",
+       two,
+       {-1, eps},
+       {.low = false, .turns = true},
+       fires_from(1, -1)},
+      {"another reset sent it back, its own does not",
+       two,
+       {-1, eps},
+       {.low = false, .back = true, .turns = false},
+       rests_at(1)},
+      {"stays at zero after a reset that wrote: armed above",
+       bounce,
+       {0, eps},
+       {.low = false},
+       waits_at(1)},
+      {"stays at zero, nothing written: no side", silent, {0, eps}, {.low = false}, waits_at(0)},
+      {"without a reset map it follows the flow", plain, {-1, eps}, {}, waits_at(-1)},
+      {"without a reset map it never rests", plain, {0, eps}, {}, waits_at(0)},
+  });
+}
+
+TEST_CASE("A guard whose mode was entered at its zero") {
+  const CrossingFacts entered{
+      .direction = falls, .phase = Phase::unseen, .entered = true, .effect = true};
+  CrossingFacts monitor = entered;
+  monitor.effect = false;
+  const Arming slides{.then = Arming::Then::fire, .from = 1};
+  check({
+      {"both modes lead to the surface: it fires",
+       entered,
+       {-1, eps},
+       {.slope_ = -1.0, .round = true},
+       slides},
+      {"only this one does: it waits",
+       entered,
+       {-1, eps},
+       {.slope_ = -1.0, .round = false},
+       waits_at(-1)},
+      {"a hop lower than the tolerance: the slope decides",
+       entered,
+       {-1, eps},
+       {.slope_ = 1.0},
+       waits_at(1)},
+      {"headed off the surface", entered, {1, eps}, {.slope_ = 1.0}, waits_at(1)},
+      {"a monitor does not slide", monitor, {-1, eps}, {.slope_ = -1.0}, waits_at(-1)},
+  });
+}
+
+TEST_CASE("A slope is passed through with if it went the same way before, and was not stopped") {
+  CHECK(passed_through(1.0, 1.0));
+  CHECK(passed_through(2e-6, 1.0));
+  CHECK_FALSE(passed_through(1e-7, 1.0));
+  CHECK_FALSE(passed_through(1.0, 0.0));
+  CHECK_FALSE(passed_through(1.0, -1.0));
+}
+
+TEST_CASE(
+    "A relation that is read again takes the side its value says, unless it was just crossed") {
+  struct Reads {
+    std::string name;
+    RelationFacts facts;
+    std::optional<int> expected;
+  };
+  const std::vector<Reads> table = {
+      {"off zero, above", {.g = 1.0}, 1},
+      {"off zero, below", {.truth = true, .g = -1.0}, -1},
+      {"at zero it keeps its truth", {.truth = true, .g = 0.0}, 0},
+      {"fired, nothing written: rounding says nothing",
+       {.g = 1e-17, .fired = true, .came_from = 1},
+       -1},
+      {"fired, written: the flow decides",
+       {.g = 1e-17, .fired = true, .came_from = 1, .wrote = true},
+       {}},
+      {"opaque, on the crossing's side",
+       {.opaque = true, .g = -1.0, .fired = true, .came_from = 1, .wrote = true},
+       -1},
+      {"opaque, back on the other side",
+       {.opaque = true, .g = 1.0, .fired = true, .came_from = 1, .wrote = true},
+       {}},
+      {"turned before, and at zero now", {.g = 0.0, .turned = true, .wrote = true}, {}},
+      {"turned before, off zero now", {.g = 1.0, .turned = true, .wrote = true}, 1},
+  };
+  for (const Reads& row : table) {
+    INFO(row.name);
+    CHECK(decide_relation(row.facts) == row.expected);
+  }
+}
+
+TEST_CASE("How a relation goes on") {
+  using enum RelationArming;
+  CHECK(decide_relation_arming(true, 1, -1, true, true) == by_truth);
+  CHECK(decide_relation_arming(false, 1, 1, false, false) == unchanged);
+  CHECK(decide_relation_arming(false, 1, 1, false, true) == unchanged);
+  CHECK(decide_relation_arming(false, 1, 1, true, true) == within_value);
+  CHECK(decide_relation_arming(false, 0, 1, false, true) == within_value);
+  CHECK(decide_relation_arming(false, 1, 1, true, false) == by_flow);
+  CHECK(decide_relation_arming(false, 0, 1, false, false) == by_flow);
+}
