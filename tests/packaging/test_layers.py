@@ -27,6 +27,9 @@ DEFINED = re.compile(r"^(?:class|struct)\s+(\w+)(?:\s+final)?\s*(?::[^;{]*)?\{",
 # Results are read through a machine of their own: the one place where a public header has to
 # include headers that no user includes.
 READ_THROUGH = {"simulation/dense_output.hpp"}
+# Names that a higher layer only passes on, and never looks into: an error carries the partial
+# results of its run, and a callback is called with the block that it belongs to.
+PASSED_ON = {"Results", "LeafSystem"}
 
 
 def layer_of(path):
@@ -60,7 +63,7 @@ def test_no_class_of_a_lower_layer_is_named():
         f"{path.relative_to(ROOT)} declares {name} of {home[name]}"
         for path in files()
         for name in FORWARD.findall(path.read_text())
-        if name in home and home[name] not in allowed(layer_of(path))
+        if name in home.keys() - PASSED_ON and home[name] not in allowed(layer_of(path))
     ]
     assert not wrong, "\n".join(sorted(wrong))
 

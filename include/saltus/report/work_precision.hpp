@@ -9,7 +9,7 @@
 #include "saltus/report/environment.hpp"
 #include "saltus/report/order.hpp"
 #include "saltus/report/reference.hpp"
-#include "saltus/solver/detail/choose.hpp"
+#include "saltus/solver/method.hpp"
 
 namespace saltus {
 

@@ -1,0 +1,34 @@
+// The methods by name.
+#pragma once
+
+#include <array>
+#include <string_view>
+#include <utility>
+
+#include "saltus/model/event.hpp"
+
+namespace saltus {
+
+/// The methods that advance x between instants. `automatic` chooses among the others.
+enum class Method { automatic, dopri5, dop853, adams, bdf };
+
+inline constexpr std::array<std::pair<std::string_view, Method>, 11> method_names{{
+    {"auto", Method::automatic},
+    {"dopri5", Method::dopri5},
+    {"dop853", Method::dop853},
+    {"adams", Method::adams},
+    {"bdf", Method::bdf},
+    {"rk45", Method::dopri5},  // synonyms
+    {"RK45", Method::dopri5},
+    {"DOP853", Method::dop853},
+    {"non-stiff", Method::dopri5},
+    {"stiff", Method::bdf},
+    {"BDF", Method::bdf},
+}};
+
+/// The method of that name; a ModelError with the nearest name if there is none.
+inline Method method_from(std::string_view name) {
+  return detail::value_of(method_names, "ode_solver_method", name);
+}
+
+}  // namespace saltus
