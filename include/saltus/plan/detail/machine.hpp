@@ -105,7 +105,7 @@ class Machine {
     const PlanLeaf& of = plan_->leaves[leaf];
     of.declared().continuous.ode(*of.system, at(leaf, t), xdot);
   }
-  /// Makes `at` see the machine's own x again.
+  /// Makes `at` show the machine's own x again.
   void at_home() { bases_[0] = x.data(); }
 
   /// The state with all carried entries moved to their surface.
@@ -211,8 +211,8 @@ class Machine {
   std::vector<const double*> relation_values_;
   std::vector<OutputCall> constant_calls_, instant_calls_, moving_calls_, derivative_calls_,
       guard_calls_list_, tap_calls_;
-  std::vector<Call> odes_;  // of leaves that have one, and what is fused of them
-  std::vector<OutputCall> needs_of_derivatives_;  // every one by a call of its own
+  std::vector<Call> odes_;                        // of leaves that have one, and the fused function
+  std::vector<OutputCall> needs_of_derivatives_;  // each with its own call
   std::vector<GuardCall> groups_;
   std::optional<GuardCall> fused_guards_;
   /// If this is the only ode, and it needs no computed values, it is called without a walk.
