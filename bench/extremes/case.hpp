@@ -39,7 +39,7 @@ inline const Methods runge_kutta{"dopri5", "dop853", "auto"};
 struct Finding {
   double error = 0.0;        ///< in units of the tolerance, see laws.hpp
   double allowed = 10.0;     ///< in the same
-  std::string events = {};   ///< "12 of 12", where the law says when there are events
+  std::string events = {};   ///< "12 of 12", if the law gives the events
   bool events_right = true;  ///< their number; their times are part of the error
 };
 
@@ -59,7 +59,7 @@ struct Trial {
 enum class Expected {
   answer,  ///< the right one
   error,   ///< a clear error: there is no answer, or none in double precision
-  either   ///< one of them: at the edge of what double precision holds
+  either   ///< either: at the edge of double precision
 };
 
 /// A row of the table for each method; the worst of several trials counts.
