@@ -59,7 +59,7 @@ struct Trial {
 enum class Expected {
   answer,  ///< the right one
   error,   ///< a clear error: there is no answer, or none in double precision
-  either   ///< either: at the edge of double precision
+  either   ///< one or the other: at the edge of double precision
 };
 
 /// A row of the table for each method; the worst of several trials counts.
