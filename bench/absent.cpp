@@ -1,7 +1,8 @@
-// What does machinery cost that a scene does not need, or hardly? The same scene with and without:
-// a guard that never fires, a recorder of two signals, the Zeno monitor, a monitor guard that is
-// located, blocks that nobody reads and constants that could be folded. dopri5 at rtol 1e-6.
-// `absent NAME off 3` makes one run of one side, three times as long, for bench/instructions.py.
+// What does a part of the engine cost that a scene does not need, or hardly needs? The same scene
+// with and without: a guard that never fires, a recorder of two signals, the Zeno monitor, a
+// monitor guard that is located, unread blocks and constants that could be folded. dopri5 at rtol
+// 1e-6. `absent NAME off 3` makes one run of one side, three times as long, for
+// bench/instructions.py.
 #include <cstring>
 #include <numbers>
 #include <saltus/library/library.hpp>
@@ -16,7 +17,7 @@ namespace {
 using bench::Runner;
 using saltus::At, saltus::VectorRef, saltus::SimulatorOptions;
 
-/// Kepler's ellipse, e = 0.6, ten turns, with the guard asked for: "never" stays positive, "apsis"
+/// Kepler's ellipse, e = 0.6, ten turns, with the named guard: "never" stays positive, "apsis"
 /// crosses zero twenty times.
 class Planet final : public saltus::LeafSystem {
  public:
@@ -48,7 +49,7 @@ Runner planet(double stretch, const std::string& guard, bool recorded = false) {
   return {system, system->create_context(), 20.0 * std::numbers::pi * stretch, options};
 }
 
-/// Without loss at the floor: drag alone makes the flights shorter, so the monitor has to look.
+/// The floor takes no energy: drag alone makes the flights shorter, so the monitor must check them.
 Runner ball(double stretch, double zeno_tolerance) {
   const auto system = std::make_shared<bench::BallLeaf>(bench::Ball{.e = 1.0, .k = 9.81 / 400.0});
   SimulatorOptions options = dopri5();
@@ -57,7 +58,7 @@ Runner ball(double stretch, double zeno_tolerance) {
           20.0 * stretch, options};
 }
 
-/// x'' = 1 - x from blocks. With ballast the 1 is 0.5 * 2 + 0, and four blocks look on.
+/// x'' = 1 - x from blocks. With ballast the 1 is 0.5 * 2 + 0, and four more blocks are unread.
 Runner oscillator(bool ballast, double stretch) {
   using namespace saltus;
   DiagramBuilder builder;

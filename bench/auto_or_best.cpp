@@ -1,5 +1,5 @@
-// What does "auto" cost against the best fixed method, on every quick scene of the shelf? Each at
-// the scene's own tolerances; a method that takes longer than a second is left out.
+// What does "auto" cost against the best fixed method, on every quick scene of the shelf? Each
+// method runs at the scene's own tolerances; a method that takes longer than a second is left out.
 #include <saltus/models/shelf.hpp>
 #include <saltus/report/work_precision.hpp>
 
@@ -11,7 +11,7 @@ namespace {
 
 using bench::Runner;
 
-/// Whether the scene comes to its end by this method within the second.
+/// Whether the scene reaches its end by this method within the second.
 bool ends(const saltus::Scene& scene, const std::string& method) {
   saltus::SimulatorOptions options = saltus::detail::bounded(scene.options, 1.0);
   options.ode_solver_method = method, options.recorded_signals.clear(), options.save_at.clear();
@@ -19,7 +19,7 @@ bool ends(const saltus::Scene& scene, const std::string& method) {
   return ended_well(simulate(*scene.system, scene.context, scene.span, options).status);
 }
 
-/// Returns the ratio; infinite where auto fails, 0 where no fixed method comes to the end.
+/// Returns the ratio; infinite if auto fails, 0 if no fixed method reaches the end.
 double compare(bench::Sheet& sheet, const std::string& name) {
   const saltus::Scene scene = saltus::models::scene(name);
   std::vector<std::unique_ptr<Runner>> runners;

@@ -1,5 +1,4 @@
-// The ball of the benchmark, one right-hand side for all who run it: dy/dt = v, dv/dt = -g - k v
-// |v|.
+// The ball of the benchmark, one right-hand side for all programs: dy/dt = v, dv/dt = -g - k v |v|.
 #pragma once
 
 #include <array>
@@ -13,8 +12,8 @@ namespace bench {
 struct Ball {
   double g = 9.81;  ///< [m/s^2]
   double e = 0.9;   ///< coefficient of restitution
-  double k =
-      0.0;  ///< [1/m] quadratic drag; with 0 flights are parabolas, on which every method is exact
+  /// [1/m] quadratic drag; with 0 flights are parabolas, on which every method is exact.
+  double k = 0.0;
   double y0 = 10.0;  ///< [m]
   double t_end = 12.0;
 
@@ -24,7 +23,7 @@ struct Ball {
   }
 };
 
-/// What a run came to: enough to see that two runs did the same.
+/// The result of a run, enough to see whether two runs agree.
 struct Outcome {
   double y = 0.0, v = 0.0;
   long steps = 0, right_hand_side_calls = 0, guard_calls = 0;
@@ -37,7 +36,7 @@ struct Outcome {
   }
 };
 
-/// The same ball for Saltus, its right-hand side inlined into the steps or called.
+/// The same ball for Saltus, with its right-hand side inlined into the steps or called.
 class BallLeaf final : public saltus::LeafSystem {
  public:
   explicit BallLeaf(const Ball& ball, bool inlined = true) : LeafSystem("ball"), ball_(ball) {
@@ -61,7 +60,7 @@ class BallLeaf final : public saltus::LeafSystem {
   Ball ball_;
 };
 
-/// One Simulator, used again and again; nothing is recorded but, if asked for, the event log.
+/// One Simulator, used repeatedly. It records only the event log, and that on request.
 class SaltusRun {
  public:
   SaltusRun(const Ball& ball, const saltus::SimulatorOptions& options, bool inlined = true)

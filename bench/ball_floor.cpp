@@ -1,9 +1,9 @@
 // How far is Saltus from hand-written code? The leaf ball and the ball with drag, e = 0.9, 12 s,
-// six bounces; the right-hand side inlined (`saltus::inlined`), in one line called: dopri5 and
-// dop853 against the same methods inlined for two states, adams against a plain loop over the same
-// CVODE. Errors are those of the worst event time [s]; without a log, the difference in y at the
-// end [m]. First line of each group is the floor. Times are medians of interleaved batches, ratios
-// are within one run.
+// six bounces. The right-hand side is inlined (`saltus::inlined`), in one line of the table called:
+// dopri5 and dop853 against the same methods inlined for two states, adams against a plain loop
+// over the same CVODE. Errors are those of the worst event time [s]; without a log, the difference
+// in y at the end [m]. First line of each group is the floor. Times are medians of interleaved
+// batches, ratios are within one run.
 #include <cstring>
 
 #include "floor_cvode.hpp"
@@ -45,7 +45,7 @@ bench::Row row(const char* scene, double rtol, const std::string& who, const ben
           {"error", error}};
 }
 
-/// The event times everyone is compared with: the floor at its tightest.
+/// The reference of the event times: the floor at its tightest tolerance.
 Outcome reference(const Ball& ball) {
   bench::FloorDop853 floor(ball, 1e-14, 1e-16);
   floor();
@@ -63,7 +63,7 @@ double compare(bench::Sheet& sheet, const char* scene, const Ball& ball, const c
       called(ball, with(method, rtol, true, 3), false);
   const auto timings = bench::interleave({[&] { floor(); }, [&] { logged(); }, [&] { silent(); },
                                           [&] { ends_only(); }, [&] { called(); }});
-  // Without a log no bounce is counted: what is left to compare is the end.
+  // Without a log no bounce is counted, so only the end can be compared.
   const auto without_log = [&](const SaltusRun& run) {
     Outcome o = run.outcome();
     o.bounces = logged.outcome().bounces, o.times = logged.outcome().times;
@@ -81,8 +81,8 @@ double compare(bench::Sheet& sheet, const char* scene, const Ball& ball, const c
   return timings[1].ratio;
 }
 
-/// For a profiler: one runner only, again and again, on the ball with drag; with a third argument
-/// on the one without.
+/// For a profiler: runs only one runner, repeatedly, on the ball with drag; with a third argument
+/// on the ball without.
 int only(const char* who, int runs, bool parabola) {
   const Ball ball{.k = parabola ? 0.0 : 9.81 / 400.0};
   bench::FloorDopri5 dopri5(ball, 1e-8, 1e-10);

@@ -17,13 +17,14 @@ SimulatorOptions with(const std::string& method) {
 }
 
 Runner ball_leaf(const Ball& ball, const std::string& method) {
-  const auto leaf =
-      std::make_shared<bench::BallLeaf>(ball, false);  // called, as those of blocks are
+  // Its functions are called, as those of blocks are.
+  const auto leaf = std::make_shared<bench::BallLeaf>(ball, false);
   return {leaf, leaf->create_context().with_continuous_state(Eigen::Vector2d(ball.y0, 0.0)),
           ball.t_end, with(method)};
 }
 
-/// Two integrators in a row, reset where y falls below 0; drag is one block, v -> -k v |v|.
+/// Two integrators in a row, which are reset when y falls below 0; drag is one block, v -> -k v
+/// |v|.
 Runner ball_blocks(const Ball& ball, const std::string& method) {
   DiagramBuilder builder;
   const Integrator::Options reset{.enable_reset = true, .enable_external_reset = true};

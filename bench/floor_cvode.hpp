@@ -1,4 +1,4 @@
-// Floor for adams: a loop over CVODE as its manual has it, on the same linked library. Adams with
+// Floor for adams: a loop over CVODE as in its manual, with the same linked library. Adams with
 // fixed-point iteration, CVODE's own root-finding on the falling guard, one ReInit for each bounce.
 #pragma once
 

@@ -1,7 +1,7 @@
 // Floors for dopri5 and dop853: the same methods with the same step control, written by hand for
 // two states and one falling guard. Everything is inlined and of fixed size, sums without the terms
-// that are zero. Location is on the dense output, made only where it is needed, to 2 eps of the
-// offset in the step.
+// that are zero. Events are located on the dense output, which is computed only if needed, to 2 eps
+// of the offset in the step.
 #pragma once
 
 #include <algorithm>
@@ -93,7 +93,7 @@ class FloorOneStep {
     }
   }
 
-  /// sum_j row[j] k_j[i]; `row` is a lambda, for a coefficient has to be a constant.
+  /// sum_j row[j] k_j[i]; `row` is a lambda, because a coefficient must be a constant.
   template <std::size_t End, class Coefficients>
   double sum(Coefficients row, std::size_t i) const {
     double sum = 0.0;
@@ -160,8 +160,9 @@ class FloorOneStep {
     return x_[i] + s * value;
   }
 
-  /// Offset of the crossing, by the Illinois method with steps of at least one resolution, so that
-  /// both ends of the bracket come to it. The end that is kept is on the floor or below it.
+  /// The offset of the crossing, by the Illinois method with steps of at least one resolution, so
+  /// that both ends of the bracket converge to it. The end that is returned is on the floor or
+  /// below it.
   double locate() {
     double low = 0.0, high = length_, a = x_[0], b = x1_[0];
     if (x_[1] > 0.0) {  // it flies up, perhaps from the floor: begin where it is clearly above

@@ -1,6 +1,5 @@
-// Floor for bdf: a loop over CVODE as its manual has it, on the same linked library: BDF,
-// SUNDIALS's own dense or band matrix and solver, the user's Jacobian or CVODE's own differences,
-// no guard.
+// Floor for bdf: a loop over CVODE as in its manual, with the same linked library: BDF, SUNDIALS's
+// own dense or band matrix and solver, the user's Jacobian or CVODE's own differences, no guard.
 #pragma once
 
 #include <sunlinsol/sunlinsol_band.h>
@@ -94,7 +93,7 @@ class FloorStiff {
   saltus::sun::Cvode cvode_;
 };
 
-/// The same as a leaf: a band is declared as the sparsity, the Jacobian as it is.
+/// The same problem as a leaf: a band is declared as the sparsity, the Jacobian directly.
 class StiffLeaf final : public saltus::LeafSystem {
  public:
   explicit StiffLeaf(const StiffProblem& problem) : LeafSystem(problem.name) {

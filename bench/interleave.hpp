@@ -9,7 +9,7 @@
 
 namespace bench {
 
-/// [s] that this program has spent on a processor: what others do meanwhile does not count.
+/// [s] Processor time of this program; the time of other programs does not count.
 inline double processor_time() {
   timespec now{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);

@@ -1,8 +1,8 @@
-// Which linear solver when? The same scene on BDF by each of them, in turns: bands of several
-// widths, a square and a cube of diffusing points, blocks where every state meets every other. The
-// ratio is to the one that "auto" takes, which is said behind. `factor` is one set-up of the linear
-// solver as the difference of two solvers shows it; the rule in src/solver/linear/choice.cpp is
-// fitted here.
+// Which linear solver is best when? The same scene runs on BDF with each of them, in turns: bands
+// of several widths, a square and a cube of diffusing points, blocks where every state is coupled
+// to every other. The ratio is to the solver that "auto" chooses, which the last column names.
+// `factor` is the time of one set-up of the linear solver, from the difference of two solvers; the
+// rule in src/solver/linear/choice.cpp is fitted to it.
 #include <cstdio>
 #include <string>
 
@@ -43,7 +43,7 @@ class Diffusion final : public LeafSystem {
 
 using Pairs = std::vector<std::pair<Index, Index>>;
 
-/// Each with the next `width`.
+/// Each point is coupled to the next `width`.
 Pairs band(Index n, Index width) {
   Pairs pairs;
   for (Index i = 0; i < n; ++i)

@@ -1,6 +1,6 @@
-// How does the engine grow? 1 to 1000 balls, as one leaf with a vector guard and as a leaf each;
-// 12 to 12 288 blocks in a chain of lags, x_i' = k (x_{i-1} - x_i). dopri5 at rtol 1e-6. The time
-// of a step divided by the size shows whether growth is linear.
+// How does the cost grow with size? 1 to 1000 balls, as one leaf with a vector guard and as a leaf
+// each; 12 to 12 288 blocks in a chain of lags, x_i' = k (x_{i-1} - x_i). dopri5 at rtol 1e-6. The
+// time of a step divided by the size shows whether growth is linear.
 #include <saltus/library/library.hpp>
 
 #include "ball.hpp"
@@ -104,7 +104,7 @@ std::pair<double, double> measure(bench::Sheet& sheet, const char* what, int n,
   return {plan, step};
 }
 
-/// The exponent of n between the last two sizes: small ones show the fixed cost, not the growth.
+/// The exponent of n between the last two sizes; small sizes show the fixed cost, not the growth.
 void grow(bench::Sheet& sheet, const char* what, const std::vector<int>& sizes, double t_end,
           const std::function<std::shared_ptr<const System>(int)>& make) {
   std::vector<std::pair<double, double>> found;

@@ -1,5 +1,5 @@
-// Which method when, and what does "auto" cost? Smooth and stiff scenes without record, by every
-// method at rtol 1e-3 to 1e-12: right-hand-side calls, time, achieved error at the end.
+// Which method is best when, and what does "auto" cost? Smooth and stiff scenes, without recording,
+// by every method at rtol 1e-3 to 1e-12: right-hand-side calls, time, achieved error at the end.
 #include <cstdio>
 #include <cstring>
 #include <string>
@@ -12,7 +12,7 @@ namespace {
 using saltus::At;
 using saltus::VectorRef;
 
-/// x' = f(x), with the methods it is run by.
+/// x' = f(x), with the methods of its runs.
 class Flow final : public saltus::LeafSystem {
  public:
   template <class Ode>
@@ -149,7 +149,7 @@ void compare(const Problem& p, double rtol, const Eigen::VectorXd& exact, bool t
 
 }  // namespace
 
-/// Arguments: "calls" leaves the times out; the beginning of a problem's name chooses one.
+/// Arguments: "calls" omits the times; the beginning of a problem's name chooses that problem.
 int main(int argc, char** argv) {
   const bool timed = argc < 2 || std::strcmp(argv[1], "calls") != 0;
   const char* only = argc > 2 ? argv[2] : "";

@@ -1,4 +1,4 @@
-// Runner: one Simulator of any system, used again and again, and what its last run came to.
+// Runner: one Simulator of any system, used repeatedly, and the result of its last run.
 #pragma once
 
 #include <memory>
@@ -15,7 +15,7 @@ class Runner {
         start_(std::move(start)),
         t_end_(t_end),
         simulator_(*system_, options) {}
-  /// A scene by this method, with its own tolerances and nothing but events recorded.
+  /// Runs a scene by this method, with its own tolerances; only events are recorded.
   Runner(const saltus::Scene& scene, const std::string& method)
       : Runner(
             scene.system, scene.context.with_time(scene.span.begin), scene.span.end,

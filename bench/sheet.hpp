@@ -1,4 +1,4 @@
-// Sheet: what one benchmark found, as a table for people and as JSON for bench/page.py.
+// Sheet: the results of one benchmark, as a table for people and as JSON for bench/page.py.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@ namespace bench {
 
 using Row = nlohmann::ordered_json;  // column by column, in the order in which they are named
 
-/// Where results go: build/bench/results, unless it was built elsewhere.
+/// The folder of the results: build/bench/results, unless it was built elsewhere.
 inline std::filesystem::path results_folder() { return SALTUS_BENCH_RESULTS; }
 
 inline Row machine() {
@@ -23,8 +23,8 @@ inline Row machine() {
           {"build", e.build}, {"sundials", e.sundials}, {"saltus", e.saltus}};
 }
 
-/// Prints its rows as they come, with a line of names wherever these change; the destructor writes
-/// the file.
+/// Prints each row at once, with a line of names whenever these change; the destructor writes the
+/// file.
 class Sheet {
  public:
   Sheet(std::string name, const std::string& question) : name_(std::move(name)) {
@@ -55,7 +55,7 @@ class Sheet {
     json_["rows"].push_back(row);
   }
 
-  /// A target of numerics: `found` should be at most `limit`.
+  /// A target: `found` should be at most `limit`.
   void target(const std::string& what, double found, double limit) {
     std::printf("%s: %.3g, at most %.3g: %s\n", what.c_str(), found, limit,
                 found <= limit ? "holds" : "misses");

@@ -11,8 +11,8 @@
 
 namespace {
 
-/// Short runs are repeated for 40 ms, and long ones stopped after two seconds, so that the whole
-/// shelf takes about a minute; a run that was stopped is a row that says so.
+/// Short runs are repeated for 40 ms, and long runs are stopped after two seconds, so the whole
+/// shelf takes about a minute. The row of a stopped run says so.
 saltus::WorkOptions options() {
   saltus::WorkOptions work;
   work.timing = {.least_time = 0.04, .most_repeats = 2000, .most_cold = 3};

@@ -52,7 +52,7 @@ bench::Timing compare(bench::Sheet& sheet, const StiffProblem& problem, double r
   return times[1];
 }
 
-/// For a profiler: one runner only, again and again.
+/// For a profiler: runs only one runner, repeatedly.
 int only(const char* who, const StiffProblem& problem, int runs) {
   FloorStiff floor(problem, 1e-6, 1e-8);
   Ours ours(problem, 1e-6, 1e-8);

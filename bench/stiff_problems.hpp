@@ -1,4 +1,4 @@
-// Stiff problems as plain functions, for a hand-written loop and for a leaf alike.
+// Stiff problems as plain functions, both for a hand-written loop and for a leaf.
 #pragma once
 
 #include <cmath>

@@ -1,6 +1,6 @@
-// What does an ensemble cost? 10 000 runs of the leaf ball over 5 s, e and y0 varied, final state
-// only: by hand, one simulator over one plan; by Ensemble, on one thread and on two. bench/sweep.py
-// measures the same by saltus.sweep, in turns with this loop.
+// What does an ensemble cost? 10 000 runs of the leaf ball over 5 s with different e and y0, final
+// state only: by a hand-written loop over one plan with one simulator; by Ensemble, on one thread
+// and on two. bench/sweep.py measures the same by saltus.sweep, in turns with this loop.
 //
 //     sweep                     all in turns, with ratios
 //     sweep loop|ensemble [N]   one of them N times, for callgrind; `serve`: times on request
@@ -36,7 +36,7 @@ class Balls {
     ensemble_.vary("x[0]", std::move(y0));
   }
 
-  /// As a user of C++ would write it without Ensemble.
+  /// The loop that a user of C++ would write without Ensemble.
   double loop() const {
     const Context context = ball_.create_context();
     Simulator simulator(ball_, options());
@@ -67,14 +67,14 @@ class Balls {
   Ensemble ensemble_;
 };
 
-/// [s] on the clock: threads share it.
+/// [s] Wall time, which threads share.
 double seconds(const auto& act) {
   const auto start = std::chrono::steady_clock::now();
   act();
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// A line "processor wall" for each line read: the other process takes its turn in between.
+/// Prints a line "processor wall" for each line read; the other process takes its turn in between.
 int serve(const Balls& balls) {
   for (std::string line; std::getline(std::cin, line);) {
     const double before = bench::processor_time();

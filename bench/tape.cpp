@@ -1,6 +1,6 @@
 // What does a tape cost, against the same equations as a C++ callback? Both are called as the
-// engine calls them, through VectorFunction. `tape ball cpp 1000000` calls one of them so often,
-// for callgrind.
+// engine calls them, through VectorFunction. `tape ball cpp 1000000` calls one of them that many
+// times, for callgrind.
 #include <saltus/tape/jacobian.hpp>
 #include <saltus/tape/symbol.hpp>
 
@@ -107,7 +107,7 @@ tape::Tape traced() {
   return {graph, outputs};
 }
 
-/// Calls a function as a solver does: each state depends on the derivative before.
+/// Calls a function as a solver does: each state depends on the previous derivative.
 class Caller {
  public:
   Caller(VectorFunction function, int size)
@@ -127,7 +127,7 @@ class Caller {
   const std::vector<double>& last() const { return xdot_; }
 
  private:
-  /// None of the callbacks looks at its leaf.
+  /// No callback uses its leaf.
   static const LeafSystem& leaf() {
     static const double nothing = 0.0;
     return reinterpret_cast<const LeafSystem&>(nothing);

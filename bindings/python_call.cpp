@@ -148,7 +148,7 @@ class Borrowed {
 
 /// An exception that Python raised to end the program. C++ must not treat it as a failure of the
 /// function.
-class Ended final : public py::error_already_set, public Interruption {};
+class ProgramEnd final : public py::error_already_set, public Interruption {};
 
 }  // namespace
 
@@ -185,7 +185,7 @@ py::list PythonLeaf::positional(const Function& function) const {
 /// may mean that the function does not accept these arguments; then a ModelError names the
 /// arguments.
 void PythonLeaf::throw_raised(const Function& function, const Frame& frame) const {
-  if (PyErr_ExceptionMatches(PyExc_Exception) == 0) throw Ended();
+  if (PyErr_ExceptionMatches(PyExc_Exception) == 0) throw ProgramEnd();
   py::error_already_set error;
   if (error.matches(PyExc_TypeError) && !error.trace()) {
     const py::object keywords = frame.keywords ? frame.keywords : py::tuple();

@@ -9,12 +9,12 @@ namespace saltus::python {
 namespace {
 
 /// Memory of this thread for the arguments of one call; a nested call gets other memory.
-class Room {
+class CallMemory {
  public:
-  Room() : values(std::move(spare)) { values.clear(); }
-  ~Room() { spare = std::move(values); }
-  Room(const Room&) = delete;
-  Room& operator=(const Room&) = delete;
+  CallMemory() : values(std::move(spare)) { values.clear(); }
+  ~CallMemory() { spare = std::move(values); }
+  CallMemory(const CallMemory&) = delete;
+  CallMemory& operator=(const CallMemory&) = delete;
 
   void add(const VectorView& more) { values.insert(values.end(), more.begin(), more.end()); }
 
@@ -28,15 +28,15 @@ class Room {
 }  // namespace
 
 void PythonLeaf::run_compiled(const Function& function, const At& at, double* out) const {
-  Room room;
-  room.add(at.x), room.add(at.z);
-  room.values.push_back(at.mode);
-  room.values.push_back(static_cast<double>(at.entry));
-  const std::size_t u = room.values.size();
+  CallMemory memory;
+  memory.add(at.x), memory.add(at.z);
+  memory.values.push_back(at.mode);
+  memory.values.push_back(static_cast<double>(at.entry));
+  const std::size_t u = memory.values.size();
   const int count = function.inputs ? static_cast<int>(function.inputs->size()) : at.u.size();
   for (int i = 0; i < count; ++i)
-    room.add(at.u[function.inputs ? (*function.inputs)[static_cast<std::size_t>(i)] : i]);
-  const int failure = function.compiled(at.time, room.values.data(), room.values.data() + u,
+    memory.add(at.u[function.inputs ? (*function.inputs)[static_cast<std::size_t>(i)] : i]);
+  const int failure = function.compiled(at.time, memory.values.data(), memory.values.data() + u,
                                         at.p.data(), out, function.user_data);
   if (failure == 0) return;
   throw SimulationError(text("t = ", at.time, " s: ", whose(function),

@@ -9,9 +9,9 @@ namespace extremes {
 
 namespace detail {
 
-/// On the floor at twice the Zeno time, and its first four contacts in time.
-/// The unit of height: 4 (rtol y0 + atol), what the flights of e <= 1/2 add up to, and a tenth of
-/// what a flight as long as the Zeno tolerance may hide. A speed is measured by the height it has.
+/// The law: on the floor at twice the Zeno time, and the times of the first four contacts. The unit
+/// of height: 4 (rtol y0 + atol), the sum over the flights for e <= 1/2, and a tenth of the height
+/// that a flight as long as the Zeno tolerance may hide. A speed counts as the height it reaches.
 /// The unit of a contact's time: an impact wrong by rtol makes flights wrong by 2 rtol v / g.
 inline Law rests(const Ball& ball) {
   return [ball](const Results& results, const SimulatorOptions& with) {
@@ -77,8 +77,8 @@ inline Case grid(double e, bool of_blocks, Methods methods) {
           }};
 }
 
-/// A ball that loses a billionth of its speed: it must neither rest nor gain.
-/// An impact wrong by one tolerance delays all later ones: n of them add up as n^2.
+/// A ball that loses a billionth of its speed: it must neither rest nor gain energy. An impact
+/// wrong by one tolerance delays all later ones: n of them add up as n^2.
 inline Case hardly_damped(double y0, int contacts) {
   const Ball ball{9.81, 1.0 - 1e-9, y0};
   return {.name = text("ball, e = 1 - 1e-9, y0 = ", y0, " m, ", contacts, " contacts"),

@@ -1,4 +1,4 @@
-// An extreme case: a scene, how it is run, and the law that what comes out has to meet.
+// An extreme case: a scene, the options of its run, and the law that its result must obey.
 #pragma once
 
 #include <array>
@@ -35,11 +35,11 @@ inline const Methods explicit_ones{"dopri5", "dop853", "adams", "auto"};
 inline const Methods stiff_ones{"bdf", "auto"};
 inline const Methods runge_kutta{"dopri5", "dop853", "auto"};
 
-/// How far a run is from what is exact.
+/// The distance of a run from the exact answer.
 struct Finding {
   double error = 0.0;        ///< in units of the tolerance, see laws.hpp
   double allowed = 10.0;     ///< in the same
-  std::string events = {};   ///< "12 of 12", where the law says when there are events
+  std::string events = {};   ///< "12 of 12", if the law gives the events
   bool events_right = true;  ///< their number; their times are part of the error
 };
 
@@ -55,14 +55,14 @@ struct Trial {
   Law law = {};
 };
 
-/// What has to come out.
+/// The required result.
 enum class Expected {
   answer,  ///< the right one
   error,   ///< a clear error: there is no answer, or none in double precision
-  either   ///< one of them: at the edge of what double precision holds
+  either   ///< one or the other: at the edge of double precision
 };
 
-/// A row of the table for each method; of a sweep of several trials the worst counts.
+/// A row of the table for each method; the worst of several trials counts.
 struct Case {
   std::string name;
   Methods methods;
@@ -78,7 +78,7 @@ struct Group {
   std::vector<Case> cases;
 };
 
-/// A leaf that is declared where it is used.
+/// A leaf that is declared at its place of use.
 class Leaf final : public LeafSystem {
  public:
   template <class Declare>
@@ -104,13 +104,13 @@ inline Eigen::VectorXd vec(std::initializer_list<double> values) {
   return Eigen::Map<const Eigen::VectorXd>(values.begin(), static_cast<Index>(values.size()));
 }
 
-/// A run from the values that the system declares.
+/// A run that starts from the declared values of the system.
 inline Trial trial(const std::shared_ptr<const System>& system, TimeSpan span,
                    SimulatorOptions options, Law law = {}) {
   return {system, system->create_context(span.begin), span, std::move(options), std::move(law)};
 }
 
-/// The cases of one trial each need no list.
+/// A case of one trial, which needs no list.
 inline std::function<std::vector<Trial>()> one(std::function<Trial()> make) {
   return [make] { return std::vector<Trial>{make()}; };
 }

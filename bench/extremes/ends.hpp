@@ -27,7 +27,7 @@ inline Case ends_at(std::string name, Derivative f, double x0, double time) {
           .error_time = time};
 }
 
-/// x' = x^2 from 1, back to 1 at `level`: it comes there after 1 - 1 / level.
+/// x' = x^2 from 1, reset to 1 at `level`, which it reaches after 1 - 1 / level.
 inline Trial caught(double level) {
   const auto leaf = make_leaf([level](Leaf& l) {
     l.declare_continuous_state(
@@ -38,7 +38,8 @@ inline Trial caught(double level) {
          .reset_map = [](const At&, Next& next) { next.set_continuous_state({1.0}); },
          .direction = Direction::negative_then_non_negative});
   });
-  // A relative error r of x is one of the time r / x <= r; a location is one of x of 100 eps x^2.
+  // A relative error r of x is an error of the time of r / x <= r; a location error is an error of
+  // x of 100 eps x^2.
   const double lap = 1.0 - 1.0 / level;
   return trial(leaf, {0.0, 3.5 * lap}, {},
                meets({.end = vec({1.0 / (1.0 - 0.5 * lap)}),

@@ -46,7 +46,7 @@ inline Trial pulse(double rate) {
                              .start_mode = 1,
                              .end_mode = 2});
   });
-  // what x does in the rounding of t with which a crossing is located: 100 eps t (semantics 2.9)
+  // the change of x within the location error of a crossing, 100 eps t (semantics 2.9)
   return trial(leaf, {0.0, 1.0}, {.atol = 1e-8 + 100.0 * eps * 0.5 * rate},
                meets({.end = vec({1.0}), .times = {0.5, 0.5 + 1.0 / rate}, .events = true}));
 }

@@ -13,7 +13,7 @@ inline Case turning(std::string name, double w, TimeSpan span,
   return {.name = std::move(name),
           .methods = every,
           .trials = one([=] {
-            // Times are rounded: what is turned within one rounding of t is not known.
+            // Times are rounded: the turn within one rounding of t is unknown.
             const double blind = w * eps * std::max(std::abs(span.begin), std::abs(span.end));
             return trial(oscillator(w, 1.0), span, {.rtol = 1e-6, .atol = 1e-6 + blind},
                          turns(w, 1.0, span.end - span.begin));
@@ -21,7 +21,7 @@ inline Case turning(std::string name, double w, TimeSpan span,
           .expected = expected};
 }
 
-/// x' = 1 from t0: monitors or resets every `step` seconds.
+/// x' = 1 from t0, with monitors or resets every `step` seconds.
 inline Case ticking(std::string name, double t0, double step, bool stop) {
   return {.name = std::move(name),
           .methods = every,

@@ -17,15 +17,15 @@ inline std::vector<double> firing_times(const saltus::EventLog& log) {
   return times;
 }
 
-/// numerics: ten tolerances; a hundred for BDF where nothing is stiff, which takes ten times the
-/// steps there.
+/// The allowed error: ten tolerances; a hundred for BDF on scenes that are not stiff, where it
+/// takes ten times the steps.
 inline double allowed(const std::string& method) { return method == "bdf" ? 100.0 : 10.0; }
 
-/// What is known of a run.
+/// The known answer of a run.
 struct Exact {
   Eigen::VectorXd end = {};   ///< the state at the end; not compared if empty
   Eigen::VectorXd size = {};  ///< of each state on the way, for rtol; that at the end if not said
-  double growth = 1.0;        ///< what a local error of one tolerance makes at the end
+  double growth = 1.0;        ///< the error at the end from a local error of one tolerance
   std::vector<double> times = {};  ///< [s] of all firings
   bool events = false;             ///< whether the times are compared
   double speed = 1.0;              ///< |dg/dt| of the guards, slowest, for errors of time
@@ -33,7 +33,8 @@ struct Exact {
 };
 
 /// The root mean square over the states of error / unit, the norm in which steps are controlled.
-/// The unit is (rtol |x| + atol) growth, and eps |x| for each step: so many roundings are made.
+/// The unit is (rtol |x| + atol) growth, plus eps |x| for each step, which is the number of
+/// roundings.
 inline double error_of_state(const Exact& exact, const Results& results,
                              const SimulatorOptions& with) {
   if (exact.end.size() == 0) return 0.0;
@@ -50,8 +51,8 @@ inline double error_of_state(const Exact& exact, const Results& results,
   return std::sqrt(sum / static_cast<double>(x.size()));
 }
 
-/// The worst time of an event, in units of what a unit of the state makes of it at its speed; a
-/// location's 100 eps t (docs/semantics.md, 2.9) is not counted.
+/// The largest error of an event time, in units of the time that a unit of the state takes at its
+/// speed. The location error 100 eps t (docs/semantics.md, 2.9) is not counted.
 inline double error_of_times(const Exact& exact, const std::vector<double>& found,
                              const Results& results, const SimulatorOptions& with) {
   const Eigen::VectorXd& sizes = exact.size.size() ? exact.size : exact.end;
@@ -80,8 +81,9 @@ inline Law meets(Exact exact) {
   };
 }
 
-/// The run has to be `base` with its times by 2^time and its state i by 2^states[i], to the last
-/// bit: only exponents differ. The error is the largest difference, in units of rtol.
+/// The run must equal `base` with its times multiplied by 2^time and its state i by 2^states[i], to
+/// the last bit, because only exponents differ. The error is the largest difference, in units of
+/// rtol.
 inline Law scales(std::function<Trial()> base, int time, std::vector<int> states) {
   return [=](const Results& results, const SimulatorOptions& with) {
     Trial plain = base();

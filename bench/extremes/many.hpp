@@ -49,7 +49,7 @@ inline std::shared_ptr<const System> oscillator_leaves(Index n) {
   });
 }
 
-/// Two states a leaf, pulled to cos t and to sin t at 1e6 / s.
+/// Each leaf has two states, which follow cos t and sin t at 1e6 / s.
 inline std::shared_ptr<const System> stiff_leaves(Index n) {
   return of_leaves(n, [](Leaf& l, Index) {
     l.declare_continuous_state({.initial = vec({1.0, 0.0}), .ode = [](const At& at, VectorRef d) {
@@ -106,14 +106,14 @@ inline Trial guards_in_leaves(int n, int fire) {
                meets({.times = spaced(1.0 / n, 1.0 / n, fire), .events = true}));
 }
 
-/// n guards at (i + 1) / n, of which the first `fire` do.
+/// n guards at (i + 1) / n; the first `fire` of them fire.
 inline Trial guards(int n, int fire, bool stop) {
   const double end = (fire + 0.5) / n;
   return trial(ramp(1.0, spaced(1.0 / n, 1.0 / n, n), stop), {0.0, end}, {},
                meets({.end = vec({end}), .times = spaced(1.0 / n, 1.0 / n, fire), .events = true}));
 }
 
-/// x' = 1, back to 0 at 1: n times. Each restart may be late by a location.
+/// x' = 1, reset to 0 at 1, n times. Each restart may be late by a location error.
 inline Trial sawtooth(int n) {
   const auto leaf = make_leaf([](Leaf& l) {
     l.declare_continuous_state({.initial = vec({0.0}), .ode = [](const At&) { return 1.0; }});
@@ -131,7 +131,7 @@ inline Trial sawtooth(int n) {
                       .events = true}));
 }
 
-/// Contacts of a ball that loses nothing.
+/// Contacts of a ball that loses no energy.
 inline Trial elastic(int n) {
   return contacts_of({9.81, 1.0, 1.0}, n, {.rtol = 1e-9, .atol = 1e-11});
 }
@@ -146,7 +146,7 @@ inline Trial updates(int n, double t0, double step) {
         [](const At& at, Next& next) { next.set_discrete_state(Eigen::VectorXd(-at.z)); }, step,
         t0 + step);
   });
-  // up and down n / 2 times: back at 0; a tick is a rounding of t early or late
+  // up and down n / 2 times, so it ends at 0; a tick is a rounding of t early or late
   return trial(leaf, {t0, t0 + n * step}, {.atol = 1e-6 * step},
                meets({.end = vec({0.0}),
                       .size = vec({step}),

@@ -11,7 +11,7 @@ namespace extremes {
 
 namespace detail {
 
-/// Classes of time, so that the page changes only when something did.
+/// Classes of time, so that the page changes only with the results.
 inline std::string_view time_class(double seconds) {
   constexpr std::pair<double, std::string_view> classes[] = {
       {1e-3, "< 1 ms"}, {1e-2, "< 10 ms"}, {0.1, "< 0.1 s"}, {1.0, "< 1 s"}, {10.0, "< 10 s"}};
@@ -29,7 +29,7 @@ inline std::string error_text(const Row& row) {
   return digits;
 }
 
-/// The first line of a message, without what would end a cell, 100 characters of it.
+/// The first 100 characters of a message's first line, without characters that would end a cell.
 inline std::string cell(std::string message) {
   message = message.substr(0, message.find('\n'));
   std::erase(message, '|');
@@ -40,13 +40,13 @@ inline std::string cell(std::string message) {
 
 }  // namespace detail
 
-/// What one method made of one case.
+/// The result of one method on one case.
 struct Line {
   std::string scene, method;
   Row row;
 };
 
-/// A group, run.
+/// The results of a group.
 struct Table {
   std::string title, text;
   std::vector<Line> lines;
@@ -56,7 +56,7 @@ struct Table {
   }
 };
 
-/// A scene is named once, before its first method.
+/// Names a scene once, before its first method.
 inline void write(std::ostream& out, const Table& table) {
   out << "\n## " << table.title << "\n\n";
   if (!table.text.empty()) out << table.text << "\n\n";
@@ -98,7 +98,7 @@ Of a sweep of several runs the worst is shown, with the steps and the time of al
 )";
 }
 
-/// How many rows of each verdict a group has.
+/// The number of rows with each verdict in a group.
 inline void write_sum(std::ostream& out, const std::vector<Table>& tables) {
   constexpr std::array verdicts{Verdict::right, Verdict::clear_error, Verdict::wrong};
   out << "\n| group | right | clear error | WRONG |\n| --- | --- | --- | --- |\n";

@@ -1,4 +1,4 @@
-// A case run by one method, and what is to be said of it.
+// Runs a case by one method and judges the result.
 #pragma once
 
 #include <chrono>
@@ -22,12 +22,12 @@ struct Row {
   double seconds = 0.0;
 };
 
-/// Longest run of a trial [s]; one that is not done by then is wrong.
+/// Longest run of a trial [s]; a longer run counts as wrong.
 inline constexpr double limit = 10.0;
 
 namespace detail {
 
-/// An error that comes when it should, and says what it should.
+/// Whether an error comes at the expected time, with the expected message.
 inline Verdict verdict_of_error(const Case& c, const std::string& message, double time) {
   if (c.expected == Expected::answer)
     return message.empty() ? Verdict::wrong : Verdict::clear_error;

@@ -1,4 +1,4 @@
-// The scenes that several groups take to their extremes.
+// The scenes that several groups use with extreme values.
 #pragma once
 
 #include <numbers>
@@ -16,7 +16,8 @@ inline std::shared_ptr<const System> oscillator(double w, double size) {
   });
 }
 
-/// Over `span` seconds. A local error is neither damped nor amplified; one for each radian adds up.
+/// Over `span` seconds. A local error is neither damped nor amplified; the errors of all radians
+/// add up.
 inline Law turns(double w, double size, double span) {
   return meets({.end = vec({size * std::cos(w * span), -size * std::sin(w * span)}),
                 .size = vec({size, size}),
@@ -31,8 +32,8 @@ inline std::shared_ptr<const System> decay(double rate, double x0) {
   });
 }
 
-/// x' = rate; guard `x - level` for each level, that many monitors or, with `stop`, resets that
-/// write what is there.
+/// x' = rate; guard `x - level` for each level, as monitors or, with `stop`, as resets that write
+/// the same value.
 inline std::shared_ptr<const System> ramp(double rate, std::vector<double> levels, bool stop) {
   return make_leaf([=](Leaf& l) {
     l.declare_continuous_state({.initial = vec({0.0}), .ode = [rate](const At&) { return rate; }});

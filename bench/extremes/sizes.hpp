@@ -70,7 +70,7 @@ inline Case oscillating(double size) {
           })};
 }
 
-/// Relative errors of a decay are not damped: one for each time constant adds up.
+/// Relative errors of a decay are not damped: the errors of all time constants add up.
 inline Case decaying(std::string name, double from, double span, double atol,
                      Expected expected = Expected::answer, bool quick = true) {
   return {.name = std::move(name),
@@ -83,7 +83,7 @@ inline Case decaying(std::string name, double from, double span, double atol,
           .quick = quick};
 }
 
-/// Two decays of unlike size; the small one is as right as the large one.
+/// Two decays of different size; the small one must be as accurate as the large one.
 inline Case together(double large, double small, Methods methods) {
   return {.name = text("x' = -x from ", large, " beside x' = -2 x from ", small),
           .methods = std::move(methods),
@@ -99,7 +99,7 @@ inline Case together(double large, double small, Methods methods) {
           })};
 }
 
-/// A ramp that is stopped at 1/3 and 2/3; the guards in a unit of their own.
+/// A ramp that is stopped at 1/3 and 2/3; the guards have their own unit.
 inline Case guards_of_size(double unit) {
   return {.name = text("a guard multiplied by ", unit),
           .methods = every,

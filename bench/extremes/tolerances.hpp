@@ -1,4 +1,4 @@
-// Tolerances from 1e-2 to 1e-15, and those that make no sense.
+// Tolerances from 1e-2 to 1e-15, and impossible tolerances.
 #pragma once
 
 #include "extremes/scenes.hpp"

@@ -1,5 +1,4 @@
-// The two halves of the shelf; each is a list in a source file of its own. What an entry of them is
-// made of.
+// The two halves of the shelf, one list in each source file, and the parts of an entry.
 #pragma once
 
 #include <algorithm>
@@ -12,13 +11,13 @@
 namespace saltus::models::detail {
 
 std::vector<ShelfEntry> hybrid_scenes();  // hybrid_scenes.cpp
-std::vector<ShelfEntry> smooth_scenes();  // smooth_scenes.cpp: stiff and smooth ones
+std::vector<ShelfEntry> smooth_scenes();  // smooth_scenes.cpp: stiff and smooth scenes
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double positive = std::numeric_limits<double>::min();
 constexpr double below_one = 1.0 - std::numeric_limits<double>::epsilon();
 
-/// One parameter of a scene, and the values it has a meaning for.
+/// One parameter of a scene, and the range of its meaningful values.
 template <class Parameters>
 struct Member {
   std::string name;
@@ -28,7 +27,7 @@ struct Member {
   double get(const Parameters& from) const {
     return std::visit([&](auto member) { return static_cast<double>(from.*member); }, at);
   }
-  /// Throws ModelError for a value out of bounds, or no integer where one is meant.
+  /// Throws ModelError for a value out of bounds, or for a fraction if an integer is required.
   void set(Parameters& to, double value) const {
     if (!(value >= least && value <= most) || !std::isfinite(value))
       throw ModelError(
@@ -58,14 +57,14 @@ void change(Parameters& all, const std::vector<Member<Parameters>>& members,
   }
 }
 
-/// What parameters have to be to each other, where the scene has no meaning without.
+/// A condition between parameters, without which the scene has no meaning.
 template <class Parameters>
 struct Condition {
   const char* expected = nullptr;  ///< "fk < fs"
   bool (*holds)(const Parameters&) = nullptr;
 };
 
-/// An entry of the shelf: `make` with `usual` parameters, of which `members` can be changed.
+/// Makes an entry of the shelf: `make` with `usual` parameters, of which `members` can be changed.
 template <class Parameters>
 ShelfEntry entry(std::string name, std::string title, Scene (*make)(const Parameters&),
                  std::vector<Member<Parameters>> members, Parameters usual = {}, bool quick = true,

@@ -8,7 +8,7 @@ namespace saltus::tape {
 namespace {
 
 /// Short names for building expressions.
-struct Writer {
+struct Terms {
   Graph& graph;
   Node n(double value) { return graph.constant(value); }
   Node add(Node a, Node b) { return graph.binary(Op::add, a, b); }
@@ -27,7 +27,7 @@ struct Writer {
   }
 };
 
-std::optional<Node> of_one(Writer w, Op op, Node a, Node value) {
+std::optional<Node> of_one(Terms w, Op op, Node a, Node value) {
   switch (op) {
     case Op::neg:
       return w.n(-1.0);
@@ -81,13 +81,13 @@ std::optional<Node> of_one(Writer w, Op op, Node a, Node value) {
   }
 }
 
-std::optional<Node> of_power(Writer w, Node a, Node b, Node value, bool first) {
+std::optional<Node> of_power(Terms w, Node a, Node b, Node value, bool first) {
   if (!first) return w.unless_zero(a, w.mul(value, w.of(Op::log, a)));
   const Node rest = w.of(Op::pow, a, w.sub(b, w.n(1.0)));
   return w.unless_zero(b, w.mul(b, rest));
 }
 
-std::optional<Node> of_two(Writer w, Op op, Node a, Node b, Node value, bool first) {
+std::optional<Node> of_two(Terms w, Op op, Node a, Node b, Node value, bool first) {
   switch (op) {
     case Op::add:
       return w.n(1.0);
@@ -120,7 +120,7 @@ std::optional<Node> of_two(Writer w, Op op, Node a, Node b, Node value, bool fir
 
 std::optional<Node> partial(Graph& graph, Node node, std::size_t k) {
   const Expression e = graph[node];  // a copy: the graph grows
-  const Writer w{graph};
+  const Terms w{graph};
   if (operand_count(e.op) == 1) return of_one(w, e.op, e.operands[0], node);
   return of_two(w, e.op, e.operands[0], e.operands[1], node, k == 0);
 }

@@ -65,8 +65,8 @@ struct OutputDeclaration {
   std::optional<Shape> shape = Shape::scalar();
   ShapeRule shape_rule = {};  ///< used if `shape` is empty
   Reads reads = Reads::everything;
-  std::optional<std::vector<int>> inputs =
-      {};                          ///< feedthrough: the inputs it reads; all if not given
+  /// Feedthrough: the inputs it reads; all if not given.
+  std::optional<std::vector<int>> inputs = {};
   bool boolean = false;            ///< 0 or 1; held by bisection where it reaches a derivative
   std::optional<Place> view = {};  ///< a state or parameter shown directly, never copied
   EntryRule entries = {};          ///< the entries of the inputs that each of its entries reads

@@ -1,5 +1,5 @@
 // POLLU: the chemistry of an air pollution model, 25 reactions of 20 substances.
-//   dy/dt = sum over reactions of k (product of what reacts) (what comes - what goes)
+//   dy/dt = sum over reactions of k (product of the reactants) (products - reactants)
 // State: concentrations [ppm], in the order of the source: NO2, NO, O(3P), O3, HO2, OH, HCHO, CO,
 // ALD, MEO2, C2O3, CO2, PAN, CH3O, HNO3, O(1D), SO2, SO4, NO3, N2O5; time in minutes. Rates are the
 // parameter k [1/min or 1/(ppm min)]. The fastest radicals follow the other substances within 1e-11

@@ -1,5 +1,5 @@
 // A rimless wheel: spokes without a rim that roll down a slope, one after the other.
-//   d2theta/dt2 = sin theta                     about the spoke that stands
+//   d2theta/dt2 = sin theta                     about the standing spoke
 //   theta+ = theta- - 2 alpha, theta'+ = cos(2 alpha) theta'-    when theta rises to slope + alpha
 // State: angle of the spoke to the vertical theta [rad], its rate theta'; time in units of sqrt(l /
 // g), l the length of a spoke. Each step passes the top of an inverted pendulum, where an error

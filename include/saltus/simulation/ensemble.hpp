@@ -11,22 +11,21 @@
 
 namespace saltus {
 
-/// How an ensemble is run. None of it changes a bit of any run.
+/// The execution of an ensemble. No option here changes a bit of any run.
 struct EnsembleOptions {
-  /// Threads that run it; 0 for as many as the machine has cores. With 1 the calling thread does
-  /// it all.
+  /// The number of threads; 0 for as many as the machine has cores. With 1 the calling thread makes
+  /// all runs.
   int threads = 1;
-  /// Asked by the calling thread, about every 50 ms, with how many runs are done; true ends the
-  /// ensemble, and what was under way is interrupted.
+  /// The calling thread calls it about every 50 ms with the number of finished runs. If it returns
+  /// true the ensemble ends, and unfinished runs are interrupted.
   std::function<bool(Index done)> watch = {};
-  /// Each further thread does its share within a call of this, `share` being that share.
+  /// Each further thread makes its part of the runs, `share`, within a call of this function.
   std::function<void(const std::function<void()>& share)> around = {};
 };
 
-/// Runs of a system from `base` over `span`, one for each row of the varied values. One plan is
-/// shared; each thread has one machine, one simulator and one context, used again and again: after
-/// the first run of a thread a run asks for no memory but that of its results. The system has to
-/// outlive it.
+/// Runs of a system from `base` over `span`, one for each row of the varied values. All threads
+/// share one plan. Each thread reuses one machine, one simulator and one context: after the first
+/// run of a thread a run allocates only its results. The system must outlive the ensemble.
 ///
 ///     Ensemble ensemble(ball, ball.create_context(), {0.0, 5.0});
 ///     ensemble.vary("e", {0.5, 0.7, 0.9});
@@ -34,27 +33,28 @@ struct EnsembleOptions {
 ///     ensemble.run([&](Index run, const Results& results) { ... }, {.threads = 2});
 class Ensemble {
  public:
-  /// Takes the outcome of one run. Called by the thread that ran it, in no certain order, several
-  /// at a time. What it throws ends the ensemble and comes out of `run`.
+  /// Takes the results of one run. The thread that made the run calls it, in no fixed order, and
+  /// several threads may call it at once. An exception from it ends the ensemble and is rethrown by
+  /// `run`.
   using Take = std::function<void(Index run, const Results& results)>;
 
   /// Throws ModelError as Simulator does, and for a span that ends before it begins.
   Ensemble(const System& system, Context base, TimeSpan span, SimulatorOptions options = {});
 
-  /// `values` of the parameter or state `name` (see ContextEntry), `width` of them for each run,
-  /// run after run. Throws ModelError for an unknown name, a width that does not fit, another
-  /// number of runs than before, and a name whose values are varied already.
+  /// Varies the parameter or state `name` (see ContextEntry): `width` entries of `values` for each
+  /// run, run after run. Throws ModelError for an unknown name, a width that does not fit, another
+  /// number of runs than before, and a name that is already varied.
   void vary(std::string_view name, std::vector<double> values, Index width = 1);
 
   Index size() const noexcept { return size_; }
   const Plan& plan() const noexcept { return *plan_; }
   const Context& base() const noexcept { return base_; }
   const TimeSpan& span() const noexcept { return span_; }
-  /// The values that a run begins with. Throws ModelError if one makes no sense.
+  /// The start values of a run. Throws ModelError if one of them is impossible.
   Context context(Index run) const;
 
-  /// Runs all, and returns how many were run: all, unless `watch` ended it. A run that fails is
-  /// handed to `take` with its status and message; the others go on.
+  /// Makes all runs, and returns how many were made: all, unless `watch` ended the ensemble. A run
+  /// that fails is passed to `take` with its status and message; the other runs continue.
   Index run(const Take& take, const EnsembleOptions& how = {}) const;
 
  private:

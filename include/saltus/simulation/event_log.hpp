@@ -23,18 +23,18 @@ inline std::string_view to_string(EventKind kind) {
 /// One event. `before` and `after` are the continuous state of its block at x- and x+.
 struct Event {
   double time = 0.0;  ///< [s]
-  int jump = 0;       ///< passes that had changed something when it was over
+  int jump = 0;       ///< number of passes with a change up to and including this one
   EventKind kind = EventKind::zero_crossing;
   int direction = 0;  ///< +1: its guard was rising, -1: falling, 0: no guard
   std::string_view block;
   std::string_view name;
-  double predicted =
-      std::numeric_limits<double>::quiet_NaN();  ///< [s] accumulation time, of zeno_enter
+  /// [s] The predicted accumulation time of a zeno_enter.
+  double predicted = std::numeric_limits<double>::quiet_NaN();
   std::span<const double> before, after;
-  int entry = 0;  ///< which guard of a vector of them
+  int entry = 0;  ///< the index of the guard in a vector of guards
 };
 
-/// Rows of numbers behind Event; grows by whole rows, keeps its memory from run to run.
+/// Stores events as rows of numbers. It grows by whole rows and keeps its memory from run to run.
 class EventLog {
  public:
   std::size_t size() const noexcept { return rows_.size(); }
@@ -55,8 +55,8 @@ class EventLog {
             row.entry};
   }
 
-  /// The times [s] of the events of one name ("bounce" or "ball.bounce") and kind; empty if it
-  /// never fired. ModelError for a name that no event of the run has, with the nearest there is.
+  /// The times [s] of the events with one name ("bounce" or "ball.bounce") and kind; empty if the
+  /// event never fired. ModelError, with the nearest name, for a name that no event of the run has.
   std::vector<double> times(std::string_view name,
                             EventKind kind = EventKind::zero_crossing) const {
     require(name);
@@ -68,7 +68,7 @@ class EventLog {
     return found;
   }
 
-  /// "ball.bounce" of every event that is declared, whether it fired or not.
+  /// The name "ball.bounce" of every declared event, fired or not.
   const std::vector<std::string>& names() const noexcept { return names_; }
 
   // --- for the engine --------------------------------------------------------------------------
@@ -103,7 +103,7 @@ class EventLog {
   void require(std::string_view name) const {
     const auto has_name = [&](const std::string& full) { return is_called(full, name); };
     if (std::ranges::any_of(names_, has_name)) return;
-    std::vector<std::string> known;  // as short or as long as what was asked for
+    std::vector<std::string> known;  // as short or as long as the requested name
     for (const std::string& full : names_) {
       const bool whole = name.find('.') != std::string_view::npos;
       std::string one(whole ? full : split(full).second);

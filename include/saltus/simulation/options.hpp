@@ -1,4 +1,4 @@
-// SimulatorOptions: how a run is done.
+// SimulatorOptions: the options of a run.
 #pragma once
 
 #include <cmath>
@@ -24,50 +24,53 @@ struct SimulatorOptions {
   /// "stiff" and "BDF" for bdf.
   std::string ode_solver_method = "auto";
 
-  /// How a stiff method solves its linear systems: "auto" (by number of states and places of the
-  /// Jacobian), "dense", "band", "sparse" or "gmres". The statistics say what was chosen, and why.
+  /// The solver of a stiff method's linear systems: "auto" (chosen by the number of states and
+  /// entries of the Jacobian), "dense", "band", "sparse" or "gmres". The statistics say which was
+  /// chosen, and why.
   std::string linear_solver = "auto";
-  /// Where a block of more than 256 states declares neither Jacobian nor sparsity, a stiff method
+  /// If a block of more than 256 states declares neither Jacobian nor sparsity, a stiff method
   /// finds the sparsity by calls of its derivative near the state. The statistics say what was
-  /// found. False: such a block is full, or its places are unknown.
+  /// found. False: such a block counts as full, or its entries as unknown.
   bool find_sparsity = true;
 
-  /// Instants a run may have; more end it with the status step_limit. Not said: no limit.
+  /// The number of instants a run may have; more end it with the status step_limit. Empty: no
+  /// limit.
   std::optional<std::int64_t> max_major_steps = {};
-  /// [s] longest time from one instant to the next.
+  /// [s] The longest time from one instant to the next.
   double max_major_step_length = std::numeric_limits<double>::infinity();
-  /// [s] bounds of a solver step. Rarely of use: the tolerance chooses the step.
+  /// [s] Bounds of a solver step. They are rarely useful, because the tolerance chooses the step.
   double min_minor_step_size = 0.0;
   double max_minor_step_size = std::numeric_limits<double>::infinity();
 
-  /// [s] A guard whose firings follow each other this closely, with shrinking gaps, comes to rest:
-  /// a Zeno hold. 0 switches the monitor off. Flights lower than atol cannot be seen, whatever
-  /// stands here.
+  /// [s] If the firings of a guard follow each other within this time, with shrinking gaps, the
+  /// guard comes to rest in a Zeno hold. 0 switches the monitor off. Flights lower than atol cannot
+  /// be resolved, whatever this value is.
   double zeno_tolerance = 1e-6;
-  /// Interior points of a step at which guards are looked at, for two crossings in one step; 0
-  /// turns that off.
+  /// The number of interior points of a step at which guards are evaluated, to find two crossings
+  /// in one step; 0 switches this off.
   int event_scan_points = 3;
-  /// Passes an instant may have before it counts as a loop without end.
+  /// The number of passes an instant may have before it counts as a loop without end.
   int max_passes = 100;
 
-  /// What is recorded, by name; nothing recorded costs nothing.
+  /// The signals to record, by name; without any, recording costs nothing.
   RecordedSignals recorded_signals = {};
   /// [s] Times to record at, increasing. If any are given, solver steps are recorded only with
   /// save_steps = true.
   std::vector<double> save_at = {};
   std::optional<bool> save_steps = {};
-  /// Rows at events, at the start and at the end too. False: rows at save_at only, one for each, at
-  /// the time of an event the one after it.
+  /// Rows at events, at the start and at the end too. False: only one row for each time in save_at;
+  /// at the time of an event it is the row after the event.
   bool event_rows = true;
-  /// Keep what the solver interpolates, so that Results::at tells state and recorded signals at any
-  /// time.
+  /// Keeps the interpolants of the solver, so that Results::at returns the state and the recorded
+  /// signals at any time.
   bool dense_output = false;
   /// The event log; switching it off changes nothing else.
   bool record_events = true;
 
-  /// Raise SimulationError when a run does not end well; else return the results with the status.
+  /// Throws SimulationError when a run does not end well; otherwise returns the results with the
+  /// status.
   bool throw_errors = true;
-  /// Asked about every 20 ms; true ends the run with the status interrupted.
+  /// Called about every 20 ms; true ends the run with the status interrupted.
   std::function<bool()> interrupt = {};
 };
 

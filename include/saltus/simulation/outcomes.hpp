@@ -1,4 +1,4 @@
-// Outcomes: what the runs of an ensemble came to, as columns.
+// Outcomes: the results of an ensemble's runs, as columns.
 #pragma once
 
 #include <cstdint>
@@ -9,19 +9,19 @@
 
 namespace saltus {
 
-/// A row for each run. Rows of runs that failed, or were not run, hold NaN where there is no value.
+/// One row for each run. A row of a run that failed, or was not made, has NaN for missing values.
 class Outcomes {
  public:
   static constexpr int not_run = -1;
 
-  /// Room for the runs of `ensemble`. Recorded signals are kept at `times` [s], which the option
-  /// save_at of the ensemble has to name too; without times, at the end.
+  /// Memory for the runs of `ensemble`. Recorded signals are kept at `times` [s], which the option
+  /// save_at of the ensemble must contain; without times, at the end.
   explicit Outcomes(const Ensemble& ensemble, std::vector<double> times = {});
 
-  /// Notes one run. Several threads may note different runs at once.
+  /// Stores one run. Several threads may store different runs at once.
   void take(Index run, const Results& results);
 
-  /// One recorded signal: of each run, at each time, `shape.size` values.
+  /// One recorded signal: for each run, at each time, `shape.size` values.
   struct Signal {
     std::string name;
     Shape shape;
@@ -30,10 +30,10 @@ class Outcomes {
 
   std::vector<double> times;                ///< [s] empty: signals at the end only
   std::vector<int> status;                  ///< a Status, or not_run
-  std::vector<std::string> message, block;  ///< why and where, if it did not end well
+  std::vector<std::string> message, block;  ///< the reason and the block, if it did not end well
   std::vector<double> end_time;             ///< [s]
   std::vector<double> wall_time;            ///< [s]
-  std::vector<std::int64_t> events, steps;  ///< how many
+  std::vector<std::int64_t> events, steps;  ///< their numbers
   std::vector<double> continuous_state;     ///< at the end, nx for each run
   std::vector<double> discrete_state;       ///< nz for each run
   std::vector<int> modes;                   ///< one for each block and run

@@ -1,4 +1,4 @@
-// Results: what a run gives back.
+// Results: the values that a run returns.
 #pragma once
 
 #include <cstdint>
@@ -21,23 +21,24 @@ inline std::string_view to_string(Status status) {
                                         "chattering",  "interrupted", "failed"};
   return names[static_cast<std::size_t>(status)];
 }
-/// The three ways a run ends well.
+/// Whether a run ended well, which it can in three ways.
 constexpr bool ended_well(Status status) { return status <= Status::zeno_stop; }
 
 /// Counts, summed over the whole run.
 struct Statistics : SolverStatistics {
   std::int64_t right_hand_side_calls = 0;
-  std::int64_t guard_calls = 0;  ///< of all guards at once
+  std::int64_t guard_calls = 0;  ///< each call computes all guards
   std::int64_t jacobian_calls = 0;
   std::int64_t events = 0;    ///< resets, updates and mode changes
   std::int64_t instants = 0;  ///< major steps
   std::vector<std::pair<std::string, std::int64_t>> events_by_name = {};
   double wall_time = 0.0;  ///< [s]
   std::string method = {};
-  std::vector<Stretch> stretches = {};  ///< which method when: more than one with "auto" only
+  std::vector<Stretch> stretches = {};  ///< the method of each stretch of time: more than one with
+                                        ///< "auto" only
 };
 
-/// One recorded signal: a row per time, row major.
+/// One recorded signal: one row for each time, row major.
 struct RecordedSignal {
   std::string name;
   Shape shape;
@@ -52,24 +53,25 @@ struct RecordedSignal {
 
 struct Results {
   std::vector<double> time;  ///< [s] never decreases
-  std::vector<int> jump;     ///< j of each row: rows of equal time are told apart by it
+  std::vector<int> jump;     ///< j of each row, which tells rows of equal time apart
   std::vector<RecordedSignal> signals;
   EventLog events;
-  Context context;  ///< the values at the end; a run can go on from here
+  Context context;  ///< the values at the end; a run can continue from here
   Status status = Status::reached_end;
-  std::string message;       ///< why, where the status is none of the good ones
-  std::string block;         ///< where, if it was one block
-  std::exception_ptr cause;  ///< what was thrown, where the status is failed
+  std::string message;       ///< the reason, if the status is not a good one
+  std::string block;         ///< the block at fault, if it was one block
+  std::exception_ptr cause;  ///< the exception, if the status is failed
   Statistics statistics;
-  Trajectory trajectory;  ///< with the option dense_output; else empty
+  Trajectory trajectory;  ///< with the option dense_output; otherwise empty
 
   /// The continuous state and every recorded signal at any time of a run with the option
-  /// dense_output, to the order of the method that ran: at the time of an event after it, with
-  /// Side::left before it. The system has to live still. For many times take one DenseOutput.
-  /// Throws ModelError for a time outside the run, and for a run without that option.
+  /// dense_output, to the order of its method. At the time of an event they are the values after
+  /// it, with Side::left before it. The system must still exist. For many times use one
+  /// DenseOutput. Throws ModelError for a time outside the run, and for a run without that option.
   Moment at(double t, Side side = Side::right) const;
 
-  /// A recorded signal by name, rows by width; a ModelError lists the names there are.
+  /// A recorded signal by name, rows by width; the ModelError for an unknown name lists the known
+  /// names.
   Eigen::Map<const RecordedSignal::Matrix> output(std::string_view name) const {
     std::vector<std::string> known;
     for (const RecordedSignal& signal : signals) {

@@ -1,4 +1,4 @@
-// simulate: the one function most people call.
+// simulate: the function that most users call.
 #pragma once
 
 #include <utility>
@@ -7,16 +7,16 @@
 
 namespace saltus {
 
-/// From when to when, [s].
+/// The beginning and the end of a run [s].
 struct TimeSpan {
   double begin = 0.0;
   double end = 0.0;
 };
 
-/// Runs `system` from the values of `context` over `span` and returns what was recorded, the event
+/// Runs `system` from the values of `context` over `span`. It returns the recorded rows, the event
 /// log, the final context, the status and the statistics. Throws ModelError before the run for bad
-/// input, SimulationError during it with the partial results attached, and whatever a function of
-/// the model threw, as it was thrown.
+/// input, and SimulationError during it with the partial results attached. An exception of a
+/// function of the model is rethrown unchanged.
 inline Results simulate(const System& system, const Context& context, TimeSpan span,
                         const SimulatorOptions& options = {}) {
   if (!(span.end >= span.begin)) {

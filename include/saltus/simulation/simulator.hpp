@@ -11,38 +11,38 @@ namespace saltus {
 
 class Run;
 
-/// Advances a context of a system from instant to instant. The system has to outlive it. One
-/// simulator serves one thread; it can be initialized again and keeps its memory.
+/// Advances a context of a system from instant to instant. The system must outlive it. One
+/// simulator serves one thread. It can be initialized again and keeps its memory.
 class Simulator {
  public:
-  /// Throws ModelError for a system, or an option, that makes no sense.
+  /// Throws ModelError for an impossible system or option.
   explicit Simulator(const System& system, SimulatorOptions options = {});
-  /// A run over a plan that others may share, each in a thread of its own; what is recorded is in
-  /// the plan already. Throws ModelError if the options record something too.
+  /// A run over a plan that other simulators may share, each in its own thread. The plan already
+  /// contains the signals to record. Throws ModelError if the options record something too.
   explicit Simulator(std::shared_ptr<const Plan> plan, SimulatorOptions options = {});
   ~Simulator();
   Simulator(Simulator&&) noexcept;
   Simulator& operator=(Simulator&&) noexcept;
 
-  /// Begins a run at the context's time; one that an earlier run ended with goes on where that one
-  /// stopped. Throws ModelError if the context is not one of this system.
+  /// Begins a run at the context's time. A context from the end of a run continues that run. Throws
+  /// ModelError if the context does not belong to this system.
   void initialize(const Context& context);
 
-  /// Goes on to t_end [s], or to where the run ends before. In pieces or at once: the same events.
-  /// Throws SimulationError with the partial results attached, or what a user's function threw,
-  /// unless the option throw_errors is off.
+  /// Continues to t_end [s], or to an earlier end of the run. A run in pieces has the same events
+  /// as a run at once. Throws SimulationError with the partial results attached, or the exception
+  /// of a user's function, unless the option throw_errors is off.
   Status advance_to(double t_end);
 
   double time() const noexcept;
-  /// The values of now.
+  /// The present values.
   Context context() const;
-  /// All since initialize(); complete after each advance_to.
+  /// Everything since initialize(); complete after each advance_to.
   const Results& results() const noexcept;
-  /// The same, moved out.
+  /// The same results, moved out.
   Results take_results();
 
   const Plan& plan() const noexcept;
-  /// What was kept, folded and dropped, and the method with the reason.
+  /// Says what was kept, folded and dropped, and names the method with the reason.
   std::string describe() const;
 
  private:

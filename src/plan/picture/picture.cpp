@@ -16,9 +16,9 @@ using namespace detail;
 using Block = Picture::Block;
 
 /// Feeds an open input of the drawn system with a continuous signal of its width.
-class Open final : public LeafSystem {
+class OpenInput final : public LeafSystem {
  public:
-  explicit Open(LeafPort target) {
+  explicit OpenInput(LeafPort target) {
     const auto& input = target.leaf->declarations().inputs[static_cast<std::size_t>(target.index)];
     declare_output_port({.calc = [](const At&, VectorRef y) { y.setZero(); },
                          .shape = input.shape.value_or(Shape::scalar()),
@@ -32,7 +32,7 @@ std::unique_ptr<const System> closed(const System& system) {
   builder.add(std::shared_ptr<const System>(std::shared_ptr<void>(), &system));
   const int inputs = static_cast<int>(system.input_names().size());
   for (int i = 0; i < inputs; ++i)
-    builder.connect(builder.add<Open>(system.input_target(i)).output(), {&system, i});
+    builder.connect(builder.add<OpenInput>(system.input_target(i)).output(), {&system, i});
   return std::make_unique<Diagram>(builder.build());
 }
 
