@@ -5,11 +5,12 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "saltus/plan/plan.hpp"
+#include "saltus/plan/refinement.hpp"
 
 namespace saltus {
 
@@ -64,6 +65,9 @@ struct SimulatorOptions {
   bool dense_output = false;
   /// The event log; switching it off changes nothing else.
   bool record_events = true;
+
+  /// May give leaves other functions while their plan is made.
+  std::shared_ptr<Refinement> refinement = {};
 
   /// Raise SimulationError when a run does not end well; else return the results with the status.
   bool throw_errors = true;
