@@ -65,13 +65,14 @@ class Machine {
     (*lone_guard_->function)(*lone_guard_->system, seen_by(*lone_guard_, t), out);
   }
 
-  /// The right-hand side, if a compiled step may call it directly: one leaf, no needed outputs,
-  /// nothing held or carried. Otherwise null. `compiled_at` shows its arguments except t and x.
-  const VectorFunction* compiled() const noexcept {
-    return at_rest_ > 0 || carrier != nullptr ? nullptr : compiled_;
+  /// The right-hand side, if a step that was compiled together with it may call it directly: one
+  /// leaf, no needed outputs, nothing held or carried. Otherwise null.
+  const RightHandSide* inlined() const noexcept {
+    return at_rest_ > 0 || carrier != nullptr ? nullptr : inlined_;
   }
-  const At& compiled_at() { return seen_by(*lone_ode_, 0.0); }
-  const LeafSystem& compiled_leaf() const { return *lone_ode_->system; }
+  /// Its arguments except t and x.
+  const At& inlined_at() { return seen_by(*lone_ode_, 0.0); }
+  const LeafSystem& inlined_leaf() const { return *lone_ode_->system; }
 
   /// Derivative and guards at exactly this state, even while a block is carried.
   void flow(double t, const double* state, double* xdot);
@@ -103,7 +104,7 @@ class Machine {
   void leaf_derivative(std::size_t leaf, double t, VectorRef xdot) {
     ++rhs_calls;
     const PlanLeaf& of = plan_->leaves[leaf];
-    of.declared().continuous.ode(*of.system, at(leaf, t), xdot);
+    of.declared().continuous.ode.function(*of.system, at(leaf, t), xdot);
   }
   /// Makes `at` see the machine's own x again.
   void at_home() { bases_[0] = x.data(); }
@@ -218,7 +219,7 @@ class Machine {
   /// If this is the only ode, and it needs no computed values, it is called without a walk.
   const Call* lone_ode_ = nullptr;
   const GuardCall* lone_guard_ = nullptr;
-  const VectorFunction* compiled_ = nullptr;
+  const RightHandSide* inlined_ = nullptr;
   std::vector<int> active_, called_;  // groups that can fire, and those of them that are not fused
   std::vector<int> rests_;            // entries of x: the number of holds on each
   std::vector<Index> resting_of_;     // leaves: the number of their states at rest
