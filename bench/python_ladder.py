@@ -101,34 +101,34 @@ def blocks(e, floor, below):
     return builder.build()
 
 
-def leaf_runner(e, t_end, rung):
+def leaf_runner(e, t_end, way):
     """The leaf in Python, or that of the shelf, which has e = 0.9; for another e one in C."""
-    if rung == "C++" and e == 0.9:
+    if way == "C++" and e == 0.9:
         system = saltus.scene("bouncing-ball").system
     else:
-        system = compiled_ball() if rung == "C++" else Ball(e)
+        system = compiled_ball() if way == "C++" else Ball(e)
     context = system.create_context().with_continuous_state([10.0, 0.0])
-    return runner(system, context, t_end, LEAF, rung)
+    return runner(system, context, t_end, LEAF, way)
 
 
-def block_runner(e, floor, y0, t_end, rung):
+def block_runner(e, floor, y0, t_end, way):
     """The diagram with a lambda, or with a Comparator."""
     name = "below"
     below = (
         Comparator("<", name=name)
-        if rung == "C++"
+        if way == "C++"
         else ReduceBlock(2, lambda x: x[0] < x[1], name=name)
     )
     system = blocks(e, Step(*floor, name="floor"), below)
     context = system.create_context()
     y = system["y"]
     context = context.with_subcontext(y, context[y].with_continuous_state(y0))
-    return runner(system, context, t_end, BLOCKS, rung, y.output())
+    return runner(system, context, t_end, BLOCKS, way, y.output())
 
 
-def runner(system, context, t_end, options, rung, port=None):
+def runner(system, context, t_end, options, way, port=None):
     recorded = {"y": port or system.output()}
-    python = "called" if rung == "called" else "traced"
+    python = "called" if way == "called" else "traced"
 
     def run():
         return saltus.simulate(
@@ -139,10 +139,10 @@ def runner(system, context, t_end, options, rung, port=None):
 
 
 SCENES = {
-    "scene 1: leaf, e = 1": lambda rung: leaf_runner(1.0, 6 * np.sqrt(20.0 / 9.81), rung),
-    "scene 2: leaf, e = 0.9": lambda rung: leaf_runner(0.9, 12.0, rung),
-    "scene 3: blocks, e = 0.8": lambda rung: block_runner(0.8, (0.0, -1e-3, 1.0), 1e-3, 1.1, rung),
-    "scene 4: blocks, e = 0.9": lambda rung: block_runner(0.9, (5.0, 0.0, 10.0), 10.0, 40.0, rung),
+    "scene 1: leaf, e = 1": lambda way: leaf_runner(1.0, 6 * np.sqrt(20.0 / 9.81), way),
+    "scene 2: leaf, e = 0.9": lambda way: leaf_runner(0.9, 12.0, way),
+    "scene 3: blocks, e = 0.8": lambda way: block_runner(0.8, (0.0, -1e-3, 1.0), 1e-3, 1.1, way),
+    "scene 4: blocks, e = 0.9": lambda way: block_runner(0.9, (5.0, 0.0, 10.0), 10.0, 40.0, way),
 }
 
 
@@ -161,12 +161,12 @@ def taking_turns(runners, least=0.6):
 
 
 def scene_row(name, make):
-    runners = {rung: make(rung) for rung in ("C++", "traced", "called")}
-    events = {rung: len(run().events) for rung, run in runners.items()}
+    runners = {way: make(way) for way in ("C++", "traced", "called")}
+    events = {way: len(run().events) for way, run in runners.items()}
     assert len(set(events.values())) == 1, f"{name}: not the same events: {events}"
     times = taking_turns(runners)
     return {"scene": name, "C++": times["C++"] * 1e6} | {
-        rung: times[rung] / times["C++"] for rung in ("traced", "called")
+        way: times[way] / times["C++"] for way in ("traced", "called")
     }
 
 

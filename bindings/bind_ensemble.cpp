@@ -3,10 +3,10 @@
 #include <pybind11/stl.h>
 
 #include "interpreter.hpp"
-#include "ladder_system.hpp"
 #include "numbers.hpp"
 #include "python_results.hpp"
 #include "saltus/simulation/outcomes.hpp"
+#include "trace_pass.hpp"
 
 namespace saltus::python {
 
@@ -154,10 +154,8 @@ bool has_modes(const Ensemble& ensemble) {
 void bind_ensemble(py::module_& module) {
   py::class_<Ensemble>(module, "Ensemble")
       .def(py::init([](const System& system, const Context& base, std::pair<double, double> span,
-                       SimulatorOptions options) {
-             if (const auto* ladder = dynamic_cast<const LadderSystem*>(&system)) {
-               for (auto& [name, port] : options.recorded_signals) port = ladder->port(port);
-             }
+                       SimulatorOptions options, const py::object& callbacks) {
+             options.refinement = trace_pass(callbacks);
              return std::make_unique<Ensemble>(system, base, TimeSpan{span.first, span.second},
                                                std::move(options));
            }),

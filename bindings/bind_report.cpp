@@ -6,9 +6,9 @@
 #include <sstream>
 
 #include "interpreter.hpp"
-#include "ladder_system.hpp"
 #include "python_scene.hpp"
 #include "saltus/report/written.hpp"
+#include "trace_pass.hpp"
 
 namespace saltus::python {
 
@@ -58,12 +58,12 @@ void set_samples(Scene& scene, const std::vector<double>& times, const py::seque
   scene.exact.provenance = std::move(provenance);
 }
 
-/// The scene's system belongs to the Python object, which must outlive it.
+/// The scene's system belongs to the Python object, which must outlive it. All its blocks are
+/// traced: the report makes plans of it without the lock.
 std::shared_ptr<Scene> user_scene(const System& system, const Context& context,
-                                  std::pair<double, double> span, SimulatorOptions options) {
-  if (const auto* ladder = dynamic_cast<const LadderSystem*>(&system)) {
-    for (auto& [name, port] : options.recorded_signals) port = ladder->port(port);
-  }
+                                  std::pair<double, double> span, SimulatorOptions options,
+                                  const py::object& callbacks) {
+  if (const auto pass = trace_pass(callbacks)) options.refinement = pass->of_known();
   return std::make_shared<Scene>(
       Scene{.name = system.name(),
             .system = std::shared_ptr<const System>(std::shared_ptr<void>(), &system),

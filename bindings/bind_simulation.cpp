@@ -5,9 +5,9 @@
 #include <pybind11/stl.h>
 
 #include "interpreter.hpp"
-#include "ladder_system.hpp"
 #include "python_results.hpp"
 #include "saltus/simulation/simulator.hpp"
+#include "trace_pass.hpp"
 
 namespace saltus::python {
 
@@ -18,8 +18,13 @@ using NamedPort = std::tuple<std::string, const System*, int>;
 /// A Simulator that handles signals such as Ctrl-C and lets Python raise their exceptions.
 class PythonSimulator {
  public:
-  PythonSimulator(const System& system, SimulatorOptions options, py::object progress)
-      : progress_(std::move(progress)), simulator_(system, prepared(system, std::move(options))) {}
+  PythonSimulator(const System& system, SimulatorOptions options, py::object progress,
+                  const py::object& callbacks)
+      : progress_(std::move(progress)),
+        pass_(trace_pass(callbacks)),
+        simulator_(system, prepared(std::move(options))) {
+    if (pass_) pass_->end();
+  }
   PythonSimulator(const PythonSimulator&) = delete;
   PythonSimulator& operator=(const PythonSimulator&) = delete;
 
@@ -47,13 +52,14 @@ class PythonSimulator {
     return py::make_tuple(results, raised);
   }
 
+  /// Runs the present traces from now on, see TracePass.
+  bool replace_traces() { return !pass_ || pass_->replace(); }
+
   const Simulator& simulator() const { return simulator_; }
 
  private:
-  SimulatorOptions prepared(const System& system, SimulatorOptions options) {
-    if (const auto* ladder = dynamic_cast<const LadderSystem*>(&system)) {
-      for (auto& [name, port] : options.recorded_signals) port = ladder->port(port);
-    }
+  SimulatorOptions prepared(SimulatorOptions options) {
+    options.refinement = pass_;
     options.throw_errors = false;
     options.interrupt = [this, asked = std::move(options.interrupt)] {
       if (signal_arrived()) return true;
@@ -86,6 +92,7 @@ class PythonSimulator {
   py::object signalled_ = py::none();
   py::object progress_;
   std::chrono::steady_clock::time_point reported_{};
+  std::shared_ptr<TracePass> pass_;  // null: every function is called
   Simulator simulator_;
 };
 
@@ -121,9 +128,10 @@ void bind_simulation(py::module_& module) {
       .def("set_recorded_signals", &set_recorded_signals);
 
   py::class_<PythonSimulator>(module, "Simulator")
-      .def(py::init<const System&, SimulatorOptions, py::object>())
+      .def(py::init<const System&, SimulatorOptions, py::object, const py::object&>())
       .def("initialize", &PythonSimulator::initialize)
       .def("advance_to", &PythonSimulator::advance_to)
+      .def("replace_traces", &PythonSimulator::replace_traces)
       .def("results", &PythonSimulator::results)
       .def_property_readonly("time", [](const PythonSimulator& s) { return s.simulator().time(); })
       .def_property_readonly(

@@ -21,7 +21,7 @@ void bind_system(py::module_& module);
 void bind_picture(py::module_& module);
 void bind_leaf_system(py::module_& module);
 void bind_callback_state(py::module_& module);
-void bind_ladder(py::module_& module);
+void bind_traces(py::module_& module);
 void bind_sources(py::module_& module);
 void bind_arithmetic(py::module_& module);
 void bind_logic(py::module_& module);

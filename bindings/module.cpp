@@ -21,5 +21,5 @@ PYBIND11_MODULE(_core, module) {
   bind_shelf(module);
   bind_report(module);
   bind_tape(module);
-  bind_ladder(module);
+  bind_traces(module);
 }

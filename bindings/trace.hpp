@@ -26,7 +26,8 @@ struct Trace {
   std::optional<tape::Jacobian> jacobian;                     // of an ode
 };
 
-/// Where callbacks look their tape up, so that a run in pieces gets a new one between two pieces.
+/// Where the functions of a plan look their tape up, so that a run in pieces gets a new one between
+/// two pieces.
 using Slot = std::shared_ptr<Trace>;
 
 }  // namespace saltus::python

@@ -6,11 +6,11 @@ runs it.
 
 from saltus import library, simulation
 from saltus._core import Context, State, __version__
+from saltus.callbacks import ExplainedCallback, Explanation
 from saltus.compiled import Compiled, compiled
 from saltus.diagram import Diagram, DiagramBuilder
 from saltus.ensemble import sweep
 from saltus.errors import Error, ModelError, SimulationError
-from saltus.ladder import Explanation, Rung
 from saltus.leaf_system import LeafSystem
 from saltus.progress import Progress
 from saltus.report import WorkPrecision, work_precision
@@ -30,6 +30,7 @@ __all__ = [
     "Error",
     "Event",
     "EventLog",
+    "ExplainedCallback",
     "Explanation",
     "Guard",
     "InputPort",
@@ -38,7 +39,6 @@ __all__ = [
     "OutputPort",
     "Progress",
     "Results",
-    "Rung",
     "Scene",
     "SimulationError",
     "Simulator",

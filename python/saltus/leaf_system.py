@@ -28,7 +28,7 @@ __all__ = ["LeafSystem"]
 class LeafSystem(System, _core.LeafSystem):
     """A block with equations of its own. Call `super().__init__(name=...)`, then declare.
 
-    A callback runs on one of three rungs; `system.explain()` says which, and why on no higher one:
+    A callback runs in one of three ways; `system.explain()` says which, and why not faster:
 
     - *traced*: before a run it is called once with symbols and becomes an expression that runs
       without the interpreter, with an exact Jacobian. What it read and has changed since, such as
@@ -117,7 +117,7 @@ class LeafSystem(System, _core.LeafSystem):
     (array([3.]), True)
     """
 
-    __slots__ = ("_ladder", "_made")  # not in __dict__, which a traced function is watched by
+    __slots__ = ("_callbacks", "_made")  # not in __dict__, which a traced function is watched by
 
     @refusing
     def __init__(self, name: str | None = None):

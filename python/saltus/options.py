@@ -123,7 +123,8 @@ class SimulatorOptions:
 
 PYTHON_ONLY = frozenset({"recorded_signals", "python", "throw", "progress"})
 """options that the engine does not have, or not in this form"""
-RUNGS = ("traced", "called")
+WAYS = ("traced", "called")
+"""how a Python callback may be asked to run: the values of the option `python`"""
 
 _UNBOUNDED = {
     "max_major_step_length": math.inf,
@@ -162,8 +163,8 @@ def core_options(options: SimulatorOptions) -> _core.SimulatorOptions:
             ) from None
     if not isinstance(options.throw, (bool, np.bool_)):
         raise ModelError(f"option throw: expected bool, found {options.throw!r}")
-    if options.python not in RUNGS:
-        found = f"'{options.python}'{_core.known_names(str(options.python), RUNGS)}"
+    if options.python not in WAYS:
+        found = f"'{options.python}'{_core.known_names(str(options.python), WAYS)}"
         raise ModelError(f"option python: unknown {found}")
     core.set_recorded_signals(ports_of(options.recorded_signals))
     return core

@@ -8,8 +8,8 @@ from dataclasses import fields, replace
 from typing import Any
 
 from saltus import _core
+from saltus.callbacks import Callbacks, callbacks_of, keep
 from saltus.errors import ModelError, SimulationError
-from saltus.ladder import climbed
 from saltus.options import PYTHON_ONLY, SimulatorOptions, core_options
 from saltus.porting import OPTIONS, refuse
 from saltus.progress import reporter_of
@@ -83,13 +83,12 @@ class Simulator:
         self._outcome: Callable[..., Results] = Results
 
     def _make(self) -> None:
-        """The engine's simulator, of the system as it runs."""
-        self._runs: Any = self.system
-        self._ladder: Any = None
-        if self.options.python == "traced":
-            self._runs, self._ladder = climbed(self.system)
-        self._version = self._ladder.version if self._ladder else 0
-        self._core = _core.Simulator(self._runs, self._options, self._reporter)
+        """The engine's simulator."""
+        callbacks = callbacks_of(self.system) if self.options.python == "traced" else None
+        self._core = _core.Simulator(self.system, self._options, self._reporter, callbacks)
+        keep(self.system, callbacks)
+        self._callbacks: Callbacks | None = callbacks
+        self._version = callbacks.version if callbacks else 0
 
     def initialize(self, context: _core.Context) -> None:
         """Begins a run with these values, at their time.
@@ -97,8 +96,8 @@ class Simulator:
         A context that an earlier run ended with goes on where that one stopped. ModelError if it is
         not one of this system.
         """
-        ladder = self._ladder
-        if ladder and (ladder.survey.stale or ladder.refresh() != self._version):
+        callbacks = self._callbacks
+        if callbacks and (callbacks.traces.stale or callbacks.refresh() != self._version):
             self._make()
         self._core.initialize(core_context(context))
         self._failed = None
@@ -131,11 +130,11 @@ class Simulator:
 
     def _follow_changes(self) -> None:
         """What a traced callback was made from may have changed since the last piece of the run."""
-        if not self._ladder or self._ladder.refresh() == self._version:
+        if not self._callbacks or self._callbacks.refresh() == self._version:
             return
-        self._version = self._ladder.version
-        if not self._runs.replace(self._ladder.core_traces()):
-            self._version = -1  # not that of any ladder: the next run is made anew
+        self._version = self._callbacks.version
+        if not self._core.replace_traces():
+            self._version = -1  # never a version of the callbacks: the next run is made anew
             raise ModelError(
                 f"t = {self.time} s: a callback depends on more than when the run began; "
                 "initialize again, or use the option python='called'"
@@ -161,7 +160,7 @@ class Simulator:
         return results
 
     def _results(self, core: _core.Results, raised: BaseException | None) -> Results:
-        return self._outcome(core, raised, (self.system, self._runs))
+        return self._outcome(core, raised, self.system)
 
     def _report(self, time: float) -> None:
         """Advances under the eyes of the user."""

@@ -5,9 +5,9 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping
 
-from saltus import _core, ladder
+from saltus import _core, callbacks
+from saltus.callbacks import Explanation
 from saltus.errors import ModelError
-from saltus.ladder import Explanation
 from saltus.ports import InputPort, OutputPort, key_of
 
 __all__ = ["InputPort", "OutputPort", "System"]
@@ -131,7 +131,7 @@ class System:
         Returns
         -------
         Explanation
-            A tuple of `Rung(block, callback, rung, reason)`; printed, a line for each.
+            A tuple of `ExplainedCallback(block, callback, runs, reason)`; printed, a line for each.
 
         Examples
         --------
@@ -141,7 +141,7 @@ class System:
         twice: output 'out'  traced
         the system has open inputs; each is taken for a single number here
         """
-        return ladder.explain(self)
+        return callbacks.explain(self)
 
     def create_context(self, time: float = 0.0) -> _core.Context:
         """The values every block starts with. What you change in a context changes no system.

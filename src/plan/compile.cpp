@@ -139,6 +139,21 @@ void add_guards(Plan& plan) {
   }
 }
 
+/// A watched signal has to be one held boolean.
+void check_edges(const Plan& plan) {
+  for (const PlanLeaf& leaf : plan.leaves) {
+    for (const EdgeReset& reset : leaf.declared().edge_resets) {
+      const Node& trigger = plan.node(read_inputs(std::vector{reset.input}, leaf).front());
+      if (trigger.rate != Rate::continuous && trigger.shape.size == 1) continue;
+      throw ModelError(text("input '",
+                            leaf.declared().inputs[static_cast<std::size_t>(reset.input)].name,
+                            "' of block '", leaf.path, "' expects one boolean, found ",
+                            trigger.shape.size, " continuous value(s) from output '",
+                            plan.name_of(trigger), "'; put a Comparator between them"));
+    }
+  }
+}
+
 void add_edges(Plan& plan) {
   Search search(plan);
   for (std::size_t l = 0; l < plan.leaves.size(); ++l) {
@@ -150,14 +165,6 @@ void add_edges(Plan& plan) {
                      .node = read_inputs(std::vector{resets[i].input}, leaf).front(),
                      .reads = read_inputs(resets[i].inputs, leaf),
                      .name = text(leaf.path, ".", resets[i].name)};
-      const Node& trigger = plan.node(edge.node);
-      if (trigger.rate == Rate::continuous || trigger.shape.size != 1) {
-        throw ModelError(
-            text("input '", leaf.declared().inputs[static_cast<std::size_t>(resets[i].input)].name,
-                 "' of block '", leaf.path, "' expects one boolean, found ", trigger.shape.size,
-                 " continuous value(s) from output '", plan.name_of(trigger),
-                 "'; put a Comparator between them"));
-      }
       edge.relations = search.located(edge.node);
       plan.edges.push_back(std::move(edge));
     }
@@ -175,17 +182,57 @@ void add_schedule(Plan& plan) {
   }
 }
 
+/// The passes that may refuse a system. They find the shape and the rate of every signal.
+struct Sound {
+  Sound(const System& system, const RecordedSignals& recorded, const Replacements& replacements)
+      : plan(flatten(system, replacements)) {
+    add_taps(plan, recorded);
+    roots = find_roots(plan);
+    find_located(plan, roots);
+    release_held_relations(plan);
+    add_order(plan);
+    lay_out(plan);
+    find_rates(plan);
+    check_edges(plan);
+  }
+
+  Plan plan;
+  Roots roots;
+};
+
+Replacements before(const System& system, Refinement& refinement) {
+  Replacements replacements;
+  for (const Structure::Leaf& leaf : structure_of(system).leaves)
+    replacements.push_back(refinement.before(*leaf.system));
+  return replacements;
+}
+
+/// Returns whether any leaf got other declarations.
+bool refine(const Plan& plan, Refinement& refinement, Replacements& replacements) {
+  bool any = false;
+  for (std::size_t i = 0; i < replacements.size(); ++i) {
+    if (replacements[i]) continue;
+    replacements[i] = refinement.with_shapes(plan, plan.leaves[i]);
+    any = any || replacements[i];
+  }
+  return any;
+}
+
+/// A system is sound or not by what it declares, not by what a refinement makes of it: an algebraic
+/// loop through an input that a traced function does not read stays an error.
+Sound refined(const System& system, const RecordedSignals& recorded, Refinement& refinement) {
+  Replacements replacements = before(system, refinement);
+  Sound sound(system, recorded, replacements);
+  if (refine(sound.plan, refinement, replacements)) return {system, recorded, replacements};
+  return sound;
+}
+
 }  // namespace
 
-std::shared_ptr<const Plan> compile(const System& system, const RecordedSignals& recorded) {
-  Plan plan = flatten(system);
-  add_taps(plan, recorded);
-  const Roots roots = find_roots(plan);
-  find_located(plan, roots);
-  release_held_relations(plan);
-  add_order(plan);
-  lay_out(plan);
-  find_rates(plan);
+std::shared_ptr<const Plan> compile(const System& system, const RecordedSignals& recorded,
+                                    Refinement* refinement) {
+  auto [plan, roots] =
+      refinement ? refined(system, recorded, *refinement) : Sound(system, recorded, {});
   find_slices(plan, roots);
   add_guards(plan);
   add_edges(plan);

@@ -46,7 +46,7 @@ std::vector<Machine::Call> Machine::odes_of(const Walk& walk) {
   for (std::size_t i = 0; i < plan_->odes.size(); ++i) {
     if (walk.fuses() && walk.fused[i]) continue;
     const auto leaf = static_cast<std::size_t>(plan_->odes[i]);
-    const VectorFunction& ode = plan_->leaves[leaf].declared().continuous.ode;
+    const VectorFunction& ode = plan_->leaves[leaf].declared().continuous.ode.function;
     odes.push_back(call_of(ode ? ode : still(), leaf));
   }
   return odes;
@@ -106,9 +106,10 @@ Machine::Machine(std::shared_ptr<const Plan> plan) : plan_(std::move(plan)) {
     fused_guards_ = {whole_call(plan_->guard_walk.last), 0, plan_->guard_slots, false};
   if (odes_.size() == 1 && derivative_calls_.empty() && plan_->nx == odes_.front().size)
     lone_ode_ = &odes_.front();
-  if (lone_ode_ != nullptr && lone_ode_->function->kernels() != nullptr &&
-      !reads_states(lone_ode_->leaf))
-    compiled_ = lone_ode_->function;
+  if (lone_ode_ != nullptr && !reads_states(lone_ode_->leaf)) {
+    const RightHandSide& ode = plan_->leaves[lone_ode_->leaf].declared().continuous.ode;
+    if (ode.steps != nullptr && lone_ode_->function == &ode.function) inlined_ = &ode;
+  }
   select_guards();
 }
 

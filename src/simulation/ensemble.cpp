@@ -117,7 +117,7 @@ class Ensemble::Share {
 };
 
 Ensemble::Ensemble(const System& system, Context base, TimeSpan span, SimulatorOptions options)
-    : plan_(compile(system, options.recorded_signals)),
+    : plan_(compile(system, options.recorded_signals, options.refinement.get())),
       base_(base.time() == span.begin ? std::move(base) : base.with_time(span.begin)),
       span_(span),
       options_(std::move(options)) {
@@ -126,6 +126,7 @@ Ensemble::Ensemble(const System& system, Context base, TimeSpan span, SimulatorO
                           " s to ", span.end, " s"));
   }
   options_.recorded_signals.clear();  // the plan has them
+  options_.refinement.reset();
   options_.throw_errors = false;
   if (base_.continuous_state().size() != plan_->nx || base_.discrete_state().size() != plan_->nz ||
       base_.parameters().size() != plan_->np)

@@ -10,7 +10,9 @@ SimulatorOptions Run::checked(SimulatorOptions options) {
 }
 
 Run::Run(const System& system, SimulatorOptions options)
-    : Run(compile(system, checked(options).recorded_signals), options) {}
+    : Run(compile(system, checked(options).recorded_signals, options.refinement.get()), options) {
+  options_.refinement.reset();  // the plan needs it no more
+}
 
 Run::Run(std::shared_ptr<const Plan> plan, SimulatorOptions options)
     : options_(checked(std::move(options))),

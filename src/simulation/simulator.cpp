@@ -13,6 +13,8 @@ Simulator::Simulator(std::shared_ptr<const Plan> plan, SimulatorOptions options)
     : run_(std::make_unique<Run>(std::move(plan), std::move(options))) {
   if (!run_->options().recorded_signals.empty())
     throw ModelError("recorded_signals: give them to compile(), where the plan is made");
+  if (run_->options().refinement)
+    throw ModelError("refinement: give it to compile(), where the plan is made");
 }
 Simulator::~Simulator() = default;
 Simulator::Simulator(Simulator&&) noexcept = default;

@@ -127,7 +127,7 @@ def test_integrator_of_a_vector():
     )
 
 
-@pytest.mark.parametrize("rung", ["called", "traced"])
+@pytest.mark.parametrize("python", ["called", "traced"])
 @pytest.mark.parametrize(
     "function",
     [
@@ -137,7 +137,7 @@ def test_integrator_of_a_vector():
         lambda x: 1 / (x[1] + 1) < 1 / (x[0] + 1),
     ],
 )
-def test_a_reduce_block_that_compares_is_located(function, rung):
+def test_a_reduce_block_that_compares_is_located(function, python):
     """A sawtooth that resets where it meets 1. Called, a call before the run shows that it is a
     boolean, which is opaque; traced, it has a smooth guard.
     """
@@ -152,10 +152,10 @@ def test_a_reduce_block_that_compares_is_located(function, rung):
     builder.connect(x.output(), full.input(1))
     builder.connect(full.output(), x.input("reset_trigger"))
     diagram = builder.build()
-    simulator = saltus.Simulator(diagram, python=rung)
+    simulator = saltus.Simulator(diagram, python=python)
     opaque = "block 'full' is an opaque boolean" in simulator.describe()
-    assert opaque == (rung == "called")
-    results = saltus.simulate(diagram, diagram.create_context(), (0.0, 2.5), python=rung)
+    assert opaque == (python == "called")
+    results = saltus.simulate(diagram, diagram.create_context(), (0.0, 2.5), python=python)
     np.testing.assert_allclose(results.events.times("x.reset"), [1.0, 2.0], rtol=0, atol=1e-13)
 
 

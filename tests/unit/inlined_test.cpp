@@ -15,7 +15,7 @@ template <int N, bool Inlined>
 class Ring final : public LeafSystem {
  public:
   Ring() : LeafSystem("ring") {
-    VectorFunction ode = &Ring::ode;
+    RightHandSide ode = &Ring::ode;
     if (Inlined) ode = inlined<N>(method<&Ring::ode>);
     declare_continuous_state({.initial = Eigen::VectorXd::Ones(N), .ode = std::move(ode)});
     declare_zero_crossing({.name = "push",

@@ -13,8 +13,6 @@ namespace saltus {
 
 namespace detail {
 
-struct StepKernels;  // `solver/kernels.hpp`
-
 /// A const method known to the compiler: see `method`.
 template <auto M>
 struct ConstantMethod {
@@ -104,14 +102,6 @@ class Callback<void(const At&, Out)> {
       detail::call<F>(*static_cast<const F*>(self.callable_.get()), at, out);
   }
 
-  /// Sets steps that were compiled together with this right-hand side of `states` states; null for
-  /// most callbacks. See `inlined`.
-  void set_kernels(const detail::StepKernels* kernels, Index states) {
-    kernels_ = kernels, kernel_states_ = states;
-  }
-  const detail::StepKernels* kernels() const noexcept { return kernels_; }
-  Index kernel_states() const noexcept { return kernel_states_; }
-
  private:
   template <class F>
   static void call_method(const Callback& self, const LeafSystem& leaf, const At& at, Passed out) {
@@ -134,8 +124,6 @@ class Callback<void(const At&, Out)> {
   void (*call_)(const Callback&, const LeafSystem&, const At&, Passed) = nullptr;
   alignas(void*) unsigned char method_[2 * sizeof(void*)] = {};
   std::shared_ptr<const void> callable_;
-  const detail::StepKernels* kernels_ = nullptr;
-  Index kernel_states_ = 0;
 };
 
 /// Fills a vector: a derivative, an output, a guard. A function that returns a number fills one

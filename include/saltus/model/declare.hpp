@@ -61,12 +61,12 @@ inline void LeafSystem::declare_continuous_state(ContinuousState state) {
              "': the continuous state is declared twice; declare it once, as one vector"));
   }
   detail::require_finite(state.initial, text("block '", name(), "': initial continuous state"));
-  if (state.ode.kernels() != nullptr && state.ode.kernel_states() != state.initial.size()) {
+  if (state.ode.steps != nullptr && state.ode.states != state.initial.size()) {
     throw ModelError(text("block '", name(), "': the right-hand side is inlined for ",
-                          state.ode.kernel_states(), " continuous states, the block has ",
+                          state.ode.states, " continuous states, the block has ",
                           state.initial.size(), "; say inlined<", state.initial.size(), ">"));
   }
-  detail::take_formula(state.ode, state.formula, "the continuous state", name());
+  detail::take_formula(state.ode.function, state.formula, "the continuous state", name());
   const ContinuousState& before = declared_.continuous;
   if (!state.jacobian) state.jacobian = before.jacobian;
   if (!state.sparsity) {

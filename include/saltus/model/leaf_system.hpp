@@ -10,6 +10,7 @@
 
 #include "saltus/base/matrix_entry.hpp"
 #include "saltus/model/event.hpp"
+#include "saltus/model/right_hand_side.hpp"
 #include "saltus/model/system.hpp"
 
 namespace saltus {
@@ -18,7 +19,7 @@ namespace saltus {
 /// reads.
 struct ContinuousState {
   Eigen::VectorXd initial = {};
-  VectorFunction ode = {};  ///< empty: xdot = 0
+  RightHandSide ode = {};  ///< empty: xdot = 0
   /// d(xdot)/d(x), optional; a stiff method uses it. Differences replace entries that are not
   /// finite.
   MatrixFunction jacobian = {};
@@ -68,7 +69,7 @@ class LeafSystem : public System {
 
  protected:
   /// Declares n continuous states that start at zero, or at the given values; xdot = ode(at).
-  void declare_continuous_state(Index n, VectorFunction ode) {
+  void declare_continuous_state(Index n, RightHandSide ode) {
     declare_continuous_state({.initial = Eigen::VectorXd::Zero(n), .ode = std::move(ode)});
   }
   void declare_continuous_state(ContinuousState state);

@@ -39,8 +39,10 @@ struct PlanLeaf {
   std::vector<Place> input_places = {};
   std::vector<int> outputs = {};    // the node of each output
   std::vector<int> relations = {};  // the node of each relation
+  /// The declarations of the system, or those that a Refinement gave in their place.
+  std::shared_ptr<const Declarations> declarations = {};
 
-  const Declarations& declared() const { return system->declarations(); }
+  const Declarations& declared() const { return *declarations; }
 };
 
 /// A vector of guards that one call computes.

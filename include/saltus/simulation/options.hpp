@@ -5,11 +5,12 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "saltus/plan/plan.hpp"
+#include "saltus/plan/refinement.hpp"
 
 namespace saltus {
 
@@ -66,6 +67,9 @@ struct SimulatorOptions {
   bool dense_output = false;
   /// The event log; switching it off changes nothing else.
   bool record_events = true;
+
+  /// May give leaves other functions while their plan is made.
+  std::shared_ptr<Refinement> refinement = {};
 
   /// Throws SimulationError when a run does not end well; otherwise returns the results with the
   /// status.

@@ -68,6 +68,7 @@ class InlinedStep {
 
 template <int N, class F>
 inline constexpr StepKernels step_kernels{
+    {},
     {&InlinedStep<N, F, Dopri5>::attempt, &InlinedStep<N, F, Dopri5>::dense},
     {&InlinedStep<N, F, Dop853>::attempt, &InlinedStep<N, F, Dop853>::dense}};
 
@@ -81,13 +82,11 @@ inline constexpr StepKernels step_kernels{
 /// (docs/performance.md). It costs the compile time of both methods.
 template <int N, class F>
   requires(N > 0)
-VectorFunction inlined(F right_hand_side) {
+RightHandSide inlined(F right_hand_side) {
   static_assert(
       !detail::MethodOf<F>::value,
       "a pointer says at run time only which method it is: inlined<N>(method<&Leaf::ode>)");
-  VectorFunction function(std::move(right_hand_side));
-  function.set_kernels(&detail::step_kernels<N, F>, N);
-  return function;
+  return {VectorFunction(std::move(right_hand_side)), detail::step_kernels<N, F>, N};
 }
 
 }  // namespace saltus

@@ -10,10 +10,10 @@ from typing import Any
 import numpy as np
 
 from saltus import _core
+from saltus.callbacks import callbacks_of, keep
 from saltus.ensemble.columns import Columns, empty, failed, join
 from saltus.ensemble.table import Column
 from saltus.errors import ModelError
-from saltus.ladder import climbed
 from saltus.results import Results
 from saltus.simulation import SimulatorOptions, core_context, core_options
 from saltus.system import OutputPort, System
@@ -56,7 +56,7 @@ class Job:
         """Whether a run calls a Python function, so that threads would wait for each other."""
         if not isinstance(self.system, System) or self.options.python != "traced":
             return not isinstance(self.system, System) or bool(self.system.interpreted_blocks)
-        return any(rung.rung == "called" for rung in self.system.explain())
+        return any(callback.runs == "called" for callback in self.system.explain())
 
     def for_factory(self, names: list[str]) -> list[str]:
         """Those of the names that are arguments of the factory."""
@@ -80,8 +80,9 @@ class Job:
         signals = {name: port_of(system, port) for name, port in self.signals.items()}
         options = core_options(replace(self.options, recorded_signals=signals))
         context = self.context or system.create_context(self.span[0])
-        runs = climbed(system)[0] if self.options.python == "traced" else system
-        ensemble = _core.Ensemble(runs, core_context(context), self.span, options)
+        callbacks = callbacks_of(system) if self.options.python == "traced" else None
+        ensemble = _core.Ensemble(system, core_context(context), self.span, options, callbacks)
+        keep(system, callbacks)
         for name, column in values.items():
             ensemble.vary(name, _numbers(name, column))
         return ensemble

@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from saltus import _core
+from saltus.callbacks import traced_callbacks
 from saltus.errors import ModelError
-from saltus.ladder import climbed
 from saltus.report.table import WorkPrecision
 from saltus.results import Results
 from saltus.scenes import Scene
@@ -126,7 +126,7 @@ def work_precision(
     known = _known(exact, reference, provenance, _span(t_span), options.get("save_at", ()))
     if len(known.times):
         options["save_at"] = list(known.times)
-    scene, _alive = _scene(system, context, _span(t_span), recorded_signals, options)
+    scene = _scene(system, context, _span(t_span), recorded_signals, options)
     if len(known.times):
         _core.set_samples(scene, list(known.times), known.rows, exact is not None, known.provenance)
     if event_times is None and isinstance(reference, Results):
@@ -151,16 +151,14 @@ def _scene(
     span: tuple[float, float],
     signals: Mapping[str, OutputPort] | None,
     options: dict[str, Any],
-) -> tuple[_core.Scene, object]:
-    """The scene as it runs, and what has to live as long."""
+) -> _core.Scene:
     if not isinstance(system, System):
         raise ModelError(f"work_precision: expected a system or a scene, found {system!r}")
     if signals is None:
         signals = {system.output_names[0]: system.output(0)} if system.output_names else {}
     chosen = SimulatorOptions(recorded_signals=signals, **options)
-    runs, ladder = climbed(system) if chosen.python == "traced" else (system, None)
-    scene = _core.user_scene(runs, core_context(context), span, core_options(chosen))
-    return scene, (runs, ladder)
+    callbacks = traced_callbacks(system) if chosen.python == "traced" else None
+    return _core.user_scene(system, core_context(context), span, core_options(chosen), callbacks)
 
 
 class _Known(NamedTuple):

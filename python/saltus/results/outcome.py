@@ -72,7 +72,7 @@ class Results:
 
     def __init__(self, core: Record, raised: BaseException | None = None, asks: Any = None):
         self._core = core
-        self._asks = asks if core.dense else None  # the systems whose outputs dense output calls
+        self._asks = asks if core.dense else None  # the system whose outputs dense output calls
         self.time = core.time
         self.jump = core.jump
         self.outputs = _Outputs(core.outputs)
@@ -137,7 +137,7 @@ class Results:
         >>> bool(before.continuous_state[1] < 0 < after.continuous_state[1])
         True
         """
-        if self.dense and self._asks is None:  # they may be gone, and would be called
+        if self.dense and self._asks is None:  # it may be gone, and would be called
             raise ModelError("these results do not know their system, so no output can be computed")
         return values_at(self._core, t, side)
 

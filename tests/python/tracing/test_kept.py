@@ -66,7 +66,7 @@ def test_a_second_solve_has_the_same_bits_and_traces_nothing(made, method):
     for run in (*runs[1:], anew):
         assert np.array_equal(run.t, runs[0].t)
         assert np.array_equal(run.y, runs[0].y)
-        assert [rung.rung for rung in run.system.explain()] == ["traced"] * 3
+        assert [callback.runs for callback in run.system.explain()] == ["traced"] * 3
 
 
 def test_it_is_traced_once_for_every_start_and_has_the_bits_of_a_new_trace(made):

@@ -45,13 +45,27 @@ inline void add_nodes(Plan& plan, PlanLeaf& leaf) {
     plan.nodes.push_back({.leaf = number, .index = i, .relation = true, .boolean = true});
 }
 
+/// Declarations in place of those of the leaves, by number of the leaf. Null, or a list that ends
+/// before: those of the leaf itself.
+using Replacements = std::vector<std::shared_ptr<const Declarations>>;
+
+/// The declarations of a leaf in the plan. Those of the leaf itself are not owned.
+inline std::shared_ptr<const Declarations> declarations_of(const LeafSystem& leaf,
+                                                           std::size_t number,
+                                                           const Replacements& replacements) {
+  if (number < replacements.size() && replacements[number]) return replacements[number];
+  return {std::shared_ptr<void>(), &leaf.declarations()};
+}
+
 /// Adds the leaves, with their places in the flat arrays, and their nodes.
-inline void add_leaves(Plan& plan, Structure& structure) {
+inline void add_leaves(Plan& plan, Structure& structure, const Replacements& replacements) {
   plan.leaves.reserve(structure.leaves.size());  // so no leaf is moved, and few nodes are
   plan.nodes.reserve(structure.leaves.size());
   for (auto& [system, path] : structure.leaves) {
-    const Declarations& d = system->declarations();
-    PlanLeaf leaf{.system = system, .path = std::move(path)};
+    PlanLeaf leaf{.system = system,
+                  .path = std::move(path),
+                  .declarations = declarations_of(*system, plan.leaves.size(), replacements)};
+    const Declarations& d = leaf.declared();
     leaf.x = plan.nx, leaf.nx = d.continuous.initial.size();
     leaf.z = plan.nz, leaf.nz = d.discrete.size();
     leaf.p = plan.np, leaf.np = d.parameter_values.size();
@@ -229,10 +243,10 @@ inline void add_places(Plan& plan) {
 }
 
 /// Finds leaves, wires and readers.
-inline Plan flatten(const System& system) {
+inline Plan flatten(const System& system, const Replacements& replacements = {}) {
   Structure structure = structure_of(system);
   Plan plan;
-  add_leaves(plan, structure);
+  add_leaves(plan, structure, replacements);
   add_wires(plan, structure, LeafNumbers(plan));
   add_needs(plan);
   return plan;

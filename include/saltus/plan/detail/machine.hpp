@@ -80,13 +80,14 @@ class Machine {
     (*lone_guard_->function)(*lone_guard_->system, seen_by(*lone_guard_, t), out);
   }
 
-  /// The right-hand side, if a compiled step may call it directly: one leaf, no needed outputs,
-  /// nothing held or carried. Otherwise null. `compiled_at` shows its arguments except t and x.
-  const VectorFunction* compiled() const noexcept {
-    return at_rest_ > 0 || carrier_ != nullptr ? nullptr : compiled_;
+  /// The right-hand side, if a step that was compiled together with it may call it directly: one
+  /// leaf, no needed outputs, nothing held or carried. Otherwise null.
+  const RightHandSide* inlined() const noexcept {
+    return at_rest_ > 0 || carrier_ != nullptr ? nullptr : inlined_;
   }
-  const At& compiled_at() { return seen_by(*lone_ode_, 0.0); }
-  const LeafSystem& compiled_leaf() const { return *lone_ode_->system; }
+  /// Its arguments except t and x.
+  const At& inlined_at() { return seen_by(*lone_ode_, 0.0); }
+  const LeafSystem& inlined_leaf() const { return *lone_ode_->system; }
 
   /// Derivative and guards at exactly this state, even while a block is carried.
   void flow(double t, const double* state, double* xdot);
@@ -116,7 +117,7 @@ class Machine {
   void leaf_derivative(std::size_t leaf, double t, const double* state, VectorRef xdot) {
     ++rhs_calls;
     const PlanLeaf& of = plan_->leaves[leaf];
-    of.declared().continuous.ode(*of.system, at(leaf, t, state), xdot);
+    of.declared().continuous.ode.function(*of.system, at(leaf, t, state), xdot);
   }
 
   /// The state with all carried entries moved to their surface.
@@ -237,7 +238,7 @@ class Machine {
   /// If this is the only ode, and it needs no computed values, it is called without a walk.
   const Call* lone_ode_ = nullptr;
   const GuardCall* lone_guard_ = nullptr;
-  const VectorFunction* compiled_ = nullptr;
+  const RightHandSide* inlined_ = nullptr;
   std::vector<int> active_, called_;  // groups that can fire, and those of them that are not fused
   std::vector<int> rests_;            // entries of x: the number of holds on each
   std::vector<Index> resting_of_;     // leaves: the number of their states at rest

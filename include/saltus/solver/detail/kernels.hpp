@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <type_traits>
 
-#include "saltus/base/callback.hpp"
+#include "saltus/model/right_hand_side.hpp"
 #include "saltus/solver/detail/dopri5.hpp"
 
 namespace saltus::detail {
@@ -31,8 +31,8 @@ struct MethodKernels {
   void (*dense)(const Caller&, double t0, double h, const StepMemory&);
 };
 
-/// Behind VectorFunction::kernels().
-struct StepKernels {
+/// The steps of both methods. `inlined` is the only one that makes InlinedSteps, so they are these.
+struct StepKernels : InlinedSteps {
   MethodKernels dopri5, dop853;
 
   template <class Method>
@@ -43,5 +43,9 @@ struct StepKernels {
       return dop853;
   }
 };
+
+inline const StepKernels& kernels_of(const RightHandSide& right_hand_side) {
+  return static_cast<const StepKernels&>(*right_hand_side.steps);
+}
 
 }  // namespace saltus::detail

@@ -130,11 +130,11 @@ class RungeKutta final : public StepSolver<RungeKutta<Method, N>, OneStepSolver>
 
   /// The steps that were compiled together with the right-hand side, if there are any.
   const detail::MethodKernels* compiled() const {
-    const VectorFunction* function = machine_->compiled();
-    return function == nullptr ? nullptr : &function->kernels()->template of<Method>();
+    const RightHandSide* inlined = machine_->inlined();
+    return inlined == nullptr ? nullptr : &detail::kernels_of(*inlined).template of<Method>();
   }
   detail::Caller caller() {
-    return {machine_->compiled(), &machine_->compiled_leaf(), &machine_->compiled_at(),
+    return {&machine_->inlined()->function, &machine_->inlined_leaf(), &machine_->inlined_at(),
             &machine_->rhs_calls};
   }
   detail::StepMemory memory() { return {x0_.data(), x1_.data(), scratch_.data(), k_.data()}; }

@@ -91,7 +91,7 @@ def test_pointers(library, kind):
         "prototype": lambda f: KIND(("decay", library)),
     }[kind](library.decay)
     block = leaf(ode, k=2.0)
-    assert [(r.callback, r.rung) for r in block.explain()] == [("ode", "compiled")]
+    assert [(r.callback, r.runs) for r in block.explain()] == [("ode", "compiled")]
     assert end(block)[0] == pytest.approx(np.exp(-2.0), rel=1e-4)
 
 

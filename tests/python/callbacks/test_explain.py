@@ -1,4 +1,4 @@
-"""`system.explain()`: which rung, and why not a higher one; nothing is run."""
+"""`system.explain()`: how each callback runs, and why not faster; nothing is run."""
 
 import runpy
 from pathlib import Path
@@ -12,7 +12,7 @@ from models import Pendulum, leaf
 
 def test_a_line_for_each_callback():
     explanation = Pendulum().explain()
-    assert [(r.block, r.callback, r.rung) for r in explanation] == [
+    assert [(r.block, r.callback, r.runs) for r in explanation] == [
         ("pendulum", "ode", "traced"),
         ("pendulum", "output 'energy'", "traced"),
         ("pendulum", "guard of 'low'", "traced"),
@@ -25,11 +25,11 @@ def test_why_not():
     def ode(time, state):
         return [-1.0 if state.continuous_state[0] > 0.0 else 1.0]
 
-    (rung,) = leaf(ode).explain()
-    assert rung.rung == "called"
-    assert "test_explain.py" in rung.reason
-    assert "np.where" in rung.reason or "mode" in rung.reason
-    assert rung.reason in str(leaf(ode).explain())
+    (callback,) = leaf(ode).explain()
+    assert callback.runs == callback.rung == "called"
+    assert "test_explain.py" in callback.reason
+    assert "np.where" in callback.reason or "mode" in callback.reason
+    assert callback.reason in str(leaf(ode).explain())
 
 
 def test_paths_of_nested_blocks():
@@ -41,7 +41,7 @@ def test_paths_of_nested_blocks():
 
 def test_open_inputs_are_said():
     explanation = FunctionBlock(lambda u: np.sin(u), name="sine").explain()
-    assert [r.rung for r in explanation] == ["traced"]
+    assert [r.runs for r in explanation] == ["traced"]
     assert "open inputs" in str(explanation)
 
 
@@ -56,8 +56,8 @@ def test_the_scenes_of_the_tutorial_are_traced():
     ball = runpy.run_path(str(scenes / "ball_leaf.py"))["Ball"]()
     over = runpy.run_path(str(scenes / "ball_zeno.py"))["ball_over"]
     diagram = over(Step(name="floor"), 9.81, 0.9)
-    assert [r.rung for r in ball.explain()] == ["traced"] * 3
-    assert [r.rung for r in diagram.explain()] == ["traced"]
+    assert [r.runs for r in ball.explain()] == ["traced"] * 3
+    assert [r.runs for r in diagram.explain()] == ["traced"]
     assert "opaque" not in saltus.Simulator(diagram).describe()
 
 

@@ -1,10 +1,13 @@
-// What python/saltus/ladder.py makes traces with and runs them by.
+// What python/saltus/callbacks.py makes traces with.
 #include <array>
 #include <atomic>
 
 #include <pybind11/stl.h>
 
-#include "ladder_system.hpp"
+#include "bind_traces.hpp"
+#include "bindings.hpp"
+#include "saltus/plan/compile.hpp"
+#include "trace_pass.hpp"
 
 namespace saltus::python {
 
@@ -18,7 +21,7 @@ constexpr std::array roles{"ode",   "jacobian",  "sparse_jacobian", "output",
 py::tuple as_tuple(const Dimensions& dimensions) { return py::tuple(py::cast(dimensions)); }
 
 /// How many numbers a function returns; None for a state.
-py::object result_size(const SurveyedBlock& block, const Function& function) {
+py::object result_size(const BlockTraces& block, const Function& function) {
   const Declarations& d = block.leaf->declarations();
   const auto place = static_cast<std::size_t>(function.index);
   const Index n = d.continuous.initial.size();
@@ -38,7 +41,7 @@ py::object result_size(const SurveyedBlock& block, const Function& function) {
   }
 }
 
-py::dict function_of(const SurveyedBlock& block, int k) {
+py::dict function_of(const BlockTraces& block, int k) {
   const Function& function = block.leaf->function(k);
   py::dict all;
   all["number"] = k;
@@ -66,7 +69,33 @@ py::dict parameters_of(const PythonLeaf& leaf) {
   return parameters;
 }
 
-py::dict block_of(const SurveyedBlock& block) {
+Trace make_trace(int function, const Tape& tape, const py::object& relations, bool wrote_x,
+                 bool wrote_z, bool wrote_mode, bool with_jacobian) {
+  static std::atomic<int> serial{0};
+  Trace trace{++serial, function, tape, std::nullopt, wrote_x, wrote_z, wrote_mode, std::nullopt};
+  if (!relations.is_none()) {
+    trace.relations = {relations.attr("differences").cast<Tape>(),
+                       relations.attr("true_at_zero").cast<std::vector<bool>>(),
+                       relations.attr("truth").cast<Tape>()};
+  }
+  if (with_jacobian) trace.jacobian = tape::jacobian(tape);
+  return trace;
+}
+
+/// Traces the blocks of a system for their shapes. Throws what compile() throws.
+void trace(const System& system, const py::object& callbacks) {
+  compile(system, {}, trace_pass(callbacks).get());
+}
+
+py::list facts_of_all(Traces& traces) {
+  py::list blocks;
+  for (const BlockTraces& block : traces.blocks()) blocks.append(facts_of(block));
+  return blocks;
+}
+
+}  // namespace
+
+py::dict facts_of(const BlockTraces& block) {
   const PythonLeaf& leaf = *block.leaf;
   const Declarations& d = leaf.declarations();
   py::list inputs, functions;
@@ -90,35 +119,16 @@ py::dict block_of(const SurveyedBlock& block) {
   return all;
 }
 
-Trace make_trace(int function, const Tape& tape, const py::object& relations, bool wrote_x,
-                 bool wrote_z, bool wrote_mode, bool with_jacobian) {
-  static std::atomic<int> serial{0};
-  Trace trace{++serial, function, tape, std::nullopt, wrote_x, wrote_z, wrote_mode, std::nullopt};
-  if (!relations.is_none()) {
-    trace.relations = {relations.attr("differences").cast<Tape>(),
-                       relations.attr("true_at_zero").cast<std::vector<bool>>(),
-                       relations.attr("truth").cast<Tape>()};
-  }
-  if (with_jacobian) trace.jacobian = tape::jacobian(tape);
-  return trace;
-}
-
-}  // namespace
-
-void bind_ladder(py::module_& module) {
-  py::class_<Survey>(module, "Survey")
-      .def(py::init(&survey_of))
-      .def_property_readonly("stale", &Survey::stale)
-      .def_readonly("complete", &Survey::complete)
-      .def("blocks", [](const Survey& survey) {
-        py::list blocks;
-        for (const SurveyedBlock& block : survey.blocks) blocks.append(block_of(block));
-        return blocks;
-      });
+void bind_traces(py::module_& module) {
   py::class_<Trace>(module, "Trace").def(py::init(&make_trace));
-  py::class_<LadderSystem, System>(module, "LadderSystem")
-      .def(py::init<const Survey&, const std::vector<std::vector<Trace>>&>())
-      .def("replace", &LadderSystem::replace);
+  py::class_<Traces, std::shared_ptr<Traces>>(module, "Traces")
+      .def(py::init<const System&>())
+      .def_property_readonly("stale", &Traces::stale)
+      .def_property_readonly("complete", &Traces::complete)
+      .def("guess_shapes", &Traces::guess_shapes)
+      .def("set", &Traces::set)
+      .def("blocks", &facts_of_all);
+  module.def("trace", &trace);
 }
 
 }  // namespace saltus::python

@@ -50,12 +50,12 @@ MODELS = {
 
 def ode_tape(system):
     """The tape of the ode, its start values and parameters."""
-    from saltus.ladder import Ladder
+    from saltus.callbacks import traced_callbacks
 
-    ladder = Ladder(system)
-    (block,) = ladder.survey.blocks()
+    callbacks = traced_callbacks(system)
+    (block,) = callbacks.traces.blocks()
     (k,) = [i for i, f in enumerate(block["functions"]) if f["role"] == "ode"]
-    outcome = ladder.outcomes[0][k]
+    outcome = callbacks.outcomes[0][k]
     assert isinstance(outcome, tracing.Traced), outcome.reason
     values = [np.ravel(v) for v in block["parameters"].values()]
     return outcome.tape, block["x"], np.concatenate([*values, np.empty(0)])
@@ -90,4 +90,4 @@ def differences(f, x):
 
 def test_decay_of_the_tests_is_called():
     """Its hook may do anything."""
-    assert Decay(lambda t, s: print(t)).explain()[0].rung == "called"
+    assert Decay(lambda t, s: print(t)).explain()[0].runs == "called"

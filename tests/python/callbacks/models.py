@@ -29,9 +29,9 @@ class Pendulum(saltus.LeafSystem):
         return state.with_continuous_state([angle, self.keep * rate])
 
 
-def rungs(system):
-    """The rung of each callback, by its name."""
-    return {f"{r.block}: {r.callback}": r.rung for r in system.explain()}
+def ways(system):
+    """How each callback runs, by its name."""
+    return {f"{r.block}: {r.callback}": r.runs for r in system.explain()}
 
 
 def end(system, t_end=1.0, **options):

@@ -89,13 +89,13 @@ def test_a_kept_array_is_left_alone():
     assert len({float(out[0]) for out in kept}) > 3
 
 
-@pytest.mark.parametrize("rung", ["called", "traced"])
-def test_what_was_not_written_is_refused(rung):
+@pytest.mark.parametrize("python", ["called", "traced"])
+def test_what_was_not_written_is_refused(python):
     def ode(time, state, out):
         out[0] = 1.0
 
     with pytest.raises(saltus.ModelError, match=r"'block'.*ode did not write entry 1 of 2"):
-        end(leaf(ode, [0.0, 0.0]), python=rung)
+        end(leaf(ode, [0.0, 0.0]), python=python)
 
 
 def test_a_nan_that_was_written_is_none_of_ours():
@@ -106,14 +106,14 @@ def test_a_nan_that_was_written_is_none_of_ours():
         end(leaf(ode), **CALLED)
 
 
-@pytest.mark.parametrize("rung", ["called", "traced"])
-def test_returning_as_well_is_refused(rung):
+@pytest.mark.parametrize("python", ["called", "traced"])
+def test_returning_as_well_is_refused(python):
     def ode(time, state, out):
         out[0] = 1.0
         return out
 
     with pytest.raises(saltus.ModelError, match=r"fills `out` and returned .* as well"):
-        end(leaf(ode), python=rung)
+        end(leaf(ode), python=python)
 
 
 def test_an_output_says_its_shape():
@@ -133,7 +133,7 @@ def test_a_parameter_called_out_is_a_parameter():
 def test_functions_of_numpy_have_out_and_return():
     block = saltus.library.FunctionBlock(np.sin, name="sine")
     assert [r.callback for r in block.explain()] == ["output 'out'"]
-    assert block.explain()[0].rung == "traced"
+    assert block.explain()[0].runs == "traced"
 
 
 def test_traced_in_place():
@@ -141,5 +141,5 @@ def test_traced_in_place():
         out[:] = -2.0 * state.continuous_state
 
     block = leaf(ode)
-    assert block.explain()[0].rung == "traced"
+    assert block.explain()[0].runs == "traced"
     assert end(block)[0] == pytest.approx(end(block, **CALLED)[0], rel=1e-12)

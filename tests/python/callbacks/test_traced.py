@@ -15,7 +15,7 @@ from models import Pendulum, end, leaf
 
 def both(make, span, **options):
     """Results of the same system, called and traced."""
-    return [run(make(), span, python=rung, **options) for rung in ("called", "traced")]
+    return [run(make(), span, python=python, **options) for python in ("called", "traced")]
 
 
 @pytest.mark.parametrize("method", ["dopri5", "dop853", "bdf"])
@@ -85,9 +85,11 @@ def test_what_is_not_read_is_not_computed():
         held.declare_output_port(lambda t, s: 3.0 * s.mode, name="y")
         return held
 
-    def described(rung):
+    def described(python):
         held = block()
-        return saltus.Simulator(held, python=rung, recorded_signals={"y": held.output()}).describe()
+        return saltus.Simulator(
+            held, python=python, recorded_signals={"y": held.output()}
+        ).describe()
 
     constant = "constant, computed once: 1 (held.y)"
     assert constant in described("traced")
@@ -100,12 +102,12 @@ def test_exact_jacobian_for_a_stiff_method():
         return np.array([-0.04 * x + 1e4 * y * z, 0.04 * x - 1e4 * y * z - 3e7 * y**2, 3e7 * y**2])
 
     calls = {}
-    for rung in ("called", "traced"):
+    for python in ("called", "traced"):
         block = leaf(ode, [1.0, 0.0, 0.0])
         results = saltus.simulate(
-            block, block.create_context(), (0.0, 40.0), ode_solver_method="bdf", python=rung
+            block, block.create_context(), (0.0, 40.0), ode_solver_method="bdf", python=python
         )
-        calls[rung] = results.statistics.right_hand_side_calls
+        calls[python] = results.statistics.right_hand_side_calls
         assert results.statistics.jacobian_calls > 0
     assert calls["traced"] < calls["called"]  # no differences
 
@@ -113,7 +115,7 @@ def test_exact_jacobian_for_a_stiff_method():
 def test_a_traced_run_needs_no_interpreter():
     """Another thread computes for all of the run and is never waited for."""
     block = leaf(lambda t, s: [s.continuous_state[1], -s.continuous_state[0]], [1.0, 0.0])
-    assert {r.rung for r in block.explain()} == {"traced"}
+    assert {r.runs for r in block.explain()} == {"traced"}
     count, stop = [0], threading.Event()
 
     def work():
@@ -137,7 +139,7 @@ def test_side_effects_stay():
         return [-state.continuous_state[0]]
 
     block = leaf(ode)
-    assert block.explain()[0].rung == "called"
+    assert block.explain()[0].runs == "called"
     results = saltus.simulate(block, block.create_context(), (0.0, 1.0))
     assert len(seen) == results.statistics.right_hand_side_calls
 
@@ -196,10 +198,10 @@ def test_threads_share_a_system():
 def test_jax_in_a_callback_is_called():
     jnp = pytest.importorskip("jax.numpy")
     block = leaf(lambda t, s: jnp.array([-s.continuous_state[0]]))
-    assert block.explain()[0].rung == "called"
+    assert block.explain()[0].runs == "called"
     assert end(block)[0] == pytest.approx(np.exp(-1.0), rel=1e-4)
 
 
-def test_an_unknown_rung_is_refused():
+def test_an_unknown_way_is_refused():
     with pytest.raises(saltus.ModelError, match="option python: unknown 'trace'; did you mean"):
         end(Pendulum(), python="trace")

@@ -1,6 +1,8 @@
-#include "ladder_leaf.hpp"
+#include "traced_declarations.hpp"
 
+#include <cmath>
 #include <map>
+#include <optional>
 #include <utility>
 
 namespace saltus::python {
@@ -51,29 +53,51 @@ tape::Jacobian at_places(const tape::Jacobian& jacobian, const std::vector<Matri
   return {places, tape::Tape(graph, values)};
 }
 
-}  // namespace
+/// The inputs that a tape reads.
+std::vector<int> inputs_of(const PythonLeaf& leaf, const Slot& slot) {
+  std::vector<int> inputs;
+  for (int k = 0; k < count_of(leaf.declarations().inputs); ++k)
+    if (slot->tape.reads_input(k)) inputs.push_back(k);
+  return inputs;
+}
 
-LadderLeaf::LadderLeaf(const SurveyedBlock& block, std::span<const Trace> traces)
-    : LeafSystem(block.leaf->name()), original_(*block.leaf) {
-  declared() = original_.declarations();
-  fix_shapes(block);
-  for (const Trace& trace : traces) slots_.push_back(std::make_shared<Trace>(trace));
+/// Changes a copy of the declarations of a block, one trace after the other.
+class Writer {
+ public:
+  Writer(const PythonLeaf& leaf, const std::vector<Slot>& slots)
+      : original_(leaf), slots_(slots), declared_(leaf.declarations()) {}
+
+  Declarations write(const std::vector<Shape>& outputs);
+
+ private:
+  void put(const Slot& slot);
+  void put_ode(const Slot& slot);
+  void put_output(const Slot& slot);
+  void put_relations(const Slot& slot, OutputDeclaration& output);
+  RelationIndex add_relation(Relation relation);
+  void put_time_event(const Slot& slot);
+  void narrow_inputs(ZeroCrossing& crossing, int index);
+  std::optional<Slot> slot_of(Role role, int index) const;
+  VectorFunction taped(const Slot& slot) const;
+
+  const PythonLeaf& original_;
+  const std::vector<Slot>& slots_;
+  Declarations declared_;
+};
+
+Declarations Writer::write(const std::vector<Shape>& outputs) {
+  for (std::size_t i = 0; i < outputs.size(); ++i) declared_.outputs[i].shape = outputs[i];
   for (const Slot& slot : slots_) put(slot);
-  auto& crossings = declared().zero_crossings;
+  auto& crossings = declared_.zero_crossings;
   for (std::size_t i = 0; i < crossings.size(); ++i)
     narrow_inputs(crossings[i], static_cast<int>(i));
+  return std::move(declared_);
 }
 
-/// They are known, so no function need be called again to find them.
-void LadderLeaf::fix_shapes(const SurveyedBlock& block) {
-  for (std::size_t i = 0; i < block.outputs.size(); ++i)
-    declared().outputs[i].shape = block.outputs[i];
-}
-
-void LadderLeaf::put(const Slot& slot) {
+void Writer::put(const Slot& slot) {
   const Function& function = original_.function(slot->function);
   const auto crossing = [&]() -> ZeroCrossing& {
-    return declared().zero_crossings[static_cast<std::size_t>(function.index)];
+    return declared_.zero_crossings[static_cast<std::size_t>(function.index)];
   };
   switch (function.role) {
     case Role::ode:
@@ -83,7 +107,7 @@ void LadderLeaf::put(const Slot& slot) {
     case Role::update:
       return put_time_event(slot);
     case Role::sparse_jacobian:
-      declared().continuous.sparse_jacobian = taped(slot);
+      declared_.continuous.sparse_jacobian = taped(slot);
       return;
     case Role::guard:
       crossing().guard = taped(slot);
@@ -92,8 +116,8 @@ void LadderLeaf::put(const Slot& slot) {
       crossing().reset_map = taped_reset(original_, slot, crossing().reset_map);
       return;
     case Role::jacobian:
-      declared().continuous.jacobian = [rows = taped(slot), &leaf = original_](const At& at,
-                                                                               MatrixRef out) {
+      declared_.continuous.jacobian = [rows = taped(slot), &leaf = original_](const At& at,
+                                                                              MatrixRef out) {
         Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> values(out.rows(),
                                                                                       out.cols());
         rows(leaf, at, VectorRef(values.data(), values.size()));
@@ -104,7 +128,7 @@ void LadderLeaf::put(const Slot& slot) {
 
 /// A function that runs the tape. What is not finite is left to the function itself, which may
 /// raise, or warn.
-VectorFunction LadderLeaf::taped(const Slot& slot) const {
+VectorFunction Writer::taped(const Slot& slot) const {
   return [slot, called = original_.vector_function(slot->function), &leaf = original_](
              const At& at, VectorRef out) {
     slot->tape.evaluate(at, out.data());
@@ -112,11 +136,11 @@ VectorFunction LadderLeaf::taped(const Slot& slot) const {
   };
 }
 
-void LadderLeaf::put_ode(const Slot& slot) {
-  ContinuousState& state = declared().continuous;
+void Writer::put_ode(const Slot& slot) {
+  ContinuousState& state = declared_.continuous;
   state.ode = taped(slot);
   state.reads = slot->tape.reads();
-  state.inputs = inputs_of(slot);
+  state.inputs = inputs_of(original_, slot);
   if (state.jacobian || state.sparse_jacobian || !slot->jacobian) return;
   if (state.sparsity) slot->jacobian = at_places(*slot->jacobian, *state.sparsity);
   state.sparsity = slot->jacobian->entries;
@@ -125,12 +149,12 @@ void LadderLeaf::put_ode(const Slot& slot) {
   };
 }
 
-void LadderLeaf::put_output(const Slot& slot) {
+void Writer::put_output(const Slot& slot) {
   auto& output =
-      declared().outputs[static_cast<std::size_t>(original_.function(slot->function).index)];
+      declared_.outputs[static_cast<std::size_t>(original_.function(slot->function).index)];
   const Reads said = output.reads;
   const Reads found = slot->tape.reads();
-  output.inputs = inputs_of(slot);
+  output.inputs = inputs_of(original_, slot);
   output.reads = static_cast<Reads>(static_cast<unsigned>(said) & static_cast<unsigned>(found));
   if (output.boolean && slot->relations && output.reads == found)
     put_relations(slot, output);
@@ -140,18 +164,18 @@ void LadderLeaf::put_output(const Slot& slot) {
 
 /// The comparisons become relations, which are located by their smooth guards, and the output is
 /// computed from their truths.
-void LadderLeaf::put_relations(const Slot& slot, OutputDeclaration& output) {
+void Writer::put_relations(const Slot& slot, OutputDeclaration& output) {
   const TracedRelations& found = *slot->relations;
   std::vector<RelationIndex> relations;
   const std::size_t count = found.true_at_zero.size();
   for (std::size_t k = 0; k < count; ++k) {
     relations.push_back(
-        declare_relation({.name = count == 1 ? text(output.name, " difference")
-                                             : text(output.name, " difference ", k),
-                          .guard = tape::as_vector_function(entry_of(found.differences, k)),
-                          .true_at_zero = found.true_at_zero[k],
-                          .reads = output.reads,
-                          .inputs = output.inputs}));
+        add_relation({.name = count == 1 ? text(output.name, " difference")
+                                         : text(output.name, " difference ", k),
+                      .guard = tape::as_vector_function(entry_of(found.differences, k)),
+                      .true_at_zero = found.true_at_zero[k],
+                      .reads = output.reads,
+                      .inputs = output.inputs}));
   }
   output.reads = Reads::relations;
   output.inputs = std::vector<int>{};
@@ -163,14 +187,21 @@ void LadderLeaf::put_relations(const Slot& slot, OutputDeclaration& output) {
   };
 }
 
-void LadderLeaf::put_time_event(const Slot& slot) {
-  auto& event =
-      declared().time_events[static_cast<std::size_t>(original_.function(slot->function).index)];
-  event.update = taped_reset(original_, slot, event.update);
-  event.inputs = inputs_of(slot);
+/// As LeafSystem::declare_relation.
+RelationIndex Writer::add_relation(Relation relation) {
+  detail::name_it(relation.name, declared_.relations, "relation_", original_.name());
+  declared_.relations.push_back(std::move(relation));
+  return {count_of(declared_.relations) - 1};
 }
 
-std::optional<Slot> LadderLeaf::slot_of(Role role, int index) const {
+void Writer::put_time_event(const Slot& slot) {
+  auto& event =
+      declared_.time_events[static_cast<std::size_t>(original_.function(slot->function).index)];
+  event.update = taped_reset(original_, slot, event.update);
+  event.inputs = inputs_of(original_, slot);
+}
+
+std::optional<Slot> Writer::slot_of(Role role, int index) const {
   const auto found = std::ranges::find_if(slots_, [&](const Slot& slot) {
     const Function& function = original_.function(slot->function);
     return function.role == role && function.index == index;
@@ -179,42 +210,45 @@ std::optional<Slot> LadderLeaf::slot_of(Role role, int index) const {
 }
 
 /// A guard and its reset map share the list of inputs they read.
-void LadderLeaf::narrow_inputs(ZeroCrossing& crossing, int index) {
+void Writer::narrow_inputs(ZeroCrossing& crossing, int index) {
   const auto guard = slot_of(Role::guard, index), reset = slot_of(Role::reset_map, index);
   if (!guard || (crossing.reset_map && !reset)) return;
-  std::vector<int> inputs = inputs_of(*guard);
+  std::vector<int> inputs = inputs_of(original_, *guard);
   if (reset) {
-    for (const int k : inputs_of(*reset))
+    for (const int k : inputs_of(original_, *reset))
       if (std::ranges::find(inputs, k) == inputs.end()) inputs.push_back(k);
   }
   crossing.inputs = std::move(inputs);
 }
 
-std::vector<int> LadderLeaf::inputs_of(const Slot& slot) const {
-  std::vector<int> inputs;
-  for (int k = 0; k < count_of(original_.declarations().inputs); ++k)
-    if (slot->tape.reads_input(k)) inputs.push_back(k);
-  return inputs;
-}
-
-bool LadderLeaf::fits(const Trace& old, const Trace& now) const {
+/// Whether a plan made with the old trace computes all that the new one needs.
+bool fits(const PythonLeaf& leaf, const Trace& old, const Trace& now) {
   if (old.function != now.function) return false;
   if (old.serial == now.serial) return true;
-  for (int k = 0; k < count_of(original_.declarations().inputs); ++k)
+  for (int k = 0; k < count_of(leaf.declarations().inputs); ++k)
     if (now.tape.reads_input(k) && !old.tape.reads_input(k)) return false;
-  if (original_.function(now.function).role != Role::output) return true;
+  if (leaf.function(now.function).role != Role::output) return true;
   const bool slower = (old.tape.reads() | now.tape.reads()) == old.tape.reads();
   return slower && !old.relations && !now.relations;
 }
 
-bool LadderLeaf::replace(std::span<const Trace> traces) {
-  const auto fit = [this](const Slot& slot, const Trace& now) { return fits(*slot, now); };
-  if (!std::ranges::equal(slots_, traces, fit)) return false;
+}  // namespace
+
+std::shared_ptr<const Declarations> traced_declarations(const PythonLeaf& leaf,
+                                                        const std::vector<Shape>& outputs,
+                                                        const std::vector<Slot>& slots) {
+  return std::make_shared<const Declarations>(Writer(leaf, slots).write(outputs));
+}
+
+bool replace_traces(const PythonLeaf& leaf, const std::vector<Slot>& slots,
+                    std::span<const Trace> traces) {
+  const auto fit = [&](const Slot& slot, const Trace& now) { return fits(leaf, *slot, now); };
+  if (!std::ranges::equal(slots, traces, fit)) return false;
   for (std::size_t i = 0; i < traces.size(); ++i) {
     Trace now = traces[i];
-    if (now.jacobian && slots_[i]->jacobian)
-      now.jacobian = at_places(*now.jacobian, slots_[i]->jacobian->entries);
-    *slots_[i] = std::move(now);
+    if (now.jacobian && slots[i]->jacobian)
+      now.jacobian = at_places(*now.jacobian, slots[i]->jacobian->entries);
+    *slots[i] = std::move(now);
   }
   return true;
 }

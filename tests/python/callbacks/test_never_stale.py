@@ -16,7 +16,7 @@ def by_global(time, state):
 
 def traced(system):
     """All of it traced, or the tests below would show nothing."""
-    assert {r.rung for r in system.explain()} == {"traced"}
+    assert {r.runs for r in system.explain()} == {"traced"}
     return system
 
 
@@ -86,9 +86,9 @@ def test_a_dynamic_parameter():
 
 def test_between_two_pieces_of_a_run():
     pendulum, simulators = Pendulum(damping=0.0), []
-    for rung in ("traced", "called"):
+    for python in ("traced", "called"):
         pendulum.damping = 0.0
-        simulator = saltus.Simulator(pendulum, python=rung)
+        simulator = saltus.Simulator(pendulum, python=python)
         simulator.initialize(pendulum.create_context())
         simulator.advance_to(0.5)
         pendulum.damping = 2.0
@@ -98,11 +98,11 @@ def test_between_two_pieces_of_a_run():
 
 
 def test_another_ode_between_two_pieces():
-    """It reads the time in place of the state; the rung does not show."""
+    """It reads the time in place of the state; how it runs does not show."""
     block, found = leaf(lambda t, s: [block.f(t, s.continuous_state[0])]), []
-    for rung in ("traced", "called"):
+    for python in ("traced", "called"):
         block.f = lambda t, x: -x
-        simulator = saltus.Simulator(block, rtol=1e-10, ode_solver_method="dopri5", python=rung)
+        simulator = saltus.Simulator(block, rtol=1e-10, ode_solver_method="dopri5", python=python)
         simulator.initialize(block.create_context())
         simulator.advance_to(0.5)
         block.f = lambda t, x: -t

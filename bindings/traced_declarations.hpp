@@ -1,0 +1,24 @@
+// The declarations of a Python block as it runs: with tapes in place of the functions that have
+// one.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "traces.hpp"
+
+namespace saltus::python {
+
+/// A copy of the declarations of the block, in which the traces in `slots` run in place of their
+/// functions. `outputs` are the shapes of the outputs: no function is called again to find them.
+std::shared_ptr<const Declarations> traced_declarations(const PythonLeaf& leaf,
+                                                        const std::vector<Shape>& outputs,
+                                                        const std::vector<Slot>& slots);
+
+/// Puts traces of the same functions into the slots. False, and nothing is done, if they need more
+/// than a plan of the old ones computes. Not while a run is under way.
+bool replace_traces(const PythonLeaf& leaf, const std::vector<Slot>& slots,
+                    std::span<const Trace> traces);
+
+}  // namespace saltus::python

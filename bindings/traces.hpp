@@ -1,0 +1,50 @@
+// The Python blocks of a system, the shapes of their ports, and what tracing made of their
+// functions.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "python_leaf.hpp"
+#include "saltus/plan/plan.hpp"
+#include "trace.hpp"
+
+namespace saltus::python {
+
+/// One Python block of a system.
+struct BlockTraces {
+  const PythonLeaf* leaf;
+  std::string path;
+  std::size_t declared;                          // how much it had declared
+  std::vector<Shape> inputs = {}, outputs = {};  // unknown before it is traced
+  bool traced = false;
+  std::vector<Trace> traces = {};  // of the functions that have one
+
+  void take_shapes(const Plan& plan, const PlanLeaf& where);
+  /// For a system that cannot run yet. Open inputs count as their ports say, or as single numbers.
+  void guess_shapes();
+};
+
+/// It refers to the blocks of the system and keeps none alive: the Python object of the system owns
+/// this one.
+class Traces {
+ public:
+  explicit Traces(const System& system);
+
+  /// Whether some block has declared more since.
+  bool stale() const;
+  bool complete() const;
+  void guess_shapes();
+  void set(std::size_t number, std::vector<Trace> traces);
+
+  std::vector<BlockTraces>& blocks() { return blocks_; }
+  std::optional<std::size_t> number_of(const LeafSystem& leaf) const;
+
+ private:
+  std::vector<BlockTraces> blocks_;
+  std::unordered_map<const LeafSystem*, std::size_t> numbers_;
+};
+
+}  // namespace saltus::python

@@ -1,0 +1,32 @@
+// RightHandSide: the function of a continuous state, perhaps with steps compiled together with it.
+#pragma once
+
+#include <concepts>
+#include <utility>
+
+#include "saltus/base/callback.hpp"
+
+namespace saltus {
+
+/// Steps of an integration method that were compiled together with a right-hand side. The solver
+/// defines them, and alone knows what is in them: see `inlined`.
+struct InlinedSteps {};
+
+/// xdot = function(t, x, z, m, u, p).
+struct RightHandSide {
+  RightHandSide() = default;
+  template <class F>
+    requires(!std::same_as<F, RightHandSide> && std::constructible_from<VectorFunction, F>)
+  RightHandSide(F callable)  // NOLINT(google-explicit-constructor): as a VectorFunction
+      : function(std::move(callable)) {}
+  RightHandSide(VectorFunction callable, const InlinedSteps& with, Index number)
+      : function(std::move(callable)), steps(&with), states(number) {}
+
+  explicit operator bool() const noexcept { return static_cast<bool>(function); }
+
+  VectorFunction function = {};
+  const InlinedSteps* steps = nullptr;  ///< null: none
+  Index states = 0;                     ///< the number of states that `steps` are for
+};
+
+}  // namespace saltus

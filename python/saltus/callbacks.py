@@ -1,0 +1,230 @@
+"""How each Python callback of a system runs: called, traced or compiled, and why."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any, NamedTuple
+
+from saltus import _core
+from saltus.errors import ModelError
+
+__all__ = ["ExplainedCallback", "Explanation"]
+
+Block = dict[str, Any]  # the facts of a block, or of a function of it
+
+KINDS = {"jacobian": "matrix", "reset_map": "reset", "update": "update"}
+"""role of a function -> the tracer's word for it; the others return a vector"""
+
+
+class ExplainedCallback(NamedTuple):
+    """How one callback runs.
+
+    Examples
+    --------
+    >>> block = saltus.library.FunctionBlock(lambda u: 2.0 * u, name="twice")
+    >>> callback = block.explain()[0]
+    >>> callback.block, callback.callback, callback.runs
+    ('twice', "output 'out'", 'traced')
+    """
+
+    block: str
+    """path of the block"""
+    callback: str
+    """such as "ode" or "guard of 'bounce'\""""
+    runs: str
+    """'called', 'traced' or 'compiled'"""
+    reason: str
+    """why it is called; empty for a traced or compiled one"""
+
+    @property
+    def rung(self) -> str:
+        """The former name of `runs`."""
+        return self.runs
+
+
+class Explanation(tuple[ExplainedCallback, ...]):
+    """How all Python callbacks of a system run; its text has one line for each.
+
+    Examples
+    --------
+    >>> block = saltus.library.FunctionBlock(lambda u: 2.0 * u, name="twice")
+    >>> len(block.explain())
+    1
+    """
+
+    def __new__(cls, callbacks: Iterable[ExplainedCallback], note: str = "") -> Explanation:
+        self = super().__new__(cls, callbacks)
+        self.note = note
+        return self
+
+    note: str
+    """a remark on the whole system, or nothing"""
+
+    def __str__(self) -> str:
+        names = [f"{c.block}: {c.callback}" for c in self]
+        width = max(map(len, names), default=0)
+        lines = [
+            f"{name:{width}}  {c.runs}" + (f": {c.reason}" if c.reason else "")
+            for name, c in zip(names, self, strict=True)
+        ]
+        return "\n".join([*lines, *([self.note] if self.note else [])])
+
+    __repr__ = __str__
+
+
+class Callbacks:
+    """The Python functions of a system, the traces of them, and whether these are still right.
+
+    They are traced while the first plan of the system is made, because the shapes of its inputs are
+    known then. The Python object of the system owns this object, so it holds no block and no
+    function: they would hold each other.
+    """
+
+    def __init__(self, system: Any):
+        self.traces = _core.Traces(system)
+        self.version = 0
+        self.outcomes: dict[int, list[Any]] = {}  # of the functions of each block, by its number
+        self._runs: dict[int, list[_core.Trace | None]] = {}  # what the engine runs of them
+
+    def trace_block(self, number: int, block: Block) -> list[_core.Trace]:
+        """Trace the functions of a block, which the engine calls for while it makes a plan."""
+        functions = block["functions"]
+        outcomes = [_trace(block, function) for function in functions]
+        self.outcomes[number] = outcomes
+        self._runs[number] = [
+            _core_trace(block, f, o) for f, o in zip(functions, outcomes, strict=True)
+        ]
+        return self._core_traces(number)
+
+    def refresh(self) -> int:
+        """Trace again the functions that read something that has changed; returns the version."""
+        changed = [
+            (b, i)
+            for b, outcomes in self.outcomes.items()
+            for i, outcome in enumerate(outcomes)
+            if outcome is not None and outcome.watch.changed() is not None
+        ]
+        blocks: list[Block] = self.traces.blocks() if changed else []
+        for b, i in changed:
+            function = blocks[b]["functions"][i]
+            self.outcomes[b][i] = _trace(blocks[b], function)
+            self._runs[b][i] = _core_trace(blocks[b], function, self.outcomes[b][i])
+            self.traces.set(b, self._core_traces(b))
+        self.version += bool(changed)
+        return self.version
+
+    def explain(self, note: str = "") -> Explanation:
+        """How each callback runs."""
+        callbacks = [
+            _explained(block, function, outcome)
+            for number, block in enumerate(self.traces.blocks())
+            for function, outcome in zip(block["functions"], self.outcomes[number], strict=True)
+        ]
+        if not callbacks:
+            note = note or "no callback is a Python function: all of it runs compiled"
+        return Explanation(callbacks, note)
+
+    def _core_traces(self, number: int) -> list[_core.Trace]:
+        return [trace for trace in self._runs[number] if trace is not None]
+
+
+def callbacks_of(system: Any) -> Callbacks:
+    """The callbacks of a system as they are now, for the plan that is made next; then `keep` them.
+
+    New ones at first use, and again if blocks have declared more since.
+    """
+    callbacks: Callbacks | None = getattr(system, "_callbacks", None)
+    if callbacks is None or callbacks.traces.stale:
+        return Callbacks(system)
+    callbacks.refresh()
+    return callbacks
+
+
+def keep(system: Any, callbacks: Callbacks | None) -> None:
+    """Keep callbacks, which are traced by now, for later plans of their system."""
+    if callbacks is not None:
+        system._callbacks = callbacks
+
+
+def traced_callbacks(system: Any) -> Callbacks:
+    """The callbacks of a system, traced. ModelError if the system cannot run."""
+    callbacks = callbacks_of(system)
+    if not callbacks.traces.complete:
+        _core.trace(system, callbacks)
+    keep(system, callbacks)
+    return callbacks
+
+
+def explain(system: Any) -> Explanation:
+    """How each callback of a system runs, for one that cannot run yet, too."""
+    try:
+        return traced_callbacks(system).explain()
+    except ModelError:
+        callbacks = Callbacks(system)
+        callbacks.traces.guess_shapes()
+        for number, block in enumerate(callbacks.traces.blocks()):
+            callbacks.trace_block(number, block)
+        return callbacks.explain(
+            "the system has open inputs; each is taken for a single number here"
+        )
+
+
+def _trace(block: Block, function: Block) -> Any:
+    """Traced or Refused; None for a compiled function."""
+    from saltus import tracing  # not before there is something to trace
+
+    if function["compiled"]:
+        return None
+    return tracing.trace(
+        tracing.Signature(
+            function=function["function"],
+            owner=block["leaf"] if function["method"] else None,
+            convention=function["convention"].name,
+            block=block["path"],
+            state_shape=tuple(block["state_shape"]),
+            discrete_shape=tuple(block["discrete_shape"]),
+            mode=block["mode"],
+            x=block["x"],
+            z=block["z"],
+            parameters=block["parameters"],
+            input_shapes=block["input_shapes"],
+            inputs=function["inputs"],
+            kind=KINDS.get(function["role"], "vector"),
+            out=function["out"],
+            out_shape=_out_shape(block, function),
+            result_size=function["result_size"],
+        )
+    )
+
+
+def _out_shape(block: Block, function: Block) -> tuple[int, ...] | None:
+    if not function["out"]:
+        return None
+    if function["role"] == "ode" and block["state_shape"]:
+        return tuple(block["state_shape"])
+    if function["role"] == "jacobian":
+        return (len(block["x"]), len(block["x"]))
+    return None
+
+
+def _core_trace(block: Block, function: Block, outcome: Any) -> _core.Trace | None:
+    if not hasattr(outcome, "tape"):
+        return None
+    given = any(f["role"] in ("jacobian", "sparse_jacobian") for f in block["functions"])
+    return _core.Trace(
+        function["number"],
+        outcome.tape,
+        outcome.relations,
+        outcome.wrote_x,
+        outcome.wrote_z,
+        outcome.wrote_mode,
+        function["role"] == "ode" and not given,
+    )
+
+
+def _explained(block: Block, function: Block, outcome: Any) -> ExplainedCallback:
+    if outcome is None:
+        return ExplainedCallback(block["path"], function["what"], "compiled", "")
+    if hasattr(outcome, "tape"):
+        return ExplainedCallback(block["path"], function["what"], "traced", "")
+    return ExplainedCallback(block["path"], function["what"], "called", outcome.reason)
