@@ -57,22 +57,19 @@ void chatters(const System& system, const char* method, const std::string& block
 
 }  // namespace
 
-TEST_CASE("4.7 sliding along a switching surface by modes chatters",
-          "[semantics][errors][chattering]") {
+TEST_CASE("sliding along a switching surface by modes chatters", "[errors][chattering]") {
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);
   chatters(sliding_modes(), method, "relay");
 }
 
-TEST_CASE("4.7 sliding along a switching surface by a relation chatters",
-          "[semantics][errors][chattering]") {
+TEST_CASE("sliding along a switching surface by a relation chatters", "[errors][chattering]") {
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);
   chatters(sliding_relation(), method, "relay");
 }
 
-TEST_CASE("4.7 sliding in a diagram with a Comparator or a lambda chatters",
-          "[semantics][errors][chattering]") {
+TEST_CASE("sliding in a diagram with a Comparator or a lambda chatters", "[errors][chattering]") {
   const auto* method = GENERATE(from_range(methods));
   const bool opaque = GENERATE(true, false);
   INFO("method " << method << ", opaque " << opaque);
@@ -97,8 +94,7 @@ TEST_CASE("4.7 sliding in a diagram with a Comparator or a lambda chatters",
   chatters(builder.build(), method, "above");
 }
 
-TEST_CASE("4.7 a ball without Zeno monitor past its Zeno time chatters",
-          "[semantics][errors][chattering]") {
+TEST_CASE("a ball without Zeno monitor past its Zeno time chatters", "[errors][chattering]") {
   const auto* method = GENERATE(from_range(methods));
   const double e = GENERATE(0.0, 0.3, 0.9);
   for (const Scene& scene : all_forms({.e = e})) {
@@ -115,8 +111,8 @@ TEST_CASE("4.7 a ball without Zeno monitor past its Zeno time chatters",
   }
 }
 
-TEST_CASE("4.7 a sliding run that starts on its surface at t = 0 does not hang",
-          "[semantics][errors][chattering]") {
+TEST_CASE("a sliding run that starts on its surface at t = 0 does not hang",
+          "[errors][chattering]") {
   const auto* method = GENERATE(from_range(methods));
   const bool modes = GENERATE(true, false);
   INFO("method " << method << ", modes " << modes);

@@ -20,8 +20,8 @@ Leaf blow_up() {
 
 }  // namespace
 
-TEST_CASE("6.2 x' = x^2 blows up at t = 1: the error says where, with the partial results",
-          "[semantics][errors]") {
+TEST_CASE("x' = x^2 blows up at t = 1: the error says where, with the partial results",
+          "[errors]") {
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Leaf leaf = blow_up();
@@ -62,8 +62,7 @@ TEST_CASE("a jump that no guard announces, too sharp for the tolerance, ends in 
          std::abs(results.context.continuous_state()[0] - 0.5) < 1e-3));
 }
 
-TEST_CASE("6.2 a step below min_minor_step_size is an error that names the option",
-          "[semantics][errors]") {
+TEST_CASE("a step below min_minor_step_size is an error that names the option", "[errors]") {
   const Leaf leaf = blow_up();
   const std::string what = message<SimulationError>([&] {
     simulate(leaf, leaf.create_context(), {0.0, 2.0},
@@ -72,8 +71,7 @@ TEST_CASE("6.2 a step below min_minor_step_size is an error that names the optio
   CHECK(contains(what, "below min_minor_step_size = 0.001 s; lower that, or loosen rtol and atol"));
 }
 
-TEST_CASE("5.5 max_major_steps ends a run with the status step_limit and all it has",
-          "[semantics][errors]") {
+TEST_CASE("max_major_steps ends a run with the status step_limit and all it has", "[errors]") {
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Leaf leaf("leaf", [](Leaf& l) {
@@ -101,7 +99,7 @@ TEST_CASE("5.5 max_major_steps ends a run with the status step_limit and all it 
   CHECK(results.context.discrete_state()[0] == std::round(results.context.time() / 0.1));
 }
 
-TEST_CASE("6.4 an interrupt ends a run with what it has", "[semantics][errors]") {
+TEST_CASE("an interrupt ends a run with what it has", "[errors]") {
   const auto* method = GENERATE(from_range(methods));
   const bool with_ticks = GENERATE(true, false);
   INFO("method " << method << ", ticks " << with_ticks);
@@ -126,7 +124,7 @@ TEST_CASE("6.4 an interrupt ends a run with what it has", "[semantics][errors]")
   CHECK(results.context.time() > 0.0);
 }
 
-TEST_CASE("6.4 an interrupt is heard without continuous state too", "[semantics][errors]") {
+TEST_CASE("an interrupt is heard without continuous state too", "[errors]") {
   const Leaf leaf("leaf", [](Leaf& l) {
     l.declare_discrete_state(vec({0.0}));
     l.declare_periodic_update(count_up, 1e-3);

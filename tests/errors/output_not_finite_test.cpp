@@ -37,7 +37,7 @@ Ended run(const System& system, const char* method, SimulatorOptions options = {
 
 }  // namespace
 
-TEST_CASE("6.2 a recorded output that is NaN is an error that names it", "[semantics][errors]") {
+TEST_CASE("a recorded output that is NaN is an error that names it", "[errors]") {
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Leaf leaf("leaf", [](Leaf& l) {

@@ -74,7 +74,7 @@ TEST_CASE("At shows states, parameters, inputs, mode and relations", "[view]") {
   CHECK(!at.relation({0}, 1));
 }
 
-TEST_CASE("3.6 Next says what was written, even the value that was there", "[semantics][view]") {
+TEST_CASE("Next says what was written, even the value that was there", "[view]") {
   Eigen::VectorXd x = vec({1.0, 2.0}), z = vec({3.0});
   int mode = 0;
   const std::string path = "plant.tank";
