@@ -29,7 +29,7 @@ catch_tests() {  # PRESET [CMAKE OPTION...]
   local status=0 junit=$root/build/log/$1.xml
   build "$@" || { count 0 1; return; }
   rm -f "$junit"
-  step "ctest-$1" "running the tests" ctest --preset "$1" --parallel "$jobs" --timeout 300 --no-tests=error \
+  step "ctest-$1" "running the tests" ctest --preset "$1" --parallel "$jobs" --no-tests=error \
     --output-junit "$junit" || status=$?
   count_junit $status "$junit"
 }

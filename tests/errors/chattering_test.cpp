@@ -1,6 +1,5 @@
 // Events that go on without time advancing end the run: status chattering, who did it, and what
 // helps.
-#include <chrono>
 
 #include "support/balls.hpp"
 #include "support/leaves.hpp"
@@ -41,7 +40,6 @@ Leaf sliding_relation() {
 }
 
 void chatters(const System& system, const char* method, const std::string& block) {
-  const auto start = std::chrono::steady_clock::now();
   const auto results = simulate(system, system.create_context(), {0.0, 10.0},
                                 {.ode_solver_method = method, .throw_errors = false});
   INFO(to_string(results.status) << ": " << results.message
@@ -52,7 +50,7 @@ void chatters(const System& system, const char* method, const std::string& block
   CHECK(contains(results.message, "zeno_tolerance"));
   CHECK(std::abs(results.context.time() - 0.5) < 1e-3);
   CHECK(std::abs(results.context.continuous_state()[0]) < 1e-6);
-  CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(5));
+  CHECK(results.events.size() < 10000);
 }
 
 }  // namespace
@@ -99,7 +97,6 @@ TEST_CASE("a ball without Zeno monitor past its Zeno time chatters", "[errors][c
   const double e = GENERATE(0.0, 0.3, 0.9);
   for (const Scene& scene : all_forms({.e = e})) {
     INFO(scene.form << ", method " << method << ", e = " << e);
-    const auto start = std::chrono::steady_clock::now();
     const auto results =
         simulate(*scene.system, scene.context(0.1, 0.0), {0.0, 10.0},
                  {.ode_solver_method = method, .zeno_tolerance = 0.0, .throw_errors = false});
@@ -107,7 +104,7 @@ TEST_CASE("a ball without Zeno monitor past its Zeno time chatters", "[errors][c
     CHECK(results.status == Status::chattering);
     CHECK(contains(results.message, "zeno_tolerance"));
     CHECK(std::abs(results.context.continuous_state()[0]) < 1e-6);  // it did not fall through
-    CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(20));
+    CHECK(results.events.size() < 10000);
   }
 }
 
@@ -117,11 +114,10 @@ TEST_CASE("a sliding run that starts on its surface at t = 0 does not hang",
   const bool modes = GENERATE(true, false);
   INFO("method " << method << ", modes " << modes);
   const Leaf leaf = modes ? sliding_modes() : sliding_relation();
-  const auto start = std::chrono::steady_clock::now();
   const auto results = simulate(leaf, leaf.create_context().with_continuous_state(vec({0.0})),
                                 {0.0, 1.0}, {.ode_solver_method = method, .throw_errors = false});
   INFO(to_string(results.status) << ": " << results.message
                                  << ", x = " << results.context.continuous_state());
   CHECK(results.status != Status::reached_end);
-  CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(5));
+  CHECK(results.events.size() < 10000);
 }

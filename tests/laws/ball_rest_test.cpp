@@ -1,6 +1,4 @@
 // Past its Zeno time a ball is at rest on the floor; the accumulation time is predicted.
-#include <chrono>
-
 #include "support/balls.hpp"
 
 using namespace saltus;
@@ -19,14 +17,11 @@ double least_speed(double zeno_tolerance, double atol) {
 void comes_to_rest(const Scene& scene, const char* method, double e, double y0, double end) {
   INFO(scene.form << ", method " << method << ", e = " << e);
   const double atol = 1e-10;
-  const auto start = std::chrono::steady_clock::now();
   const auto results =
       simulate(*scene.system, scene.context(y0, 0.0), {0.0, end},
                {.rtol = 1e-8, .atol = atol, .ode_solver_method = method, .throw_errors = false});
-  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
   CHECK(results.status == Status::reached_end);
   CHECK(results.message == "");
-  CHECK(taken.count() < 10.0);
   CHECK(count(results.events, EventKind::zeno_enter) == scene.monitors);
   const auto& x = results.context.continuous_state();
   // Held at the accumulation state, or where the flight could no longer be seen: heights of atol's

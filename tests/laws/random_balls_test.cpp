@@ -1,6 +1,5 @@
 // No ball falls through a floor, at any tolerance, at any restitution: scenes drawn at random, the
 // same ones each time.
-#include <chrono>
 #include <random>
 
 #include "support/balls.hpp"
@@ -42,17 +41,13 @@ TEST_CASE("no ball of 500 falls through its floor, gains energy or takes long",
     INFO("scene " << n << ": " << scene.form << ", " << method << ", e " << e << ", height "
                   << height << ", v " << v << ", floor " << floor << ", rtol " << rtol << ", atol "
                   << atol << ", t0 " << t0 << ", span " << span);
-    const auto start = std::chrono::steady_clock::now();
-    const auto late = [&] {
-      return std::chrono::steady_clock::now() - start > std::chrono::seconds(10);
-    };
     const auto results =
         simulate(*scene.system, scene.context(floor + height, v, t0), {t0, t0 + span},
                  {.rtol = rtol,
                   .atol = atol,
                   .ode_solver_method = method,
-                  .throw_errors = false,
-                  .interrupt = late});
+                  .max_major_steps = 100000,
+                  .throw_errors = false});
     CHECK(results.status == Status::reached_end);
     const double above = results.context.continuous_state()[0] - floor,
                  speed = results.context.continuous_state()[1];

@@ -1,7 +1,6 @@
 // No ball falls through its floor, gains energy or hangs, however few digits are left: floors at up
 // to 1e12 m, starts up to 1e9 s, gravity over ten decades. Drawn at random, the same ones each
 // time.
-#include <chrono>
 #include <random>
 
 #include "support/cases.hpp"
@@ -25,18 +24,14 @@ void none_falls(const char* method, bool of_blocks, double farthest, double late
     const double rtol = std::pow(10.0, real(-12.0, -4.0)), atol = rtol * height;
     const BallOptions options{.g = g, .e = e, .floor = floor};
     const Scene scene = of_blocks ? blocks(Contact::comparator, options) : leaf(options);
-    const auto begin = std::chrono::steady_clock::now();
-    const auto late = [&] {
-      return std::chrono::steady_clock::now() - begin > std::chrono::seconds(5);
-    };
     const double end = t0 + t1 * real(1.0, 30.0);
     const auto results = simulate(*scene.system, scene.context(floor + height, 0.0, t0), {t0, end},
                                   {.rtol = rtol,
                                    .atol = atol,
                                    .ode_solver_method = method,
+                                   .max_major_steps = 100000,
                                    .zeno_tolerance = 1e-6 * t1,
-                                   .throw_errors = false,
-                                   .interrupt = late});
+                                   .throw_errors = false});
     INFO("scene " << n << ": " << method << ", g " << g << ", e " << e << ", height " << height
                   << ", floor " << floor << ", t0 " << t0 << ", rtol " << rtol << ": "
                   << results.message);
