@@ -223,3 +223,27 @@ TEST_CASE("auto takes order 8 where that pays, and names its one stretch", "[aut
   CHECK(one(with_guard, 1e-9) == "dopri5");  // each step is looked into, and may be cut short
   CHECK(one(with_guard, 1e-10) == "dop853");
 }
+
+TEST_CASE("auto sees that Van der Pol with mu = 1000 is stiff and hands over to BDF", "[auto]") {
+  const Leaf stiff = van_der_pol(1000.0);
+  const auto results =
+      simulate(stiff, stiff.create_context(), {0.0, 2000.0}, {.ode_solver_method = "auto"});
+  CHECK(contains(results.statistics.method, "dopri5, then bdf"));
+  CHECK(results.statistics.steps < 10000);  // dopri5 alone takes millions
+  const auto bdf =
+      simulate(stiff, stiff.create_context(), {0.0, 2000.0}, {.ode_solver_method = "bdf"});
+  CHECK(std::abs(results.context.continuous_state()[0] - bdf.context.continuous_state()[0]) < 1e-2);
+}
+
+TEST_CASE("auto stays with dopri5 where nothing is stiff", "[auto]") {
+  const Leaf mild = van_der_pol(1.0);
+  CHECK(simulate(mild, mild.create_context(), {0.0, 200.0}, {.ode_solver_method = "auto"})
+            .statistics.method == "dopri5");
+  const Leaf fast("fast", [](Leaf& l) {  // fast, but as fast as its solution
+    l.declare_continuous_state(
+        {.initial = vec({1.0, 0.0}),
+         .ode = [](const At& at, VectorRef xdot) { xdot << 1e4 * at.x[1], -1e4 * at.x[0]; }});
+  });
+  CHECK(simulate(fast, fast.create_context(), {0.0, 0.1}, {.ode_solver_method = "auto"})
+            .statistics.method == "dopri5");
+}
