@@ -65,7 +65,7 @@ test_packaging() {
 other_python() {  # VERSION: the module and its tests for another Python; scipy and dask are not asked for
   local venv=build/pythons/$1
   rm -rf "$venv"
-  "python$1" -m venv "$venv" && "$venv/bin/python" -m pip install ".[plot,table,progress]" "pytest>=7" hypothesis \
+  "python$1" -m venv "$venv" && "$venv/bin/python" -m pip install ".[plot,table,progress]" "pytest>=9" hypothesis \
     --config-settings=build-dir="build/pythons/build-$1" --config-settings=cmake.define.SALTUS_SUNDIALS_CACHE="$root/build/sundials" \
     && PYTHONPYCACHEPREFIX=$root/build/pycache "$venv/bin/python" -m pytest -q tests/python
 }
