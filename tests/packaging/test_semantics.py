@@ -1,4 +1,4 @@
-"""Each numbered sentence of docs/semantics.md has a C++ test in tests/semantics, its number before the name."""
+"""Each numbered sentence of docs/semantics.md has a C++ test in tests/semantics, by number."""
 
 import re
 from collections import Counter

@@ -43,5 +43,5 @@ TEST_CASE("every block has one header in library.hpp and one row in docs/blocks.
     CHECK(library_test::contains(rows, saltus::text("| `", block, "`")));
     CHECK(header.starts_with("// "));  // opens with what it means
   }
-  CHECK(blocks == 22);
+  CHECK(blocks >= 22);
 }
