@@ -93,3 +93,21 @@ TEST_CASE("a zero tolerance switches the monitor off", "[zeno]") {
   CHECK(!ZenoMonitor(0.0).on());
   CHECK(ZenoMonitor(1e-6).on());
 }
+
+TEST_CASE("a monitor that was saved goes on as it would have", "[zeno]") {
+  ZenoMonitor monitor = seen(1e-6, 5.0, {8e-7, 4e-7, 2e-7});
+  monitor.remember(Eigen::VectorXd::Constant(1, 3.0));
+  monitor.holding = true;
+  ZenoMonitor loaded(1e-6);
+  loaded.fired(1.0);
+  loaded.load(monitor.save());
+  CHECK(loaded.holding);
+  CHECK(loaded.gap() == monitor.gap());
+  CHECK(loaded.accumulates());
+  CHECK(loaded.accumulation_time() == monitor.accumulation_time());
+  Eigen::VectorXd one = Eigen::VectorXd::Constant(1, 2.0), other = one;
+  monitor.accumulate(one), loaded.accumulate(other);
+  CHECK(one == other);
+  CHECK(loaded.save() == monitor.save());
+  CHECK(ZenoMonitor(1e-6).save().times.empty());
+}
