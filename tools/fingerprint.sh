@@ -1,9 +1,9 @@
 # Sourced by ./dev: what every scene gives, as hashes, for whoever changes the engine and not its results.
 
-fingerprint_folders=(cases errors semantics)  # of tests/, each run of a test in them is a line
+fingerprint_folders=(laws errors semantics)  # of tests/, each run of a test in them is a line
 
 # The extreme cases are run by name. The others depend on the order of threads, or on a clock.
-fingerprint_not=(extremes_test results_threads_test) fingerprint_clock='~"an interrupt that throws*"'
+fingerprint_not=(extremes_test results_threads_test ensemble_test report_test) fingerprint_clock='~"an interrupt that throws*"'
 
 fingerprint_job() {  # NAME: one part of the fingerprint, to build/fingerprint/NAME.tsv
   local out=build/fingerprint/$1.tsv program=build/dev/bin/saltus_fingerprint

@@ -55,7 +55,8 @@ test_packaging() {
   [ $sundials = system ] || hide=(-DCMAKE_DISABLE_FIND_PACKAGE_SUNDIALS=ON)
   build dev -DSALTUS_SUNDIALS=$sundials && build system || { count 0 1; return; }
   check headers "each header compiles alone" cmake --build build/dev --target saltus_verify_interface_header_sets -j "$jobs" -- -k 0
-  pytest_tests layers tests/packaging/test_layers.py tests/packaging/test_semantics.py
+  pytest_tests layers tests/packaging/test_layers.py tests/packaging/test_new_block.py tests/packaging/test_semantics.py \
+    tests/packaging/test_slowest.py
   check consumer-wheel "find_package, SUNDIALS inside" installed_consumer dev "${hide[@]}"
   check consumer-system "find_package, SUNDIALS of the system" installed_consumer system
   check consumer-checkout "add_subdirectory" consumer checkout add_subdirectory \
@@ -65,7 +66,7 @@ test_packaging() {
 other_python() {  # VERSION: the module and its tests for another Python; scipy and dask are not asked for
   local venv=build/pythons/$1
   rm -rf "$venv"
-  "python$1" -m venv "$venv" && "$venv/bin/python" -m pip install ".[plot,table,progress]" "pytest>=7" hypothesis \
+  "python$1" -m venv "$venv" && "$venv/bin/python" -m pip install ".[plot,table,progress]" "pytest>=9" hypothesis \
     --config-settings=build-dir="build/pythons/build-$1" --config-settings=cmake.define.SALTUS_SUNDIALS_CACHE="$root/build/sundials" \
     && PYTHONPYCACHEPREFIX=$root/build/pycache "$venv/bin/python" -m pytest -q tests/python
 }

@@ -6,6 +6,7 @@ for_tests=(catch2 libsundials-dev graphviz)
 for_typing=(mypy==2.4.1 vermin==1.9.2)
 
 passed=0 failed=0
+junits=() durations=()  # files with the duration of each test; "seconds part"
 count() { passed=$((passed + $1)) failed=$((failed + $2)); }
 count_run() {  # STATUS PASSED FAILED: a bad end without a failed test counts as one
   if [ "$1" != 0 ] && [ "$3" = 0 ]; then count "$2" 1; else count "$2" "$3"; fi
@@ -23,13 +24,24 @@ print(tests - failures - errors - skipped - disabled, failures + errors)
 EOF
   ) 2>/dev/null || sums="0 0"
   count_run "$1" $sums
+  junits+=("$2")
+}
+
+show_slowest() {  # of the parts and the tests that were run
+  ((${#junits[@]})) || return 0
+  echo "the slowest parts"
+  printf '%s\n' "${durations[@]}" | sort -rn | head -n 10 | while read -r seconds part; do
+    printf '%8d s    %s\n' "$seconds" "$part"
+  done
+  echo "the slowest tests"
+  "$python" tools/slowest.py "${junits[@]}"
 }
 
 catch_tests() {  # PRESET [CMAKE OPTION...]
   local status=0 junit=$root/build/log/$1.xml
   build "$@" || { count 0 1; return; }
   rm -f "$junit"
-  step "ctest-$1" "running the tests" ctest --preset "$1" --parallel "$jobs" --timeout 300 --no-tests=error \
+  step "ctest-$1" "running the tests" ctest --preset "$1" --parallel "$jobs" --no-tests=error \
     --output-junit "$junit" || status=$?
   count_junit $status "$junit"
 }
@@ -89,7 +101,9 @@ run_tests() {
     echo "$part"
     "test_$part"
     echo "  $((passed - before_passed)) passed, $((failed - before_failed)) failed in $part ($((SECONDS - start)) s)"
+    durations+=("$((SECONDS - start)) $part")
   done
+  show_slowest
   echo "$passed passed, $failed failed"
   ((failed == 0))
 }

@@ -90,7 +90,7 @@ TEST_CASE("a constant is computed once a run, however many steps it has", "[abse
   CHECK(contains(compile(diagram)->describe(), "constant, computed once: 1 (scaled.out)"));
 }
 
-TEST_CASE("2.11 a held value is computed at instants, not in between", "[semantics][absent]") {
+TEST_CASE("a held value is computed at instants, not in between", "[absent]") {
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Counted held("held");

@@ -1,6 +1,5 @@
 // Events that go on without time advancing end the run: status chattering, who did it, and what
 // helps.
-#include <chrono>
 
 #include "support/balls.hpp"
 #include "support/leaves.hpp"
@@ -41,7 +40,6 @@ Leaf sliding_relation() {
 }
 
 void chatters(const System& system, const char* method, const std::string& block) {
-  const auto start = std::chrono::steady_clock::now();
   const auto results = simulate(system, system.create_context(), {0.0, 10.0},
                                 {.ode_solver_method = method, .throw_errors = false});
   INFO(to_string(results.status) << ": " << results.message
@@ -52,27 +50,24 @@ void chatters(const System& system, const char* method, const std::string& block
   CHECK(contains(results.message, "zeno_tolerance"));
   CHECK(std::abs(results.context.time() - 0.5) < 1e-3);
   CHECK(std::abs(results.context.continuous_state()[0]) < 1e-6);
-  CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(5));
+  CHECK(results.events.size() < 10000);
 }
 
 }  // namespace
 
-TEST_CASE("4.7 sliding along a switching surface by modes chatters",
-          "[semantics][errors][chattering]") {
+TEST_CASE("sliding along a switching surface by modes chatters", "[errors][chattering]") {
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);
   chatters(sliding_modes(), method, "relay");
 }
 
-TEST_CASE("4.7 sliding along a switching surface by a relation chatters",
-          "[semantics][errors][chattering]") {
+TEST_CASE("sliding along a switching surface by a relation chatters", "[errors][chattering]") {
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);
   chatters(sliding_relation(), method, "relay");
 }
 
-TEST_CASE("4.7 sliding in a diagram with a Comparator or a lambda chatters",
-          "[semantics][errors][chattering]") {
+TEST_CASE("sliding in a diagram with a Comparator or a lambda chatters", "[errors][chattering]") {
   const auto* method = GENERATE(from_range(methods));
   const bool opaque = GENERATE(true, false);
   INFO("method " << method << ", opaque " << opaque);
@@ -97,13 +92,11 @@ TEST_CASE("4.7 sliding in a diagram with a Comparator or a lambda chatters",
   chatters(builder.build(), method, "above");
 }
 
-TEST_CASE("4.7 a ball without Zeno monitor past its Zeno time chatters",
-          "[semantics][errors][chattering]") {
+TEST_CASE("a ball without Zeno monitor past its Zeno time chatters", "[errors][chattering]") {
   const auto* method = GENERATE(from_range(methods));
   const double e = GENERATE(0.0, 0.3, 0.9);
   for (const Scene& scene : all_forms({.e = e})) {
     INFO(scene.form << ", method " << method << ", e = " << e);
-    const auto start = std::chrono::steady_clock::now();
     const auto results =
         simulate(*scene.system, scene.context(0.1, 0.0), {0.0, 10.0},
                  {.ode_solver_method = method, .zeno_tolerance = 0.0, .throw_errors = false});
@@ -111,21 +104,20 @@ TEST_CASE("4.7 a ball without Zeno monitor past its Zeno time chatters",
     CHECK(results.status == Status::chattering);
     CHECK(contains(results.message, "zeno_tolerance"));
     CHECK(std::abs(results.context.continuous_state()[0]) < 1e-6);  // it did not fall through
-    CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(20));
+    CHECK(results.events.size() < 10000);
   }
 }
 
-TEST_CASE("4.7 a sliding run that starts on its surface at t = 0 does not hang",
-          "[semantics][errors][chattering]") {
+TEST_CASE("a sliding run that starts on its surface at t = 0 does not hang",
+          "[errors][chattering]") {
   const auto* method = GENERATE(from_range(methods));
   const bool modes = GENERATE(true, false);
   INFO("method " << method << ", modes " << modes);
   const Leaf leaf = modes ? sliding_modes() : sliding_relation();
-  const auto start = std::chrono::steady_clock::now();
   const auto results = simulate(leaf, leaf.create_context().with_continuous_state(vec({0.0})),
                                 {0.0, 1.0}, {.ode_solver_method = method, .throw_errors = false});
   INFO(to_string(results.status) << ": " << results.message
                                  << ", x = " << results.context.continuous_state());
   CHECK(results.status != Status::reached_end);
-  CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(5));
+  CHECK(results.events.size() < 10000);
 }

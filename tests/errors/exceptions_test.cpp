@@ -52,8 +52,7 @@ std::shared_ptr<const System> scene(Where where) {
 
 }  // namespace
 
-TEST_CASE("6.2 an exception from any callback comes out as it was thrown, by any method",
-          "[semantics][errors]") {
+TEST_CASE("an exception from any callback comes out as it was thrown, by any method", "[errors]") {
   const auto* method = GENERATE(from_range(methods));
   const Where where = GENERATE(Where::ode, Where::guard, Where::reset, Where::update,
                                Where::relation, Where::shown);
@@ -75,8 +74,7 @@ TEST_CASE("6.2 an exception from any callback comes out as it was thrown, by any
   CHECK(printed == "");
 }
 
-TEST_CASE("6.2 an exception from a Jacobian comes out of BDF as it was thrown",
-          "[semantics][errors]") {
+TEST_CASE("an exception from a Jacobian comes out of BDF as it was thrown", "[errors]") {
   const auto system = scene(Where::jacobian);
   CHECK_THROWS_AS(
       simulate(*system, system->create_context(), {0.0, 2.0}, {.ode_solver_method = "bdf"}),
@@ -85,8 +83,8 @@ TEST_CASE("6.2 an exception from a Jacobian comes out of BDF as it was thrown",
       simulate(*system, system->create_context(), {0.0, 2.0}, {.ode_solver_method = "adams"}));
 }
 
-TEST_CASE("5.5 with throw_errors off the cause and the partial results are in what is returned",
-          "[semantics][errors]") {
+TEST_CASE("with throw_errors off the cause and the partial results are in what is returned",
+          "[errors]") {
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);
   const auto system = scene(Where::ode);
@@ -102,7 +100,7 @@ TEST_CASE("5.5 with throw_errors off the cause and the partial results are in wh
   CHECK(results.context.time() <= 0.6);
 }
 
-TEST_CASE("6.2 what is thrown need not be an exception", "[semantics][errors]") {
+TEST_CASE("what is thrown need not be an exception", "[errors]") {
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Leaf leaf("leaf", [](Leaf& l) {
@@ -119,7 +117,7 @@ TEST_CASE("6.2 what is thrown need not be an exception", "[semantics][errors]") 
   CHECK(caught == 42);
 }
 
-TEST_CASE("6.4 after an exception the simulator can be initialized again", "[semantics][errors]") {
+TEST_CASE("after an exception the simulator can be initialized again", "[errors]") {
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);
   bool angry = true;

@@ -7,7 +7,7 @@
 using namespace saltus;
 using namespace support;
 
-TEST_CASE("6.1 spans and times that make no sense are refused", "[semantics][errors]") {
+TEST_CASE("spans and times that make no sense are refused", "[errors]") {
   const Scene scene = leaf();
   const auto run = [&](double begin, double end) {
     return message<ModelError>(
@@ -34,7 +34,7 @@ TEST_CASE("an endless span is refused, or runs until an event ends it", "[errors
   CHECK(std::abs(results.context.time() - 3.0) < 1e-9);
 }
 
-TEST_CASE("6.1 an unknown method is refused with the nearest name", "[semantics][errors]") {
+TEST_CASE("an unknown method is refused with the nearest name", "[errors]") {
   const Scene scene = leaf();
   const std::string what = message<ModelError>([&] {
     simulate(*scene.system, scene.context(1.0, 0.0), {0.0, 1.0}, {.ode_solver_method = "dopri"});
@@ -43,7 +43,7 @@ TEST_CASE("6.1 an unknown method is refused with the nearest name", "[semantics]
   CHECK(contains(what, "Known: 'auto', 'dopri5'"));
 }
 
-TEST_CASE("6.1 an unknown direction is refused with the nearest name", "[semantics][errors]") {
+TEST_CASE("an unknown direction is refused with the nearest name", "[errors]") {
   CHECK(contains(message<ModelError>([] { direction_from("positive_then_negative"); }),
                  "did you mean 'positive_then_non_positive'?"));
   CHECK(direction_from("none") == Direction::none);
@@ -58,8 +58,7 @@ TEST_CASE("a context of another system is refused", "[errors]") {
       "parameters, found 1, 0 and 0"));
 }
 
-TEST_CASE("6.1 a recorded signal that is unknown, foreign or named twice is refused",
-          "[semantics][errors]") {
+TEST_CASE("a recorded signal that is unknown, foreign or named twice is refused", "[errors]") {
   const Scene scene = leaf();
   const Leaf other("other", [](Leaf& l) { declare_ramp(l); });
   const auto record = [&](RecordedSignals signals) {
@@ -79,7 +78,7 @@ TEST_CASE("6.1 a recorded signal that is unknown, foreign or named twice is refu
         "nothing was recorded under 'hight'; did you mean 'height'? Known: 'height'");
 }
 
-TEST_CASE("6.1 an open input of a leaf that is run is named", "[semantics][errors]") {
+TEST_CASE("an open input of a leaf that is run is named", "[errors]") {
   const BallOnTable ball;
   CHECK(message<ModelError>([&] { simulate(ball, ball.create_context(), {0.0, 1.0}); }) ==
         "input 'floor' of block 'ball' is not connected; connect it to a block, for example a "

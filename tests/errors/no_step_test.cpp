@@ -1,6 +1,5 @@
 // Runs that cannot go on: blow-up, underflow, step limits. They end in bounded time with what was
 // reached.
-#include <chrono>
 
 #include "support/leaves.hpp"
 #include "support/quiet.hpp"
@@ -20,8 +19,8 @@ Leaf blow_up() {
 
 }  // namespace
 
-TEST_CASE("6.2 x' = x^2 blows up at t = 1: the error says where, with the partial results",
-          "[semantics][errors]") {
+TEST_CASE("x' = x^2 blows up at t = 1: the error says where, with the partial results",
+          "[errors]") {
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Leaf leaf = blow_up();
@@ -44,7 +43,7 @@ TEST_CASE("6.2 x' = x^2 blows up at t = 1: the error says where, with the partia
   CHECK(printed == "");
 }
 
-TEST_CASE("a jump that no guard announces, too sharp for the tolerance, ends in bounded time",
+TEST_CASE("a jump that no guard announces, too sharp for the tolerance, does not hang a run",
           "[errors]") {
   const auto* method =
       GENERATE("dopri5", "auto");  // CVODE's error estimate does not see such a jump at all
@@ -53,17 +52,15 @@ TEST_CASE("a jump that no guard announces, too sharp for the tolerance, ends in 
     l.declare_continuous_state(
         {.initial = vec({0.0}), .ode = [](const At& at) { return at.x[0] < 0.5 ? 1.0 : -1.0; }});
   });
-  const auto start = std::chrono::steady_clock::now();
   const auto results =
       simulate(leaf, leaf.create_context(), {0.0, 2.0},
                {.ode_solver_method = method, .max_major_steps = 100, .throw_errors = false});
-  CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(20));
+  CHECK(results.statistics.steps < 100000);
   CHECK((results.status == Status::failed ||
          std::abs(results.context.continuous_state()[0] - 0.5) < 1e-3));
 }
 
-TEST_CASE("6.2 a step below min_minor_step_size is an error that names the option",
-          "[semantics][errors]") {
+TEST_CASE("a step below min_minor_step_size is an error that names the option", "[errors]") {
   const Leaf leaf = blow_up();
   const std::string what = message<SimulationError>([&] {
     simulate(leaf, leaf.create_context(), {0.0, 2.0},
@@ -72,8 +69,7 @@ TEST_CASE("6.2 a step below min_minor_step_size is an error that names the optio
   CHECK(contains(what, "below min_minor_step_size = 0.001 s; lower that, or loosen rtol and atol"));
 }
 
-TEST_CASE("5.5 max_major_steps ends a run with the status step_limit and all it has",
-          "[semantics][errors]") {
+TEST_CASE("max_major_steps ends a run with the status step_limit and all it has", "[errors]") {
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Leaf leaf("leaf", [](Leaf& l) {
@@ -101,7 +97,7 @@ TEST_CASE("5.5 max_major_steps ends a run with the status step_limit and all it 
   CHECK(results.context.discrete_state()[0] == std::round(results.context.time() / 0.1));
 }
 
-TEST_CASE("6.4 an interrupt ends a run with what it has", "[semantics][errors]") {
+TEST_CASE("an interrupt ends a run with what it has", "[errors]") {
   const auto* method = GENERATE(from_range(methods));
   const bool with_ticks = GENERATE(true, false);
   INFO("method " << method << ", ticks " << with_ticks);
@@ -112,29 +108,25 @@ TEST_CASE("6.4 an interrupt ends a run with what it has", "[semantics][errors]")
     l.declare_discrete_state(vec({0.0}));
     if (with_ticks) l.declare_periodic_update(count_up, 1e-3);
   });
-  const auto start = std::chrono::steady_clock::now();
-  const auto asked = [&] {
-    return std::chrono::steady_clock::now() - start > std::chrono::milliseconds(100);
-  };
+  int times = 0;
+  const auto asked = [&] { return ++times == 3; };
   const auto results = simulate(leaf, leaf.create_context(), {0.0, 1e9},
                                 {.ode_solver_method = method,
                                  .record_events = false,
                                  .throw_errors = false,
                                  .interrupt = asked});
   CHECK(results.status == Status::interrupted);
-  CHECK(std::chrono::steady_clock::now() - start < std::chrono::milliseconds(400));
+  CHECK(times == 3);  // who said yes is not asked again
   CHECK(results.context.time() > 0.0);
 }
 
-TEST_CASE("6.4 an interrupt is heard without continuous state too", "[semantics][errors]") {
+TEST_CASE("an interrupt is heard without continuous state too", "[errors]") {
   const Leaf leaf("leaf", [](Leaf& l) {
     l.declare_discrete_state(vec({0.0}));
     l.declare_periodic_update(count_up, 1e-3);
   });
-  const auto start = std::chrono::steady_clock::now();
-  const auto asked = [&] {
-    return std::chrono::steady_clock::now() - start > std::chrono::milliseconds(100);
-  };
+  int times = 0;
+  const auto asked = [&] { return ++times == 3; };
   const auto results =
       simulate(leaf, leaf.create_context(), {0.0, 1e5},
                {.record_events = false, .throw_errors = false, .interrupt = asked});

@@ -1,5 +1,4 @@
 // Semantics 6.2: NaN or Inf from a recorded output is a SimulationError that names the block.
-#include <chrono>
 
 #include "support/leaves.hpp"
 #include "support/quiet.hpp"
@@ -12,14 +11,13 @@ namespace {
 struct Ended {
   std::string message, printed, block;
   double time = not_a_number;
-  bool partial = false, quick = false;
+  bool partial = false;
 };
 
 /// Runs to t = 2 and reports how a SimulationError ended it.
 Ended run(const System& system, const char* method, SimulatorOptions options = {}) {
   Ended ended;
   options.ode_solver_method = method;
-  const auto start = std::chrono::steady_clock::now();
   ended.printed = printed_by([&] {
     try {
       simulate(system, system.create_context(), {0.0, 2.0}, options);
@@ -31,13 +29,12 @@ Ended run(const System& system, const char* method, SimulatorOptions options = {
       ended.message = std::string("another exception: ") + error.what();
     }
   });
-  ended.quick = std::chrono::steady_clock::now() - start < std::chrono::seconds(5);
   return ended;
 }
 
 }  // namespace
 
-TEST_CASE("6.2 a recorded output that is NaN is an error that names it", "[semantics][errors]") {
+TEST_CASE("a recorded output that is NaN is an error that names it", "[errors]") {
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Leaf leaf("leaf", [](Leaf& l) {

@@ -1,4 +1,4 @@
-"""Each numbered sentence of docs/semantics.md has a C++ test with its number before its name."""
+"""Each numbered sentence of docs/semantics.md has a C++ test in tests/semantics, by number."""
 
 import re
 from collections import Counter
@@ -16,13 +16,13 @@ SECTIONS = {1: 2, 2: 12, 3: 10, 4: 7, 5: 8, 6: 4}
 SENTENCES = SENTENCE.findall(DOCUMENT.read_text())
 
 
-def numbered_cases():
-    """Number -> how many test cases carry it."""
-    files = (ROOT / "tests").rglob("*_test.cpp")
+def numbered_cases(folder):
+    """Number -> how many test cases in a folder carry it."""
+    files = folder.rglob("*_test.cpp")
     return Counter(number for file in files for number in CASE.findall(file.read_text()))
 
 
-CASES = numbered_cases()
+CASES = numbered_cases(ROOT / "tests" / "semantics")
 
 
 def test_the_document_has_every_sentence_once():
@@ -41,8 +41,12 @@ def test_sentences_stand_in_order():
 
 @pytest.mark.parametrize("number", SENTENCES)
 def test_a_sentence_has_a_test(number):
-    assert CASES[number] > 0, f"no C++ test case is named '{number} ...'"
+    assert CASES[number] > 0, f"no C++ test case in tests/semantics is named '{number} ...'"
 
 
 def test_no_test_carries_a_number_that_is_no_sentence():
     assert sorted(set(CASES) - set(SENTENCES)) == []
+
+
+def test_numbered_tests_are_in_one_folder():
+    assert numbered_cases(ROOT / "tests") == CASES

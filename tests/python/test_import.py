@@ -64,13 +64,13 @@ def test_the_machinery_for_pictures_and_the_command_line_waits_too():
         assert module not in loaded, module
 
 
-def test_import_is_quick():
-    """Under 0.15 s on top of numpy; the best of five, for other programs run here too."""
+def test_import_reads_few_files():
+    """Reading modules takes most of the time: some 70 of them on top of those of numpy."""
     code = (
-        "import numpy, time; start = time.perf_counter(); import saltus;"
-        "print(time.perf_counter() - start)"
+        "import numpy, sys; before = len(sys.modules); import saltus;"
+        "print(len(sys.modules) - before)"
     )
-    assert min(float(python(code)) for _ in range(5)) < 0.15
+    assert int(python(code)) < 100
 
 
 def test_all_names_are_there():

@@ -1,5 +1,4 @@
 // Semantics 6: what else is refused before a run, and what ends it without a trace on the terminal.
-#include <chrono>
 
 #include "support/leaves.hpp"
 #include "support/quiet.hpp"
@@ -75,31 +74,27 @@ TEST_CASE("6.3 t1 == t0 has the rows of the start instant, with what happens at 
   CHECK(results.statistics.steps == 0);
 }
 
-TEST_CASE("6.4 an interrupt ends a run within 0.2 s, also in an instant after instant",
+TEST_CASE("6.4 an interrupt ends a run at once, also where instant follows instant",
           "[semantics]") {
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);
-  using Clock = std::chrono::steady_clock;
-  const Leaf saw("saw", [](Leaf& l) {
-    declare_ramp(l);
+  int asked = 0, calls_after = 0;
+  const Leaf saw("saw", [&](Leaf& l) {
+    l.declare_continuous_state({.initial = vec({0.0}), .ode = [&](const At&) {
+                                  calls_after += asked == 3;
+                                  return 1.0;
+                                }});
     l.declare_zero_crossing(
         {.guard = [](const At& at) { return at.x[0] - 1e-3; },
          .reset_map = [](const At&, Next& next) { next.set_continuous_state({0.0}); }});
   });
-  const auto begin = Clock::now();
-  Clock::time_point asked{};
-  const auto interrupt = [&] {
-    if (Clock::now() - begin < std::chrono::milliseconds(50)) return false;
-    asked = asked == Clock::time_point{} ? Clock::now() : asked;
-    return true;
-  };
   const auto results = simulate(saw, saw.create_context(), {0.0, 1e9},
                                 {.ode_solver_method = method,
                                  .record_events = false,
                                  .throw_errors = false,
-                                 .interrupt = interrupt});
+                                 .interrupt = [&] { return ++asked == 3; }});
   CHECK(results.status == Status::interrupted);
   CHECK(results.context.time() > 0.0);
-  CHECK(Clock::now() - asked < std::chrono::milliseconds(200));
-  CHECK(Clock::now() - begin < std::chrono::milliseconds(50 + 200));
+  CHECK(asked == 3);
+  CHECK(calls_after <= 1);  // the last row may ask for it
 }

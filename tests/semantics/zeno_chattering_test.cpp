@@ -1,6 +1,4 @@
 // Semantics 4.7: scenes whose events go on without time. None hangs, none slips through unnoticed.
-#include <chrono>
-
 #include "support/leaves.hpp"
 
 using namespace saltus;
@@ -27,14 +25,12 @@ Leaf falling(std::string name, double start) {
 }
 
 void chatters(const System& system, const char* method, double zeno_tolerance = 1e-6) {
-  const auto begin = std::chrono::steady_clock::now();
   const auto results = simulate(
       system, system.create_context(), {0.0, 20.0},
       {.ode_solver_method = method, .zeno_tolerance = zeno_tolerance, .throw_errors = false});
   INFO("method " << method << ", t = " << results.context.time() << ": " << results.message);
   CHECK(results.status == Status::chattering);
   CHECK(results.events.size() < 10000);
-  CHECK(std::chrono::steady_clock::now() - begin < std::chrono::seconds(2));
 }
 
 }  // namespace

@@ -25,10 +25,10 @@ auto real(const Number& a) {
 }
 
 template <class Real>
-Real remainder(Real a, Real b) {  // with the sign of b
-  const Real rest = std::fmod(a, b);
+Real remainder(Real a, Real b) {           // with the sign of b
+  const Real rest = std::remainder(a, b);  // the nearest to 0, of either sign
   if (rest == Real(0)) return std::copysign(Real(0), b);
-  return (rest < Real(0)) != (b < Real(0)) ? rest + b : rest;
+  return std::signbit(rest) != std::signbit(b) ? rest + b : rest;
 }
 
 /// Operations that real numbers only have; `Real` is double or long double.
@@ -66,11 +66,9 @@ Real of_reals(Op op, Real a, Real b) {
     case Op::rint:
       return std::rint(a);
     case Op::floor_divide: {
-      if (b == Real(0)) return a / b;
-      const Real rest = std::fmod(a, b);  // as Python's float.__floordiv__
-      const Real whole = (a - rest) / b - (rest != Real(0) && (rest < Real(0)) != (b < Real(0)));
-      if (whole == Real(0)) return std::copysign(Real(0), a / b);
-      return std::floor(whole + Real(0.5));
+      const Real whole = std::floor(a / b);  // too large by one where a / b was rounded up to it
+      const bool over = std::fma(whole, b, -a) * b > Real(0);
+      return over ? whole - Real(1) : whole;
     }
     default:
       return std::numeric_limits<Real>::quiet_NaN();

@@ -1,4 +1,4 @@
-// Callbacks over methods and lambdas that return a number or fill a vector; At, Next and Inputs.
+// Callbacks over methods and lambdas that return a number or fill a vector.
 #include "support/leaves.hpp"
 
 using namespace saltus;
@@ -58,36 +58,4 @@ TEST_CASE("an empty callback says so; a copy calls the same", "[callback]") {
   const VectorFunction copy = first;
   CHECK(copy);
   CHECK(call(copy, Block(0.0)) == std::vector{1.0, 2.0});
-}
-
-TEST_CASE("At shows states, parameters, inputs, mode and relations", "[view]") {
-  World world;
-  const At& at = world.at;
-  CHECK(at.time == 1.5);
-  CHECK((at.x[0] == 1.0 && at.x[1] == 2.0 && at.z[0] == 3.0 && at.mode == 9));
-  CHECK(at.p[ParameterIndex{1, 1}] == 5.0);
-  CHECK(Eigen::VectorXd(at.parameter({1, 2})) == vec({5.0, 6.0}));
-  CHECK(Eigen::VectorXd(at.u[0]) == vec({7.0, 8.0}));
-  CHECK(at.u(0) == 7.0);
-  CHECK(at.u.size() == 1);
-  CHECK(at.relation({0}, 0));
-  CHECK(!at.relation({0}, 1));
-}
-
-TEST_CASE("3.6 Next says what was written, even the value that was there", "[semantics][view]") {
-  Eigen::VectorXd x = vec({1.0, 2.0}), z = vec({3.0});
-  int mode = 0;
-  const std::string path = "plant.tank";
-  Next next({x.data(), 2}, {z.data(), 1}, mode, path);
-  CHECK(!next.wrote_continuous_state());
-  next.set_continuous_state({1.0, 2.0});
-  CHECK(next.wrote_continuous_state());
-  CHECK(!next.wrote_discrete_state());
-  next.set_discrete_state(vec({5.0}));
-  next.set_mode(4);
-  CHECK((next.wrote_discrete_state() && next.wrote_mode() && z[0] == 5.0 && mode == 4));
-  CHECK(message<ModelError>([&] { next.set_discrete_state({1.0, 2.0}); }) ==
-        "block 'plant.tank': expected 1 values for the discrete state, found 2; set all of it at "
-        "once");
-  CHECK(z[0] == 5.0);
 }

@@ -35,8 +35,8 @@ struct Nested {
 
 }  // namespace
 
-TEST_CASE("1.1 with_ returns a new context and leaves the old one and the system as they were",
-          "[semantics][context]") {
+TEST_CASE("with_ returns a new context and leaves the old one and the system as they were",
+          "[context]") {
   const Ball ball;
   const Context a = ball.create_context();
   const Context b = a.with_time(2.0)
@@ -91,8 +91,7 @@ TEST_CASE("parameters of a diagram are known by path, those of a part by its own
   CHECK(contains(what, "unknown parameter 'inner.bal.g'; did you mean 'inner.ball.g'?"));
 }
 
-TEST_CASE("6.1 a wrong size, a value that is not finite, an unknown system are refused",
-          "[semantics][context]") {
+TEST_CASE("a wrong size, a value that is not finite, an unknown system are refused", "[context]") {
   const Nested nested;
   const Context all = nested.root->create_context();
   CHECK(message<ModelError>([&] { all.with_continuous_state(vec({1.0})); }) ==

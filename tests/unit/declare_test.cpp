@@ -28,8 +28,7 @@ TEST_CASE("a state that is declared twice, or not finite, is refused", "[declare
                  "parameter 'k': entry 0 is nan"));
 }
 
-TEST_CASE("6.1 a name that is declared twice is refused, for every kind of declaration",
-          "[semantics][declare]") {
+TEST_CASE("a name that is declared twice is refused, for every kind of declaration", "[declare]") {
   const std::string twice = "block 'block': the name 'n' is declared twice";
   const auto guard = [](const At& at) { return at.time; };
   const auto update = [](const At&, Next&) {};

@@ -5,8 +5,7 @@
 using namespace saltus;
 using namespace support;
 
-TEST_CASE("6.1 two blocks of one name, and one block twice, are refused",
-          "[semantics][diagram_builder]") {
+TEST_CASE("two blocks of one name, and one block twice, are refused", "[diagram_builder]") {
   DiagramBuilder builder;
   builder.add<Gain>("gain", 2.0);
   CHECK(message<ModelError>([&] { builder.add<Gain>("gain", 3.0); }) ==
@@ -16,8 +15,8 @@ TEST_CASE("6.1 two blocks of one name, and one block twice, are refused",
   CHECK(message<ModelError>([&] { builder.add(shared); }) == "block 'clock' is added twice");
 }
 
-TEST_CASE("6.1 a block that was not added, and an input with two sources, are refused",
-          "[semantics][diagram_builder]") {
+TEST_CASE("a block that was not added, and an input with two sources, are refused",
+          "[diagram_builder]") {
   DiagramBuilder builder;
   const Clock foreign("foreign");
   auto& clock = builder.add<Clock>("clock");
@@ -31,8 +30,8 @@ TEST_CASE("6.1 a block that was not added, and an input with two sources, are re
                  "already has a source, block 'clock'"));
 }
 
-TEST_CASE("6.1 an open input, and a diagram without blocks, are refused when it is built",
-          "[semantics][diagram_builder]") {
+TEST_CASE("an open input, and a diagram without blocks, are refused when it is built",
+          "[diagram_builder]") {
   DiagramBuilder empty;
   CHECK(message<ModelError>([&] { empty.build(); }) ==
         "build: the diagram has no block; add one first");

@@ -34,8 +34,7 @@ EventLog two_rows() {
 
 }  // namespace
 
-TEST_CASE("5.3 an event has time, jump, kind, direction, block, name and states",
-          "[semantics][event_log]") {
+TEST_CASE("an event has time, jump, kind, direction, block, name and states", "[event_log]") {
   const EventLog log = two_rows();
   REQUIRE(log.size() == 2);
   const Event bounce = log[0];
@@ -105,7 +104,7 @@ TEST_CASE("a cleared log keeps its names; an emptied copy too", "[event_log]") {
   CHECK(copy[0].name == "tick");
 }
 
-TEST_CASE("5.3 every kind has its name", "[semantics][event_log]") {
+TEST_CASE("every kind has its name", "[event_log]") {
   CHECK(to_string(EventKind::zero_crossing) == "zero_crossing");
   CHECK(to_string(EventKind::time) == "time");
   CHECK(to_string(EventKind::zeno_enter) == "zeno_enter");
@@ -113,8 +112,8 @@ TEST_CASE("5.3 every kind has its name", "[semantics][event_log]") {
   CHECK(to_string(EventKind::terminal) == "terminal");
 }
 
-TEST_CASE("5.3 the log of a run holds the state of the event's own block, before and after",
-          "[semantics][event_log]") {
+TEST_CASE("the log of a run holds the state of the event's own block, before and after",
+          "[event_log]") {
   DiagramBuilder builder;
   builder.add<Leaf>("other", [](Leaf& l) { declare_ramp(l, 5.0, 100.0); });
   builder.add<Leaf>("saw", [](Leaf& l) {

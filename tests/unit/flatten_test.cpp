@@ -70,7 +70,7 @@ TEST_CASE("shapes spread along the wires, through blocks that take any", "[flatt
   CHECK(plan->node(plan->taps[1].node).shape == Shape::scalar());
 }
 
-TEST_CASE("6.1 a width that does not fit is refused with both ports", "[semantics][flatten]") {
+TEST_CASE("a width that does not fit is refused with both ports", "[flatten]") {
   DiagramBuilder builder;
   auto& vector = builder.add<Constant>("vector", Value{1.0, 2.0, 3.0});
   auto& integrator =

@@ -360,7 +360,7 @@ TEST_CASE("a wide formula gives entry by entry what narrow ones give", "[fuse]")
   }
 }
 
-TEST_CASE("6.2 of fused blocks the one that gives NaN or Inf is named", "[fuse][semantics]") {
+TEST_CASE("of fused blocks the one that gives NaN or Inf is named", "[fuse]") {
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);
   DiagramBuilder builder;

@@ -97,7 +97,7 @@ TEST_CASE("the dense output of DOP853 is continuous in the middle of a step, and
   CHECK(joints > 0);
 }
 
-TEST_CASE("5.8 dense output follows a step that is drawn in two halves", "[dense]") {
+TEST_CASE("dense output follows a step that is drawn in two halves", "[dense]") {
   const Leaf lag = fast_lag();
   const auto times = [] {
     std::vector<double> inner;

@@ -1,33 +1,13 @@
-// Colours that never meet, differences that are the dense ones, orders that are permutations.
+// A Jacobian by compressed differences and by the user: the dense one, entry by entry.
 #include "saltus/solver/detail/jacobian.hpp"
 
-#include <random>
-
-#include "saltus/solver/detail/ordering.hpp"
+#include "support/entries.hpp"
 #include "support/leaves.hpp"
 
 using namespace saltus;
 using namespace support;
 
 namespace {
-
-/// About `per_column` places in each column of an n by n matrix, and the diagonal.
-std::vector<MatrixEntry> random_entries(Index n, int per_column, std::mt19937& random) {
-  std::vector<std::vector<char>> taken(static_cast<std::size_t>(n),
-                                       std::vector<char>(static_cast<std::size_t>(n)));
-  std::vector<MatrixEntry> entries;
-  std::uniform_int_distribution<Index> any(0, n - 1);
-  for (Index j = 0; j < n; ++j) {
-    for (int k = 0; k <= per_column; ++k) {
-      const Index i = k == 0 ? j : any(random);
-      if (std::exchange(taken[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)], 1))
-        continue;
-      entries.push_back({i, j});
-    }
-  }
-  std::ranges::shuffle(entries, random);
-  return entries;
-}
 
 /// xdot_i = sum over the entries of row i of sin((1 + i) x_j), smooth and different everywhere.
 Leaf sum_of_sines(Index n, const std::vector<MatrixEntry>& entries) {
@@ -69,29 +49,6 @@ Evaluated evaluate(const Leaf& leaf) {
 
 }  // namespace
 
-TEST_CASE("no two columns of a colour meet in a row", "[jacobian]") {
-  std::mt19937 random(4711);
-  for (int round = 0; round < 40; ++round) {
-    const Index n = 2 + round;
-    const Leaf leaf = sum_of_sines(n, random_entries(n, round % 5, random));
-    const JacobianPattern pattern = jacobian_pattern(*compile(leaf));
-    const Colouring colouring = colour(pattern);
-    CHECK(colouring.columns.size() == static_cast<std::size_t>(n));
-    for (Index c = 0; c < colouring.colours(); ++c) {
-      std::vector<int> met(static_cast<std::size_t>(n));
-      for (const int j : colouring.of(c))
-        for (const int i : pattern.places.column(j)) CHECK(++met[static_cast<std::size_t>(i)] == 1);
-    }
-  }
-}
-
-TEST_CASE("a band takes as many colours as it is wide", "[jacobian]") {
-  for (const auto& [lower, upper] : {std::pair<Index, Index>{1, 1}, {2, 2}, {0, 3}, {4, 1}}) {
-    const Leaf leaf = sum_of_sines(60, band_entries(60, lower, upper));
-    CHECK(colour(jacobian_pattern(*compile(leaf))).colours() == lower + upper + 1);
-  }
-}
-
 TEST_CASE("compressed differences are the derivatives", "[jacobian]") {
   std::mt19937 random(42);
   for (const Index n : {3, 10, 40}) {
@@ -132,25 +89,6 @@ TEST_CASE("the user's values go where they belong, in any order", "[jacobian]") 
   Eigen::MatrixXd expected = Eigen::MatrixXd::Zero(12, 12);
   for (const auto& [i, j] : entries) expected(i, j) = value(i, j);
   CHECK(found.matrix == expected);
-}
-
-TEST_CASE("reordering is a permutation and finds a hidden band", "[jacobian]") {
-  std::mt19937 random(3);
-  constexpr Index n = 200;
-  std::vector<Index> shuffled(n);
-  std::iota(shuffled.begin(), shuffled.end(), Index{0});
-  std::ranges::shuffle(shuffled, random);
-  std::vector<MatrixEntry> entries;
-  for (const auto& [i, j] : band_entries(n, 1, 1))
-    entries.push_back(
-        {shuffled[static_cast<std::size_t>(i)], shuffled[static_cast<std::size_t>(j)]});
-  const Leaf leaf = sum_of_sines(n, entries);
-  const JacobianPattern pattern = jacobian_pattern(*compile(leaf));
-  std::vector<int> position = reverse_cuthill_mckee(pattern.places);
-  CHECK(bandwidth(pattern.places).total() > 100);
-  CHECK(bandwidth(pattern.places, position).total() == 3);  // a path from one end
-  std::ranges::sort(position);
-  for (int i = 0; i < n; ++i) CHECK(position[static_cast<std::size_t>(i)] == i);
 }
 
 TEST_CASE("a Jacobian explains how f moves unless a place is missing", "[jacobian]") {

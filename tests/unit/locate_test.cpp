@@ -29,8 +29,7 @@ Results run(const Leaf& leaf, const char* method, SimulatorOptions options = {})
 
 }  // namespace
 
-TEST_CASE("2.9 two guards 0, 1e-13 and 1e-9 apart fire both, the earlier one first",
-          "[semantics][locate]") {
+TEST_CASE("two guards 0, 1e-13 and 1e-9 apart fire both, the earlier one first", "[locate]") {
   const auto* method = GENERATE(from_range(methods));
   const double gap = GENERATE(0.0, 1e-13, 1e-9, 1e-3);
   INFO("method " << method << ", gap " << gap);
@@ -49,7 +48,7 @@ TEST_CASE("2.9 two guards 0, 1e-13 and 1e-9 apart fire both, the earlier one fir
   }
 }
 
-TEST_CASE("2.9 twenty guards in one step fire in the order of their roots", "[semantics][locate]") {
+TEST_CASE("twenty guards in one step fire in the order of their roots", "[locate]") {
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);
   std::vector<double> roots;
@@ -61,8 +60,7 @@ TEST_CASE("2.9 twenty guards in one step fire in the order of their roots", "[se
     CHECK_THAT(results.events[i].time, WithinAbs(roots[i], 1e-12));
 }
 
-TEST_CASE("2.9 the state handed on is at the root or beyond it, never before",
-          "[semantics][locate]") {
+TEST_CASE("the state handed on is at the root or beyond it, never before", "[locate]") {
   const auto* method = GENERATE(from_range(methods));
   const double scale = GENERATE(1.0, -1.0, 1e-30, 1e30);
   INFO("method " << method << ", scale " << scale);
@@ -77,8 +75,8 @@ TEST_CASE("2.9 the state handed on is at the root or beyond it, never before",
   }
 }
 
-TEST_CASE("2.8 a pair of roots in one step is found at interior points, and missed without them",
-          "[semantics][locate]") {
+TEST_CASE("a pair of roots in one step is found at interior points, and missed without them",
+          "[locate]") {
   const Leaf leaf("dip", [](Leaf& l) {
     declare_ramp(l);
     l.declare_discrete_state(vec({0.0}));
@@ -93,8 +91,7 @@ TEST_CASE("2.8 a pair of roots in one step is found at interior points, and miss
   CHECK(run(leaf, "dopri5", {.event_scan_points = 0}).events.empty());
 }
 
-TEST_CASE("2.9a a guard with a steep and one with a flat root are located alike",
-          "[semantics][locate]") {
+TEST_CASE("a guard with a steep and one with a flat root are located alike", "[locate]") {
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Leaf leaf("curves", [](Leaf& l) {
@@ -117,8 +114,7 @@ TEST_CASE("2.9a a guard with a steep and one with a flat root are located alike"
   CHECK_THAT(results.events[2].time, WithinAbs(0.9, 1e-12));
 }
 
-TEST_CASE("2.9 late in a long run events are located as exactly as time can say",
-          "[semantics][locate]") {
+TEST_CASE("late in a long run events are located as exactly as time can say", "[locate]") {
   const auto* method = GENERATE(from_range(methods));
   INFO("method " << method);
   const double t0 = 1e6;

@@ -20,8 +20,7 @@ TEST_CASE("the defaults are accepted", "[options]") {
   CHECK(refused({.zeno_tolerance = 0.0}) == "no exception");
 }
 
-TEST_CASE("6.1 tolerances that are not positive, or finer than a double, are refused",
-          "[semantics][options]") {
+TEST_CASE("tolerances that are not positive, or finer than a double, are refused", "[options]") {
   for (const double bad : {0.0, -1e-6, not_a_number, infinite}) {
     INFO(bad);
     CHECK(contains(refused({.rtol = bad}), "option rtol: expected a positive number, found "));

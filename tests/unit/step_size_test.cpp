@@ -1,82 +1,96 @@
-// Step sizes: the first, the next, the bounds, and stiffness seen where it is and not where it is
-// not.
+// Step sizes: the first, the next after an accepted step, the next after a rejected one.
 #include "saltus/solver/detail/step_size.hpp"
+
 #include "support/leaves.hpp"
 
 using namespace saltus;
 using namespace support;
+using Catch::Matchers::WithinRel;
 
 namespace {
 
-Leaf van_der_pol(double mu) {
-  return Leaf("van_der_pol", [=](Leaf& l) {
+/// Hairer, Wanner II, (2.43c) as it is printed, with the bounds of the factor.
+double proportional_integral(double order, double beta, double error, double before) {
+  const double factor =
+      0.9 * std::pow(error, -(1.0 / order - 0.75 * beta)) * std::pow(before, beta);
+  return std::clamp(factor, 0.2, 10.0);
+}
+
+/// The first step of x' = -rate x + slope from x0.
+double first_of(double rate, double slope, double x0, SolverOptions options, double t0 = 0.0,
+                double t_stop = infinite) {
+  const Leaf leaf("leaf", [=](Leaf& l) {
     l.declare_continuous_state(
-        {.initial = vec({2.0, 0.0}), .ode = [=](const At& at, VectorRef xdot) {
-           xdot << at.x[1], mu * (1.0 - at.x[0] * at.x[0]) * at.x[1] - at.x[0];
-         }});
-    l.declare_continuous_state_output("x");
+        {.initial = vec({x0}), .ode = [=](const At& at) { return -rate * at.x[0] + slope; }});
   });
+  Machine machine(compile(leaf));
+  machine.load(leaf.create_context(t0));
+  Eigen::VectorXd scratch(1);
+  const double f = -rate * x0 + slope;
+  double f1 = 0.0;
+  return first_step(machine, t0, vec({x0}), &f, scratch, &f1, options, 5.0, t_stop);
 }
 
 }  // namespace
 
-TEST_CASE("auto sees that Van der Pol with mu = 1000 is stiff and hands over to BDF",
+TEST_CASE("the next step is that of the proportional-integral formula", "[step_size]") {
+  for (const auto& [order, beta] : {std::pair{5.0, 0.04}, {8.0, 0.0}}) {
+    StepController controller(order, beta);
+    double before = 1e-4;  // no error was seen yet
+    for (const double error : {0.5, 0.02, 0.9, 1e-3, 1.0, 1e-6, 0.3}) {
+      INFO("order " << order << ", error " << error << " after " << before);
+      CHECK_THAT(controller.accept(error, 2.0, false),
+                 WithinRel(2.0 * proportional_integral(order, beta, error, before), 1e-12));
+      before = std::max(error, 1e-4);
+    }
+  }
+}
+
+TEST_CASE("a smaller error makes the next step longer", "[step_size]") {
+  double last = 0.0;
+  for (const double error : {1.0, 0.3, 0.1, 0.01, 1e-3}) {
+    const double next = StepController(5.0).accept(error, 1.0, false);
+    CHECK(next > last);
+    last = next;
+  }
+  CHECK(StepController(5.0).accept(1.0, 1.0, false) < 1.0);  // just accepted: be careful
+}
+
+TEST_CASE("a step grows by ten and shrinks to a fifth at most, and never grows after a rejection",
           "[step_size]") {
-  const Leaf stiff = van_der_pol(1000.0);
-  const auto results =
-      simulate(stiff, stiff.create_context(), {0.0, 2000.0}, {.ode_solver_method = "auto"});
-  CHECK(contains(results.statistics.method, "dopri5, then bdf"));
-  CHECK(results.statistics.steps < 10000);  // dopri5 alone takes millions
-  const auto bdf =
-      simulate(stiff, stiff.create_context(), {0.0, 2000.0}, {.ode_solver_method = "bdf"});
-  CHECK(std::abs(results.context.continuous_state()[0] - bdf.context.continuous_state()[0]) < 1e-2);
+  CHECK(StepController(5.0).accept(1e-300, 1.0, false) == 10.0);
+  CHECK(StepController(5.0).accept(0.0, 1.0, false) == 10.0);
+  CHECK(StepController(5.0).accept(1e9, 1.0, false) == 0.2);
+  CHECK(StepController(5.0, 0.04, 0.5, 3.0).accept(1e-300, 1.0, false) == 3.0);
+  CHECK(StepController(5.0).accept(1e-300, 1.0, true) == 1.0);
+  CHECK(StepController(5.0).accept(1.0, 1.0, true) < 1.0);
 }
 
-TEST_CASE("auto stays with dopri5 where nothing is stiff", "[step_size]") {
-  const Leaf mild = van_der_pol(1.0);
-  CHECK(simulate(mild, mild.create_context(), {0.0, 200.0}, {.ode_solver_method = "auto"})
-            .statistics.method == "dopri5");
-  const Leaf fast("fast", [](Leaf& l) {  // fast, but as fast as its solution
-    l.declare_continuous_state(
-        {.initial = vec({1.0, 0.0}),
-         .ode = [](const At& at, VectorRef xdot) { xdot << 1e4 * at.x[1], -1e4 * at.x[0]; }});
-  });
-  CHECK(simulate(fast, fast.create_context(), {0.0, 0.1}, {.ode_solver_method = "auto"})
-            .statistics.method == "dopri5");
-}
-
-TEST_CASE("no step is longer than max_minor_step_size", "[step_size]") {
-  const auto* method = GENERATE(from_range(methods));
-  INFO("method " << method);
-  const Leaf leaf = van_der_pol(1.0);
-  const auto results = simulate(leaf, leaf.create_context(), {0.0, 5.0},
-                                {.ode_solver_method = method,
-                                 .max_minor_step_size = 0.03,
-                                 .recorded_signals = {{"x", leaf.output()}}});
-  for (std::size_t i = 1; i < results.time.size(); ++i)
-    CHECK(results.time[i] - results.time[i - 1] <= 0.03 + 5.0 * eps);  // of times up to 5 s
-}
-
-TEST_CASE("no instant is further off than max_major_step_length", "[step_size]") {
-  const auto* method = GENERATE(from_range(methods));
-  INFO("method " << method);
-  const Leaf leaf = van_der_pol(1.0);
-  const auto results = simulate(leaf, leaf.create_context(), {0.0, 5.0},
-                                {.ode_solver_method = method, .max_major_step_length = 0.1});
-  CHECK(results.statistics.instants >= 50);
-  CHECK(results.events.empty());
-}
-
-TEST_CASE(
-    "the controller lengthens by ten at most, shortens to a fifth at most, and never after a "
-    "rejection",
-    "[step_size]") {
-  StepController controller(5.0);
-  CHECK(controller.accept(1e-300, 1.0, false) <= 10.0);
-  CHECK(StepController(5.0).accept(1.0, 1.0, false) >= 0.2);
-  CHECK(StepController(5.0).accept(1e-300, 1.0, true) <= 1.0);
+TEST_CASE("a rejected step shrinks by the order of the method, within bounds", "[step_size]") {
+  const StepController controller(5.0);
+  CHECK_THAT(controller.reject(32.0, 1.0), WithinRel(0.9 / 2.0, 1e-14));
+  CHECK_THAT(controller.reject(1e5, 3.0), WithinRel(3.0 * 0.9 / 10.0, 1e-14));
+  CHECK(controller.reject(1.0000001, 1.0) <= 0.9);
+  CHECK(controller.reject(1e300, 1.0) == 1e-3);
   CHECK(controller.reject(infinite, 1.0) == 0.1);
   CHECK(controller.reject(not_a_number, 1.0) == 0.1);
-  CHECK(controller.reject(1e300, 1.0) == 1e-3);
-  CHECK(controller.reject(1.0000001, 1.0) <= 0.9);
+}
+
+TEST_CASE("the first step of a decay has a hundredth of the tolerance for its error",
+          "[step_size]") {
+  // In units of the tolerance x, f and f' are 1 / (rtol + atol): h^5 times that is 1/100.
+  const SolverOptions options{.rtol = 1e-6, .atol = 1e-8};
+  const double expected = std::pow(0.01 * (1e-6 + 1e-8), 0.2);
+  CHECK_THAT(first_of(1.0, 0.0, 1.0, options), WithinRel(expected, 1e-6));
+  CHECK_THAT(first_of(1e6, 0.0, 1.0, options), WithinRel(1e-6 * expected, 1e-6));  // another unit
+}
+
+TEST_CASE("the first step keeps to its bounds", "[step_size]") {
+  const SolverOptions options{.rtol = 1e-6, .atol = 1e-8};
+  CHECK(first_of(1.0, 0.0, 1.0, options, 0.0, 1e-3) == 1e-3);  // the next event
+  CHECK(first_of(1.0, 0.0, 1.0, {.rtol = 1e-6, .atol = 1e-8, .max_step = 2e-3}) == 2e-3);
+  CHECK(first_of(0.0, 0.0, 1.0, options, 0.0, 50.0) <= 50.0);  // nothing moves
+  CHECK(first_of(0.0, 0.0, 1.0, options, 0.0, 50.0) > 0.01);
+  // 100 roundings of the time: a shorter one would be lost in it.
+  CHECK(first_of(1e15, 0.0, 1.0, options, 1e6) >= 100.0 * eps * 1e6);
 }

@@ -41,6 +41,21 @@ class Fuse(saltus.LeafSystem):
         return [1.0]
 
 
+class Endless(saltus.LeafSystem):
+    """Counts seconds, and says when it has begun."""
+
+    def __init__(self):
+        super().__init__(name="endless")
+        self.declare_discrete_state([0.0])
+        self.declare_discrete_state_output("n")
+        self.declare_periodic_update(self.update, 1.0)
+
+    def update(self, time, state):
+        if time == 2.0:
+            print("begun", flush=True)
+        return state.discrete_state + 1.0
+
+
 def make_ramp():
     builder = saltus.DiagramBuilder()
     one, ramp = builder.add(Constant(1.0, name="one"), Integrator(0.0, name="ramp"))

@@ -6,8 +6,6 @@ import subprocess
 import sys
 import textwrap
 import threading
-import time
-from itertools import pairwise
 
 import pytest
 import saltus
@@ -22,21 +20,15 @@ def long_run(**options):
     return saltus.simulate(ball, context, (0.0, 150.0), record_events=False, **options)
 
 
-def test_a_function_is_told_ten_times_a_second_at_most():
-    seen, when = [], []
-
-    def look(now):
-        seen.append(now)
-        when.append(time.perf_counter())
-
-    results = long_run(progress=look)
+def test_a_function_is_told_now_and_then():
+    seen = []
+    results = long_run(progress=seen.append)
     assert all(isinstance(now, Progress) for now in seen)
     assert seen[-1].time == seen[-1].end == 150.0
     assert seen[-1].fraction == 1.0
     assert seen[-1].events == results.statistics.events > 0
     assert [now.time for now in seen] == sorted(now.time for now in seen)
-    assert all(b - a >= 0.09 for a, b in pairwise(when[1:-1]))
-    assert len(seen) <= 2 + results.statistics.wall_time / 0.1
+    assert len(seen) < results.statistics.events / 10
 
 
 def test_the_trajectory_is_the_same():
@@ -164,7 +156,6 @@ def test_ctrl_c_gives_what_there_is(options):
         start_new_session=True,
     ) as process:
         assert process.stdout.readline() == "ready\n"
-        time.sleep(0.2)
         process.send_signal(signal.SIGINT)
         out, err = process.communicate(timeout=20)
     assert process.returncode == 0, err
