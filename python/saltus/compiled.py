@@ -10,7 +10,7 @@ from typing import Any
 
 from saltus.errors import ModelError
 
-__all__ = ["Compiled", "compiled"]
+__all__ = ["Compiled", "as_compiled", "compiled"]
 
 CTYPES: Any = ctypes.CFUNCTYPE(None).__base__  # of every function pointer of ctypes
 SIGNATURE = "int (double, double *, double *, double *, double *, void *)"

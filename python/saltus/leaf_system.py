@@ -8,7 +8,7 @@ from typing import Any
 from numpy.typing import ArrayLike
 
 from saltus import _core
-from saltus.declarations import (
+from saltus._declarations import (
     EVERYTHING,
     RequiresInputs,
     callback_of,
@@ -18,8 +18,8 @@ from saltus.declarations import (
     places_of,
     shape_of,
 )
+from saltus._porting import refusing
 from saltus.errors import ModelError
-from saltus.porting import refusing
 from saltus.system import System
 
 __all__ = ["LeafSystem"]

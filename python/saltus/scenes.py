@@ -7,9 +7,10 @@ from dataclasses import fields
 from typing import Any
 
 from saltus import _core
+from saltus._engine import PYTHON_ONLY
 from saltus.errors import ModelError
 from saltus.results import Results
-from saltus.simulation import PYTHON_ONLY, SimulatorOptions, simulate
+from saltus.simulation import SimulatorOptions, simulate
 from saltus.system import OutputPort, System
 
 __all__ = ["Scene", "SharedSystem", "scene", "shelf"]

@@ -3,35 +3,22 @@
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import fields, replace
 from typing import Any
 
 from saltus import _core
+from saltus._engine import core_context, core_options
+from saltus._porting import OPTIONS, refuse
+from saltus._span import span_of
 from saltus.errors import ModelError, SimulationError
 from saltus.ladder import climbed
-from saltus.options import PYTHON_ONLY, SimulatorOptions, core_options
-from saltus.porting import OPTIONS, refuse
+from saltus.options import SimulatorOptions
 from saltus.progress import reporter_of
 from saltus.results import Results
-from saltus.span import span_of
 from saltus.system import OutputPort, System
 
-__all__ = [
-    "PYTHON_ONLY",
-    "Results",
-    "Simulator",
-    "SimulatorOptions",
-    "core_context",
-    "core_options",
-    "simulate",
-]
-
-
-def core_context(context: object) -> _core.Context:
-    if not isinstance(context, _core.Context):
-        raise ModelError(f"expected a context, such as system.create_context(), found {context!r}")
-    return context
+__all__ = ["Results", "Simulator", "SimulatorOptions", "simulate"]
 
 
 class Simulator:
@@ -80,7 +67,6 @@ class Simulator:
         self._options = core_options(self.options)
         self._make()
         self._failed: Results | None = None
-        self._outcome: Callable[..., Results] = Results
 
     def _make(self) -> None:
         """The engine's simulator, of the system as it runs."""
@@ -141,6 +127,11 @@ class Simulator:
                 "initialize again, or use the option python='called'"
             )
 
+    def _run(self, context: _core.Context, end: float) -> Results:
+        """A whole run. Its results take the recorded rows without a copy."""
+        self.initialize(context)
+        return self._advance(end, take=True)
+
     def _advance(self, time: float, take: bool) -> Results:
         if not take:  # what simulate runs was made just now
             self._follow_changes()
@@ -159,6 +150,10 @@ class Simulator:
         if self.options.throw and results.status not in ("reached_end", "terminal", "zeno_stop"):
             self._raise(results, raised)
         return results
+
+    def _outcome(self, core: _core.Results, raised: BaseException | None, asks: Any) -> Results:
+        """The form in which a run is returned; `solve` has one of its own."""
+        return Results(core, raised, asks)
 
     def _results(self, core: _core.Results, raised: BaseException | None) -> Results:
         return self._outcome(core, raised, (self.system, self._runs))
@@ -287,5 +282,4 @@ def simulate(
     simulator = Simulator(system, options, **option_overrides)
     context = core_context(context)
     # one that ended another run at this time knows what of it has happened already
-    simulator.initialize(context if context.time == begin else context.with_time(begin))
-    return simulator._advance(end, take=True)
+    return simulator._run(context if context.time == begin else context.with_time(begin), end)

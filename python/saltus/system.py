@@ -197,9 +197,9 @@ class System:
         >>> print(Gain(2.0, name="double").to_dot().splitlines()[0])
         digraph "double" {
         """
-        from saltus import picture
+        from saltus import _picture
 
-        return picture.to_dot(self, recorded_signals, max_depth)
+        return _picture.to_dot(self, recorded_signals, max_depth)
 
     def to_mermaid(
         self,
@@ -235,19 +235,19 @@ class System:
         >>> print(Gain(2.0, name="double").to_mermaid().splitlines()[1].strip())
         b0["<b>double</b><br/>Gain"]:::continuous
         """
-        from saltus import picture
+        from saltus import _picture
 
-        return picture.to_mermaid(self, what, recorded_signals, max_depth)
+        return _picture.to_mermaid(self, what, recorded_signals, max_depth)
 
     def _repr_svg_(self) -> str | None:
-        from saltus import picture
+        from saltus import _picture
 
-        return picture.in_svg(self)
+        return _picture.in_svg(self)
 
     def _repr_markdown_(self) -> str | None:
-        from saltus import picture
+        from saltus import _picture
 
-        return picture.in_markdown(self)
+        return _picture.in_markdown(self)
 
     def __repr__(self) -> str:
         return f"<{type(self).__name__} '{self.name}'>"

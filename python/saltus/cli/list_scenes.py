@@ -8,6 +8,8 @@ import json
 from saltus.cli.table import print_table
 from saltus.scenes import shelf
 
+__all__ = ["act", "add_arguments"]
+
 NAME = "list"
 
 

@@ -20,9 +20,12 @@ import numpy as np
 from saltus.cli.scene_of import Chosen, chosen_scene
 from saltus.cli.settings import add_options, add_scene, options_of, settings_of
 from saltus.cli.table import print_table
+from saltus.ensemble.job import port_of
 from saltus.errors import ModelError
 from saltus.results import Results
 from saltus.simulation import simulate
+
+__all__ = ["act", "add_arguments"]
 
 NAME = "run"
 WELL = ("reached_end", "terminal", "zeno_stop")
@@ -69,8 +72,6 @@ def _reason(results: Results) -> str:
 def _recording(
     chosen: argparse.Namespace, scene: Chosen, span: tuple[float, float]
 ) -> dict[str, Any]:
-    from saltus.ensemble.job import port_of
-
     found: dict[str, Any] = {}
     if chosen.record:
         found["recorded_signals"] = {name: port_of(scene.system, name) for name in chosen.record}

@@ -13,7 +13,7 @@ from saltus.ensemble.table import Table
 from saltus.errors import ModelError
 from saltus.results.tables import extra
 
-__all__ = ["Arrays", "arrays_of", "refuse_reserved", "summary", "to_dataset", "xarray"]
+__all__ = ["Arrays", "arrays_of", "refuse_reserved", "summary", "to_dataset", "to_dict", "xarray"]
 
 Arrays = dict[str, tuple[tuple[str, ...], np.ndarray]]
 """Each name with its dimensions and its values; the dimensions of the runs come first."""

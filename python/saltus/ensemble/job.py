@@ -10,15 +10,16 @@ from typing import Any
 import numpy as np
 
 from saltus import _core
+from saltus._engine import core_context, core_options
 from saltus.ensemble.columns import Columns, empty, failed, join
 from saltus.ensemble.table import Column
 from saltus.errors import ModelError
 from saltus.ladder import climbed
+from saltus.options import SimulatorOptions
 from saltus.results import Results
-from saltus.simulation import SimulatorOptions, core_context, core_options
 from saltus.system import OutputPort, System
 
-__all__ = ["Job", "port_of"]
+__all__ = ["Job", "Watch", "port_of"]
 
 Watch = Callable[[int], bool]
 Values = Mapping[str, Column]

@@ -11,7 +11,7 @@ import numpy as np
 
 from saltus.errors import ModelError
 
-__all__ = ["Table", "table_of"]
+__all__ = ["Column", "Table", "table_of"]
 
 
 Column = np.ndarray | list[Any]  # an array of numbers; a list of anything else

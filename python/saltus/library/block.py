@@ -5,8 +5,10 @@ from __future__ import annotations
 from typing import Any
 
 from saltus import _core
-from saltus.porting import refusing
+from saltus._porting import refusing
 from saltus.system import System
+
+__all__ = ["Block"]
 
 
 class Block(System):

@@ -5,6 +5,8 @@ from __future__ import annotations
 from saltus import _core
 from saltus.library.block import Block
 
+__all__ = ["Comparator", "LogicalOperator", "Switch"]
+
 
 class Comparator(Block, _core.Comparator):
     """y = u_0 operator u_1, entry by entry: 0 or 1.

@@ -7,6 +7,8 @@ from numpy.typing import ArrayLike
 from saltus import _core
 from saltus.library.block import Block
 
+__all__ = ["Integrator", "UnitDelay", "ZeroOrderHold"]
+
 
 class Integrator(Block, _core.Integrator):
     """dx/dt = u, y = x, in the shape of `initial_state`.

@@ -9,13 +9,14 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from saltus import _core
+from saltus._engine import core_context, core_options
+from saltus._span import span_of
 from saltus.errors import ModelError
 from saltus.ladder import climbed
+from saltus.options import SimulatorOptions
 from saltus.report.table import WorkPrecision
 from saltus.results import Results
 from saltus.scenes import Scene
-from saltus.simulation import SimulatorOptions, core_context, core_options
-from saltus.span import span_of
 from saltus.system import OutputPort, System
 
 __all__ = ["work_precision"]

@@ -11,8 +11,11 @@ from numpy.typing import ArrayLike
 from saltus import _core
 from saltus.errors import Error, ModelError
 from saltus.results.events import EventLog
-from saltus.results.record import KeptRun, Record
+from saltus.results.record import KINDS, KeptRun, Record
+from saltus.results.saving import save
 from saltus.results.statistics import Statistics
+from saltus.results.tables import to_pandas, to_xarray
+from saltus.results.text import as_html, as_text
 from saltus.results.values import Values, values_at
 
 if TYPE_CHECKING:
@@ -157,8 +160,6 @@ class Results:
         >>> solution.to_pandas().shape
         (3, 1)
         """
-        from saltus.results.tables import to_pandas
-
         return to_pandas(self)
 
     def to_xarray(self) -> xarray.Dataset:
@@ -177,8 +178,6 @@ class Results:
         >>> dict(solution.to_xarray().sizes)
         {'time': 3, 'x_entry': 1}
         """
-        from saltus.results.tables import to_xarray
-
         return to_xarray(self)
 
     def plot(self, *names: str, ax: Any = None, **style: Any) -> Any:
@@ -236,8 +235,6 @@ class Results:
         >>> saltus.load_results(path).status
         'reached_end'
         """
-        from saltus.results.saving import save
-
         save(KeptRun.of(self._core), path, self._kind())
 
     def _kind(self) -> dict[str, Any]:
@@ -248,11 +245,10 @@ class Results:
         return Results, (KeptRun.of(self._core), self.cause)
 
     def __repr__(self) -> str:
-        from saltus.results.text import as_text
-
         return as_text(self)
 
     def _repr_html_(self) -> str:
-        from saltus.results.text import as_html
-
         return as_html(self)
+
+
+KINDS["Results"] = lambda run, header: Results(run)

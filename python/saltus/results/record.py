@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any, Protocol
 
@@ -11,7 +11,7 @@ import numpy as np
 from saltus import _core
 from saltus.errors import ModelError
 
-__all__ = ["KeptRun", "Record"]
+__all__ = ["KINDS", "KeptRun", "Record"]
 
 Columns = dict[str, np.ndarray]
 
@@ -107,3 +107,7 @@ class KeptRun:
             "results that were loaded, or came from another process, keep no dense output; "
             "read it where the run was done"
         )
+
+
+KINDS: dict[str, Callable[[KeptRun, dict[str, Any]], Any]] = {}
+"""kind in the header of a file -> makes the results of that kind of a run and the header"""

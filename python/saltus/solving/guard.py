@@ -10,7 +10,7 @@ from typing import Any
 from numpy.typing import ArrayLike
 
 from saltus._core import known_names
-from saltus.declarations import SHORT
+from saltus._declarations import SHORT
 from saltus.errors import ModelError
 
 __all__ = ["Guard", "guards_of"]

@@ -9,13 +9,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from saltus._core import Context
+from saltus._porting import OPTIONS, refuse
+from saltus._span import span_of
 from saltus.errors import ModelError
-from saltus.porting import OPTIONS, refuse
+from saltus.results.record import Record
 from saltus.simulation import Simulator, SimulatorOptions
 from saltus.solving.guard import Guard, guards_of
 from saltus.solving.solution import Solution
 from saltus.solving.solved_system import SolvedSystem, arguments_of, state_of, times_of
-from saltus.span import span_of
 
 __all__ = ["solve"]
 
@@ -168,9 +170,23 @@ def _run(
     settings: Mapping[str, Any],
     names: Sequence[str] | None,
 ) -> Solution:
-    simulator = Simulator(system, recorded_signals={"x": system.output("x")}, **settings)
-    simulator._outcome = lambda core, raised, asks: Solution(core, raised, asks, names, system)
-    simulator.initialize(system.create_context(begin))
-    solution = simulator._advance(end, take=True)
-    assert isinstance(solution, Solution)
-    return solution
+    simulator = _SolveSimulator(system, names, settings)
+    return simulator.solution(system.create_context(begin), end)
+
+
+class _SolveSimulator(Simulator):
+    """A simulator whose runs end in a `Solution`."""
+
+    def __init__(
+        self, system: SolvedSystem, names: Sequence[str] | None, settings: Mapping[str, Any]
+    ):
+        super().__init__(system, recorded_signals={"x": system.output("x")}, **settings)
+        self._names = names
+
+    def _outcome(self, core: Record, raised: BaseException | None, asks: Any) -> Solution:
+        return Solution(core, raised, asks, self._names, self.system)
+
+    def solution(self, context: Context, end: float) -> Solution:
+        solution = self._run(context, end)
+        assert isinstance(solution, Solution)
+        return solution

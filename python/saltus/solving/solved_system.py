@@ -10,10 +10,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from saltus._core import numbers
+from saltus._wrapped import wrapping
 from saltus.errors import ModelError
 from saltus.leaf_system import LeafSystem
 from saltus.solving.guard import Guard
-from saltus.wrapped import wrapping
 
 __all__ = ["SolvedSystem", "arguments_of", "state_of", "times_of"]
 

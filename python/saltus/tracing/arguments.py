@@ -9,11 +9,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from saltus.tracing.array import SymbolArray, as_array
+from saltus.tracing.numbers import Symbol, SymbolArray, as_array
 from saltus.tracing.refusal import refuse
 from saltus.tracing.signature import Shape, Signature
 from saltus.tracing.state import PlainState, TracedState
-from saltus.tracing.symbol import Symbol
+
+__all__ = ["Point", "Result", "Symbols", "call", "plain_arguments", "plain_numbers", "result_of"]
 
 Numbers = NDArray[np.float64]
 

@@ -16,6 +16,8 @@ from saltus.tracing.refusal import Refusal
 from saltus.tracing.rounding import ULPS, Bounds
 from saltus.tracing.signature import Shape, Signature
 
+__all__ = ["Check"]
+
 Numbers = NDArray[np.float64]
 
 SCALES = (0.0, 1e-3, 0.03, 0.3, 1.0, 1.0, 1.0, 3.0, 10.0, 100.0, 1e-6, 1e4)

@@ -12,11 +12,11 @@ from typing import Any
 
 import numpy as np
 
+from saltus._wrapped import OWNER
 from saltus.tracing.check import Check
 from saltus.tracing.refusal import Refusal
+from saltus.tracing.sandbox import same
 from saltus.tracing.signature import Refused, Signature, Traced
-from saltus.tracing.watch import same
-from saltus.wrapped import OWNER
 
 __all__ = ["Kept", "find", "keep"]
 

@@ -8,6 +8,8 @@ import sys
 from types import FrameType, TracebackType
 from typing import NoReturn
 
+__all__ = ["MARK", "Refusal", "raised_at", "refuse"]
+
 MARK = "__saltus_traced__"
 """a global that only the copies of the user's functions have"""
 

@@ -13,7 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from saltus.tracing.arguments import Point
-from saltus.tracing.scalars import NUMPY
+from saltus.tracing.numbers import NUMPY
+
+__all__ = ["ULPS", "Bounds"]
 
 Numbers = NDArray[np.float64]
 

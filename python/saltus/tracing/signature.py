@@ -9,7 +9,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from saltus.tracing.watch import Watch
+from saltus.tracing.sandbox import Watch
+
+__all__ = ["Refused", "Relations", "Shape", "Signature", "Traced"]
 
 Shape = tuple[int, ...]
 

@@ -8,9 +8,10 @@ from typing import Any
 
 import numpy as np
 
-from saltus.tracing.array import SymbolArray, as_array
+from saltus.tracing.numbers import Symbol, SymbolArray, as_array
 from saltus.tracing.refusal import refuse
-from saltus.tracing.symbol import Symbol
+
+__all__ = ["PlainState", "TracedState"]
 
 
 class TracedState:

@@ -11,13 +11,14 @@ import numpy as np
 from saltus import _core
 from saltus.tracing import kept, relations
 from saltus.tracing.arguments import Result, Symbols, call, result_of
-from saltus.tracing.array import array
 from saltus.tracing.check import Check
+from saltus.tracing.numbers import Symbol, array
 from saltus.tracing.refusal import Refusal, raised_at
 from saltus.tracing.rounding import Bounds
 from saltus.tracing.sandbox import Sandbox
 from saltus.tracing.signature import Refused, Signature, Traced
-from saltus.tracing.symbol import Symbol
+
+__all__ = ["trace"]
 
 
 def trace(signature: Signature) -> Traced | Refused:

@@ -12,6 +12,18 @@ from numpy.typing import ArrayLike
 from saltus.compiled import as_compiled
 from saltus.errors import ModelError
 
+__all__ = [
+    "EVERYTHING",
+    "SHORT",
+    "RequiresInputs",
+    "callback_of",
+    "direction_of",
+    "initial_of",
+    "inputs_of",
+    "places_of",
+    "shape_of",
+]
+
 RequiresInputs = bool | Iterable[int]
 EVERYTHING = ("time", "continuous_state", "discrete_state", "mode", "inputs")
 SHORT = {

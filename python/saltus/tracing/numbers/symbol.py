@@ -8,17 +8,13 @@ import numpy as np
 
 from saltus.tracing.refusal import refuse
 
+__all__ = ["ORDER", "Symbol", "joint", "kind_of"]
+
 ORDER = "bif"  # truth, integer, real: what two of them give together is the later one
 LARGEST = 100_000  # nodes; a longer tape gains nothing over numpy
 
 VARIABLES = {"time", "continuous_state", "discrete_state", "entry", "parameter", "input"}
 
-METHODS = set(
-    """
-    all any astype copy dot flatten max mean min prod ravel reshape squeeze std sum tolist
-    transpose var
-    """.split()
-)
 BRANCH = "use np.where, np.minimum, `&` and `|`, or modes with zero crossings"
 
 
@@ -135,22 +131,9 @@ class Symbol:
     def T(self) -> Symbol:
         return self
 
+    # the other methods of numpy's numbers are in operators.py
     def item(self) -> Symbol:
         return Symbol(self.graph, self.node, self.kind, True)
 
     def conjugate(self) -> Symbol:
         return self
-
-    def __getattr__(self, name: str) -> Any:
-        """What numpy's numbers can do as arrays of one can; Python's cannot."""
-        if self.python or name not in METHODS:
-            kind = {"f": "float", "i": "int", "b": "bool"}[self.kind]
-            raise AttributeError(f"'{kind}' object has no attribute '{name}'")
-        from saltus.tracing.array import as_array
-
-        return getattr(as_array(self), name)
-
-    def is_integer(self) -> Any:
-        from saltus.tracing.scalars import SCALARS
-
-        return SCALARS["eq"](self, SCALARS["floor"](self))

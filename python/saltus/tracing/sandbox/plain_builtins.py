@@ -9,11 +9,11 @@ from typing import Any
 
 import numpy as np
 
-from saltus.tracing.array import SymbolArray
-from saltus.tracing.guarded import Guarded, parent, unguarded
+from saltus.tracing.numbers import SCALARS, Symbol, SymbolArray, is_number, kind_of, truth, whole
 from saltus.tracing.refusal import refuse
-from saltus.tracing.scalars import SCALARS, is_number, truth, whole
-from saltus.tracing.symbol import Symbol, kind_of
+from saltus.tracing.sandbox.guarded import Guarded, parent, unguarded
+
+__all__ = ["REPLACED", "SAFE"]
 
 SAFE = set(
     """

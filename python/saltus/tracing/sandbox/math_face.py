@@ -8,12 +8,19 @@ import operator
 from collections.abc import Callable
 from typing import Any
 
-from saltus.tracing.array import SymbolArray
-from saltus.tracing.functions import has_symbols, plain
-from saltus.tracing.operators import apply
+from saltus.tracing.numbers import (
+    SCALARS,
+    Symbol,
+    SymbolArray,
+    apply,
+    has_symbols,
+    is_number,
+    kind_of,
+    plain,
+)
 from saltus.tracing.refusal import refuse
-from saltus.tracing.scalars import SCALARS, is_number
-from saltus.tracing.symbol import Symbol, kind_of
+
+__all__ = ["MATH_FACE", "math_function"]
 
 MATH = {
     "acos": "acos", "acosh": "acosh", "asin": "asin", "asinh": "asinh", "atan": "atan",

@@ -11,6 +11,8 @@ from typing import Any
 
 import numpy as np
 
+__all__ = ["LARGEST", "MISSING", "PLAIN", "AttributeOf", "Watch", "entries", "same"]
+
 MISSING: Any = type("Missing", (), {"__repr__": lambda self: "not there"})()
 
 GONE = object()

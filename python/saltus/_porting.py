@@ -13,6 +13,8 @@ from typing import Any, ParamSpec, TypeVar
 from saltus._core import known_names
 from saltus.errors import ModelError
 
+__all__ = ["OPTIONS", "refuse", "refusing"]
+
 P = ParamSpec("P")
 R = TypeVar("R")
 

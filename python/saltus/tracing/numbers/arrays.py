@@ -11,9 +11,23 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from saltus.tracing.numbers.scalars import cast, is_number
+from saltus.tracing.numbers.symbol import Symbol, joint, kind_of
 from saltus.tracing.refusal import refuse
-from saltus.tracing.scalars import cast, is_number
-from saltus.tracing.symbol import Symbol, joint, kind_of
+
+__all__ = [
+    "LARGEST_TABLE",
+    "Objects",
+    "SymbolArray",
+    "array",
+    "as_array",
+    "index_of",
+    "is_known",
+    "kind_of_type",
+    "known",
+    "objects_of",
+    "wrapped",
+]
 
 Objects = NDArray[np.object_]
 
@@ -129,6 +143,9 @@ class SymbolArray:
     __hash__ = None  # type: ignore[assignment]
     __slots__ = ("data", "frozen", "kind")
 
+    _looked_up: Any  # these two are in operators.py
+    _set_where: Any
+
     def __init__(self, data: Objects, kind: str, frozen: str = ""):
         self.data = data
         self.kind = kind
@@ -177,29 +194,12 @@ class SymbolArray:
         part = self.data[index_of(key)]
         return self._view(part) if isinstance(part, np.ndarray) else cast(part, self.kind)
 
-    def _looked_up(self, key: Symbol) -> Any:
-        """Entry (or row) `key`, an integer that is not known, such as the mode.
-
-        NaN beyond the ends, where numpy raises.
-        """
-        from saltus.tracing.operators import apply
-
-        n = len(self.data)
-        if key.kind != "i" or n > LARGEST_TABLE:
-            key.__index__()  # refuses
-        result: Any = np.nan
-        for i in range(n):
-            here = apply("logical_or", apply("eq", key, i), apply("eq", key, i - n))
-            result = apply("select", here, self[i], result)
-        if isinstance(result, SymbolArray):
-            return SymbolArray(result.data, self.kind)
-        return result.numpy(self.kind)
-
     def __setitem__(self, key: Any, value: Any) -> None:
         if self.frozen:
             refuse(f"writes to {self.frozen}", "what changes something outside is called; copy it")
         if isinstance(key, SymbolArray) and key.kind == "b" and not is_known(key.data):
-            return self._set_where(key, value)
+            self._set_where(key, value)
+            return
         place = index_of(key)
         source = objects_of(value)
         cells = np.empty(source.shape, dtype=object)
@@ -210,15 +210,6 @@ class SymbolArray:
                 raise ValueError("setting an array element with a sequence.")
             cells = cells.reshape(())
         self.data[place] = cells if cells.ndim else cells[()]
-
-    def _set_where(self, mask: SymbolArray, value: Any) -> None:
-        """x[mask] = number, for a mask that is not known."""
-        from saltus.tracing.operators import apply
-
-        if mask.shape != self.shape or objects_of(value).size != 1:
-            refuse("sets several entries chosen by a value", "use np.where")
-        number = cast(as_array(value)._one(), self.kind)
-        self[...] = apply("select", mask, number, self)
 
     def _one(self) -> Any:
         if self.size != 1:

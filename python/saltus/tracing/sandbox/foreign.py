@@ -6,6 +6,8 @@ from typing import Any, NoReturn
 
 from saltus.tracing.refusal import refuse
 
+__all__ = ["Foreign"]
+
 
 class Foreign:
     """An object of another library, or one that changes the world; refused when it is used."""

@@ -11,6 +11,7 @@ import subprocess
 from collections.abc import Mapping
 
 from saltus import _core
+from saltus._engine import ports_of
 from saltus.errors import ModelError
 from saltus.system import OutputPort, System
 
@@ -69,8 +70,6 @@ def in_markdown(system: System) -> str | None:
 def _ports(signals: Recorded) -> list[tuple[str, System, int]] | None:
     if signals is None:
         return None
-    from saltus.options import ports_of
-
     return ports_of(signals)
 
 

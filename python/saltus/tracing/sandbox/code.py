@@ -11,6 +11,8 @@ from types import CodeType
 
 from saltus.tracing.refusal import Refusal
 
+__all__ = ["names_in", "refuse_code"]
+
 SINCE_311 = "PUSH_EXC_INFO" in dis.opmap
 HANDLERS = {"PUSH_EXC_INFO"} if SINCE_311 else {"SETUP_FINALLY"}
 IN_WITH = {"WITH_EXCEPT_START"} if SINCE_311 else set()  # before 3.11 a `with` has no handler

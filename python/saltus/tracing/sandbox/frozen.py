@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any, NoReturn
 
-from saltus.tracing.array import array
-from saltus.tracing.operators import apply
+from saltus.tracing.numbers import Symbol, apply, array
 from saltus.tracing.refusal import refuse
-from saltus.tracing.symbol import Symbol
+
+__all__ = ["FrozenDict", "FrozenList", "FrozenTuple"]
 
 OUTSIDE = "what changes something outside is called"
 

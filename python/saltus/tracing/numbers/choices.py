@@ -12,12 +12,14 @@ from typing import Any
 
 import numpy as np
 
-from saltus.tracing.array import SymbolArray, as_array
-from saltus.tracing.operators import apply
-from saltus.tracing.reductions import fold
+from saltus.tracing.numbers.arrays import SymbolArray, as_array
+from saltus.tracing.numbers.entrywise import apply
+from saltus.tracing.numbers.reductions import fold
+from saltus.tracing.numbers.scalars import as_real
+from saltus.tracing.numbers.symbol import joint
 from saltus.tracing.refusal import refuse
-from saltus.tracing.scalars import as_real
-from saltus.tracing.symbol import joint
+
+__all__ = ["CHOICES", "clip", "round_"]
 
 LARGEST_TABLE = 64  # points of np.interp; every one of them is computed at every evaluation
 

@@ -10,8 +10,8 @@ from typing import Any
 
 import numpy as np
 
-from saltus.tracing import choices, products, solving
-from saltus.tracing.array import (
+from saltus.tracing.numbers import choices, products, solving
+from saltus.tracing.numbers.arrays import (
     SymbolArray,
     array,
     as_array,
@@ -22,11 +22,14 @@ from saltus.tracing.array import (
     objects_of,
     wrapped,
 )
-from saltus.tracing.operators import apply, call_ufunc
-from saltus.tracing.reductions import REDUCTIONS
+from saltus.tracing.numbers.entrywise import apply
+from saltus.tracing.numbers.reductions import REDUCTIONS
+from saltus.tracing.numbers.scalars import is_number
+from saltus.tracing.numbers.symbol import Symbol, joint
+from saltus.tracing.numbers.ufuncs import call_ufunc
 from saltus.tracing.refusal import refuse
-from saltus.tracing.scalars import is_number
-from saltus.tracing.symbol import Symbol, joint
+
+__all__ = ["call_function", "has_symbols", "owned", "plain"]
 
 ARRANGING = """
     append argwhere array_split atleast_1d atleast_2d atleast_3d block broadcast_arrays broadcast_to
@@ -225,12 +228,3 @@ FUNCTIONS: dict[str, Callable[..., Any]] = {
     **choices.CHOICES,
 }
 """by numpy's name"""
-
-
-def _round_method(self: Any, decimals: int = 0) -> Any:
-    return choices.round_(self, decimals)
-
-
-for _class in (SymbolArray, Symbol):
-    for _name, _function in {"round": _round_method, "clip": choices.clip}.items():
-        setattr(_class, _name, _function)

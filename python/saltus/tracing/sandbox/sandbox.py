@@ -20,14 +20,16 @@ from typing import Any
 
 import numpy as np
 
-from saltus.tracing.array import SymbolArray
-from saltus.tracing.code import names_in, refuse_code
-from saltus.tracing.faces import BUILTINS, face_of
-from saltus.tracing.foreign import Foreign
-from saltus.tracing.frozen import FrozenDict, FrozenList, FrozenTuple
-from saltus.tracing.guarded import Guarded
+from saltus.tracing.numbers import SymbolArray
 from saltus.tracing.refusal import MARK, refuse
-from saltus.tracing.watch import LARGEST, MISSING, PLAIN, AttributeOf, Watch, entries
+from saltus.tracing.sandbox.code import names_in, refuse_code
+from saltus.tracing.sandbox.faces import BUILTINS, face_of
+from saltus.tracing.sandbox.foreign import Foreign
+from saltus.tracing.sandbox.frozen import FrozenDict, FrozenList, FrozenTuple
+from saltus.tracing.sandbox.guarded import Guarded
+from saltus.tracing.sandbox.watch import LARGEST, MISSING, PLAIN, AttributeOf, Watch, entries
+
+__all__ = ["Sandbox"]
 
 FOREIGN = set(
     """
