@@ -91,6 +91,14 @@ void LadderLeaf::put(const Slot& slot) {
     case Role::reset_map:
       crossing().reset_map = taped_reset(original_, slot, crossing().reset_map);
       return;
+    case Role::relation:
+      return put_relation(slot);
+    case Role::edge_reset: {
+      EdgeReset& edge = declared().edge_resets[static_cast<std::size_t>(function.index)];
+      edge.reset_map = taped_reset(original_, slot, edge.reset_map);
+      edge.inputs = inputs_of(slot);
+      return;
+    }
     case Role::jacobian:
       declared().continuous.jacobian = [rows = taped(slot), &leaf = original_](const At& at,
                                                                                MatrixRef out) {
@@ -136,6 +144,14 @@ void LadderLeaf::put_output(const Slot& slot) {
     put_relations(slot, output);
   else
     output.calc = taped(slot);
+}
+
+void LadderLeaf::put_relation(const Slot& slot) {
+  auto& relation =
+      declared().relations[static_cast<std::size_t>(original_.function(slot->function).index)];
+  relation.guard = taped(slot);
+  relation.reads = slot->tape.reads();
+  relation.inputs = inputs_of(slot);
 }
 
 /// The comparisons become relations, which are located by their smooth guards, and the output is
@@ -202,7 +218,8 @@ bool LadderLeaf::fits(const Trace& old, const Trace& now) const {
   if (old.serial == now.serial) return true;
   for (int k = 0; k < count_of(original_.declarations().inputs); ++k)
     if (now.tape.reads_input(k) && !old.tape.reads_input(k)) return false;
-  if (original_.function(now.function).role != Role::output) return true;
+  const Role role = original_.function(now.function).role;
+  if (role != Role::output && role != Role::relation) return true;
   const bool slower = (old.tape.reads() | now.tape.reads()) == old.tape.reads();
   return slower && !old.relations && !now.relations;
 }

@@ -26,6 +26,7 @@ class LadderLeaf final : public LeafSystem {
   void put(const Slot& slot);
   void put_ode(const Slot& slot);
   void put_output(const Slot& slot);
+  void put_relation(const Slot& slot);
   void put_relations(const Slot& slot, OutputDeclaration& output);
   void put_time_event(const Slot& slot);
   void narrow_inputs(ZeroCrossing& crossing, int index);

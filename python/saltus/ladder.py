@@ -12,7 +12,7 @@ __all__ = ["Explanation", "Rung"]
 
 Block = dict[str, Any]  # what a survey says of a block, or of a function of it
 
-KINDS = {"jacobian": "matrix", "reset_map": "reset", "update": "update"}
+KINDS = {"jacobian": "matrix", "reset_map": "reset", "edge_reset": "reset", "update": "update"}
 """role of a function -> what the tracer calls it; the others return a vector"""
 
 

@@ -92,6 +92,14 @@ PAIRS = {
         members("model/event.hpp", "ZeroCrossing"),
         arguments(Leaf.declare_zero_crossing),
     ),
+    "declare_relation": (
+        members("model/event.hpp", "Relation"),
+        arguments(Leaf.declare_relation),
+    ),
+    "declare_edge_reset": (
+        members("model/event.hpp", "EdgeReset"),
+        arguments(Leaf.declare_edge_reset),
+    ),
     "DiagramBuilder": (
         methods("model/diagram_builder.hpp", "DiagramBuilder"),
         public(saltus.DiagramBuilder),

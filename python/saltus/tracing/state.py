@@ -45,6 +45,11 @@ class TracedState:
             object.__setattr__(other, name, getattr(self, name))
         return other
 
+    @property
+    def relations(self) -> Any:
+        """No tape can read these: their truths are held by the engine."""
+        refuse("reads state.relations", "a callback that reads a relation is called")
+
     def with_continuous_state(self, continuous_state: Any) -> TracedState:
         value = self._filled(continuous_state, self.continuous_state, "continuous state")
         return self._with("continuous_state", value, "x")
