@@ -1,4 +1,4 @@
-"""What the arguments of the declarations of a block stand for."""
+"""The arguments of the declarations of a block in the form of the engine."""
 
 from __future__ import annotations
 
@@ -35,12 +35,12 @@ SHORT = {
 
 
 def callback_of(function: Any) -> Any:
-    """The compiled function behind a pointer; anything else as it is."""
+    """The compiled function of a pointer; any other value unchanged."""
     return as_compiled(function) or function
 
 
 def direction_of(direction: Any) -> Any:
-    """The name of the engine for a direction in one word; anything else as it is."""
+    """The name in the engine of a direction in one word; any other value unchanged."""
     return SHORT.get(str(direction), direction)
 
 

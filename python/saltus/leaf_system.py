@@ -31,26 +31,26 @@ class LeafSystem(System, _core.LeafSystem):
     A callback runs on one of three rungs; `system.explain()` says which, and why on no higher one:
 
     - *traced*: before a run it is called once with symbols and becomes an expression that runs
-      without the interpreter, with an exact Jacobian. What it read and has changed since, such as
-      an attribute, is noticed before the next run, and between two pieces of one;
-    - *called*: what cannot be traced, for example because it branches on a value, prints or counts,
-      is called for every value. The option `python="called"` has all of them called;
+      without the interpreter, with an exact Jacobian. If a value that it read has changed, such as
+      an attribute, it is traced again before the next run, and between two pieces of one;
+    - *called*: a callback that cannot be traced, for example because it branches on a value, prints
+      or counts, is called for every value. The option `python="called"` has all of them called;
     - *compiled*: a pointer to a compiled function in place of a Python one, see `saltus.compiled`.
 
     Every callback is called as `f(time, state, *inputs, **parameters)`:
 
     - `time` [s] is a float;
     - `state` has `continuous_state`, `discrete_state` (read-only arrays of the declared shapes) and
-      `mode`, `relations`, and `with_continuous_state(x)`, `with_discrete_state(z)`, `with_mode(m)`, which return
-      a new state;
+      `mode`, `relations`, and `with_continuous_state(x)`, `with_discrete_state(z)`, `with_mode(m)`,
+      which return a new state;
     - inputs come in the order of the ports, a float for one number, else a read-only array.
       `requires_inputs` says which: True all, False none, a list of positions those. Say it
       precisely: an input that is not read is neither computed nor part of a loop;
     - parameters come by keyword, a float for a number, else a read-only array.
 
     Every array may be kept: it never changes. A callback must not change the world: it is called as
-    often as the engine likes, from whatever thread runs the simulation. What it raises comes out of
-    `simulate` as it was.
+    often as the engine likes, from the thread that runs the simulation. `simulate` raises the
+    exception of a callback unchanged.
 
     A callback that returns numbers may fill an array in their place, which is quicker: one with an
     argument called `out`, the last or by keyword, gets an array of the shape of the state for an
@@ -139,7 +139,7 @@ class LeafSystem(System, _core.LeafSystem):
         x per second.
 
         `shape` n is a vector of n zeros, () a single number; `default_value` (or an array in place
-        of the shape) says where it starts. Without `ode` it stands still between resets. `jacobian`
+        of the shape) says where it starts. Without `ode` it is constant between resets. `jacobian`
         gives the n by n matrix d(ode)/dx, row by row, for a stiff method; without it, and for
         entries that are not finite, differences are used. Once a block.
 

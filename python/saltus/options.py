@@ -38,8 +38,8 @@ class SimulatorOptions:
     Raises
     ------
     ModelError
-        For a name there is not, with the nearest; a value that makes no sense is refused by what
-        runs with it.
+        For an unknown name; the message has the nearest. A value that makes no sense is refused
+        when a run begins.
 
     Examples
     --------
@@ -61,12 +61,12 @@ class SimulatorOptions:
     """
     linear_solver: str = "auto"
     """how a stiff method solves its linear systems: 'auto' (by number of states and places of the
-    Jacobian), 'dense', 'band', 'sparse', 'gmres'; `statistics.linear_solver` says what was chosen
+    Jacobian), 'dense', 'band', 'sparse', 'gmres'; `statistics.linear_solver` names the choice
     """
     find_sparsity: bool = True
     """where a block of more than 256 states declares neither Jacobian nor sparsity, a stiff method
-    finds the sparsity by calls of its derivative near the state; `statistics.linear_solver` says
-    what was found. False: such a block is full, or its places are unknown
+    finds the sparsity by calls of its derivative near the state; `statistics.linear_solver` has
+    the outcome. False: such a block is full, or its places are unknown
     """
     max_major_steps: int | None = None
     """instants a run may have; more end it with the status 'step_limit'"""
@@ -86,7 +86,7 @@ class SimulatorOptions:
     max_passes: int = 100
     """passes an instant may have before it counts as a loop without end"""
     recorded_signals: Mapping[str, OutputPort] | None = None
-    """what is recorded, by name; nothing recorded costs nothing"""
+    """the outputs to record, by name; nothing recorded costs nothing"""
     save_at: Sequence[float] = ()
     """[s] increasing times to record at. If there are any, solver steps are recorded only with
     save_steps=True
@@ -97,7 +97,8 @@ class SimulatorOptions:
     at the time of an event the one after it
     """
     dense_output: bool = False
-    """keep what the solver interpolates: `results(t)` tells state and recorded signals at any time
+    """keep the interpolants of the solver: `results(t)` gives state and recorded signals at any
+    time
     """
     record_events: bool = True
     """the event log; switching it off changes nothing else"""
@@ -106,7 +107,7 @@ class SimulatorOptions:
     interpreter; 'called' calls them all. See `system.explain()`
     """
     throw: bool = True
-    """raise when a run does not end well; else return the results with the status"""
+    """raise if a run does not end well; False returns the results with the status"""
     progress: bool | Callable[[Progress], object] = False
     """True shows how far the run is, by tqdm if it is installed, else on a line of stderr; a
     function is called with a `Progress` ten times a second at most, and once at the end

@@ -31,7 +31,7 @@ class Simulator:
     Parameters
     ----------
     system : System
-        What is run. It never changes.
+        The system to run. It never changes.
     options : SimulatorOptions, optional
         How.
     **overrides
@@ -80,8 +80,8 @@ class Simulator:
     def initialize(self, context: _core.Context) -> None:
         """Begins a run with these values, at their time.
 
-        A context that an earlier run ended with goes on where that one stopped. ModelError if it is
-        not one of this system.
+        With the context at the end of an earlier run, the new run continues that run. Raises
+        ModelError for a context of another system.
         """
         ladder = self._ladder
         if ladder and (ladder.survey.stale or ladder.refresh() != self._version):
@@ -105,18 +105,18 @@ class Simulator:
         Raises
         ------
         ModelError
-            For a time that is none, or lies behind.
+            For a time that is not a number, or that lies before the present time.
         SimulationError
-            Where the run ends badly, with what was computed in its attribute `results`. What a
-            callback raises comes out as it was.
+            If the run ends badly; its attribute `results` has the run until then. An exception of
+            a callback is raised unchanged.
         KeyboardInterrupt
-            After Ctrl-C, or the stop button of a notebook, with what was computed in its attribute
-            `results`. With the option ``throw=False`` nothing is raised, and the status says it.
+            After Ctrl-C, or the stop button of a notebook; its attribute `results` has the run
+            until then. With the option ``throw=False`` nothing is raised, and the status says it.
         """
         return self._advance(time, take=False).status
 
     def _follow_changes(self) -> None:
-        """What a traced callback was made from may have changed since the last piece of the run."""
+        """Replaces the traces whose sources have changed since the last piece of the run."""
         if not self._ladder or self._ladder.refresh() == self._version:
             return
         self._version = self._ladder.version
@@ -133,7 +133,7 @@ class Simulator:
         return self._advance(end, take=True)
 
     def _advance(self, time: float, take: bool) -> Results:
-        if not take:  # what simulate runs was made just now
+        if not take:  # simulate has made its traces just now
             self._follow_changes()
         try:
             time = float(time)
@@ -159,7 +159,7 @@ class Simulator:
         return self._outcome(core, raised, (self.system, self._runs))
 
     def _report(self, time: float) -> None:
-        """Advances under the eyes of the user."""
+        """Advances and reports the progress to the user."""
         assert self._reporter is not None
         with self._reporter.over(self._core.time, time, self._core.events) as reporter:
             self._core.advance_to(time)
@@ -168,7 +168,7 @@ class Simulator:
     def _raise(self, results: Results, error: BaseException | None) -> None:
         if error is None:
             error = SimulationError(results.message, results.context.time, results.block)
-        with contextlib.suppress(AttributeError):  # of a class with slots
+        with contextlib.suppress(AttributeError):  # a class with slots has no room for it
             error.results = results  # type: ignore[attr-defined]
         if hasattr(error, "add_note") and not isinstance(error, (SimulationError, ModelError)):
             error.add_note(f"in a run, at t = {results.context.time} s; `.results` is what it did")
@@ -177,25 +177,25 @@ class Simulator:
         try:
             raise error
         finally:
-            del error  # or it would hold this frame, and this frame it
+            del error  # otherwise the exception and this frame would refer to each other
 
     @property
     def time(self) -> float:
-        """[s] where the run stands."""
+        """[s] The present time of the run."""
         return self._core.time
 
     @property
     def context(self) -> _core.Context:
-        """The values of now."""
+        """The present values."""
         return self._core.context
 
     @property
     def results(self) -> Results:
-        """All since `initialize`, as a copy of its own."""
+        """The run since `initialize`, as a copy."""
         return self._failed or self._results(*self._core.results(False))
 
     def describe(self) -> str:
-        """What of the system is computed when, what is never computed, and why.
+        """When each signal of the system is computed, which signals are never computed, and why.
 
         Examples
         --------
@@ -224,41 +224,41 @@ def simulate(
     system : System
         A `LeafSystem` or a `Diagram`. It never changes.
     context : Context
-        The values it starts with, such as ``system.create_context()``.
+        The values at the beginning, such as ``system.create_context()``.
     time_span : (float, float)
         [s] begin and end.
     options : SimulatorOptions, optional
-        How it is done.
+        How the run is done.
     recorded_signals : dict of str to OutputPort, optional
-        Which outputs to record, under which names.
+        The outputs to record, by name.
     **option_overrides
-        Any option by name, which replaces that of `options`: ``rtol=1e-9``,
+        Any option by name; it replaces the one in `options`: ``rtol=1e-9``,
         ``dense_output=True``, ``progress=True``, ...
 
     Returns
     -------
     Results
-        What was recorded, the events, the final context, the status and the statistics.
+        The recorded signals, the events, the final context, the status and the statistics.
 
     Raises
     ------
     ModelError
         For bad input, before the run.
     SimulationError
-        Where the run ends badly, with what was computed in its attribute `results`. What a
-        callback raises comes out as it was.
+        If the run ends badly; its attribute `results` has the run until then. An exception of a
+        callback is raised unchanged.
     KeyboardInterrupt
-        After Ctrl-C, or the stop button of a notebook: Python's own exception, so that a script
-        stops, with what was computed in its attribute `results`::
+        After Ctrl-C, or the stop button of a notebook. It is Python's own exception, so a script
+        stops. Its attribute `results` has the run until then::
 
             try:
                 results = saltus.simulate(...)
             except KeyboardInterrupt as stop:
                 results = stop.results  # status 'interrupted'
 
-        At a prompt and in a notebook it is ``sys.last_value.results`` afterwards. With
-        ``throw=False`` none of the two is raised: the results are returned, and their status says
-        how the run ended.
+        At a prompt and in a notebook ``sys.last_value.results`` has it afterwards. With
+        ``throw=False`` neither exception is raised: the results are returned, and their status
+        says how the run ended.
 
     Examples
     --------
@@ -281,5 +281,5 @@ def simulate(
         option_overrides["recorded_signals"] = recorded_signals
     simulator = Simulator(system, options, **option_overrides)
     context = core_context(context)
-    # one that ended another run at this time knows what of it has happened already
+    # a context from the end of a run at this time knows which events have happened already
     return simulator._run(context if context.time == begin else context.with_time(begin), end)

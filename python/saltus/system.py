@@ -1,4 +1,4 @@
-"""What a block and a diagram share: a name, ports, contexts."""
+"""The base of blocks and diagrams: a name, ports, contexts."""
 
 from __future__ import annotations
 
@@ -29,9 +29,9 @@ class System:
     """
 
     name: str
-    """how messages and `diagram[...]` know it"""
+    """the name in messages and for `diagram[...]`"""
     system_id: int
-    """how a context knows it"""
+    """the number for `context[...]`"""
     input_names: list[str]
     output_names: list[str]
     interpreted_blocks: list[str]
@@ -58,7 +58,7 @@ class System:
         Raises
         ------
         ModelError
-            If there is none, with the names there are.
+            If no port has this name or number; the message lists the names.
 
         Examples
         --------
@@ -79,7 +79,7 @@ class System:
         Raises
         ------
         ModelError
-            If there is none, with the names there are.
+            If no port has this name or number; the message lists the names.
 
         Examples
         --------
@@ -99,7 +99,7 @@ class System:
         Parameters
         ----------
         text
-            What `Context.to_json` gave.
+            The text from `Context.to_json`.
 
         Raises
         ------

@@ -1,4 +1,4 @@
-"""saltus list: the scenes of the shelf, each with what it is hard for."""
+"""saltus list: the scenes of the shelf, each with its difficulty."""
 
 from __future__ import annotations
 

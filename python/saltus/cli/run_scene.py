@@ -65,7 +65,7 @@ def act(chosen: argparse.Namespace) -> int:
 
 
 def _reason(results: Results) -> str:
-    """What a function of the user raised stands before where it was raised."""
+    """The message of the run; it begins with the exception of a user's function."""
     return results.message or "no reason is known"
 
 
@@ -91,7 +91,7 @@ def _times(text: str, span: tuple[float, float]) -> list[float]:
 
 
 def _summary(results: Results, scene: Chosen) -> dict[str, Any]:
-    """What `--json` prints; nan and inf, which JSON has not, as null."""
+    """The content of `--json`. JSON has neither nan nor inf, so they become null."""
     s = results.statistics
     context = results.context
     return {

@@ -148,7 +148,7 @@ def sweep(
 
 
 def _name_of(reduce: Callable[[Results], Any] | None) -> str:
-    """Of the result of `reduce`, where it is no dict."""
+    """The name of the result of `reduce` if it is no dict."""
     if reduce is None:
         return ""
     name = getattr(reduce, "__name__", "")

@@ -1,4 +1,4 @@
-"""What all blocks share."""
+"""The base of all blocks of the library."""
 
 from __future__ import annotations
 

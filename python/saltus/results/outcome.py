@@ -1,4 +1,4 @@
-"""`Results`: what a run gives back."""
+"""`Results`: the outcome of a run."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ class _Outputs(dict[str, np.ndarray]):
 
 
 class Results:
-    """What was recorded, the event log, the final values, and how the run ended.
+    """The recorded signals, the event log, the final values, and the way the run ended.
 
     The arrays show the memory of the run without a copy, and keep it as long as one of them lives.
     Results can be saved (`save`), pickled, and called for values between the rows.
@@ -65,13 +65,13 @@ class Results:
     'failed'
     """
     message: str
-    """why, where the status is none of the first three"""
+    """the reason for any status but the first three"""
     block: str
-    """path of the block at fault, where it was one"""
+    """path of the block at fault, if a single block is"""
     cause: BaseException | None
-    """what was raised, where the status is 'failed'"""
+    """the exception, if the status is 'failed'"""
     statistics: Statistics
-    """how many steps and calls it took"""
+    """the numbers of steps and calls"""
 
     def __init__(self, core: Record, raised: BaseException | None = None, asks: Any = None):
         self._core = core
@@ -238,7 +238,7 @@ class Results:
         save(KeptRun.of(self._core), path, self._kind())
 
     def _kind(self) -> dict[str, Any]:
-        """What a file has to know beyond the run."""
+        """The entries of the file's header that say which class of results it holds."""
         return {"kind": "Results"}
 
     def __reduce__(self) -> tuple[Any, ...]:

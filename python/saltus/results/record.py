@@ -1,4 +1,4 @@
-"""What results are read from: the memory of a run, or what was kept of one."""
+"""The record under results: the memory of a run, or a copy of it."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ Columns = dict[str, np.ndarray]
 
 
 class Record(Protocol):
-    """What `Results` needs to know of a run; `_core.Results` is one."""
+    """The data of a run that `Results` shows; `_core.Results` is a record."""
 
     @property
     def time(self) -> np.ndarray: ...
@@ -53,7 +53,7 @@ class Record(Protocol):
 
 @dataclass(frozen=True)
 class KeptRun:
-    """A run as plain data: what a file or another process hands over."""
+    """A run as plain data, from a file or from another process."""
 
     time: np.ndarray
     jump: np.ndarray

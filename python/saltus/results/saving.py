@@ -53,7 +53,7 @@ def save(run: KeptRun, path: str | PathLike[str], kind: dict[str, Any]) -> None:
 
 
 def load_results(path: str | PathLike[str]) -> Results:
-    """Reads what `Results.save` wrote.
+    """Reads a file of `Results.save`.
 
     Parameters
     ----------

@@ -46,7 +46,7 @@ class Solution(Results):
     nfev, njev, nlu : int
         Calls of `f` and `jacobian`, and factorisations.
     system : LeafSystem
-        What was run; `saltus.simulate` runs it too. None after loading from a file.
+        The system of the run; `saltus.simulate` runs it too. None after loading from a file.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""`solve`: the short door, shaped like `scipy.integrate.solve_ivp`."""
+"""`solve`: the short way to a run, with the arguments of `scipy.integrate.solve_ivp`."""
 
 from __future__ import annotations
 
@@ -92,7 +92,7 @@ def solve(
     t_eval : array_like, optional
         [s] increasing times; then there are rows at these only, at an event that after it.
     dense_output : bool
-        Keep what the solver interpolates: then ``solution(t)`` and ``solution.sol(t)`` work.
+        Keep the interpolants of the solver: then ``solution(t)`` and ``solution.sol(t)`` work.
     max_step : float
         [s] longest step of the solver.
     jacobian : callable or array_like, optional
@@ -114,9 +114,9 @@ def solve(
     ModelError
         For bad input: wrong shapes, unknown options (with the nearest name), times that decrease.
     SimulationError
-        Where the run ends badly, with what was computed in its attribute `results`.
+        If the run ends badly; its attribute `results` has the run until then.
     KeyboardInterrupt
-        After Ctrl-C, with what was computed in its attribute `results`.
+        After Ctrl-C; its attribute `results` has the run until then.
 
     Examples
     --------
@@ -156,7 +156,7 @@ def solve(
 
 
 def _refuse(method: object, options: Mapping[str, Any]) -> None:
-    """Names there are not, with the nearest or with what to do instead."""
+    """Raises ModelError for an unknown name, with the nearest name or with advice."""
     known = [field.name for field in fields(SimulatorOptions) if field.name not in HINTS]
     refuse("solve", options, [*OWN, *known], HINTS)
     if isinstance(method, str) and method in METHODS:

@@ -61,7 +61,7 @@ def points(signature: Signature, reads_mode: bool) -> list[Point]:
 
 
 def _called(signature: Signature, function: Callable[..., Any], at: Point) -> Any:
-    """What the function itself gives, or None where it raises."""
+    """The result of the function itself, or None if it raises."""
     arguments, options = plain_arguments(signature, at)
     try:
         returned = call(signature, function, arguments, options, _unwritten)

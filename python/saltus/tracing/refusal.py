@@ -1,4 +1,4 @@
-"""How tracing gives up: one sentence with the place in the user's source and what to do."""
+"""Refusals: tracing ends with one sentence, the place in the user's source and a remedy."""
 
 from __future__ import annotations
 

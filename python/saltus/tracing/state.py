@@ -15,7 +15,7 @@ __all__ = ["PlainState", "TracedState"]
 
 
 class TracedState:
-    """Has what `saltus.State` has. Each `with_*` returns a new one that knows what was written."""
+    """Has the members of `saltus.State`. Each `with_*` returns a new state that notes the write."""
 
     continuous_state: Any
     discrete_state: Any

@@ -1,4 +1,4 @@
-"""Numbers that are not known yet, arrays of them, and what numpy computes with them.
+"""Numbers that are not known yet, arrays of them, and numpy's functions on them.
 
 `Symbol` is one number, a node of an expression graph; `SymbolArray` is an array of known numbers
 and symbols. `apply` computes an operation entry by entry, `call_ufunc` and `call_function` are

@@ -38,7 +38,7 @@ WHOLE: dict[str, str] = {"b": "b", "i": "i", "u": "i", "f": "f"}
 
 
 def kind_of_type(dtype: Any) -> str:
-    """'b', 'i' or 'f' of what numpy calls a dtype."""
+    """The kind of a dtype: 'b', 'i' or 'f'."""
     found = np.dtype(dtype)
     kind = WHOLE.get(found.kind)
     if kind is None or (kind == "f" and found.itemsize < 8):
@@ -47,7 +47,7 @@ def kind_of_type(dtype: Any) -> str:
 
 
 def objects_of(value: Any) -> Objects:
-    """The entries of whatever numpy would take for an array, lists of symbols too."""
+    """The entries of any value that numpy accepts as an array, lists of symbols too."""
     if isinstance(value, SymbolArray):
         return value.data
     if isinstance(value, np.ndarray):
@@ -76,7 +76,7 @@ def _stacked(parts: list[Objects]) -> Objects:
 
 
 def _entry(item: Any) -> Any:
-    """An entry out of the array of no dimension that numpy may have left it in."""
+    """The entry in an array of no dimension, which numpy may have put it in."""
     return item[()] if isinstance(item, np.ndarray) and not item.ndim else item
 
 
@@ -102,7 +102,7 @@ def as_array(value: Any) -> SymbolArray:
 
 
 def wrapped(data: Any, kind: str = "") -> Any:
-    """What numpy's functions on objects returned: a number if it is one, else an array."""
+    """The result of a numpy function on objects, as a number or an array."""
     if isinstance(data, np.ndarray) and data.ndim:
         return SymbolArray(data, kind) if kind else array(data)
     item = data[()] if isinstance(data, np.ndarray) else data
@@ -123,7 +123,7 @@ def known(value: SymbolArray, what: str) -> NDArray[Any]:
 
 
 def index_of(key: Any) -> Any:
-    """An index as numpy takes it, of what may hold arrays of known integers."""
+    """The index for numpy; arrays of known integers in it become arrays of numpy."""
     if isinstance(key, tuple):
         return tuple(index_of(part) for part in key)
     if isinstance(key, SymbolArray):
@@ -134,7 +134,7 @@ def index_of(key: Any) -> Any:
 
 
 class SymbolArray:
-    """What `state.continuous_state`, np.array(...) and np.zeros(...) are in a traced function.
+    """The arrays of a traced function: `state.continuous_state`, np.array(...), np.zeros(...).
 
     `frozen` names an array from outside the function, which must not be written to.
     """

@@ -1,6 +1,6 @@
-"""numpy's functions on symbols: which of them run on arrays of objects as they are, which are ours.
+"""numpy's functions on symbols: some run on arrays of objects unchanged, others are written here.
 
-What is called with known numbers only is computed by numpy itself.
+A function that is called with known numbers only is computed by numpy itself.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ EFFECTS = """
     putmask save savetxt savez savez_compressed set_printoptions seterr seterrcall setbufsize
     show_config show_runtime
 """.split()
-"""what changes an argument or the world"""
+"""numpy's functions that change an argument or have other effects"""
 
 
 def has_symbols(value: Any) -> bool:
@@ -68,7 +68,7 @@ def plain(value: Any) -> Any:
 
 
 def _boxed(value: Any, kind: str, outermost: bool = True) -> Any:
-    """The same with arrays of objects; `kind` is that of all of them together."""
+    """The value with arrays of objects; `kind` is the kind of all of them together."""
     if isinstance(value, SymbolArray):
         return (value if value.kind == kind else array(value, kind)).data
     if isinstance(value, (list, tuple)):
@@ -86,7 +86,7 @@ def _arrays_in(value: Any) -> list[SymbolArray]:
 
 
 def _returned(result: Any, source: list[SymbolArray]) -> Any:
-    """What numpy's function on objects gave; a view of one array stays a view."""
+    """The result of numpy's function on objects as an array of symbols; a view remains a view."""
     if isinstance(result, (list, tuple)):
         return [_returned(item, source) for item in result]
     if isinstance(result, np.ndarray) and result.dtype != object:
@@ -108,7 +108,7 @@ def _arrange(function: Callable[..., Any], args: Any, options: Any) -> Any:
 
 
 def call_function(function: Callable[..., Any], args: Any, options: Any) -> Any:
-    """What numpy's function called with these arguments, symbols among them or not, gives."""
+    """The result of numpy's function for these arguments, with symbols among them or without."""
     name = function.__name__
     if name in EFFECTS:
         refuse(f"calls np.{name}, which changes something", "such a function is called")
@@ -227,4 +227,4 @@ FUNCTIONS: dict[str, Callable[..., Any]] = {
     "astype": _method("astype"),
     **choices.CHOICES,
 }
-"""by numpy's name"""
+"""numpy's name of a function -> its form for symbols"""

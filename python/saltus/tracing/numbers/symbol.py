@@ -10,7 +10,7 @@ from saltus.tracing.refusal import refuse
 
 __all__ = ["ORDER", "Symbol", "joint", "kind_of"]
 
-ORDER = "bif"  # truth, integer, real: what two of them give together is the later one
+ORDER = "bif"  # truth, integer, real: an operation on two kinds gives the later one
 LARGEST = 100_000  # nodes; a longer tape gains nothing over numpy
 
 VARIABLES = {"time", "continuous_state", "discrete_state", "entry", "parameter", "input"}
@@ -19,7 +19,7 @@ BRANCH = "use np.where, np.minimum, `&` and `|`, or modes with zero crossings"
 
 
 def kind_of(value: Any) -> str:
-    """'b', 'i' or 'f' for a truth, an integer, a real number; '' for what is none of them."""
+    """'b', 'i' or 'f' for a truth, an integer, a real number; '' for any other value."""
     if type(value) is Symbol:
         return value.kind
     if isinstance(value, (bool, np.bool_)):
@@ -118,7 +118,7 @@ class Symbol:
     def __repr__(self) -> str:
         return f"<symbol {self.node}>"
 
-    # what numpy's numbers have
+    # the attributes of numpy's numbers
     shape: tuple[int, ...] = ()
     ndim = 0
     size = 1

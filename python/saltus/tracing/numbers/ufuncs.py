@@ -19,7 +19,7 @@ __all__ = ["call_ufunc", "reduce_ufunc"]
 UFUNCS: dict[np.ufunc, str] = {
     function: name for name, function in NUMPY.items() if isinstance(function, np.ufunc)
 }
-"""numpy's ufunc -> what it is called in SCALARS"""
+"""numpy's ufunc -> its name in SCALARS"""
 UFUNCS.update(
     {
         np.absolute: "abs", np.fabs: "abs", np.remainder: "mod", np.float_power: "pow",
@@ -35,7 +35,7 @@ UFUNCS.update(
 
 
 def call_ufunc(ufunc: np.ufunc, *arguments: Any, out: Any = None, **options: Any) -> Any:
-    """What a ufunc called with symbols gives."""
+    """The result of a ufunc called with symbols."""
     where = options.pop("where", True)
     dtype = options.pop("dtype", None)
     if options or where is not True:

@@ -1,4 +1,4 @@
-"""What the code of a function tells before it is run."""
+"""The names and the obstacles in the code of a function, read before the function runs."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a traced function sees in place of numpy, math and the builtins."""
+"""The faces of numpy, math and the builtins, which a traced function sees."""
 
 from __future__ import annotations
 
@@ -63,7 +63,7 @@ class NumpyType:
     def __init__(self, kind: type):
         self.type = kind
         if not kind.__subclasses__():  # not an abstract one, such as np.floating
-            self.dtype = np.dtype(kind)  # numpy takes what has a dtype for one
+            self.dtype = np.dtype(kind)  # numpy uses the dtype of any object that has one
         self.__name__ = kind.__name__
 
     def __call__(self, value: Any = 0) -> Any:

@@ -14,7 +14,7 @@ OUTSIDE = "what changes something outside is called"
 
 
 class FrozenList(list[Any]):
-    """Reads as the list it stands for; whatever would change it is refused."""
+    """A copy of a list from outside; every method that would change it refuses."""
 
     def __init__(self, items: Iterable[Any] = (), words: str = "it"):
         super().__init__(items)
@@ -40,7 +40,7 @@ class FrozenTuple(tuple[Any, ...]):
 
 
 class FrozenDict(dict[Any, Any]):
-    """Reads as the dictionary it stands for; a mode may choose among its values."""
+    """A copy of a dictionary from outside; a mode may choose among its values."""
 
     def __init__(self, items: Any = (), words: str = "it"):
         super().__init__(items)

@@ -147,7 +147,7 @@ def _is_data_descriptor(entry: Any) -> bool:
 
 
 def _described(guarded: Guarded, entry: Any, name: str, where: str) -> Any:
-    """What an entry of the class gives for this object."""
+    """The value of an entry of the class, read through this object."""
     sandbox, value, _ = _sandbox(guarded)
     if object.__getattribute__(guarded, "_after") is not None:
         guarded = Guarded(*_sandbox(guarded))  # methods get the whole object

@@ -1,4 +1,4 @@
-"""What a traced function sees in place of the module math."""
+"""The module math as a traced function sees it."""
 
 from __future__ import annotations
 
@@ -30,11 +30,11 @@ MATH = {
     "log10": "log10", "log1p": "log1p", "log2": "log2", "pow": "pow", "radians": "deg2rad",
     "sin": "sin", "sinh": "sinh", "sqrt": "sqrt", "tan": "tan", "tanh": "tanh",
 }  # fmt: skip
-"""function of math -> what it is called in SCALARS"""
+"""function of math -> its name in SCALARS"""
 
 
 def _one(value: Any) -> Any:
-    """What math takes for a number: an array of one, too."""
+    """The number in an array of one entry, as math accepts it; any other value unchanged."""
     return value._one() if isinstance(value, SymbolArray) else value
 
 
