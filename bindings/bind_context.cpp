@@ -131,7 +131,6 @@ void bind_context(py::module_& module) {
       .def("__deepcopy__", [](const Context& c, const py::dict&) { return c; })
       .def("__repr__", &repr);
   bind_context_saving(context);
-  bind_context_reading(module);
 }
 
 }  // namespace saltus::python

@@ -4,6 +4,7 @@
 #include "bindings.hpp"
 #include "context_docs.hpp"
 #include "numbers.hpp"
+#include "saltus/model/detail/context_data.hpp"
 #include "saltus/model/system.hpp"
 
 namespace saltus::python {
@@ -11,99 +12,45 @@ namespace saltus::python {
 namespace {
 
 using py::literals::operator""_a;
-constexpr const char* format = "saltus context 1";
 
-std::vector<double> list(const Eigen::Ref<const Eigen::VectorXd>& values) {
-  return {values.begin(), values.end()};
-}
+/// Python's dicts and lists; see saltus/model/detail/context_data.hpp.
+struct PythonTree {
+  using Value = py::object;
 
-py::dict data_of(const Continuation& c) {
-  py::list guards, firings;
-  for (const auto& g : c.guards)
-    guards.append(py::make_tuple(g.side, g.from, g.fresh, g.resting, g.band, g.base));
-  for (const auto& f : c.firings)
-    firings.append(py::dict("times"_a = f.times, "after"_a = f.after, "holding"_a = f.holding));
-  return py::dict("jump"_a = c.jump, "relations"_a = c.relations, "guards"_a = guards,
-                  "firings"_a = firings, "edges"_a = c.edges, "counts"_a = c.counts);
-}
+  static Value record() { return py::dict(); }
+  static Value list() { return py::list(); }
+  static Value row(const auto&... values) { return py::make_tuple(values...); }
 
-Continuation continuation_from(const py::dict& data) {
-  Continuation c{.jump = data["jump"].cast<int>(),
-                 .relations = data["relations"].cast<std::vector<double>>(),
-                 .edges = data["edges"].cast<std::vector<int>>(),
-                 .counts = data["counts"].cast<std::vector<std::int64_t>>()};
-  for (const py::handle item : data["guards"]) {
-    const auto g = item.cast<py::sequence>();
-    c.guards.push_back({g[0].cast<int>(), g[1].cast<int>(), g[2].cast<bool>(), g[3].cast<bool>(),
-                        g[4].cast<double>(), g[5].cast<double>()});
+  static void set(Value& record, const char* key, const auto& value) { record[key] = value; }
+  static void append(Value& list, const Value& value) {
+    py::reinterpret_borrow<py::list>(list).append(value);
   }
-  for (const py::handle item : data["firings"]) {
-    const auto f = item.cast<py::dict>();
-    c.firings.push_back({f["times"].cast<std::vector<double>>(),
-                         f["after"].cast<std::vector<double>>(), f["holding"].cast<bool>()});
-  }
-  return c;
-}
 
-py::dict data_of(const Context& context) {
-  const ContextValues v = context.values();
-  py::list blocks;
-  for (std::size_t i = 0; i < v.modes.size(); ++i) {
-    const Layout::Leaf& leaf = context.layout().leaves[i];
-    blocks.append(py::dict("block"_a = leaf.path,
-                           "continuous_state"_a = list(v.continuous_state.segment(leaf.x, leaf.nx)),
-                           "discrete_state"_a = list(v.discrete_state.segment(leaf.z, leaf.nz)),
-                           "parameters"_a = list(v.parameters.segment(leaf.p, leaf.np)),
-                           "mode"_a = v.modes[i]));
+  template <class T>
+  static T get(const Value& record, const char* key) {
+    return record.cast<py::dict>()[key].template cast<T>();
   }
-  py::dict data("format"_a = format, "time"_a = v.time, "settled"_a = v.settled,
-                "blocks"_a = blocks);
-  if (v.continuation) data["continuation"] = data_of(*v.continuation);
-  return data;
-}
+  template <class T>
+  static T entry(const Value& row, std::size_t index) {
+    return row.cast<py::sequence>()[index].template cast<T>();
+  }
+  static std::vector<Value> items(const Value& record, const char* key) {
+    return get<std::vector<Value>>(record, key);
+  }
+  static bool has(const Value& record, const char* key) {
+    return record.cast<py::dict>().contains(key);
+  }
 
-void read_numbers(const py::dict& block, const char* key, Eigen::Ref<Eigen::VectorXd> into,
-                  const std::string& path) {
-  const auto numbers = block[key].cast<std::vector<double>>();
-  if (static_cast<Index>(numbers.size()) != into.size()) {
-    throw ModelError(text("block '", path, "': expected ", into.size(), " numbers under '", key,
-                          "', found ", numbers.size()));
-  }
-  std::ranges::copy(numbers, into.begin());
-}
+  static bool is(const Value& value, const char* text) { return value.cast<std::string>() == text; }
+  static std::string shown(const Value& value) { return py::repr(value); }
+};
 
-Context filled(const Context& blank, const py::dict& data) {
-  const auto& leaves = blank.layout().leaves;
-  ContextValues v = blank.values();
-  if (data["format"].cast<std::string>() != format)
-    throw ModelError(
-        text("expected format '", format, "', found ", std::string(py::repr(data["format"]))));
-  const auto blocks = data["blocks"].cast<std::vector<py::dict>>();
-  if (blocks.size() != leaves.size()) {
-    throw ModelError(text("the context is not one of this system: expected ", leaves.size(),
-                          " blocks, found ", blocks.size()));
-  }
-  v.time = data["time"].cast<double>(), v.settled = data["settled"].cast<bool>();
-  for (std::size_t i = 0; i < leaves.size(); ++i) {
-    const Layout::Leaf& leaf = leaves[i];
-    const auto found = blocks[i]["block"].cast<std::string>();
-    if (found != leaf.path)
-      throw ModelError(text("expected block '", leaf.path, "', found '", found, "'"));
-    read_numbers(blocks[i], "continuous_state", v.continuous_state.segment(leaf.x, leaf.nx), found);
-    read_numbers(blocks[i], "discrete_state", v.discrete_state.segment(leaf.z, leaf.nz), found);
-    read_numbers(blocks[i], "parameters", v.parameters.segment(leaf.p, leaf.np), found);
-    v.modes[i] = blocks[i]["mode"].cast<int>();
-  }
-  if (data.contains("continuation"))
-    v.continuation = std::make_shared<const Continuation>(
-        continuation_from(data["continuation"].cast<py::dict>()));
-  return blank.with_values(v);
-}
+py::object data_of(const Context& context) { return detail::data_of<PythonTree>(context); }
 
 /// Data in another format has a missing key or a wrong type.
 Context from_data(const Context& blank, const py::dict& data) {
   try {
-    return filled(blank, data);
+    return detail::context_from<PythonTree>(blank, data);
   } catch (const py::error_already_set& error) {
     if (!error.matches(PyExc_KeyError)) throw;
     throw ModelError(text("a context needs ", error.what()));
@@ -136,7 +83,8 @@ std::shared_ptr<const Layout> layout_from(const py::tuple& data) {
                       .z = l[3].cast<Index>(),
                       .nz = l[4].cast<Index>(),
                       .p = l[5].cast<Index>(),
-                      .np = l[6].cast<Index>()};
+                      .np = l[6].cast<Index>(),
+                      .parameters = {}};
     for (const py::handle p : l[7]) {
       const auto parameter = p.cast<py::tuple>();
       leaf.parameters.push_back({parameter[0].cast<std::string>(), parameter[1].cast<Index>(),
@@ -152,7 +100,7 @@ std::shared_ptr<const Layout> layout_from(const py::tuple& data) {
   return layout;
 }
 
-/// A context of a layout with all values zero, which `filled` fills.
+/// A context of a layout with all values zero, which `from_data` fills.
 Context blank_of(const std::shared_ptr<const Layout>& layout) { return Context::zero(layout); }
 
 }  // namespace

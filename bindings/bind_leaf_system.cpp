@@ -71,21 +71,18 @@ void declare_continuous_state(py::handle self, py::handle initial, py::object od
   leaf.set_state_dimensions(dimensions_of(values));
 }
 
-int declare_output_port(py::handle self, py::object function, std::string name,
-                        const InputList& inputs, const std::optional<Dimensions>& shape,
-                        std::optional<bool> boolean, const std::vector<std::string>& reads,
-                        Convention convention) {
-  PythonLeaf& leaf = leaf_of(self);
-  const std::string what =
-      text("output '", name.empty() ? text("out_", leaf.output_names().size()) : name, "'");
-  const std::vector<std::pair<std::string, Reads>> known{
+/// What a function reads, by the names in Python. Everything includes the relations of the block.
+Reads reads_of(const PythonLeaf& leaf, const std::string& what,
+               const std::vector<std::string>& words) {
+  static const std::vector<std::pair<std::string, Reads>> known{
       {"time", Reads::time},
       {"continuous_state", Reads::continuous_state},
       {"discrete_state", Reads::discrete_state},
       {"mode", Reads::mode},
-      {"inputs", Reads::inputs}};
+      {"inputs", Reads::inputs},
+      {"relations", Reads::relations}};
   Reads all = Reads::parameters;
-  for (const std::string& word : reads) {
+  for (const std::string& word : words) {
     const auto found = std::ranges::find(known, word, &std::pair<std::string, Reads>::first);
     if (found == known.end()) {
       std::vector<std::string> names;
@@ -95,6 +92,39 @@ int declare_output_port(py::handle self, py::object function, std::string name,
     }
     all = all | found->second;
   }
+  const bool rest = (all | Reads::relations) == Reads::everything;
+  return rest && !leaf.declarations().relations.empty() ? Reads::everything : all;
+}
+
+int declare_relation(py::handle self, py::object guard, std::string name, bool true_at_zero,
+                     Index size, const InputList& inputs, const std::vector<std::string>& reads) {
+  PythonLeaf& leaf = leaf_of(self);
+  const int index = count_of(leaf.declarations().relations);
+  const std::string what = text("relation '", name.empty() ? text("relation_", index) : name, "'");
+  if (size < 1)
+    throw ModelError(
+        text("block '", leaf.name(), "': ", what, ": size ", size, "; expected 1 or more"));
+  Relation relation{.name = std::move(name),
+                    .guard = {},
+                    .true_at_zero = true_at_zero,
+                    .size = size,
+                    .reads = reads_of(leaf, what, reads),
+                    .inputs = inputs,
+                    .formula = {}};
+  relation.guard = leaf.vector_function(leaf.add(
+      self, std::move(guard),
+      {.inputs = inputs, .what = text("guard of ", what), .role = Role::relation, .index = index}));
+  return leaf.declare_relation(std::move(relation)).value;
+}
+
+int declare_output_port(py::handle self, py::object function, std::string name,
+                        const InputList& inputs, const std::optional<Dimensions>& shape,
+                        std::optional<bool> boolean, const std::vector<std::string>& reads,
+                        Convention convention) {
+  PythonLeaf& leaf = leaf_of(self);
+  const std::string what =
+      text("output '", name.empty() ? text("out_", leaf.output_names().size()) : name, "'");
+  const Reads all = reads_of(leaf, what, reads);
   return leaf.add_output(std::move(name),
                          leaf.add(self, std::move(function),
                                   {.convention = convention,
@@ -164,6 +194,8 @@ void bind_leaf_system(py::module_& module) {
            })
       .def("declare_mode_output", &PythonLeaf::declare_mode_output)
       .def("declare_zero_crossing", &declare_zero_crossing)
+      .def("declare_relation", &declare_relation)
+      .def("declare_edge_reset", &declare_edge_reset)
       .def(
           "declare_periodic_update",
           [](py::handle self, py::object callback, double period, double offset, std::string name) {

@@ -6,6 +6,7 @@
 
 #include "interpreter.hpp"
 #include "python_results.hpp"
+#include "saltus/simulation/detail/option_table.hpp"
 #include "saltus/simulation/simulator.hpp"
 #include "trace_pass.hpp"
 
@@ -105,27 +106,10 @@ void set_recorded_signals(SimulatorOptions& options, const std::vector<NamedPort
 }  // namespace
 
 void bind_simulation(py::module_& module) {
-  py::class_<SimulatorOptions>(module, "SimulatorOptions")
-      .def(py::init<>())
-      .def_readwrite("rtol", &SimulatorOptions::rtol)
-      .def_readwrite("atol", &SimulatorOptions::atol)
-      .def_readwrite("ode_solver_method", &SimulatorOptions::ode_solver_method)
-      .def_readwrite("linear_solver", &SimulatorOptions::linear_solver)
-      .def_readwrite("find_sparsity", &SimulatorOptions::find_sparsity)
-      .def_readwrite("max_major_steps", &SimulatorOptions::max_major_steps)
-      .def_readwrite("max_major_step_length", &SimulatorOptions::max_major_step_length)
-      .def_readwrite("min_minor_step_size", &SimulatorOptions::min_minor_step_size)
-      .def_readwrite("max_minor_step_size", &SimulatorOptions::max_minor_step_size)
-      .def_readwrite("zeno_tolerance", &SimulatorOptions::zeno_tolerance)
-      .def_readwrite("event_scan_points", &SimulatorOptions::event_scan_points)
-      .def_readwrite("max_passes", &SimulatorOptions::max_passes)
-      .def_readwrite("save_at", &SimulatorOptions::save_at)
-      .def_readwrite("save_steps", &SimulatorOptions::save_steps)
-      .def_readwrite("event_rows", &SimulatorOptions::event_rows)
-      .def_readwrite("dense_output", &SimulatorOptions::dense_output)
-      .def_readwrite("record_events", &SimulatorOptions::record_events)
-      .def_readwrite("interrupt", &SimulatorOptions::interrupt)
-      .def("set_recorded_signals", &set_recorded_signals);
+  py::class_<SimulatorOptions> options(module, "SimulatorOptions");
+  options.def(py::init<>()).def("set_recorded_signals", &set_recorded_signals);
+  detail::for_each_option(
+      [&](const auto& option) { options.def_readwrite(option.name, option.member); });
 
   py::class_<PythonSimulator>(module, "Simulator")
       .def(py::init<const System&, SimulatorOptions, py::object, const py::object&>())

@@ -117,7 +117,6 @@ void bind_graph(py::module_& module) {
 }  // namespace
 
 void bind_tape(py::module_& module) {
-  bind_graph(module);
   py::class_<Tape>(module, "Tape")
       .def("__call__", &call)
       .def_property_readonly("size", &Tape::size)
@@ -126,6 +125,7 @@ void bind_tape(py::module_& module) {
       .def("reads_input", &Tape::reads_input)
       .def("to_string", &Tape::to_string)
       .def("jacobian", &jacobian);
+  bind_graph(module);
 }
 
 }  // namespace saltus::python

@@ -15,8 +15,8 @@ namespace {
 
 using tape::Tape;
 
-constexpr std::array roles{"ode",   "jacobian",  "sparse_jacobian", "output",
-                           "guard", "reset_map", "update"};
+constexpr std::array roles{"ode",       "jacobian", "sparse_jacobian", "output",    "guard",
+                           "reset_map", "update",   "relation",        "edge_reset"};
 
 py::tuple as_tuple(const Dimensions& dimensions) { return py::tuple(py::cast(dimensions)); }
 
@@ -36,6 +36,8 @@ py::object result_size(const BlockTraces& block, const Function& function) {
       return py::int_(block.outputs[place].size);
     case Role::guard:
       return py::int_(d.zero_crossings[place].size);
+    case Role::relation:
+      return py::int_(*d.relations[place].size);
     default:
       return py::none();
   }

@@ -9,6 +9,7 @@ PYBIND11_MODULE(_core, module) {
   bind_numbers(module);
   bind_context(module);
   bind_system(module);
+  bind_context_reading(module);
   bind_picture(module);
   bind_leaf_system(module);
   bind_sources(module);

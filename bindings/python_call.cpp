@@ -27,11 +27,24 @@ void set_array(Array& to, const Dimensions& dimensions, const VectorView& values
 
 }  // namespace
 
+/// The truths of the relations that Python has declared; tracing may have added others after them.
+py::tuple PythonLeaf::truths(const At& at) const {
+  const auto& relations = declarations().relations;
+  py::tuple all(relations.size());
+  for (std::size_t r = 0; r < relations.size(); ++r) {
+    const double* values = at.relation_values({static_cast<int>(r)});
+    const Index size = *relations[r].size;
+    all[r] = size == 1 ? py::object(py::bool_(*values != 0.0)) : read_only_array({size}, values);
+  }
+  return all;
+}
+
 void PythonLeaf::set_state(Frame& frame, const At& at) const {
   if (!ours(frame.state)) frame.state = py::cast(State(name(), x_dimensions_, z_dimensions_));
   State& state = state_in(frame.state);
   set_array(state.x, x_dimensions_, at.x);
   set_array(state.z, z_dimensions_, at.z);
+  if (!declarations().relations.empty()) state.relations = truths(at);
   state.mode = at.mode;
   state.entry = at.entry;
 }

@@ -23,7 +23,17 @@ enum class Convention {
 };
 
 /// The purpose of a function.
-enum class Role { ode, jacobian, sparse_jacobian, output, guard, reset_map, update };
+enum class Role {
+  ode,
+  jacobian,
+  sparse_jacobian,
+  output,
+  guard,
+  reset_map,
+  update,
+  relation,
+  edge_reset
+};
 
 /// The Python objects of one call. The next call reuses them, except those that the function has
 /// kept by a reference.
@@ -44,7 +54,7 @@ struct Function {
   InputList inputs = {};
   std::string what = {};  // names it in messages
   Role role = Role::output;
-  int index = 0;                  // of the output, zero crossing or time event it belongs to
+  int index = 0;                  // of the declaration it belongs to, among those of its kind
   bool in_place = false;          // it fills an array called `out`
   CompiledPointer compiled = {};  // in place of Python
   void* user_data = nullptr;      // of the compiled function

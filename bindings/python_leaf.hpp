@@ -22,10 +22,12 @@ class PythonLeaf final : public LeafSystem {
   using LeafSystem::declare_continuous_state;
   using LeafSystem::declare_default_mode;
   using LeafSystem::declare_discrete_state;
+  using LeafSystem::declare_edge_reset;
   using LeafSystem::declare_mode_output;
   using LeafSystem::declare_one_shot;
   using LeafSystem::declare_output_port;
   using LeafSystem::declare_periodic_update;
+  using LeafSystem::declare_relation;
   using LeafSystem::declare_zero_crossing;
 
   void set_state_dimensions(Dimensions x) { x_dimensions_ = std::move(x), forget_frames(); }
@@ -87,6 +89,7 @@ class PythonLeaf final : public LeafSystem {
   std::size_t set_inputs(Frame& frame, const Function& function, const At& at,
                          std::size_t place) const;
   void set_state(Frame& frame, const At& at) const;
+  py::tuple truths(const At& at) const;
   void set_parameters(Frame& frame, const At& at, std::size_t place) const;
   void set_out(Frame& frame, const Function& function, Index size) const;
   void set_input(py::object& to, const At& at, int i) const;

@@ -55,10 +55,15 @@ py::object PythonLeaf::call_with(int k, const std::vector<Shape>& shapes, double
   const auto view = [](const Eigen::VectorXd& values) {
     return VectorView(values.data(), values.size());
   };
-  return call(k,
-              At(0.0, view(d.continuous.initial), view(d.discrete), view(d.parameter_values),
-                 d.mode, Inputs(places.data(), static_cast<int>(places.size()), &bases), nullptr),
-              0);
+  std::vector<std::vector<double>> truths;  // all false: no guard has been read
+  for (const Relation& relation : d.relations) truths.emplace_back(*relation.size, 0.0);
+  std::vector<const double*> relations;
+  for (const auto& values : truths) relations.push_back(values.data());
+  return call(
+      k,
+      At(0.0, view(d.continuous.initial), view(d.discrete), view(d.parameter_values), d.mode,
+         Inputs(places.data(), static_cast<int>(places.size()), &bases), relations.data()),
+      0);
 }
 
 /// The result of the first call that succeeds: a zero may be a divisor, and an input of unknown

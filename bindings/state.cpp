@@ -63,11 +63,13 @@ PyObject* get(PyObject* self, void*) {
 }
 
 void add_getters(PyHeapTypeObject* heap_type) {
-  static std::array<PyGetSetDef, 5> getters{{
+  static std::array<PyGetSetDef, 6> getters{{
       {"continuous_state", &get<&State::x>, nullptr, "Read-only array of the declared shape.",
        nullptr},
       {"discrete_state", &get<&State::z>, nullptr, "Read-only array of the declared shape.",
        nullptr},
+      {"relations", &get<&State::relations>, nullptr,
+       "The truth of each relation of the block: a bool, or a read-only array.", nullptr},
       {"mode", &get<&State::mode>, nullptr, "The mode of the block.", nullptr},
       {"entry", &get<&State::entry>, nullptr,
        "In a reset map: which guard of a zero crossing of several fired; else 0.", nullptr},

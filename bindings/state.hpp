@@ -25,6 +25,7 @@ struct State {
 
   std::string block;
   py::array x, z;
+  py::tuple relations;  ///< the truth of each relation: a bool, or an array of 0 and 1
   int mode = 0;
   Index entry = 0;
   bool wrote_x = false, wrote_z = false, wrote_mode = false;

@@ -73,6 +73,7 @@ class Writer {
   void put(const Slot& slot);
   void put_ode(const Slot& slot);
   void put_output(const Slot& slot);
+  void put_relation(const Slot& slot);
   void put_relations(const Slot& slot, OutputDeclaration& output);
   RelationIndex add_relation(Relation relation);
   void put_time_event(const Slot& slot);
@@ -115,6 +116,14 @@ void Writer::put(const Slot& slot) {
     case Role::reset_map:
       crossing().reset_map = taped_reset(original_, slot, crossing().reset_map);
       return;
+    case Role::relation:
+      return put_relation(slot);
+    case Role::edge_reset: {
+      EdgeReset& edge = declared_.edge_resets[static_cast<std::size_t>(function.index)];
+      edge.reset_map = taped_reset(original_, slot, edge.reset_map);
+      edge.inputs = inputs_of(original_, slot);
+      return;
+    }
     case Role::jacobian:
       declared_.continuous.jacobian = [rows = taped(slot), &leaf = original_](const At& at,
                                                                               MatrixRef out) {
@@ -160,6 +169,15 @@ void Writer::put_output(const Slot& slot) {
     put_relations(slot, output);
   else
     output.calc = taped(slot);
+}
+
+/// A relation that Python declares: its guard as a tape.
+void Writer::put_relation(const Slot& slot) {
+  auto& relation =
+      declared_.relations[static_cast<std::size_t>(original_.function(slot->function).index)];
+  relation.guard = taped(slot);
+  relation.reads = slot->tape.reads();
+  relation.inputs = inputs_of(original_, slot);
 }
 
 /// The comparisons become relations, which are located by their smooth guards, and the output is
@@ -227,7 +245,8 @@ bool fits(const PythonLeaf& leaf, const Trace& old, const Trace& now) {
   if (old.serial == now.serial) return true;
   for (int k = 0; k < count_of(leaf.declarations().inputs); ++k)
     if (now.tape.reads_input(k) && !old.tape.reads_input(k)) return false;
-  if (leaf.function(now.function).role != Role::output) return true;
+  const Role role = leaf.function(now.function).role;
+  if (role != Role::output && role != Role::relation) return true;
   const bool slower = (old.tape.reads() | now.tape.reads()) == old.tape.reads();
   return slower && !old.relations && !now.relations;
 }

@@ -22,16 +22,15 @@ class Options {
     }
   }
 
-  /// The value with this name in a table.
-  template <class Table>
-  auto named(const char* name, const Table& table) const {
+  /// The value that `from` knows by a name; the message of an unknown one begins with the block.
+  template <class From>
+  auto named(const char* name, const From& from) const {
     const auto found = get<std::string>(name, "a name");
-    std::vector<std::string> known;
-    for (const auto& [word, value] : table) {
-      if (word == found) return value;
-      known.emplace_back(word);
+    try {
+      return from(found);
+    } catch (const ModelError& error) {
+      throw ModelError(text(whose_, error.what()));
     }
-    throw ModelError(text(whose_, "unknown ", name, " '", found, "'", known_names(found, known)));
   }
 
   std::optional<int> mode(const char* name) const {
@@ -42,9 +41,11 @@ class Options {
     const py::object value = given_["on_zeno"];
     if (!py::isinstance<py::str>(value))
       return OnZeno::enter(get<int>("on_zeno", "'hold', 'stop', 'error' or a mode, an integer"));
-    static const std::vector<std::pair<std::string_view, OnZeno>> names{
-        {"hold", OnZeno::hold()}, {"stop", OnZeno::stop()}, {"error", OnZeno::error()}};
-    return named("on_zeno", names);
+    return named("on_zeno", [](std::string_view name) {
+      static const std::vector<std::pair<std::string_view, OnZeno>> names{
+          {"hold", OnZeno::hold()}, {"stop", OnZeno::stop()}, {"error", OnZeno::error()}};
+      return detail::value_of(names, "on_zeno", name);
+    });
   }
 
   std::vector<std::vector<int>> holds() const {
@@ -63,18 +64,32 @@ class Options {
   std::string whose_;
 };
 
+Edge edge_from(std::string_view name) {
+  static const std::vector<std::pair<std::string_view, Edge>> names{
+      {"rising", Edge::rising}, {"falling", Edge::falling}, {"either", Edge::either}};
+  return detail::value_of(names, "edge", name);
+}
+
+std::optional<double> zeno_tolerance(const Options& options) {
+  return options.get<std::optional<double>>("zeno_tolerance", "a time [s]");
+}
+
+InputList inputs(const Options& options) {
+  return options.get<InputList>("inputs", "True, False or a list of positions");
+}
+
 ZeroCrossing read(const Options& options) {
-  return {.direction = options.named("direction", direction_names),
+  return {.direction = options.named("direction", direction_from),
           .start_mode = options.mode("start_mode"),
           .end_mode = options.mode("end_mode"),
           .terminal = options.get<bool>("terminal", "True or False"),
           .max_count = options.get<int>("max_count", "a count, 1 or more"),
           .size = options.get<Index>("size", "a number of guards, 1 or more"),
-          .at_start = options.named("at_start", at_start_names),
+          .at_start = options.named("at_start", at_start_from),
           .on_zeno = options.on_zeno(),
-          .zeno_tolerance = options.get<std::optional<double>>("zeno_tolerance", "a time [s]"),
+          .zeno_tolerance = zeno_tolerance(options),
           .holds = options.holds(),
-          .inputs = options.get<InputList>("inputs", "True, False or a list of positions")};
+          .inputs = inputs(options)};
 }
 
 }  // namespace
@@ -98,6 +113,27 @@ void declare_zero_crossing(py::handle self, py::object guard, py::object reset_m
   if (!reset_map.is_none())
     crossing.reset_map = leaf.reset_map(add(std::move(reset_map), "reset map", Role::reset_map));
   leaf.declare_zero_crossing(std::move(crossing));
+}
+
+void declare_edge_reset(py::handle self, py::object reset_map, int input, std::string name,
+                        const py::dict& given) {
+  auto& leaf = self.cast<PythonLeaf&>();
+  const int index = count_of(leaf.declarations().edge_resets);
+  const std::string called = name.empty() ? text("edge_reset_", index) : name;
+  const Options options(given, text("block '", leaf.name(), "': edge reset '", called, "': "));
+  EdgeReset reset{.name = std::move(name),
+                  .input = input,
+                  .edge = options.named("edge", edge_from),
+                  .reset_map = {},
+                  .on_zeno = options.on_zeno(),
+                  .zeno_tolerance = zeno_tolerance(options),
+                  .inputs = inputs(options)};
+  reset.reset_map = leaf.reset_map(leaf.add(self, std::move(reset_map),
+                                            {.inputs = reset.inputs,
+                                             .what = text("reset map of '", called, "'"),
+                                             .role = Role::edge_reset,
+                                             .index = index}));
+  leaf.declare_edge_reset(std::move(reset));
 }
 
 }  // namespace saltus::python

@@ -1,4 +1,4 @@
-// A zero crossing declared from Python.
+// Zero crossings and edge resets declared from Python.
 #pragma once
 
 #include "python_leaf.hpp"
@@ -9,5 +9,9 @@ namespace saltus::python {
 /// and meaning.
 void declare_zero_crossing(py::handle self, py::object guard, py::object reset_map,
                            std::string name, const py::dict& options);
+
+/// A reset at an edge of an input; its options come as one dict, too.
+void declare_edge_reset(py::handle self, py::object reset_map, int input, std::string name,
+                        const py::dict& options);
 
 }  // namespace saltus::python

@@ -3,7 +3,7 @@
 # What ./dev test runs, in this order: the wheel before the tests in Python, so that these are of what a user gets.
 parts=(cpp system asan wheel python doctest typing examples snippets docs packaging)
 for_tests=(catch2 libsundials-dev graphviz)
-for_typing=(mypy==2.4.1 vermin==1.9.2)
+for_typing=(mypy==2.4.1 vermin==1.9.2 pybind11-stubgen==3.0.0 ruff==0.17.5)
 
 passed=0 failed=0
 junits=() durations=()  # files with the duration of each test; "seconds part"
@@ -83,6 +83,7 @@ test_typing() {
   venv typing "${for_typing[@]}"
   check mypy-package "mypy --strict on the package" "$python" -m mypy
   check mypy-examples "mypy --strict on the examples, with the installed package" "$python" -m mypy examples
+  check stubs "the stubs are those that ./dev stubs makes" "$python" tools/stubs.py --check
   check stubtest "the stubs say what is in the module" "$python" -m mypy.stubtest saltus._core --mypy-config-file pyproject.toml \
     --allowlist tests/packaging/stubtest.txt
   check vermin "nothing newer than Python 3.10 is used" "$root/.venv/bin/vermin" --target=3.10- --no-tips --violations python/saltus

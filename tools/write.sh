@@ -9,6 +9,11 @@ docs() {
   step site "building build/site" env NO_MKDOCS_2_WARNING=1 "$python" -m mkdocs build --strict
 }
 
+stubs() {
+  module all && venv typing "${for_typing[@]}" || return 1
+  step stubs "writing python/saltus/_core.pyi" "$python" tools/stubs.py
+}
+
 format() {
   need python3-venv
   venv format clang-format==18.1.8 ruff==0.17.5

@@ -12,7 +12,7 @@ __all__ = ["ExplainedCallback", "Explanation"]
 
 Block = dict[str, Any]  # the facts of a block, or of a function of it
 
-KINDS = {"jacobian": "matrix", "reset_map": "reset", "update": "update"}
+KINDS = {"jacobian": "matrix", "reset_map": "reset", "edge_reset": "reset", "update": "update"}
 """role of a function -> the tracer's word for it; the others return a vector"""
 
 

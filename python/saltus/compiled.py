@@ -10,9 +10,9 @@ from typing import Any
 
 from saltus.errors import ModelError
 
-__all__ = ["Compiled", "compiled"]
+__all__ = ["Compiled", "as_compiled", "compiled"]
 
-CTYPES: Any = ctypes.CFUNCTYPE(None).__base__  # of every function pointer of ctypes
+CTYPES: Any = ctypes.CFUNCTYPE(None).__base__  # the base of every function pointer of ctypes
 SIGNATURE = "int (double, double *, double *, double *, double *, void *)"
 
 
@@ -27,7 +27,7 @@ class Compiled:
     user_data
         The address it gets as its last argument.
     owner
-        What keeps both alive.
+        The object that keeps both alive.
 
     Examples
     --------
@@ -36,11 +36,11 @@ class Compiled:
     """
 
     address: int
-    """of the function"""
+    """the address of the function"""
     user_data: int = 0
     """the address it gets as its last argument"""
     owner: object = field(default=None, repr=False, compare=False)
-    """what keeps both alive"""
+    """the object that keeps both alive"""
 
 
 def compiled(function: Any, user_data: Any = None) -> Compiled:
@@ -75,12 +75,12 @@ def compiled(function: Any, user_data: Any = None) -> Compiled:
         An address, or an object that has one. A capsule's name, if it has one, is taken for its
         signature, as SciPy does, and its context for `user_data`.
     user_data : int or ctypes pointer, optional
-        What the function gets as its last argument; NULL if not given.
+        The last argument of the function; NULL if not given.
 
     Returns
     -------
     Compiled
-        What keeps `function` and `user_data` alive as long as a block uses them.
+        The object that keeps `function` and `user_data` alive as long as a block uses them.
 
     Raises
     ------

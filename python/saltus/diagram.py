@@ -151,7 +151,7 @@ class DiagramBuilder:
         port
             An input of a block that was added, without a source.
         name
-            What it is called there; 'block_port' if not said.
+            The name of the port of the diagram; 'block_port' if not said.
 
         Returns
         -------
@@ -178,7 +178,7 @@ class DiagramBuilder:
         port
             An output of a block that was added.
         name
-            What it is called there; 'block_port' if not said.
+            The name of the port of the diagram; 'block_port' if not said.
 
         Returns
         -------
@@ -198,7 +198,7 @@ class DiagramBuilder:
         return self._core.export_output(*_port(port, OutputPort), name or "")
 
     def build(self, name: str = "root") -> Diagram:
-        """The diagram of what was added and connected.
+        """The diagram of the blocks and wires so far.
 
         Parameters
         ----------

@@ -1,6 +1,4 @@
-"""What Saltus raises on its own account. What a function of yours raises comes out of a run as it
-was.
-"""
+"""The exceptions of Saltus. A run raises an exception of your own function unchanged."""
 
 from __future__ import annotations
 
@@ -13,7 +11,7 @@ __all__ = ["Error", "ModelError", "SimulationError"]
 
 
 class Error(Exception):
-    """Base of what Saltus raises on its own account.
+    """The base class of Saltus's own exceptions.
 
     Examples
     --------
@@ -47,13 +45,13 @@ class SimulationError(Error, RuntimeError):
     Parameters
     ----------
     message
-        What happened, when, where, and what can be done.
+        The failure, its time and place, and a remedy.
     time
         [s] Where the run stood.
     block
         Path of the block at fault, or empty.
     results
-        What was computed until then, with the status.
+        The run until then, with its status.
 
     Examples
     --------
@@ -77,7 +75,7 @@ class SimulationError(Error, RuntimeError):
     block: str
     """path of the block at fault, or empty"""
     results: Results | None
-    """what was computed until then, with the status"""
+    """the run until then, with its status"""
 
     def __init__(
         self,

@@ -8,7 +8,7 @@ from typing import Any
 from numpy.typing import ArrayLike
 
 from saltus import _core
-from saltus.declarations import (
+from saltus._declarations import (
     EVERYTHING,
     RequiresInputs,
     callback_of,
@@ -18,8 +18,8 @@ from saltus.declarations import (
     places_of,
     shape_of,
 )
+from saltus._porting import refusing
 from saltus.errors import ModelError
-from saltus.porting import refusing
 from saltus.system import System
 
 __all__ = ["LeafSystem"]
@@ -31,26 +31,26 @@ class LeafSystem(System, _core.LeafSystem):
     A callback runs in one of three ways; `system.explain()` says which, and why not faster:
 
     - *traced*: before a run it is called once with symbols and becomes an expression that runs
-      without the interpreter, with an exact Jacobian. What it read and has changed since, such as
-      an attribute, is noticed before the next run, and between two pieces of one;
-    - *called*: what cannot be traced, for example because it branches on a value, prints or counts,
-      is called for every value. The option `python="called"` has all of them called;
+      without the interpreter, with an exact Jacobian. If a value that it read has changed, such as
+      an attribute, it is traced again before the next run, and between two pieces of one;
+    - *called*: a callback that cannot be traced, for example because it branches on a value, prints
+      or counts, is called for every value. The option `python="called"` has all of them called;
     - *compiled*: a pointer to a compiled function in place of a Python one, see `saltus.compiled`.
 
     Every callback is called as `f(time, state, *inputs, **parameters)`:
 
     - `time` [s] is a float;
     - `state` has `continuous_state`, `discrete_state` (read-only arrays of the declared shapes) and
-      `mode`, and `with_continuous_state(x)`, `with_discrete_state(z)`, `with_mode(m)`, which return
-      a new state;
+      `mode`, `relations`, and `with_continuous_state(x)`, `with_discrete_state(z)`, `with_mode(m)`,
+      which return a new state;
     - inputs come in the order of the ports, a float for one number, else a read-only array.
       `requires_inputs` says which: True all, False none, a list of positions those. Say it
       precisely: an input that is not read is neither computed nor part of a loop;
     - parameters come by keyword, a float for a number, else a read-only array.
 
     Every array may be kept: it never changes. A callback must not change the world: it is called as
-    often as the engine likes, from whatever thread runs the simulation. What it raises comes out of
-    `simulate` as it was.
+    often as the engine likes, from the thread that runs the simulation. `simulate` raises the
+    exception of a callback unchanged.
 
     A callback that returns numbers may fill an array in their place, which is quicker: one with an
     argument called `out`, the last or by keyword, gets an array of the shape of the state for an
@@ -139,7 +139,7 @@ class LeafSystem(System, _core.LeafSystem):
         x per second.
 
         `shape` n is a vector of n zeros, () a single number; `default_value` (or an array in place
-        of the shape) says where it starts. Without `ode` it stands still between resets. `jacobian`
+        of the shape) says where it starts. Without `ode` it is constant between resets. `jacobian`
         gives the n by n matrix d(ode)/dx, row by row, for a stiff method; without it, and for
         entries that are not finite, differences are used. Once a block.
 
@@ -311,6 +311,103 @@ class LeafSystem(System, _core.LeafSystem):
         super().declare_zero_crossing(
             callback_of(guard), callback_of(reset_map), name or "", options
         )
+
+    @refusing
+    def declare_relation(
+        self,
+        guard: Callable[..., ArrayLike],
+        name: str | None = None,
+        true_at_zero: bool = False,
+        requires_inputs: RequiresInputs = True,
+        size: int = 1,
+        reads: Iterable[str] = EVERYTHING,
+    ) -> int:
+        """A truth with a smooth guard: true while g = guard(time, state, *inputs, **parameters) is
+        positive. Returns its position in `state.relations`.
+
+        The engine locates the zeros of the guard and holds the truth between them, so a derivative
+        may jump with the truth. `true_at_zero` is the truth for g = 0 where no side is known yet.
+        With `size` n the guard returns n numbers, and the truth is a read-only array of 0 and 1 in
+        place of a bool. `reads` is as for `declare_output_port`. An output that reads
+        `state.relations` is declared after the relation. A callback that reads them is called, not
+        traced; the guard itself is traced.
+
+        Raises ModelError for a name declared twice and for a `size` below 1.
+
+        Examples
+        --------
+        >>> class Tank(saltus.LeafSystem):
+        ...     def __init__(self):
+        ...         super().__init__(name="tank")
+        ...         self.declare_continuous_state([20.0], ode=self.ode)
+        ...         self.full = self.declare_relation(self.above, name="full")
+        ...
+        ...     def above(self, time, state):
+        ...         return state.continuous_state[0] - 25.0
+        ...
+        ...     def ode(self, time, state):
+        ...         return [0.5 if state.relations[self.full] else 1.0]
+        >>> tank = Tank()
+        >>> end = saltus.simulate(tank, tank.create_context(), (0.0, 9.0)).context
+        >>> f"{end.continuous_state[0]:.6f}"
+        '27.000000'
+        """
+        return super().declare_relation(
+            callback_of(guard),
+            name or "",
+            true_at_zero,
+            size,
+            inputs_of(requires_inputs),
+            list(reads),
+        )
+
+    @refusing
+    def declare_edge_reset(
+        self,
+        reset_map: Callable[..., _core.State],
+        input: int,
+        edge: str = "rising",
+        name: str | None = None,
+        on_zeno: str | int = "hold",
+        zeno_tolerance: float | None = None,
+        requires_inputs: RequiresInputs = True,
+    ) -> None:
+        """A reset at an edge of an input, read as a boolean: every number except 0 is true.
+
+        `reset_map`, called like a guard, returns x+ from x-. `edge` is 'rising', 'falling' or
+        'either'. The signal has to be held: a comparison, a logical block, a discrete state. The
+        input needs no guard of its own. `on_zeno` and `zeno_tolerance` are as for
+        `declare_zero_crossing`; a hold ends when the signal falls back.
+
+        Raises ModelError for a name declared twice, an unknown `edge` or `on_zeno`.
+
+        Examples
+        --------
+        >>> class Counter(saltus.LeafSystem):
+        ...     def __init__(self):
+        ...         super().__init__(name="counter")
+        ...         self.declare_discrete_state([0.0])
+        ...         self.declare_input_port("gate")
+        ...         self.declare_edge_reset(self.count, input=0, edge="falling")
+        ...
+        ...     def count(self, time, state, gate):
+        ...         return state.with_discrete_state(state.discrete_state + 1.0)
+        >>> from saltus.library import Pulse
+        >>> builder = saltus.DiagramBuilder()
+        >>> pulse, counter = builder.add(Pulse(period=1.0), Counter())
+        >>> builder.connect(pulse.output(), counter.input())
+        >>> diagram = builder.build()
+        >>> end = saltus.simulate(diagram, diagram.create_context(), (0.0, 3.75)).context
+        >>> end.discrete_state
+        array([4.])
+        """
+        options = {
+            "edge": edge,
+            "on_zeno": on_zeno,
+            "zeno_tolerance": zeno_tolerance,
+            "inputs": inputs_of(requires_inputs),
+        }
+        super().declare_edge_reset(callback_of(reset_map), input, name or "", options)
 
     @refusing
     def declare_periodic_update(

@@ -8,15 +8,11 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, fields
 from typing import Any
 
-import numpy as np
-
-from saltus import _core
-from saltus.errors import ModelError
-from saltus.porting import OPTIONS, refuse
+from saltus._porting import OPTIONS, refuse
 from saltus.progress import Progress
-from saltus.system import OutputPort, System
+from saltus.system import OutputPort
 
-__all__ = ["PYTHON_ONLY", "SimulatorOptions", "core_options"]
+__all__ = ["SimulatorOptions"]
 
 
 def _refuse_unknown(cls: Any) -> Any:
@@ -42,8 +38,8 @@ class SimulatorOptions:
     Raises
     ------
     ModelError
-        For a name there is not, with the nearest; a value that makes no sense is refused by what
-        runs with it.
+        For an unknown name; the message has the nearest. A value that makes no sense is refused
+        when a run begins.
 
     Examples
     --------
@@ -65,12 +61,12 @@ class SimulatorOptions:
     """
     linear_solver: str = "auto"
     """how a stiff method solves its linear systems: 'auto' (by number of states and places of the
-    Jacobian), 'dense', 'band', 'sparse', 'gmres'; `statistics.linear_solver` says what was chosen
+    Jacobian), 'dense', 'band', 'sparse', 'gmres'; `statistics.linear_solver` names the choice
     """
     find_sparsity: bool = True
     """where a block of more than 256 states declares neither Jacobian nor sparsity, a stiff method
-    finds the sparsity by calls of its derivative near the state; `statistics.linear_solver` says
-    what was found. False: such a block is full, or its places are unknown
+    finds the sparsity by calls of its derivative near the state; `statistics.linear_solver` has
+    the outcome. False: such a block is full, or its places are unknown
     """
     max_major_steps: int | None = None
     """instants a run may have; more end it with the status 'step_limit'"""
@@ -90,7 +86,7 @@ class SimulatorOptions:
     max_passes: int = 100
     """passes an instant may have before it counts as a loop without end"""
     recorded_signals: Mapping[str, OutputPort] | None = None
-    """what is recorded, by name; nothing recorded costs nothing"""
+    """the outputs to record, by name; nothing recorded costs nothing"""
     save_at: Sequence[float] = ()
     """[s] increasing times to record at. If there are any, solver steps are recorded only with
     save_steps=True
@@ -101,7 +97,8 @@ class SimulatorOptions:
     at the time of an event the one after it
     """
     dense_output: bool = False
-    """keep what the solver interpolates: `results(t)` tells state and recorded signals at any time
+    """keep the interpolants of the solver: `results(t)` gives state and recorded signals at any
+    time
     """
     record_events: bool = True
     """the event log; switching it off changes nothing else"""
@@ -110,7 +107,7 @@ class SimulatorOptions:
     interpreter; 'called' calls them all. See `system.explain()`
     """
     throw: bool = True
-    """raise when a run does not end well; else return the results with the status"""
+    """raise if a run does not end well; False returns the results with the status"""
     progress: bool | Callable[[Progress], object] = False
     """True shows how far the run is, by tqdm if it is installed, else on a line of stderr; a
     function is called with a `Progress` ten times a second at most, and once at the end
@@ -119,52 +116,3 @@ class SimulatorOptions:
     """asked about every 20 ms; True ends the run with the status 'interrupted'. Ctrl-C does so
     anyway
     """
-
-
-PYTHON_ONLY = frozenset({"recorded_signals", "python", "throw", "progress"})
-"""options that the engine does not have, or not in this form"""
-WAYS = ("traced", "called")
-"""how a Python callback may be asked to run: the values of the option `python`"""
-
-_UNBOUNDED = {
-    "max_major_step_length": math.inf,
-    "min_minor_step_size": 0.0,
-    "max_minor_step_size": math.inf,
-}
-
-
-def ports_of(signals: Mapping[str, OutputPort] | None) -> list[tuple[str, System, int]]:
-    if not isinstance(signals, Mapping | None):
-        raise ModelError(f"recorded_signals: expected a dict of names and ports, found {signals!r}")
-    for name, port in (signals or {}).items():
-        if not isinstance(port, OutputPort):
-            raise ModelError(
-                f"recorded signal '{name}': expected a port, such as block.output_ports[0], "
-                f"found {port!r}"
-            )
-    return [(name, port.system, port.index) for name, port in (signals or {}).items()]
-
-
-def core_options(options: SimulatorOptions) -> _core.SimulatorOptions:
-    core = _core.SimulatorOptions()
-    for field in fields(options):
-        value = getattr(options, field.name)
-        if field.name in PYTHON_ONLY:
-            continue
-        try:
-            setattr(
-                core,
-                field.name,
-                _UNBOUNDED[field.name] if value is None and field.name in _UNBOUNDED else value,
-            )
-        except TypeError:
-            raise ModelError(
-                f"option {field.name}: expected {field.type}, found {value!r}"
-            ) from None
-    if not isinstance(options.throw, (bool, np.bool_)):
-        raise ModelError(f"option throw: expected bool, found {options.throw!r}")
-    if options.python not in WAYS:
-        found = f"'{options.python}'{_core.known_names(str(options.python), WAYS)}"
-        raise ModelError(f"option python: unknown {found}")
-    core.set_recorded_signals(ports_of(options.recorded_signals))
-    return core

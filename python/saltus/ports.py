@@ -40,7 +40,7 @@ class OutputPort:
 
     @property
     def name(self) -> str:
-        """What the system calls it."""
+        """The name of the port in its system."""
         return self.system.output_names[self.index]
 
     def __repr__(self) -> str:
@@ -73,7 +73,7 @@ class InputPort:
 
     @property
     def name(self) -> str:
-        """What the system calls it."""
+        """The name of the port in its system."""
         return self.system.input_names[self.index]
 
     def __repr__(self) -> str:

@@ -15,7 +15,7 @@ __all__ = ["Progress", "Reporter", "reporter_of"]
 
 
 class Progress(NamedTuple):
-    """Where a run stands: what ``progress=function`` is called with, ten times a second at most.
+    """The progress of a run: the argument of ``progress=function``, ten times a second at most.
 
     Examples
     --------
@@ -129,7 +129,7 @@ class Reporter:
         self._display: Any = None
 
     def over(self, begin: float, end: float, events: int) -> Reporter:
-        """For `with`: a stretch from begin to end [s]."""
+        """A context manager for a stretch of the run from begin to end [s]."""
         self._begin, self._end, self._events = begin, end, events
         return self
 
@@ -158,7 +158,7 @@ class Reporter:
 
 
 def reporter_of(progress: object) -> Reporter | None:
-    """What the option asks for; None for nothing."""
+    """The reporter that the option asks for, or None."""
     if progress is None or progress is False:
         return None
     if progress is True or callable(progress):

@@ -1,4 +1,4 @@
-"""The shelf: ready scenes, each with what is known about its outcome."""
+"""The shelf: ready scenes, each with the known facts about its outcome."""
 
 from __future__ import annotations
 
@@ -7,9 +7,10 @@ from dataclasses import fields
 from typing import Any
 
 from saltus import _core
+from saltus._engine import PYTHON_ONLY
 from saltus.errors import ModelError
 from saltus.results import Results
-from saltus.simulation import PYTHON_ONLY, SimulatorOptions, simulate
+from saltus.simulation import SimulatorOptions, simulate
 from saltus.system import OutputPort, System
 
 __all__ = ["Scene", "SharedSystem", "scene", "shelf"]
@@ -63,11 +64,11 @@ class Scene:
     """
 
     name: str
-    """by which `saltus.scene` knows it"""
+    """the name for `saltus.scene`"""
     parameters: dict[str, float]
-    """what `saltus.scene` can change, with the values it has here"""
+    """the parameters that `saltus.scene` can change, with their values here"""
     title: str
-    """one line: what it is, and what it is hard for"""
+    """one line: the scene and its difficulty"""
     system: SharedSystem
     context: _core.Context
     """the values at the begin of the span"""
@@ -76,13 +77,13 @@ class Scene:
     options: SimulatorOptions
     """with the signals that the known answer speaks of, in its order"""
     provenance: str
-    """where the known answer comes from, and to how many digits it is known; empty if none is"""
+    """the origin of the known answer and its digits; empty if no answer is known"""
     methods: list[str]
-    """those that suit the scene"""
+    """the methods that suit the scene"""
     growth: float
-    """by how much the problem enlarges an error made on its way, >= 1"""
+    """the factor, >= 1, by which the problem enlarges an error made on its way"""
     invariants: list[str]
-    """names of what does not change along the true solution"""
+    """names of the quantities that are constant along the true solution"""
 
     def __init__(self, core: _core.Scene, name: str, title: str, parameters: dict[str, float]):
         self._core = core
@@ -184,7 +185,7 @@ def scene(name: str, **parameters: float) -> Scene:
 
 
 def _made_again(name: str, parameters: dict[str, float]) -> tuple[Any, ...]:
-    """For pickle: how another process makes this system."""
+    """The recipe of this system for pickle: another process makes it anew."""
     return _system_of, (name, parameters)
 
 

@@ -3,35 +3,22 @@
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import fields, replace
 from typing import Any
 
 from saltus import _core
+from saltus._engine import core_context, core_options
+from saltus._porting import OPTIONS, refuse
+from saltus._span import span_of
 from saltus.callbacks import Callbacks, callbacks_of, keep
 from saltus.errors import ModelError, SimulationError
-from saltus.options import PYTHON_ONLY, SimulatorOptions, core_options
-from saltus.porting import OPTIONS, refuse
+from saltus.options import SimulatorOptions
 from saltus.progress import reporter_of
 from saltus.results import Results
-from saltus.span import span_of
 from saltus.system import OutputPort, System
 
-__all__ = [
-    "PYTHON_ONLY",
-    "Results",
-    "Simulator",
-    "SimulatorOptions",
-    "core_context",
-    "core_options",
-    "simulate",
-]
-
-
-def core_context(context: object) -> _core.Context:
-    if not isinstance(context, _core.Context):
-        raise ModelError(f"expected a context, such as system.create_context(), found {context!r}")
-    return context
+__all__ = ["Results", "Simulator", "SimulatorOptions", "simulate"]
 
 
 class Simulator:
@@ -44,7 +31,7 @@ class Simulator:
     Parameters
     ----------
     system : System
-        What is run. It never changes.
+        The system to run. It never changes.
     options : SimulatorOptions, optional
         How.
     **overrides
@@ -80,7 +67,6 @@ class Simulator:
         self._options = core_options(self.options)
         self._make()
         self._failed: Results | None = None
-        self._outcome: Callable[..., Results] = Results
 
     def _make(self) -> None:
         """The engine's simulator."""
@@ -93,8 +79,8 @@ class Simulator:
     def initialize(self, context: _core.Context) -> None:
         """Begins a run with these values, at their time.
 
-        A context that an earlier run ended with goes on where that one stopped. ModelError if it is
-        not one of this system.
+        With the context at the end of an earlier run, the new run continues that run. Raises
+        ModelError for a context of another system.
         """
         callbacks = self._callbacks
         if callbacks and (callbacks.traces.stale or callbacks.refresh() != self._version):
@@ -118,18 +104,18 @@ class Simulator:
         Raises
         ------
         ModelError
-            For a time that is none, or lies behind.
+            For a time that is not a number, or that lies before the present time.
         SimulationError
-            Where the run ends badly, with what was computed in its attribute `results`. What a
-            callback raises comes out as it was.
+            If the run ends badly; its attribute `results` has the run until then. An exception of
+            a callback is raised unchanged.
         KeyboardInterrupt
-            After Ctrl-C, or the stop button of a notebook, with what was computed in its attribute
-            `results`. With the option ``throw=False`` nothing is raised, and the status says it.
+            After Ctrl-C, or the stop button of a notebook; its attribute `results` has the run
+            until then. With the option ``throw=False`` nothing is raised, and the status says it.
         """
         return self._advance(time, take=False).status
 
     def _follow_changes(self) -> None:
-        """What a traced callback was made from may have changed since the last piece of the run."""
+        """Replaces the traces whose sources have changed since the last piece of the run."""
         if not self._callbacks or self._callbacks.refresh() == self._version:
             return
         self._version = self._callbacks.version
@@ -140,8 +126,13 @@ class Simulator:
                 "initialize again, or use the option python='called'"
             )
 
+    def _run(self, context: _core.Context, end: float) -> Results:
+        """A whole run. Its results take the recorded rows without a copy."""
+        self.initialize(context)
+        return self._advance(end, take=True)
+
     def _advance(self, time: float, take: bool) -> Results:
-        if not take:  # what simulate runs was made just now
+        if not take:  # simulate has made its traces just now
             self._follow_changes()
         try:
             time = float(time)
@@ -159,11 +150,15 @@ class Simulator:
             self._raise(results, raised)
         return results
 
+    def _outcome(self, core: _core.Results, raised: BaseException | None, asks: Any) -> Results:
+        """The form in which a run is returned; `solve` has one of its own."""
+        return Results(core, raised, asks)
+
     def _results(self, core: _core.Results, raised: BaseException | None) -> Results:
         return self._outcome(core, raised, self.system)
 
     def _report(self, time: float) -> None:
-        """Advances under the eyes of the user."""
+        """Advances and reports the progress to the user."""
         assert self._reporter is not None
         with self._reporter.over(self._core.time, time, self._core.events) as reporter:
             self._core.advance_to(time)
@@ -172,7 +167,7 @@ class Simulator:
     def _raise(self, results: Results, error: BaseException | None) -> None:
         if error is None:
             error = SimulationError(results.message, results.context.time, results.block)
-        with contextlib.suppress(AttributeError):  # of a class with slots
+        with contextlib.suppress(AttributeError):  # a class with slots has no room for it
             error.results = results  # type: ignore[attr-defined]
         if hasattr(error, "add_note") and not isinstance(error, (SimulationError, ModelError)):
             error.add_note(f"in a run, at t = {results.context.time} s; `.results` is what it did")
@@ -181,25 +176,25 @@ class Simulator:
         try:
             raise error
         finally:
-            del error  # or it would hold this frame, and this frame it
+            del error  # otherwise the exception and this frame would refer to each other
 
     @property
     def time(self) -> float:
-        """[s] where the run stands."""
+        """[s] The present time of the run."""
         return self._core.time
 
     @property
     def context(self) -> _core.Context:
-        """The values of now."""
+        """The present values."""
         return self._core.context
 
     @property
     def results(self) -> Results:
-        """All since `initialize`, as a copy of its own."""
+        """The run since `initialize`, as a copy."""
         return self._failed or self._results(*self._core.results(False))
 
     def describe(self) -> str:
-        """What of the system is computed when, what is never computed, and why.
+        """When each signal of the system is computed, which signals are never computed, and why.
 
         Examples
         --------
@@ -228,41 +223,41 @@ def simulate(
     system : System
         A `LeafSystem` or a `Diagram`. It never changes.
     context : Context
-        The values it starts with, such as ``system.create_context()``.
+        The values at the beginning, such as ``system.create_context()``.
     time_span : (float, float)
         [s] begin and end.
     options : SimulatorOptions, optional
-        How it is done.
+        How the run is done.
     recorded_signals : dict of str to OutputPort, optional
-        Which outputs to record, under which names.
+        The outputs to record, by name.
     **option_overrides
-        Any option by name, which replaces that of `options`: ``rtol=1e-9``,
+        Any option by name; it replaces the one in `options`: ``rtol=1e-9``,
         ``dense_output=True``, ``progress=True``, ...
 
     Returns
     -------
     Results
-        What was recorded, the events, the final context, the status and the statistics.
+        The recorded signals, the events, the final context, the status and the statistics.
 
     Raises
     ------
     ModelError
         For bad input, before the run.
     SimulationError
-        Where the run ends badly, with what was computed in its attribute `results`. What a
-        callback raises comes out as it was.
+        If the run ends badly; its attribute `results` has the run until then. An exception of a
+        callback is raised unchanged.
     KeyboardInterrupt
-        After Ctrl-C, or the stop button of a notebook: Python's own exception, so that a script
-        stops, with what was computed in its attribute `results`::
+        After Ctrl-C, or the stop button of a notebook. It is Python's own exception, so a script
+        stops. Its attribute `results` has the run until then::
 
             try:
                 results = saltus.simulate(...)
             except KeyboardInterrupt as stop:
                 results = stop.results  # status 'interrupted'
 
-        At a prompt and in a notebook it is ``sys.last_value.results`` afterwards. With
-        ``throw=False`` none of the two is raised: the results are returned, and their status says
-        how the run ended.
+        At a prompt and in a notebook ``sys.last_value.results`` has it afterwards. With
+        ``throw=False`` neither exception is raised: the results are returned, and their status
+        says how the run ended.
 
     Examples
     --------
@@ -285,6 +280,5 @@ def simulate(
         option_overrides["recorded_signals"] = recorded_signals
     simulator = Simulator(system, options, **option_overrides)
     context = core_context(context)
-    # one that ended another run at this time knows what of it has happened already
-    simulator.initialize(context if context.time == begin else context.with_time(begin))
-    return simulator._advance(end, take=True)
+    # a context from the end of a run at this time knows which events have happened already
+    return simulator._run(context if context.time == begin else context.with_time(begin), end)

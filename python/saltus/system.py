@@ -1,4 +1,4 @@
-"""What a block and a diagram share: a name, ports, contexts."""
+"""The base of blocks and diagrams: a name, ports, contexts."""
 
 from __future__ import annotations
 
@@ -29,9 +29,9 @@ class System:
     """
 
     name: str
-    """how messages and `diagram[...]` know it"""
+    """the name in messages and for `diagram[...]`"""
     system_id: int
-    """how a context knows it"""
+    """the number for `context[...]`"""
     input_names: list[str]
     output_names: list[str]
     interpreted_blocks: list[str]
@@ -58,7 +58,7 @@ class System:
         Raises
         ------
         ModelError
-            If there is none, with the names there are.
+            If no port has this name or number; the message lists the names.
 
         Examples
         --------
@@ -79,7 +79,7 @@ class System:
         Raises
         ------
         ModelError
-            If there is none, with the names there are.
+            If no port has this name or number; the message lists the names.
 
         Examples
         --------
@@ -99,7 +99,7 @@ class System:
         Parameters
         ----------
         text
-            What `Context.to_json` gave.
+            The text from `Context.to_json`.
 
         Raises
         ------
@@ -197,9 +197,9 @@ class System:
         >>> print(Gain(2.0, name="double").to_dot().splitlines()[0])
         digraph "double" {
         """
-        from saltus import picture
+        from saltus import _picture
 
-        return picture.to_dot(self, recorded_signals, max_depth)
+        return _picture.to_dot(self, recorded_signals, max_depth)
 
     def to_mermaid(
         self,
@@ -235,19 +235,19 @@ class System:
         >>> print(Gain(2.0, name="double").to_mermaid().splitlines()[1].strip())
         b0["<b>double</b><br/>Gain"]:::continuous
         """
-        from saltus import picture
+        from saltus import _picture
 
-        return picture.to_mermaid(self, what, recorded_signals, max_depth)
+        return _picture.to_mermaid(self, what, recorded_signals, max_depth)
 
     def _repr_svg_(self) -> str | None:
-        from saltus import picture
+        from saltus import _picture
 
-        return picture.in_svg(self)
+        return _picture.in_svg(self)
 
     def _repr_markdown_(self) -> str | None:
-        from saltus import picture
+        from saltus import _picture
 
-        return picture.in_markdown(self)
+        return _picture.in_markdown(self)
 
     def __repr__(self) -> str:
         return f"<{type(self).__name__} '{self.name}'>"

@@ -1,6 +1,8 @@
 // Run: the loop from instant to instant.
 #include "saltus/simulation/detail/run.hpp"
 
+#include "saltus/simulation/detail/option_table.hpp"
+
 namespace saltus {
 
 SimulatorOptions Run::checked(SimulatorOptions options) {

@@ -60,7 +60,7 @@ def test_no_extra_is_imported_before_it_is_used(use):
 
 def test_the_machinery_for_pictures_and_the_command_line_waits_too():
     loaded = python("import sys, saltus; print(*sys.modules)").split()
-    for module in ("saltus.picture", "saltus.cli", "saltus.report.chart", "subprocess"):
+    for module in ("saltus._picture", "saltus.cli", "saltus.report.chart", "subprocess"):
         assert module not in loaded, module
 
 

@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 import saltus
 from saltus import _core
-from saltus.simulation import PYTHON_ONLY, SimulatorOptions
+from saltus._engine import PYTHON_ONLY
+from saltus.simulation import SimulatorOptions
 from systems import Ball, flow, run
 
 FIELDS = {field.name for field in dataclasses.fields(SimulatorOptions)}

@@ -14,7 +14,7 @@ from saltus.errors import Error
 __all__ = ["UsageError", "main"]
 
 SUBCOMMANDS = (list_scenes, run_scene, describe_scene, report_scene)
-INTERRUPTED = 130  # what a shell says of a program that Ctrl-C ended
+INTERRUPTED = 130  # the exit code in a shell of a program that Ctrl-C ended
 
 
 class UsageError(Exception):
@@ -50,7 +50,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     Parameters
     ----------
     arguments : sequence of str, optional
-        What stands after ``saltus`` in the shell.
+        The words after ``saltus`` in the shell.
 
     Returns
     -------

@@ -10,11 +10,13 @@ import argparse
 from dataclasses import replace
 
 from saltus import _core
+from saltus._porting import OPTIONS, refuse
 from saltus.cli.scene_of import Chosen, chosen_scene
 from saltus.cli.settings import add_options, add_scene, options_of, settings_of
 from saltus.cli.table import print_table
-from saltus.porting import OPTIONS, refuse
 from saltus.simulation import Simulator, SimulatorOptions
+
+__all__ = ["act", "add_arguments"]
 
 NAME = "describe"
 

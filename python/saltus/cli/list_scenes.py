@@ -1,4 +1,4 @@
-"""saltus list: the scenes of the shelf, each with what it is hard for."""
+"""saltus list: the scenes of the shelf, each with its difficulty."""
 
 from __future__ import annotations
 
@@ -7,6 +7,8 @@ import json
 
 from saltus.cli.table import print_table
 from saltus.scenes import shelf
+
+__all__ = ["act", "add_arguments"]
 
 NAME = "list"
 

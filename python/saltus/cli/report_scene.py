@@ -14,6 +14,8 @@ from saltus.cli.scene_of import Chosen, chosen_scene
 from saltus.cli.settings import add_scene, settings_of
 from saltus.report import WorkPrecision, work_precision
 
+__all__ = ["act", "add_arguments"]
+
 NAME = "report"
 
 

@@ -20,9 +20,12 @@ import numpy as np
 from saltus.cli.scene_of import Chosen, chosen_scene
 from saltus.cli.settings import add_options, add_scene, options_of, settings_of
 from saltus.cli.table import print_table
+from saltus.ensemble.job import port_of
 from saltus.errors import ModelError
 from saltus.results import Results
 from saltus.simulation import simulate
+
+__all__ = ["act", "add_arguments"]
 
 NAME = "run"
 WELL = ("reached_end", "terminal", "zeno_stop")
@@ -62,15 +65,13 @@ def act(chosen: argparse.Namespace) -> int:
 
 
 def _reason(results: Results) -> str:
-    """What a function of the user raised stands before where it was raised."""
+    """The message of the run; it begins with the exception of a user's function."""
     return results.message or "no reason is known"
 
 
 def _recording(
     chosen: argparse.Namespace, scene: Chosen, span: tuple[float, float]
 ) -> dict[str, Any]:
-    from saltus.ensemble.job import port_of
-
     found: dict[str, Any] = {}
     if chosen.record:
         found["recorded_signals"] = {name: port_of(scene.system, name) for name in chosen.record}
@@ -90,7 +91,7 @@ def _times(text: str, span: tuple[float, float]) -> list[float]:
 
 
 def _summary(results: Results, scene: Chosen) -> dict[str, Any]:
-    """What `--json` prints; nan and inf, which JSON has not, as null."""
+    """The content of `--json`. JSON has neither nan nor inf, so they become null."""
     s = results.statistics
     context = results.context
     return {

@@ -1,4 +1,4 @@
-"""What the argument SCENE means: a system with its values, span and options."""
+"""The argument SCENE: a system with its values, span and options."""
 
 from __future__ import annotations
 
@@ -32,13 +32,13 @@ class Chosen:
     system: System
     context: _core.Context
     span: tuple[float, float] | None
-    """[s] None where nobody said it"""
+    """[s] None if the command line does not say it"""
     options: SimulatorOptions
     scene: Scene | None
-    """of the shelf, as long as what is known of its outcome holds"""
+    """the scene of the shelf, as long as its known outcome holds"""
 
     def with_span(self, begin: float | None, end: float | None) -> Chosen:
-        """With what was said of the span in place of the usual one."""
+        """The scene with the span from the command line in place of the usual one."""
         if begin is None and end is None:
             return self
         usual = self.span or (0.0, None)
@@ -46,7 +46,7 @@ class Chosen:
         return replace(self, span=None if end is None else (begin, end), scene=None)
 
     def required_span(self) -> tuple[float, float]:
-        """The span; ModelError where nobody said it."""
+        """The span; ModelError if neither the scene nor the command line has one."""
         if self.span is None:
             raise ModelError(f"'{self.name}' says no end of the run; say --t-end T, in seconds")
         return self.span
@@ -125,7 +125,7 @@ def _module(place: str) -> Any:
 
 
 def _where(error: BaseException, place: str) -> str:
-    """What was raised, and in which line of the user's file."""
+    """The exception, and the line of the user's file that raised it."""
     said = f"{type(error).__name__}: {error}"
     trace, line = error.__traceback__, None
     while trace is not None:

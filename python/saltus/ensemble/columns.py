@@ -1,4 +1,4 @@
-"""What runs came to: a column for each kind of value, a row for each run."""
+"""The outcomes of runs: a column for each kind of value, a row for each run."""
 
 from __future__ import annotations
 
@@ -23,14 +23,14 @@ WIDE = {"continuous_state": np.nan, "discrete_state": np.nan, "modes": 0}
 
 
 def empty(runs: int) -> Columns:
-    """Of runs that were not made."""
+    """The columns of runs that were not made."""
     columns: Columns = {name: np.full(runs, nothing) for name, nothing in PLAIN.items()}
     columns |= {name: np.full((runs, 0), nothing) for name, nothing in WIDE.items()}
     return columns | {"signals": {}, "reasons": {}, "reduced": {}, "names": {}}
 
 
 def failed(runs: int, reason: str) -> Columns:
-    """Of runs that ended before they began."""
+    """The columns of runs that failed before they began."""
     columns = empty(runs)
     columns["status"][:] = list(STATUS).index("failed")
     columns["reasons"] = {run: (reason, "") for run in range(runs)}
@@ -58,7 +58,7 @@ def _widest(arrays: Sequence[np.ndarray]) -> tuple[int, ...]:
 
 
 def _signal(name: str, parts: Sequence[Columns]) -> np.ndarray:
-    """A signal of all parts; nan for those that have none of it."""
+    """A signal of all parts; nan for a part without the signal."""
     shape = _widest([part["signals"][name] for part in parts if name in part["signals"]])
     arrays = [
         part["signals"].get(name, np.full((len(part["status"]), *shape), np.nan)) for part in parts

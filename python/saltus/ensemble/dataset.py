@@ -13,7 +13,7 @@ from saltus.ensemble.table import Table
 from saltus.errors import ModelError
 from saltus.results.tables import extra
 
-__all__ = ["Arrays", "arrays_of", "refuse_reserved", "summary", "to_dataset", "xarray"]
+__all__ = ["Arrays", "arrays_of", "refuse_reserved", "summary", "to_dataset", "to_dict", "xarray"]
 
 Arrays = dict[str, tuple[tuple[str, ...], np.ndarray]]
 """Each name with its dimensions and its values; the dimensions of the runs come first."""
@@ -24,12 +24,12 @@ WELL = ("reached_end", "terminal", "zeno_stop")
 
 
 def xarray() -> Any:
-    """The library; ImportError with what to do where it is not installed."""
+    """The library; an ImportError with advice if it is not installed."""
     return extra("xarray", "sweep", ", or ask for a dict of numpy arrays with as_dict=True")
 
 
 def refuse_reserved(varied: Mapping[str, object], signals: Mapping[str, object]) -> None:
-    """A name can stand for one thing only."""
+    """Raises ModelError for a name that the results need themselves."""
     for name in signals:
         if name in RESERVED or name in varied:
             raise ModelError(f"sweep: recorded signal '{name}': this name is taken; give another")
@@ -42,7 +42,7 @@ def refuse_reserved(varied: Mapping[str, object], signals: Mapping[str, object])
 
 
 def summary(columns: Columns, wall_time: float) -> dict[str, Any]:
-    """How the sweep went: what is shown at the foot of the results."""
+    """How the sweep went, for the foot of the printed results."""
     kinds, counts = np.unique(columns["status"], return_counts=True)
     by_kind = dict(zip(STATUS[kinds].tolist(), counts.tolist(), strict=True))
     done = sum(by_kind.values()) - by_kind.get("not_run", 0)
@@ -117,7 +117,7 @@ def _add_values(add: Any, columns: Columns, save_at: list[float]) -> None:
 
 
 def _reduced(values: Mapping[int, Any], runs: int, name: str) -> dict[str, np.ndarray]:
-    """What `reduce` gave, by name: of a dict its keys, of a number or an array one name."""
+    """The values of `reduce` by name: the keys of a dict, or one name for a number or an array."""
     rows = {run: v if isinstance(v, Mapping) else {name: v} for run, v in values.items()}
     found: dict[str, np.ndarray] = {}
     for key in dict.fromkeys(str(key) for row in rows.values() for key in row):

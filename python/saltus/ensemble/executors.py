@@ -1,4 +1,4 @@
-"""Where the runs of a sweep are made: in threads, in processes, one after another, or elsewhere."""
+"""The executors of a sweep: threads, processes, one run after another, or a pool of yours."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from saltus.errors import ModelError
 
 __all__ = ["run"]
 
-SOON = 0.5  # [s] what takes no longer is not worth the start of other processes
+SOON = 0.5  # [s] a shorter sweep is not worth the start of other processes
 KINDS = ("threads", "processes", "serial")
 Outcome = tuple[Columns, "BaseException | None", str, int]
 
@@ -29,7 +29,9 @@ def _workers(workers: int | None, runs: int) -> int:
 
 
 def run(job: Job, table: Table, executor: Any, workers: int | None, watch: Watch) -> Outcome:
-    """By the executor that was asked for, or that suits; with what it was and how many workers."""
+    """Runs the job by the given executor, or by one that suits. Returns the outcome, the executor's
+    name and the number of workers.
+    """
     count = _workers(workers, table.runs)
     if executor is None:
         return _run_as_suits(job, table, workers, count, watch)

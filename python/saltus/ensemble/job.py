@@ -1,4 +1,4 @@
-"""A job: what is the same for all runs of a sweep. It can go to another process."""
+"""A job: the settings that all runs of a sweep share. It can go to another process."""
 
 from __future__ import annotations
 
@@ -10,15 +10,16 @@ from typing import Any
 import numpy as np
 
 from saltus import _core
+from saltus._engine import core_context, core_options
 from saltus.callbacks import callbacks_of, keep
 from saltus.ensemble.columns import Columns, empty, failed, join
 from saltus.ensemble.table import Column
 from saltus.errors import ModelError
+from saltus.options import SimulatorOptions
 from saltus.results import Results
-from saltus.simulation import SimulatorOptions, core_context, core_options
 from saltus.system import OutputPort, System
 
-__all__ = ["Job", "port_of"]
+__all__ = ["Job", "Watch", "port_of"]
 
 Watch = Callable[[int], bool]
 Values = Mapping[str, Column]
@@ -59,12 +60,12 @@ class Job:
         return any(callback.runs == "called" for callback in self.system.explain())
 
     def for_factory(self, names: list[str]) -> list[str]:
-        """Those of the names that are arguments of the factory."""
+        """The names that are arguments of the factory."""
         if isinstance(self.system, System):
             return []
         try:
             parameters = inspect.signature(self.system).parameters.values()
-        except (TypeError, ValueError):  # of a compiled function nothing is known
+        except (TypeError, ValueError):  # a compiled function has no signature
             return [name for name in names if name.isidentifier()]
         if any(p.kind is p.VAR_KEYWORD for p in parameters):
             return [name for name in names if name.isidentifier()]
@@ -114,7 +115,7 @@ class Job:
         self.ensemble(system, rest)
 
     def run(self, values: Values, threads: int = 1, watch: Watch | None = None) -> tuple[Any, Any]:
-        """Columns of the runs with these values, and what was raised by a signal, or None."""
+        """The columns of the runs with these values, and the exception of a signal, or None."""
         if isinstance(self.system, System):
             return self._run(self.system, values, threads, watch)
         return self._run_each(values, watch)
@@ -156,7 +157,7 @@ class Job:
             system = self.system(**{name: row[name] for name in own})
             rest = {name: [value] for name, value in row.items() if name not in own}
             return self._run(system, rest, 1, None)
-        except Exception as error:  # of the factory, or of values that do not fit what it made
+        except Exception as error:  # the factory raised it, or the values do not fit its system
             return failed(1, _said(error)), None
         except KeyboardInterrupt as error:
             return failed(1, "interrupted"), error

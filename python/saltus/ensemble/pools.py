@@ -30,10 +30,10 @@ NO_MAIN = (
 
 
 def pickled(job: Job) -> bytes:
-    """The job for another process; ModelError, with what to do, where it cannot go there."""
+    """The job for another process; a ModelError with advice if it cannot go there."""
     try:
         return pickle.dumps(job)
-    except Exception as error:  # pickle raises what it likes
+    except Exception as error:  # pickle raises many kinds
         what = "function" if job.is_factory else "system"
         raise ModelError(
             f"sweep: this {what}, its signals or its options cannot go to another process "
@@ -79,7 +79,7 @@ def _cuts(runs: int, workers: int) -> list[tuple[int, int]]:
 def run_pooled(
     executor: Any, job: Job | bytes, table: Table, workers: int, watch: Watch | None
 ) -> tuple[Columns, BaseException | None]:
-    """Columns of all runs, in order whatever the order they were done in; what was raised."""
+    """The columns of all runs in their order, and the exception that was raised, or None."""
     cuts = _cuts(table.runs, workers)
     values = [table.part(first, last) for first, last in cuts]
     parts: list[Columns] = []
@@ -98,7 +98,7 @@ def run_pooled(
 
 
 def _submitted(executor: Any, job: Job | bytes, values: list[Any]) -> Any:
-    """The parts one after another. Closing it cancels what has not begun."""
+    """The parts one after another. Closing the iterator cancels the parts that have not begun."""
     if hasattr(executor, "submit"):
         futures = [executor.submit(_run_part, job, part) for part in values]
         return _results_of(futures)
@@ -126,7 +126,7 @@ def _mapped(executor: Any, job: Job | bytes, values: list[Any]) -> Iterator[Any]
 
 
 def _part(submitted: Iterator[Any], runs: int) -> Columns:
-    """The next part; what lost it is the reason of each of its runs."""
+    """The next part. If it was lost, its runs have the cause as their reason."""
     try:
         columns: Columns = next(submitted)()
     except (pickle.PicklingError, AttributeError, TypeError) as error:  # it could not go there

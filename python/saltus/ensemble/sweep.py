@@ -8,6 +8,8 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from saltus import _core
+from saltus._porting import OPTIONS, refuse
+from saltus._span import span_of
 from saltus.ensemble.dataset import (
     refuse_reserved,
     summary,
@@ -20,10 +22,8 @@ from saltus.ensemble.job import Job
 from saltus.ensemble.progress import Progress
 from saltus.ensemble.table import table_of
 from saltus.errors import ModelError
-from saltus.porting import OPTIONS, refuse
 from saltus.results import Results
 from saltus.simulation import SimulatorOptions
-from saltus.span import span_of
 from saltus.system import OutputPort, System
 
 if TYPE_CHECKING:
@@ -148,7 +148,7 @@ def sweep(
 
 
 def _name_of(reduce: Callable[[Results], Any] | None) -> str:
-    """Of the result of `reduce`, where it is no dict."""
+    """The name of the result of `reduce` if it is no dict."""
     if reduce is None:
         return ""
     name = getattr(reduce, "__name__", "")

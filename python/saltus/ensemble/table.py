@@ -11,7 +11,7 @@ import numpy as np
 
 from saltus.errors import ModelError
 
-__all__ = ["Table", "table_of"]
+__all__ = ["Column", "Table", "table_of"]
 
 
 Column = np.ndarray | list[Any]  # an array of numbers; a list of anything else
@@ -62,7 +62,9 @@ def _name(name: object) -> str:
 
 
 def _column(values: object) -> Column | Any:
-    """Numbers as an array, else a list; what is no sequence is one value for all runs."""
+    """An array of numbers, or a list of other values. A value that is no sequence holds for all
+    runs.
+    """
     if isinstance(values, str) or not isinstance(values, Iterable) or np.ndim(values) == 0:  # type: ignore[arg-type]
         return values
     values = values if isinstance(values, np.ndarray) else list(values)

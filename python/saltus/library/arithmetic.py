@@ -9,6 +9,8 @@ from numpy.typing import ArrayLike
 from saltus import _core
 from saltus.library.block import Block
 
+__all__ = ["Abs", "Adder", "Gain", "Offset", "Product", "Saturate"]
+
 
 class Gain(Block, _core.Gain):
     """y = gain u, entry by entry.

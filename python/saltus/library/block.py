@@ -1,12 +1,14 @@
-"""What all blocks share."""
+"""The base of all blocks of the library."""
 
 from __future__ import annotations
 
 from typing import Any
 
 from saltus import _core
-from saltus.porting import refusing
+from saltus._porting import refusing
 from saltus.system import System
+
+__all__ = ["Block"]
 
 
 class Block(System):

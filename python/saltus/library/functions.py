@@ -8,10 +8,12 @@ from typing import Any
 from numpy.typing import ArrayLike
 
 from saltus import _core
-from saltus.declarations import callback_of, shape_of
+from saltus._declarations import callback_of, shape_of
+from saltus._porting import refusing
 from saltus.errors import ModelError
 from saltus.leaf_system import LeafSystem
-from saltus.porting import refusing
+
+__all__ = ["FunctionBlock", "ReduceBlock"]
 
 
 def _declare_function(

@@ -1,9 +1,11 @@
-"""Blocks that decide. A boolean is 0 or 1; what is not 0 counts as true."""
+"""Blocks that decide. A boolean is 0 or 1; every number except 0 counts as true."""
 
 from __future__ import annotations
 
 from saltus import _core
 from saltus.library.block import Block
+
+__all__ = ["Comparator", "LogicalOperator", "Switch"]
 
 
 class Comparator(Block, _core.Comparator):
@@ -43,7 +45,7 @@ class Comparator(Block, _core.Comparator):
 
 
 class LogicalOperator(Block, _core.LogicalOperator):
-    """y = function(u_0, u_1, ...), entry by entry: 0 or 1. What is not 0 counts as true.
+    """y = function(u_0, u_1, ...), entry by entry: 0 or 1. Every number except 0 counts as true.
 
     Parameters
     ----------

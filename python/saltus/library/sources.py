@@ -7,6 +7,8 @@ from numpy.typing import ArrayLike
 from saltus import _core
 from saltus.library.block import Block
 
+__all__ = ["Clock", "Constant", "Pulse", "Ramp", "Sine", "Step"]
+
 
 class Constant(Block, _core.Constant):
     """y = value. Never computed during a run.

@@ -7,6 +7,8 @@ from numpy.typing import ArrayLike
 from saltus import _core
 from saltus.library.block import Block
 
+__all__ = ["Integrator", "UnitDelay", "ZeroOrderHold"]
+
 
 class Integrator(Block, _core.Integrator):
     """dx/dt = u, y = x, in the shape of `initial_state`.
@@ -25,9 +27,9 @@ class Integrator(Block, _core.Integrator):
     enable_external_reset
         Gives the input `reset_value`, which x becomes instead. Needs `enable_reset`.
     zeno_tolerance
-        [s] In place of that of the simulator options; 0 switches the Zeno monitor off.
+        [s] Overrides the option of the simulator; 0 switches the Zeno monitor off.
     enable_limits
-        An entry stands still while it is at a limit and pushed outward.
+        An entry does not move while it is at a limit and its derivative points outward.
     lower_limit, upper_limit
         A number or a vector each, one of them may be left out. They count only with
         `enable_limits`, and are parameters of the context then.

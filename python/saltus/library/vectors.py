@@ -5,6 +5,8 @@ from __future__ import annotations
 from saltus import _core
 from saltus.library.block import Block
 
+__all__ = ["Demultiplexer", "Multiplexer"]
+
 
 class Multiplexer(Block, _core.Multiplexer):
     """y = (u_0, u_1, ...): the inputs, one after the other, as one vector.

@@ -28,7 +28,7 @@ COLOURS = {
     "auto": "#000000",
 }
 OTHERS = ("#CC79A7", "#E69F00", "#999999")
-MARKERS = "ovs^Dp<h>*"  # by tolerance, the loosest first
+MARKERS = "ovs^Dp<h>*"  # one for each tolerance, the loosest first
 LEAST = 1e-17  # errors below it, zero among them, are drawn here
 STYLE: dict[Any, Any] = {
     "font.size": 8,

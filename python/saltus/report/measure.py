@@ -1,4 +1,4 @@
-"""`work_precision`: what error each method achieves at each tolerance, and what that costs."""
+"""`work_precision`: the error and the cost of each method at each tolerance."""
 
 from __future__ import annotations
 
@@ -9,13 +9,14 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from saltus import _core
+from saltus._engine import core_context, core_options
+from saltus._span import span_of
 from saltus.callbacks import traced_callbacks
 from saltus.errors import ModelError
+from saltus.options import SimulatorOptions
 from saltus.report.table import WorkPrecision
 from saltus.results import Results
 from saltus.scenes import Scene
-from saltus.simulation import SimulatorOptions, core_context, core_options
-from saltus.span import span_of
 from saltus.system import OutputPort, System
 
 __all__ = ["work_precision"]
@@ -68,7 +69,7 @@ def work_precision(
     atol_over_rtol
         `atol` is this times each rtol; by default the ratio of the options.
     recorded_signals
-        What a row is made of; by default the first output.
+        The signals of a row; by default the first output.
     exact
         `exact(t)` is the true row at time t [s], judged at `save_at`, or at 100 even times.
     reference
@@ -78,7 +79,7 @@ def work_precision(
     event_times
         The true times [s] of guards by name; without it they come from the same two runs.
     invariants
-        Functions f(t, row) of what does not change, by name.
+        Functions f(t, row) that are constant along the solution, by name.
     gap
         `gap(t, row)` is the distance to a surface that must not be passed.
     least_time
@@ -152,6 +153,7 @@ def _scene(
     signals: Mapping[str, OutputPort] | None,
     options: dict[str, Any],
 ) -> _core.Scene:
+    """The scene in the form that runs."""
     if not isinstance(system, System):
         raise ModelError(f"work_precision: expected a system or a scene, found {system!r}")
     if signals is None:

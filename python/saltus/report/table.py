@@ -50,7 +50,7 @@ class WorkPrecision(Sequence[dict[str, Any]]):
     Parameters
     ----------
     data
-        What the JSON of a report holds.
+        The content of the JSON of a report.
 
     Examples
     --------
@@ -72,9 +72,9 @@ class WorkPrecision(Sequence[dict[str, Any]]):
     t_span: tuple[float, float]
     """[s]"""
     growth: float
-    """by how much the problem enlarges an error made on its way"""
+    """the factor by which the problem enlarges an error made on its way"""
     cold: str
-    """what 'cold_seconds' covers: 'plan and first run', of a ready scene also the system"""
+    """the work in 'cold_seconds': 'plan and first run', for a ready scene also the system"""
     reference: dict[str, Any]
     """'kind' ('exact', 'stored' or 'run'), 'provenance', and of a run the 'bound' of its own error
     and the 'event_bound' [s]
@@ -82,7 +82,7 @@ class WorkPrecision(Sequence[dict[str, Any]]):
     environment: dict[str, Any]
     """'cpu', 'cores', 'compiler', 'build', 'sundials', 'saltus'"""
     orders: dict[str, float]
-    """by method: the visible order p of error ~ steps^-p; nan where none is visible"""
+    """the visible order p of error ~ steps^-p by method; nan if none is visible"""
     rows: list[dict[str, Any]]
 
     def __init__(self, data: dict[str, Any]):
@@ -96,7 +96,7 @@ class WorkPrecision(Sequence[dict[str, Any]]):
 
     @classmethod
     def from_json(cls, source: str | PathLike[str]) -> WorkPrecision:
-        """What `to_json`, or an example's `--report --json`, wrote.
+        """Reads the text from `to_json`, or from `--report --json` of an example.
 
         Parameters
         ----------
@@ -164,8 +164,8 @@ class WorkPrecision(Sequence[dict[str, Any]]):
     def plot(self, path: str | PathLike[str] | None = None) -> Figure:
         """A log-log chart of error (across) against run time (up), a line for each method.
 
-        Beside it, where the scene has events, stands one of the error of event times. Failures
-        stand at the margin, with their reasons below. Needs matplotlib.
+        If the scene has events, a second chart beside it shows the error of event times. Failures
+        are at the margin, with their reasons below. Needs matplotlib.
 
         Parameters
         ----------

@@ -1,4 +1,4 @@
-"""What a run gives back."""
+"""The results of a run."""
 
 from saltus.results.events import Event, EventLog
 from saltus.results.outcome import Results

@@ -1,4 +1,4 @@
-"""Curves between jumps: what a picture of a signal consists of."""
+"""Curves between jumps: the parts of a picture of a signal."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ def _times_between(results: Results) -> np.ndarray:
 
 
 def _refined(results: Results) -> tuple[np.ndarray, np.ndarray, dict[str, np.ndarray]]:
-    """The rows, and what dense output says between them."""
+    """The rows, and the values of dense output between them."""
     time, more = results.time, _times_between(results)
     at = np.searchsorted(time, more)
     values = results(more)

@@ -37,7 +37,7 @@ class Event(NamedTuple):
     time: float
     """[s]"""
     jump: int
-    """how many passes had changed something when it was over: orders events of one time"""
+    """the number of passes with a change until it was over; it orders events of one time"""
     kind: str
     """'zero_crossing', 'time', 'zeno_enter', 'zeno_release' or 'terminal'"""
     direction: int
@@ -45,7 +45,7 @@ class Event(NamedTuple):
     block: str
     """path of the block it belongs to"""
     name: str
-    """as it was declared"""
+    """the declared name"""
     predicted: float
     """[s] when infinitely many resets would have happened, of 'zeno_enter'; else nan"""
     before: np.ndarray

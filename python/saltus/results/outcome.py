@@ -1,4 +1,4 @@
-"""`Results`: what a run gives back."""
+"""`Results`: the outcome of a run."""
 
 from __future__ import annotations
 
@@ -11,8 +11,11 @@ from numpy.typing import ArrayLike
 from saltus import _core
 from saltus.errors import Error, ModelError
 from saltus.results.events import EventLog
-from saltus.results.record import KeptRun, Record
+from saltus.results.record import KINDS, KeptRun, Record
+from saltus.results.saving import save
 from saltus.results.statistics import Statistics
+from saltus.results.tables import to_pandas, to_xarray
+from saltus.results.text import as_html, as_text
 from saltus.results.values import Values, values_at
 
 if TYPE_CHECKING:
@@ -32,7 +35,7 @@ class _Outputs(dict[str, np.ndarray]):
 
 
 class Results:
-    """What was recorded, the event log, the final values, and how the run ended.
+    """The recorded signals, the event log, the final values, and the way the run ended.
 
     The arrays show the memory of the run without a copy, and keep it as long as one of them lives.
     Results can be saved (`save`), pickled, and called for values between the rows.
@@ -62,13 +65,13 @@ class Results:
     'failed'
     """
     message: str
-    """why, where the status is none of the first three"""
+    """the reason for any status but the first three"""
     block: str
-    """path of the block at fault, where it was one"""
+    """path of the block at fault, if a single block is"""
     cause: BaseException | None
-    """what was raised, where the status is 'failed'"""
+    """the exception, if the status is 'failed'"""
     statistics: Statistics
-    """how many steps and calls it took"""
+    """the numbers of steps and calls"""
 
     def __init__(self, core: Record, raised: BaseException | None = None, asks: Any = None):
         self._core = core
@@ -157,8 +160,6 @@ class Results:
         >>> solution.to_pandas().shape
         (3, 1)
         """
-        from saltus.results.tables import to_pandas
-
         return to_pandas(self)
 
     def to_xarray(self) -> xarray.Dataset:
@@ -177,8 +178,6 @@ class Results:
         >>> dict(solution.to_xarray().sizes)
         {'time': 3, 'x_entry': 1}
         """
-        from saltus.results.tables import to_xarray
-
         return to_xarray(self)
 
     def plot(self, *names: str, ax: Any = None, **style: Any) -> Any:
@@ -236,23 +235,20 @@ class Results:
         >>> saltus.load_results(path).status
         'reached_end'
         """
-        from saltus.results.saving import save
-
         save(KeptRun.of(self._core), path, self._kind())
 
     def _kind(self) -> dict[str, Any]:
-        """What a file has to know beyond the run."""
+        """The entries of the file's header that say which class of results it holds."""
         return {"kind": "Results"}
 
     def __reduce__(self) -> tuple[Any, ...]:
         return Results, (KeptRun.of(self._core), self.cause)
 
     def __repr__(self) -> str:
-        from saltus.results.text import as_text
-
         return as_text(self)
 
     def _repr_html_(self) -> str:
-        from saltus.results.text import as_html
-
         return as_html(self)
+
+
+KINDS["Results"] = lambda run, header: Results(run)

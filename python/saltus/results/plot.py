@@ -22,7 +22,7 @@ Panels = list[tuple[str, list[Curve]]]
 
 
 def plot(results: Results, names: tuple[str, ...], ax: Any, style: dict[str, Any]) -> Any:
-    """What `Results.plot` does."""
+    """Draws the signals for `Results.plot`."""
     panels = _chosen(results, names)
     if ax is not None:
         curves = [curve for _, group in panels for curve in group]

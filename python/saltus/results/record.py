@@ -1,8 +1,8 @@
-"""What results are read from: the memory of a run, or what was kept of one."""
+"""The record under results: the memory of a run, or a copy of it."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any, Protocol
 
@@ -11,13 +11,13 @@ import numpy as np
 from saltus import _core
 from saltus.errors import ModelError
 
-__all__ = ["KeptRun", "Record"]
+__all__ = ["KINDS", "KeptRun", "Record"]
 
 Columns = dict[str, np.ndarray]
 
 
 class Record(Protocol):
-    """What `Results` needs to know of a run; `_core.Results` is one."""
+    """The data of a run that `Results` shows; `_core.Results` is a record."""
 
     @property
     def time(self) -> np.ndarray: ...
@@ -53,7 +53,7 @@ class Record(Protocol):
 
 @dataclass(frozen=True)
 class KeptRun:
-    """A run as plain data: what a file or another process hands over."""
+    """A run as plain data, from a file or from another process."""
 
     time: np.ndarray
     jump: np.ndarray
@@ -107,3 +107,7 @@ class KeptRun:
             "results that were loaded, or came from another process, keep no dense output; "
             "read it where the run was done"
         )
+
+
+KINDS: dict[str, Callable[[KeptRun, dict[str, Any]], Any]] = {}
+"""kind in the header of a file -> makes the results of that kind of a run and the header"""

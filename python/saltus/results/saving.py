@@ -14,7 +14,7 @@ import numpy as np
 
 from saltus import _core
 from saltus.errors import ModelError
-from saltus.results.record import KeptRun
+from saltus.results.record import KINDS, KeptRun
 
 if TYPE_CHECKING:
     from saltus.results.outcome import Results
@@ -53,7 +53,7 @@ def save(run: KeptRun, path: str | PathLike[str], kind: dict[str, Any]) -> None:
 
 
 def load_results(path: str | PathLike[str]) -> Results:
-    """Reads what `Results.save` wrote.
+    """Reads a file of `Results.save`.
 
     Parameters
     ----------
@@ -86,19 +86,14 @@ def load_results(path: str | PathLike[str]) -> Results:
     import json
     import zipfile
 
-    from saltus.results.outcome import Results
-    from saltus.solving.solution import Solution
-
     try:
         with open(fspath(path), "rb") as file, np.load(file, allow_pickle=False) as parts:
             arrays = {name: parts[name] for name in parts.files}
         header = json.loads(arrays["header"].tobytes())
         if header["format"] != FORMAT:
             raise ModelError(f"expected the format '{FORMAT}', found '{header['format']}'")
-        run = _kept(header, arrays)
-        return (
-            Results(run) if header["kind"] == "Results" else Solution(run, names=header["guards"])
-        )
+        results: Results = KINDS[header["kind"]](_kept(header, arrays), header)
+        return results
     except OSError:
         raise
     except (zipfile.BadZipFile, ModelError, EOFError, KeyError) as error:

@@ -1,4 +1,4 @@
-"""What a run counted."""
+"""The counts of a run."""
 
 from __future__ import annotations
 
@@ -28,10 +28,10 @@ class Statistics:
     rejected: int
     """steps that were tried and not accepted"""
     restarts: int
-    """how often the method had to begin anew"""
+    """the number of times the method had to begin anew"""
     right_hand_side_calls: int
     guard_calls: int
-    """of all guards at once"""
+    """calls of all guards at once"""
     jacobian_calls: int
     linear_setups: int
     linear_solver: str

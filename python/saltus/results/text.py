@@ -1,4 +1,4 @@
-"""What `print(results)` and a notebook show."""
+"""Results as text, for `print(results)` and for a notebook."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ def _method(results: Results) -> str:
 
 
 def _facts(results: Results) -> list[tuple[str, str]]:
-    """What stands on each line, after the status."""
+    """The content of each line after the status."""
     s = results.statistics
     signals = ", ".join(f"{name} {array.shape}" for name, array in results.outputs.items())
     rests = [e for e in results.events if e.kind == "zeno_enter"] if s.events else []

@@ -1,4 +1,4 @@
-"""What dense output says at given times."""
+"""The values of dense output at given times."""
 
 from __future__ import annotations
 

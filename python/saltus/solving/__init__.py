@@ -1,1 +1,1 @@
-"""The short door: `saltus.solve`, its guards and what it returns."""
+"""The short way to a run: `saltus.solve`, its guards and its solution."""

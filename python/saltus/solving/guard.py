@@ -10,7 +10,7 @@ from typing import Any
 from numpy.typing import ArrayLike
 
 from saltus._core import known_names
-from saltus.declarations import SHORT
+from saltus._declarations import SHORT
 from saltus.errors import ModelError
 
 __all__ = ["Guard", "guards_of"]
@@ -39,18 +39,18 @@ class Guard:
         Falling: from above zero to it. The engine's own names ('positive_then_non_positive', ...)
         and numbers with SciPy's signs are understood too.
     name : str, optional
-        In the event log and in messages; if not said that of the function, or 'event_0', ...
+        Its name in the event log and in messages; by default the function's, or 'event_0', ...
     terminal : bool or int
         Whether it ends the run, after its reset; n: when it happens the n-th time.
     max_count : int
         The same n, for ``terminal=True``.
     zeno_tolerance : float, optional
-        [s] that of the options, for this guard; 0 switches the monitor off.
+        [s] Overrides the option for this guard; 0 switches the monitor off.
     on_zeno : {'hold', 'stop', 'error'}
-        What becomes of the state where events accumulate; see
+        The state after the time where events accumulate; see
         `LeafSystem.declare_zero_crossing`.
     at_start : {'auto', 'ignore', 'fire', 'error'}
-        What a guard at zero at the beginning means; see the same.
+        The effect of a guard that is zero at the beginning; see the same.
 
     Raises
     ------

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from saltus.results import Results
-from saltus.results.record import KeptRun, Record
+from saltus.results.record import KINDS, KeptRun, Record
 from saltus.system import System
 
 __all__ = ["Solution"]
@@ -46,7 +46,7 @@ class Solution(Results):
     nfev, njev, nlu : int
         Calls of `f` and `jacobian`, and factorisations.
     system : LeafSystem
-        What was run; `saltus.simulate` runs it too. None after loading from a file.
+        The system of the run; `saltus.simulate` runs it too. None after loading from a file.
 
     Examples
     --------
@@ -135,3 +135,6 @@ class Solution(Results):
 
     def __reduce__(self) -> tuple[Any, ...]:
         return Solution, (KeptRun.of(self._core), self.cause, None, self._names)
+
+
+KINDS["Solution"] = lambda run, header: Solution(run, names=header["guards"])

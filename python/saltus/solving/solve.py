@@ -1,4 +1,4 @@
-"""`solve`: the short door, shaped like `scipy.integrate.solve_ivp`."""
+"""`solve`: the short way to a run, with the arguments of `scipy.integrate.solve_ivp`."""
 
 from __future__ import annotations
 
@@ -9,13 +9,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from saltus._core import Context
+from saltus._porting import OPTIONS, refuse
+from saltus._span import span_of
 from saltus.errors import ModelError
-from saltus.porting import OPTIONS, refuse
+from saltus.results.record import Record
 from saltus.simulation import Simulator, SimulatorOptions
 from saltus.solving.guard import Guard, guards_of
 from saltus.solving.solution import Solution
 from saltus.solving.solved_system import SolvedSystem, arguments_of, state_of, times_of
-from saltus.span import span_of
 
 __all__ = ["solve"]
 
@@ -90,7 +92,7 @@ def solve(
     t_eval : array_like, optional
         [s] increasing times; then there are rows at these only, at an event that after it.
     dense_output : bool
-        Keep what the solver interpolates: then ``solution(t)`` and ``solution.sol(t)`` work.
+        Keep the interpolants of the solver: then ``solution(t)`` and ``solution.sol(t)`` work.
     max_step : float
         [s] longest step of the solver.
     jacobian : callable or array_like, optional
@@ -112,9 +114,9 @@ def solve(
     ModelError
         For bad input: wrong shapes, unknown options (with the nearest name), times that decrease.
     SimulationError
-        Where the run ends badly, with what was computed in its attribute `results`.
+        If the run ends badly; its attribute `results` has the run until then.
     KeyboardInterrupt
-        After Ctrl-C, with what was computed in its attribute `results`.
+        After Ctrl-C; its attribute `results` has the run until then.
 
     Examples
     --------
@@ -154,7 +156,7 @@ def solve(
 
 
 def _refuse(method: object, options: Mapping[str, Any]) -> None:
-    """Names there are not, with the nearest or with what to do instead."""
+    """Raises ModelError for an unknown name, with the nearest name or with advice."""
     known = [field.name for field in fields(SimulatorOptions) if field.name not in HINTS]
     refuse("solve", options, [*OWN, *known], HINTS)
     if isinstance(method, str) and method in METHODS:
@@ -168,9 +170,23 @@ def _run(
     settings: Mapping[str, Any],
     names: Sequence[str] | None,
 ) -> Solution:
-    simulator = Simulator(system, recorded_signals={"x": system.output("x")}, **settings)
-    simulator._outcome = lambda core, raised, asks: Solution(core, raised, asks, names, system)
-    simulator.initialize(system.create_context(begin))
-    solution = simulator._advance(end, take=True)
-    assert isinstance(solution, Solution)
-    return solution
+    simulator = _SolveSimulator(system, names, settings)
+    return simulator.solution(system.create_context(begin), end)
+
+
+class _SolveSimulator(Simulator):
+    """A simulator whose runs end in a `Solution`."""
+
+    def __init__(
+        self, system: SolvedSystem, names: Sequence[str] | None, settings: Mapping[str, Any]
+    ):
+        super().__init__(system, recorded_signals={"x": system.output("x")}, **settings)
+        self._names = names
+
+    def _outcome(self, core: Record, raised: BaseException | None, asks: Any) -> Solution:
+        return Solution(core, raised, asks, self._names, self.system)
+
+    def solution(self, context: Context, end: float) -> Solution:
+        solution = self._run(context, end)
+        assert isinstance(solution, Solution)
+        return solution

@@ -10,10 +10,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from saltus._core import numbers
+from saltus._wrapped import wrapping
 from saltus.errors import ModelError
 from saltus.leaf_system import LeafSystem
 from saltus.solving.guard import Guard
-from saltus.wrapped import wrapping
 
 __all__ = ["SolvedSystem", "arguments_of", "state_of", "times_of"]
 
@@ -106,7 +106,7 @@ def _takes_out(f: Function, extra: int) -> bool:
 
 
 def _checked(flow: Function, f: Function, begin: float, x0: np.ndarray) -> Function:
-    """Calls it once, so that a wrong shape is told in terms of f and not of the engine."""
+    """Calls f once, so that the message about a wrong shape speaks of f and not of the engine."""
 
     class Start:
         continuous_state = x0.copy()
@@ -155,7 +155,7 @@ def state_of(x0: ArrayLike) -> np.ndarray:
 
 
 def arguments_of(args: Any) -> tuple[Any, ...]:
-    """As a tuple; a forgotten comma, args=(k), is told."""
+    """The arguments as a tuple. A forgotten comma, args=(k), is an error with advice."""
     try:
         return tuple(args)
     except TypeError:

@@ -4,8 +4,8 @@
 Jacobian, and smooth guards where a result is a comparison. See the README beside this file.
 """
 
+from saltus.tracing.sandbox import Watch
 from saltus.tracing.signature import Refused, Relations, Signature, Traced
 from saltus.tracing.tracing import trace
-from saltus.tracing.watch import Watch
 
 __all__ = ["Refused", "Relations", "Signature", "Traced", "Watch", "trace"]

@@ -9,11 +9,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from saltus.tracing.array import SymbolArray, as_array
+from saltus.tracing.numbers import Symbol, SymbolArray, as_array
 from saltus.tracing.refusal import refuse
 from saltus.tracing.signature import Shape, Signature
 from saltus.tracing.state import PlainState, TracedState
-from saltus.tracing.symbol import Symbol
+
+__all__ = ["Point", "Result", "Symbols", "call", "plain_arguments", "plain_numbers", "result_of"]
 
 Numbers = NDArray[np.float64]
 
@@ -127,7 +128,7 @@ def plain_arguments(signature: Signature, at: Point) -> tuple[list[Any], dict[st
 
 @dataclass
 class Result:
-    """What a call gave: its numbers, flat, known or symbolic."""
+    """The result of a call: its numbers, flat, known or symbolic."""
 
     numbers: list[Any]
     shape: Shape
@@ -154,7 +155,7 @@ def call(
 
 
 def result_of(signature: Signature, returned: Any) -> Result:
-    """The numbers of what a symbolic call returned."""
+    """The numbers in the result of a symbolic call."""
     if signature.kind in ("reset", "update"):
         if isinstance(returned, TracedState):
             return _written(returned)
@@ -177,7 +178,7 @@ def _written(state: TracedState) -> Result:
 
 
 def plain_numbers(signature: Signature, returned: Any) -> tuple[Numbers, str]:
-    """The numbers of what the function itself returned, and what it wrote."""
+    """The numbers in the result of the function itself, and the written parts of the state."""
     if signature.kind in ("reset", "update") and isinstance(returned, TracedState):
         letters = "".join(letter for letter in "xzm" if letter in returned.written)
         parts = {"x": returned.continuous_state, "z": returned.discrete_state, "m": returned.mode}

@@ -16,6 +16,8 @@ from saltus.tracing.refusal import Refusal
 from saltus.tracing.rounding import ULPS, Bounds
 from saltus.tracing.signature import Shape, Signature
 
+__all__ = ["Check"]
+
 Numbers = NDArray[np.float64]
 
 SCALES = (0.0, 1e-3, 0.03, 0.3, 1.0, 1.0, 1.0, 3.0, 10.0, 100.0, 1e-6, 1e4)
@@ -59,7 +61,7 @@ def points(signature: Signature, reads_mode: bool) -> list[Point]:
 
 
 def _called(signature: Signature, function: Callable[..., Any], at: Point) -> Any:
-    """What the function itself gives, or None where it raises."""
+    """The result of the function itself, or None if it raises."""
     arguments, options = plain_arguments(signature, at)
     try:
         returned = call(signature, function, arguments, options, _unwritten)

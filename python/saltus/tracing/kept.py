@@ -1,7 +1,8 @@
 """Traces that are kept, with the function they were made from.
 
-They refer to what the function reads, which may refer to the function. So they are kept in an
-attribute of it, where the garbage collector sees that: they go when the function goes.
+A trace refers to the values that the function reads, and these may refer to the function. So an
+attribute of the function keeps it, where the garbage collector sees the circle: the traces are
+freed with the function.
 """
 
 from __future__ import annotations
@@ -12,11 +13,11 @@ from typing import Any
 
 import numpy as np
 
+from saltus._wrapped import OWNER
 from saltus.tracing.check import Check
 from saltus.tracing.refusal import Refusal
+from saltus.tracing.sandbox import same
 from saltus.tracing.signature import Refused, Signature, Traced
-from saltus.tracing.watch import same
-from saltus.wrapped import OWNER
 
 __all__ = ["Kept", "find", "keep"]
 
@@ -26,19 +27,19 @@ MOST = 8  # ways to call one function that are remembered
 
 @dataclass(frozen=True)
 class Kept:
-    """One trace, and what it takes to use it again."""
+    """One trace, and the conditions under which it can be used again."""
 
     function: FunctionType
-    """that was traced"""
+    """the traced function"""
     start: tuple[bytes, ...]
     """the values around which tape and function were compared"""
     outcome: Traced | Refused
     check: Check | None
-    """compares them around others; none where there is no tape"""
+    """compares them around other values; None without a tape"""
 
 
 class Traces(dict[Any, Kept]):
-    """By the way the function is called. A copy of the function is another one and has none."""
+    """The traces of a function by the way it is called. A copy of the function has none."""
 
     def __reduce__(self) -> tuple[Any, ...]:
         return Traces, ()
@@ -73,7 +74,7 @@ def keep(signature: Signature, outcome: Traced | Refused, check: Check | None) -
 
 
 def _traces(signature: Signature) -> dict[Any, Kept]:
-    """Those of a function; a new dictionary for what cannot keep any.
+    """The traces of a function; a new dictionary for a function that cannot keep any.
 
     A method cannot: its class would keep its objects alive.
     """
@@ -86,7 +87,7 @@ def _traces(signature: Signature) -> dict[Any, Kept]:
 
 
 def _call(signature: Signature) -> tuple[Any, ...]:
-    """All there is to say of a call but the function and the values it starts with."""
+    """The properties of a call, except the function and the values it starts with."""
     s = signature
     code = getattr(s.function, "__code__", None)
     parameters = tuple((name, np.shape(value)) for name, value in s.parameters.items())

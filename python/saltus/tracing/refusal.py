@@ -1,4 +1,4 @@
-"""How tracing gives up: one sentence with the place in the user's source and what to do."""
+"""Refusals: tracing ends with one sentence, the place in the user's source and a remedy."""
 
 from __future__ import annotations
 
@@ -7,6 +7,8 @@ import os
 import sys
 from types import FrameType, TracebackType
 from typing import NoReturn
+
+__all__ = ["MARK", "Refusal", "raised_at", "refuse"]
 
 MARK = "__saltus_traced__"
 """a global that only the copies of the user's functions have"""

@@ -6,6 +6,8 @@ from typing import Any
 
 from saltus.tracing.signature import Relations
 
+__all__ = ["find", "single"]
+
 SIDES = {"gt": (True, False), "ge": (True, True), "lt": (False, False), "le": (False, True)}
 """comparison a ? b -> (whether it is true where a - b is positive, true where it is zero)"""
 LOGIC = {"logical_and", "logical_or", "logical_not", "select", "eq", "ne"}

@@ -13,7 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from saltus.tracing.arguments import Point
-from saltus.tracing.scalars import NUMPY
+from saltus.tracing.numbers import NUMPY
+
+__all__ = ["ULPS", "Bounds"]
 
 Numbers = NDArray[np.float64]
 
@@ -42,7 +44,7 @@ def operation(name: str, *operands: Any) -> Numbers:
 def _new_error(name: str, value: Numbers, operands: Sequence[Numbers]) -> Any:
     if name in EXACT:
         return 0.0
-    if name in ("add", "sub"):  # of the operands: a sum may be taken in another order
+    if name in ("add", "sub"):  # relative to the operands: a sum may be taken in another order
         return ULPS * (np.abs(operands[0]) + np.abs(operands[1]))
     return ULPS * np.abs(value)
 

@@ -1,4 +1,4 @@
-"""What `trace` is told of a function, and what it answers."""
+"""The question to `trace` about a function, and its answers."""
 
 from __future__ import annotations
 
@@ -9,7 +9,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from saltus.tracing.watch import Watch
+from saltus.tracing.sandbox import Watch
+
+__all__ = ["Refused", "Relations", "Shape", "Signature", "Traced"]
 
 Shape = tuple[int, ...]
 
@@ -35,9 +37,9 @@ class Signature:
     """continuous state it starts with, zeros if not said; points of the check lie around it"""
     z: ArrayLike | None = None
     parameters: Mapping[str, ArrayLike] = field(default_factory=dict)
-    """by name, in the order the engine stores them"""
+    """the parameters by name, in the order of the engine"""
     input_shapes: Sequence[Shape] = ()
-    """of every input of the block: () comes as a float, (n,) as an array"""
+    """the shape of every input of the block: () comes as a float, (n,) as an array"""
     inputs: Sequence[int] | None = None
     """positions of the inputs the function gets; all if not said"""
     kind: str = "vector"
@@ -45,9 +47,9 @@ class Signature:
     out: bool = False
     """the function takes an array by the keyword `out`, fills it and returns nothing"""
     out_shape: Shape | None = None
-    """of that array; (result_size,) if not said"""
+    """the shape of that array; (result_size,) if not said"""
     result_size: int | None = None
-    """how many numbers it returns, where that is known"""
+    """the number of returned numbers, if it is known"""
     modes: Sequence[int] = (0, 1, 2, 3)
     """modes the check tries where the function reads the mode"""
 
@@ -62,7 +64,7 @@ class Signature:
         return np.concatenate(values) if values else np.empty(0)
 
     def filled_shape(self) -> Shape:
-        """Of the array `out`."""
+        """The shape of the array `out`."""
         if self.out_shape is not None:
             return self.out_shape
         if self.result_size is None:
@@ -101,19 +103,19 @@ class Traced:
     written
     """
     shape: Shape
-    """of what the function returns"""
+    """the shape of the result"""
     boolean: bool
     comparison: tuple[Any, bool] | None
     """(tape of the difference, true_at_zero) where every entry of the result is one comparison, as
     in `Relations`, entry for entry
     """
     relations: Relations | None
-    """where the result is made of comparisons by and, or, not, ==, != and np.where alone"""
+    """the relations of a result made of comparisons by and, or, not, ==, != and np.where alone"""
     wrote_x: bool
     wrote_z: bool
     wrote_mode: bool
     watch: Watch
-    """`watch.changed()` says what the tape was made from and is different now"""
+    """`watch.changed()` names a source of the tape that has changed"""
     compared: int = 0
     """points at which tape and function were compared"""
 
@@ -123,6 +125,6 @@ class Refused:
     """A function that has to be called."""
 
     reason: str
-    """one sentence: what was met, where, and what to do"""
+    """one sentence: the obstacle, its place, and a remedy"""
     watch: Watch = field(default_factory=Watch)
-    """what was read until then: if it changes, another try may go well"""
+    """the values read until then: if one changes, another try may succeed"""

@@ -8,13 +8,14 @@ from typing import Any
 
 import numpy as np
 
-from saltus.tracing.array import SymbolArray, as_array
+from saltus.tracing.numbers import Symbol, SymbolArray, as_array
 from saltus.tracing.refusal import refuse
-from saltus.tracing.symbol import Symbol
+
+__all__ = ["PlainState", "TracedState"]
 
 
 class TracedState:
-    """Has what `saltus.State` has. Each `with_*` returns a new one that knows what was written."""
+    """Has the members of `saltus.State`. Each `with_*` returns a new state that notes the write."""
 
     continuous_state: Any
     discrete_state: Any
@@ -43,6 +44,11 @@ class TracedState:
         for name in TracedState.__slots__:
             object.__setattr__(other, name, getattr(self, name))
         return other
+
+    @property
+    def relations(self) -> Any:
+        """No tape can read these: their truths are held by the engine."""
+        refuse("reads state.relations", "a callback that reads a relation is called")
 
     def with_continuous_state(self, continuous_state: Any) -> TracedState:
         value = self._filled(continuous_state, self.continuous_state, "continuous state")

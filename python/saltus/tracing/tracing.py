@@ -11,17 +11,18 @@ import numpy as np
 from saltus import _core
 from saltus.tracing import kept, relations
 from saltus.tracing.arguments import Result, Symbols, call, result_of
-from saltus.tracing.array import array
 from saltus.tracing.check import Check
+from saltus.tracing.numbers import Symbol, array
 from saltus.tracing.refusal import Refusal, raised_at
 from saltus.tracing.rounding import Bounds
 from saltus.tracing.sandbox import Sandbox
 from saltus.tracing.signature import Refused, Signature, Traced
-from saltus.tracing.symbol import Symbol
+
+__all__ = ["trace"]
 
 
 def trace(signature: Signature) -> Traced | Refused:
-    """Call a function once with symbols and make a tape of what it computes.
+    """Call a function once with symbols and make a tape of its operations.
 
     The function is not called itself before a copy of it, which cannot write to anything outside,
     has shown that it has no effects. Then tape and function are compared at a dozen points.
@@ -34,9 +35,9 @@ def trace(signature: Signature) -> Traced | Refused:
     Returns
     -------
     Traced or Refused
-        a tape that gives what the function gives, to a few roundings; or one sentence that says
-        what cannot be traced, where, and what to do. What the function raises when called with
-        symbols is such a reason, too: it will be raised again when the function is called.
+        a tape that gives the values of the function, to a few roundings; or one sentence that
+        names the obstacle, its place and a remedy. An exception of the function, called with
+        symbols, is such a reason too: it will be raised again when the function is called.
 
     Notes
     -----

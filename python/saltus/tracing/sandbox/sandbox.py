@@ -20,14 +20,16 @@ from typing import Any
 
 import numpy as np
 
-from saltus.tracing.array import SymbolArray
-from saltus.tracing.code import names_in, refuse_code
-from saltus.tracing.faces import BUILTINS, face_of
-from saltus.tracing.foreign import Foreign
-from saltus.tracing.frozen import FrozenDict, FrozenList, FrozenTuple
-from saltus.tracing.guarded import Guarded
+from saltus.tracing.numbers import SymbolArray
 from saltus.tracing.refusal import MARK, refuse
-from saltus.tracing.watch import LARGEST, MISSING, PLAIN, AttributeOf, Watch, entries
+from saltus.tracing.sandbox.code import names_in, refuse_code
+from saltus.tracing.sandbox.faces import BUILTINS, face_of
+from saltus.tracing.sandbox.foreign import Foreign
+from saltus.tracing.sandbox.frozen import FrozenDict, FrozenList, FrozenTuple
+from saltus.tracing.sandbox.guarded import Guarded
+from saltus.tracing.sandbox.watch import LARGEST, MISSING, PLAIN, AttributeOf, Watch, entries
+
+__all__ = ["Sandbox"]
 
 FOREIGN = set(
     """
@@ -36,7 +38,9 @@ FOREIGN = set(
     """.split()
 )
 INNER = {"_lru_cache_wrapper": "__wrapped__", "CPUDispatcher": "py_func"}
-"""what keeps a Python function to call it quicker: functools' caches, numba's jit"""
+"""type of an object that wraps a Python function, functools' caches and numba's jit -> the name of
+the function in it
+"""
 
 OUTSIDE = set("datetime io logging os random secrets socket subprocess sys time warnings".split())
 
@@ -76,7 +80,7 @@ class Sandbox:
         self._frozen_ones: list[tuple[str, Any, Any]] = []
 
     def form_of(self, value: Any, words: str) -> Any:
-        """What stands for a value from outside while tracing; `words` says where it was read."""
+        """The form of a value from outside while tracing; `words` says where it was read."""
         if isinstance(value, PLAIN):
             return value
         if id(value) not in self._copies:
@@ -138,7 +142,9 @@ class Sandbox:
         return self._object(value, words)
 
     def _frozen(self, made: Any, items: Any, words: str) -> Any:
-        """A container, to be compared with what it began with: list.append(it, 1) gets through."""
+        """The container. `refuse_writes` compares it with its first items, for its methods cannot
+        refuse list.append(it, 1).
+        """
         self._frozen_ones.append((words, made, items))
         return made
 

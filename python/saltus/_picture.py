@@ -11,6 +11,7 @@ import subprocess
 from collections.abc import Mapping
 
 from saltus import _core
+from saltus._engine import ports_of
 from saltus.errors import ModelError
 from saltus.system import OutputPort, System
 
@@ -36,11 +37,12 @@ def to_mermaid(system: System, what: str, signals: Recorded, max_depth: int | No
 
 
 def in_svg(system: System) -> str | None:
-    """Drawn by `dot`; None where there is none, or where it takes too long."""
+    """The picture that `dot` draws; None if `dot` is missing or takes too long."""
     return _drawn(system.to_dot(), shutil.which("dot"))
 
 
-@functools.lru_cache(maxsize=4)  # a notebook asks twice: for the picture, and for what is instead
+# A notebook asks twice: for the picture, and for the text in its place.
+@functools.lru_cache(maxsize=4)
 def _drawn(text: str, dot: str | None) -> str | None:
     if dot is None:
         return None
@@ -59,7 +61,7 @@ def _drawn(text: str, dot: str | None) -> str | None:
 
 
 def in_markdown(system: System) -> str | None:
-    """Where there is no picture by `dot`: a fence of Mermaid, which JupyterLab draws."""
+    """A fence of Mermaid, which JupyterLab draws; None if `dot` draws the picture."""
     if in_svg(system) is not None:
         return None
     text = system.to_mermaid()
@@ -69,8 +71,6 @@ def in_markdown(system: System) -> str | None:
 def _ports(signals: Recorded) -> list[tuple[str, System, int]] | None:
     if signals is None:
         return None
-    from saltus.options import ports_of
-
     return ports_of(signals)
 
 

@@ -1,4 +1,4 @@
-"""What the code of a function tells before it is run."""
+"""The names and the obstacles in the code of a function, read before the function runs."""
 
 from __future__ import annotations
 
@@ -10,6 +10,8 @@ from functools import lru_cache
 from types import CodeType
 
 from saltus.tracing.refusal import Refusal
+
+__all__ = ["names_in", "refuse_code"]
 
 SINCE_311 = "PUSH_EXC_INFO" in dis.opmap
 HANDLERS = {"PUSH_EXC_INFO"} if SINCE_311 else {"SETUP_FINALLY"}

@@ -5,16 +5,16 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any, NoReturn
 
-from saltus.tracing.array import array
-from saltus.tracing.operators import apply
+from saltus.tracing.numbers import Symbol, apply, array
 from saltus.tracing.refusal import refuse
-from saltus.tracing.symbol import Symbol
+
+__all__ = ["FrozenDict", "FrozenList", "FrozenTuple"]
 
 OUTSIDE = "what changes something outside is called"
 
 
 class FrozenList(list[Any]):
-    """Reads as the list it stands for; whatever would change it is refused."""
+    """A copy of a list from outside; every method that would change it refuses."""
 
     def __init__(self, items: Iterable[Any] = (), words: str = "it"):
         super().__init__(items)
@@ -40,7 +40,7 @@ class FrozenTuple(tuple[Any, ...]):
 
 
 class FrozenDict(dict[Any, Any]):
-    """Reads as the dictionary it stands for; a mode may choose among its values."""
+    """A copy of a dictionary from outside; a mode may choose among its values."""
 
     def __init__(self, items: Any = (), words: str = "it"):
         super().__init__(items)

@@ -6,6 +6,8 @@ import inspect
 from collections.abc import Callable
 from typing import Any
 
+__all__ = ["fills_out"]
+
 
 def fills_out(function: Callable[..., Any]) -> bool:
     """Whether `function` has an argument called `out` that has to be given.

@@ -7,11 +7,14 @@ from typing import Any
 
 import numpy as np
 
-from saltus.tracing.array import Objects, SymbolArray, as_array, wrapped
-from saltus.tracing.operators import apply
+from saltus.tracing.numbers.arrays import Objects, as_array, wrapped
+from saltus.tracing.numbers.entrywise import apply
+from saltus.tracing.numbers.reductions import REDUCTIONS
+from saltus.tracing.numbers.scalars import SCALARS
+from saltus.tracing.numbers.symbol import Symbol
 from saltus.tracing.refusal import refuse
-from saltus.tracing.scalars import SCALARS
-from saltus.tracing.symbol import Symbol
+
+__all__ = ["dot", "inner", "matmul", "matrix_power", "multi_dot", "norm", "outer", "vdot"]
 
 
 def _is_zero(value: Any) -> bool:
@@ -19,7 +22,7 @@ def _is_zero(value: Any) -> bool:
 
 
 def _sum_of_products(a: Objects, b: Objects) -> Any:
-    """Sum a_i b_i. What is zero in a constant matrix is left out: the Jacobian keeps its sparsity.
+    """Sum a_i b_i. A zero of a constant matrix is left out: the Jacobian keeps its sparsity.
 
     For finite values that changes at most the sign of a zero.
     """
@@ -87,8 +90,6 @@ def matrix_power(a: Any, n: int) -> Any:
 
 def norm(x: Any, ord: Any = None, axis: Any = None, keepdims: bool = False) -> Any:
     """The Euclidean (Frobenius) norm, and the 1- and infinity-norm of vectors."""
-    from saltus.tracing.reductions import REDUCTIONS
-
     x = as_array(x)
     if ord in (1, np.inf) and (x.ndim == 1 or axis is not None):
         total = REDUCTIONS["sum" if ord == 1 else "max"]
@@ -96,15 +97,3 @@ def norm(x: Any, ord: Any = None, axis: Any = None, keepdims: bool = False) -> A
     if ord not in (None, 2, "fro") or (ord == 2 and x.ndim > 1 and axis is None):
         refuse(f"calls np.linalg.norm with ord={ord!r}", "write it out")
     return apply("sqrt", REDUCTIONS["sum"](apply("mul", x, x), axis, keepdims=keepdims))
-
-
-def _matmul(self: Any, other: Any) -> Any:
-    return matmul(self, other)
-
-
-def _rmatmul(self: Any, other: Any) -> Any:
-    return matmul(other, self)
-
-
-for _method, _function in {"__matmul__": _matmul, "__rmatmul__": _rmatmul, "dot": dot}.items():
-    setattr(SymbolArray, _method, _function)

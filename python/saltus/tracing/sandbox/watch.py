@@ -1,4 +1,4 @@
-"""`Watch`: what a function read from outside while it was traced, and whether it has changed."""
+"""`Watch`: the values that a traced function read from outside, and whether they have changed."""
 
 from __future__ import annotations
 
@@ -11,10 +11,12 @@ from typing import Any
 
 import numpy as np
 
+__all__ = ["LARGEST", "MISSING", "PLAIN", "AttributeOf", "Watch", "entries", "same"]
+
 MISSING: Any = type("Missing", (), {"__repr__": lambda self: "not there"})()
 
 GONE = object()
-"""in place of what an object has that is no more: nobody can change it"""
+"""the value of an attribute of an object that no longer exists: it cannot change"""
 
 PLAIN = (bool, int, float, str, bytes, complex, type(None), np.generic)
 """values that never change"""
@@ -25,7 +27,7 @@ Get = Callable[[Any, Any], Any]
 
 
 def content(value: Any) -> Any:
-    """What of a value can change while it stays the same object, as something to compare."""
+    """The parts of a value that can change while it remains the same object, to be compared."""
     if isinstance(value, np.ndarray):
         return (value.shape, value.dtype.str, value.tobytes())
     if isinstance(value, (list, tuple)):
@@ -49,7 +51,7 @@ def _changes(value: Any) -> bool:
 
 
 def same(a: Any, b: Any) -> bool:
-    """Whether one value stands for another: equal numbers and texts of one type, or one object."""
+    """Whether two values are the same object, or equal numbers or texts of one type."""
     if type(a) is not type(b):
         return False
     if isinstance(a, (float, np.floating)):
@@ -115,7 +117,7 @@ class Watch:
             self.add(words, mapping.get, key, value)
 
     def changed(self) -> str | None:
-        """What changed since, in words, or None.
+        """The first change since the trace was made, in words, or None.
 
         Returns
         -------
@@ -135,5 +137,5 @@ class Watch:
         return None
 
     def merge(self, other: Watch) -> None:
-        """Watch what another one does, too."""
+        """Watch the values of another `Watch` too."""
         self._reads += other._reads

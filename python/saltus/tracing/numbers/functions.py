@@ -1,6 +1,6 @@
-"""numpy's functions on symbols: which of them run on arrays of objects as they are, which are ours.
+"""numpy's functions on symbols: some run on arrays of objects unchanged, others are written here.
 
-What is called with known numbers only is computed by numpy itself.
+A function that is called with known numbers only is computed by numpy itself.
 """
 
 from __future__ import annotations
@@ -10,8 +10,8 @@ from typing import Any
 
 import numpy as np
 
-from saltus.tracing import choices, products, solving
-from saltus.tracing.array import (
+from saltus.tracing.numbers import choices, products, solving
+from saltus.tracing.numbers.arrays import (
     SymbolArray,
     array,
     as_array,
@@ -22,11 +22,14 @@ from saltus.tracing.array import (
     objects_of,
     wrapped,
 )
-from saltus.tracing.operators import apply, call_ufunc
-from saltus.tracing.reductions import REDUCTIONS
+from saltus.tracing.numbers.entrywise import apply
+from saltus.tracing.numbers.reductions import REDUCTIONS
+from saltus.tracing.numbers.scalars import is_number
+from saltus.tracing.numbers.symbol import Symbol, joint
+from saltus.tracing.numbers.ufuncs import call_ufunc
 from saltus.tracing.refusal import refuse
-from saltus.tracing.scalars import is_number
-from saltus.tracing.symbol import Symbol, joint
+
+__all__ = ["call_function", "has_symbols", "owned", "plain"]
 
 ARRANGING = """
     append argwhere array_split atleast_1d atleast_2d atleast_3d block broadcast_arrays broadcast_to
@@ -42,7 +45,7 @@ EFFECTS = """
     putmask save savetxt savez savez_compressed set_printoptions seterr seterrcall setbufsize
     show_config show_runtime
 """.split()
-"""what changes an argument or the world"""
+"""numpy's functions that change an argument or have other effects"""
 
 
 def has_symbols(value: Any) -> bool:
@@ -65,7 +68,7 @@ def plain(value: Any) -> Any:
 
 
 def _boxed(value: Any, kind: str, outermost: bool = True) -> Any:
-    """The same with arrays of objects; `kind` is that of all of them together."""
+    """The value with arrays of objects; `kind` is the kind of all of them together."""
     if isinstance(value, SymbolArray):
         return (value if value.kind == kind else array(value, kind)).data
     if isinstance(value, (list, tuple)):
@@ -83,7 +86,7 @@ def _arrays_in(value: Any) -> list[SymbolArray]:
 
 
 def _returned(result: Any, source: list[SymbolArray]) -> Any:
-    """What numpy's function on objects gave; a view of one array stays a view."""
+    """The result of numpy's function on objects as an array of symbols; a view remains a view."""
     if isinstance(result, (list, tuple)):
         return [_returned(item, source) for item in result]
     if isinstance(result, np.ndarray) and result.dtype != object:
@@ -105,7 +108,7 @@ def _arrange(function: Callable[..., Any], args: Any, options: Any) -> Any:
 
 
 def call_function(function: Callable[..., Any], args: Any, options: Any) -> Any:
-    """What numpy's function called with these arguments, symbols among them or not, gives."""
+    """The result of numpy's function for these arguments, with symbols among them or without."""
     name = function.__name__
     if name in EFFECTS:
         refuse(f"calls np.{name}, which changes something", "such a function is called")
@@ -224,13 +227,4 @@ FUNCTIONS: dict[str, Callable[..., Any]] = {
     "astype": _method("astype"),
     **choices.CHOICES,
 }
-"""by numpy's name"""
-
-
-def _round_method(self: Any, decimals: int = 0) -> Any:
-    return choices.round_(self, decimals)
-
-
-for _class in (SymbolArray, Symbol):
-    for _name, _function in {"round": _round_method, "clip": choices.clip}.items():
-        setattr(_class, _name, _function)
+"""numpy's name of a function -> its form for symbols"""

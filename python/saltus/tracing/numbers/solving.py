@@ -6,9 +6,11 @@ from typing import Any
 
 import numpy as np
 
-from saltus.tracing.array import Objects, as_array, wrapped
+from saltus.tracing.numbers.arrays import Objects, as_array, wrapped
+from saltus.tracing.numbers.scalars import SCALARS, select
 from saltus.tracing.refusal import refuse
-from saltus.tracing.scalars import SCALARS, select
+
+__all__ = ["det", "inv", "solve"]
 
 LARGEST = 6  # rows; the work grows as the cube
 

@@ -7,10 +7,12 @@ from typing import Any
 
 import numpy as np
 
-from saltus.tracing.array import Objects, SymbolArray, as_array, wrapped
-from saltus.tracing.operators import apply
+from saltus.tracing.numbers.arrays import Objects, SymbolArray, as_array, wrapped
+from saltus.tracing.numbers.entrywise import apply
+from saltus.tracing.numbers.scalars import SCALARS, cast
 from saltus.tracing.refusal import refuse
-from saltus.tracing.scalars import SCALARS, cast
+
+__all__ = ["REDUCTIONS", "fold"]
 
 EMPTY = {"add": 0.0, "mul": 1.0, "logical_and": True, "logical_or": False}
 
@@ -159,7 +161,3 @@ REDUCTIONS: dict[str, Callable[..., Any]] = {
     "average": average,
     "gradient": gradient,
 }
-
-for _name, _function in REDUCTIONS.items():
-    if _name not in ("ptp", "average", "gradient"):
-        setattr(SymbolArray, _name, _function)

@@ -1,4 +1,4 @@
-"""Functions that choose: np.where, np.select, np.clip, np.interp and what tests numbers.
+"""Functions that choose, np.where, np.select, np.clip, np.interp, and functions that test numbers.
 
 Each computes all its branches and keeps one. In a derivative that is a kink which no guard
 locates, as when the function is called: the error control of the solver meets it.
@@ -12,12 +12,14 @@ from typing import Any
 
 import numpy as np
 
-from saltus.tracing.array import SymbolArray, as_array
-from saltus.tracing.operators import apply
-from saltus.tracing.reductions import fold
+from saltus.tracing.numbers.arrays import SymbolArray, as_array
+from saltus.tracing.numbers.entrywise import apply
+from saltus.tracing.numbers.reductions import fold
+from saltus.tracing.numbers.scalars import as_real
+from saltus.tracing.numbers.symbol import joint
 from saltus.tracing.refusal import refuse
-from saltus.tracing.scalars import as_real
-from saltus.tracing.symbol import joint
+
+__all__ = ["CHOICES", "clip", "round_"]
 
 LARGEST_TABLE = 64  # points of np.interp; every one of them is computed at every evaluation
 
@@ -120,7 +122,7 @@ def count_nonzero(a: Any, axis: Any = None) -> Any:
 
 
 def piecewise(x: Any, conditions: Any, functions: Any, *args: Any, **options: Any) -> Any:
-    """The function of the last condition that is true, else the one more, else 0."""
+    """The function of the last true condition. If none is true: the extra function, or 0."""
     x = as_array(x)
     if not isinstance(conditions, (list, tuple)):
         conditions = [conditions]
@@ -136,7 +138,7 @@ def piecewise(x: Any, conditions: Any, functions: Any, *args: Any, **options: An
 
 
 def is_in(element: Any, test_elements: Any, **options: Any) -> Any:
-    """Whether it equals one of those."""
+    """Whether the element equals one of the tested ones."""
     if options:
         refuse("calls np.isin with options", "leave them out")
     tests = [apply("eq", element, test) for test in as_array(test_elements).ravel()]
@@ -158,4 +160,4 @@ CHOICES: dict[str, Callable[..., Any]] = {
     "nan_to_num": nan_to_num,
     "count_nonzero": count_nonzero,
 }
-"""by numpy's name"""
+"""numpy's name of a function -> its form for symbols"""

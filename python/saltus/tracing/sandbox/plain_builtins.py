@@ -9,11 +9,11 @@ from typing import Any
 
 import numpy as np
 
-from saltus.tracing.array import SymbolArray
-from saltus.tracing.guarded import Guarded, parent, unguarded
+from saltus.tracing.numbers import SCALARS, Symbol, SymbolArray, is_number, kind_of, truth, whole
 from saltus.tracing.refusal import refuse
-from saltus.tracing.scalars import SCALARS, is_number, truth, whole
-from saltus.tracing.symbol import Symbol, kind_of
+from saltus.tracing.sandbox.guarded import Guarded, parent, unguarded
+
+__all__ = ["REPLACED", "SAFE"]
 
 SAFE = set(
     """
@@ -54,7 +54,7 @@ def _extreme(name: str, better: str) -> Callable[..., Any]:
 
 
 class _Converted(type):
-    """Makes `isinstance(x, float)` true of the symbols that stand for a float."""
+    """Makes `isinstance(x, float)` true for a symbol of kind float."""
 
     kinds: str
     real: type
@@ -85,7 +85,7 @@ class Float(metaclass=_Converted):
     """float"""
 
     real = float
-    dtype = np.dtype(float)  # numpy takes what has one for a type of entries
+    dtype = np.dtype(float)  # numpy uses the dtype of any object that has one
     convert = staticmethod(_to_float)
 
 
@@ -93,7 +93,7 @@ class Int(metaclass=_Converted):
     """int"""
 
     real = int
-    dtype = np.dtype(int)  # numpy takes what has one for a type of entries
+    dtype = np.dtype(int)  # numpy uses the dtype of any object that has one
     convert = staticmethod(_to_int)
 
 
@@ -101,7 +101,7 @@ class Bool(metaclass=_Converted):
     """bool"""
 
     real = bool
-    dtype = np.dtype(bool)  # numpy takes what has one for a type of entries
+    dtype = np.dtype(bool)  # numpy uses the dtype of any object that has one
     convert = staticmethod(_to_bool)
 
 
@@ -113,7 +113,7 @@ def _types_of(symbol: Symbol) -> type:
 
 
 def is_instance(value: Any, kinds: Any) -> bool:
-    """isinstance, of a symbol by what it stands for."""
+    """isinstance; the type of a symbol is the type of the number in its place."""
     if isinstance(kinds, tuple):
         return any(is_instance(value, kind) for kind in kinds)
     kind = _real_class(kinds)
@@ -125,7 +125,7 @@ def is_instance(value: Any, kinds: Any) -> bool:
 
 
 def _real_class(kind: Any) -> Any:
-    """The class that a face stands for."""
+    """The class whose face this is."""
     if type(kind) is _Converted:
         return kind.real
     return getattr(kind, "type", unguarded(kind)) if type(kind) is not Guarded else unguarded(kind)
@@ -146,7 +146,7 @@ def _pow(base: Any, exponent: Any, modulus: Any = None) -> Any:
 
 
 def _super(*arguments: Any) -> Any:
-    """super(): the same object, looked up after the class the method stands in."""
+    """super(): the same object, with attributes from the classes after that of the method."""
     if not arguments:
         frame = sys._getframe(1)
         arguments = frame.f_locals["__class__"], frame.f_locals[frame.f_code.co_varnames[0]]

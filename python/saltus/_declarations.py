@@ -1,4 +1,4 @@
-"""What the arguments of the declarations of a block stand for."""
+"""The arguments of the declarations of a block in the form of the engine."""
 
 from __future__ import annotations
 
@@ -12,6 +12,18 @@ from numpy.typing import ArrayLike
 from saltus.compiled import as_compiled
 from saltus.errors import ModelError
 
+__all__ = [
+    "EVERYTHING",
+    "SHORT",
+    "RequiresInputs",
+    "callback_of",
+    "direction_of",
+    "initial_of",
+    "inputs_of",
+    "places_of",
+    "shape_of",
+]
+
 RequiresInputs = bool | Iterable[int]
 EVERYTHING = ("time", "continuous_state", "discrete_state", "mode", "inputs")
 SHORT = {
@@ -23,12 +35,12 @@ SHORT = {
 
 
 def callback_of(function: Any) -> Any:
-    """The compiled function behind a pointer; anything else as it is."""
+    """The compiled function of a pointer; any other value unchanged."""
     return as_compiled(function) or function
 
 
 def direction_of(direction: Any) -> Any:
-    """The name of the engine for a direction in one word; anything else as it is."""
+    """The name in the engine of a direction in one word; any other value unchanged."""
     return SHORT.get(str(direction), direction)
 
 

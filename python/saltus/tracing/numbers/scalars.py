@@ -12,8 +12,21 @@ from typing import Any
 
 import numpy as np
 
+from saltus.tracing.numbers.symbol import ORDER, Symbol, joint, kind_of
 from saltus.tracing.refusal import refuse
-from saltus.tracing.symbol import ORDER, Symbol, joint, kind_of
+
+__all__ = [
+    "NUMPY",
+    "ORDER",
+    "PYTHON",
+    "SCALARS",
+    "as_real",
+    "cast",
+    "is_number",
+    "select",
+    "truth",
+    "whole",
+]
 
 Scalar = Any  # a Symbol or a number
 Function = Callable[..., Scalar]
@@ -246,6 +259,3 @@ def cast(value: Scalar, kind: str) -> Scalar:
             value = whole("trunc", value)
         return value.numpy(kind)
     return {"b": np.bool_, "i": np.int64, "f": np.float64}[kind](value)
-
-
-__all__ = ["NUMPY", "ORDER", "PYTHON", "SCALARS", "as_real", "cast", "is_number", "select", "truth"]

@@ -4,19 +4,26 @@ from __future__ import annotations
 
 import functools
 from types import FunctionType
-from typing import TYPE_CHECKING, Any
+from typing import Any, Protocol
 
 from saltus.tracing.refusal import refuse
-from saltus.tracing.watch import MISSING, AttributeOf
+from saltus.tracing.sandbox.watch import MISSING, AttributeOf, Watch
 
-if TYPE_CHECKING:
-    from saltus.tracing.sandbox import Sandbox
+__all__ = ["Guarded", "parent", "unguarded"]
 
 OUTSIDE = "what changes something outside is called; keep it in the state"
 
 
-def _sandbox(guarded: Guarded) -> tuple[Sandbox, Any, str]:
-    parts: tuple[Sandbox, Any, str] = object.__getattribute__(guarded, "_parts")
+class Forms(Protocol):
+    """The part of a `Sandbox` that a guarded object needs."""
+
+    watch: Watch
+
+    def form_of(self, value: Any, words: str) -> Any: ...
+
+
+def _sandbox(guarded: Guarded) -> tuple[Forms, Any, str]:
+    parts: tuple[Forms, Any, str] = object.__getattribute__(guarded, "_parts")
     return parts
 
 
@@ -37,7 +44,7 @@ class Guarded:
 
     __slots__ = ("_after", "_parts")
 
-    def __init__(self, sandbox: Sandbox, value: Any, words: str):
+    def __init__(self, sandbox: Forms, value: Any, words: str):
         object.__setattr__(self, "_parts", (sandbox, value, words))
         object.__setattr__(self, "_after", None)
 
@@ -123,7 +130,7 @@ def _in_class(value: Any, name: str, after: type | None) -> tuple[type, Any] | N
     return None
 
 
-def _watch_class(sandbox: Sandbox, owner: type, name: str, where: str) -> None:
+def _watch_class(sandbox: Forms, owner: type, name: str, where: str) -> None:
     """Watch the class that has the attribute, and those before it that might get it."""
     for base in owner.__mro__:  # all of them: super() may have passed over some
         if base is not object:
@@ -140,7 +147,7 @@ def _is_data_descriptor(entry: Any) -> bool:
 
 
 def _described(guarded: Guarded, entry: Any, name: str, where: str) -> Any:
-    """What an entry of the class gives for this object."""
+    """The value of an entry of the class, read through this object."""
     sandbox, value, _ = _sandbox(guarded)
     if object.__getattribute__(guarded, "_after") is not None:
         guarded = Guarded(*_sandbox(guarded))  # methods get the whole object
@@ -162,7 +169,7 @@ def _described(guarded: Guarded, entry: Any, name: str, where: str) -> Any:
     return sandbox.form_of(entry, where)
 
 
-def _of_class(sandbox: Sandbox, owner: type, name: str, where: str) -> Any:
+def _of_class(sandbox: Forms, owner: type, name: str, where: str) -> Any:
     """A constant of a class, a member of an enumeration, a static method."""
     value = getattr(owner, name)
     _watch_class(sandbox, owner, name, where)

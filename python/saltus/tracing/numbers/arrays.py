@@ -11,9 +11,23 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from saltus.tracing.numbers.scalars import cast, is_number
+from saltus.tracing.numbers.symbol import Symbol, joint, kind_of
 from saltus.tracing.refusal import refuse
-from saltus.tracing.scalars import cast, is_number
-from saltus.tracing.symbol import Symbol, joint, kind_of
+
+__all__ = [
+    "LARGEST_TABLE",
+    "Objects",
+    "SymbolArray",
+    "array",
+    "as_array",
+    "index_of",
+    "is_known",
+    "kind_of_type",
+    "known",
+    "objects_of",
+    "wrapped",
+]
 
 Objects = NDArray[np.object_]
 
@@ -24,7 +38,7 @@ WHOLE: dict[str, str] = {"b": "b", "i": "i", "u": "i", "f": "f"}
 
 
 def kind_of_type(dtype: Any) -> str:
-    """'b', 'i' or 'f' of what numpy calls a dtype."""
+    """The kind of a dtype: 'b', 'i' or 'f'."""
     found = np.dtype(dtype)
     kind = WHOLE.get(found.kind)
     if kind is None or (kind == "f" and found.itemsize < 8):
@@ -33,7 +47,7 @@ def kind_of_type(dtype: Any) -> str:
 
 
 def objects_of(value: Any) -> Objects:
-    """The entries of whatever numpy would take for an array, lists of symbols too."""
+    """The entries of any value that numpy accepts as an array, lists of symbols too."""
     if isinstance(value, SymbolArray):
         return value.data
     if isinstance(value, np.ndarray):
@@ -62,7 +76,7 @@ def _stacked(parts: list[Objects]) -> Objects:
 
 
 def _entry(item: Any) -> Any:
-    """An entry out of the array of no dimension that numpy may have left it in."""
+    """The entry in an array of no dimension, which numpy may have put it in."""
     return item[()] if isinstance(item, np.ndarray) and not item.ndim else item
 
 
@@ -88,7 +102,7 @@ def as_array(value: Any) -> SymbolArray:
 
 
 def wrapped(data: Any, kind: str = "") -> Any:
-    """What numpy's functions on objects returned: a number if it is one, else an array."""
+    """The result of a numpy function on objects, as a number or an array."""
     if isinstance(data, np.ndarray) and data.ndim:
         return SymbolArray(data, kind) if kind else array(data)
     item = data[()] if isinstance(data, np.ndarray) else data
@@ -109,7 +123,7 @@ def known(value: SymbolArray, what: str) -> NDArray[Any]:
 
 
 def index_of(key: Any) -> Any:
-    """An index as numpy takes it, of what may hold arrays of known integers."""
+    """The index for numpy; arrays of known integers in it become arrays of numpy."""
     if isinstance(key, tuple):
         return tuple(index_of(part) for part in key)
     if isinstance(key, SymbolArray):
@@ -120,7 +134,7 @@ def index_of(key: Any) -> Any:
 
 
 class SymbolArray:
-    """What `state.continuous_state`, np.array(...) and np.zeros(...) are in a traced function.
+    """The arrays of a traced function: `state.continuous_state`, np.array(...), np.zeros(...).
 
     `frozen` names an array from outside the function, which must not be written to.
     """
@@ -128,6 +142,9 @@ class SymbolArray:
     __array_priority__ = 1001.0
     __hash__ = None  # type: ignore[assignment]
     __slots__ = ("data", "frozen", "kind")
+
+    _looked_up: Any  # these two are in operators.py
+    _set_where: Any
 
     def __init__(self, data: Objects, kind: str, frozen: str = ""):
         self.data = data
@@ -177,29 +194,12 @@ class SymbolArray:
         part = self.data[index_of(key)]
         return self._view(part) if isinstance(part, np.ndarray) else cast(part, self.kind)
 
-    def _looked_up(self, key: Symbol) -> Any:
-        """Entry (or row) `key`, an integer that is not known, such as the mode.
-
-        NaN beyond the ends, where numpy raises.
-        """
-        from saltus.tracing.operators import apply
-
-        n = len(self.data)
-        if key.kind != "i" or n > LARGEST_TABLE:
-            key.__index__()  # refuses
-        result: Any = np.nan
-        for i in range(n):
-            here = apply("logical_or", apply("eq", key, i), apply("eq", key, i - n))
-            result = apply("select", here, self[i], result)
-        if isinstance(result, SymbolArray):
-            return SymbolArray(result.data, self.kind)
-        return result.numpy(self.kind)
-
     def __setitem__(self, key: Any, value: Any) -> None:
         if self.frozen:
             refuse(f"writes to {self.frozen}", "what changes something outside is called; copy it")
         if isinstance(key, SymbolArray) and key.kind == "b" and not is_known(key.data):
-            return self._set_where(key, value)
+            self._set_where(key, value)
+            return
         place = index_of(key)
         source = objects_of(value)
         cells = np.empty(source.shape, dtype=object)
@@ -210,15 +210,6 @@ class SymbolArray:
                 raise ValueError("setting an array element with a sequence.")
             cells = cells.reshape(())
         self.data[place] = cells if cells.ndim else cells[()]
-
-    def _set_where(self, mask: SymbolArray, value: Any) -> None:
-        """x[mask] = number, for a mask that is not known."""
-        from saltus.tracing.operators import apply
-
-        if mask.shape != self.shape or objects_of(value).size != 1:
-            refuse("sets several entries chosen by a value", "use np.where")
-        number = cast(as_array(value)._one(), self.kind)
-        self[...] = apply("select", mask, number, self)
 
     def _one(self) -> Any:
         if self.size != 1:

@@ -1,4 +1,4 @@
-"""What a traced function sees in place of the module math."""
+"""The module math as a traced function sees it."""
 
 from __future__ import annotations
 
@@ -8,12 +8,19 @@ import operator
 from collections.abc import Callable
 from typing import Any
 
-from saltus.tracing.array import SymbolArray
-from saltus.tracing.functions import has_symbols, plain
-from saltus.tracing.operators import apply
+from saltus.tracing.numbers import (
+    SCALARS,
+    Symbol,
+    SymbolArray,
+    apply,
+    has_symbols,
+    is_number,
+    kind_of,
+    plain,
+)
 from saltus.tracing.refusal import refuse
-from saltus.tracing.scalars import SCALARS, is_number
-from saltus.tracing.symbol import Symbol, kind_of
+
+__all__ = ["MATH_FACE", "math_function"]
 
 MATH = {
     "acos": "acos", "acosh": "acosh", "asin": "asin", "asinh": "asinh", "atan": "atan",
@@ -23,11 +30,11 @@ MATH = {
     "log10": "log10", "log1p": "log1p", "log2": "log2", "pow": "pow", "radians": "deg2rad",
     "sin": "sin", "sinh": "sinh", "sqrt": "sqrt", "tan": "tan", "tanh": "tanh",
 }  # fmt: skip
-"""function of math -> what it is called in SCALARS"""
+"""function of math -> its name in SCALARS"""
 
 
 def _one(value: Any) -> Any:
-    """What math takes for a number: an array of one, too."""
+    """The number in an array of one entry, as math accepts it; any other value unchanged."""
     return value._one() if isinstance(value, SymbolArray) else value
 
 

@@ -1,4 +1,4 @@
-"""`Foreign`: what a traced function may mention, but not use."""
+"""`Foreign`: an object that a traced function may mention, but not use."""
 
 from __future__ import annotations
 
@@ -6,9 +6,11 @@ from typing import Any, NoReturn
 
 from saltus.tracing.refusal import refuse
 
+__all__ = ["Foreign"]
+
 
 class Foreign:
-    """An object of another library, or one that changes the world; refused when it is used."""
+    """An object of another library, or a function with effects. Any use of it is refused."""
 
     __slots__ = ("_hint", "_words")
 

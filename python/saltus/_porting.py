@@ -1,6 +1,4 @@
-"""Names that are refused: unknown ones with the nearest, those of similar tools with what to do
-instead.
-"""
+"""Refused names: an unknown one is answered with the nearest, one of a similar tool with advice."""
 
 from __future__ import annotations
 
@@ -12,6 +10,8 @@ from typing import Any, ParamSpec, TypeVar
 
 from saltus._core import known_names
 from saltus.errors import ModelError
+
+__all__ = ["OPTIONS", "refuse", "refusing"]
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -60,8 +60,8 @@ def refuse(
 
 
 def refusing(method: Callable[P, R]) -> Callable[P, R]:
-    """A method of which unknown keywords, and arguments of the wrong kind, are refused like that,
-    not with a TypeError.
+    """The method; it answers an unknown keyword or an argument of a wrong kind by a ModelError, not
+    by a TypeError.
     """
     code = method.__code__
     known = code.co_varnames[1 : code.co_argcount + code.co_kwonlyargcount]
@@ -88,7 +88,7 @@ WRONG_KIND = re.compile(r"incompatible (function|constructor) arguments")  # the
 
 
 def _wrong_kind(method: Callable[..., Any], arguments: Any, options: Any) -> str:
-    """What was expected, from the annotations, and what was found."""
+    """The expected annotations and the found values, as text."""
     signature = inspect.signature(method)
     given = dict(list(signature.bind(*arguments, **options).arguments.items())[1:])  # not self
     expected = ", ".join(f"{name}: {signature.parameters[name].annotation}" for name in given)

@@ -8,22 +8,18 @@ import numpy as np
 
 from saltus.tracing.refusal import refuse
 
-ORDER = "bif"  # truth, integer, real: what two of them give together is the later one
+__all__ = ["ORDER", "Symbol", "joint", "kind_of"]
+
+ORDER = "bif"  # truth, integer, real: an operation on two kinds gives the later one
 LARGEST = 100_000  # nodes; a longer tape gains nothing over numpy
 
 VARIABLES = {"time", "continuous_state", "discrete_state", "entry", "parameter", "input"}
 
-METHODS = set(
-    """
-    all any astype copy dot flatten max mean min prod ravel reshape squeeze std sum tolist
-    transpose var
-    """.split()
-)
 BRANCH = "use np.where, np.minimum, `&` and `|`, or modes with zero crossings"
 
 
 def kind_of(value: Any) -> str:
-    """'b', 'i' or 'f' for a truth, an integer, a real number; '' for what is none of them."""
+    """'b', 'i' or 'f' for a truth, an integer, a real number; '' for any other value."""
     if type(value) is Symbol:
         return value.kind
     if isinstance(value, (bool, np.bool_)):
@@ -122,7 +118,7 @@ class Symbol:
     def __repr__(self) -> str:
         return f"<symbol {self.node}>"
 
-    # what numpy's numbers have
+    # the attributes of numpy's numbers
     shape: tuple[int, ...] = ()
     ndim = 0
     size = 1
@@ -135,22 +131,9 @@ class Symbol:
     def T(self) -> Symbol:
         return self
 
+    # the other methods of numpy's numbers are in operators.py
     def item(self) -> Symbol:
         return Symbol(self.graph, self.node, self.kind, True)
 
     def conjugate(self) -> Symbol:
         return self
-
-    def __getattr__(self, name: str) -> Any:
-        """What numpy's numbers can do as arrays of one can; Python's cannot."""
-        if self.python or name not in METHODS:
-            kind = {"f": "float", "i": "int", "b": "bool"}[self.kind]
-            raise AttributeError(f"'{kind}' object has no attribute '{name}'")
-        from saltus.tracing.array import as_array
-
-        return getattr(as_array(self), name)
-
-    def is_integer(self) -> Any:
-        from saltus.tracing.scalars import SCALARS
-
-        return SCALARS["eq"](self, SCALARS["floor"](self))

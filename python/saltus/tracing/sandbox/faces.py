@@ -1,4 +1,4 @@
-"""What a traced function sees in place of numpy, math and the builtins."""
+"""The faces of numpy, math and the builtins, which a traced function sees."""
 
 from __future__ import annotations
 
@@ -14,13 +14,23 @@ from typing import Any
 
 import numpy as np
 
-from saltus.tracing import functions as numpy_functions
-from saltus.tracing.array import SymbolArray, array, kind_of_type
-from saltus.tracing.foreign import Foreign
-from saltus.tracing.math_face import MATH_FACE, math_function
-from saltus.tracing.operators import call_ufunc, reduce_ufunc
-from saltus.tracing.plain_builtins import REPLACED, SAFE
+from saltus.tracing.numbers import (
+    SymbolArray,
+    array,
+    call_function,
+    call_ufunc,
+    has_symbols,
+    kind_of_type,
+    owned,
+    plain,
+    reduce_ufunc,
+)
 from saltus.tracing.refusal import refuse
+from saltus.tracing.sandbox.foreign import Foreign
+from saltus.tracing.sandbox.math_face import MATH_FACE, math_function
+from saltus.tracing.sandbox.plain_builtins import REPLACED, SAFE
+
+__all__ = ["BUILTINS", "face_of"]
 
 SAFE_MODULES = {"operator", "itertools", "_operator"}
 
@@ -33,10 +43,10 @@ class Ufunc:
         self.__name__ = ufunc.__name__
 
     def __call__(self, *arguments: Any, **options: Any) -> Any:
-        if options or numpy_functions.has_symbols(arguments):
+        if options or has_symbols(arguments):
             return call_ufunc(self._ufunc, *arguments, **options)
-        result = self._ufunc(*numpy_functions.plain(arguments))
-        return numpy_functions.owned(result)
+        result = self._ufunc(*plain(arguments))
+        return owned(result)
 
     def _method(self, method: str) -> Callable[..., Any]:
         return lambda *a, **options: reduce_ufunc(self._ufunc, method, *a, **options)
@@ -53,18 +63,18 @@ class NumpyType:
     def __init__(self, kind: type):
         self.type = kind
         if not kind.__subclasses__():  # not an abstract one, such as np.floating
-            self.dtype = np.dtype(kind)  # numpy takes what has a dtype for one
+            self.dtype = np.dtype(kind)  # numpy uses the dtype of any object that has one
         self.__name__ = kind.__name__
 
     def __call__(self, value: Any = 0) -> Any:
-        if not numpy_functions.has_symbols(value):
-            return self.type(numpy_functions.plain(value))
+        if not has_symbols(value):
+            return self.type(plain(value))
         return array(value, kind_of_type(self.type))[()]
 
 
 def _function(function: Callable[..., Any]) -> Callable[..., Any]:
     def call(*arguments: Any, **options: Any) -> Any:
-        return numpy_functions.call_function(function, arguments, options)
+        return call_function(function, arguments, options)
 
     return functools.update_wrapper(call, function, ("__name__", "__doc__"), ())
 

@@ -1,0 +1,206 @@
+// The fields of a context as data: one list for writing and reading, for JSON and for Python.
+//
+// A `Tree` is a form of such data. Its `Value` is a record (names and values), a list or a number:
+//   record(), list(), row(values...)  make an empty record, an empty list, a list of these values
+//   set(record, key, value), append(list, value)
+//   get<T>(record, key), entry<T>(row, index), items(record, key), has(record, key)
+//   is(value, text), shown(value)     whether it is this text; the value in a message
+// Each function of it throws its own exceptions for a missing key or a wrong type.
+#pragma once
+
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "saltus/model/context.hpp"
+
+namespace saltus::detail {
+
+inline constexpr const char* context_format = "saltus context 1";
+
+/// Writes each field that it is called with into a record.
+template <class Tree>
+struct FieldWriter {
+  typename Tree::Value data = Tree::record();
+
+  template <class T>
+  void field(const char* key, const T& value) {
+    Tree::set(data, key, value);
+  }
+
+  /// A list of items, each a row of its members.
+  template <class T, class... Member>
+  void rows(const char* key, const std::vector<T>& items, Member T::*... member) {
+    auto list = Tree::list();
+    for (const T& item : items) Tree::append(list, Tree::row(item.*member...));
+    Tree::set(data, key, list);
+  }
+
+  /// A list of items, each a record with the fields that `fields(writer, item)` names.
+  template <class T, class Fields>
+  void records(const char* key, std::vector<T>& items, const Fields& fields) {
+    auto list = Tree::list();
+    for (T& item : items) {
+      FieldWriter writer;
+      fields(writer, item);
+      Tree::append(list, writer.data);
+    }
+    Tree::set(data, key, list);
+  }
+};
+
+/// Reads each field that it is called with from a record.
+template <class Tree>
+struct FieldReader {
+  const typename Tree::Value& data;
+
+  template <class T>
+  void field(const char* key, T& value) {
+    value = Tree::template get<T>(data, key);
+  }
+
+  template <class T, class... Member>
+  void rows(const char* key, std::vector<T>& items, Member T::*... member) {
+    for (const auto& row : Tree::items(data, key)) {
+      T item{};
+      std::size_t i = 0;
+      ((item.*member = Tree::template entry<Member>(row, i++)), ...);
+      items.push_back(item);
+    }
+  }
+
+  template <class T, class Fields>
+  void records(const char* key, std::vector<T>& items, const Fields& fields) {
+    for (const auto& data_of_one : Tree::items(data, key)) {
+      FieldReader reader{data_of_one};
+      fields(reader, items.emplace_back());
+    }
+  }
+};
+
+template <class Archive>
+void fields_of(Archive& archive, Continuation& c) {
+  using Guard = Continuation::Guard;
+  archive.field("jump", c.jump);
+  archive.field("relations", c.relations);
+  archive.rows("guards", c.guards, &Guard::side, &Guard::from, &Guard::fresh, &Guard::resting,
+               &Guard::band, &Guard::base);
+  archive.records("firings", c.firings, [](auto& one, auto& firings) {
+    one.field("times", firings.times);
+    one.field("after", firings.after);
+    one.field("holding", firings.holding);
+  });
+  archive.field("edges", c.edges);
+  archive.field("counts", c.counts);
+}
+
+/// The values of one leaf.
+struct BlockData {
+  std::string block;  ///< its path
+  std::vector<double> continuous_state, discrete_state, parameters;
+  int mode = 0;
+};
+
+template <class Archive>
+void fields_of(Archive& archive, BlockData& data) {
+  archive.field("block", data.block);
+  archive.field("continuous_state", data.continuous_state);
+  archive.field("discrete_state", data.discrete_state);
+  archive.field("parameters", data.parameters);
+  archive.field("mode", data.mode);
+}
+
+template <class Tree, class T>
+typename Tree::Value written(T& value) {
+  FieldWriter<Tree> writer;
+  fields_of(writer, value);
+  return std::move(writer.data);
+}
+
+template <class Tree, class T>
+T read(const typename Tree::Value& data) {
+  T value;
+  FieldReader<Tree> reader{data};
+  fields_of(reader, value);
+  return value;
+}
+
+inline std::vector<double> numbers_of(const Eigen::Ref<const Eigen::VectorXd>& values) {
+  return {values.begin(), values.end()};
+}
+
+/// The values of a context, leaf by leaf, and what the run that ended with it knew.
+template <class Tree>
+typename Tree::Value data_of(const Context& context) {
+  const ContextValues v = context.values();
+  auto blocks = Tree::list();
+  for (std::size_t i = 0; i < v.modes.size(); ++i) {
+    const Layout::Leaf& leaf = context.layout().leaves[i];
+    BlockData block{.block = leaf.path,
+                    .continuous_state = numbers_of(v.continuous_state.segment(leaf.x, leaf.nx)),
+                    .discrete_state = numbers_of(v.discrete_state.segment(leaf.z, leaf.nz)),
+                    .parameters = numbers_of(v.parameters.segment(leaf.p, leaf.np)),
+                    .mode = v.modes[i]};
+    Tree::append(blocks, written<Tree>(block));
+  }
+  auto data = Tree::record();
+  Tree::set(data, "format", std::string(context_format));
+  Tree::set(data, "time", v.time);
+  Tree::set(data, "settled", v.settled);
+  Tree::set(data, "blocks", blocks);
+  if (v.continuation) {
+    Continuation continuation = *v.continuation;
+    Tree::set(data, "continuation", written<Tree>(continuation));
+  }
+  return data;
+}
+
+/// Copies numbers to their place among the values of all leaves.
+inline void fill(Eigen::Ref<Eigen::VectorXd> place, const std::vector<double>& numbers,
+                 const char* key, const std::string& path) {
+  if (static_cast<Index>(numbers.size()) != place.size()) {
+    throw ModelError(text("block '", path, "': expected ", place.size(), " numbers under '", key,
+                          "', found ", numbers.size()));
+  }
+  std::ranges::copy(numbers, place.begin());
+}
+
+inline void fill(ContextValues& v, const Layout::Leaf& leaf, const BlockData& data) {
+  if (data.block != leaf.path)
+    throw ModelError(text("expected block '", leaf.path, "', found '", data.block, "'"));
+  fill(v.continuous_state.segment(leaf.x, leaf.nx), data.continuous_state, "continuous_state",
+       leaf.path);
+  fill(v.discrete_state.segment(leaf.z, leaf.nz), data.discrete_state, "discrete_state", leaf.path);
+  fill(v.parameters.segment(leaf.p, leaf.np), data.parameters, "parameters", leaf.path);
+}
+
+/// The context with the layout of `blank` that data_of gave. Throws ModelError for data of another
+/// format and for a context of other blocks.
+template <class Tree>
+Context context_from(const Context& blank, const typename Tree::Value& data) {
+  const auto& leaves = blank.layout().leaves;
+  ContextValues v = blank.values();
+  const auto format = Tree::template get<typename Tree::Value>(data, "format");
+  if (!Tree::is(format, context_format))
+    throw ModelError(text("expected format '", context_format, "', found ", Tree::shown(format)));
+  const auto blocks = Tree::items(data, "blocks");
+  if (blocks.size() != leaves.size()) {
+    throw ModelError(text("the context is not one of this system: expected ", leaves.size(),
+                          " blocks, found ", blocks.size()));
+  }
+  v.time = Tree::template get<double>(data, "time");
+  v.settled = Tree::template get<bool>(data, "settled");
+  for (std::size_t i = 0; i < leaves.size(); ++i) {
+    const auto block = read<Tree, BlockData>(blocks[i]);
+    fill(v, leaves[i], block);
+    v.modes[i] = block.mode;
+  }
+  if (Tree::has(data, "continuation")) {
+    v.continuation = std::make_shared<const Continuation>(
+        read<Tree, Continuation>(Tree::template get<typename Tree::Value>(data, "continuation")));
+  }
+  return blank.with_values(v);
+}
+
+}  // namespace saltus::detail

@@ -1,0 +1,70 @@
+"""Contexts, options and recorded signals in the form that the engine takes."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import fields
+
+import numpy as np
+
+from saltus import _core
+from saltus.errors import ModelError
+from saltus.options import SimulatorOptions
+from saltus.system import OutputPort, System
+
+__all__ = ["PYTHON_ONLY", "core_context", "core_options", "ports_of"]
+
+PYTHON_ONLY = frozenset({"recorded_signals", "python", "throw", "progress"})
+"""options that the engine does not have, or not in this form"""
+WAYS = ("traced", "called")
+"""how a Python callback may be asked to run: the values of the option `python`"""
+
+_UNBOUNDED = {
+    "max_major_step_length": math.inf,
+    "min_minor_step_size": 0.0,
+    "max_minor_step_size": math.inf,
+}
+
+
+def ports_of(signals: Mapping[str, OutputPort] | None) -> list[tuple[str, System, int]]:
+    if not isinstance(signals, Mapping | None):
+        raise ModelError(f"recorded_signals: expected a dict of names and ports, found {signals!r}")
+    for name, port in (signals or {}).items():
+        if not isinstance(port, OutputPort):
+            raise ModelError(
+                f"recorded signal '{name}': expected a port, such as block.output_ports[0], "
+                f"found {port!r}"
+            )
+    return [(name, port.system, port.index) for name, port in (signals or {}).items()]
+
+
+def core_options(options: SimulatorOptions) -> _core.SimulatorOptions:
+    core = _core.SimulatorOptions()
+    for field in fields(options):
+        value = getattr(options, field.name)
+        if field.name in PYTHON_ONLY:
+            continue
+        try:
+            setattr(
+                core,
+                field.name,
+                _UNBOUNDED[field.name] if value is None and field.name in _UNBOUNDED else value,
+            )
+        except TypeError:
+            raise ModelError(
+                f"option {field.name}: expected {field.type}, found {value!r}"
+            ) from None
+    if not isinstance(options.throw, (bool, np.bool_)):
+        raise ModelError(f"option throw: expected bool, found {options.throw!r}")
+    if options.python not in WAYS:
+        found = f"'{options.python}'{_core.known_names(str(options.python), WAYS)}"
+        raise ModelError(f"option python: unknown {found}")
+    core.set_recorded_signals(ports_of(options.recorded_signals))
+    return core
+
+
+def core_context(context: object) -> _core.Context:
+    if not isinstance(context, _core.Context):
+        raise ModelError(f"expected a context, such as system.create_context(), found {context!r}")
+    return context

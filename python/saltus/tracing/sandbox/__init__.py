@@ -1,0 +1,10 @@
+"""Copies of the user's functions that read through faces, are watched, and cannot write outside.
+
+`Sandbox.form_of(function, words)` gives the copy. `Sandbox.watch` knows what the copy read:
+`Watch.changed()` says whether that has changed since.
+"""
+
+from saltus.tracing.sandbox.sandbox import Sandbox
+from saltus.tracing.sandbox.watch import Watch, same
+
+__all__ = ["Sandbox", "Watch", "same"]
