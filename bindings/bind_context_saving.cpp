@@ -136,7 +136,8 @@ std::shared_ptr<const Layout> layout_from(const py::tuple& data) {
                       .z = l[3].cast<Index>(),
                       .nz = l[4].cast<Index>(),
                       .p = l[5].cast<Index>(),
-                      .np = l[6].cast<Index>()};
+                      .np = l[6].cast<Index>(),
+                      .parameters = {}};
     for (const py::handle p : l[7]) {
       const auto parameter = p.cast<py::tuple>();
       leaf.parameters.push_back({parameter[0].cast<std::string>(), parameter[1].cast<Index>(),

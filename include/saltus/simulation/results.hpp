@@ -70,14 +70,7 @@ struct Results {
   Moment at(double t, Side side = Side::right) const;
 
   /// A recorded signal by name, rows by width; a ModelError lists the names there are.
-  Eigen::Map<const RecordedSignal::Matrix> output(std::string_view name) const {
-    std::vector<std::string> known;
-    for (const RecordedSignal& signal : signals) {
-      if (signal.name == name) return signal.matrix();
-      known.push_back(signal.name);
-    }
-    throw ModelError(text("nothing was recorded under '", name, "'", known_names(name, known)));
-  }
+  Eigen::Map<const RecordedSignal::Matrix> output(std::string_view name) const;
 };
 
 }  // namespace saltus
