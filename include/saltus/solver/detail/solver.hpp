@@ -8,8 +8,8 @@
 
 #include "saltus/plan/detail/machine.hpp"
 #include "saltus/solver/detail/linear_solver.hpp"
-#include "saltus/solver/statistics.hpp"
 #include "saltus/solver/detail/watch.hpp"
+#include "saltus/solver/statistics.hpp"
 
 namespace saltus {
 
