@@ -6,9 +6,8 @@
 
 namespace saltus {
 
-namespace {
+namespace detail {
 
-/// Levenshtein distance, for "did you mean".
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
@@ -22,7 +21,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row.back();
 }
 
-}  // namespace
+}  // namespace detail
 
 std::string quoted_list(const std::vector<std::string>& names) {
   std::string out;
@@ -35,8 +34,8 @@ std::string quoted_list(const std::vector<std::string>& names) {
 std::string known_names(std::string_view wrong, const std::vector<std::string>& names) {
   if (names.empty()) return "; there are none";
   const auto nearest = std::ranges::min_element(
-      names, {}, [&](const std::string& name) { return edit_distance(wrong, name); });
-  const bool close = edit_distance(wrong, *nearest) <= 1 + wrong.size() / 3;
+      names, {}, [&](const std::string& name) { return detail::edit_distance(wrong, name); });
+  const bool close = detail::edit_distance(wrong, *nearest) <= 1 + wrong.size() / 3;
   return text(close ? text("; did you mean '", *nearest, "'?") : std::string(";"),
               " Known: ", quoted_list(names));
 }

@@ -76,6 +76,9 @@ void append(std::string& out, Number piece) {
   out.append(buffer.data(), end);
 }
 
+/// Levenshtein distance, for "did you mean".
+std::size_t edit_distance(std::string_view a, std::string_view b);
+
 }  // namespace detail
 
 /// Concatenates its arguments; numbers in their shortest exact form. (g++ 12 has no <format>.)
