@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "saltus/model/detail/names.hpp"
 #include "saltus/model/diagram.hpp"
 
 namespace saltus::python {

@@ -2,12 +2,30 @@
 
 die() { echo "$*" >&2; exit 1; }
 
+show_progress() {  # LOG TEXT: the count of Ninja, CTest or pytest; a terminal shows it in place, other outputs get a line every 30 s
+  local seconds=0 period=30 count shown=
+  [ -t 1 ] && period=1
+  while sleep 1; do
+    ((++seconds % period == 0)) || continue
+    count=$(tail -c 4000 "$1" 2>/dev/null | grep -oE '^ *\[?[0-9]+/[0-9]+\]?|\[ *[0-9]+%\]' | tail -n 1 | tr -d '[ ]') || true
+    [ "$count" != "$shown" ] || continue
+    shown=$count
+    if [ -t 1 ]; then printf '\r  %s ... %s ' "$2" "$count"; else printf '\n    %s ' "$count"; fi
+  done
+}
+
 step() {  # NAME TEXT COMMAND...: one line on the screen, the rest in build/log/NAME.log
-  local log=build/log/$1.log text=$2 start=$SECONDS
+  local log=build/log/$1.log text=$2 start=$SECONDS status=0 progress
   shift 2
   mkdir -p build/log
   printf '  %s ... ' "$text"
-  if "$@" >"$log" 2>&1 </dev/null; then
+  : >"$log"
+  show_progress "$log" "$text" &
+  progress=$!
+  "$@" >"$log" 2>&1 </dev/null || status=$?
+  kill $progress
+  wait $progress 2>/dev/null || true
+  if [ $status = 0 ]; then
     echo "done ($((SECONDS - start)) s)"
   else
     echo "FAILED ($((SECONDS - start)) s), the end of $log:"
@@ -52,7 +70,7 @@ install_module() {  # EXTRA: the wheel if one was just made, else compiled in bu
     "$python" -m pip uninstall --yes saltus && "$python" -m pip install "$wheel[$1]"
     return
   done
-  "$python" -m pip install --no-build-isolation ".[$1]" \
+  "$python" -m pip install -v --no-build-isolation ".[$1]" \
     --config-settings=build-dir=build/python --config-settings=cmake.define.SALTUS_SUNDIALS_CACHE="$root/build/sundials"
 }
 
@@ -66,8 +84,7 @@ module() {  # EXTRA: the Python module with an extra of pyproject.toml, installe
   touch "$stamp"
 }
 
-configure_and_build() {  # PRESET [CMAKE OPTION...]
-  cmake --preset "$1" -DPython_EXECUTABLE="$python" "${@:2}" && cmake --build --preset "$1" --parallel "$jobs"
-}
+configure() { cmake --preset "$1" -DPython_EXECUTABLE="$python" "${@:2}"; }  # PRESET [CMAKE OPTION...]
+configure_and_build() { configure "$@" && cmake --build --preset "$1" --parallel "$jobs"; }
 
 build() { step "build-$1" "building build/$1" configure_and_build "$@"; }

@@ -17,7 +17,7 @@ build_wheel() {  # [CMAKE OPTION]: as a user's pip does, from the source distrib
   rm -rf build/wheel
   mkdir -p build/wheel
   "$python" -c 'import scikit_build_core.build as backend; backend.build_sdist("build/wheel")' \
-    && "$python" -m pip wheel --no-deps --wheel-dir build/wheel "${@/#/--config-settings=cmake.define.}" build/wheel/saltus-*.tar.gz \
+    && "$python" -m pip wheel -v --no-deps --wheel-dir build/wheel "${@/#/--config-settings=cmake.define.}" build/wheel/saltus-*.tar.gz \
     && [ "$(stat -c %s build/wheel/saltus-*.whl)" -lt 5000000 ]
 }
 
@@ -60,7 +60,7 @@ test_packaging() {
   check consumer-wheel "find_package, SUNDIALS inside" installed_consumer dev "${hide[@]}"
   check consumer-system "find_package, SUNDIALS of the system" installed_consumer system
   check consumer-checkout "add_subdirectory" consumer checkout add_subdirectory \
-    -DSALTUS_SUNDIALS=$sundials -DSALTUS_SUNDIALS_CACHE="$root/build/sundials" -DPython_EXECUTABLE="$python"
+    -DSALTUS_UNITY=ON -DSALTUS_SUNDIALS=$sundials -DSALTUS_SUNDIALS_CACHE="$root/build/sundials" -DPython_EXECUTABLE="$python"
 }
 
 other_python() {  # VERSION: the module and its tests for another Python; scipy and dask are not asked for

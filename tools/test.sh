@@ -54,6 +54,19 @@ pytest_tests() {  # NAME PYTEST-ARGUMENT...
   count_junit $status "$junit"
 }
 
+build_one_test() {  # NAME: its object, the library, and an executable of these
+  configure dev -DSALTUS_SUNDIALS=$sundials && cmake --build --preset dev --target "$1" --parallel "$jobs"
+}
+
+test_file() {  # tests/FOLDER/NAME.cpp
+  local status=0 name junit
+  name=$(basename "$1" .cpp) junit=$root/build/log/$name.xml
+  step "build-$name" "building $name" build_one_test "$name" || { count 0 1; return; }
+  step "$name" "running it" "build/dev/bin/$name" -r junit -o "$junit" || status=$?
+  count_junit $status "$junit"
+  [ $status = 0 ] || "build/dev/bin/$name" || true  # says on the screen what failed
+}
+
 test_cpp() { catch_tests dev -DSALTUS_SUNDIALS=$sundials; }
 test_system() { catch_tests system; }
 test_asan() { catch_tests asan; }
@@ -93,14 +106,14 @@ run_tests() {
   local part start before_passed before_failed
   (($#)) || set -- "${parts[@]}"
   for part; do
-    declare -F "test_$part" >/dev/null || die "No part '$part' of the tests. $(usage | grep PART)"
+    [[ $part == tests/*_test.cpp && -e $part ]] || declare -F "test_$part" >/dev/null || die "No part '$part' of the tests. $(usage | grep PART)"
   done
   need "${basics[@]}" "${for_tests[@]}"
   venv build "scikit-build-core>=0.10" "pybind11>=3"
   for part; do
     start=$SECONDS before_passed=$passed before_failed=$failed
     echo "$part"
-    "test_$part"
+    if [ -e "$part" ]; then test_file "$part"; else "test_$part"; fi
     echo "  $((passed - before_passed)) passed, $((failed - before_failed)) failed in $part ($((SECONDS - start)) s)"
     durations+=("$((SECONDS - start)) $part")
   done

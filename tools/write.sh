@@ -14,12 +14,12 @@ stubs() {
   step stubs "writing python/saltus/_core.pyi" "$python" tools/stubs.py
 }
 
-format() {
+format() {  # [--check]: which names the files that are not formatted, and says nothing else
   need python3-venv
   venv format clang-format==18.1.8 ruff==0.17.5
   local check=()
   [ "${1:-}" = --check ] && check=(--check)
   find include src bindings tests examples bench -name '*.[ch]pp' -print0 \
     | xargs -0 .venv/bin/clang-format ${check:+--dry-run --Werror} -i
-  .venv/bin/ruff format "${check[@]}" .
+  .venv/bin/ruff format --quiet "${check[@]}" .
 }

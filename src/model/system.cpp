@@ -1,12 +1,17 @@
-// The kind of a system, from the name of its class.
+// The parts that a leaf and a diagram share: ports by name, the default context, the kind.
 #include "saltus/model/system.hpp"
 
+#include <algorithm>
+#include <atomic>
 #include <cstdlib>
+#include <memory>
 #include <typeinfo>
 
 #if __has_include(<cxxabi.h>)
 #include <cxxabi.h>
 #endif
+
+#include "saltus/model/leaf_system.hpp"
 
 namespace saltus {
 
@@ -37,6 +42,69 @@ std::string System::kind() const {
     if (c == ':' && depth == 0) begin = i + 1, end = name.size();
   }
   return name.substr(begin, end - begin);
+}
+
+InputPort System::input(int index) const { return {this, checked(index, input_names(), "input")}; }
+
+InputPort System::input(std::string_view port) const {
+  return {this, find(port, input_names(), "input")};
+}
+
+OutputPort System::output(int index) const {
+  return {this, checked(index, output_names(), "output")};
+}
+
+OutputPort System::output(std::string_view port) const {
+  return {this, find(port, output_names(), "output")};
+}
+
+int System::checked(int index, const std::vector<std::string>& names, std::string_view kind) const {
+  if (index >= 0 && index < static_cast<int>(names.size())) return index;
+  throw ModelError(text("block '", name_, "' has no ", kind, " ", index, ": it has ", names.size(),
+                        names.empty() ? std::string() : text(" (", quoted_list(names), ")")));
+}
+
+int System::find(std::string_view port, const std::vector<std::string>& names,
+                 std::string_view kind) const {
+  const auto found = std::ranges::find(names, port);
+  if (found != names.end()) return static_cast<int>(found - names.begin());
+  throw ModelError(
+      text("block '", name_, "' has no ", kind, " '", port, "'", known_names(port, names)));
+}
+
+int System::next_id() {
+  static std::atomic<int> counter{0};
+  return ++counter;
+}
+
+Structure structure_of(const System& root) {
+  Structure structure;
+  root.collect(structure, "");
+  return structure;
+}
+
+Context System::create_context(double t) const {
+  const Structure structure = structure_of(*this);
+  auto layout = std::make_shared<Layout>();
+  layout->systems = structure.systems;
+  Index nx = 0, nz = 0, np = 0;
+  for (const auto& [leaf, path] : structure.leaves) {
+    const Declarations& d = leaf->declarations();
+    layout->leaves.push_back({path, nx, d.continuous.initial.size(), nz, d.discrete.size(), np,
+                              d.parameter_values.size(), d.parameters});
+    nx += d.continuous.initial.size(), nz += d.discrete.size(), np += d.parameter_values.size();
+  }
+  Context context(layout);
+  context.x_.resize(nx), context.z_.resize(nz), context.p_.resize(np);
+  for (std::size_t i = 0; i < structure.leaves.size(); ++i) {
+    const Declarations& d = structure.leaves[i].system->declarations();
+    const Layout::Leaf& where = layout->leaves[i];
+    context.x_.segment(where.x, where.nx) = d.continuous.initial;
+    context.z_.segment(where.z, where.nz) = d.discrete;
+    context.p_.segment(where.p, where.np) = d.parameter_values;
+    context.modes_.push_back(d.mode);
+  }
+  return context.with_time(t);
 }
 
 }  // namespace saltus

@@ -1,7 +1,7 @@
 // Dense output: a machine put to any time of a run that is over.
 #include "saltus/simulation/dense_output.hpp"
 
-#include "saltus/simulation/results.hpp"
+#include "saltus/simulation/detail/contact.hpp"
 
 namespace saltus {
 
@@ -15,35 +15,57 @@ const Trajectory& required(const Trajectory& trajectory) {
 
 }  // namespace
 
-DenseOutput::DenseOutput(const Trajectory& trajectory)
-    : trajectory_(&required(trajectory)),
-      machine_(trajectory.plan()),
-      contacts_(machine_, trajectory.tolerances()),
-      x_(trajectory.plan()->nx) {
-  machine_.load(trajectory.start());
-}
-
-/// Puts back what stood still at that time.
-void DenseOutput::hold(const Trajectory::Held& held) {
-  now_ = &held;
-  machine_.z = held.z, machine_.modes = held.modes;
-  Index from = 0;
-  for (const int i : trajectory_->held_nodes()) {
-    const Place& place = machine_.plan().node(i).place;
-    machine_.y.segment(place.offset, place.size) = held.y.segment(from, place.size);
-    from += place.size;
+/// Its parts know each other, so it never moves.
+struct DenseOutput::Reader {
+  explicit Reader(const Trajectory& of)
+      : trajectory(of), machine(of.plan()), contacts(machine, of.tolerances()), x(of.plan()->nx) {
+    machine.load(of.start());
   }
-  contacts_.clear();
-  for (const SurfaceContact& contact : held.contacts) contacts_.add(contact);
-  machine_.carry_by(contacts_.moving() ? &contacts_ : nullptr);
-}
+
+  /// Puts back what stood still at that time.
+  void hold(const Trajectory::Held& held) {
+    now = &held;
+    machine.z = held.z, machine.modes = held.modes;
+    Index from = 0;
+    for (const int i : trajectory.held_nodes()) {
+      const Place& place = machine.plan().node(i).place;
+      machine.y.segment(place.offset, place.size) = held.y.segment(from, place.size);
+      from += place.size;
+    }
+    contacts.clear();
+    for (const SurfaceContact& contact : held.contacts) contacts.add(contact);
+    machine.carry_by(contacts.moving() ? &contacts : nullptr);
+  }
+
+  const Trajectory& trajectory;
+  Machine machine;
+  Contacts contacts;
+  const Trajectory::Held* now = nullptr;
+  Eigen::VectorXd x;
+  Values values;
+};
+
+DenseOutput::DenseOutput(const Trajectory& trajectory)
+    : reader_(std::make_unique<Reader>(required(trajectory))) {}
+DenseOutput::~DenseOutput() = default;
 
 void DenseOutput::move_to(double t, Side side) {
-  const Trajectory::Spot spot = trajectory_->spot(t, side);
-  if (const Trajectory::Held& held = trajectory_->held(spot); &held != now_) hold(held);
-  trajectory_->state(spot, t, x_.data());
-  values_ = machine_.evaluate_taps(t, x_.data());
+  Reader& r = *reader_;
+  const Trajectory::Spot spot = r.trajectory.spot(t, side);
+  if (const Trajectory::Held& held = r.trajectory.held(spot); &held != r.now) r.hold(held);
+  r.trajectory.state(spot, t, r.x.data());
+  r.values = r.machine.evaluate_taps(t, r.x.data());
 }
+
+VectorView DenseOutput::state() const { return {reader_->values.state(), reader_->machine.plan().nx}; }
+
+VectorView DenseOutput::signal(std::size_t i) const {
+  const Plan& plan = reader_->machine.plan();
+  const Place& place = plan.node(plan.taps[i].node).place;
+  return {reader_->values(place), place.size};
+}
+
+const std::vector<Tap>& DenseOutput::taps() const { return reader_->machine.plan().taps; }
 
 const Eigen::VectorXd& Moment::output(std::string_view name) const {
   std::vector<std::string> known;
@@ -52,15 +74,6 @@ const Eigen::VectorXd& Moment::output(std::string_view name) const {
     known.push_back(each);
   }
   throw ModelError(text("nothing was recorded under '", name, "'", known_names(name, known)));
-}
-
-Moment Results::at(double t, Side side) const {
-  DenseOutput dense(trajectory);
-  dense.move_to(t, side);
-  Moment moment{t, dense.state(), {}};
-  for (std::size_t i = 0; i < dense.taps().size(); ++i)
-    moment.outputs.emplace_back(dense.taps()[i].name, dense.signal(i));
-  return moment;
 }
 
 }  // namespace saltus

@@ -7,7 +7,18 @@
 #include <numbers>
 #include <utility>
 
+#include "saltus/simulation/detail/contact.hpp"
+
 namespace saltus {
+
+Trajectory::Trajectory() = default;
+Trajectory::~Trajectory() = default;
+Trajectory::Trajectory(const Trajectory&) = default;
+Trajectory& Trajectory::operator=(const Trajectory&) = default;
+Trajectory::Trajectory(Trajectory&&) noexcept = default;
+Trajectory& Trajectory::operator=(Trajectory&&) noexcept = default;
+
+const Trajectory::Held& Trajectory::held(const Spot& spot) const { return held_[spot.held]; }
 
 void Trajectory::start(std::shared_ptr<const Plan> plan, const Context& from,
                        const SimulatorOptions& options) {

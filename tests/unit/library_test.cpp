@@ -10,7 +10,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path root = fs::path(__FILE__).parent_path().parent_path().parent_path();
+const fs::path root = SALTUS_ROOT;  // not from __FILE__, which ccache makes relative
 
 std::string read(const fs::path& file) {
   std::ostringstream text;

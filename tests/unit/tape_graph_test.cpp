@@ -13,7 +13,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double quiet_nan = std::numeric_limits<double>::quiet_NaN();
-const std::vector<double> edges = {0.0,    -0.0,   1.0,   -1.0,     0.5,       -2.5,        3.0,
+const std::vector<double> edges = {0.0,    -0.0,   1.0,   -1.0,     0.5,       -2.5,     3.0,
                                    1e-310, -1e300, 1e300, infinity, -infinity, quiet_nan};
 
 /// The value of a node of one variable x[0].

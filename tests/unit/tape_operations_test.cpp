@@ -16,9 +16,8 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double quiet_nan = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<double> samples() {
-  std::vector<double> all = {0.0,     -0.0,  infinity, -infinity, quiet_nan, 5e-324,
-                             -5e-324, 1e308, -1e308,   0.5,       -0.5,         1.5,
-                             2.5,     -1.5,  1.0,      -1.0};
+  std::vector<double> all = {0.0,    -0.0, infinity, -infinity, quiet_nan, 5e-324, -5e-324, 1e308,
+                             -1e308, 0.5,  -0.5,     1.5,       2.5,       -1.5,   1.0,     -1.0};
   for (double a = -3.3; a < 12.0; a += 0.71) all.push_back(a);
   return all;
 }

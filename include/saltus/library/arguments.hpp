@@ -14,15 +14,12 @@ namespace saltus {
 /// A number or a vector. A number makes a scalar signal; a vector, even of a single entry, makes a
 /// vector signal.
 struct Value {
-  Value(double number)
-      : values(Eigen::VectorXd::Constant(1, number)) {}  // NOLINT(google-explicit-constructor)
-  Value(std::initializer_list<double> numbers)           // NOLINT(google-explicit-constructor)
-      : values(
-            Eigen::Map<const Eigen::VectorXd>(numbers.begin(), static_cast<Index>(numbers.size()))),
-        vector(true) {}
+  Value(double number);                          // NOLINT(google-explicit-constructor)
+  Value(std::initializer_list<double> numbers);  // NOLINT(google-explicit-constructor)
+  Value(Eigen::VectorXd numbers);                // NOLINT(google-explicit-constructor)
   template <class Derived>
-  Value(const Eigen::MatrixBase<Derived>& numbers)
-      : values(numbers), vector(true) {}  // NOLINT(google-explicit-constructor)
+  Value(const Eigen::MatrixBase<Derived>& numbers)  // NOLINT(google-explicit-constructor)
+      : Value(Eigen::VectorXd(numbers)) {}
 
   Shape shape() const { return {values.size(), vector}; }
 
@@ -39,22 +36,14 @@ void insist(bool good, const std::string& block, const Pieces&... what) {
 }
 
 /// Refuses a word that is not one of the known ones.
-inline void require_known(const std::string& block, std::string_view what, std::string_view word,
-                          const std::vector<std::string>& known) {
-  const bool found = std::ranges::find(known, word) != known.end();
-  insist(found, block, "unknown ", what, " '", word, "'", known_names(word, known));
-}
+void require_known(const std::string& block, std::string_view what, std::string_view word,
+                   const std::vector<std::string>& known);
 
 /// Refuses a number of ports below `least`.
-inline void require_count(const std::string& block, std::string_view what, int found, int least) {
-  insist(found >= least, block, "expected ", least, " ", what, " or more, found ", found);
-}
+void require_count(const std::string& block, std::string_view what, int found, int least);
 
 /// Refuses a period that is not a positive, finite time.
-inline void require_period(const std::string& block, std::string_view what, double found) {
-  insist(found > 0.0 && std::isfinite(found), block, what, " = ", found,
-         " s; expected a finite time > 0 s");
-}
+void require_period(const std::string& block, std::string_view what, double found);
 
 }  // namespace detail
 

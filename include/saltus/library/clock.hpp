@@ -8,10 +8,7 @@ namespace saltus {
 
 class Clock final : public LeafSystem {
  public:
-  explicit Clock(std::string name) : LeafSystem(std::move(name)) {
-    declare_output_port(
-        {.name = "out", .reads = Reads::time, .formula = [](const auto& at) { return at.time(); }});
-  }
+  explicit Clock(std::string name);
 };
 
 }  // namespace saltus

@@ -26,15 +26,7 @@ class FunctionBlock final : public LeafSystem {
                          .entries = entry_by_entry});
   }
 
-  FunctionBlock(std::string name, Formula formula) : LeafSystem(std::move(name)) {
-    declare_input_port({.name = "in"});
-    declare_output_port({.name = "out",
-                         .shape = {},
-                         .shape_rule = elementwise,
-                         .reads = Reads::inputs,
-                         .entries = entry_by_entry,
-                         .formula = std::move(formula)});
-  }
+  FunctionBlock(std::string name, Formula formula);
 };
 
 }  // namespace saltus

@@ -2,37 +2,17 @@
 // in_0, in_1, ...: any widths. out: a vector of their total width.
 #pragma once
 
-#include "saltus/library/arguments.hpp"
+#include "saltus/model/leaf_system.hpp"
 
 namespace saltus {
 
 class Multiplexer final : public LeafSystem {
  public:
-  Multiplexer(std::string name, int n_inputs) : LeafSystem(std::move(name)) {
-    detail::require_count(this->name(), "input", n_inputs, 1);
-    for (int k = 0; k < n_inputs; ++k) declare_input_port();
-    declare_output_port({.name = "out",
-                         .shape = {},
-                         .shape_rule = &Multiplexer::total,
-                         .reads = Reads::inputs,
-                         .entries = &Multiplexer::entries,
-                         .formula = [](const auto& at, Index i) {
-                           int k = 0;
-                           while (i >= at.width(k)) i -= at.width(k++);
-                           return at.u(k, i);
-                         }});
-  }
+  Multiplexer(std::string name, int n_inputs);
 
  private:
-  static Shape total(std::span<const Shape> inputs) {
-    Index size = 0;
-    for (const Shape& shape : inputs) size += shape.size;
-    return Shape::of(size);
-  }
-  static EntryRange entries(Index i, int k, std::span<const Index> widths) {
-    for (int before = 0; before < k; ++before) i -= widths[static_cast<std::size_t>(before)];
-    return i >= 0 && i < widths[static_cast<std::size_t>(k)] ? EntryRange{i, i + 1} : EntryRange{};
-  }
+  static Shape total(std::span<const Shape> inputs);
+  static EntryRange entries(Index i, int k, std::span<const Index> widths);
 };
 
 }  // namespace saltus

@@ -2,22 +2,13 @@
 // in: any width. out: the width of u and offset, one of which may be a scalar. Parameter "offset".
 #pragma once
 
-#include "saltus/library/elementwise.hpp"
+#include "saltus/library/arguments.hpp"
 
 namespace saltus {
 
 class Offset final : public LeafSystem {
  public:
-  Offset(std::string name, const Value& offset) : LeafSystem(std::move(name)) {
-    const ParameterIndex k = declare_dynamic_parameter("offset", offset.values);
-    declare_input_port({.name = "in"});
-    declare_output_port({.name = "out",
-                         .shape = {},
-                         .shape_rule = detail::stretch(this->name(), {offset.shape()}),
-                         .reads = Reads::inputs,
-                         .entries = entry_by_entry,
-                         .formula = [k](const auto& at) { return at.u(0) + at.p(k); }});
-  }
+  Offset(std::string name, const Value& offset);
 };
 
 }  // namespace saltus

@@ -4,36 +4,13 @@
 // run with an error.
 #pragma once
 
-#include "saltus/library/elementwise.hpp"
+#include "saltus/model/leaf_system.hpp"
 
 namespace saltus {
 
 class Product final : public LeafSystem {
  public:
-  explicit Product(std::string name, std::string_view operators = "**")
-      : LeafSystem(std::move(name)) {
-    detail::require_count(this->name(), "operator", static_cast<int>(operators.size()), 1);
-    for (const char op : operators) {
-      detail::insist(
-          op == '*' || op == '/', this->name(), "unknown operator '", std::string(1, op), "' in '",
-          operators,
-          "'; expected one '*' or '/' for each input, as in \"*/\"; an Adder takes '+' and '-'");
-      declare_input_port();
-    }
-    declare_output_port({.name = "out",
-                         .shape = {},
-                         .shape_rule = detail::stretch(this->name()),
-                         .reads = Reads::inputs,
-                         .entries = entry_by_entry,
-                         .formula = [all = std::string(operators)](const auto& at) {
-                           auto product = all[0] == '/' ? 1.0 / at.u(0) : at.u(0);
-                           for (std::size_t k = 1; k < all.size(); ++k) {
-                             const auto factor = at.u(static_cast<int>(k));
-                             product = all[k] == '/' ? product / factor : product * factor;
-                           }
-                           return product;
-                         }});
-  }
+  explicit Product(std::string name, std::string_view operators = "**");
 };
 
 }  // namespace saltus

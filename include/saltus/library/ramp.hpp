@@ -4,7 +4,7 @@
 // there: a stage at the very end of the step before, or an ulp past it, gets the value of both.
 #pragma once
 
-#include "saltus/library/elementwise.hpp"
+#include "saltus/library/arguments.hpp"
 
 namespace saltus {
 
@@ -18,20 +18,7 @@ class Ramp final : public LeafSystem {
  public:
   using Options = RampOptions;
 
-  explicit Ramp(std::string name, const Options& options = {}) : LeafSystem(std::move(name)) {
-    const ParameterIndex start =
-        declare_dynamic_parameter("start_value", options.start_value.values);
-    const ParameterIndex slope = declare_dynamic_parameter("slope", options.slope.values);
-    const std::vector<Shape> values{options.start_value.shape(), options.slope.shape()};
-    declare_output_port({.name = "out",
-                         .shape = detail::stretched(this->name(), values),
-                         .reads = Reads::time,
-                         .formula = [=, begin = options.start_time](const auto& at) {
-                           const auto run = at.time() - begin;
-                           return at.p(start) + at.p(slope) * at.choose(run > 0.0, run, 0.0);
-                         }});
-    declare_one_shot(options.start_time, {}, "start");
-  }
+  explicit Ramp(std::string name, const Options& options = {});
 };
 
 }  // namespace saltus

@@ -43,15 +43,7 @@ class ReduceBlock final : public LeafSystem {
   }
 
   /// `formula` computes the `options.shape.size` entries of the output.
-  ReduceBlock(std::string name, int n_inputs, Formula formula, const Options& options = {})
-      : LeafSystem(std::move(name)) {
-    detail::require_count(this->name(), "input", n_inputs, 1);
-    for (int k = 0; k < n_inputs; ++k) declare_input_port();
-    declare_output_port({.name = "out",
-                         .shape = options.shape,
-                         .reads = Reads::inputs,
-                         .formula = std::move(formula)});
-  }
+  ReduceBlock(std::string name, int n_inputs, Formula formula, const Options& options = {});
 };
 
 }  // namespace saltus

@@ -3,8 +3,7 @@
 // time event.
 #pragma once
 
-#include "saltus/library/elementwise.hpp"
-#include "saltus/library/schedule.hpp"
+#include "saltus/library/arguments.hpp"
 
 namespace saltus {
 
@@ -18,23 +17,10 @@ class Step final : public LeafSystem {
  public:
   using Options = StepOptions;
 
-  explicit Step(std::string name, const Options& options = {})
-      : LeafSystem(std::move(name)), step_time_(options.step_time) {
-    start_ = declare_dynamic_parameter("start_value", options.start_value.values);
-    end_ = declare_dynamic_parameter("end_value", options.end_value.values);
-    const std::vector<Shape> values{options.start_value.shape(), options.end_value.shape()};
-    declare_output_port({.name = "out",
-                         .calc = &Step::value,
-                         .shape = detail::stretched(this->name(), values),
-                         .reads = Reads::schedule});
-    declare_one_shot(step_time_, {}, "step");
-  }
+  explicit Step(std::string name, const Options& options = {});
 
  private:
-  void value(const At& at, VectorRef out) const {
-    const VectorView now = at.parameter(detail::since(at.time, step_time_) >= 0.0 ? end_ : start_);
-    for (Index i = 0; i < out.size(); ++i) out[i] = detail::entry(now, i);
-  }
+  void value(const At& at, VectorRef out) const;
 
   double step_time_;  // [s]
   ParameterIndex start_, end_;

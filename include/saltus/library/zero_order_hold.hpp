@@ -16,19 +16,7 @@ class ZeroOrderHold final : public LeafSystem {
  public:
   using Options = ZeroOrderHoldOptions;
 
-  ZeroOrderHold(std::string name, double dt, const Options& options = {})
-      : LeafSystem(std::move(name)) {
-    detail::require_period(this->name(), "dt", dt);
-    const Shape shape = options.initial_state.shape();
-    declare_discrete_state(options.initial_state.values);
-    declare_input_port({.name = "in", .shape = shape});
-    declare_output_port({.name = "out",
-                         .shape = shape,
-                         .reads = Reads::discrete_state,
-                         .view = Place{Space::z, 0, shape.size}});
-    declare_periodic_update([](const At& at, Next& next) { next.set_discrete_state(at.u[0]); }, dt,
-                            0.0, "tick");
-  }
+  ZeroOrderHold(std::string name, double dt, const Options& options = {});
 };
 
 }  // namespace saltus

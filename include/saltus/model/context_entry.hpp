@@ -1,9 +1,6 @@
 // ContextEntry: the place of the values with one name in a context.
 #pragma once
 
-#include <charconv>
-#include <cmath>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -24,105 +21,16 @@ struct ContextEntry {
   Index size = 1;
 };
 
-namespace detail {
-
-/// "x[3]" as ("x", 3); "x" as ("x", none).
-inline std::pair<std::string_view, std::optional<Index>> split_index(std::string_view name) {
-  const auto open = name.rfind('[');
-  if (open == std::string_view::npos || !name.ends_with(']')) return {name, {}};
-  Index index = 0;
-  const char* last = name.data() + name.size() - 1;
-  const auto [end, error] = std::from_chars(name.data() + open + 1, last, index);
-  if (error != std::errc() || end != last || index < 0) return {name, {}};
-  return {name.substr(0, open), index};
-}
-
-/// All entries of one leaf by their names within it.
-inline std::vector<std::pair<std::string, ContextEntry>> entries_of(const Layout::Leaf& leaf,
-                                                                    Index number) {
-  using Kind = ContextEntry::Kind;
-  std::vector<std::pair<std::string, ContextEntry>> all;
-  for (const auto& parameter : leaf.parameters)
-    all.push_back({parameter.name, {Kind::parameter, leaf.p + parameter.offset, parameter.size}});
-  if (leaf.nx > 0) all.push_back({"x", {Kind::continuous_state, leaf.x, leaf.nx}});
-  if (leaf.nz > 0) all.push_back({"z", {Kind::discrete_state, leaf.z, leaf.nz}});
-  all.push_back({"mode", {Kind::mode, number, 1}});
-  return all;
-}
-
-/// Adds an entry to a list of names: a short vector entry by entry.
-inline void add_names(std::vector<std::string>& names, const std::string& name,
-                      const ContextEntry& entry) {
-  using Kind = ContextEntry::Kind;
-  const bool one =
-      entry.size == 1 && entry.kind != Kind::continuous_state && entry.kind != Kind::discrete_state;
-  if (one || entry.size > 4) return names.push_back(name);
-  for (Index i = 0; i < entry.size; ++i) names.push_back(text(name, "[", i, "]"));
-}
-
-}  // namespace detail
-
 /// The names that `find_entry` accepts, in the order of the blocks; a long vector has one name.
-inline std::vector<std::string> entry_names(const Layout& layout) {
-  std::vector<std::string> names;
-  for (std::size_t l = 0; l < layout.leaves.size(); ++l) {
-    const Layout::Leaf& leaf = layout.leaves[l];
-    const std::string prefix = layout.leaves.size() == 1 ? "" : leaf.path + ".";
-    for (const auto& [name, entry] : detail::entries_of(leaf, static_cast<Index>(l)))
-      detail::add_names(names, prefix + name, entry);
-  }
-  return names;
-}
+std::vector<std::string> entry_names(const Layout& layout);
 
 /// Throws ModelError for an unknown name, with the nearest one, and for an index out of range.
-inline ContextEntry find_entry(const Layout& layout, std::string_view name) {
-  const auto [whole, index] = detail::split_index(name);
-  for (std::size_t l = 0; l < layout.leaves.size(); ++l) {
-    const Layout::Leaf& leaf = layout.leaves[l];
-    for (auto& [local, entry] : detail::entries_of(leaf, static_cast<Index>(l))) {
-      const bool alone = layout.leaves.size() == 1 && local == whole;
-      if (!alone && whole != text(leaf.path, ".", local)) continue;
-      if (!index) return entry;
-      if (*index < entry.size) return {entry.kind, entry.first + *index, 1};
-      throw ModelError(text("'", name, "': '", whole, "' has ", entry.size,
-                            " entries, the first is ", whole, "[0]"));
-    }
-  }
-  throw ModelError(
-      text("unknown parameter or state '", name, "'", known_names(name, entry_names(layout))));
-}
+ContextEntry find_entry(const Layout& layout, std::string_view name);
 
 /// Writes `values` in place: as many as the entry has, or a single value that fills it. Throws
 /// ModelError for a wrong number of values, a value that is not finite, and a mode that is not an
 /// integer.
-inline void write_entry(Context& context, const ContextEntry& entry, std::span<const double> values,
-                        std::string_view name) {
-  using Kind = ContextEntry::Kind;
-  const auto given = static_cast<Index>(values.size());
-  if (given != 1 && given != entry.size)
-    throw ModelError(text("'", name, "': expected ", entry.size, " values, found ", given));
-  for (Index i = 0; i < entry.size; ++i) {
-    const double value = values[given == 1 ? 0 : static_cast<std::size_t>(i)];
-    const bool integer = entry.kind != Kind::mode || value == std::trunc(value);
-    if (!std::isfinite(value) || !integer || (entry.kind == Kind::mode && std::abs(value) > 1e9))
-      throw ModelError(text("'", name, "' is ", value, "; give ",
-                            entry.kind == Kind::mode ? "an integer" : "a finite value"));
-    const Index at = entry.first + i;
-    switch (entry.kind) {
-      case Kind::parameter:
-        context.p_[at] = value;
-        break;
-      case Kind::continuous_state:
-        context.x_[at] = value;
-        break;
-      case Kind::discrete_state:
-        context.z_[at] = value;
-        break;
-      case Kind::mode:
-        context.modes_[static_cast<std::size_t>(at)] = static_cast<int>(value);
-    }
-  }
-  context.continuation_.reset();  // the continuation is not true of other values
-}
+void write_entry(Context& context, const ContextEntry& entry, std::span<const double> values,
+                 std::string_view name);
 
 }  // namespace saltus

@@ -48,9 +48,7 @@ auto value_of(const Table& table, std::string_view what, std::string_view name) 
 }  // namespace detail
 
 /// The direction with this name; a ModelError with the nearest name if there is none.
-inline Direction direction_from(std::string_view name) {
-  return detail::value_of(direction_names, "direction", name);
-}
+Direction direction_from(std::string_view name);
 
 inline std::string_view to_string(Direction direction) {
   return direction_names[static_cast<std::size_t>(direction)].first;
@@ -94,9 +92,7 @@ inline constexpr std::array<std::pair<std::string_view, AtStart>, 4> at_start_na
 }};
 
 /// The value with this name; a ModelError with the nearest name if there is none.
-inline AtStart at_start_from(std::string_view name) {
-  return detail::value_of(at_start_names, "at_start", name);
-}
+AtStart at_start_from(std::string_view name);
 
 /// How a guard continues at its Zeno point, where its firings accumulate or no time can pass
 /// between them.

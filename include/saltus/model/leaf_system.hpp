@@ -57,48 +57,40 @@ class LeafSystem : public System {
   using VectorView = saltus::VectorView;
   using MatrixRef = saltus::MatrixRef;
 
-  explicit LeafSystem(std::string name = {}) : System(std::move(name)) {}
+  explicit LeafSystem(std::string name = {});
+  ~LeafSystem() override;
+  LeafSystem(LeafSystem&&) noexcept;
+  LeafSystem& operator=(LeafSystem&&) noexcept;
 
   const Declarations& declarations() const noexcept { return declared_; }
 
   std::vector<std::string> input_names() const override;
   std::vector<std::string> output_names() const override;
   void collect(Structure& out, const std::string& path) const override;
-  LeafPort output_source(int index) const override { return {this, index}; }
-  LeafPort input_target(int index) const override { return {this, index}; }
+  LeafPort output_source(int index) const override;
+  LeafPort input_target(int index) const override;
 
  protected:
   /// Declares n continuous states that start at zero, or at the given values; xdot = ode(at).
-  void declare_continuous_state(Index n, RightHandSide ode) {
-    declare_continuous_state({.initial = Eigen::VectorXd::Zero(n), .ode = std::move(ode)});
-  }
+  void declare_continuous_state(Index n, RightHandSide ode);
   void declare_continuous_state(ContinuousState state);
   /// d(xdot)/d(x), n by n, for stiff methods. Inputs count as constants.
-  void declare_jacobian(MatrixFunction jacobian) {
-    declared_.continuous.jacobian = std::move(jacobian);
-  }
+  void declare_jacobian(MatrixFunction jacobian);
   /// The entries of d(xdot)/d(x) that may differ from zero, in every mode. A stiff method then
   /// needs neither memory nor calls for the others. Name each entry once, in any order, or use
   /// `band_entries(n, lower, upper)`. Name too many entries rather than too few: Newton's iteration
   /// judges itself by this matrix, so a missing entry costs steps and may cost digits. An entry
   /// outside the n by n matrix, or an entry named twice, is a ModelError when a stiff method
   /// starts.
-  void declare_jacobian_sparsity(std::vector<MatrixEntry> entries) {
-    declared_.continuous.sparsity = std::move(entries);
-  }
+  void declare_jacobian_sparsity(std::vector<MatrixEntry> entries);
   /// The same entries with a function of their values: `values(at, out)` writes entry k to out[k].
-  void declare_sparse_jacobian(std::vector<MatrixEntry> entries, VectorFunction values) {
-    declare_jacobian_sparsity(std::move(entries));
-    declared_.continuous.sparse_jacobian = std::move(values);
-  }
+  void declare_sparse_jacobian(std::vector<MatrixEntry> entries, VectorFunction values);
   void declare_discrete_state(const Eigen::VectorXd& initial);
   /// The mode in which the leaf starts.
   void declare_default_mode(int mode);
   /// A number or vector that is part of the context.
   ParameterIndex declare_dynamic_parameter(std::string name, const Eigen::VectorXd& value);
-  ParameterIndex declare_dynamic_parameter(std::string name, double value) {
-    return declare_dynamic_parameter(std::move(name), Eigen::VectorXd::Constant(1, value));
-  }
+  ParameterIndex declare_dynamic_parameter(std::string name, double value);
 
   int declare_input_port(InputDeclaration input = {});
   int declare_output_port(OutputDeclaration output);
@@ -124,5 +116,3 @@ class LeafSystem : public System {
 };
 
 }  // namespace saltus
-
-#include "saltus/model/declare.hpp"

@@ -2,7 +2,6 @@
 // construction.
 #pragma once
 
-#include <atomic>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -55,16 +54,10 @@ class System {
   virtual std::vector<std::string> output_names() const = 0;
 
   /// Ports by position or by name; the ModelError for an unknown name lists the known names.
-  InputPort input(int index = 0) const { return {this, checked(index, input_names(), "input")}; }
-  InputPort input(std::string_view port) const {
-    return {this, find(port, input_names(), "input")};
-  }
-  OutputPort output(int index = 0) const {
-    return {this, checked(index, output_names(), "output")};
-  }
-  OutputPort output(std::string_view port) const {
-    return {this, find(port, output_names(), "output")};
-  }
+  InputPort input(int index = 0) const;
+  InputPort input(std::string_view port) const;
+  OutputPort output(int index = 0) const;
+  OutputPort output(std::string_view port) const;
 
   /// The default values of every block, at time t [s].
   Context create_context(double t = 0.0) const;
@@ -77,23 +70,10 @@ class System {
   virtual LeafPort input_target(int index) const = 0;
 
  private:
-  static int next_id() {
-    static std::atomic<int> counter{0};
-    return ++counter;
-  }
-  int checked(int index, const std::vector<std::string>& names, std::string_view kind) const {
-    if (index >= 0 && index < static_cast<int>(names.size())) return index;
-    throw ModelError(text("block '", name_, "' has no ", kind, " ", index, ": it has ",
-                          names.size(),
-                          names.empty() ? std::string() : text(" (", quoted_list(names), ")")));
-  }
+  static int next_id();
+  int checked(int index, const std::vector<std::string>& names, std::string_view kind) const;
   int find(std::string_view port, const std::vector<std::string>& names,
-           std::string_view kind) const {
-    const auto found = std::ranges::find(names, port);
-    if (found != names.end()) return static_cast<int>(found - names.begin());
-    throw ModelError(
-        text("block '", name_, "' has no ", kind, " '", port, "'", known_names(port, names)));
-  }
+           std::string_view kind) const;
 
   std::string name_;
   SystemId id_;
@@ -101,10 +81,6 @@ class System {
 
 /// All leaves and wires of a system, with its nesting resolved. The root's own name is not part of
 /// the paths of its blocks.
-inline Structure structure_of(const System& root) {
-  Structure structure;
-  root.collect(structure, "");
-  return structure;
-}
+Structure structure_of(const System& root);
 
 }  // namespace saltus

@@ -1,6 +1,7 @@
 // Dense output: the continuous state and the recorded signals of a run at any time within it.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -15,29 +16,21 @@ namespace saltus {
 class DenseOutput {
  public:
   explicit DenseOutput(const Trajectory& trajectory);
-  DenseOutput(const DenseOutput&) = delete;  // its parts know each other
+  ~DenseOutput();
+  DenseOutput(const DenseOutput&) = delete;
   DenseOutput& operator=(const DenseOutput&) = delete;
 
   /// Throws ModelError for a time outside the run, and what a function of the model throws.
   void move_to(double t, Side side = Side::right);
   /// The continuous state of all blocks there.
-  VectorView state() const { return {values_.state(), machine_.plan().nx}; }
+  VectorView state() const;
   /// Recorded signal number i there.
-  VectorView signal(std::size_t i) const {
-    const Place& place = machine_.plan().node(machine_.plan().taps[i].node).place;
-    return {values_(place), place.size};
-  }
-  const std::vector<Tap>& taps() const { return machine_.plan().taps; }
+  VectorView signal(std::size_t i) const;
+  const std::vector<Tap>& taps() const;
 
  private:
-  void hold(const Trajectory::Held& held);
-
-  const Trajectory* trajectory_;
-  Machine machine_;
-  Contacts contacts_;
-  const Trajectory::Held* now_ = nullptr;
-  Eigen::VectorXd x_;
-  Values values_;
+  struct Reader;
+  std::unique_ptr<Reader> reader_;
 };
 
 /// A moment of a run.

@@ -70,16 +70,8 @@ struct Results {
   /// DenseOutput. Throws ModelError for a time outside the run, and for a run without that option.
   Moment at(double t, Side side = Side::right) const;
 
-  /// A recorded signal by name, rows by width; the ModelError for an unknown name lists the known
-  /// names.
-  Eigen::Map<const RecordedSignal::Matrix> output(std::string_view name) const {
-    std::vector<std::string> known;
-    for (const RecordedSignal& signal : signals) {
-      if (signal.name == name) return signal.matrix();
-      known.push_back(signal.name);
-    }
-    throw ModelError(text("nothing was recorded under '", name, "'", known_names(name, known)));
-  }
+  /// A recorded signal by name, rows by width; a ModelError lists the names there are.
+  Eigen::Map<const RecordedSignal::Matrix> output(std::string_view name) const;
 };
 
 }  // namespace saltus

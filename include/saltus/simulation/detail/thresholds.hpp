@@ -100,7 +100,7 @@ inline constexpr double slow_series = 0.9;
 /// [1] The next firing may follow within this many of the last gaps.
 inline constexpr double next_gap = 1.2;
 
-// --- chattering: chattering.cpp (tests/errors/chattering_test.cpp, tests/unit/chattering_test.cpp)
+// --- chattering: chattering.cpp (tests/errors/chattering_errors_test.cpp, tests/unit/chattering_test.cpp)
 
 /// [flips] of a relation in one instant: both sides lead back to its surface.
 inline constexpr int fluttering_flips = 3;

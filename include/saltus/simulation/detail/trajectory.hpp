@@ -5,9 +5,13 @@
 #include <memory>
 #include <vector>
 
-#include "saltus/simulation/detail/contact.hpp"
+#include "saltus/simulation/options.hpp"
 
 namespace saltus {
+
+class Contacts;
+class Machine;
+struct SurfaceContact;
 
 /// Which value at the time of an event: that before it or that after it.
 enum class Side { left, right };
@@ -22,6 +26,13 @@ enum class Side { left, right };
 /// signals, blocks that a surface carries. Empty, and without memory, unless it was asked for.
 class Trajectory {
  public:
+  Trajectory();
+  ~Trajectory();
+  Trajectory(const Trajectory&);
+  Trajectory& operator=(const Trajectory&);
+  Trajectory(Trajectory&&) noexcept;
+  Trajectory& operator=(Trajectory&&) noexcept;
+
   /// What stays as it is from one instant to the next.
   struct Held {
     Eigen::VectorXd z, y;  // y: of `held_nodes`, one after the other
@@ -50,7 +61,7 @@ class Trajectory {
   Spot spot(double t, Side side) const;
   /// x(t), t within the spot.
   void state(const Spot& spot, double t, double* x) const;
-  const Held& held(const Spot& spot) const { return held_[spot.held]; }
+  const Held& held(const Spot& spot) const;
   const std::vector<int>& held_nodes() const noexcept { return held_nodes_; }
   const std::shared_ptr<const Plan>& plan() const noexcept { return plan_; }
   const Context& start() const noexcept { return start_; }

@@ -1,11 +1,12 @@
 // context[id] and with_subcontext: take one system's values out of a context and write them back.
-#pragma once
+#include <algorithm>
+#include <utility>
 
 #include "saltus/model/context.hpp"
 
 namespace saltus {
 
-namespace detail {
+namespace {
 
 /// First entry and number of entries of the leaves [first, last) in one of the flat arrays.
 template <class Offset, class Size>
@@ -18,7 +19,7 @@ std::pair<Index, Index> extent(const Layout& layout, const Layout::Range& range,
 }
 
 /// The layout of a part: the same leaves with offsets that start at zero.
-inline std::shared_ptr<const Layout> part_layout(const Layout& whole, const Layout::Range& range) {
+std::shared_ptr<const Layout> part_layout(const Layout& whole, const Layout::Range& range) {
   auto part = std::make_shared<Layout>();
   const Layout::Leaf origin = range.first < range.last ? whole.leaves[range.first] : Layout::Leaf{};
   const std::string prefix =
@@ -37,15 +38,15 @@ inline std::shared_ptr<const Layout> part_layout(const Layout& whole, const Layo
   return part;
 }
 
-}  // namespace detail
+}  // namespace
 
-inline Context Context::operator[](SystemId id) const {
+Context Context::operator[](SystemId id) const {
   const Layout::Range& where = range(id);
   using Leaf = Layout::Leaf;
-  const auto [x, nx] = detail::extent(*layout_, where, &Leaf::x, &Leaf::nx);
-  const auto [z, nz] = detail::extent(*layout_, where, &Leaf::z, &Leaf::nz);
-  const auto [p, np] = detail::extent(*layout_, where, &Leaf::p, &Leaf::np);
-  Context part(detail::part_layout(*layout_, where));
+  const auto [x, nx] = extent(*layout_, where, &Leaf::x, &Leaf::nx);
+  const auto [z, nz] = extent(*layout_, where, &Leaf::z, &Leaf::nz);
+  const auto [p, np] = extent(*layout_, where, &Leaf::p, &Leaf::np);
+  Context part(part_layout(*layout_, where));
   part.time_ = time_;
   part.settled_ = settled_;
   part.x_ = x_.segment(x, nx);
@@ -56,12 +57,12 @@ inline Context Context::operator[](SystemId id) const {
   return part;
 }
 
-inline Context Context::with_subcontext(SystemId id, const Context& part) const {
+Context Context::with_subcontext(SystemId id, const Context& part) const {
   const Layout::Range& where = range(id);
   using Leaf = Layout::Leaf;
-  const auto [x, nx] = detail::extent(*layout_, where, &Leaf::x, &Leaf::nx);
-  const auto [z, nz] = detail::extent(*layout_, where, &Leaf::z, &Leaf::nz);
-  const auto [p, np] = detail::extent(*layout_, where, &Leaf::p, &Leaf::np);
+  const auto [x, nx] = extent(*layout_, where, &Leaf::x, &Leaf::nx);
+  const auto [z, nz] = extent(*layout_, where, &Leaf::z, &Leaf::nz);
+  const auto [p, np] = extent(*layout_, where, &Leaf::p, &Leaf::np);
   const std::size_t leaves = where.last - where.first;
   if (part.x_.size() != nx || part.z_.size() != nz || part.p_.size() != np ||
       part.modes_.size() != leaves) {

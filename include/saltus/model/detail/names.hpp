@@ -1,0 +1,30 @@
+// Names of what a system has: ports, guards, parameters, blocks.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "saltus/base/error.hpp"
+
+namespace saltus::detail {
+
+template <class List>
+std::vector<std::string> names_of(const List& list) {
+  std::vector<std::string> names;
+  for (const auto& item : list) names.push_back(item.name);
+  return names;
+}
+
+/// Names a nameless declaration, and refuses a second declaration with the same name.
+template <class List>
+void name_it(std::string& name, const List& others, std::string_view prefix,
+             const std::string& block) {
+  if (name.empty()) name = text(prefix, others.size());
+  for (const auto& other : others) {
+    if (other.name == name)
+      throw ModelError(text("block '", block, "': the name '", name, "' is declared twice"));
+  }
+}
+
+}  // namespace saltus::detail

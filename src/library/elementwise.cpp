@@ -1,0 +1,47 @@
+// The checks and shape rules that elementwise blocks share.
+#include "saltus/library/elementwise.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace saltus::detail {
+
+Shape stretched(const std::string& block, std::span<const Shape> shapes) {
+  const Shape result = elementwise(shapes);
+  const bool fit = std::ranges::all_of(shapes, [&](const Shape& shape) {
+    return (shape.size == 1 || shape.size == result.size) && shape.size > 0;
+  });
+  if (fit) return result;
+  std::string widths;
+  for (const Shape& shape : shapes) widths += text(widths.empty() ? "" : ", ", shape.size);
+  insist(fit, block, "expected scalars and vectors of one width, found the widths ", widths,
+         "; bring them to one width, for example with a Multiplexer");
+  return result;
+}
+
+ShapeRule stretch(std::string block, std::vector<Shape> parameters) {
+  return [block = std::move(block),
+          parameters = std::move(parameters)](std::span<const Shape> inputs) {
+    std::vector<Shape> all = parameters;
+    all.insert(all.end(), inputs.begin(), inputs.end());
+    return stretched(block, all);
+  };
+}
+
+std::optional<Index> relation_width(const std::string& block,
+                                    const std::vector<Shape>& parameters) {
+  const Shape shape = stretched(block, parameters);
+  return shape.size > 1 ? std::optional(shape.size) : std::nullopt;
+}
+
+void require_ordered(const std::string& block, const Value& lower, const Value& upper) {
+  const std::vector<Shape> shapes{lower.shape(), upper.shape()};
+  for (Index i = 0; i < stretched(block, shapes).size; ++i) {
+    const double low = lower.values[lower.values.size() == 1 ? 0 : i];
+    const double high = upper.values[upper.values.size() == 1 ? 0 : i];
+    insist(low <= high, block, "lower_limit ", low, " is above upper_limit ", high,
+           "; expected lower_limit <= upper_limit");
+  }
+}
+
+}  // namespace saltus::detail

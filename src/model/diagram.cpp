@@ -1,0 +1,45 @@
+// Diagram: its ports and its children.
+#include "saltus/model/diagram.hpp"
+
+#include <algorithm>
+
+#include "saltus/model/detail/names.hpp"
+
+namespace saltus {
+
+std::vector<std::string> Diagram::input_names() const { return detail::names_of(inputs_); }
+
+std::vector<std::string> Diagram::output_names() const { return detail::names_of(outputs_); }
+
+LeafPort Diagram::output_source(int index) const {
+  const OutputPort& port = outputs_[static_cast<std::size_t>(index)].port;
+  return port.system->output_source(port.index);
+}
+
+LeafPort Diagram::input_target(int index) const {
+  const InputPort& port = inputs_[static_cast<std::size_t>(index)].port;
+  return port.system->input_target(port.index);
+}
+
+const System& Diagram::operator[](std::string_view child) const {
+  const auto found = std::ranges::find(children_, child, &Child::name);
+  if (found != children_.end()) return *found->system;
+  throw ModelError(text("diagram '", name(), "' has no block '", child, "'",
+                        known_names(child, detail::names_of(children_))));
+}
+
+void Diagram::collect(Structure& out, const std::string& path) const {
+  const std::size_t mine = out.systems.size();
+  out.systems.push_back(
+      {system_id(), path.empty() ? name() : path, out.leaves.size(), out.leaves.size()});
+  for (const Child& child : children_) {
+    child.system->collect(out, path.empty() ? child.name : path + "." + child.name);
+  }
+  for (const Wire& wire : wires_) {
+    out.wires.push_back({wire.from.system->output_source(wire.from.index),
+                         wire.to.system->input_target(wire.to.index)});
+  }
+  out.systems[mine].last = out.leaves.size();
+}
+
+}  // namespace saltus

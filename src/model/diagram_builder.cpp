@@ -1,0 +1,113 @@
+// DiagramBuilder: blocks and wires are checked and collected.
+#include "saltus/model/diagram_builder.hpp"
+
+#include "saltus/model/detail/names.hpp"
+
+namespace saltus {
+
+DiagramBuilder::DiagramBuilder() = default;
+DiagramBuilder::~DiagramBuilder() = default;
+DiagramBuilder::DiagramBuilder(DiagramBuilder&&) noexcept = default;
+DiagramBuilder& DiagramBuilder::operator=(DiagramBuilder&&) noexcept = default;
+
+void DiagramBuilder::add(std::shared_ptr<const System> block) {
+  require_unspent();
+  std::string name =
+      block->name().empty() ? text("block_", block->system_id().value) : block->name();
+  if (mine_.contains(block.get())) throw ModelError(text("block '", name, "' is added twice"));
+  if (!names_.insert(name).second) {
+    throw ModelError(
+        text("two blocks are called '", name, "'; give each block of a diagram its own name"));
+  }
+  mine_.emplace(block.get(), diagram_.children_.size());
+  diagram_.children_.push_back({std::move(block), std::move(name)});
+}
+
+void DiagramBuilder::connect(OutputPort from, InputPort to) {
+  require_mine(from.system);
+  require_free(to);
+  sources_.emplace(std::pair(to.system, to.index), diagram_.wires_.size());
+  diagram_.wires_.push_back({from, to});
+}
+
+int DiagramBuilder::export_input(InputPort port, std::string name) {
+  require_free(port);
+  if (name.empty()) name = text(name_of(port.system), "_", port_name(port));
+  detail::name_it(name, diagram_.inputs_, "in_", "the diagram");
+  diagram_.inputs_.push_back({std::move(name), port});
+  return static_cast<int>(diagram_.inputs_.size()) - 1;
+}
+
+int DiagramBuilder::export_output(OutputPort port, std::string name) {
+  require_mine(port.system);
+  if (name.empty()) {
+    name = text(name_of(port.system), "_",
+                port.system->output_names()[static_cast<std::size_t>(port.index)]);
+  }
+  detail::name_it(name, diagram_.outputs_, "out_", "the diagram");
+  diagram_.outputs_.push_back({std::move(name), port});
+  return static_cast<int>(diagram_.outputs_.size()) - 1;
+}
+
+Diagram DiagramBuilder::build(std::string name) {
+  require_unspent();
+  if (diagram_.children_.empty())
+    throw ModelError("build: the diagram has no block; add one first");
+  for (const auto& child : diagram_.children_) {
+    const auto ports = child.system->input_names();
+    for (int i = 0; i < static_cast<int>(ports.size()); ++i) {
+      if (source_of({child.system.get(), i}).empty()) {
+        throw ModelError(text("input '", ports[static_cast<std::size_t>(i)], "' of block '",
+                              child.name, "' is not connected; connect it or export it"));
+      }
+    }
+  }
+  spent_ = true;
+  Diagram built(std::move(name));
+  built.children_ = std::move(diagram_.children_);
+  built.wires_ = std::move(diagram_.wires_);
+  built.inputs_ = std::move(diagram_.inputs_);
+  built.outputs_ = std::move(diagram_.outputs_);
+  return built;
+}
+
+void DiagramBuilder::require_unspent() const {
+  if (spent_) throw ModelError("this DiagramBuilder was spent by build(); make a new one");
+}
+
+void DiagramBuilder::require_mine(const System* system) const {
+  require_unspent();
+  if (!mine_.contains(system)) {
+    throw ModelError(text("block '", system->name(),
+                          "' was not added to this diagram; its blocks: ",
+                          quoted_list(detail::names_of(diagram_.children_))));
+  }
+}
+
+void DiagramBuilder::require_free(InputPort to) const {
+  require_mine(to.system);
+  if (const std::string source = source_of(to); !source.empty()) {
+    throw ModelError(text("input '", port_name(to), "' of block '", name_of(to.system),
+                          "' already has a source, ", source, "; an input takes one"));
+  }
+}
+
+std::string DiagramBuilder::source_of(InputPort to) const {
+  if (const auto wire = sources_.find({to.system, to.index}); wire != sources_.end())
+    return text("block '", name_of(diagram_.wires_[wire->second].from.system), "'");
+  for (const auto& input : diagram_.inputs_) {
+    if (input.port.system == to.system && input.port.index == to.index)
+      return text("the exported input '", input.name, "'");
+  }
+  return {};
+}
+
+std::string DiagramBuilder::name_of(const System* system) const {
+  return diagram_.children_[mine_.at(system)].name;
+}
+
+std::string DiagramBuilder::port_name(InputPort port) {
+  return port.system->input_names()[static_cast<std::size_t>(port.index)];
+}
+
+}  // namespace saltus

@@ -1,0 +1,224 @@
+// The checks and effects of the declare_* methods of LeafSystem.
+#include "saltus/model/leaf_system.hpp"
+
+#include <cmath>
+
+#include "saltus/model/detail/names.hpp"
+
+namespace saltus {
+
+namespace {
+
+/// Refuses a formula beside a function: two computations of one value could differ.
+void take_formula(VectorFunction& function, const Formula& formula, std::string_view what,
+                  const std::string& block) {
+  if (!formula) return;
+  if (function) {
+    throw ModelError(
+        text("block '", block, "': ", what, " has a function and a formula; expected one of them"));
+  }
+  function = formula.function();
+}
+
+/// Refuses options of a zero crossing that exclude each other, or that name a missing mode, state
+/// or input.
+void require_sound(const ZeroCrossing& c, const Declarations& declared, const std::string& block) {
+  const auto refuse = [&](bool wrong, auto&&... why) {
+    if (wrong) throw ModelError(text("block '", block, "': zero crossing '", c.name, "' ", why...));
+  };
+  refuse(!c.guard, "has no guard");
+  refuse(c.size < 1, "has ", c.size, " guards; expected 1 or more");
+  refuse(c.max_count < 1, "has max_count ", c.max_count, "; expected 1 or more");
+  refuse(c.max_count > 1 && !c.terminal, "has max_count ", c.max_count,
+         " but is not terminal; set terminal too");
+  refuse(c.zeno_tolerance && !(*c.zeno_tolerance >= 0.0), "has zeno_tolerance ",
+         c.zeno_tolerance.value_or(0.0), "; expected a time >= 0 s");
+  refuse(!c.holds.empty() && static_cast<Index>(c.holds.size()) != c.size, "has ", c.size,
+         " guards and ", c.holds.size(), " lists of states to hold; give one list for each guard");
+  const Index n = declared.continuous.initial.size();
+  for (const auto& states : c.holds) {
+    for (int i : states)
+      refuse(i < 0 || i >= n, "holds state ", i, "; the block has ", n,
+             " continuous states, declared before it");
+  }
+}
+
+}  // namespace
+
+LeafSystem::LeafSystem(std::string name) : System(std::move(name)) {}
+LeafSystem::~LeafSystem() = default;
+LeafSystem::LeafSystem(LeafSystem&&) noexcept = default;
+LeafSystem& LeafSystem::operator=(LeafSystem&&) noexcept = default;
+
+void LeafSystem::declare_continuous_state(Index n, RightHandSide ode) {
+  declare_continuous_state({.initial = Eigen::VectorXd::Zero(n), .ode = std::move(ode)});
+}
+
+void LeafSystem::declare_jacobian(MatrixFunction jacobian) {
+  declared_.continuous.jacobian = std::move(jacobian);
+}
+
+void LeafSystem::declare_jacobian_sparsity(std::vector<MatrixEntry> entries) {
+  declared_.continuous.sparsity = std::move(entries);
+}
+
+void LeafSystem::declare_sparse_jacobian(std::vector<MatrixEntry> entries, VectorFunction values) {
+  declare_jacobian_sparsity(std::move(entries));
+  declared_.continuous.sparse_jacobian = std::move(values);
+}
+
+ParameterIndex LeafSystem::declare_dynamic_parameter(std::string name, double value) {
+  return declare_dynamic_parameter(std::move(name), Eigen::VectorXd::Constant(1, value));
+}
+
+LeafPort LeafSystem::output_source(int index) const { return {this, index}; }
+
+LeafPort LeafSystem::input_target(int index) const { return {this, index}; }
+
+std::vector<std::string> LeafSystem::input_names() const {
+  return detail::names_of(declared_.inputs);
+}
+std::vector<std::string> LeafSystem::output_names() const {
+  return detail::names_of(declared_.outputs);
+}
+
+void LeafSystem::collect(Structure& out, const std::string& path) const {
+  std::string known_as = path.empty() ? name() : path;
+  out.systems.push_back({system_id(), known_as, out.leaves.size(), out.leaves.size() + 1});
+  out.leaves.push_back({this, std::move(known_as)});
+}
+
+void LeafSystem::declare_continuous_state(ContinuousState state) {
+  if (declared_.continuous.initial.size() > 0) {
+    throw ModelError(
+        text("block '", name(),
+             "': the continuous state is declared twice; declare it once, as one vector"));
+  }
+  detail::require_finite(state.initial, text("block '", name(), "': initial continuous state"));
+  if (state.ode.steps != nullptr && state.ode.states != state.initial.size()) {
+    throw ModelError(text("block '", name(), "': the right-hand side is inlined for ",
+                          state.ode.states, " continuous states, the block has ",
+                          state.initial.size(), "; say inlined<", state.initial.size(), ">"));
+  }
+  take_formula(state.ode.function, state.formula, "the continuous state", name());
+  const ContinuousState& before = declared_.continuous;
+  if (!state.jacobian) state.jacobian = before.jacobian;
+  if (!state.sparsity) {
+    state.sparsity = before.sparsity;
+    state.sparse_jacobian = before.sparse_jacobian;
+  }
+  declared_.continuous = std::move(state);
+}
+
+void LeafSystem::declare_discrete_state(const Eigen::VectorXd& initial) {
+  if (declared_.discrete.size() > 0) {
+    throw ModelError(
+        text("block '", name(),
+             "': the discrete state is declared twice; declare it once, as one vector"));
+  }
+  detail::require_finite(initial, text("block '", name(), "': initial discrete state"));
+  declared_.discrete = initial;
+}
+
+void LeafSystem::declare_default_mode(int mode) {
+  declared_.mode = mode;
+  declared_.has_modes = true;
+}
+
+ParameterIndex LeafSystem::declare_dynamic_parameter(std::string parameter,
+                                                     const Eigen::VectorXd& value) {
+  detail::name_it(parameter, declared_.parameters, "parameter_", name());
+  detail::require_finite(value, text("block '", name(), "': parameter '", parameter, "'"));
+  const ParameterIndex index{declared_.parameter_values.size(), value.size()};
+  declared_.parameters.push_back({std::move(parameter), index.offset, index.size});
+  declared_.parameter_values.conservativeResize(index.offset + index.size);
+  declared_.parameter_values.tail(index.size) = value;
+  return index;
+}
+
+int LeafSystem::declare_input_port(InputDeclaration input) {
+  detail::name_it(input.name, declared_.inputs, "in_", name());
+  declared_.inputs.push_back(std::move(input));
+  return static_cast<int>(declared_.inputs.size()) - 1;
+}
+
+int LeafSystem::declare_output_port(OutputDeclaration output) {
+  detail::name_it(output.name, declared_.outputs, "out_", name());
+  take_formula(output.calc, output.formula, text("output '", output.name, "'"), name());
+  if (!output.calc && !output.view) {
+    throw ModelError(
+        text("block '", name(), "': output '", output.name, "' has no function that computes it"));
+  }
+  declared_.outputs.push_back(std::move(output));
+  return static_cast<int>(declared_.outputs.size()) - 1;
+}
+
+int LeafSystem::declare_continuous_state_output(std::string port) {
+  const Index n = declared_.continuous.initial.size();
+  return declare_output_port({.name = std::move(port),
+                              .shape = Shape::of(n),
+                              .reads = Reads::continuous_state,
+                              .view = Place{Space::x, 0, n}});
+}
+
+int LeafSystem::declare_discrete_state_output(std::string port) {
+  const Index n = declared_.discrete.size();
+  return declare_output_port({.name = std::move(port),
+                              .shape = Shape::of(n),
+                              .reads = Reads::discrete_state,
+                              .view = Place{Space::z, 0, n}});
+}
+
+int LeafSystem::declare_mode_output(std::string port) {
+  return declare_output_port({.name = std::move(port),
+                              .calc = [](const At& at) { return at.mode; },
+                              .reads = Reads::mode});
+}
+
+int LeafSystem::declare_zero_crossing(ZeroCrossing crossing) {
+  detail::name_it(crossing.name, declared_.zero_crossings, "zero_crossing_", name());
+  take_formula(crossing.guard, crossing.formula, text("zero crossing '", crossing.name, "'"),
+               name());
+  require_sound(crossing, declared_, name());
+  declared_.zero_crossings.push_back(std::move(crossing));
+  return static_cast<int>(declared_.zero_crossings.size()) - 1;
+}
+
+RelationIndex LeafSystem::declare_relation(Relation relation) {
+  detail::name_it(relation.name, declared_.relations, "relation_", name());
+  take_formula(relation.guard, relation.formula, text("relation '", relation.name, "'"), name());
+  if (!relation.guard) {
+    throw ModelError(text("block '", name(), "': relation '", relation.name, "' has no guard"));
+  }
+  declared_.relations.push_back(std::move(relation));
+  return {static_cast<int>(declared_.relations.size()) - 1};
+}
+
+void LeafSystem::declare_edge_reset(EdgeReset reset) {
+  detail::name_it(reset.name, declared_.edge_resets, "edge_reset_", name());
+  if (!reset.reset_map) {
+    throw ModelError(text("block '", name(), "': edge reset '", reset.name, "' has no reset map"));
+  }
+  declared_.edge_resets.push_back(std::move(reset));
+}
+
+void LeafSystem::declare_periodic_update(ResetMap update, double period, double offset,
+                                         std::string event) {
+  detail::name_it(event, declared_.time_events, "periodic_", name());
+  if (!(period > 0.0) || !std::isfinite(offset)) {
+    throw ModelError(text("block '", name(), "': periodic update '", event, "': period ", period,
+                          " s, offset ", offset, " s; expected period > 0 and a finite offset"));
+  }
+  declared_.time_events.push_back(
+      {.name = std::move(event), .update = std::move(update), .period = period, .offset = offset});
+}
+
+void LeafSystem::declare_one_shot(double time, ResetMap update, std::string event) {
+  detail::name_it(event, declared_.time_events, "one_shot_", name());
+  if (!std::isfinite(time))
+    throw ModelError(text("block '", name(), "': time event '", event, "' at ", time, " s"));
+  declared_.time_events.push_back(
+      {.name = std::move(event), .update = std::move(update), .offset = time});
+}
+
+}  // namespace saltus
