@@ -1,6 +1,7 @@
 // NaN and Inf from a derivative, a guard, an output or a reset map end the run and are named: which
 // block, which t.
 
+#include "saltus/library/library.hpp"
 #include "support/leaves.hpp"
 #include "support/quiet.hpp"
 
