@@ -1,5 +1,7 @@
 #include "traced_declarations.hpp"
 
+#include "saltus/model/detail/names.hpp"
+
 #include <cmath>
 #include <map>
 #include <optional>

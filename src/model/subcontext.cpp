@@ -1,24 +1,20 @@
 // context[id] and with_subcontext: take one system's values out of a context and write them back.
-#include <algorithm>
-#include <utility>
+#include "saltus/model/detail/subcontext.hpp"
 
-#include "saltus/model/context.hpp"
+#include <algorithm>
 
 namespace saltus {
 
-namespace {
+namespace detail {
 
-/// First entry and number of entries of the leaves [first, last) in one of the flat arrays.
-template <class Offset, class Size>
-std::pair<Index, Index> extent(const Layout& layout, const Layout::Range& range, Offset offset,
-                               Size size) {
+std::pair<Index, Index> extent(const Layout& layout, const Layout::Range& range,
+                               Index Layout::Leaf::*offset, Index Layout::Leaf::*size) {
   if (range.first == range.last) return {0, 0};
   Index count = 0;
   for (std::size_t i = range.first; i < range.last; ++i) count += layout.leaves[i].*size;
   return {layout.leaves[range.first].*offset, count};
 }
 
-/// The layout of a part: the same leaves with offsets that start at zero.
 std::shared_ptr<const Layout> part_layout(const Layout& whole, const Layout::Range& range) {
   auto part = std::make_shared<Layout>();
   const Layout::Leaf origin = range.first < range.last ? whole.leaves[range.first] : Layout::Leaf{};
@@ -38,7 +34,9 @@ std::shared_ptr<const Layout> part_layout(const Layout& whole, const Layout::Ran
   return part;
 }
 
-}  // namespace
+}  // namespace detail
+
+using detail::extent, detail::part_layout;
 
 Context Context::operator[](SystemId id) const {
   const Layout::Range& where = range(id);

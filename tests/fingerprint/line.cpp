@@ -82,8 +82,10 @@ std::string context(const saltus::Context& context) {
 /// As it is saved: its form may change where the values of a run do not.
 std::string continuation(const saltus::Context& context) {
   Hash hash;
-  if (context.continuation() != nullptr)
-    hash.add(saltus::detail::json_of(*context.continuation()).dump());
+  if (context.continuation() != nullptr) {
+    saltus::Continuation copy = *context.continuation();
+    hash.add(saltus::detail::written<saltus::detail::JsonTree>(copy).dump());
+  }
   return hash.text();
 }
 

@@ -1,5 +1,5 @@
 // The layout of a part: its leaves count from zero, and are called as the part calls them.
-#include "saltus/model/subcontext.hpp"
+#include "saltus/model/detail/subcontext.hpp"
 
 #include "support/leaves.hpp"
 
