@@ -113,7 +113,7 @@ run_tests() {
   for part; do
     start=$SECONDS before_passed=$passed before_failed=$failed
     echo "$part"
-    if [ -e "$part" ]; then test_file "$part"; else "test_$part"; fi
+    if [[ $part == *.cpp ]]; then test_file "$part"; else "test_$part"; fi
     echo "  $((passed - before_passed)) passed, $((failed - before_failed)) failed in $part ($((SECONDS - start)) s)"
     durations+=("$((SECONDS - start)) $part")
   done

@@ -52,7 +52,7 @@ def test_default_name_is_class_and_id():
         (
             lambda s: s.declare_output_port(len, reads=["mood"]),
             "block 'block': output 'out_0' reads 'mood'; did you mean 'mode'? "
-            "Known: 'time', 'continuous_state', 'discrete_state', 'mode', 'inputs'",
+            "Known: 'time', 'continuous_state', 'discrete_state', 'mode', 'inputs', 'relations'",
         ),
         (
             lambda s: s.declare_dynamic_parameter("k", "much"),
