@@ -59,9 +59,9 @@ std::string Plan::describe() const {
   describe_list(out, *this, "constant, computed once", constants);
   describe_list(out, *this, "computed at instants", instants);
   describe_list(out, *this, "computed for the derivatives", derivatives);
-  describe_walk(out, *this, derivative_walk, "derivatives of blocks");
+  describe_walk(out, *this, walks.derivatives, "derivatives of blocks");
   describe_list(out, *this, "computed for the guards", guard_needs);
-  describe_walk(out, *this, guard_walk, "guards");
+  describe_walk(out, *this, walks.guards, "guards");
   describe_list(out, *this, "computed for recorded rows", tap_needs);
   describe_list(out, *this, "dropped, nothing reads them", dropped);
   out += guards.empty() ? "no guards: no root-finding\n" : text("guards: ", guard_slots, "\n");

@@ -258,8 +258,8 @@ Walk walk_of(const Plan& plan, const std::vector<int>& list, const std::vector<S
 }  // namespace
 
 void fuse(Plan& plan) {
-  plan.derivative_walk = walk_of(plan, plan.derivatives, odes_of(plan));
-  plan.guard_walk = walk_of(plan, plan.guard_needs, guards_of(plan));
+  plan.walks.derivatives = walk_of(plan, plan.derivatives, odes_of(plan));
+  plan.walks.guards = walk_of(plan, plan.guard_needs, guards_of(plan));
 }
 
 }  // namespace saltus::detail

@@ -35,8 +35,8 @@ Index first_not_finite(const VectorView& values) {
 
 std::optional<NotFinite> Machine::not_finite(double t, const double* state) {
   bases_[0] = carried(t, state);
-  for (std::size_t k = 0; k < needs_of_derivatives_.size(); ++k) {
-    const OutputCall& call = needs_of_derivatives_[k];
+  for (std::size_t k = 0; k < calls_.needs_of_derivatives.size(); ++k) {
+    const OutputCall& call = calls_.needs_of_derivatives[k];
     const VectorRef out(y.data() + call.to, call.width);
     (*call.function)(*call.system, seen_by(call, t), out);
     const PlanLeaf& leaf = plan_->leaves[call.leaf];
@@ -47,7 +47,7 @@ std::optional<NotFinite> Machine::not_finite(double t, const double* state) {
     }
   }
   Eigen::VectorXd xdot(plan_->nx);
-  for (const Call& ode : odes_of({})) {
+  for (const Call& ode : calls_.single_odes) {
     ode_with_rest(ode, t, xdot.data());
     const PlanLeaf& leaf = plan_->leaves[ode.leaf];
     const VectorView own(xdot.data() + ode.x, ode.size);

@@ -8,8 +8,6 @@
 
 namespace saltus {
 
-using namespace thresholds;
-
 Contacts::Contacts(Machine& machine, const SimulatorOptions& options)
     : machine_(&machine), absolute_(options.atol / options.rtol) {
   for (auto* v :
@@ -60,6 +58,7 @@ void Contacts::reset(const SurfaceContact& contact, double t, const double* from
 /// Puts the fixed point that begun_, once_ and twice_ point to into x; returns how far, in units of
 /// rounding, the reset still moved.
 double Contacts::extrapolate(const SurfaceContact& contact, double* x) {
+  using namespace thresholds;
   double furthest = 0.0;
   for (const Index i : contact.states) {
     const double first = once_[i] - begun_[i], second = twice_[i] - once_[i];
@@ -74,6 +73,7 @@ double Contacts::extrapolate(const SurfaceContact& contact, double* x) {
 }
 
 bool Contacts::settle(const SurfaceContact& contact, double t, double* x) {
+  using namespace thresholds;
   begun_ = VectorView(x, begun_.size());
   original_ = begun_;
   for (int round = 0; round < fixed_point_rounds; ++round) {
@@ -91,7 +91,8 @@ bool Contacts::settle(const SurfaceContact& contact, double t, double* x) {
 
 /// While they are free, the blocks of a contact flow.
 void Contacts::free(const SurfaceContact& contact, bool yes) {
-  for (const Index i : contact.states) yes ? machine_->move(i) : machine_->rest(i);
+  for (const Index i : contact.states)
+    yes ? machine_->resting().move(i) : machine_->resting().rest(i);
 }
 
 /// Off the surface counts as above zero. f_ is the free flow at (t, x).
@@ -118,6 +119,7 @@ double Contacts::lift(const SurfaceContact& contact, double t, const double* x) 
 
 void Contacts::choose_look_ahead(SurfaceContact& contact, double t, const double* x,
                                  double longest) {
+  using namespace thresholds;
   const double brief = std::max(brief_of_run * longest, brief_roundings * eps * std::abs(t));
   free(contact, true);
   machine_->flow(t, x, f_.data());
@@ -135,6 +137,7 @@ void Contacts::choose_look_ahead(SurfaceContact& contact, double t, const double
 }
 
 bool Contacts::moves(const SurfaceContact& contact, double t, const double* x, double longest) {
+  using namespace thresholds;
   const double lifted = lift(contact, t, x);
   machine_->flow(t, x, slow_.data());
   double d = contact.look_ahead;

@@ -135,7 +135,7 @@ bool CrossingArming::reset_turns(const GuardGroup& group, std::size_t k) {
   const PlanLeaf& of = machine_->plan().leaf(group.leaf);
   trial_ = machine_->x, trial_z_ = machine_->z;
   machine_->evaluate_instant(present_->t);
-  At at = machine_->at(static_cast<std::size_t>(group.leaf), present_->t);
+  At at = machine_->at(static_cast<std::size_t>(group.leaf), present_->t, machine_->x.data());
   at.entry = (*guards_)[k].entry;
   int mode = at.mode;
   Next next({trial_.data() + of.x, of.nx}, {trial_z_.data() + of.z, of.nz}, mode, of.path);

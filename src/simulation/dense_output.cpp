@@ -57,7 +57,9 @@ void DenseOutput::move_to(double t, Side side) {
   r.values = r.machine.evaluate_taps(t, r.x.data());
 }
 
-VectorView DenseOutput::state() const { return {reader_->values.state(), reader_->machine.plan().nx}; }
+VectorView DenseOutput::state() const {
+  return {reader_->values.state(), reader_->machine.plan().nx};
+}
 
 VectorView DenseOutput::signal(std::size_t i) const {
   const Plan& plan = reader_->machine.plan();

@@ -29,7 +29,7 @@ std::span<const Index> Holds::whole(const PlanLeaf& leaf) const {
 
 void Holds::add_guards(const GuardSet& guards) {
   const Plan& plan = machine_->plan();
-  for (const Guard& guard : guards) {
+  for (const Guard& guard : guards.all()) {
     Hold& hold = of_guards_.emplace_back();
     const GuardGroup& group = plan.guard(guard.group);
     if (!group.is_crossing() || !plan.crossing_of(group).has_effect()) continue;
@@ -109,7 +109,7 @@ void Holds::throw_accumulation(const Hold& hold, double predicted) const {
 
 void Holds::rest(Hold& hold, double predicted) {
   hold.monitor.holding = true, ++count_;
-  for (const Index i : hold.states) machine_->rest(i);
+  for (const Index i : hold.states) machine_->resting().rest(i);
   present_->outcome.horizon = std::numeric_limits<double>::infinity();
   present_->outcome.restart = true;
   flow_->forget();
@@ -122,7 +122,7 @@ void Holds::rest(Hold& hold, double predicted) {
 
 void Holds::release(Hold& hold) {
   hold.monitor.forget(), --count_;
-  for (const Index i : hold.states) machine_->move(i);
+  for (const Index i : hold.states) machine_->resting().move(i);
   present_->outcome.restart = true;
   flow_->forget();
   journal_->note({.kind = EventKind::zeno_release,
@@ -179,7 +179,7 @@ void Holds::load(const Continuation& from) {
       hold.monitor.load(*firings++);
       if (!hold.monitor.holding) continue;
       ++count_;
-      for (const Index i : hold.states) machine_->rest(i);
+      for (const Index i : hold.states) machine_->resting().rest(i);
     }
   }
 }

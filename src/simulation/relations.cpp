@@ -170,7 +170,7 @@ std::vector<double> Relations::save() const {
 }
 
 bool Relations::fits(const Continuation& from) const {
-  const auto relations = std::ranges::count_if(*guards_, [&](const Guard& guard) {
+  const auto relations = std::ranges::count_if(guards_->all(), [&](const Guard& guard) {
     return !machine_->plan().guard(guard.group).is_crossing();
   });
   return static_cast<std::size_t>(relations) == from.relations.size();

@@ -5,11 +5,24 @@
 
 namespace saltus {
 
-SimulatorOptions Run::checked(SimulatorOptions options) {
+namespace {
+
+SimulatorOptions checked(SimulatorOptions options) {
   detail::check(options);
   require_linear_solver(options.linear_solver, options.ode_solver_method);
   return options;
 }
+
+SolverOptions solver_options(const SimulatorOptions& options) {
+  return {options.rtol,
+          options.atol,
+          options.min_minor_step_size,
+          options.max_minor_step_size,
+          linear_solver_from(options.linear_solver),
+          options.find_sparsity};
+}
+
+}  // namespace
 
 Run::Run(const System& system, SimulatorOptions options)
     : Run(compile(system, checked(options).recorded_signals, options.refinement.get()), options) {
@@ -37,7 +50,7 @@ void Run::initialize(const Context& context) {
   if (options_.dense_output) results_.trajectory.start(machine_.shared_plan(), begin_, options_);
   calendar_.begin(time_, context.settled());
   begun_ = solver_started_ = over_ = false;
-  next_save_ = 0, ticks_ = 0;
+  next_save_ = 0, interrupt_ = {};
   chattering_.begin(time_, machine_.x);
   row_ = machine_.x;
 }
@@ -66,7 +79,7 @@ Status Run::advance_to(double t_end) {
                           " s; the end has to be later"));
   }
   const auto start = std::chrono::steady_clock::now();
-  asked_ = start;
+  interrupt_.asked = start;
   try {
     results_.status = run_to(t_end);
   } catch (const SimulationError& error) {
@@ -95,18 +108,7 @@ Status Run::advance_to(double t_end) {
 Status Run::run_to(double t_end) {
   if (over_) return results_.status;
   if (!begun_) {
-    begun_ = true;
-    Recorder* recorder = recorder_ ? &*recorder_ : nullptr;
-    const Continuation* earlier = begin_.continuation();
-    const bool resumes = earlier != nullptr && instant_.fits(*earlier);
-    resumes ? instant_.resume(time_, recorder, *earlier, t_end - time_)
-            : instant_.begin(time_, recorder);
-    record(time_, machine_.x.data());
-    if (options_.dense_output) results_.trajectory.open(time_, machine_, instant_.contacts());
-    if (resumes)
-      last_instant_ = time_;
-    else if (const Status status = settle(StopReason::stop_time, t_end, true); over_)
-      return status;
+    if (const Status status = begin(t_end); over_) return status;
   }
   while (time_ < t_end) {
     if (options_.max_major_steps && results_.statistics.instants >= *options_.max_major_steps) {
@@ -115,9 +117,24 @@ Status Run::run_to(double t_end) {
                       " major steps before t = ", t_end, " s; raise max_major_steps"));
     }
     if (const Status status = step(t_end); over_) return status;
-    if ((++ticks_ & 15) == 0 && interrupted())
+    if ((++interrupt_.ticks & 15) == 0 && interrupted())
       return end(Status::interrupted, text("t = ", time_, " s: interrupted"));
   }
+  return Status::reached_end;
+}
+
+/// The instant at which the run starts, unless an earlier run has had it.
+Status Run::begin(double t_end) {
+  begun_ = true;
+  Recorder* recorder = recorder_ ? &*recorder_ : nullptr;
+  const Continuation* earlier = begin_.continuation();
+  const bool resumes = earlier != nullptr && instant_.fits(*earlier);
+  resumes ? instant_.resume(time_, recorder, *earlier, t_end - time_)
+          : instant_.begin(time_, recorder);
+  record(time_, machine_.x.data());
+  if (options_.dense_output) results_.trajectory.open(time_, machine_, instant_.contacts());
+  if (!resumes) return settle(StopReason::stop_time, t_end, true);
+  last_instant_ = time_;
   return Status::reached_end;
 }
 
@@ -150,21 +167,12 @@ void Run::move_to(double t_stop, StopReason& reason) {
   if (!solver_started_) {
     if (!solver_)
       solver_ = make_solver(plan().nx == 0 ? Method::dopri5 : method_, machine_, guards_,
-                            solver_options());
+                            solver_options(options_));
     solver_->restart(time_, machine_.x, {.first = true});
     solver_started_ = true;
   }
   reason = solver_->advance(t_stop);
   time_ = solver_->time();
-}
-
-SolverOptions Run::solver_options() const {
-  return {options_.rtol,
-          options_.atol,
-          options_.min_minor_step_size,
-          options_.max_minor_step_size,
-          linear_solver_from(options_.linear_solver),
-          options_.find_sparsity};
 }
 
 /// The instant at time_, where there is one; restarts the solver if it has to forget.
@@ -182,9 +190,13 @@ Status Run::settle(StopReason reason, double t_end, bool at_start) {
   const Outcome outcome = instant_.run(time_, due_, t_end - time_, at_start);
   if (outcome.restart && solver_started_)
     solver_->restart(time_, machine_.x, {.horizon = outcome.horizon, .flow = instant_.flow()});
+  return after(outcome, {time_, at_root, t_end - begin_.time()}, idle);
+}
+
+/// Whether an instant ends the run.
+Status Run::after(const Outcome& outcome, const Chattering::Seen& seen, bool idle) {
   if (outcome.terminal) return end(Status::terminal);
   if (outcome.zeno_stop) return end(Status::zeno_stop);
-  const Chattering::Seen seen{time_, at_root, t_end - begin_.time()};
   if (chattering_.chatters(outcome, seen, idle, machine_.x)) return end_chattering();
   return Status::reached_end;
 }
@@ -203,48 +215,9 @@ Status Run::end_chattering() {
 bool Run::interrupted() {
   if (!options_.interrupt) return false;
   const auto now = std::chrono::steady_clock::now();
-  if (now - asked_ < std::chrono::milliseconds(20)) return false;
-  asked_ = now;
+  if (now - interrupt_.asked < std::chrono::milliseconds(20)) return false;
+  interrupt_.asked = now;
   return options_.interrupt();
-}
-
-void Run::record(double t, const double* x) {
-  if (recorder_ && !recorder_->has_row(t, instant_.jump()))
-    recorder_->record(t, instant_.jump(), x);
-}
-
-/// Rows of the step from `from` to now: those at asked-for times, then its end.
-void Run::record_step(double from) {
-  if (!recorder_) return;
-  const auto& wanted = options_.save_at;
-  while (next_save_ < wanted.size() && wanted[next_save_] < from) ++next_save_;
-  for (; next_save_ < wanted.size() && wanted[next_save_] <= time_; ++next_save_) {
-    const double t = wanted[next_save_];
-    const bool inside = solver_started_ && t < time_;
-    if (inside) solver_->interpolate(t, row_.data());
-    record(t, inside ? row_.data() : present_state().data());
-  }
-  if (steps_recorded()) record(time_, present_state().data());
-}
-
-/// For dense output: the polynomial, or the two, of the step from `from` to now.
-void Run::keep_step(double from) {
-  if (!solver_started_)
-    return results_.trajectory.add(from, time_, 0, machine_, instant_.contacts(), machine_.x,
-                                   [](double, double*) {});
-  const int degree = plan().nx == 0 ? 0 : solver_->degree();
-  const auto add = [&](double begin, double end, const Eigen::VectorXd& x_end) {
-    results_.trajectory.add(begin, end, degree, machine_, instant_.contacts(), x_end,
-                            [this](double t, double* x) { solver_->interpolate(t, x); });
-  };
-  const double joint = degree == 0 ? from : solver_->joint();
-  if (from < joint && joint < time_) {
-    solver_->interpolate(joint, row_.data());
-    add(from, joint, row_);
-    results_.trajectory.depart(row_);
-    from = joint;
-  }
-  add(from, time_, solver_->state());
 }
 
 /// In a handler: what was thrown is the cause.
@@ -259,41 +232,6 @@ Status Run::end(Status status, std::string message) {
   results_.status = status;
   results_.message = std::move(message);
   return status;
-}
-
-/// Context, last row and counts.
-void Run::finish() {
-  const bool at_instant =
-      results_.status == Status::terminal || results_.status == Status::zeno_stop;
-  if (solver_started_ && !at_instant) take_state();
-  if (results_.status != Status::failed) record(time_, machine_.x.data());
-  if (options_.dense_output)
-    results_.trajectory.close(time_, machine_, instant_.contacts(),
-                              results_.status != Status::failed);
-  results_.context = context();
-  Statistics& s = results_.statistics;
-  if (solver_started_) static_cast<SolverStatistics&>(s) = solver_->statistics();
-  s.stretches = solver_started_ ? solver_->stretches() : std::vector<Stretch>{};
-  s.method = solver_started_ ? solver_->method() : "none: no continuous state";
-  s.right_hand_side_calls = machine_.rhs_calls;
-  s.guard_calls = machine_.guard_calls;
-  s.jacobian_calls = machine_.jacobian_calls;
-  s.events_by_name = instant_.journal().counts();
-}
-
-Context Run::context() const {
-  if (!begun_) return begin_;
-  const bool whole = results_.status != Status::failed;  // else an instant was left half done
-  return machine_.save(begin_, time_,
-                       whole ? std::make_shared<const Continuation>(instant_.save()) : nullptr);
-}
-
-std::string Run::describe() const {
-  const std::string linear = solver_ ? solver_->statistics().linear_solver : "";
-  return plan().describe() +
-         text("method: ", options_.ode_solver_method,
-              solver_ ? text(" (", solver_->method(), ")") : "", "\n") +
-         (linear.empty() ? "" : text("linear solver: ", linear, "\n"));
 }
 
 }  // namespace saltus

@@ -21,7 +21,7 @@ void Transition::begin_pass() {
 bool Transition::run(const Call& call) {
   const auto number = static_cast<std::size_t>(call.leaf);
   const PlanLeaf& of = machine_->plan().leaf(number);
-  At at = machine_->at(number, call.t);
+  At at = machine_->at(number, call.t, machine_->x.data());
   at.entry = call.entry;
   if (!call.reads_before) {
     new (&at.x) VectorView(x_next_.data() + of.x, of.nx);

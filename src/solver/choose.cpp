@@ -15,7 +15,8 @@ namespace {
 /// with drag, where each flight is cut short by its end and the inside of each step is looked at:
 /// 1.6 at 1e-9, 1.0 at 1e-10, 0.8 at 1e-12.
 double order_8_pays(const GuardSet& guards) {
-  const bool stops = std::ranges::any_of(guards, [](const Guard& each) { return !each.monitor; });
+  const bool stops =
+      std::ranges::any_of(guards.all(), [](const Guard& each) { return !each.monitor; });
   return stops ? 1e-10 : 1e-7;
 }
 

@@ -55,7 +55,7 @@ class CvodeScene {
   /// Only a scene with guards that stop the solver has root-finding. CVodeReInit would keep guards
   /// switched off that were zero once; none is, since CVODE is never shown a zero: shown().
   void watch_guards(void* cvode) {
-    if (std::ranges::all_of(*guards_, &Guard::monitor)) return;
+    if (std::ranges::all_of(guards_->all(), &Guard::monitor)) return;
     directions_.resize(guards_->size()), asked_.resize(guards_->size());
     CVodeRootInit(cvode, static_cast<int>(directions_.size()), root_functions);
     CVodeSetNoInactiveRootWarn(cvode);
@@ -64,7 +64,7 @@ class CvodeScene {
   /// The present directions: the guard of a carried block is watched for its lift.
   void aim(void* cvode) {
     if (directions_.empty()) return;
-    std::ranges::transform(*guards_, directions_.begin(), [](const Guard& guard) {
+    std::ranges::transform(guards_->all(), directions_.begin(), [](const Guard& guard) {
       const Direction direction = guard.watched_direction();
       return direction == Direction::positive_then_non_positive   ? -1
              : direction == Direction::negative_then_non_negative ? 1
@@ -135,7 +135,9 @@ class CvodeScene {
     if (guard.phase == Phase::resting) return std::abs(value) > guard.error ? -tiny : tiny;
     if (guard.watched_direction() == Direction::edge_detection)
       return value == guard.base ? 1.0 : -1.0;
-    const double side = guard.side < 0 ? -tiny : tiny;
+    return shown_side(guard, t, value, guard.side < 0 ? -tiny : tiny, tiny);
+  }
+  double shown_side(const Guard& guard, double t, double value, double side, double tiny) const {
     if (guard.waits() && t == begun_at_) return side;
     if (std::abs(value) > guard.error) return std::copysign(std::max(std::abs(value), tiny), value);
     return guard.waits() || guard.side == 0 ? side : -side;

@@ -177,7 +177,7 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
   /// A guard that was at zero when this stretch began, found at zero again within the two steps of
   /// order 1.
   bool too_coarse() const {
-    return steps_ < 2 && std::ranges::any_of(*guards_, [](const Guard& guard) {
+    return steps_ < 2 && std::ranges::any_of(guards_->all(), [](const Guard& guard) {
              return guard.active && guard.at_zero() && !guard.monitor;
            });
   }

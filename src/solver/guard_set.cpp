@@ -77,7 +77,7 @@ void GuardSet::load(const Continuation& from) {
     Guard& guard = guards_[k];
     const Continuation::Guard& saved = from.guards[k];
     set(k, saved.fresh ? Phase::waiting : Phase::unseen, 0, saved.band);
-    turn_to(guard, saved.side);
+    guard.turn(saved.side);
     guard.came_from = static_cast<signed char>(saved.from);
     guard.rests = saved.resting, guard.base = saved.base;
   }

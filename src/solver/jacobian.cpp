@@ -184,7 +184,7 @@ bool Jacobian::take(const Own& own, double t, const double* x, const double* xdo
     state.jacobian(*leaf.system, at, MatrixRef(block_.data(), leaf.nx, leaf.nx));
   if (!block_.head(own.size).allFinite() && !mend(own, t, x, xdot, by)) return false;
   for (const Copy& copy : own.copies) {
-    out[place(copy.entry)] = machine_->rests(copy.row) ? 0.0 : block_[copy.from];
+    out[place(copy.entry)] = machine_->resting().rests(copy.row) ? 0.0 : block_[copy.from];
     block_[copy.from] = 0.0;
   }
   if (state.sparsity && !block_.head(own.size).isZero(0.0))

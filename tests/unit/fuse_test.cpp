@@ -16,7 +16,7 @@ namespace {
 /// The same plan with a call for each block.
 std::shared_ptr<const Plan> apart(const Plan& plan) {
   Plan copy = plan;
-  copy.derivative_walk = {}, copy.guard_walk = {};
+  copy.walks.derivatives = {}, copy.walks.guards = {};
   return std::make_shared<const Plan>(std::move(copy));
 }
 
@@ -189,8 +189,8 @@ TEST_CASE("fused formulas give the bits of single calls, whatever they are put t
   INFO("seed " << seed);
   const Diagram diagram = Chance(seed).diagram();
   const auto plan = compile(diagram);
-  REQUIRE(plan->derivative_walk.fuses());
-  REQUIRE(plan->derivative_walk.last);
+  REQUIRE(plan->walks.derivatives.fuses());
+  REQUIRE(plan->walks.derivatives.last);
   Machine fused(plan), single(apart(*plan));
   const Context context = diagram.create_context();
   fused.load(context), single.load(context);
@@ -220,8 +220,8 @@ TEST_CASE("a run of fused blocks is the run of single ones, to the last bit", "[
   INFO("method " << method);
   const Diagram diagram = ball();
   const auto plan = compile(diagram, {{"y", diagram["y"].output()}});
-  REQUIRE(plan->derivative_walk.nodes.size() == 2);  // drag and sum
-  REQUIRE(plan->guard_walk.nodes.size() == 1);       // floor
+  REQUIRE(plan->walks.derivatives.nodes.size() == 2);  // drag and sum
+  REQUIRE(plan->walks.guards.nodes.size() == 1);       // floor
   const auto run = [&](std::shared_ptr<const Plan> with) {
     Simulator simulator(std::move(with), {.rtol = 1e-8, .ode_solver_method = method});
     simulator.initialize(diagram.create_context());
@@ -257,8 +257,8 @@ TEST_CASE("a chain is one function that writes no value between its blocks down"
   const int n = GENERATE(1, 10, 1000, 10000);
   const Diagram diagram = chain(n);
   const auto plan = compile(diagram);
-  CHECK(static_cast<int>(plan->derivative_walk.nodes.size()) == n);
-  for (const Walk::Stage& stage : plan->derivative_walk.stages) {
+  CHECK(static_cast<int>(plan->walks.derivatives.nodes.size()) == n);
+  for (const Walk::Stage& stage : plan->walks.derivatives.stages) {
     CHECK(!stage.fused);
     CHECK(stage.calls.empty());
   }
@@ -327,7 +327,7 @@ TEST_CASE("a block of one's own joins by its formulas: of an output, a derivativ
   builder.connect(damping.output(), oscillator.input());
   const Diagram diagram = builder.build();
   const auto plan = compile(diagram);
-  CHECK(plan->derivative_walk.nodes.size() == 2);
+  CHECK(plan->walks.derivatives.nodes.size() == 2);
   Machine machine(plan);
   machine.load(diagram.create_context());
   Eigen::Vector2d f;
@@ -374,7 +374,7 @@ TEST_CASE("of fused blocks the one that gives NaN or Inf is named", "[fuse]") {
   builder.connect(ratio.output(), sum.input(0)), builder.connect(minus.output(), sum.input(1));
   builder.connect(sum.output(), state.input());
   const Diagram diagram = builder.build();
-  REQUIRE(compile(diagram)->derivative_walk.nodes.size() == 3);
+  REQUIRE(compile(diagram)->walks.derivatives.nodes.size() == 3);
   const std::string what = message<SimulationError>([&] {
     simulate(diagram, diagram.create_context(), {0.0, 1.0}, {.ode_solver_method = method});
   });

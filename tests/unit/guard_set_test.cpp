@@ -24,7 +24,7 @@ GuardSet one(Direction direction) {
 
 TEST_CASE("An unseen guard takes the first sign it has for its side, and does not fire") {
   GuardSet guards = one(falls);
-  CHECK_FALSE(guards.crossed(0, -1.0));
+  CHECK_FALSE(guards[0].crossed(-1.0));
   guards.see(0, 0.0);
   CHECK(guards[0].phase == Phase::unseen);
   guards.see(0, 2.0);
@@ -35,33 +35,33 @@ TEST_CASE("An unseen guard takes the first sign it has for its side, and does no
 TEST_CASE("An armed guard fires at zero and beyond, in its direction only") {
   GuardSet guards = one(falls);
   guards.arm(0, 1);
-  CHECK(guards.crossed(0, 0.0));
-  CHECK(guards.crossed(0, -1e-300));
-  CHECK_FALSE(guards.crossed(0, 1e-300));
+  CHECK(guards[0].crossed(0.0));
+  CHECK(guards[0].crossed(-1e-300));
+  CHECK_FALSE(guards[0].crossed(1e-300));
   guards.arm(0, -1);
-  CHECK_FALSE(guards.crossed(0, 1.0));
+  CHECK_FALSE(guards[0].crossed(1.0));
 }
 
 TEST_CASE("A waiting guard fires beyond its error only, and not before it was clearly off zero") {
   GuardSet guards = one(falls);
   guards.wait(0, 1, 1e-12);
-  CHECK_FALSE(guards.crossed(0, 0.0));
-  CHECK_FALSE(guards.crossed(0, -1e-12));
-  CHECK(guards.crossed(0, -2e-12));
+  CHECK_FALSE(guards[0].crossed(0.0));
+  CHECK_FALSE(guards[0].crossed(-1e-12));
+  CHECK(guards[0].crossed(-2e-12));
   guards.follow(0, 5e-13);
   CHECK(guards[0].phase == Phase::waiting);
   guards.follow(0, 2e-12);
   CHECK(guards[0].phase == Phase::armed);
   CHECK(guards[0].error == 0.0);
-  CHECK(guards.crossed(0, 0.0));
+  CHECK(guards[0].crossed(0.0));
 }
 
 TEST_CASE("A resting guard fires on leaving its error to either side, and no look arms it") {
   GuardSet guards = one(falls);
   guards.rest(0, -1, 1e-9);
-  CHECK_FALSE(guards.crossed(0, 1e-9));
-  CHECK(guards.crossed(0, 2e-9));
-  CHECK(guards.crossed(0, -2e-9));
+  CHECK_FALSE(guards[0].crossed(1e-9));
+  CHECK(guards[0].crossed(2e-9));
+  CHECK(guards[0].crossed(-2e-9));
   guards.follow(0, 1e-10);
   CHECK(guards[0].phase == Phase::resting);
   guards.leave_rest(0);
@@ -74,8 +74,8 @@ TEST_CASE("A carried guard fires where its lift rises to zero, whatever its own 
   guards.carry(0);
   CHECK(guards[0].watched_direction() == rises);
   CHECK(guards[0].direction == falls);
-  CHECK_FALSE(guards.crossed(0, -1e-300));
-  CHECK(guards.crossed(0, 0.0));
+  CHECK_FALSE(guards[0].crossed(-1e-300));
+  CHECK(guards[0].crossed(0.0));
   guards.leave_rest(0);
   CHECK(guards[0].watched_direction() == falls);
 }
@@ -135,7 +135,7 @@ TEST_CASE("The limits of a guard are the first values at which it fires") {
         for (const double value : {size, -size}) {
           INFO(to_string(direction)
                << " phase " << static_cast<int>(guards[0].phase) << " " << value);
-          CHECK(guards.crossed(0, value) == (value <= first || value >= second));
+          CHECK(guards[0].crossed(value) == (value <= first || value >= second));
         }
       }
     }

@@ -99,7 +99,7 @@ class Context {
  private:
   friend class LeafSystem;
   friend class System;
-  friend class Machine;
+  friend class Memory;
   friend void write_entry(Context& context, const ContextEntry& entry,
                           std::span<const double> values, std::string_view name);
 

@@ -4,6 +4,7 @@
 
 #include <concepts>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -121,7 +122,9 @@ struct Plan {
   std::vector<EdgeWatch> edges;
   std::vector<ScheduledEvent> schedule;
   std::vector<Tap> taps;
-  Walk derivative_walk, guard_walk;  // derivatives with odes, and guard_needs with guards
+  struct {
+    Walk derivatives, guards;
+  } walks;  // derivatives with odes, and guard_needs with guards
 
   Index nx = 0, nz = 0, np = 0, ny = 0, guard_slots = 0;
 
@@ -156,6 +159,10 @@ struct Plan {
   /// Of a group of zero crossings.
   const ZeroCrossing& crossing_of(const GuardGroup& group) const {
     return leaf(group.leaf).declared().zero_crossings[static_cast<std::size_t>(group.index)];
+  }
+  /// The mode in which a group of guards is seen; none for relations.
+  std::optional<int> start_mode_of(const GuardGroup& group) const {
+    return group.is_crossing() ? crossing_of(group).start_mode : std::nullopt;
   }
   const EdgeReset& reset_of(const EdgeWatch& edge) const {
     return leaf(edge.leaf).declared().edge_resets[static_cast<std::size_t>(edge.index)];

@@ -43,15 +43,24 @@ std::string words_of(const ZeroCrossing& crossing) {
   return out;
 }
 
-std::vector<std::string> notes_of(const LeafSystem& leaf, const Plan* plan, int number) {
-  const Declarations& d = leaf.declarations();
-  std::vector<std::string> notes;
+namespace {
+
+/// "2 states, 1 discrete state, begins in mode 0"; empty if there are none.
+std::string states_of(const Declarations& d) {
   std::string states;
   if (const Index n = d.continuous.initial.size(); n > 0) states = counted(n, "state");
   if (const Index n = d.discrete.size(); n > 0)
     states += (states.empty() ? "" : ", ") + counted(n, "discrete state");
   if (d.has_modes) states += text(states.empty() ? "" : ", ", "begins in mode ", d.mode);
-  if (!states.empty()) notes.push_back(std::move(states));
+  return states;
+}
+
+}  // namespace
+
+std::vector<std::string> notes_of(const LeafSystem& leaf, const Plan* plan, int number) {
+  const Declarations& d = leaf.declarations();
+  std::vector<std::string> notes;
+  if (std::string states = states_of(d); !states.empty()) notes.push_back(std::move(states));
   for (const ZeroCrossing& crossing : d.zero_crossings) {
     const std::string seen =
         crossing.start_mode ? text("mode ", *crossing.start_mode, ": ") : std::string();

@@ -9,7 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "saltus/plan/compile.hpp"
+#include "saltus/plan/detail/calls.hpp"
+#include "saltus/plan/detail/memory.hpp"
+#include "saltus/plan/detail/resting_states.hpp"
 
 namespace saltus {
 
@@ -33,38 +35,19 @@ struct NotFinite {
   std::string entry = {};  ///< "xdot[1] = nan where x = [10, -3]"
 };
 
-/// Where values are after an evaluation: a view that lasts until the next one.
-class Values {
- public:
-  Values() = default;
-  explicit Values(const Bases& bases) : bases_(bases) {}
-  const double* operator()(const Place& place) const {
-    return bases_[static_cast<std::size_t>(place.space)] + place.offset;
-  }
-  /// The continuous state that the evaluation saw, with carried entries on their surfaces.
-  const double* state() const noexcept { return bases_[0]; }
-
- private:
-  Bases bases_{};
-};
-
-/// x, z, p, modes and signals of one run. Threads share a plan; each has its own machine. Nothing
-/// in this class allocates after construction.
-class Machine {
+/// Evaluates the lists of a plan on its memory: derivatives, guards, held outputs, recorded
+/// signals. Each evaluation names the state that it is of; what it computed is a view that lasts
+/// until the next one. Nothing in this class allocates after construction.
+class Machine : public Memory {
  public:
   explicit Machine(std::shared_ptr<const Plan> plan);
-  Machine(const Machine&) = delete;  // views_ point into it
-  Machine& operator=(const Machine&) = delete;
 
-  /// Copies a context to the machine and computes the constant outputs.
+  /// Copies a context to the memory and computes the constant outputs.
   void load(const Context& context);
-  /// The present values, as a context of the same layout.
-  Context save(const Context& like, double t,
-               std::shared_ptr<const Continuation> continuation) const;
 
   /// xdot(t, x), with everything else held.
   [[gnu::always_inline]] void derivative(double t, const double* state, double* xdot) {
-    if (lone_ode_ == nullptr || at_rest_ > 0 || carrier_ != nullptr)
+    if (lone_ode_ == nullptr || resting_.any() || carrier_ != nullptr)
       return carried_derivative(t, state, xdot);
     ++rhs_calls;
     bases_[0] = state;
@@ -80,14 +63,18 @@ class Machine {
     (*lone_guard_->function)(*lone_guard_->system, seen_by(*lone_guard_, t), out);
   }
 
-  /// The right-hand side, if a step that was compiled together with it may call it directly: one
-  /// leaf, no needed outputs, nothing held or carried. Otherwise null.
-  const RightHandSide* inlined() const noexcept {
-    return at_rest_ > 0 || carrier_ != nullptr ? nullptr : inlined_;
+  /// The right-hand side with its arguments except t and x, if a step that was compiled together
+  /// with it may call it directly: one leaf, no needed outputs, nothing held or carried. Otherwise
+  /// null.
+  struct Inlined {
+    const RightHandSide* function = nullptr;
+    const LeafSystem* leaf = nullptr;
+    const At* at = nullptr;
+  };
+  Inlined inlined() {
+    if (inlined_ == nullptr || resting_.any() || carrier_ != nullptr) return {};
+    return {inlined_, lone_ode_->system, &seen_by(*lone_ode_, 0.0)};
   }
-  /// Its arguments except t and x.
-  const At& inlined_at() { return seen_by(*lone_ode_, 0.0); }
-  const LeafSystem& inlined_leaf() const { return *lone_ode_->system; }
 
   /// Derivative and guards at exactly this state, even while a block is carried.
   void flow(double t, const double* state, double* xdot);
@@ -95,12 +82,12 @@ class Machine {
 
   /// Computes the held outputs, and the values that resets, updates and edges read, at (t, x) of
   /// the machine.
-  void evaluate_instant(double t) { run(instant_calls_, t, x.data()); }
+  void evaluate_instant(double t) { run(calls_.instants, t, x.data()); }
   /// Of these values, computes again those that change between instants too, at (t, x).
-  void evaluate_moving(double t, const double* state) { run(moving_calls_, t, state); }
+  void evaluate_moving(double t, const double* state) { run(calls_.moving, t, state); }
   /// Computes the values that the recorded rows show, at (t, x), and returns where they are.
   Values evaluate_taps(double t, const double* state) {
-    run(tap_calls_, t, carried(t, state));
+    run(calls_.taps, t, carried(t, state));
     return Values(bases_);
   }
 
@@ -111,8 +98,6 @@ class Machine {
     const PlanLeaf& of = plan_->leaves[leaf];
     return seen_by({nullptr, of.system, leaf, &views_[leaf], of.x, of.nx}, t);
   }
-  /// The same at the machine's own state.
-  At at(std::size_t leaf, double t) { return at(leaf, t, x.data()); }
   /// xdot of one leaf at time t and this state of the whole machine.
   void leaf_derivative(std::size_t leaf, double t, const double* state, VectorRef xdot) {
     ++rhs_calls;
@@ -122,17 +107,18 @@ class Machine {
 
   /// The state with all carried entries moved to their surface.
   const double* carried(double t, const double* state) {
-    return carrier_ == nullptr ? state : carry(t, state);
+    if (carrier_ == nullptr) return state;
+    carried_x_ = VectorView(state, x.size());
+    carrier_->carry(t, carried_x_.data());
+    return carried_x_.data();
   }
   /// Computes the values that the derivatives read at (t, x), so that `at` shows them.
   void evaluate_derivative_needs(double t, const double* state) {
-    run(needs_of_derivatives_, t, state);
+    run(calls_.needs_of_derivatives, t, state);
   }
 
-  /// Entry i of x has zero derivative from now on, until `move` was called as often as `rest`.
-  void rest(Index i) { change_rest(i, 1); }
-  void move(Index i) { change_rest(i, -1); }
-  bool rests(Index i) const { return rests_[static_cast<std::size_t>(i)] > 0; }
+  /// The entries of x that are held.
+  RestingStates& resting() noexcept { return resting_; }
 
   /// Who puts blocks on a moving surface where it is, while there are any; null: nobody.
   void carry_by(Carrier* carrier) noexcept { carrier_ = carrier; }
@@ -146,47 +132,16 @@ class Machine {
   void select_guards();
   const std::vector<int>& active_guards() const noexcept { return active_; }
 
-  /// A value at the machine's own state.
-  const double* value(const Place& place) const {
-    return place.space == Space::x ? x.data() + place.offset : Values(bases_)(place);
-  }
-  double* signal(int node) { return y.data() + plan_->node(node).place.offset; }
-  bool truth(int node) const { return *value(plan_->node(node).place) != 0.0; }
-  /// The held truth of one entry of a relation, 0 or 1.
-  double& truth_at(int node, Index entry) { return signal(node)[entry]; }
-  const Plan& plan() const noexcept { return *plan_; }
-  const std::shared_ptr<const Plan>& shared_plan() const noexcept { return plan_; }
-
   /// The first number that is not finite at (t, x): first among the values that derivatives read,
   /// then among the derivatives.
   std::optional<NotFinite> not_finite(double t, const double* state);
 
-  Eigen::VectorXd x, z, p, y;
-  std::vector<int> modes;
   std::int64_t rhs_calls = 0, guard_calls = 0, jacobian_calls = 0;
 
  private:
-  /// A function of a leaf with everything that a call needs, because it is called some ten times a
-  /// step.
-  struct Call {
-    const VectorFunction* function;
-    const LeafSystem* system;
-    std::size_t leaf;
-    At* at;         // the arguments of the leaf, in views_
-    Index x, size;  // the first of its states, and their number
-  };
-  struct OutputCall : Call {
-    Index to, width;  // in y
-    bool relation, true_at_zero;
-  };
-  struct GuardCall : Call {
-    Index slot, width;
-    bool opaque;
-  };
-
+  void make_views();
   void carried_derivative(double t, const double* state, double* xdot);
   void carried_guards(double t, const double* state, double* g);
-  const double* carry(double t, const double* state);
 
   /// The present arguments of leaf i. Only the values that change from call to call are set again.
   const At& seen_by(const Call& call, double t) {
@@ -196,54 +151,34 @@ class Machine {
     at.mode = modes[call.leaf];
     return at;
   }
-  Call call_of(const VectorFunction& function, std::size_t leaf) {
-    const PlanLeaf& of = plan_->leaves[leaf];
-    return {&function, of.system, leaf, &views_[leaf], of.x, of.nx};
-  }
   void run(const std::vector<OutputCall>& calls, double t, const double* state) {
     bases_[0] = state;
     for (const OutputCall& call : calls) {
       const VectorRef out(y.data() + call.to, call.width);
       (*call.function)(*call.system, seen_by(call, t), out);
-      if (call.relation) make_truth(out, call.true_at_zero);
+      if (!call.relation) continue;
+      const bool at_zero = call.true_at_zero;
+      for (double& value : VectorRef(out)) value = value > 0.0 || (at_zero && value == 0.0);
     }
-  }
-  static void make_truth(VectorRef values, bool at_zero) {
-    for (double& value : values) value = value > 0.0 || (at_zero && value == 0.0) ? 1.0 : 0.0;
   }
   void ode_of(const Call& ode, double t, double* xdot) {
     const VectorRef out(xdot + ode.x, ode.size);
     (*ode.function)(*ode.system, seen_by(ode, t), out);
   }
   void ode_with_rest(const Call& ode, double t, double* xdot);
-  void change_rest(Index i, int by);
   void guard(const GuardCall& call, double t, double* g);
-  bool reads_states(std::size_t leaf) const;
-  std::vector<OutputCall> calls_of(const std::vector<int>& nodes);
-  std::vector<OutputCall> calls_of(const Walk& walk, const std::vector<int>& nodes);
-  std::vector<Call> odes_of(const Walk& walk);
-  Call whole_call(const VectorFunction& fused);
 
-  std::shared_ptr<const Plan> plan_;
   Bases bases_{};
   Place place_of_z_;       // all of z, for fused functions
   std::vector<At> views_;  // one for each leaf, and one of the whole machine for fused functions
   std::vector<const double*> relation_values_;
-  std::vector<OutputCall> constant_calls_, instant_calls_, moving_calls_, derivative_calls_,
-      guard_calls_list_, tap_calls_;
-  std::vector<Call> odes_;                        // of leaves that have one, and the fused function
-  std::vector<OutputCall> needs_of_derivatives_;  // each with its own call
-  std::vector<GuardCall> groups_;
-  std::optional<GuardCall> fused_guards_;
+  Calls calls_;
   /// If this is the only ode, and it needs no computed values, it is called without a walk.
   const Call* lone_ode_ = nullptr;
   const GuardCall* lone_guard_ = nullptr;
   const RightHandSide* inlined_ = nullptr;
   std::vector<int> active_, called_;  // groups that can fire, and those of them that are not fused
-  std::vector<int> rests_;            // entries of x: the number of holds on each
-  std::vector<Index> resting_of_;     // leaves: the number of their states at rest
-  Index at_rest_ = 0;                 // in total
-  std::vector<std::size_t> leaf_of_state_;
+  RestingStates resting_;
   Carrier* carrier_ = nullptr;  // while a block rests on a surface that moves
   Eigen::VectorXd carried_x_;
 };

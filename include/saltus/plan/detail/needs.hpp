@@ -174,6 +174,15 @@ inline std::vector<int> located_needs(const Plan& plan) {
   return roots;
 }
 
+/// The held nodes among the marked ones.
+inline std::vector<int> held_of(const Plan& plan, const Marks& marks) {
+  std::vector<int> nodes;
+  for (std::size_t i = 0; i < plan.nodes.size(); ++i) {
+    if (marks[i] && plan.nodes[i].rate == Rate::held) nodes.push_back(static_cast<int>(i));
+  }
+  return nodes;
+}
+
 /// Fills the lists of the plan.
 inline void find_slices(Plan& plan, const Roots& roots) {
   const auto held = [](const Node& node) { return node.rate != Rate::continuous; };
@@ -199,11 +208,7 @@ inline void find_slices(Plan& plan, const Roots& roots) {
   plan.constants = slice(plan, used, Rate::constant);
 
   Marks instants = marked(roots.resets, held);
-  std::vector<int> stepwise;
-  for (std::size_t i = 0; i < plan.nodes.size(); ++i) {
-    if (used[i] && plan.nodes[i].rate == Rate::held) stepwise.push_back(static_cast<int>(i));
-  }
-  spread(plan, stepwise, instants, never);
+  spread(plan, held_of(plan, used), instants, never);
   for (int i : plan.order) {
     const Node& node = plan.node(i);
     if (instants[static_cast<std::size_t>(i)] && node.rate != Rate::constant && !node.view &&
@@ -211,10 +216,7 @@ inline void find_slices(Plan& plan, const Roots& roots) {
       plan.instants.push_back(i);
     }
   }
-  for (std::size_t i = 0; i < plan.nodes.size(); ++i) {
-    if (moving[i] && plan.nodes[i].rate == Rate::held)
-      plan.restarting.push_back(static_cast<int>(i));
-  }
+  plan.restarting = held_of(plan, moving);
 }
 
 }  // namespace saltus::detail

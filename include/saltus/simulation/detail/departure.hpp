@@ -9,6 +9,7 @@
 #include "saltus/plan/detail/machine.hpp"
 #include "saltus/simulation/detail/thresholds.hpp"
 #include "saltus/simulation/options.hpp"
+#include "saltus/solver/detail/guard.hpp"
 
 namespace saltus {
 
@@ -60,15 +61,15 @@ class Departure {
     return lift_off_tolerances * (rounding(slot) * rtol_ / (state_roundings * eps) + atol_);
   }
 
-  /// `hair`: a guard within it is at zero too, and is followed until it has left that as well.
+  /// `error`: a guard within it is at zero too, and is followed until it has left that as well.
   /// `expected`: a side that makes no difference to being at zero, so that its rounding need not be
   /// asked for; `either_side` where only the side matters.
   static constexpr int either_side = 2;
-  Side of(const GuardGroup& group, Index slot, double hair, int expected) {
-    const Side side = follow(group, slot, hair, expected);
+  Side of(const GuardGroup& group, Index slot, double error, int expected) {
+    const Side side = follow(group, slot, error, expected);
     if (side.side != 0 || group.kind == GuardGroup::Kind::opaque) return side;
     fine_ = true;  // what a chain of more than two integrators does shows at higher order only
-    const Side finer = follow(group, slot, hair, expected);
+    const Side finer = follow(group, slot, error, expected);
     fine_ = false;
     return finer;
   }
@@ -97,28 +98,30 @@ class Departure {
  private:
   static constexpr double amount = thresholds::disturbance, eps = thresholds::eps;
 
-  Side follow(const GuardGroup& group, Index slot, double hair, int expected) {
-    Side result{.rounding = hair};
-    const bool opaque = group.kind == GuardGroup::Kind::opaque;
+  Side follow(const GuardGroup& group, Index slot, double error, int expected) {
+    Side result{.rounding = error};
+    const bool opaque = group.is_opaque();
     double d = first_time(group);
     double g = guard_after(d, slot);
     // Not much further than the tolerance sees: what lies behind is the solver's to find.
     for (double furthest =
              std::min(longest_, std::max(thresholds::furthest_look * d, lift_time(group, d)));
          ; g = guard_after(d, slot)) {
-      const int side = (g > 0.0) - (g < 0.0);
-      // A guard that moves as the states do is beyond doubt.
-      if (side != 0 && (side == expected || expected == either_side) &&
-          std::abs(g) > std::max(hair, thresholds::doubtless_move * largest_move()))
-        return result.side = side, result;
+      const int side = sign_of(g);
+      const bool may_be = side != 0 && (side == expected || expected == either_side);
+      if (may_be && is_beyond_doubt(g, error)) return result.side = side, result;
       const double rounding = opaque ? 0.0 : rounding_after(d, slot, g);
-      result.rounding = std::max(hair, rounding);
-      if (std::abs(g) > result.rounding && (!opaque || has_moved(group)))
-        return result.side = side, result;
+      result.rounding = std::max(error, rounding);
+      if (std::abs(g) > result.rounding && has_moved(group)) return result.side = side, result;
       if (std::abs(g) > rounding && !opaque) furthest = longest_;
       d *= thresholds::look_growth;
       if (d > furthest) return result;
     }
+  }
+
+  /// Whether a guard moves as the states do.
+  bool is_beyond_doubt(double g, double error) const {
+    return std::abs(g) > std::max(error, thresholds::doubtless_move * largest_move());
   }
 
   /// The guard where it departs from; few ask for it.
@@ -231,6 +234,7 @@ class Departure {
   /// For a guard that only says yes or no: whether each state it reads has moved by more than its
   /// rounding.
   bool has_moved(const GuardGroup& group) const {
+    if (!group.is_opaque()) return true;
     for (int leaf : group.leaves) {
       const PlanLeaf& of = machine_->plan().leaves[static_cast<std::size_t>(leaf)];
       for (Index i = of.x; i < of.x + of.nx; ++i) {

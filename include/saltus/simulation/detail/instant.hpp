@@ -46,6 +46,13 @@ class Instant {
   const Journal& journal() const noexcept { return journal_; }
 
  private:
+  struct Effect {
+    const ResetMap* map;
+    const int* end_mode;  // null: none
+    Holds::Hold* hold;
+    bool any() const { return *map || end_mode != nullptr; }
+  };
+
   void open(double t, const std::vector<int>& due, double longest);
   bool collect();
   bool take_contacts();
@@ -53,11 +60,12 @@ class Instant {
   bool collect_edges();
   void collect_carried(std::size_t e);
   void collect_crossings();
-  void sort_actions();
+  bool run_effect(const Effect& effect, int leaf, const std::string& source);
   void run_pass();
   void run_action(const Action& action);
   void run_update(const Action& action);
   void run_reset(const Action& action);
+  Effect effect_of(const Action& action);
   void commit();
   void find_next();
   void arm(bool at_start);

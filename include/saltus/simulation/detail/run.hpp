@@ -33,17 +33,16 @@ class Run {
  private:
   void start_recorder();
   Status run_to(double t_end);
+  Status begin(double t_end);
   Status step(double t_end);
   void move_to(double t_stop, StopReason& reason);
   Status settle(StopReason reason, double t_end, bool at_start);
+  Status after(const Outcome& outcome, const Chattering::Seen& seen, bool idle);
   void record_step(double from);
   void record(double t, const double* x);
   void keep_step(double from);
-  bool steps_recorded() const { return options_.save_steps.value_or(options_.save_at.empty()); }
   bool interrupted();
   Status end_chattering();
-  static SimulatorOptions checked(SimulatorOptions options);
-  SolverOptions solver_options() const;
   Status end(Status status, std::string message = {});
   void fail(std::string message);
   void finish();
@@ -71,10 +70,12 @@ class Run {
   bool begun_ = false, solver_started_ = false, over_ = false;
   std::vector<int> due_;
   std::size_t next_save_ = 0;
-  std::int64_t ticks_ = 0;
   Chattering chattering_;
   Eigen::VectorXd row_;  // a state inside the last step
-  std::chrono::steady_clock::time_point asked_{};
+  struct {
+    std::int64_t ticks = 0;  // minor steps
+    std::chrono::steady_clock::time_point asked{};
+  } interrupt_;
 };
 
 }  // namespace saltus

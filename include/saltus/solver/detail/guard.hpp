@@ -99,6 +99,19 @@ struct Guard : GuardTraits {
     return {falls ? -reach : -never, rises ? reach : never};
   }
 
+  /// Another side; 0 for none. The phase changes with it only where the guard did not wait.
+  void turn(int to) {
+    side = static_cast<signed char>(to);
+    if (phase == Phase::unseen || phase == Phase::armed)
+      phase = to == 0 ? Phase::unseen : Phase::armed;
+  }
+  /// On a side without any doubt.
+  void settle(int on) {
+    side = static_cast<signed char>(on);
+    if (phase != Phase::carried) phase = Phase::armed;
+    error = 0.0;
+  }
+
   /// The side of a guard of which nothing matters but whether it stays there; otherwise 0.
   double plain_side() const noexcept {
     return waits() || watched_direction() == Direction::edge_detection ? 0.0 : side;

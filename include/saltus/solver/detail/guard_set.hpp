@@ -25,14 +25,10 @@ class GuardSet {
 
   std::size_t size() const noexcept { return guards_.size(); }
   const Guard& operator[](std::size_t k) const { return guards_[k]; }
-  auto begin() const { return guards_.begin(); }
-  auto end() const { return guards_.end(); }
+  const std::vector<Guard>& all() const noexcept { return guards_; }
   /// The guards that can fire in the present modes.
   const std::vector<std::size_t>& active() const noexcept { return active_; }
   std::int64_t version() const noexcept { return version_; }
-  bool crossed(std::size_t k, double value) const {
-    return guards_[k].active && guards_[k].crossed(value);
-  }
 
   // --- written by the engine
 
@@ -53,7 +49,7 @@ class GuardSet {
   /// Another side; 0 for none. The phase changes with it only where the guard did not wait.
   void turn(std::size_t k, int side) {
     ++version_;
-    turn_to(guards_[k], side);
+    guards_[k].turn(side);
   }
   /// What counts as zero, the side unchanged.
   void set_error(std::size_t k, double error) { ++version_, guards_[k].error = error; }
@@ -83,17 +79,17 @@ class GuardSet {
     Guard& guard = guards_[k];
     guard.base = value;
     if (guard.phase == Phase::resting) return;
-    if (const int now = guard.sign(value); now != 0) settle(guard, now);
+    if (const int now = guard.sign(value); now != 0) guard.settle(now);
   }
   /// A guard that waits has been seen clearly on its side: an ordinary one from there on.
-  void leave_zero(std::size_t k) { settle(guards_[k], guards_[k].side); }
+  void leave_zero(std::size_t k) { guards_[k].settle(guards_[k].side); }
   /// A monitor that crossed is at zero on its new side.
   void pass(std::size_t k, int side, double error) {
     Guard& guard = guards_[k];
     guard.side = static_cast<signed char>(side), guard.phase = Phase::waiting, guard.error = error;
   }
   /// The side it leaves to, where that is not known yet; 0: exactly on zero.
-  void leave_to(std::size_t k, int side) { turn_to(guards_[k], side); }
+  void leave_to(std::size_t k, int side) { guards_[k].turn(side); }
 
   std::vector<double> g;              ///< values at the last time looked at
   std::vector<Firing> fired_at_root;  ///< the guards that crossed at the last root
@@ -105,16 +101,6 @@ class GuardSet {
     ++version_;
     Guard& guard = guards_[k];
     guard.phase = phase, guard.side = static_cast<signed char>(side), guard.error = error;
-  }
-  static void turn_to(Guard& guard, int side) {
-    guard.side = static_cast<signed char>(side);
-    if (guard.phase == Phase::unseen || guard.phase == Phase::armed)
-      guard.phase = side == 0 ? Phase::unseen : Phase::armed;
-  }
-  static void settle(Guard& guard, int side) {
-    guard.side = static_cast<signed char>(side);
-    if (guard.phase != Phase::carried) guard.phase = Phase::armed;
-    guard.error = 0.0;
   }
 
   std::vector<Guard> guards_;

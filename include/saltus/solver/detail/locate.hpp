@@ -86,23 +86,8 @@ class Locator : private Glance {
                bool between = true) {
     for (bool looked = true; from < to; looked = false) {
       if (!looked) look(to, end, interpolate, high_);
-      double high = to;
-      if (!note_crossed(high_)) {
-        const double dip = guards_->scan_points > 0 ? find_dip(from, to, interpolate) : never;
-        if (dip == never) {
-          shift(from);
-          follow();
-          return false;
-        }
-        high = dip;
-        high_.swap(middle_);
-        if (!note_crossed(high_)) {  // to the side on which it does not fire
-          shift(from);
-          follow();
-          from = dip;
-          continue;
-        }
-      }
+      const double high = note_crossed(high_) ? to : next_dip(from, to, interpolate);
+      if (high == never) continue;
       const double before = from;
       before_ = guards_->g;
       // A look that does not depend on the other guards: no monitor may change a bit of a root.
@@ -118,6 +103,21 @@ class Locator : private Glance {
       leave_zero_of_monitors(from, to, interpolate);
     }
     return false;
+  }
+
+  /// Where nothing fired at `to`: the offset of a dip at which a guard does; `never` if there is
+  /// none, and `from` is moved past what was looked at.
+  template <class Interpolate>
+  double next_dip(double& from, double to, const Interpolate& interpolate) {
+    const double dip = guards_->scan_points > 0 ? find_dip(from, to, interpolate) : never;
+    if (dip != never) {
+      high_.swap(middle_);
+      if (note_crossed(high_)) return dip;  // else it dips to the side on which it does not fire
+    }
+    shift(from);
+    follow();
+    from = dip;
+    return never;
   }
 
   /// The same for what lies before a root: it cuts the step, and what was looked at were points of

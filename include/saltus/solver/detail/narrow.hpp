@@ -69,33 +69,31 @@ class Narrower {
     low_ = guards_->g;
     int kept = 0;   // how often in a row the low (> 0) or high (< 0) end was kept: Illinois halves
                     // its value
-    int zeros = 0;  // looks in a row that found nothing but exact zeros
+    int zeros = 0;  // looks in a row that found nothing but exact zeros: a plateau is halved down
+                    // to its beginning
     double weight = 1.0;
     for (int count = 0; count < 200; ++count) {
       const double resolution = 2.0 * std::numeric_limits<double>::epsilon() * high;
       if (high - low <= resolution) break;
       zeros = only_exact_zeros() ? zeros + 1 : 0;
-      // A root hit exactly: one look just before it. If that is zero too, a plateau is halved down
-      // to its beginning.
-      const double u = zeros == 1   ? high - resolution
-                       : zeros > 1  ? low + 0.5 * (high - low)
-                       : count > 60 ? low + 0.5 * (high - low)
-                                    : next_point(low, high, weight, resolution);
+      const bool halves = zeros > 1 || (zeros == 0 && count > 60);
+      const double u = zeros == 1 ? high - resolution  // a root hit exactly: one look before it
+                       : halves   ? low + 0.5 * (high - low)
+                                  : next_point(low, high, weight, resolution);
       if (!(u > low && u < high)) break;
       look(u, nullptr, interpolate, middle_);
       if (note_crossed(middle_)) {
         third_at_ = high, high = u, high_.swap(middle_);
-        kept = kept > 0 ? kept + 1 : 1;
+        kept = std::max(kept, 0) + 1;
       } else {
         third_at_ = low, low = u, low_.swap(middle_);
         leave_zero();
-        kept = kept < 0 ? kept - 1 : -1;
+        kept = std::min(kept, 0) - 1;
       }
       third_.swap(middle_);
-      weight = kept > 1 ? weight * 0.5 : kept < -1 ? weight * 2.0 : 1.0;
+      weight = next_weight(weight, kept);
     }
-    for (const std::size_t k : crossed_)
-      noise_[k] = 4.0 * std::max(std::abs(low_[k]), std::abs(high_[k]));
+    note_noise();
     return high;
   }
 
@@ -109,6 +107,15 @@ class Narrower {
   double t0_ = 0.0;
 
  private:
+  /// Illinois halves the value of an end that was kept twice in a row.
+  static double next_weight(double weight, int kept) {
+    return kept > 1 ? weight * 0.5 : kept < -1 ? weight * 2.0 : 1.0;
+  }
+  void note_noise() {
+    for (const std::size_t k : crossed_)
+      noise_[k] = 4.0 * std::max(std::abs(low_[k]), std::abs(high_[k]));
+  }
+
   /// A guard that waits, seen on its armed side, is an ordinary one from there on.
   void leave_zero() {
     for (std::size_t i = 0; i < limits_.size(); ++i) {

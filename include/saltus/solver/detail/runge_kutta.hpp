@@ -130,12 +130,12 @@ class RungeKutta final : public StepSolver<RungeKutta<Method, N>, OneStepSolver>
 
   /// The steps that were compiled together with the right-hand side, if there are any.
   const detail::MethodKernels* compiled() const {
-    const RightHandSide* inlined = machine_->inlined();
-    return inlined == nullptr ? nullptr : &detail::kernels_of(*inlined).template of<Method>();
+    const RightHandSide* function = machine_->inlined().function;
+    return function == nullptr ? nullptr : &detail::kernels_of(*function).template of<Method>();
   }
   detail::Caller caller() {
-    return {&machine_->inlined()->function, &machine_->inlined_leaf(), &machine_->inlined_at(),
-            &machine_->rhs_calls};
+    const Machine::Inlined inlined = machine_->inlined();
+    return {&inlined.function->function, inlined.leaf, inlined.at, &machine_->rhs_calls};
   }
   detail::StepMemory memory() { return {x0_.data(), x1_.data(), scratch_.data(), k_.data()}; }
 

@@ -1,0 +1,43 @@
+// Calls: the lists of a plan as they are carried out on one memory.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "saltus/plan/plan.hpp"
+
+namespace saltus {
+
+/// A function of a leaf with everything that a call needs, because it is called some ten times a
+/// step.
+struct Call {
+  const VectorFunction* function;
+  const LeafSystem* system;
+  std::size_t leaf;
+  At* at;         // the arguments of the leaf
+  Index x, size;  // the first of its states, and their number
+};
+struct OutputCall : Call {
+  Index to, width;  // in y
+  bool relation, true_at_zero;
+};
+struct GuardCall : Call {
+  Index slot, width;
+  bool opaque;
+};
+
+/// The calls of a machine. They point to the views that they were made with.
+struct Calls {
+  Calls() = default;
+  /// `views`: the arguments of each leaf, then those of a function over the whole machine.
+  Calls(const Plan& plan, std::vector<At>& views);
+
+  std::vector<OutputCall> constants, instants, moving, derivatives, guard_needs, taps;
+  std::vector<OutputCall> needs_of_derivatives;  // each with its own call, where formulas are fused
+  std::vector<Call> odes;                        // of leaves that have one, and the fused function
+  std::vector<Call> single_odes;                 // each with its own call
+  std::vector<GuardCall> guards;
+  std::optional<GuardCall> fused_guards;
+};
+
+}  // namespace saltus

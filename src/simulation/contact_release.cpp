@@ -1,0 +1,123 @@
+// Guards of blocks at rest: woken, let go, and released by what other blocks write.
+#include <algorithm>
+#include <cmath>
+
+#include "saltus/simulation/detail/contact_guards.hpp"
+
+namespace saltus {
+
+ContactGuards::Taken ContactGuards::take(const Firing& firing) {
+  SurfaceContact* contact = contacts_.empty() ? nullptr : contacts_.on(firing.slot);
+  if (firing.from == Firing::lifts_off) {
+    if (contact == nullptr) return Taken::yes;
+    let_go(*contact);
+    return Taken::let_go;
+  }
+  if (present_->pass > 0 || contact == nullptr) return Taken::no;
+  return wake(*contact) ? Taken::let_go : Taken::yes;
+}
+
+/// A contact whose surface begins to move, or whose flow leads off it: true if it lets go.
+bool ContactGuards::wake(SurfaceContact& contact) {
+  const auto k = static_cast<std::size_t>(contact.slot);
+  const double t = present_->t;
+  double* x = machine_->x.data();
+  if (!contact.carried) {
+    machine_->guards_at(t, x, present_->g.data());
+    const double g = present_->g[k];
+    contact.carried = !contact.members.empty() && contacts_.settle(contact, t, x) &&
+                      contacts_.lift(contact, t, x) < 0.0;
+    if (contact.carried) return false;
+    if (!(g * -contact.pressed > 0.0)) {
+      contact.error = std::max(contact.error, thresholds::wavered * std::abs(g));
+      return false;
+    }
+  }
+  let_go(contact);
+  return true;
+}
+
+/// Off a surface that falls away the guard gets as the third power of time: until it is clear of it
+/// by more than the tolerance, it is at zero.
+void ContactGuards::let_go(SurfaceContact& contact) {
+  const auto k = static_cast<std::size_t>(contact.slot);
+  const GuardGroup& group = group_of(k);
+  const int armed = -contact.pressed;
+  const double error = std::max(contact.error, flow_->tolerance(contact.slot, contact.opaque));
+  leave(k);
+  guards_->wait(k, armed, error);
+  if (group.is_crossing()) return holds_->release(holds_->of_guard(k));
+  guards_->keep_truth(k, false);
+  machine_->truth_at(group.index, (*guards_)[k].entry) = armed > 0 ? 1.0 : 0.0;
+}
+
+void ContactGuards::look_at_held(std::size_t k) {
+  const SurfaceContact* contact = contacts_.on(static_cast<int>(k));
+  const int pressed = firing_side(group_of(k).direction);
+  const double error = contact ? contact->error : (*guards_)[k].error, g = present_->g[k];
+  if (std::abs(g) <= error) return;
+  if (g * pressed < 0.0) {
+    leave(k);
+    holds_->release(holds_->of_guard(k));
+    guards_->turn(k, -pressed);
+  } else if (std::abs(g) > thresholds::clearly_beyond * error) {
+    present_->fire(k, -pressed);
+  }
+}
+
+bool ContactGuards::still_at_rest(std::size_t k) {
+  SurfaceContact* contact = contacts_.on(static_cast<int>(k));
+  if (contact == nullptr) return false;
+  if (contact->opaque) return contacts_.lift(*contact, present_->t, machine_->x.data()) < 0.0;
+  const double g = present_->g[k];
+  return std::abs(g) <= contact->error || g * contact->pressed > 0.0;
+}
+
+void ContactGuards::keep_relations_of(const EdgeWatch& edge) {
+  for (std::size_t k = 0; k < guards_->size(); ++k) {
+    const GuardGroup& group = group_of(k);
+    if (group.is_crossing() ||
+        std::ranges::find(edge.relations, group.index) == edge.relations.end())
+      continue;
+    present_->now[k].frozen = true;
+    guards_->keep_truth(k, true);
+  }
+}
+
+// --- holds that end in a commit
+
+void ContactGuards::release_unseen() {
+  for (std::size_t k = 0; k < guards_->size(); ++k) {
+    Holds::Hold& hold = holds_->of_guard(k);
+    if (!hold.monitor.holding || present_->now[k].fired_in_pass || (*guards_)[k].active) continue;
+    leave(k);
+    holds_->release(hold);
+  }
+}
+
+void ContactGuards::release_kicked() {
+  for (std::size_t k = 0; k < guards_->size(); ++k) {
+    Holds::Hold& hold = holds_->of_guard(k);
+    if (!holds_->kicked(hold) || present_->now[k].fired_in_pass) continue;
+    leave(k);
+    holds_->release(hold);
+    guards_->turn(k, 0);
+  }
+  for (std::size_t e = 0; e < machine_->plan().edges.size(); ++e) {
+    const bool own = edges_->is_carried(e) || edges_->has_fired(e);
+    if (!own && holds_->kicked(holds_->of_edge(e))) release_kicked_edge(e);
+  }
+}
+
+void ContactGuards::release_kicked_edge(std::size_t e) {
+  holds_->release(holds_->of_edge(e));
+  const std::vector<int>& relations = machine_->plan().edges[e].relations;
+  for (std::size_t k = 0; k < guards_->size(); ++k) {
+    if (!(*guards_)[k].rests || std::ranges::find(relations, group_of(k).index) == relations.end())
+      continue;
+    leave(k);
+    guards_->keep_truth(k, false);
+  }
+}
+
+}  // namespace saltus

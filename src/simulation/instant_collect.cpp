@@ -1,0 +1,110 @@
+// What the next pass of an instant does: firings, edges, zero crossings.
+#include <algorithm>
+
+#include "saltus/simulation/detail/instant.hpp"
+
+namespace saltus {
+
+namespace {
+
+/// Leaf by leaf. Within a leaf updates come first: they read x- z-, and what they write is not lost
+/// to a reset. The order is stable, and the sort allocates nothing.
+void sort(std::vector<Action>& actions) {
+  const auto rank = [](Cause cause) { return cause == Cause::time ? -1 : static_cast<int>(cause); };
+  const auto before = [&](const Action& a, const Action& b) {
+    return a.leaf != b.leaf ? a.leaf < b.leaf : rank(a.cause) < rank(b.cause);
+  };
+  if (actions.size() < 2) return;
+  for (auto a = actions.begin(); a != actions.end(); ++a)
+    std::rotate(std::upper_bound(actions.begin(), a, *a, before), a, a + 1);
+}
+
+}  // namespace
+
+/// Takes out of the firings those of contacts, and those against the flow; true if a contact let
+/// go.
+bool Instant::take_contacts() {
+  bool let_go = false;
+  std::erase_if(present_.firings, [&](const Firing& firing) {
+    const ContactGuards::Taken taken = contacts_.take(firing);
+    let_go = let_go || taken == ContactGuards::Taken::let_go;
+    if (taken != ContactGuards::Taken::no) return true;
+    return present_.pass == 0 && crossings_.goes_against(firing);
+  });
+  return let_go;
+}
+
+bool Instant::flip_relations() {
+  bool flipped = false;
+  for (GuardNow& now : present_.now) now.fired_in_pass = false;
+  for (const Firing& firing : present_.firings) {
+    const auto k = static_cast<std::size_t>(firing.slot);
+    present_.now[k].fired = present_.now[k].fired_in_pass = true;
+    guards_->fired(k, firing.from);
+    if (plan().guard((*guards_)[k].group).is_crossing()) continue;
+    relations_.flip(firing);
+    flipped = true;
+  }
+  return flipped;
+}
+
+/// The edges of watched signals; true if a falling one ended a hold.
+bool Instant::collect_edges() {
+  bool released = false;
+  for (std::size_t e = 0; e < plan().edges.size(); ++e) {
+    const Edges::Look look = edges_.look(e);
+    Holds::Hold& hold = holds_.of_edge(e);
+    if (hold.monitor.holding && !look.now) {
+      holds_.release(hold);
+      released = true;
+    } else if (hold.monitor.holding) {
+      collect_carried(e);
+    } else if (look.fires) {
+      present_.actions.push_back(
+          {plan().edges[e].leaf, Cause::edge, static_cast<int>(e), -1, look.now ? -1 : 1, false});
+      edges_.fired(e);
+    }
+  }
+  return released;
+}
+
+/// A leaf on hold whose reset value moved while its trigger stayed: a floor that rises carries the
+/// ball. Not before the relations have been read again, for a floor that falls moves the reset
+/// value too.
+void Instant::collect_carried(std::size_t e) {
+  if (present_.pass == 0 || edges_.is_carried(e)) return;
+  const EdgeWatch& edge = plan().edges[e];
+  const bool moved = std::ranges::any_of(edge.reads, [&](int input) {
+    const Node& node = plan().node(input);
+    return input != edge.node && node.rate == Rate::held && transition_.changed(node.place);
+  });
+  if (!moved) return;
+  present_.actions.push_back({edge.leaf, Cause::edge, static_cast<int>(e), -1, -1, true});
+  edges_.carried(e);
+}
+
+/// The zero crossings that fire in this pass; leaf by leaf, in declaration order.
+void Instant::collect_crossings() {
+  for (const Firing& firing : present_.firings) {
+    const auto k = static_cast<std::size_t>(firing.slot);
+    const Guard& guard = (*guards_)[k];
+    const GuardGroup& group = plan().guard(guard.group);
+    if (!group.is_crossing()) continue;
+    const bool acts = plan().crossing_of(group).has_effect() ||
+                      journal_.ends_run(static_cast<std::size_t>(guard.group));
+    if (acts) {
+      present_.actions.push_back({group.leaf, Cause::crossing, guard.group, firing.slot,
+                                  firing.from, holds_.of_guard(k).monitor.holding});
+    } else {  // a monitor, or terminal only later
+      journal_.note({.kind = EventKind::zero_crossing,
+                     .source = guard.group,
+                     .leaf = group.leaf,
+                     .direction = -firing.from,
+                     .entry = guard.entry});
+    }
+  }
+  present_.firings.clear();
+  sort(present_.actions);
+}
+
+}  // namespace saltus
