@@ -42,8 +42,7 @@ TEST_CASE("every direction has a name, and a name its direction", "[event]") {
                           "unknown direction 'crosses zero'; did you mean 'crosses_zero'?"));
 }
 
-TEST_CASE("signs are compared, so the smallest and the largest numbers have one",
-          "[event]") {
+TEST_CASE("signs are compared, so the smallest and the largest numbers have one", "[event]") {
   Guard guard;
   guard.phase = Phase::armed, guard.side = 1;
   CHECK(guard.crossed(-5e-324));
