@@ -21,22 +21,34 @@ HEADER = """\
 // in: any width. out: the same.
 #pragma once
 
-#include "saltus/library/elementwise.hpp"
+#include "saltus/model/leaf_system.hpp"
 
 namespace saltus {
 
 class NAME final : public LeafSystem {
  public:
-  explicit NAME(std::string name) : LeafSystem(std::move(name)) {
-    declare_input_port({.name = "in"});
-    declare_output_port({.name = "out",
-                         .shape = {},
-                         .shape_rule = elementwise,
-                         .reads = Reads::inputs,
-                         .entries = entry_by_entry,
-                         .formula = [](const auto& at) { return at.u(0); }});
-  }
+  explicit NAME(std::string name);
 };
+
+}  // namespace saltus
+"""
+SOURCE = """\
+// y = u, elementwise.
+#include "saltus/library/FILE.hpp"
+
+#include "saltus/library/elementwise.hpp"
+
+namespace saltus {
+
+NAME::NAME(std::string name) : LeafSystem(std::move(name)) {
+  declare_input_port({.name = "in"});
+  declare_output_port({.name = "out",
+                       .shape = {},
+                       .shape_rule = elementwise,
+                       .reads = Reads::inputs,
+                       .entries = entry_by_entry,
+                       .formula = [](const auto& at) { return at.u(0); }});
+}
 
 }  // namespace saltus
 """
@@ -147,6 +159,10 @@ def places(root: Path, name: str, group: str) -> dict[Path, str]:
     return dict(
         [
             (library / f"{file}.hpp", HEADER.replace("NAME", name)),
+            (
+                root / "src" / "library" / f"{file}.cpp",
+                SOURCE.replace("NAME", name).replace("FILE", file),
+            ),
             changed(library / "library.hpp", lambda t: sorted_in(t, include, file, included)),
             changed(bindings, bound),
             changed(
@@ -179,7 +195,7 @@ def main(arguments: list[str]) -> None:
     for path, text in places(ROOT, given.name, given.group).items():
         print("changed" if path.exists() else "written", path.relative_to(ROOT))
         path.write_text(text)
-    print(f"It gives y = u. Write its law: include/saltus/library/{snake(given.name)}.hpp first.")
+    print(f"It gives y = u. Write its law in src/library/{snake(given.name)}.cpp.")
 
 
 if __name__ == "__main__":

@@ -9,7 +9,15 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[2]
-COPIED = ["dev", "tools", "bindings", "docs/blocks.md", "include/saltus/library", "python/saltus"]
+COPIED = [
+    "dev",
+    "tools",
+    "bindings",
+    "docs/blocks.md",
+    "include/saltus/library",
+    "src/library",
+    "python/saltus",
+]
 
 
 @pytest.fixture
@@ -41,6 +49,7 @@ def test_every_place_is_written(tree, name, file, group):
     includes = re.findall(r"library/(\w+)\.hpp", library)
     assert file in includes and includes == sorted(includes)
     assert f"class {name} final" in (tree / f"include/saltus/library/{file}.hpp").read_text()
+    assert f"{name}::{name}(" in (tree / f"src/library/{file}.cpp").read_text()
     bindings = (tree / f"bindings/bind_{group}.cpp").read_text()
     assert f'#include "saltus/library/{file}.hpp"' in bindings
     assert bindings.index(f'(module, "{name}")') > bindings.index(f"void bind_{group}")
