@@ -1,5 +1,5 @@
-// The numbers that the instants of a run are tuned with: name, unit, derivation, and the test that
-// fails without it.
+// The numbers that the instants of a run are tuned with: name, unit and derivation. Where a test is
+// named, it fails if the number changes.
 #pragma once
 
 #include <cstdint>
@@ -13,26 +13,24 @@ inline constexpr double eps = std::numeric_limits<double>::epsilon();
 
 /// [1] Relative disturbance of x, f and t by which the rounding of a guard is measured: far above
 /// eps, so that the difference of two guards has eight digits, and so small that curvature, of
-/// order 1e-14, shows in none of them. tests/semantics/guards_noise_test.cpp
+/// order 1e-14, shows in none of them.
 inline constexpr double disturbance = 1e-7;
 /// [eps] Rounding that a state carries after a step: a dozen stages, each with one rounding, and
-/// the reset map. tests/semantics/guards_noise_test.cpp
+/// the reset map.
 inline constexpr double state_roundings = 16.0;
 /// [eps |t|] Times closer than this may be the same time after a location; a flight of that
-/// length cannot be told from rest. tests/laws/long_runs_test.cpp
+/// length cannot be told from rest.
 inline constexpr double time_roundings = 64.0;
 /// [eps |t|] within which a root is located: two of the bracket's, and those of t + u.
 inline constexpr double location_roundings = 8.0;
 /// [1] of the guard's value at its root: Illinois leaves a bracket of two resolutions, over which
 /// a guard doubles at most, and the flow adds the same again on the way back.
-/// tests/laws/newtons_cradle_test.cpp
 inline constexpr double location_error = 4.0;
 /// [1] of the guard's value where it fired on leaving its error: that error itself, and one part in
 /// a hundred for the rounding of the reset.
 inline constexpr double kept_error = 1.01;
 /// [tolerances of the states] within which a guard that leaves a falling surface is still at zero:
 /// it gets off as the third power of time, while the error of the state grows as the first.
-/// tests/semantics/zeno_liftoff_test.cpp
 inline constexpr double lift_off_tolerances = 30.0;
 
 // --- how far the flow is followed from a guard at zero: departure.hpp
@@ -64,7 +62,7 @@ inline constexpr double stopped_slope = 1e-6;
 // --- contacts with surfaces that move: contact.cpp, contact_guards.cpp
 
 /// [rounds] of Aitken's extrapolation: one for an affine map, one to see that it was, and four for
-/// maps that are nearly so. tests/semantics/zeno_moving_floor_test.cpp
+/// maps that are nearly so.
 inline constexpr int fixed_point_rounds = 6;
 /// [eps of the size of a state] A reset that moves a state by less has reached its fixed point.
 inline constexpr double fixed_point_roundings = 64.0;
@@ -84,7 +82,6 @@ inline constexpr double moved_roundings = 1e3;
 /// [1] A force on the surface that changes by more than this part changes.
 inline constexpr double changed_force = 1e-5;
 /// [errors] A held guard that is further beyond zero has been carried into its surface.
-/// tests/semantics/zeno_stairs_test.cpp
 inline constexpr double clearly_beyond = 1e3;
 /// [1] by which the error of a contact grows where the guard wavered out of it.
 inline constexpr double wavered = 2.0;
@@ -92,15 +89,14 @@ inline constexpr double wavered = 2.0;
 // --- Zeno points: zeno.hpp, holds.cpp
 
 /// [eps |t|] Gaps that shrink by less shrink by the rounding of the event times.
-/// tests/laws/rhythms_test.cpp
 inline constexpr double gap_roundings = 8.0;
 /// [1] From this ratio of gaps on, the ratio is taken over two gaps: a slow series amplifies the
-/// rounding of event times by 1 / (1 - q)^2. tests/unit/zeno_test.cpp
+/// rounding of event times by 1 / (1 - q)^2.
 inline constexpr double slow_series = 0.9;
 /// [1] The next firing may follow within this many of the last gaps.
 inline constexpr double next_gap = 1.2;
 
-// --- chattering: chattering.cpp (tests/errors/chattering_errors_test.cpp, tests/unit/chattering_test.cpp)
+// --- chattering: chattering.cpp (tests/unit/chattering_test.cpp)
 
 /// [flips] of a relation in one instant: both sides lead back to its surface.
 inline constexpr int fluttering_flips = 3;
@@ -125,7 +121,6 @@ inline constexpr std::size_t remembered_causes = 400;
 /// [causes] at its end that a message shows.
 inline constexpr std::size_t shown_causes = 6;
 /// [eps |t|] Times that differ by rounding only are one instant: 3 * 0.1 and 0.3.
-/// tests/unit/calendar_test.cpp
 inline constexpr double tick_roundings = 4.0;
 
 }  // namespace saltus::thresholds
