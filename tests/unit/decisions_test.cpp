@@ -114,6 +114,7 @@ TEST_CASE("A guard at zero that has not fired: contact, dormant, or waiting") {
   const CrossingFacts monitor =
       with([](auto& f) { f.effect = f.reset = false, f.at_start = true; });
   const CrossingFacts both = with([](auto& f) { f.direction = either, f.at_start = true; });
+  const CrossingFacts both_turned = with([](auto& f) { f.direction = either, f.resets = 1; });
   check({
       {"begins at zero, headed down: contact", starts, {-1, eps}, {}, fires_from(1, -1)},
       {"begins at zero, headed up: it flies", starts, {1, eps}, {}, waits_at(1)},
@@ -133,6 +134,8 @@ TEST_CASE("A guard at zero that has not fired: contact, dormant, or waiting") {
        {-1, eps},
        {.slope_ = -1.0},
        waits_at(-1)},
+      {"either direction, sent across by a reset", both_turned, {-1, eps}, {}, fires_from(1, -1)},
+      {"either direction, sent back by a reset", both_turned, {1, eps}, {}, waits_at(1)},
       {"on its firing side already: no contact by a reset",
        with([](auto& f) { f.resets = 1, f.side = -1; }),
        {-1, eps},
