@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace saltus {
 
@@ -147,9 +148,15 @@ bool CrossingArming::reset_turns(const GuardGroup& group, std::size_t k) {
 /// same surface.
 bool CrossingArming::turned_round(const GuardGroup& group, std::size_t k, int side) {
   flow_before_.resize(machine_->x.size());
-  std::swap(machine_->modes, transition_->modes_before());
-  machine_->derivative(present_->t, machine_->x.data(), flow_before_.data());
-  std::swap(machine_->modes, transition_->modes_before());
+  std::vector<int>& before_entry = transition_->modes_before();
+  std::swap(machine_->modes, before_entry);
+  try {
+    machine_->derivative(present_->t, machine_->x.data(), flow_before_.data());
+  } catch (...) {
+    std::swap(machine_->modes, before_entry);
+    throw;
+  }
+  std::swap(machine_->modes, before_entry);
   const double before = flow_->slope_along(flow_before_, group, static_cast<Index>(k));
   return side > 0 ? before < 0.0 : before > 0.0;
 }

@@ -1,6 +1,8 @@
 // An instant's memory: made once, cleaned for each run, saved and loaded between runs.
 #include "saltus/simulation/detail/instant.hpp"
 
+#include <algorithm>
+
 namespace saltus {
 
 Instant::Instant(Machine& machine, GuardSet& guards, const SimulatorOptions& options,
@@ -24,6 +26,7 @@ Instant::Instant(Machine& machine, GuardSet& guards, const SimulatorOptions& opt
 void Instant::begin(double t, Recorder* recorder) {
   jump_ = 0, recorder_ = recorder;
   present_.open(t, 0.0);
+  std::ranges::fill(present_.g, 1.0);  // guards that are inactive now have no value yet
   transition_.open();
   journal_.begin();
   flow_.open(t, 0.0);

@@ -1,7 +1,7 @@
 // GuardSet: made from a plan, cleared for a run, chosen by mode.
 #include "saltus/solver/detail/guard_set.hpp"
 
-#include <limits>
+#include <utility>
 
 namespace saltus {
 
@@ -11,7 +11,7 @@ GuardSet::GuardSet(const Plan& plan) {
     for (int entry = 0; entry < group.size; ++entry) {
       add({.direction = group.direction,
            .monitor = group.monitor,
-           .jumps = group.kind == GuardGroup::Kind::opaque,
+           .jumps = group.is_opaque(),
            .group = static_cast<int>(i),
            .entry = entry},
           false);

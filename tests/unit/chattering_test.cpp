@@ -1,6 +1,8 @@
 // When a run of events is a chatter: counts and times only.
 #include "saltus/simulation/detail/chattering.hpp"
 
+#include <limits>
+
 #include "support/catch.hpp"
 
 using namespace saltus;

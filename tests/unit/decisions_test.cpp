@@ -1,6 +1,7 @@
 // The decisions of an instant, row by row of their tables. No run, no machine: values only.
 #include "saltus/simulation/detail/decisions.hpp"
 
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -50,10 +51,26 @@ struct Row {
   Arming expected;
 };
 
+/// The same row upside down: the law knows neither up nor down for a guard with a direction.
+Row mirrored(Row row) {
+  row.name += ", upside down";
+  row.guard.direction = row.guard.direction == falls ? rises : falls;
+  row.guard.side = -row.guard.side, row.guard.g = -row.guard.g;
+  row.guard.came_from = -row.guard.came_from, row.flow.side = -row.flow.side;
+  if (row.flow_says.slope_) row.flow_says.slope_ = -*row.flow_says.slope_;
+  row.expected.side = -row.expected.side, row.expected.from = -row.expected.from;
+  return row;
+}
+
+void check_one(const Row& row) {
+  INFO(row.name);
+  CHECK(decide_crossing(row.guard, row.flow, row.flow_says) == row.expected);
+}
+
 void check(const std::vector<Row>& table) {
   for (const Row& row : table) {
-    INFO(row.name);
-    CHECK(decide_crossing(row.guard, row.flow, row.flow_says) == row.expected);
+    check_one(row);
+    if (row.guard.direction == falls) check_one(mirrored(row));
   }
 }
 
@@ -141,6 +158,21 @@ TEST_CASE("A guard at zero that has not fired: contact, dormant, or waiting") {
        {-1, eps},
        {},
        waits_at(-1)},
+      {"dormant on its firing side: no side",
+       with([](auto& f) { f.side = -1; }),
+       {0, eps},
+       {},
+       waits_at(0)},
+      {"at the start it has no side yet, and is in contact all the same",
+       with([](auto& f) { f.at_start = true, f.side = 0, f.phase = Phase::unseen; }),
+       {-1, eps},
+       {},
+       fires_from(1, -1)},
+      {"dormant, of either direction: its side",
+       with([](auto& f) { f.direction = either; }),
+       {0, eps},
+       {},
+       waits_at(1)},
       {"edge_detection has no side", with([](auto& f) { f.direction = edge; }), {-1, eps}, {}, {}},
   });
 }
@@ -202,6 +234,21 @@ TEST_CASE("A guard that fired: off, back, at rest, or passed through") {
        {.low = false},
        waits_at(1)},
       {"stays at zero, nothing written: no side", silent, {0, eps}, {.low = false}, waits_at(0)},
+      {"too low a flight, another reset sent it back: again",
+       two,
+       {1, eps},
+       {.low = true, .turns = true},
+       fires_from(1, 1)},
+      {"too low a flight, and the flow keeps it at zero: at rest",
+       bounce,
+       {0, eps},
+       {.low = true},
+       rests_at(1)},
+      {"too low a flight, but beyond its error: no rest",
+       with([](auto& f) { f.g = -1.0; }),
+       {0, eps},
+       {.low = true},
+       waits_at(1)},
       {"without a reset map it follows the flow", plain, {-1, eps}, {}, waits_at(-1)},
       {"without a reset map it never rests", plain, {0, eps}, {}, waits_at(0)},
   });
@@ -230,6 +277,15 @@ TEST_CASE("A guard whose mode was entered at its zero") {
        {.slope_ = 1.0},
        waits_at(1)},
       {"headed off the surface", entered, {1, eps}, {.slope_ = 1.0}, waits_at(1)},
+      {"fired into a mode that leads back too: it fires",
+       [&] {
+         CrossingFacts f = entered;
+         f.fired = true, f.came_from = 1;
+         return f;
+       }(),
+       {-1, eps},
+       {.round = true},
+       slides},
       {"a monitor does not slide", monitor, {-1, eps}, {.slope_ = -1.0}, waits_at(-1)},
   });
 }
@@ -271,6 +327,10 @@ TEST_CASE(
   for (const Reads& row : table) {
     INFO(row.name);
     CHECK(decide_relation(row.facts) == row.expected);
+    RelationFacts down = row.facts;  // the same upside down
+    down.truth = !down.truth, down.g = -down.g, down.came_from = -down.came_from;
+    const auto other = row.expected ? std::optional(-*row.expected) : std::nullopt;
+    CHECK(decide_relation(down) == other);
   }
 }
 

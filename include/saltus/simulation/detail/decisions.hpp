@@ -94,11 +94,15 @@ struct Arming {
 ///     effect  flow to        begins or turned   then     waits on
 ///     yes     firing side    yes                fire     the flow's side
 ///     yes     firing side    no                 go on    the flow's side
-///     yes     none           -                  go on    its armed side
+///     no      firing side    -                  go on    the flow's side
+///     yes     none           -                  go on    its armed side; no side if it was on its
+///                                                        firing side already
 ///     no      none           -                  go on    no side
 ///     -       armed side     -                  go on    the flow's side
 ///
-/// A guard of either direction is in contact at the start only if its slope is zero.
+/// A guard of either direction is in contact at the start only if its slope is zero and the flow
+/// leads down. A reset turns the flow round only for a guard that is not on its firing side
+/// already. A guard with edge_detection has no side: it keeps what it has.
 template <class Ask>
 Arming decide_at_zero(const CrossingFacts& guard, FlowSide flow, const Ask& ask) {
   if (guard.direction == Direction::edge_detection) return {};
@@ -119,17 +123,22 @@ Arming decide_at_zero(const CrossingFacts& guard, FlowSide flow, const Ask& ask)
 
 /// A guard that has fired in this instant (2.5).
 ///
-///     reset map   flow leads           value          then
-///     yes         back to firing side  beyond error,  go on, armed: it is about to cross
-///                                      armed side
-///     yes         back                 within error   fire, where another reset of this instant
-///                                                     sent it back and its own turns it
-///     yes         back                 within error   rest, where the flow was not merely passed
-///                                                     through, or the flight was too low to see
-///     -           anywhere else        -              go on; it waits on the flow's side
+/// "Back" is the flow to the firing side, or to any side after a flight too low to be seen.
 ///
-/// Where the flow keeps it at zero, a reset that wrote keeps it armed where it came from; a guard
-/// that was passed through has no side.
+///     reset map   flow leads       value              then
+///     yes         to firing side   beyond its error,  go on, armed: it is about to cross
+///                                  armed side
+///     yes         back             within its error   fire, if another reset of this instant
+///                                                     wrote, and its own sends the flow off
+///     yes         back             within its error   rest, if the flight was too low, or the
+///                                                     guard was not merely passed through
+///     yes         back             within its error   otherwise go on; waits on the flow's side
+///     yes         back             elsewhere          go on; waits on the flow's side
+///     yes         off              -                  go on; waits on the flow's side
+///     no          -                -                  go on; waits on the flow's side
+///
+/// Where the flow keeps it at zero, it waits on the side it came from if it has a reset map and some
+/// reset map of this instant wrote; otherwise on no side.
 template <class Ask>
 Arming decide_fired(const CrossingFacts& guard, FlowSide flow, const Ask& ask) {
   const int from = guard.came_from;
@@ -149,10 +158,10 @@ Arming decide_fired(const CrossingFacts& guard, FlowSide flow, const Ask& ask) {
 
 /// A zero crossing that needs the flow.
 ///
-///     mode just entered, and the flow of the mode before led the other way: both modes lead to
-///     the surface, and it fires (4.7)
-///     fired                                                     decide_fired
-///     otherwise                                                 decide_at_zero
+///     mode just entered, with an effect, headed for its firing    fire: both modes lead to the
+///     side, and the flow of the mode before led the other way     surface (4.7)
+///     otherwise, fired                                            decide_fired
+///     otherwise                                                   decide_at_zero
 ///
 /// A hop lower than the tolerance begins on the other side than the one it was seen to end on: in a
 /// mode just entered the slope decides against the side.

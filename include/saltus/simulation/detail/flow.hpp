@@ -34,7 +34,7 @@ class Flow {
     depart();
     return departure_.rounding(slot);
   }
-  /// dg/dt along another f through the present state.
+  /// dg/dt along another f through the point that the last call departed from.
   double slope_along(const Eigen::VectorXd& f, const GuardGroup& group, Index slot) {
     return departure_.slope_along(f, group, slot);
   }

@@ -22,6 +22,8 @@ namespace saltus {
 class Instant {
  public:
   Instant(Machine& machine, GuardSet& guards, const SimulatorOptions& options, Results& results);
+  Instant(const Instant&) = delete;  // its parts know each other
+  Instant& operator=(const Instant&) = delete;
 
   /// Clean monitors, relations and held signals for a run that begins at t. Nothing fires yet.
   void begin(double t, Recorder* recorder);

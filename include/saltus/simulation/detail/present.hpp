@@ -1,4 +1,4 @@
-// Present: what the parts of an instant have found so far, in one place that all of them read.
+// Present: the results of the parts of an instant so far. Each part reads them and adds its own.
 #pragma once
 
 #include <algorithm>

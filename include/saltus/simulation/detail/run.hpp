@@ -3,7 +3,10 @@
 
 #include <chrono>
 #include <memory>
+#include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "saltus/simulation/detail/calendar.hpp"
 #include "saltus/simulation/detail/chattering.hpp"

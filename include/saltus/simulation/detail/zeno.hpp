@@ -1,6 +1,7 @@
 // Zeno monitor: when a series of resets becomes a hold, and where it comes to rest.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
