@@ -12,13 +12,14 @@
 
 namespace saltus {
 
-/// Tick k of a schedule is at offset + k period, whatever was done before: 1000 periods of 1/3 s
-/// are 1000 ticks.
+/// The times of all scheduled events. Tick k of a schedule is at offset + k period, computed from
+/// the integer k: 1000 periods of 1/3 s are 1000 ticks.
 class Calendar {
  public:
   explicit Calendar(const Plan& plan) : plan_(&plan), tick_(plan.schedule.size(), 0) {}
 
-  /// Makes the first tick at or after t the next one; after t if those at t have happened already.
+  /// The next tick of each schedule becomes the first tick at or after t. If the instant at t is
+  /// settled already, it becomes the first tick after t.
   void begin(double t, bool settled) {
     for (std::size_t i = 0; i < tick_.size(); ++i) {
       const ScheduledEvent& event = plan_->schedule[i];
@@ -38,10 +39,11 @@ class Calendar {
     return t;
   }
 
-  /// Whether one is due at t, within rounding: a run that ends at 0.3 has had the tick at 3 * 0.1.
+  /// Whether an event is due at t, within rounding: a run that ends at 0.3 has had the tick at 3 *
+  /// 0.1.
   bool due(double t) const { return next() <= t + slack(t); }
 
-  /// Takes the events due at t.
+  /// Lists the events that are due at t in `due`, and advances their ticks.
   void take(double t, std::vector<int>& due) {
     due.clear();
     for (std::size_t i = 0; i < tick_.size(); ++i) {

@@ -1,4 +1,4 @@
-// Chattering: events go on, and time does not.
+// Chattering: events follow each other, and time hardly advances.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace saltus {
 
-/// Counts the events of a run between which nothing moves (docs/semantics.md, 4.7).
+/// Counts series of events between which nothing moves (docs/semantics.md, 4.7).
 class Chattering {
  public:
   explicit Chattering(const SimulatorOptions& options) : rtol_(options.rtol), atol_(options.atol) {}
@@ -29,15 +29,16 @@ class Chattering {
   /// After an instant. True if the run chatters: `count` events since `since`.
   bool chatters(const Outcome& outcome, const Seen& seen, bool idle, const Eigen::VectorXd& x);
 
-  /// How many events in a row, since when.
+  /// A series of events: their number, and the time of the first.
   struct Series {
     std::int64_t count = 0;
     double since = 0.0;  ///< [s]
-    /// Counts one more that follows at t; forgets them where none follows.
+    /// Counts one more event at t if it follows the others; otherwise forgets them.
     void next(bool follows, double t) {
       *this = follows ? Series{count + 1, count == 0 ? t : since} : Series{};
     }
-    /// Counts one more; true when that makes `size`, and then begins anew at t unless it is kept.
+    /// Counts one more event. True when the series has `size` events; the next call begins a new
+    /// series at t.
     bool full(std::int64_t size, double t) {
       if (count >= size) *this = {0, t};
       return ++count >= size;
@@ -54,9 +55,9 @@ class Chattering {
 
   double rtol_, atol_;
   Series stuck_;       // a guard at rest without a Zeno monitor fires again
-  Series fluttering_;  // a relation whose both sides lead back to its surface
+  Series fluttering_;  // both sides of a relation lead back to its surface
   Series roots_;       // roots
-  Series idle_;        // roots between which no state moves
+  Series idle_;        // no state moves between these roots
   Series found_;
   Eigen::VectorXd at_root_;  // x at the last root
 };

@@ -1,4 +1,4 @@
-// Contacts: blocks at rest on a surface, and what becomes of them while the surface moves.
+// Contacts: blocks at rest on a surface, and their motion while the surface moves.
 #pragma once
 
 #include <algorithm>
@@ -10,20 +10,20 @@
 
 namespace saltus {
 
-/// Blocks that one guard holds at rest: the leaf of a zero crossing, or the blocks whose resets a
-/// relation sets off.
+/// The blocks that one guard holds at rest: the leaf of a zero crossing, or the blocks whose resets
+/// a relation sets off.
 struct SurfaceContact {
   struct Member {
     int leaf;
     const ResetMap* map;
-    Index entry;  // of a vector of guards
+    Index entry;  // in a vector of guards
   };
   int slot = -1;     // its guard
-  int pressed = -1;  // sign the guard takes where the flow presses on the surface
+  int pressed = -1;  // sign of the guard where the flow presses on the surface
   bool opaque = false;
-  bool carried = false;     // the surface moves, and the blocks with it
-  bool pressed_on = false;  // the flow led into the surface when it was last asked
-  double error = 0.0;       // within it the guard is at zero
+  bool carried = false;     // the surface moves, and the blocks move with it
+  bool pressed_on = false;  // the flow led into the surface at the last look
+  double error = 0.0;       // the guard is at zero within it
   double look_ahead = 0.0;  // [s] see lift
   std::vector<Member> members = {};
   std::vector<Index> states = {};  // entries of x that rest
@@ -32,36 +32,39 @@ struct SurfaceContact {
 /// On a moving surface the state at rest is the fixed point of the reset maps at that time, x =
 /// R(t, x): height and speed of the surface. It is found by Aitken's extrapolation entry by entry
 /// (A. C. Aitken, Proc. R. Soc. Edinb. 46 (1926) 289), exact where a reset map is affine, as laws
-/// of impact are. The contact opens when the free flow from there leads off the surface.
+/// of impact are. The contact ends when the free flow from there leads off the surface.
 class Contacts final : public Carrier {
  public:
   Contacts(Machine& machine, const SimulatorOptions& options);
 
   void clear();
-  /// Null where nothing rests on that guard.
+  /// The contact of that guard. Null if nothing rests on it.
   SurfaceContact* on(int slot);
-  /// A new one without members; the one that was there is gone.
+  /// A new contact without members. It replaces any contact of that guard.
   SurfaceContact& add(int slot);
   void add(const SurfaceContact& contact) { add(contact.slot) = contact; }
   void remove(int slot);
   bool empty() const noexcept { return present_.empty(); }
-  /// Those present, in the order in which they were made.
+  /// The contacts present, in the order of their making.
   auto all() const {
     return present_ | std::views::transform([this](int slot) -> const SurfaceContact& {
              return of_slot_[static_cast<std::size_t>(slot)];
            });
   }
 
-  /// Moves the contact's entries of x to the fixed point; false, and x as it was, if there is none.
+  /// Moves the contact's entries of x to the fixed point. If there is no fixed point, returns false
+  /// and leaves x unchanged.
   bool settle(const SurfaceContact& contact, double t, double* x);
-  /// How far the guard gets off the surface on the free flow from x: 8 g(d/2) - g(d), in which the
-  /// third order cancels. Below zero the flow presses on. An opaque boolean has a sign only.
+  /// How far the free flow from x takes the guard off the surface: 8 g(d/2) - g(d), in which the
+  /// third order cancels. A negative lift means that the flow presses on the surface. An opaque
+  /// boolean has a sign only.
   double lift(const SurfaceContact& contact, double t, const double* x);
   /// Whether the surface moves, or the force that presses on it changes, within `longest` [s].
   bool moves(const SurfaceContact& contact, double t, const double* x, double longest);
-  /// The time in which curvature lifts the states well off their rounding.
+  /// Sets look_ahead to the time in which curvature moves the states by far more than their
+  /// rounding.
   void choose_look_ahead(SurfaceContact& contact, double t, const double* x, double longest);
-  /// Whether the surface under some block moves, so that the machine has to be told to carry it.
+  /// Whether the surface under some block moves, so that the machine has to carry the block.
   bool moving() const { return std::ranges::any_of(all(), &SurfaceContact::carried); }
 
   void carry(double t, double* x) override;
@@ -75,7 +78,7 @@ class Contacts final : public Carrier {
   double guard_after(const SurfaceContact& contact, double t, const double* x, double d);
 
   Machine* machine_;
-  double absolute_;                      // size below which a state counts as zero
+  double absolute_;                      // a state below this size counts as zero
   std::vector<SurfaceContact> of_slot_;  // made once, so that a hold allocates nothing
   std::vector<int> present_;             // slots
   Eigen::VectorXd original_, begun_, once_, twice_, trial_, f_, f1_, slow_, stood_, later_, z_, g_;

@@ -1,4 +1,4 @@
-// Guards of blocks at rest: watched, carried with their surface, let go.
+// Guards of blocks at rest: they are watched, carried with their surface, and released.
 #pragma once
 
 #include "saltus/simulation/detail/contact.hpp"
@@ -7,8 +7,8 @@
 
 namespace saltus {
 
-/// What the guard of a block at rest does: it waits within its error, follows the lift off a
-/// surface that moves, or lets its block go.
+/// Operates the guard of a block at rest. The guard rests within its error, follows the lift off a
+/// surface that moves, or releases its block.
 class ContactGuards {
  public:
   ContactGuards(Machine& machine, GuardSet& guards, const SimulatorOptions& options, Flow& flow,
@@ -17,29 +17,29 @@ class ContactGuards {
   void begin();
   const Contacts& contacts() const noexcept { return contacts_; }
 
-  /// A hold of a leaf's guard, or of relations, is watched from here on.
+  /// Begins to watch the guard of a hold: the guard of a leaf, or a relation.
   void arm_crossing(std::size_t k);
   void arm_relation(std::size_t k);
 
-  /// Whether a firing concerned a contact only, and whether that let a block go.
+  /// Whether a firing concerned a contact only, and whether it released a block.
   enum class Taken { no, yes, let_go };
   Taken take(const Firing& firing);
-  /// After a commit, the guard of a leaf on hold: off to its armed side it lets go, beyond zero the
-  /// reset map is applied again.
+  /// Looks at the guard of a leaf on hold after a commit. On its armed side the guard releases the
+  /// leaf; beyond zero its reset map is applied again.
   void look_at_held(std::size_t k);
-  /// Whether a relation has a contact that is still one.
+  /// Whether a relation still has a contact.
   bool still_at_rest(std::size_t k);
-  /// The relation of a contact has turned, or its block does not rest any more.
+  /// Ends the contact of a relation that has turned, or whose block does not rest any more.
   void leave(std::size_t k);
-  /// The relations that decide an edge keep their truth: at rest their values are rounding.
+  /// The relations that decide an edge keep their truth, because their values at rest are rounding.
   void keep_relations_of(const EdgeWatch& edge);
 
-  /// Holds whose states the pass to be committed has written end. Their guards are armed anew.
+  /// Ends the holds whose states the present pass has written, and arms their guards anew.
   void release_kicked();
-  /// Holds of leaves that have entered a mode which does not see the guard of the hold end.
+  /// Ends the holds of leaves that have entered a mode in which the guard of the hold is inactive.
   void release_unseen();
 
-  /// After the holds were loaded: contacts are found again.
+  /// Finds the contacts again, after the holds were loaded.
   void load();
 
  private:

@@ -1,4 +1,4 @@
-// Arming of zero crossings: on which side of zero they go on when integration does.
+// Arming of zero crossings: their sides of zero when integration continues.
 #pragma once
 
 #include "saltus/simulation/detail/contact_guards.hpp"
@@ -12,12 +12,12 @@ class CrossingArming {
   CrossingArming(Machine& machine, GuardSet& guards, Flow& flow, Holds& holds,
                  ContactGuards& contacts, Transition& transition, Present& present);
 
-  /// Before integration goes on: the side of a guard, a firing at once, or rest.
+  /// Arms a guard before integration continues. It gets a side, fires at once, or comes to rest.
   void arm(std::size_t k, bool at_start);
   /// Whether the flow leads a guard that seems to have fired to its armed side. The first step
-  /// after a restart, of order 1 or drowned in the rounding of its states, invents such roots while
-  /// the ball still rises. Only guards that have been at zero since they were armed can be mistaken
-  /// so. Such a guard goes on waiting.
+  /// after a restart has order 1, or is hidden by the rounding of its states; it can show a false
+  /// root while the ball still rises. Only guards that have been at zero since they were armed can
+  /// have false roots. Such a guard continues to wait.
   bool goes_against(const Firing& firing);
 
  private:

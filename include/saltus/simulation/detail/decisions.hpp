@@ -1,5 +1,6 @@
-// Decisions: on which side a guard goes on, whether it fires at once, whether it rests. Functions
-// of values: what they need of the flow they ask for, for that costs right-hand sides.
+// Decisions: the side on which a guard continues, whether it fires at once, whether it rests. They
+// are functions of values. They ask for a fact about the flow only when they need it, because the
+// fact costs calls of the right-hand side.
 //
 // The law: a guard is at zero within its error; its side is known only beyond it; within it the
 // flow decides (docs/semantics.md, 2.2 to 2.5).
@@ -13,7 +14,7 @@
 
 namespace saltus {
 
-/// What a guard that begins at zero or beyond it does by its author's wish (2.4).
+/// The author's wish for a guard that begins at zero or beyond it (2.4).
 ///
 ///     at_start       g off zero, armed side   g = 0              g on the firing side
 ///     automatic      by the flow              by the flow        by the flow
@@ -34,13 +35,13 @@ constexpr Beginning decide_beginning(AtStart wish, Direction direction, double g
   return g == 0.0 ? Beginning::wait : Beginning::by_flow;
 }
 
-/// The side the flow takes a guard to (0: none within its error), and that error.
+/// The side to which the flow takes a guard (0: it stays within its error), and that error.
 struct FlowSide {
   int side = 0;
   double error = 0.0;
 };
 
-/// What is known of a zero crossing when integration is about to go on.
+/// The facts about a zero crossing just before integration continues.
 struct CrossingFacts {
   Direction direction = Direction::crosses_zero;
   Phase phase = Phase::armed;
@@ -59,8 +60,8 @@ struct CrossingFacts {
   bool wrote() const { return resets > 0; }
 };
 
-/// Whether a zero crossing has to be armed by the flow. `uncertainty()`: what rounding of the
-/// states and of the time leaves uncertain of its value.
+/// Whether a zero crossing has to be armed by the flow. `uncertainty()` is the error of its value
+/// by the rounding of the states and of the time.
 ///
 ///     fired in this instant                                    yes
 ///     at zero, or within its error while it waits              yes, unless it waits and nothing
@@ -76,7 +77,8 @@ bool needs_flow(const CrossingFacts& guard, const Uncertainty& uncertainty) {
   return at_zero && !(waits && !guard.wrote());
 }
 
-/// How a guard goes on. Without a phase it keeps phase and side, and takes over the error.
+/// The decision about a guard. Without a phase the guard keeps its phase and its side, and gets the
+/// new error.
 struct Arming {
   enum class Then { go_on, fire, rest };
   std::optional<Phase> phase = {};
@@ -86,10 +88,10 @@ struct Arming {
   bool operator==(const Arming&) const = default;
 };
 
-/// A guard at zero that has not fired. One with an effect that the flow takes to its firing side is
-/// in contact and fires at once, if a run begins so or a reset just turned the flow round; all
-/// others wait until they have been clearly off zero (2.3). Where the flow keeps a guard at zero it
-/// is dormant (2.6): it keeps its armed side.
+/// Decides about a guard at zero that has not fired. A guard with an effect is in contact if the
+/// flow takes it to its firing side. It fires at once if the run begins so, or if a reset just
+/// turned the flow round. All other guards wait until they have been clearly off zero (2.3). If the
+/// flow keeps a guard at zero, the guard is dormant (2.6): it keeps its armed side.
 ///
 ///     effect  flow to        begins or turned   then     waits on
 ///     yes     firing side    yes                fire     the flow's side
@@ -102,7 +104,7 @@ struct Arming {
 ///
 /// A guard of either direction is in contact at the start only if its slope is zero and the flow
 /// leads down. A reset turns the flow round only for a guard that is not on its firing side
-/// already. A guard with edge_detection has no side: it keeps what it has.
+/// already. A guard with edge_detection has no side, and its record does not change.
 template <class Ask>
 Arming decide_at_zero(const CrossingFacts& guard, FlowSide flow, const Ask& ask) {
   if (guard.direction == Direction::edge_detection) return {};
@@ -121,7 +123,7 @@ Arming decide_at_zero(const CrossingFacts& guard, FlowSide flow, const Ask& ask)
   return arming;
 }
 
-/// A guard that has fired in this instant (2.5).
+/// Decides about a guard that has fired in this instant (2.5).
 ///
 /// "Back" is the flow to the firing side, or to any side after a flight too low to be seen.
 ///
@@ -137,8 +139,8 @@ Arming decide_at_zero(const CrossingFacts& guard, FlowSide flow, const Ask& ask)
 ///     yes         off              -                  go on; waits on the flow's side
 ///     no          -                -                  go on; waits on the flow's side
 ///
-/// Where the flow keeps it at zero, it waits on the side it came from if it has a reset map and some
-/// reset map of this instant wrote; otherwise on no side.
+/// If the flow keeps it at zero, it waits on the side it came from, provided that it has a reset map
+/// and some reset map of this instant wrote; otherwise it waits on no side.
 template <class Ask>
 Arming decide_fired(const CrossingFacts& guard, FlowSide flow, const Ask& ask) {
   const int from = guard.came_from;
@@ -156,15 +158,15 @@ Arming decide_fired(const CrossingFacts& guard, FlowSide flow, const Ask& ask) {
   return arming;
 }
 
-/// A zero crossing that needs the flow.
+/// Decides about a zero crossing that needs the flow.
 ///
 ///     mode just entered, with an effect, headed for its firing    fire: both modes lead to the
 ///     side, and the flow of the mode before led the other way     surface (4.7)
 ///     otherwise, fired                                            decide_fired
 ///     otherwise                                                   decide_at_zero
 ///
-/// A hop lower than the tolerance begins on the other side than the one it was seen to end on: in a
-/// mode just entered the slope decides against the side.
+/// A hop lower than the tolerance begins on one side, and the look ahead sees it end on the other.
+/// Therefore in a mode just entered the slope decides against the side.
 template <class Ask>
 Arming decide_crossing(const CrossingFacts& guard, FlowSide flow, const Ask& ask) {
   if (guard.entered && !guard.fired && flow.side * ask.slope() < 0.0) flow.side = -flow.side;
@@ -174,13 +176,13 @@ Arming decide_crossing(const CrossingFacts& guard, FlowSide flow, const Ask& ask
   return guard.fired ? decide_fired(guard, flow, ask) : decide_at_zero(guard, flow, ask);
 }
 
-/// Whether a guard was merely passed through: before the reset the flow went the same way, and the
-/// reset did not all but stop it. Both are slopes towards the firing side.
+/// Whether a guard was merely passed through: the flow before the reset had the same direction, and
+/// the reset did not nearly stop it. Both arguments are slopes towards the firing side.
 constexpr bool passed_through(double onward, double before) {
   return before > 0.0 && onward > thresholds::stopped_slope * before;
 }
 
-/// What is known of a relation that is read again after a commit.
+/// The facts about a relation that is read again after a commit.
 struct RelationFacts {
   bool opaque = false;  ///< a boolean function: its value is only a sign
   bool truth = false;   ///< until now
@@ -190,12 +192,12 @@ struct RelationFacts {
   bool turned = false;  ///< it was turned by an earlier reading in this instant
   bool wrote = false;   ///< reset maps wrote continuous state in this instant
 
-  /// The side that its crossing, or its truth, says.
+  /// The side by its crossing if it fired; otherwise by its truth.
   int crossed_to() const { return fired ? -came_from : truth ? 1 : -1; }
 };
 
-/// The side of a relation by its value alone (3.5); 0: it keeps its truth. Without a value when the
-/// flow has to be asked.
+/// The side of a relation by its value alone (3.5); 0: it keeps its truth. Returns no value if the
+/// flow has to decide.
 ///
 ///     fired   states written   value                     side
 ///     yes     no               rounding                  the crossing's
@@ -212,7 +214,7 @@ constexpr std::optional<int> decide_relation(const RelationFacts& relation) {
   return side;
 }
 
-/// On which side a relation goes on.
+/// Decides how a relation is armed when integration continues.
 ///
 ///     opaque                                       as its truth, phase unchanged
 ///     clearly on its side, not fired               unchanged

@@ -1,4 +1,4 @@
-// Departure: to which side of zero the flow takes a guard that stands at zero.
+// Departure: to which side of zero the flow takes a guard that is at zero.
 #pragma once
 
 #include <algorithm>
@@ -13,11 +13,11 @@
 
 namespace saltus {
 
-/// Follows the flow from (t, x) for a short time d along x + d/2 (f(x) + f(x + d f)), right to
-/// second order (to fourth where that shows nothing), and lets d grow until the guard has left zero
-/// by more than rounding explains: that is its side. A guard that stays within rounding has none.
-/// Rounding is measured, not guessed: how much the guard moves when x, and with it f, is disturbed
-/// by a known relative amount.
+/// Follows the flow from (t, x) for a short time d along x + d/2 (f(x) + f(x + d f)), which is
+/// correct to second order (to fourth if second order shows nothing). d grows until the guard has
+/// left zero by more than its rounding: that is its side. A guard that stays within its rounding
+/// has no side. The rounding is measured: it follows from the movement of the guard when x, and
+/// with it f, is disturbed by a known relative amount.
 class Departure {
  public:
   Departure(Machine& machine, const SimulatorOptions& options)
@@ -28,8 +28,7 @@ class Departure {
     for (auto* v : {&g_, &g0_, &g_disturbed_}) v->setOnes(slots);
   }
 
-  /// What the flow does to one guard: the side it takes (0: none), and the rounding it was told
-  /// from.
+  /// The side to which the flow takes a guard (0: none), and the rounding bound used to decide it.
   struct Side {
     int side = 0;
     double rounding = 0.0;
@@ -49,21 +48,21 @@ class Departure {
   /// f at the point it departs from.
   const Eigen::VectorXd& flow() const noexcept { return f_; }
 
-  /// Rounding of a guard where it stands.
+  /// Rounding of a guard at the point of departure.
   double rounding(Index slot) {
     x1_ = *x_;
     return rounding_after(0.0, slot, g0(slot));
   }
 
-  /// What thirty tolerances of the states leave uncertain of a guard where it stands.
+  /// Error of a guard at the point of departure if the states are wrong by thirty tolerances.
   double tolerance(Index slot) {
     using namespace thresholds;
     return lift_off_tolerances * (rounding(slot) * rtol_ / (state_roundings * eps) + atol_);
   }
 
-  /// `error`: a guard within it is at zero too, and is followed until it has left that as well.
-  /// `expected`: a side that makes no difference to being at zero, so that its rounding need not be
-  /// asked for; `either_side` where only the side matters.
+  /// The side of a guard. A guard within `error` is at zero too, and is followed until it has left
+  /// `error` as well. `expected` is a side that has the same consequence as being at zero, so that
+  /// its rounding need not be measured; `either_side` if only the side matters.
   static constexpr int either_side = 2;
   Side of(const GuardGroup& group, Index slot, double error, int expected) {
     const Side side = follow(group, slot, error, expected);
@@ -74,9 +73,9 @@ class Departure {
     return finer;
   }
 
-  /// d g / d t along the flow at (t, x), by two forward differences over the time that `of` starts
-  /// with. Extrapolated, so that the curvature of a ball at rest is no speed: what is left of it by
-  /// rounding counts as zero.
+  /// d g / d t along the flow at (t, x), by two forward differences over the first time that `of`
+  /// uses. Extrapolation removes the curvature, because the curvature of a ball at rest is no
+  /// speed. A result within rounding counts as zero.
   double slope(const GuardGroup& group, Index slot) {
     const double d = first_time(group);
     const double near = (guard_after(0.5 * d, slot) - g0(slot)) / (0.5 * d);
@@ -87,7 +86,7 @@ class Departure {
     return std::abs(extrapolated) > noise ? extrapolated : 0.0;
   }
 
-  /// The same along another flow f through (t, x), to first order.
+  /// d g / d t along another flow f through (t, x), to first order.
   double slope_along(const Eigen::VectorXd& f, const GuardGroup& group, Index slot) {
     const double d = first_time(group);
     x1_ = *x_ + d * f;
@@ -103,7 +102,7 @@ class Departure {
     const bool opaque = group.is_opaque();
     double d = first_time(group);
     double g = guard_after(d, slot);
-    // Not much further than the tolerance sees: what lies behind is the solver's to find.
+    // The look ends a little beyond the tolerance: the solver finds later events.
     for (double furthest =
              std::min(longest_, std::max(thresholds::furthest_look * d, lift_time(group, d)));
          ; g = guard_after(d, slot)) {
@@ -119,12 +118,12 @@ class Departure {
     }
   }
 
-  /// Whether a guard moves as the states do.
+  /// Whether a guard moves as much as the states do.
   bool is_beyond_doubt(double g, double error) const {
     return std::abs(g) > std::max(error, thresholds::doubtless_move * largest_move());
   }
 
-  /// The guard where it departs from; few ask for it.
+  /// The guard at the point of departure, computed at the first call.
   double g0(Index slot) {
     if (!looked_) machine_->guards(t_, x_->data(), g0_.data());
     looked_ = true;
@@ -133,7 +132,8 @@ class Departure {
 
   double largest_move() const { return move_.size() > 0 ? move_.cwiseAbs().maxCoeff() : 0.0; }
 
-  /// Weights without pattern, so that what cancels in a guard does not cancel in the disturbance.
+  /// Disturbs each state with a weight. The weights have no pattern, so that terms which cancel in
+  /// a guard do not cancel in the disturbance.
   static void disturb(Eigen::VectorXd& x) {
     double weight = 0.618;
     for (double& value : x) {
@@ -143,8 +143,8 @@ class Departure {
     }
   }
 
-  /// [s] in which the fastest of all states moves by its tolerance: the scale where a run, or what
-  /// is left of it, is too short to say.
+  /// [s] in which the fastest of all states moves by its tolerance. It is the time scale if the
+  /// rest of the run is too short to give one.
   double quickest() const {
     double time = std::numeric_limits<double>::infinity();
     for (Index i = 0; i < f_.size(); ++i)
@@ -152,9 +152,9 @@ class Departure {
     return time;
   }
 
-  /// The time in which the fastest state the guard depends on moves by its tolerance. A state that
-  /// hardly does so within the run says nothing: what moves the guard is the time, or another
-  /// block.
+  /// The time in which the fastest state that the guard depends on moves by its tolerance. A state
+  /// that hardly moves so far within the run is ignored: then the time or another block moves the
+  /// guard.
   double first_time(const GuardGroup& group) const {
     double d = thresholds::first_look_of_run * longest_;  // for a guard that no state moves
     bool moved = false;
@@ -170,8 +170,8 @@ class Departure {
     return std::max(d, thresholds::time_roundings * eps * std::abs(t_));
   }
 
-  /// The time after which curvature has lifted the states off their own rounding, from f and f1
-  /// after d: at a tight tolerance that is longer than the tolerance sees.
+  /// The time after which curvature has moved the states by more than their own rounding, from f
+  /// and f1 after d. At a tight tolerance it is longer than the time of a move by the tolerance.
   double lift_time(const GuardGroup& group, double d) const {
     double time = 0.0;
     for (int leaf : group.leaves) {
@@ -198,8 +198,8 @@ class Departure {
     return g_[slot];
   }
 
-  /// The classical method of order 4 from its second stage, f1_, on (Hairer, Norsett, Wanner I, p.
-  /// 138, table 1.2).
+  /// Completes a step of the classical method of order 4 after its second stage, f1_ (Hairer,
+  /// Norsett, Wanner I, p. 138, table 1.2).
   void add_middle_and_end(double d) {
     move_ = f_ + 2.0 * f1_;
     x1_ = *x_ + 0.5 * d * f1_;
@@ -231,8 +231,8 @@ class Departure {
            0.25 * std::abs(g_disturbed_[slot] - g);
   }
 
-  /// For a guard that only says yes or no: whether each state it reads has moved by more than its
-  /// rounding.
+  /// Whether each state that an opaque guard reads has moved by more than its rounding. True for
+  /// all other guards.
   bool has_moved(const GuardGroup& group) const {
     if (!group.is_opaque()) return true;
     for (int leaf : group.leaves) {
@@ -251,8 +251,8 @@ class Departure {
   double t_ = 0.0, longest_ = 0.0;
   const Eigen::VectorXd* x_ = nullptr;
   bool fine_ = false;       // follow the flow with order 4
-  bool disturbed_ = false;  // f_disturbed_ is that of x_
-  bool looked_ = false;     // g0_ is
+  bool disturbed_ = false;  // f_disturbed_ belongs to x_
+  bool looked_ = false;     // g0_ belongs to x_
   Eigen::VectorXd f_, f_disturbed_, f1_, x1_, move_, trial_, g_, g0_, g_disturbed_;
 };
 

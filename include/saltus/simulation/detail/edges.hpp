@@ -1,4 +1,4 @@
-// Edges: the watched signals behind the resets of blocks, and which of them fired.
+// Edges: the watched signals that reset blocks, and which of them fired.
 #pragma once
 
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace saltus {
 
-/// The last value of each watched signal, and what became of it in this instant.
+/// The last value of each watched signal, and its events in this instant.
 class Edges {
  public:
   explicit Edges(const Machine& machine);
@@ -20,7 +20,7 @@ class Edges {
 
   struct Look {
     bool now = false;    ///< the signal
-    bool fires = false;  ///< it has the edge that the reset waits for
+    bool fires = false;  ///< it has the edge that triggers the reset
   };
   /// Looks at the signal of edge e, and remembers it.
   Look look(std::size_t e);
@@ -38,7 +38,7 @@ class Edges {
 
   const EdgeReset& reset_of(std::size_t e) const;
 
-  /// Its share of what a run that goes on has to know: the last values.
+  /// Saves the last values, which a continued run needs.
   std::vector<int> save() const { return {values_.begin(), values_.end()}; }
   bool fits(const Continuation& from) const { return from.edges.size() == values_.size(); }
   void load(const Continuation& from);

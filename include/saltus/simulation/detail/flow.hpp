@@ -1,4 +1,4 @@
-// Flow: to which side the flow takes a guard at the present state, asked for when needed.
+// Flow: to which side the flow takes a guard at the present state, computed when it is needed.
 #pragma once
 
 #include "saltus/simulation/detail/decisions.hpp"
@@ -19,7 +19,7 @@ class Flow {
   /// f at the present state, if it is known.
   const Eigen::VectorXd* known() const noexcept { return known_ ? &departure_.flow() : nullptr; }
 
-  /// The side it takes a guard to, from the present state: see Departure::of.
+  /// The side to which the flow takes a guard from the present state: see Departure::of.
   Departure::Side side(const GuardGroup& group, Index slot, double error, int expected) {
     depart();
     return departure_.of(group, slot, error, expected);
@@ -29,7 +29,7 @@ class Flow {
     depart();
     return departure_.slope(group, slot);
   }
-  /// What rounding leaves uncertain of a guard at the present state.
+  /// The rounding of a guard at the present state.
   double rounding(Index slot) {
     depart();
     return departure_.rounding(slot);
@@ -44,15 +44,15 @@ class Flow {
     depart_from(x, longest_);
     return departure_.slope(group, slot);
   }
-  /// The side within a look of at most `longest` [s].
+  /// The side to which the flow takes a guard within at most `longest` [s].
   Departure::Side side_within(double longest, const GuardGroup& group, Index slot, double error,
                               int expected) {
     depart_from(machine_->x, longest);
     return departure_.of(group, slot, error, expected);
   }
   /// Whether the flow after a reset leads straight back across a guard that fired coming from
-  /// `from`: nothing can move until something else does. Not so where the guard was merely passed
-  /// through: there the flow from x_before, before the reset, went the same way.
+  /// `from`: nothing can move until another block does. False if the guard was merely passed
+  /// through: then the flow from x_before, before the reset, had the same direction.
   bool leads_back(const GuardGroup& group, Index slot, int from, const Eigen::VectorXd& x_before) {
     const bool known = known_;
     const double onward = -from * slope(group, slot);
@@ -60,8 +60,8 @@ class Flow {
     if (!(onward > 0.0)) return true;
     return !passed_through(onward, -from * slope_from(x_before, group, slot));
   }
-  /// What the tolerance of the run leaves uncertain of a guard at the present state; nothing of a
-  /// guard that is only a sign.
+  /// The error of a guard at the present state by the tolerance of the run; zero for an opaque
+  /// guard, which is only a sign.
   double tolerance(Index slot, bool opaque) {
     depart_from(machine_->x, longest_);
     return opaque ? 0.0 : departure_.tolerance(slot);
@@ -80,7 +80,7 @@ class Flow {
   Machine* machine_;
   Departure departure_;
   double t_ = 0.0, longest_ = 0.0;
-  bool known_ = false;  // departure_ is that of the present state
+  bool known_ = false;  // departure_ belongs to the present state
 };
 
 }  // namespace saltus

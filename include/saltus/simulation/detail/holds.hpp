@@ -11,8 +11,8 @@
 
 namespace saltus {
 
-/// The Zeno monitors: one for each guard with an effect, one for each watched edge. It knows which
-/// states rest; what their guards do meanwhile is the business of ContactGuards.
+/// The Zeno monitors: one for each guard with an effect, one for each watched edge. Holds knows
+/// which states rest; ContactGuards operates their guards meanwhile.
 class Holds {
  public:
   struct Hold {
@@ -34,20 +34,20 @@ class Holds {
   Hold& of_edge(std::size_t e) { return of_edges_[e]; }
   const Hold& of_edge(std::size_t e) const { return of_edges_[e]; }
   bool any() const noexcept { return count_ > 0; }
-  /// Whether the states that rest were written by the pass that is about to be committed.
+  /// Whether the present pass, not yet committed, has written the states that rest.
   bool kicked(const Hold& hold) const;
 
-  /// The firings of a guard accumulate, or its flow leads straight back: what its author said of
-  /// that. `in_pass`: the modes to come may still be written.
+  /// Does what the author of a guard chose for a Zeno point: its firings accumulate, or its flow
+  /// leads straight back. `in_pass`: the modes to come may still be written.
   void come_to_rest(Hold& hold, double predicted, bool in_pass);
   void release(Hold& hold);
-  /// After a firing whose reset map wrote: rest if the firings accumulate; otherwise how soon the
-  /// next one may follow. Returns whether it rests.
+  /// Comes to rest after a firing whose reset map wrote, if the firings accumulate; otherwise notes
+  /// how soon the next firing may follow. Returns whether it rests.
   bool look_for_accumulation(Hold& hold);
-  /// A relation at rest holds the blocks whose edges it set off; false if one has no monitor.
+  /// A relation at rest holds the blocks whose edges it set off. False if an edge has no monitor.
   bool hold_edges(const std::vector<int>& edges, int node);
 
-  /// Its share of what a run that goes on has to know: the last firings of each monitor.
+  /// Saves the last firings of each monitor, which a continued run needs.
   std::vector<Continuation::Firings> save() const;
   bool fits(const Continuation& from) const {
     return from.firings.size() == of_guards_.size() + of_edges_.size();
@@ -67,11 +67,11 @@ class Holds {
   Transition* transition_;
   Journal* journal_;
   Present* present_;
-  std::vector<Index> states_;              // all entries of x: a whole leaf rests with a part of it
+  std::vector<Index> states_;              // all entries of x; a leaf rests with its part of them
   std::deque<std::vector<Index>> chosen_;  // the states that guards with `holds` name
   std::vector<Hold> of_guards_, of_edges_;
   Eigen::VectorXd gathered_;  // the states of one hold
-  int count_ = 0;             // holds now
+  int count_ = 0;             // present holds
 };
 
 }  // namespace saltus

@@ -11,9 +11,10 @@
 
 namespace saltus {
 
-/// One pass: relations that were crossed flip; held outputs follow; reset maps and updates run, all
-/// from x-, and are committed together; relations are read again; zero crossings that the commit
-/// moved across zero fire in the next pass. Its parts know each other in this order only:
+/// Runs passes. In a pass the relations that were crossed flip, and held outputs follow. Reset maps
+/// and updates run, all from x-, and are committed together. Then the relations are read again.
+/// Zero crossings that the commit moved across zero fire in the next pass. A part knows only the
+/// parts above it:
 ///
 ///     Transition, Journal, Flow, Edges    x- to x+, events, f at x+, watched signals
 ///     Holds                               which states rest
@@ -25,17 +26,18 @@ class Instant {
   Instant(const Instant&) = delete;  // its parts know each other
   Instant& operator=(const Instant&) = delete;
 
-  /// Clean monitors, relations and held signals for a run that begins at t. Nothing fires yet.
+  /// Clears monitors, relations and held signals for a run that begins at t. Nothing fires yet.
   void begin(double t, Recorder* recorder);
-  /// Whether an earlier run's knowledge has the shape of this system.
+  /// Whether the continuation of an earlier run has the shape of this system.
   bool fits(const Continuation& from) const;
-  /// As `begin`, with what an earlier run left; `longest` as in run.
+  /// Begins a run as `begin` does, and loads the continuation of an earlier run; `longest` as in
+  /// `run`.
   void resume(double t, Recorder* recorder, const Continuation& from, double longest);
-  /// What a run that goes on from here has to know: each part's share of it.
+  /// The continuation: each part saves the values that a continued run needs.
   Continuation save() const;
 
-  /// Runs the instant at t: the guards that fired at the root, and the time events in `due`.
-  /// `longest` [s]: how far the run still goes.
+  /// Runs the instant at t, with the guards that fired at the root and the time events in `due`.
+  /// `longest` [s] is the time to the end of the run.
   Outcome run(double t, const std::vector<int>& due, double longest, bool at_start = false);
 
   /// Logs the crossing of a monitor, which changes nothing, at the state x.
@@ -43,7 +45,7 @@ class Instant {
 
   int jump() const noexcept { return jump_; }
   const Contacts& contacts() const noexcept { return contacts_.contacts(); }
-  /// f at the end of the last instant, if that is known.
+  /// f at the end of the last instant, if it is known.
   const Eigen::VectorXd* flow() const noexcept { return flow_.known(); }
   const Journal& journal() const noexcept { return journal_; }
 

@@ -46,7 +46,7 @@ class Journal {
   /// A link of the chain of causes.
   void cause(int source);
 
-  /// Whether the next firing of a terminal guard is the one that ends the run.
+  /// Whether the next firing of a terminal guard ends the run.
   bool ends_run(std::size_t group) const;
   /// Events noted in this instant.
   int events() const noexcept { return events_; }
@@ -56,7 +56,7 @@ class Journal {
   std::vector<std::pair<std::string, std::int64_t>> counts() const;
   [[noreturn]] void throw_no_end() const;
 
-  /// Its share of what a run that goes on has to know: how often each guard has fired.
+  /// Saves how often each guard has fired, which a continued run needs.
   std::vector<std::int64_t> save() const;
   bool fits(const Continuation& from) const { return from.counts.size() == earlier_.size(); }
   void load(const Continuation& from) { earlier_ = from.counts; }
@@ -74,7 +74,7 @@ class Journal {
   int last_source_ = -1;
   std::vector<std::int64_t> counts_;   // events of each source, in this run
   std::vector<std::int64_t> earlier_;  // firings of each guard before this run
-  std::vector<int> chain_;             // sources of what happened in this instant
+  std::vector<int> chain_;             // sources of the events of this instant
 };
 
 }  // namespace saltus

@@ -11,15 +11,15 @@
 
 namespace saltus {
 
-/// What an instant came to.
+/// The result of an instant.
 struct Outcome {
-  bool restart = false;  ///< f is another function, or x another state: the solver begins anew
+  bool restart = false;  ///< f or x has changed: the solver begins anew
   bool terminal = false;
-  bool stuck = false;      ///< a guard at rest, without monitor, fires again as soon as it can
-  bool flutters = false;   ///< a relation flipped three times or more: both sides lead back
-  bool zeno_stop = false;  ///< a Zeno point of a guard that stops there
-  bool chatters = false;   ///< it does not end, though no state was written
-  int events = 0;          ///< how many events it had
+  bool stuck = false;      ///< a guard at rest without a monitor fires again at once
+  bool flutters = false;   ///< a relation flipped three times or more
+  bool zeno_stop = false;  ///< a guard that stops the run at a Zeno point reached one
+  bool chatters = false;   ///< its passes do not end, though no state was written
+  int events = 0;          ///< number of its events
   /// [s] within which an event may follow
   double horizon = std::numeric_limits<double>::infinity();
 };
@@ -32,30 +32,29 @@ enum class Cause {
   zeno       ///< firings accumulate, and the guard's author named a mode to enter
 };
 
-/// One thing to do in the next pass.
+/// One action of the next pass.
 struct Action {
   int leaf;
   Cause cause;
-  int index;   ///< of the guard group, the edge or the scheduled event; of a Zeno point its source
+  int index;   ///< the guard group, edge or scheduled event; the source of a Zeno point
   int slot;    ///< the guard of a crossing
-  int from;    ///< the side a crossing came from; of a Zeno point the mode to enter
+  int from;    ///< the side a crossing came from; the mode a Zeno point enters
   bool carry;  ///< the reset map of a block on hold, applied again
 };
 
-/// What the present instant knows of one guard beyond its record.
+/// The facts about one guard in the present instant, beyond its record.
 struct GuardNow {
-  double g_minus = 0.0;  ///< its value where its root was located
-  /// [s] from its last firing to this one, where it was not seen clearly off zero in between;
-  /// otherwise NaN
+  double g_minus = 0.0;  ///< its value at its located root
+  /// [s] from its last firing to this one; NaN if it was clearly off zero in between
   double flight = std::numeric_limits<double>::quiet_NaN();
-  int flips = 0;               ///< of a relation, in this instant
-  bool fired = false;          ///< in this instant
-  bool fired_in_pass = false;  ///< in this pass
+  int flips = 0;               ///< flips of a relation in this instant
+  bool fired = false;          ///< it fired in this instant
+  bool fired_in_pass = false;  ///< it fired in this pass
   bool frozen = false;         ///< a relation: it keeps its side through this instant
   bool turned = false;         ///< a relation: its side changed when it was read again
 };
 
-/// The time of an instant, how far the run still goes, and what is found pass by pass.
+/// The time of an instant, the time left of the run, and the findings pass by pass.
 struct Present {
   explicit Present(std::size_t guards) : now(guards), g(guards, 1.0) {}
 
@@ -79,8 +78,8 @@ struct Present {
   void fire(std::size_t k, int from) { firings.push_back({static_cast<int>(k), from}); }
   /// [s] A shorter flight drowns in the rounding of the time.
   double least_time() const { return thresholds::time_roundings * thresholds::eps * std::abs(t); }
-  /// How far the location of a root left a guard from zero. Not where it fired on leaving its error
-  /// after a flight: errors made of errors would grow without end.
+  /// How far from zero the location of a root left a guard. A guard that fired on leaving its error
+  /// keeps that error instead: errors made from errors would grow without end.
   double location_error(std::size_t k) const {
     return std::isnan(now[k].flight) ? thresholds::location_error * std::abs(now[k].g_minus)
                                      : thresholds::kept_error * std::abs(g[k]);

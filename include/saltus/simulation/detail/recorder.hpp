@@ -1,5 +1,5 @@
-// Recorder: grows columns. It exists only where something is recorded, and changes no bit of the
-// run.
+// Recorder: appends rows to the columns of the results. It exists only if something is recorded,
+// and it changes no bit of the run.
 #pragma once
 
 #include "saltus/plan/detail/machine.hpp"
@@ -9,7 +9,8 @@ namespace saltus {
 
 class Recorder {
  public:
-  /// With `only`, increasing times: one row at each of them, the last of several, and no others.
+  /// `only` is a list of increasing times. With it there is one row at each of these times, the
+  /// last of several, and no other row.
   Recorder(Machine& machine, Results& results, const std::vector<double>* only = nullptr)
       : machine_(&machine), results_(&results), only_(only) {
     results.signals.clear();
@@ -18,7 +19,7 @@ class Recorder {
     }
   }
 
-  /// A row at (t, j) of the state x.
+  /// Appends a row at (t, j) of the state x.
   void record(double t, int jump, const double* x) {
     if (only_ != nullptr && !asked_for(t)) return;
     const Values values = machine_->evaluate_taps(t, x);
@@ -43,7 +44,7 @@ class Recorder {
   }
 
  private:
-  /// Takes the last row back.
+  /// Removes the last row.
   void drop() {
     results_->time.pop_back();
     results_->jump.pop_back();
@@ -52,7 +53,7 @@ class Recorder {
     }
   }
 
-  /// Time never goes back, so that one look at each of them is enough.
+  /// Time never decreases, so one pass through the list is enough.
   bool asked_for(double t) {
     while (next_ < only_->size() && (*only_)[next_] < t) ++next_;
     return next_ < only_->size() && (*only_)[next_] == t;

@@ -12,14 +12,14 @@ class Relations {
             Edges& edges, Holds& holds, ContactGuards& contacts, const Transition& transition,
             Journal& journal, Present& present);
 
-  /// A run begins: truths by the signs of now. Relations may read each other.
+  /// A run begins: each truth follows the present sign. Relations may read each other.
   void begin(double t);
-  /// A root was found: the relation takes the side the crossing says, for its value there may be
+  /// A root was found: the relation takes the side of its crossing, because its value there may be
   /// exactly zero.
   void flip(const Firing& firing);
   /// After a commit: held outputs and truths follow what was written.
   void read_again();
-  /// On which side integration goes on.
+  /// Sets the side on which a relation continues when integration does.
   void arm(std::size_t k);
 
   std::vector<double> save() const;

@@ -1,4 +1,4 @@
-// Run: the loop from instant to instant, behind Simulator.
+// Run: the loop from instant to instant. It implements Simulator.
 #pragma once
 
 #include <chrono>
@@ -15,7 +15,7 @@
 
 namespace saltus {
 
-/// What Simulator promises, and its memory.
+/// The functions of Simulator, and its memory.
 class Run {
  public:
   Run(const System& system, SimulatorOptions options);
@@ -53,7 +53,7 @@ class Run {
   const Eigen::VectorXd& present_state() const {
     return solver_started_ ? solver_->state() : machine_.x;
   }
-  /// The machine takes over the solver's state, with carried blocks on their surfaces.
+  /// Copies the solver's state into the machine, and moves carried blocks onto their surfaces.
   void take_state() {
     machine_.x = solver_->state();
     machine_.put_carried(time_, machine_.x.data());

@@ -1,5 +1,5 @@
-// The numbers that the instants of a run are tuned with: name, unit and derivation. Where a test is
-// named, it fails if the number changes.
+// The tuning numbers of the instants of a run: name, unit and derivation. Where a test is named, it
+// fails if the number changes.
 #pragma once
 
 #include <cstdint>
@@ -18,79 +18,80 @@ inline constexpr double disturbance = 1e-7;
 /// [eps] Rounding that a state carries after a step: a dozen stages, each with one rounding, and
 /// the reset map.
 inline constexpr double state_roundings = 16.0;
-/// [eps |t|] Times closer than this may be the same time after a location; a flight of that
-/// length cannot be told from rest.
+/// [eps |t|] Times closer than this may be the same time after a location; a flight of that length
+/// does not differ from rest.
 inline constexpr double time_roundings = 64.0;
-/// [eps |t|] within which a root is located: two of the bracket's, and those of t + u.
+/// [eps |t|] Resolution of the location of a root: two roundings of the bracket, and those of t +
+/// u.
 inline constexpr double location_roundings = 8.0;
-/// [1] of the guard's value at its root: Illinois leaves a bracket of two resolutions, over which
-/// a guard doubles at most, and the flow adds the same again on the way back.
+/// [of the guard's value at its root] Location error: Illinois leaves a bracket of two resolutions,
+/// over which a guard doubles at most, and the flow adds as much again on the way back.
 inline constexpr double location_error = 4.0;
-/// [1] of the guard's value where it fired on leaving its error: that error itself, and one part in
-/// a hundred for the rounding of the reset.
+/// [of the guard's value] Error of a guard that fired on leaving its error: the old error, and one
+/// part in a hundred for the rounding of the reset.
 inline constexpr double kept_error = 1.01;
-/// [tolerances of the states] within which a guard that leaves a falling surface is still at zero:
-/// it gets off as the third power of time, while the error of the state grows as the first.
+/// [tolerances of the states] A guard that leaves a falling surface is at zero within this error:
+/// its distance grows as the third power of time, while the error of the state grows as the first.
 inline constexpr double lift_off_tolerances = 30.0;
 
 // --- how far the flow is followed from a guard at zero: departure.hpp
 
-/// [1] by which the time grows from look to look. Eight is a power of two: times stay exact.
+/// [1] The time grows by this factor from look to look. Eight is a power of two: times stay exact.
 inline constexpr double look_growth = 8.0;
-/// [first looks] No further than this; what lies behind is the solver's to find: six looks.
+/// [first looks] Time of the furthest look: six looks. The solver finds later events.
 inline constexpr double furthest_look = 3e5;
-/// [of the run] first look at a guard that no state moves.
+/// [of the run] Time of the first look at a guard that no state moves.
 inline constexpr double first_look_of_run = 1e-9;
-/// [of the run] A state that takes longer than this to move by its tolerance says nothing.
+/// [of the run] A state that takes longer than this to move by its tolerance is ignored.
 inline constexpr double slow_state_of_run = 1e-3;
 /// [of the largest move of the states] A guard that moves by this moves as the states do: its side
 /// is beyond doubt, and its rounding need not be measured.
 inline constexpr double doubtless_move = 1e-3;
-/// [lift times] and [of the run]: how far a look may go to see curvature rise above rounding.
+/// [lift times] and [of the run]: the furthest look that waits for curvature to exceed rounding.
 inline constexpr double lift_times = 16.0;
 inline constexpr double lift_of_run = 1e-2;
-/// [s] A run that is shorter than this is no scale to look ahead by; [1] the share of `furthest`
-/// that the fastest state's own scale is multiplied by then.
+/// [s] A run that is shorter than this gives no time scale to look ahead by. [1] The time scale of
+/// the fastest state is multiplied by this then.
 inline constexpr double short_run = 1.0;
 inline constexpr double short_run_looks = 1e9;
-/// [1] of the difference of two slopes that extrapolation leaves of their curvature.
+/// [of the difference of two slopes] The curvature that extrapolation leaves in the slope.
 inline constexpr double slope_noise = 1e-6;
-/// [1] of the slope before a reset: less than this is a stop, not a passage.
+/// [of the slope before a reset] A smaller slope is a stop, not a passage.
 /// tests/unit/decisions_test.cpp
 inline constexpr double stopped_slope = 1e-6;
 
 // --- contacts with surfaces that move: contact.cpp, contact_guards.cpp
 
-/// [rounds] of Aitken's extrapolation: one for an affine map, one to see that it was, and four for
-/// maps that are nearly so.
+/// [rounds] of Aitken's extrapolation: one for an affine map, one to verify that it is affine, and
+/// four for maps that are nearly affine.
 inline constexpr int fixed_point_rounds = 6;
 /// [eps of the size of a state] A reset that moves a state by less has reached its fixed point.
 inline constexpr double fixed_point_roundings = 64.0;
-/// [eps] relative movement of a state by curvature that leaves nine digits less its rounding to
-/// tell its sign by.
+/// [eps] Relative movement of a state by curvature. It leaves nine digits above the rounding,
+/// enough to know the sign.
 inline constexpr double visible_lift = 1e9 * eps;
-/// [of the run] and [eps |t|]: shortest and longest look ahead.
+/// [of the run] and [eps |t|]: the shortest and the longest look ahead.
 inline constexpr double brief_of_run = 1e-9;
 inline constexpr double brief_roundings = 1024.0;
 inline constexpr double look_ahead_of_run = 1e-3;
-/// [looks] ahead that find out whether a surface moves, each `probe_growth` times as far: up to
-/// 3e4 looks ahead.
+/// [looks] that find out whether a surface moves. Each is `probe_growth` times as far as the one
+/// before: up to 3e4 looks ahead.
 inline constexpr int probes = 4;
 inline constexpr double probe_growth = 30.0;
 /// [eps of the size of a state] A fixed point that differs from the held state by more moves.
 inline constexpr double moved_roundings = 1e3;
-/// [1] A force on the surface that changes by more than this part changes.
+/// [1] A force on the surface counts as changed if it changes by more than this part.
 inline constexpr double changed_force = 1e-5;
-/// [errors] A held guard that is further beyond zero has been carried into its surface.
+/// [errors] A held guard that is further beyond zero than this has moved into its surface.
 inline constexpr double clearly_beyond = 1e3;
-/// [1] by which the error of a contact grows where the guard wavered out of it.
+/// [1] The error of a contact grows by this factor if the guard left it by rounding.
 inline constexpr double wavered = 2.0;
 
 // --- Zeno points: zeno.hpp, holds.cpp
 
-/// [eps |t|] Gaps that shrink by less shrink by the rounding of the event times.
+/// [eps |t|] A gap that shrinks by less may shrink by the rounding of the event times only.
 inline constexpr double gap_roundings = 8.0;
-/// [1] From this ratio of gaps on, the ratio is taken over two gaps: a slow series amplifies the
+/// [1] Above this ratio of gaps, the ratio is computed over two gaps: a slow series amplifies the
 /// rounding of event times by 1 / (1 - q)^2.
 inline constexpr double slow_series = 0.9;
 /// [1] The next firing may follow within this many of the last gaps.
@@ -101,16 +102,16 @@ inline constexpr double next_gap = 1.2;
 /// [flips] of a relation in one instant: both sides lead back to its surface.
 inline constexpr int fluttering_flips = 3;
 /// [events] A guard at rest without a Zeno monitor fires as often as the solver can step; a
-/// thousand times is no approach to anything.
+/// thousand firings are no approach to a limit.
 inline constexpr std::int64_t stuck_firings = 1000;
 /// [events] A relation that flips back within its instant slides; each flip costs a restart, so
 /// two hundred of them in a row already cost more than any smooth stretch.
 inline constexpr std::int64_t flutters = 200;
-/// [events] of roots within `root_rounding` roundings of the time: time does not advance.
+/// [events] So many roots within `root_rounding` of the time: time does not advance.
 inline constexpr std::int64_t roots_in_rounding = 1000;
 inline constexpr double root_rounding = 1e6 * eps;
-/// [events] within `idle_share` of the run, between which no state moves by its tolerance: at this
-/// rate the run would have 1e11 events.
+/// [events] So many roots within `idle_share` of the run, while no state moves by its tolerance: at
+/// this rate the run would have 1e11 events.
 inline constexpr std::int64_t idle_roots = 10'000;
 inline constexpr double idle_share = 1e-7;
 
@@ -118,7 +119,7 @@ inline constexpr double idle_share = 1e-7;
 
 /// [causes] that a chain remembers: four times the default of max_passes.
 inline constexpr std::size_t remembered_causes = 400;
-/// [causes] at its end that a message shows.
+/// [causes] The last causes of a chain, which a message shows.
 inline constexpr std::size_t shown_causes = 6;
 /// [eps |t|] Times that differ by rounding only are one instant: 3 * 0.1 and 0.3.
 inline constexpr double tick_roundings = 4.0;

@@ -13,17 +13,18 @@ class Contacts;
 class Machine;
 struct SurfaceContact;
 
-/// Which value at the time of an event: that before it or that after it.
+/// Which value at the time of an event: the value before it or the value after it.
 enum class Side { left, right };
 
-/// What the solver's own interpolant drew, step by step: its values at the Chebyshev points of the
-/// step, one more than its degree, which determine it. It is read by the barycentric formula (J.-P.
-/// Berrut, L. N. Trefethen, "Barycentric Lagrange interpolation", SIAM Review 46 (2004), pp. 504
-/// and 507), exact at these points and as stable as the values themselves (N. J. Higham, IMA J.
-/// Numer. Anal. 24 (2004) 547). So the method's order is kept, whatever the method was.
+/// The solver's own interpolant, step by step. It is kept as its values at the Chebyshev points of
+/// the step, one more than its degree, which determine it. It is read by the barycentric formula
+/// (J.-P. Berrut, L. N. Trefethen, "Barycentric Lagrange interpolation", SIAM Review 46 (2004), pp.
+/// 504 and 507), exact at these points and as stable as the values themselves (N. J. Higham, IMA J.
+/// Numer. Anal. 24 (2004) 547). So the order of every method is kept.
 ///
-/// Beside it stands what jumps only at instants and outputs read: discrete state, modes, held
-/// signals, blocks that a surface carries. Empty, and without memory, unless it was asked for.
+/// The trajectory also keeps the values that change only at instants and that outputs read:
+/// discrete state, modes, held signals, blocks that a surface carries. It is empty, and uses no
+/// memory, unless the user asked for it.
 class Trajectory {
  public:
   Trajectory();
@@ -33,24 +34,24 @@ class Trajectory {
   Trajectory(Trajectory&&) noexcept;
   Trajectory& operator=(Trajectory&&) noexcept;
 
-  /// What stays as it is from one instant to the next.
+  /// The values that do not change between two instants.
   struct Held {
     Eigen::VectorXd z, y;  // y: of `held_nodes`, one after the other
     std::vector<int> modes;
     std::vector<SurfaceContact> contacts;  // those that carry
   };
-  /// Where to read: a piece, or one of the two ends.
+  /// The place to read: a piece, or one of the two ends.
   struct Spot {
     std::size_t held = 0;
-    std::size_t values = 0;  // of the state at the nodes
-    int degree = 0;          // 0: one value, whatever the time
+    std::size_t values = 0;  // index of the states at the nodes
+    int degree = 0;          // 0: one value at all times
     double begin = 0.0, end = 0.0;
   };
 
   bool empty() const noexcept { return held_.empty(); }
   double begin() const noexcept { return first_.begin; }  ///< [s]
   double end() const noexcept { return last_.begin; }     ///< [s]
-  /// [s] where its polynomials begin, and where the last one ends.
+  /// [s] The times at which its polynomials begin, and the end of the last one.
   std::vector<double> joints() const;
   /// Bytes of the values it keeps.
   std::size_t memory() const noexcept {
@@ -72,10 +73,11 @@ class Trajectory {
              const SimulatorOptions& options);
   /// The state before anything happened at the beginning.
   void open(double t, const Machine& machine, const Contacts& contacts);
-  /// The state with which the next step begins: after an instant not quite what the interpolant of
-  /// a multistep method says there.
+  /// Sets the state with which the next step begins. After an instant it differs slightly from the
+  /// interpolant of a multistep method there.
   void depart(const Eigen::VectorXd& x) { departed_ = x; }
-  /// A step, or the part of one up to a root: interpolate(t, x) draws it, x_end ends it.
+  /// Adds a step, or the part of a step before a root. interpolate(t, x) gives the state inside it,
+  /// x_end is the state at its end.
   template <class Interpolate>
   void add(double from, double to, int degree, const Machine& machine, const Contacts& contacts,
            const Eigen::VectorXd& x_end, Interpolate interpolate) {
@@ -85,15 +87,16 @@ class Trajectory {
       interpolate(from + (to - from) * node(k, degree), nodes + k * size_);
     end_piece(x_end);
   }
-  /// An instant: what was held may have changed.
+  /// An instant happened: the held values may have changed.
   void instant() noexcept { stale_ = true; }
-  /// The end, so far. After a run that failed half way through an instant: the last whole state.
+  /// Sets the present end. After a run that failed in the middle of an instant, the end is the last
+  /// whole state.
   void close(double t, const Machine& machine, const Contacts& contacts, bool whole);
 
  private:
   struct Piece {
     double begin, end;
-    std::size_t first, values, held;  // first: of the state at its beginning
+    std::size_t first, values, held;  // first: index of the state at its beginning
     int degree;
   };
   static double node(int k, int degree);

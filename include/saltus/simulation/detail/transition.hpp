@@ -1,4 +1,5 @@
-// Transition: the step from x- to x+: what reset maps and updates write, committed together.
+// Transition: the step from x- to x+. Everything that reset maps and updates write is committed
+// together.
 #pragma once
 
 #include <string_view>
@@ -8,8 +9,8 @@
 
 namespace saltus {
 
-/// Holds the values before the instant and those to come. Reset maps of one pass write the values
-/// to come; `commit` makes them the present ones. It knows nothing of guards.
+/// Holds the values before the instant and the values to come. The reset maps of one pass write the
+/// values to come; `commit` makes them the present ones. This class knows nothing of guards.
 class Transition {
  public:
   explicit Transition(Machine& machine) : machine_(&machine) {}
@@ -23,26 +24,26 @@ class Transition {
   struct Call {
     const ResetMap* map;
     int leaf;
-    Index entry;              ///< which guard of a vector of them
-    bool reads_before;        ///< an update reads x- z-; a reset map sees what the one before wrote
+    Index entry;              ///< which guard of a vector of guards
+    bool reads_before;        ///< an update reads x- z-; a reset map sees earlier writes
     double t;                 ///< [s]
     std::string_view source;  ///< "block.event", for errors
   };
-  /// Runs it. Returns whether it wrote continuous state.
+  /// Runs a reset map or an update. Returns whether it wrote continuous state.
   bool run(const Call& call);
   void enter_mode(int leaf, int mode) { modes_next_[static_cast<std::size_t>(leaf)] = mode; }
 
   /// The values to come become the present ones. Returns whether a mode changed.
   bool commit();
 
-  /// Whether the value at that place is another one than before the instant.
+  /// Whether the value at that place differs from its value before the instant.
   bool changed(const Place& place) const;
   bool held_outputs_changed() const;
-  /// Whether the solver's f or x is another one than before the instant.
+  /// Whether the solver's f or x differs from before the instant.
   bool restarts() const;
 
   bool pass_wrote() const noexcept { return pass_wrote_; }  ///< the last pass wrote states
-  bool wrote_x() const noexcept { return effects_ > 0; }    ///< some pass of this instant did
+  bool wrote_x() const noexcept { return effects_ > 0; }    ///< some pass of it wrote states
   int effects() const noexcept { return effects_; }  ///< reset maps that wrote continuous state
   bool entered_mode() const noexcept { return entered_; }  ///< in some pass of this instant
 

@@ -22,41 +22,41 @@ class ZenoMonitor {
 
   bool on() const noexcept { return tolerance_ > 0.0; }
   double tolerance() const noexcept { return tolerance_; }
-  /// [s] between the last two firings; infinite before there were two.
+  /// [s] between the last two firings; infinite before the second one.
   double gap() const noexcept { return gap(0); }
   bool holding = false;
 
-  /// Forgets all firings: after a release, a gap to the time before says nothing.
+  /// Forgets all firings. After a release, a gap to an earlier firing has no meaning.
   void forget() {
     times_.fill(nan);
     holding = false;
   }
 
-  /// A firing at t.
+  /// Notes a firing at t.
   void fired(double t) {
     std::copy_backward(times_.begin(), times_.end() - 1, times_.end());
     times_[0] = t;
   }
 
-  /// Whether the firings accumulate: within the tolerance, and three gaps in a row shrinking by
-  /// more than the rounding of the event times explains. A steady fast rhythm does not.
+  /// Whether the firings accumulate: the last gap is within the tolerance, and three gaps in a row
+  /// shrink by more than the rounding of the event times. A steady fast rhythm does not accumulate.
   bool accumulates() const {
     if (!(gap(0) <= tolerance_) || !std::isfinite(gap(2))) return false;
     const double rounding = thresholds::gap_roundings * thresholds::eps * std::abs(times_[0]);
     return gap(1) - gap(0) > rounding && gap(2) - gap(1) > rounding;
   }
 
-  /// q / (1 - q), by which the last gap, and the last change of state, is multiplied.
+  /// q / (1 - q): the factor of the last gap, and of the last change of state.
   double remainder() const {
-    // A slow series amplifies the rounding of event times by 1 / (1 - q)^2: there the ratio of two
-    // gaps further apart.
+    // A slow series amplifies the rounding of event times by 1 / (1 - q)^2: there the ratio comes
+    // from two gaps further apart.
     const double last = gap(0) / gap(1),
                  q = last > thresholds::slow_series ? std::sqrt(gap(0) / gap(2)) : last;
     return q / (1.0 - q);
   }
   double accumulation_time() const { return times_[0] + gap(0) * remainder(); }
 
-  /// The state after this reset, in; the accumulation state, out.
+  /// Turns the state after this reset into the accumulation state.
   void accumulate(Eigen::Ref<Eigen::VectorXd> after) const {
     after += remainder() * (after - after_);
   }
@@ -80,7 +80,7 @@ class ZenoMonitor {
 
  private:
   static constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  /// [s] gap i, counted from the last one back; infinite if there were not as many firings.
+  /// [s] Gap i, counted back from the last one; infinite if there were too few firings.
   double gap(std::size_t i) const {
     const double gap = times_[i] - times_[i + 1];
     return std::isnan(gap) ? std::numeric_limits<double>::infinity() : gap;
