@@ -38,7 +38,7 @@ SurfaceContact& Contacts::add(int slot) {
 
 void Contacts::remove(int slot) { std::erase(present_, slot); }
 
-/// One application of all reset maps, each from the same state; only what rests is kept of it.
+/// Applies all reset maps once, each to the same state. Only the states that rest keep the result.
 void Contacts::reset(const SurfaceContact& contact, double t, const double* from, double* to) {
   machine_->evaluate_moving(t, from);
   std::copy_n(from, trial_.size(), to);
@@ -55,8 +55,8 @@ void Contacts::reset(const SurfaceContact& contact, double t, const double* from
   for (const Index i : contact.states) to[i] = trial_[i];
 }
 
-/// Puts the fixed point that begun_, once_ and twice_ point to into x; returns how far, in units of
-/// rounding, the reset still moved.
+/// Writes the fixed point extrapolated from begun_, once_ and twice_ to x. Returns how far the
+/// reset still moved, in units of rounding.
 double Contacts::extrapolate(const SurfaceContact& contact, double* x) {
   using namespace thresholds;
   double furthest = 0.0;
@@ -89,13 +89,13 @@ bool Contacts::settle(const SurfaceContact& contact, double t, double* x) {
   return false;
 }
 
-/// While they are free, the blocks of a contact flow.
+/// Releases or holds the states of a contact.
 void Contacts::free(const SurfaceContact& contact, bool yes) {
   for (const Index i : contact.states)
     yes ? machine_->resting().move(i) : machine_->resting().rest(i);
 }
 
-/// Off the surface counts as above zero. f_ is the free flow at (t, x).
+/// The guard after a time d on the free flow f_ at (t, x). It is positive off the surface.
 double Contacts::guard_after(const SurfaceContact& contact, double t, const double* x, double d) {
   const VectorView now(x, f_.size());
   trial_ = now + d * f_;
@@ -126,8 +126,8 @@ void Contacts::choose_look_ahead(SurfaceContact& contact, double t, const double
   trial_ = VectorView(x, f_.size()) + brief * f_;
   machine_->flow(t + brief, trial_.data(), f1_.data());
   free(contact, false);
-  // A movement of 1e9 eps of a state leaves nine digits less its rounding to tell its sign by, and
-  // is as small as the square root of that.
+  // A movement of 1e9 eps of a state has nine digits, less its rounding, which is enough to know
+  // its sign. The time is as small as the square root of that movement.
   double d = look_ahead_of_run * longest;
   for (const Index i : contact.states) {
     const double bend = std::abs(f1_[i] - f_[i]) / brief, size = std::abs(x[i]) + absolute_;

@@ -1,4 +1,4 @@
-// Guards of blocks at rest: found and armed.
+// Guards of blocks at rest: their contacts are found, and they are armed.
 #include "saltus/simulation/detail/contact_guards.hpp"
 
 #include <algorithm>
@@ -29,9 +29,9 @@ const GuardGroup& ContactGuards::group_of(std::size_t k) const {
 
 void ContactGuards::engage() { machine_->carry_by(contacts_.moving() ? &contacts_ : nullptr); }
 
-// --- the contact behind a guard
+// --- the contact of a guard
 
-/// Made where there is none yet; null where no block rests on this guard alone.
+/// The contact of a guard, made if there is none yet. Null if no block rests on this guard alone.
 SurfaceContact* ContactGuards::contact_of(std::size_t k) {
   const bool crossing = group_of(k).is_crossing();
   if (crossing ? !holds_->of_guard(k).monitor.holding : !(*guards_)[k].rests) return nullptr;
@@ -52,13 +52,13 @@ SurfaceContact* ContactGuards::contact_of_crossing(std::size_t k) {
   return &made;
 }
 
-/// Whether the block behind an edge rests on this relation, and on no other.
+/// Whether the block that an edge resets rests on this relation, and on no other.
 bool ContactGuards::rests_on(std::size_t e, int node) const {
   const std::vector<int>& relations = machine_->plan().edges[e].relations;
   return holds_->of_edge(e).monitor.holding && relations.size() == 1 && relations.front() == node;
 }
 
-/// Made anew when another block has come to rest on it.
+/// The contact of a relation. It is made anew when another block has come to rest on it.
 SurfaceContact* ContactGuards::contact_of_relation(std::size_t k) {
   const GuardGroup& group = group_of(k);
   const Plan& plan = machine_->plan();
@@ -101,7 +101,7 @@ void ContactGuards::arm_crossing(std::size_t k) {
     arm(*contact, std::max({flow.rounding, std::abs(present_->g[k]), before}));
 }
 
-/// The value of an opaque boolean says nothing at rest.
+/// Begins to watch a relation at rest. The value of an opaque boolean has no meaning at rest.
 void ContactGuards::arm_relation(std::size_t k) {
   const bool opaque = group_of(k).is_opaque();
   const SurfaceContact* known = contacts_.on(static_cast<int>(k));
@@ -118,8 +118,9 @@ void ContactGuards::arm_relation(std::size_t k) {
     guards_->turn(k, 0);
 }
 
-/// Where its surface moves a block is carried, and its guard is the lift off it. The contact ends
-/// where the flow, that led into the surface, now leads off it.
+/// Arms the guard of a contact. If the surface moves, the block is carried, and the guard is the
+/// lift off the surface. The contact ends if the flow led into the surface before and leads off it
+/// now.
 void ContactGuards::arm(SurfaceContact& contact, double error) {
   const auto k = static_cast<std::size_t>(contact.slot);
   contact.error = error;
@@ -133,7 +134,7 @@ void ContactGuards::arm(SurfaceContact& contact, double error) {
     guards_->rest(k, contact.pressed, error);
 }
 
-/// Whether the contact is carried, and the lift then; false if its flow leads off the surface.
+/// Finds out whether the contact is carried, and its lift. False if its flow leads off the surface.
 bool ContactGuards::follow_surface(SurfaceContact& contact) {
   const double t = present_->t, longest = present_->longest;
   double* x = machine_->x.data();

@@ -1,4 +1,5 @@
-// Guards of blocks at rest: woken, let go, and released by what other blocks write.
+// Guards of blocks at rest: they release their blocks when the surface moves away, or when another
+// block writes the states.
 #include <algorithm>
 #include <cmath>
 
@@ -17,7 +18,8 @@ ContactGuards::Taken ContactGuards::take(const Firing& firing) {
   return wake(*contact) ? Taken::let_go : Taken::yes;
 }
 
-/// A contact whose surface begins to move, or whose flow leads off it: true if it lets go.
+/// Handles a contact whose surface begins to move, or whose flow leads off the surface. True if it
+/// releases its blocks.
 bool ContactGuards::wake(SurfaceContact& contact) {
   const auto k = static_cast<std::size_t>(contact.slot);
   const double t = present_->t;
@@ -37,8 +39,8 @@ bool ContactGuards::wake(SurfaceContact& contact) {
   return true;
 }
 
-/// Off a surface that falls away the guard gets as the third power of time: until it is clear of it
-/// by more than the tolerance, it is at zero.
+/// Releases the blocks of a contact. The distance from a falling surface grows as the third power
+/// of time, so the guard is at zero until it exceeds the tolerance.
 void ContactGuards::let_go(SurfaceContact& contact) {
   const auto k = static_cast<std::size_t>(contact.slot);
   const GuardGroup& group = group_of(k);

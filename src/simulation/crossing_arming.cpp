@@ -38,7 +38,7 @@ CrossingFacts CrossingArming::facts_of(std::size_t k, bool at_start) const {
           .resets = transition_->effects()};
 }
 
-/// What the decisions ask of the flow about guard k.
+/// The facts about guard k that the decisions ask the flow for.
 struct CrossingArming::Ask {
   CrossingArming* arming;
   const GuardGroup* group;
@@ -51,8 +51,8 @@ struct CrossingArming::Ask {
   const Eigen::VectorXd& before() const { return arming->transition_->before(); }
 
   double slope() const { return flow().slope(*group, slot()); }
-  /// Whether the flight that ended here was too low to be told from rest: its height, slope times a
-  /// quarter of its time for a parabola, is within the error.
+  /// Whether the flight that ended here was too low to differ from rest: its height is within the
+  /// error. The height of a parabola is its slope times a quarter of its time.
   bool too_low() const {
     const double flight = arming->present_->now[k].flight;
     if (std::isnan(flight) || !arming->transition_->wrote_x()) return false;
@@ -70,7 +70,7 @@ void CrossingArming::arm(std::size_t k, bool at_start) {
   const auto slot = static_cast<Index>(k);
   const CrossingFacts facts = facts_of(k, at_start);
   if (!facts.fired && (at_start || facts.entered) && begins_as_wished(group, k)) return;
-  // As far as it gets within the rounding of the time cannot be told from zero either.
+  // A guard is also at zero if it moves no further than this within the rounding of the time.
   const auto uncertainty = [&] {
     const double time = thresholds::location_roundings * thresholds::eps * std::abs(present_->t);
     const double moved = time * std::abs(flow_->slope(group, slot));
@@ -85,8 +85,8 @@ void CrossingArming::arm(std::size_t k, bool at_start) {
   carry_out(k, decide_crossing(facts, {flow.side, flow.rounding}, ask), flow.rounding);
 }
 
-/// What the guard's author said of a guard that begins at zero or beyond it: true if that settled
-/// it.
+/// Does what the author chose for a guard that begins at zero or beyond it. False if the flow has
+/// to decide.
 bool CrossingArming::begins_as_wished(const GuardGroup& group, std::size_t k) {
   const double g = present_->g[k];
   switch (decide_beginning(machine_->plan().crossing_of(group).at_start, group.direction, g)) {
@@ -121,7 +121,7 @@ void CrossingArming::carry_out(std::size_t k, const Arming& arming, double error
   if (arming.then == Arming::Then::fire) present_->fire(k, arming.from);
   if (arming.then != Arming::Then::rest) return;
   Holds::Hold& hold = holds_->of_guard(k);
-  guards_->set_error(k, std::abs(present_->g[k]));  // without a monitor it fires as soon as it can
+  guards_->set_error(k, std::abs(present_->g[k]));  // without a monitor it fires again at once
   if (!hold.monitor.on()) {
     present_->outcome.stuck = true;
     return;
@@ -130,7 +130,7 @@ void CrossingArming::carry_out(std::size_t k, const Arming& arming, double error
   if (hold.monitor.holding) contacts_->arm_crossing(k);
 }
 
-/// Whether the guard's own reset map, applied to the state now, sends the flow off to its armed
+/// Whether the guard's own reset map, applied to the present state, turns the flow to the armed
 /// side.
 bool CrossingArming::reset_turns(const GuardGroup& group, std::size_t k) {
   const PlanLeaf& of = machine_->plan().leaf(group.leaf);
@@ -144,8 +144,8 @@ bool CrossingArming::reset_turns(const GuardGroup& group, std::size_t k) {
   return (*guards_)[k].came_from * flow_->slope_from(trial_, group, static_cast<Index>(k)) > 0.0;
 }
 
-/// Whether the flow of the mode before led a guard that is at zero the other way: both lead to the
-/// same surface.
+/// Whether the flow of the mode before led a guard at zero to the other side. If so, both flows
+/// lead to the same surface.
 bool CrossingArming::turned_round(const GuardGroup& group, std::size_t k, int side) {
   flow_before_.resize(machine_->x.size());
   std::vector<int>& before_entry = transition_->modes_before();
@@ -167,7 +167,7 @@ bool CrossingArming::goes_against(const Firing& firing) {
   const GuardGroup& group = group_of(k);
   if (std::isnan(guard.armed_at) || guard.monitor || guard.direction == Direction::edge_detection)
     return false;
-  // A guard that was seen clearly off zero in between is beyond doubt.
+  // A guard that was clearly off zero in between has a true root.
   if (!group.is_opaque() && !firing.at_zero) return false;
   const double location = thresholds::location_error * std::abs(present_->now[k].g_minus);
   const Departure::Side flow = flow_->side_within(present_->t - guard.armed_at, group,

@@ -1,4 +1,4 @@
-// Dense output: a machine put to any time of a run that is over.
+// Dense output: a machine set to any time of a finished run.
 #include "saltus/simulation/dense_output.hpp"
 
 #include "saltus/simulation/detail/contact.hpp"
@@ -15,14 +15,14 @@ const Trajectory& required(const Trajectory& trajectory) {
 
 }  // namespace
 
-/// Its parts know each other, so it never moves.
+/// It is never moved, because its parts point to each other.
 struct DenseOutput::Reader {
   explicit Reader(const Trajectory& of)
       : trajectory(of), machine(of.plan()), contacts(machine, of.tolerances()), x(of.plan()->nx) {
     machine.load(of.start());
   }
 
-  /// Puts back what stood still at that time.
+  /// Restores the values that were held at that time.
   void hold(const Trajectory::Held& held) {
     now = &held;
     machine.z = held.z, machine.modes = held.modes;

@@ -1,4 +1,4 @@
-// Ensemble: how its runs are handed out to threads, and how one of them is done.
+// Ensemble: the distribution of its runs to threads, and the course of one run.
 #include "saltus/simulation/ensemble.hpp"
 
 #include <atomic>
@@ -15,7 +15,7 @@ namespace saltus {
 using Clock = std::chrono::steady_clock;
 constexpr auto look_every = std::chrono::milliseconds(50);
 
-/// What the threads of one call of `run` share.
+/// The data that the threads of one call of `run` share.
 struct Ensemble::Progress {
   std::atomic<Index> next{0}, done{0};
   std::atomic<bool> stop{false};
@@ -24,7 +24,7 @@ struct Ensemble::Progress {
   int working = 0;
   std::exception_ptr thrown;
 
-  /// In a handler: the first to come is the one that counts.
+  /// Keeps the first exception and stops all threads. Called in a handler.
   void fail() {
     const std::lock_guard lock(mutex);
     if (!thrown) thrown = std::current_exception();
@@ -32,7 +32,7 @@ struct Ensemble::Progress {
   }
 };
 
-/// The part of one thread.
+/// The work of one thread.
 class Ensemble::Share {
  public:
   Share(const Ensemble& ensemble, const Take& take, Progress& progress,
@@ -48,7 +48,7 @@ class Ensemble::Share {
   }
 
  private:
-  /// Few runs at a time, so that no thread is left with many slow ones.
+  /// A thread takes few runs at a time, so that no thread ends with many slow runs.
   static constexpr Index at_a_time = 8;
 
   void run_all() {
@@ -74,7 +74,7 @@ class Ensemble::Share {
     (*take_)(run, simulator.results());
   }
 
-  /// In a handler: the results of a run that could not begin.
+  /// The results of a run that could not begin. Called in a handler.
   static Results refused(const Context& values) {
     Results results;
     results.context = values;
@@ -98,7 +98,7 @@ class Ensemble::Share {
     return options;
   }
 
-  /// Whether somebody ended it; where this thread is the calling one, it asks from time to time.
+  /// Whether the call was ended. The calling thread also asks the caller from time to time.
   bool stopped() {
     if (progress_->stop) return true;
     if (!watch_) return false;

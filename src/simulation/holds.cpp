@@ -1,4 +1,4 @@
-// Holds: which states rest, from when, until when.
+// Holds: which states rest, and from when until when.
 #include "saltus/simulation/detail/holds.hpp"
 
 #include <algorithm>

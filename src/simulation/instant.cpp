@@ -28,7 +28,7 @@ Outcome Instant::run(double t, const std::vector<int>& due, double longest, bool
   for (;; ++present_.pass) {
     if (present_.pass >= options_->max_passes) {
       if (transition_.pass_wrote()) journal_.throw_no_end();
-      present_.outcome.chatters = true;  // relations or modes only: both sides lead to the surface
+      present_.outcome.chatters = true;  // only relations or modes change, without end
       break;
     }
     if (collect()) {
@@ -47,7 +47,7 @@ Outcome Instant::run(double t, const std::vector<int>& due, double longest, bool
   return present_.outcome;
 }
 
-/// Gathers what the next pass does; false if there is nothing to do.
+/// Collects the actions of the next pass. False if there is nothing to do.
 bool Instant::collect() {
   journal_.at_jump(jump_ + 1);
   const bool let_go = take_contacts();
@@ -84,7 +84,7 @@ void Instant::run_update(const Action& action) {
   journal_.note({.kind = EventKind::time, .source = source, .leaf = action.leaf});
 }
 
-/// What the author of a zero crossing, or of an edge, wants done.
+/// The effect that the author of a zero crossing or an edge declared.
 Instant::Effect Instant::effect_of(const Action& action) {
   const auto index = static_cast<std::size_t>(action.index);
   if (action.cause == Cause::edge)
@@ -94,7 +94,7 @@ Instant::Effect Instant::effect_of(const Action& action) {
           &holds_.of_guard(static_cast<std::size_t>(action.slot))};
 }
 
-/// Returns whether continuous state or a mode was written.
+/// Runs an effect. Returns whether it wrote continuous state or a mode.
 bool Instant::run_effect(const Effect& effect, int leaf, const std::string& source) {
   const bool wrote = *effect.map && transition_.run({effect.map, leaf, effect.hold->entry, false,
                                                      present_.t, source});
@@ -102,7 +102,7 @@ bool Instant::run_effect(const Effect& effect, int leaf, const std::string& sour
   return wrote || effect.end_mode != nullptr;
 }
 
-/// A zero crossing, or an edge.
+/// Runs the effect of a zero crossing or an edge.
 void Instant::run_reset(const Action& action) {
   const int source = journal_.source_of(action.cause, action.index);
   const auto index = static_cast<std::size_t>(action.index);
@@ -149,8 +149,8 @@ void Instant::find_next() {
   }
 }
 
-/// Sides for the solver. A guard at zero, or one that just fired, takes the side the flow takes it
-/// to.
+/// Arms all active guards for the solver. A guard at zero, or a guard that just fired, gets its
+/// side from the flow.
 void Instant::arm(bool at_start) {
   for (const std::size_t k : guards_->active()) {
     const Guard& guard = (*guards_)[k];

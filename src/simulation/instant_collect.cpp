@@ -1,4 +1,4 @@
-// What the next pass of an instant does: firings, edges, zero crossings.
+// The actions of the next pass of an instant: firings, edges, zero crossings.
 #include <algorithm>
 
 #include "saltus/simulation/detail/instant.hpp"
@@ -7,8 +7,8 @@ namespace saltus {
 
 namespace {
 
-/// Leaf by leaf. Within a leaf updates come first: they read x- z-, and what they write is not lost
-/// to a reset. The order is stable, and the sort allocates nothing.
+/// Sorts actions by leaf. Within a leaf updates come first: they read x- z-, and a reset does not
+/// overwrite their results. The order is stable, and the sort allocates nothing.
 void sort(std::vector<Action>& actions) {
   const auto rank = [](Cause cause) { return cause == Cause::time ? -1 : static_cast<int>(cause); };
   const auto before = [&](const Action& a, const Action& b) {
@@ -21,8 +21,8 @@ void sort(std::vector<Action>& actions) {
 
 }  // namespace
 
-/// Takes out of the firings those of contacts, and those against the flow; true if a contact let
-/// go.
+/// Removes the firings of contacts, and the firings against the flow, from the list. True if a
+/// contact released a block.
 bool Instant::take_contacts() {
   bool let_go = false;
   std::erase_if(present_.firings, [&](const Firing& firing) {
@@ -48,7 +48,7 @@ bool Instant::flip_relations() {
   return flipped;
 }
 
-/// The edges of watched signals; true if a falling one ended a hold.
+/// Collects the edges of watched signals. True if a falling edge ended a hold.
 bool Instant::collect_edges() {
   bool released = false;
   for (std::size_t e = 0; e < plan().edges.size(); ++e) {
@@ -68,9 +68,9 @@ bool Instant::collect_edges() {
   return released;
 }
 
-/// A leaf on hold whose reset value moved while its trigger stayed: a floor that rises carries the
-/// ball. Not before the relations have been read again, for a floor that falls moves the reset
-/// value too.
+/// Applies the reset map again to a leaf on hold whose reset value changed while its trigger did
+/// not: a rising floor carries the ball. This waits until the relations have been read again,
+/// because a falling floor changes the reset value too.
 void Instant::collect_carried(std::size_t e) {
   if (present_.pass == 0 || edges_.is_carried(e)) return;
   const EdgeWatch& edge = plan().edges[e];
@@ -83,7 +83,7 @@ void Instant::collect_carried(std::size_t e) {
   edges_.carried(e);
 }
 
-/// The zero crossings that fire in this pass; leaf by leaf, in declaration order.
+/// Collects the zero crossings that fire in this pass, by leaf, in declaration order.
 void Instant::collect_crossings() {
   for (const Firing& firing : present_.firings) {
     const auto k = static_cast<std::size_t>(firing.slot);
@@ -95,7 +95,7 @@ void Instant::collect_crossings() {
     if (acts) {
       present_.actions.push_back({group.leaf, Cause::crossing, guard.group, firing.slot,
                                   firing.from, holds_.of_guard(k).monitor.holding});
-    } else {  // a monitor, or terminal only later
+    } else {  // a monitor, or a terminal guard that ends the run at a later firing
       journal_.note({.kind = EventKind::zero_crossing,
                      .source = guard.group,
                      .leaf = group.leaf,

@@ -1,4 +1,5 @@
-// An instant's memory: made once, cleaned for each run, saved and loaded between runs.
+// The memory of an instant: it is made once, cleared for each run, and saved and loaded between
+// runs.
 #include "saltus/simulation/detail/instant.hpp"
 
 #include <algorithm>
@@ -39,7 +40,7 @@ void Instant::begin(double t, Recorder* recorder) {
   edges_.begin();
 }
 
-/// The first values: a zero crossing off zero is on its side.
+/// Looks at the first values. A zero crossing off zero is on its side.
 void Instant::look_at_guards() {
   for (std::size_t k = 0; k < guards_->size(); ++k) {
     if (plan().guard((*guards_)[k].group).is_crossing())

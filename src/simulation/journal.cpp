@@ -1,4 +1,4 @@
-// Journal: what happened, by name, in order, and how often.
+// Journal: the events of a run by name, their order and their number.
 #include "saltus/simulation/detail/journal.hpp"
 
 #include <algorithm>
@@ -7,7 +7,7 @@ namespace saltus {
 
 namespace {
 
-/// Names of what is declared and can never fire. A user who asks for it by name made no mistake.
+/// Names of declared events that can never fire. A user may still ask for them by name.
 void add_silent(const Plan& plan, std::vector<std::string>& names) {
   for (const PlanLeaf& leaf : plan.leaves) {
     for (const ZeroCrossing& crossing : leaf.declared().zero_crossings) {

@@ -1,4 +1,4 @@
-// Outcomes: columns that the threads of an ensemble fill, each run its own row.
+// Outcomes: columns that the threads of an ensemble fill. Each run writes its own row.
 #include "saltus/simulation/outcomes.hpp"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ void put(std::vector<double>& column, std::size_t run, const Eigen::VectorXd& va
   std::copy_n(values.data(), width, column.begin() + static_cast<std::ptrdiff_t>(run * width));
 }
 
-/// The last row at exactly t, which is the one after the events there; none if there is none.
+/// The last row at exactly t, which is the row after the events at t, if any.
 std::optional<std::size_t> row_at(const std::vector<double>& rows, double t) {
   const auto after = std::ranges::upper_bound(rows, t);
   if (after == rows.begin() || *(after - 1) != t) return {};

@@ -27,7 +27,7 @@ double& Relations::truth(std::size_t k) const {
   return machine_->truth_at(machine_->plan().guard(guard.group).index, guard.entry);
 }
 
-/// Once round for each of them is enough, or they chase each other.
+/// One round for each relation is enough, unless the relations have no consistent truths.
 void Relations::begin(double t) {
   const Plan& plan = machine_->plan();
   for (std::size_t round = 0; round <= plan.guards.size(); ++round) {
@@ -76,9 +76,9 @@ void Relations::read_again() {
   }
 }
 
-/// The truth of a relation now; true if that is a new one. At its own zero it keeps the truth it
-/// has, until `arm` asks where the flow goes; after it fired and a reset wrote, it takes the side
-/// the flow takes it to.
+/// Reads the present truth of a relation. True if the truth changed. At its own zero the relation
+/// keeps its truth until `arm` asks the flow. After it fired and a reset wrote, the flow decides
+/// its side.
 bool Relations::read(const GuardGroup& group, std::size_t k) {
   GuardNow& now = present_->now[k];
   if (now.frozen || ((*guards_)[k].rests && !reads_changed(group.index))) return false;
@@ -104,8 +104,9 @@ bool Relations::read(const GuardGroup& group, std::size_t k) {
   return true;
 }
 
-/// The side the flow takes a relation to; that of its crossing where it leads nowhere. Where it
-/// leads back to the side that set off a reset, the blocks behind it come to rest.
+/// The side to which the flow takes a relation; the side of its crossing if the flow leads to no
+/// side. If the flow leads back to the side that set off a reset, the blocks of that reset come to
+/// rest.
 int Relations::side_by_flow(const GuardGroup& group, std::size_t k, int crossed_to) {
   const auto slot = static_cast<Index>(k);
   const bool opaque = group.is_opaque();
@@ -122,12 +123,12 @@ int Relations::side_by_flow(const GuardGroup& group, std::size_t k, int crossed_
     guards_->keep_truth(k, true);
     return flow.side;
   }
-  present_->outcome.stuck = true;  // no monitor: it fires again as soon as it can
+  present_->outcome.stuck = true;  // without a monitor it fires again at once
   return -crossed_to;
 }
 
-/// Whether something that a relation reads was written in this instant. At rest its own value is
-/// rounding.
+/// Whether a signal that a relation reads was written in this instant. The value of the relation
+/// itself is rounding at rest.
 bool Relations::reads_changed(int node) const {
   const Plan& plan = machine_->plan();
   return std::ranges::any_of(plan.node(node).needs, [&](int need) {
@@ -137,7 +138,8 @@ bool Relations::reads_changed(int node) const {
   });
 }
 
-/// A relation near its zero may only leave it, not cross it, until it has been clearly off.
+/// Arms a relation. Near its zero it may only leave the zero, not cross it, until it has been
+/// clearly off.
 void Relations::arm(std::size_t k) {
   const Guard& guard = (*guards_)[k];
   if (guard.rests) return contacts_->arm_relation(k);

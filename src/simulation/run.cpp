@@ -26,7 +26,7 @@ SolverOptions solver_options(const SimulatorOptions& options) {
 
 Run::Run(const System& system, SimulatorOptions options)
     : Run(compile(system, checked(options).recorded_signals, options.refinement.get()), options) {
-  options_.refinement.reset();  // the plan needs it no more
+  options_.refinement.reset();  // the plan does not need it any more
 }
 
 Run::Run(std::shared_ptr<const Plan> plan, SimulatorOptions options)
@@ -65,7 +65,7 @@ Results Run::take_results() {
   EventLog next = results_.events.emptied();
   Results taken = std::move(results_);
   results_.events = std::move(next);
-  start_recorder();  // the columns went with the rest
+  start_recorder();  // the columns were moved out with the results
   if (options_.dense_output && begun_) {
     results_.trajectory.start(machine_.shared_plan(), begin_, options_);
     results_.trajectory.open(time_, machine_, instant_.contacts());
@@ -95,7 +95,7 @@ Status Run::advance_to(double t_end) {
   finish();
   if (ended_well(results_.status) || !options_.throw_errors) return results_.status;
   const auto partial = std::make_shared<Results>(results_);
-  partial->cause = nullptr;  // else the error would hold itself
+  partial->cause = nullptr;  // otherwise the error would own itself
   try {
     if (results_.cause) std::rethrow_exception(results_.cause);
     throw SimulationError(results_.message, time_, results_.block);
@@ -123,7 +123,7 @@ Status Run::run_to(double t_end) {
   return Status::reached_end;
 }
 
-/// The instant at which the run starts, unless an earlier run has had it.
+/// Runs the instant at which the run starts, unless an earlier run has settled it.
 Status Run::begin(double t_end) {
   begun_ = true;
   Recorder* recorder = recorder_ ? &*recorder_ : nullptr;
@@ -138,7 +138,7 @@ Status Run::begin(double t_end) {
   return Status::reached_end;
 }
 
-/// One minor step, and the instant at its end if there is one.
+/// Takes one minor step, and runs the instant at its end if there is one.
 Status Run::step(double t_end) {
   const double t_stop =
       std::min({t_end, calendar_.next(), last_instant_ + options_.max_major_step_length});
@@ -157,7 +157,7 @@ Status Run::step(double t_end) {
   return settle(reason, t_end, false);
 }
 
-/// Lets the solver move, where something moves.
+/// Lets the solver advance if some state moves.
 void Run::move_to(double t_stop, StopReason& reason) {
   guards_.monitors.clear();
   if (plan().nx == 0 && guards_.active().empty()) {
@@ -175,7 +175,8 @@ void Run::move_to(double t_stop, StopReason& reason) {
   time_ = solver_->time();
 }
 
-/// The instant at time_, where there is one; restarts the solver if it has to forget.
+/// Runs the instant at time_, if there is one. Restarts the solver if its history is not valid any
+/// more.
 Status Run::settle(StopReason reason, double t_end, bool at_start) {
   if (solver_started_) take_state();
   ++results_.statistics.instants;
@@ -184,7 +185,7 @@ Status Run::settle(StopReason reason, double t_end, bool at_start) {
   due_.clear();
   if (calendar_.due(time_) || at_start) calendar_.take(time_, due_);
   if (reason != StopReason::root && due_.empty() && !at_start)
-    return Status::reached_end;  // a major step's end only
+    return Status::reached_end;  // only the end of a major step
   record(time_, machine_.x.data());
   const bool at_root = reason == StopReason::root, idle = at_root && chattering_.idle(machine_.x);
   const Outcome outcome = instant_.run(time_, due_, t_end - time_, at_start);
@@ -220,7 +221,7 @@ bool Run::interrupted() {
   return options_.interrupt();
 }
 
-/// In a handler: what was thrown is the cause.
+/// Ends the run with an error. Called in a handler: the present exception is the cause.
 void Run::fail(std::string message) {
   results_.status = Status::failed;
   results_.message = std::move(message);

@@ -1,4 +1,4 @@
-// What a run leaves behind: rows, dense output, the final context, counts.
+// The results of a run: rows, dense output, the final context, counts.
 #include "saltus/simulation/detail/run.hpp"
 
 namespace saltus {
@@ -8,7 +8,7 @@ void Run::record(double t, const double* x) {
     recorder_->record(t, instant_.jump(), x);
 }
 
-/// Rows of the step from `from` to now: those at asked-for times, then its end.
+/// Records the step from `from` to now: the rows at requested times, then the row at its end.
 void Run::record_step(double from) {
   if (!recorder_) return;
   const auto& wanted = options_.save_at;
@@ -22,7 +22,7 @@ void Run::record_step(double from) {
   if (options_.save_steps.value_or(wanted.empty())) record(time_, present_state().data());
 }
 
-/// For dense output: the polynomial, or the two, of the step from `from` to now.
+/// Keeps the one or two polynomials of the step from `from` to now for dense output.
 void Run::keep_step(double from) {
   if (!solver_started_)
     return results_.trajectory.add(from, time_, 0, machine_, instant_.contacts(), machine_.x,
@@ -42,7 +42,7 @@ void Run::keep_step(double from) {
   add(from, time_, solver_->state());
 }
 
-/// Context, last row and counts.
+/// Completes the results: context, last row and counts.
 void Run::finish() {
   const bool at_instant =
       results_.status == Status::terminal || results_.status == Status::zeno_stop;
@@ -64,7 +64,7 @@ void Run::finish() {
 
 Context Run::context() const {
   if (!begun_) return begin_;
-  const bool whole = results_.status != Status::failed;  // else an instant was left half done
+  const bool whole = results_.status != Status::failed;  // an error may leave an instant half done
   return machine_.save(begin_, time_,
                        whole ? std::make_shared<const Continuation>(instant_.save()) : nullptr);
 }

@@ -1,4 +1,4 @@
-// simulate: one run from begin to end.
+// simulate: one whole run.
 #include "saltus/simulation/simulate.hpp"
 
 namespace saltus {

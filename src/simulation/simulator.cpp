@@ -1,4 +1,4 @@
-// Simulator: the face of a run.
+// Simulator: the public interface of a run.
 #include "saltus/simulation/simulator.hpp"
 
 #include <utility>

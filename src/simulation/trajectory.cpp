@@ -1,4 +1,4 @@
-// Trajectory: keeping steps, and reading between them.
+// Trajectory: keeps steps, and reads states inside them.
 #include "saltus/simulation/detail/trajectory.hpp"
 
 #include <algorithm>
@@ -35,8 +35,8 @@ void Trajectory::start(std::shared_ptr<const Plan> plan, const Context& from,
 
 namespace {
 
-/// The Chebyshev points of the second kind on [0, 1], the ends among them, for each degree up to
-/// that of Adams' method.
+/// The Chebyshev points of the second kind on [0, 1], including both ends, for each degree up to
+/// the degree of Adams' method.
 constexpr int most = 12;
 using Nodes = std::array<std::array<double, most + 1>, most + 1>;
 
@@ -143,8 +143,8 @@ Trajectory::Spot Trajectory::spot(double t, Side side) const {
   return {p.held, p.values, p.degree, p.begin, p.end};
 }
 
-/// The second barycentric form, of differences from the first value: what stands still does so to
-/// the last bit.
+/// The second barycentric form, applied to differences from the first value: a constant state is
+/// constant to the last bit.
 void Trajectory::state(const Spot& spot, double t, double* x) const {
   using Row = Eigen::Map<const Eigen::VectorXd>;
   const auto value = [&](int k) { return Row(values_.data() + spot.values + k * size_, size_); };

@@ -1,4 +1,4 @@
-// Transition: reset maps and updates run, and their results committed together.
+// Transition: runs reset maps and updates, and commits their results together.
 #include "saltus/simulation/detail/transition.hpp"
 
 #include <algorithm>
@@ -43,7 +43,8 @@ bool Transition::run(const Call& call) {
   return x;
 }
 
-/// A held output that shows z is found by its value; one that also reads x or t is not.
+/// A held output that depends on z only is found by its value. An output that also reads x or t is
+/// not.
 bool Transition::derivatives_read_discrete_state(int number) const {
   const Plan& plan = machine_->plan();
   const PlanLeaf& of = plan.leaf(number);
