@@ -1,6 +1,7 @@
-// Right-hand sides compiled together with the steps of the one-step methods. A call through the
-// type-erased function of a leaf costs as much as the arithmetic of a small right-hand side, six or
-// twelve times a step; this moves the one indirect call from the right-hand side to the step.
+// Right-hand sides compiled together with the steps of the one-step methods. A step calls the
+// type-erased function of a leaf six or twelve times, and each call costs as much as the arithmetic
+// of a small right-hand side. Here the step has one indirect call, and the right-hand side has
+// none.
 #pragma once
 
 #include <array>
@@ -15,8 +16,8 @@ namespace saltus {
 
 namespace detail {
 
-/// The steps for a right-hand side of type F and N states. Their memory is their own while they
-/// work, so that the compiler may keep it in registers.
+/// The steps for a right-hand side of type F and N states. They work on local memory, so that the
+/// compiler may keep it in registers.
 template <int N, class F, Tableau Method>
 class InlinedStep {
  public:
@@ -74,12 +75,12 @@ inline constexpr StepKernels step_kernels{
 
 }  // namespace detail
 
-/// A right-hand side of N states that the one-step methods may take into their steps:
+/// A right-hand side of N states that the one-step methods may inline:
 ///     declare_continuous_state(2, inlined<2>(method<&Ball::ode>));
 ///     declare_continuous_state(2, inlined<2>([](const At& at, VectorRef xdot) { ... }));
-/// Results are those of the plain declaration; it is faster where this leaf is the only one with a
-/// continuous state, reads no output of a state as an input, and N is small: about twice for N = 2
-/// (docs/performance.md). It costs the compile time of both methods.
+/// The results are the same as without `inlined`. A run is faster if this leaf is the only leaf
+/// with a continuous state, reads no output of a state as an input, and N is small: about twice as
+/// fast for N = 2 (docs/performance.md). The price is the compile time of both methods.
 template <int N, class F>
   requires(N > 0)
 RightHandSide inlined(F right_hand_side) {

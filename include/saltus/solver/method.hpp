@@ -26,7 +26,7 @@ inline constexpr std::array<std::pair<std::string_view, Method>, 11> method_name
     {"BDF", Method::bdf},
 }};
 
-/// The method of that name; a ModelError with the nearest name if there is none.
+/// The method of that name. Throws a ModelError with the nearest name if there is none.
 inline Method method_from(std::string_view name) {
   return detail::value_of(method_names, "ode_solver_method", name);
 }

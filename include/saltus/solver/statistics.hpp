@@ -1,4 +1,4 @@
-// What a solver counts.
+// The counts of a solver.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ struct SolverStatistics {
   std::int64_t rejected = 0;
   std::int64_t restarts = 0;
   std::int64_t linear_setups = 0;
-  std::string linear_solver = {};  ///< which, of what size, and why; empty without a stiff method
+  std::string linear_solver = {};  ///< name, size and reason; empty without a stiff method
 };
 
 /// A time over which one method was used.

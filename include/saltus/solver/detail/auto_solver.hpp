@@ -13,12 +13,13 @@
 
 namespace saltus {
 
-/// Starts with the explicit method; when that looks stiff, BDF takes over at the present point, and
-/// hands back where |lambda| h < 1 for the steps h that BDF takes: the explicit method has room for
-/// them (L. Petzold, SIAM J. Sci. Stat. Comput. 4 (1983) 136). That is asked when a stretch of BDF
-/// is restarted, and every fifty of its steps, where it has to be so several times running: two at
-/// first, twice as often after each return that did not last, so that the two do not play ball.
-/// They share the guard records, so no guard is armed anew. CVODE is made when it is first needed.
+/// Starts with the explicit method. When the scene looks stiff, BDF continues from the present
+/// point. The explicit method returns when |lambda| h < 1 for the steps h of BDF, because these
+/// steps are stable for it (L. Petzold, SIAM J. Sci. Stat. Comput. 4 (1983) 136). This is checked
+/// when a stretch of BDF is restarted, and every fifty steps of BDF. The latter check has to
+/// succeed several times in a row: twice at first, and twice as often after each return that did
+/// not last, so that the methods do not alternate. Both methods share the guard records, so no
+/// guard is armed anew. CVODE is made when it is first needed.
 class AutoSolver final : public Solver {
  public:
   AutoSolver(Machine& machine, GuardSet& guards, const SolverOptions& options,
@@ -92,12 +93,12 @@ class AutoSolver final : public Solver {
     past_.clear(), begun_ = t, steps_before_ = 0;
     longest_ = window_ = 0.0, patience_ = 2;
   }
-  void forget_steps() { longest_ = window_ = 0.0, steps_ = calm_ = 0, fresh_ = true; }
+  void forget_steps() { longest_ = window_ = 0.0, steps_ = not_stiff_ = 0, unchecked_ = true; }
   double longest() const { return std::max(longest_, window_); }
 
-  /// At the end of a step: goes on with the other method if that is due.
+  /// Changes to the other method at the end of a step, if a change is due.
   void choose() {
-    const bool stiff = stiff_ ? !calm_again() : explicit_->looks_stiff() || collapsed();
+    const bool stiff = stiff_ ? !not_stiff_again() : explicit_->looks_stiff() || collapsed();
     if (stiff == stiff_) return;
     const double t = now().time();
     handed_over_ = now().state();
@@ -107,24 +108,25 @@ class AutoSolver final : public Solver {
     now().restart(t, handed_over_, {.handover = true});
   }
 
-  /// The first step after a restart a hundred times shorter than those before, and stability the
-  /// cause: fifteen more such steps need not be waited for. An oscillation that begins bounds it
-  /// too, but by the error, far below what stability allows.
+  /// Whether stability makes the first step after a restart a hundred times shorter than the steps
+  /// before. Then the scene is stiff, without a wait for fifteen such steps. The error bounds the
+  /// first step of a new oscillation too, but far below the bound by stability.
   bool collapsed() {
-    if (!fresh_ || steps_ == 0) return false;
-    fresh_ = false;
+    if (!unchecked_ || steps_ == 0) return false;
+    unchecked_ = false;
     if (!(longest_ < 0.01 * before_)) return false;
     const double radius = radius_(explicit_->time(), explicit_->state());
     return radius * before_ > 10.0 * explicit_->stability() && radius * longest_ > 0.25;
   }
 
-  /// Every fifty steps of BDF; not in the first fifty, when its order and steps still rise.
-  bool calm_again() {
+  /// Whether the scene is not stiff any more. It is checked every fifty steps of BDF, except after
+  /// the first fifty, in which the order and the steps still rise.
+  bool not_stiff_again() {
     if (steps_ == 0 || steps_ % 50 != 0) return false;
     window_ = std::exchange(longest_, 0.0);
     if (steps_ < 100) return false;
-    calm_ = radius_(bdf_->time(), bdf_->state()) * window_ < 1.0 ? calm_ + 1 : 0;
-    return calm_ >= patience_;
+    not_stiff_ = radius_(bdf_->time(), bdf_->state()) * window_ < 1.0 ? not_stiff_ + 1 : 0;
+    return not_stiff_ >= patience_;
   }
 
   void change(double t, bool stiff) {
@@ -147,15 +149,15 @@ class AutoSolver final : public Solver {
   std::unique_ptr<Solver> bdf_;
   SpectralRadius radius_;
   bool stiff_ = false;
-  double longest_ = 0.0;  // [s] of the steps since the last restart, change of method or check
-  double window_ = 0.0;   // [s] of the fifty before the last check
-  double before_ = 0.0;   // [s] the same before the last restart
-  bool fresh_ = true;     // no step looked at since then
-  int steps_ = 0;         // since then
-  int calm_ = 0, patience_ = 2;
+  double longest_ = 0.0;   // [s] longest step since the last restart, change of method or check
+  double window_ = 0.0;    // [s] longest of the fifty steps before the last check
+  double before_ = 0.0;    // [s] longest step before the last restart
+  bool unchecked_ = true;  // no step was checked since then
+  int steps_ = 0;          // since the last restart or change
+  int not_stiff_ = 0, patience_ = 2;
   Eigen::VectorXd handed_over_;  // the state at a change
   std::vector<Stretch> past_;
-  double begun_ = 0.0;  // [s] the present stretch
+  double begun_ = 0.0;  // [s] begin of the present stretch
   std::int64_t steps_before_ = 0;
   mutable SolverStatistics sum_;
 };

@@ -9,11 +9,11 @@
 
 namespace saltus {
 
-/// Refuses a linear solver that there is not, or that the method would not use; ModelError.
+/// Throws ModelError for a linear solver that does not exist, or that the method would not use.
 void require_linear_solver(std::string_view linear_solver, std::string_view method);
 
-/// The solver of a method for one run. CVODE is made only where it is asked for, or once "auto"
-/// needs it.
+/// Makes the solver of a method for one run. CVODE is made only if the user asks for it, or when
+/// "auto" first needs it.
 std::unique_ptr<Solver> make_solver(Method method, Machine& machine, GuardSet& guards,
                                     const SolverOptions& options);
 

@@ -1,11 +1,11 @@
-// Columns of a Jacobian that one difference can find together.
+// Colours: columns of a Jacobian with one colour are found by one difference.
 #pragma once
 
 #include "saltus/plan/detail/sparsity.hpp"
 
 namespace saltus {
 
-/// Columns by colour: those of colour c are columns[start[c]] to columns[start[c + 1] - 1].
+/// Columns by colour: the columns of colour c are columns[start[c]] to columns[start[c + 1] - 1].
 struct Colouring {
   std::vector<Index> start = {0};
   std::vector<int> columns;
@@ -18,14 +18,14 @@ struct Colouring {
   }
 };
 
-/// Colours the columns that differences have to find, so that in no row that they have to find do
-/// two columns of one colour meet: then one call with all of them moved tells them apart (A. R.
-/// Curtis, M. J. D. Powell, J. K. Reid, "On the estimation of sparse Jacobian matrices", IMA J.
-/// Appl. Math. 13 (1974) 117). That is colouring a graph: greedily, each column takes the first
-/// colour that is free, once from the left and once by falling number of places, and the better of
-/// the two is kept (T. F. Coleman, J. J. More, "Estimation of sparse Jacobian matrices and graph
-/// coloring problems", SIAM J. Numer. Anal. 20 (1983) 187). The fullest row is a lower bound; where
-/// that is over half of the columns each gets a colour of its own.
+/// Colours the columns that differences have to find. No row has entries in two columns of one
+/// colour, so one call with all columns of a colour moved gives the entries of each (A. R. Curtis,
+/// M. J. D. Powell, J. K. Reid, "On the estimation of sparse Jacobian matrices", IMA J. Appl. Math.
+/// 13 (1974) 117). This is the colouring of a graph. A greedy pass gives each column the first free
+/// colour. One pass takes the columns from the left, another by falling number of places, and the
+/// better result is kept (T. F. Coleman, J. J. More, "Estimation of sparse Jacobian matrices and
+/// graph coloring problems", SIAM J. Numer. Anal. 20 (1983) 187). The fullest row is a lower bound;
+/// if it has over half of the columns, each column gets its own colour.
 Colouring colour(const JacobianPattern& pattern);
 
 }  // namespace saltus

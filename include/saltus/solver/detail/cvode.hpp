@@ -1,4 +1,4 @@
-// CVODE behind the seam. No SUNDIALS header shows here: it is included under src/ only.
+// CVODE as a Solver. Only files under src/ include SUNDIALS headers.
 #pragma once
 
 #include <memory>
@@ -13,8 +13,8 @@ enum class CvodeMethod {
 };
 
 /// A. C. Hindmarsh et al., "SUNDIALS: Suite of nonlinear and differential/algebraic equation
-/// solvers", ACM TOMS 31 (2005) 363. Its own root-finding watches the guards; a root it returns is
-/// polished on its interpolant.
+/// solvers", ACM TOMS 31 (2005) 363. CVODE's own root-finding watches the guards; the locator
+/// refines each root on CVODE's interpolant.
 std::unique_ptr<Solver> make_cvode(Machine& machine, GuardSet& guards, const SolverOptions& options,
                                    CvodeMethod method);
 

@@ -9,7 +9,7 @@ namespace saltus {
 
 /// J. R. Dormand and P. J. Prince's method of order 8 in twelve stages, with the error estimates
 /// and the dense output of E. Hairer, S. P. Norsett, G. Wanner, "Solving Ordinary Differential
-/// Equations I", 2nd ed., II.5 and II.10. The numbers are those of the authors' code DOP853.
+/// Equations I", 2nd ed., II.5 and II.10. The numbers are from the authors' code DOP853.
 struct Dop853 {
   static constexpr const char* name = "dop853";
   static constexpr std::size_t stages = 13;  ///< twelve, and f(t + h, x1)
@@ -19,14 +19,15 @@ struct Dop853 {
   /// No proportional-integral control and factors within [1/3, 6]: the code's own choice.
   static constexpr double beta = 0.0, shortest = 0.333, longest = 6.0;
 
-  /// The dense output meets x and f at both ends and f at the three stages of its own, up to order
-  /// 7; so its defect begins with s (1 - s) (s - 1/10) (s - 1/5) (s - 7/9) (s - q), q = 0.366 from
-  /// the condition that its integral over the step, the error at the end, be zero. It is largest
-  /// at 0.92; the integral up to 0.78, where the error is, is 0.139 of that.
+  /// The dense output meets x and f at both ends, and f at its own three stages, up to order 7. So
+  /// its defect begins with s (1 - s) (s - 1/10) (s - 1/5) (s - 7/9) (s - q), q = 0.366 from the
+  /// condition that its integral over the step, the error at the end, is zero. The defect is
+  /// largest at s = 0.92. The error is largest at s = 0.78; the integral up to there is 0.139 of
+  /// the largest defect.
   static constexpr double defect_at = 0.92, defect_share = 0.139;
-  /// Of the last coefficient: the most that s^4 (1 - s)^3 can be, 0.0084, times the 0.4 of it that
-  /// the error was at most where it mattered (Kepler, Lorenz, Van der Pol, lags, at rtol 1e-4 to
-  /// 1e-11).
+  /// Factor of the last coefficient: 0.0084, the maximum of s^4 (1 - s)^3, times 0.4, the largest
+  /// measured ratio of the error to that term where it mattered (Kepler, Lorenz, Van der Pol, lags,
+  /// at rtol 1e-4 to 1e-11).
   static constexpr double last_term_share = 0.4 * 0.0084;
 
   static constexpr std::array<double, rows> c{0.0,
@@ -128,8 +129,9 @@ struct Dop853 {
        -0.39177261675615439165231486172e+2, -0.14972683625798562581422125276e+3},
   }};
 
-  /// The estimate of order 5, corrected by that of order 3 so that it falls with h^8: e5^2 /
-  /// sqrt(e5^2 + 0.01 e3^2), from the mean squares of both (the code's ERR; the same book, II.10).
+  /// The estimate of order 5, corrected by the estimate of order 3 so that it falls with h^8: e5^2
+  /// / sqrt(e5^2 + 0.01 e3^2), from the mean squares of both (the code's ERR; the same book,
+  /// II.10).
   static double error(const std::array<double, 2>& squares) {
     const double sum = squares[0] + 0.01 * squares[1];
     return sum > 0.0 ? squares[0] / std::sqrt(sum) : 0.0;

@@ -1,5 +1,5 @@
-// The arithmetic of one explicit step, whoever evaluates the right-hand side: the stepper through
-// the machine, or code that was compiled together with a user's function (`inlined.hpp`).
+// The arithmetic of one explicit step. The right-hand side is evaluated by the stepper through the
+// machine, or by code compiled together with a user's function (`inlined.hpp`).
 #pragma once
 
 #include <algorithm>
@@ -16,22 +16,22 @@ struct Attempt {
   double rtol, atol;
 };
 
-/// Works on the memory of a stepper: x0 and k[0] = f(t0, x0) are known, x1 and all other k are
-/// made. Column i of k stands at k[i n]. N: how many states there are, or 0 for n known at run
-/// time. `rate(t, x, xdot)` is the right-hand side.
+/// A step on the memory of a stepper. It reads x0 and k[0] = f(t0, x0), and computes x1 and all
+/// other k. Column i of k begins at k[i n]. N is the number of states, or 0 if n is known at run
+/// time only. `rate(t, x, xdot)` is the right-hand side.
 template <Tableau Method, int N, int W = called_width<N>>
 class ExplicitStep {
  public:
   static constexpr std::size_t last = Method::stages - 1;
-  /// Whether the error estimate reads f(t1, x1); if not, a rejected step is spared that call.
+  /// Whether the error estimate reads f(t1, x1). If not, a rejected step does not need that call.
   static constexpr bool estimate_reads_end =
       std::ranges::any_of(Method::e, [](const auto& row) { return row[last] != 0.0; });
 
   ExplicitStep(Index n, const double* x0, double* x1, double* scratch, double* k)
       : n_(n), x0_(x0), x1_(x1), scratch_(scratch), k_(k) {}
 
-  /// The scaled error, infinite if anything is not finite. If it is at most 1 all of k is there,
-  /// and scratch is what the last stage but one read.
+  /// Tries the step. Returns the scaled error, infinite if a value is not finite. If it is at most
+  /// 1, all of k is computed, and scratch has the argument of the last stage but one.
   template <class Rate>
   double attempt(const Attempt& a, const Rate& rate) {
     end(a.t0, a.h, rate);
@@ -46,14 +46,14 @@ class ExplicitStep {
     }
   }
 
-  /// x1, and the stages that it takes.
+  /// Computes x1 and the stages it needs.
   template <class Rate>
   [[gnu::always_inline]] void end(double t0, double h, const Rate& rate) {
     stages<1, last>(t0, h, rate);
     combine<last>(h, x1_);
   }
 
-  /// Stages First to End - 1.
+  /// Computes stages First to End - 1.
   template <std::size_t First, std::size_t End, class Rate>
   [[gnu::always_inline]] void stages(double t0, double h, const Rate& rate) {
     if constexpr (First < End) {

@@ -1,4 +1,4 @@
-// Which arguments the values of a function read, by calling it.
+// Finds which arguments the values of a function read, by calls of the function.
 #pragma once
 
 #include <functional>
@@ -9,7 +9,7 @@
 
 namespace saltus {
 
-/// Moves these arguments together; changed[i] becomes 1 where value i is another one then, else 0.
+/// Moves these arguments together; changed[i] becomes 1 if value i changes, otherwise 0.
 using Response = std::function<void(std::span<const int> moved, std::vector<char>& changed)>;
 
 /// Why a search ended.
@@ -25,12 +25,12 @@ struct Places {
   int calls = 0;         ///< of `response`
 };
 
-/// The places of n values of n arguments. Arguments are moved in groups that are halved from round
-/// to round; groups that no value was seen to read together are moved in one call (J. Gillis, M.
-/// Diehl, "Hierarchical seeding for efficient sparsity pattern recovery in automatic
-/// differentiation", 6th SIAM Workshop on Combinatorial Scientific Computing, 2014): 2 c calls a
-/// round with c colours, about 2 c log2(n) in all, 6 log2(n) for a tridiagonal matrix, 2 n where
-/// one value reads everything.
+/// Finds the places of n values of n arguments. Arguments are moved in groups that are halved from
+/// round to round. Groups that no value reads together are moved in one call (J. Gillis, M. Diehl,
+/// "Hierarchical seeding for efficient sparsity pattern recovery in automatic differentiation", 6th
+/// SIAM Workshop on Combinatorial Scientific Computing, 2014): 2 c calls a round with c colours,
+/// about 2 c log2(n) in all, 6 log2(n) for a tridiagonal matrix, 2 n where one value reads
+/// everything.
 Places find_places(Index n, const Response& response);
 
 }  // namespace saltus

@@ -1,5 +1,4 @@
-// Glance: what most looks at the guards need and no more, which is to see that nothing has
-// happened.
+// Glance: the work of most looks at the guards, which is to find that nothing has happened.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +11,7 @@
 
 namespace saltus {
 
-/// Remembers the guards of the last two looks, and how fast each moved of late.
+/// Remembers the guards of the last two looks, and how fast each guard moved recently.
 class Glance : protected Narrower {
  protected:
   static constexpr double never = std::numeric_limits<double>::infinity();
@@ -23,10 +22,10 @@ class Glance : protected Narrower {
     plain_.reserve(slots);
   }
 
-  /// What was seen of the guards before a restart says nothing.
+  /// Forgets the looks before a restart, which have no meaning after it.
   void forget() { earlier_at_ = never, version_ = -1; }
 
-  /// Whether the engine has written guard records since they were looked up.
+  /// Whether the engine has written guard records since the last look_up_guards.
   bool outdated() const { return version_ != guards_->version(); }
   void look_up_guards() {
     version_ = guards_->version();
@@ -38,13 +37,13 @@ class Glance : protected Narrower {
       jumps_ = jumps_ || (*guards_)[k].jumps;
     }
   }
-  /// After a root the records are not looked up: the engine writes them next.
+  /// After a root there is no need to look up the records, because the engine writes them next.
   void forget_guards() { version_ = -1; }
 
-  /// Whether a step, high_ looked at at its end, needs no look inside: no guard could get to zero
-  /// and back even if it moved eight times as fast as it was seen to of late (the bound of B. O.
-  /// Shubert, "A sequential method seeking the global maximum of a function", SIAM J. Numer. Anal.
-  /// 9 (1972) 379). Now and then such a step is looked into all the same.
+  /// Whether a step needs no look inside; high_ has the guards at its end. No guard could reach
+  /// zero and come back, even if it moved eight times as fast as it recently did (the bound of B.
+  /// O. Shubert, "A sequential method seeking the global maximum of a function", SIAM J. Numer.
+  /// Anal. 9 (1972) 379). The locator still looks into such a step from time to time.
   bool out_of_reach(double from, double to) const {
     if (jumps_) return false;
     for (std::size_t i = 0; i < plain_.size(); ++i) {
@@ -56,9 +55,9 @@ class Glance : protected Narrower {
     return true;
   }
 
-  /// Whether nothing can have happened between the look at `from` and high_, at `to`: each guard is
+  /// Whether no guard can have fired between the look at `from` and high_, at `to`: each guard is
   /// clearly on its side at both, and the parabola through the last three looks has no vertex in
-  /// between. So it is in most steps.
+  /// between. This is true in most steps.
   bool calm(double from, double to) const {
     const double r = (to - from) / (from - earlier_at_);
     const bool dips = earlier_at_ != never && guards_->scan_points > 0;
@@ -83,13 +82,13 @@ class Glance : protected Narrower {
     earlier_at_ = from;
   }
 
-  /// The look at `from` is the one before the next look.
+  /// The look at `from` becomes the look before the next one.
   void shift(double from) {
     earlier_ = guards_->g;
     earlier_at_ = from;
   }
 
-  /// Takes over the sides at high_, where nothing fired.
+  /// The guards take their sides at high_, where no guard fired.
   void follow() {
     for (std::size_t i = 0; i < limits_.size(); ++i) {
       const std::size_t k = guards_->active()[i];
@@ -105,13 +104,13 @@ class Glance : protected Narrower {
   }
 
   std::vector<double> earlier_;  // guards at the look before the last
-  double earlier_at_ = never;    // its offset, below zero if it was in the step before
+  double earlier_at_ = never;    // its offset; below zero: in the step before
 
  private:
-  std::vector<double> plain_;  // of the active guards: see Guard::plain_side
-  std::vector<double> speed_;  // [1/s] how fast each guard was seen to move of late
-  std::int64_t version_ = -1;  // of the records that limits_ and plain_ were made of
-  bool jumps_ = false;         // an active guard takes two values only
+  std::vector<double> plain_;  // plain_side() of each active guard
+  std::vector<double> speed_;  // [1/s] recent speed of each guard
+  std::int64_t version_ = -1;  // of the records from which limits_ and plain_ were made
+  bool jumps_ = false;         // some active guard takes two values only
 };
 
 }  // namespace saltus

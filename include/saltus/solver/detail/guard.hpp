@@ -1,4 +1,4 @@
-// Guard: all that is known of one guard of a run, and when it fires.
+// Guard: the record of one guard of a run, and the rule when it fires.
 #pragma once
 
 #include <cmath>
@@ -9,7 +9,7 @@
 
 namespace saltus {
 
-/// The side a guard fires on reaching; for either direction the lower one.
+/// The side on which a guard fires; the lower side for a guard of either direction.
 constexpr int firing_side(Direction direction) {
   return direction == Direction::negative_then_non_negative ? 1 : -1;
 }
@@ -19,12 +19,12 @@ constexpr signed char sign_of(double value) {
   return static_cast<signed char>((value > 0.0) - (value < 0.0));
 }
 
-/// Of a guard that does not wait after a firing: no time [s].
+/// The value of armed_at for a guard that does not wait after a firing.
 inline constexpr double not_armed = std::numeric_limits<double>::quiet_NaN();
 
 /// How a guard is watched while the solver works.
 enum class Phase : signed char {
-  unseen,   ///< no side yet: the first sign it takes is its side
+  unseen,   ///< no side yet: its first sign becomes its side
   armed,    ///< on its side: fires on reaching zero or the other side, in its direction
   waiting,  ///< at zero within its error: fires only after it has left zero for its side
   resting,  ///< its block is at rest: fires on leaving its error, to either side
@@ -36,8 +36,8 @@ struct GuardTraits {
   Direction direction = Direction::crosses_zero;
   bool monitor = false;  ///< located and logged, stops nothing
   bool jumps = false;    ///< takes only two values: located by bisection
-  int group = -1;        ///< in the list of guards of the plan
-  int entry = 0;         ///< which one of that group
+  int group = -1;        ///< index in the plan's list of guards
+  int entry = 0;         ///< index in that group
 };
 
 /// The record of one guard. GuardSet is its only writer.
@@ -50,16 +50,16 @@ struct GuardTraits {
 ///     carried    -1          0
 struct Guard : GuardTraits {
   Phase phase = Phase::unseen;
-  signed char side = 0;         ///< +1, -1: armed there
+  signed char side = 0;         ///< +1, -1, or 0 for none: see the table
   signed char came_from = 0;    ///< the side the last firing came from
   bool active = false;          ///< can fire in the present modes
   bool was_active = false;      ///< could fire in the modes before
   bool rests = false;           ///< a relation that keeps its truth while its blocks rest
-  double error = 0.0;           ///< values within it count as zero
-  double base = 0.0;            ///< edge_detection: the value it had
+  double error = 0.0;           ///< the guard is at zero within it
+  double base = 0.0;            ///< edge_detection: its last value
   double armed_at = not_armed;  ///< [s] when it began to wait after a firing
 
-  /// The direction it is watched in: that of its lift while its block is carried.
+  /// The direction in which it is watched: the direction of the lift while its block is carried.
   Direction watched_direction() const {
     return phase == Phase::carried ? Direction::negative_then_non_negative : direction;
   }
@@ -70,21 +70,21 @@ struct Guard : GuardTraits {
   /// Whether it has not been seen off zero since integration began.
   bool at_zero() const noexcept { return phase == Phase::waiting || phase == Phase::resting; }
 
-  /// Whether it has to be clearly off zero before it can fire. A guard that fired within its error
-  /// would fire early, by the whole error, or again at once.
+  /// Whether it has to be clearly off zero before it can fire. A firing within its error would be
+  /// early by the whole error, or would be repeated at once.
   bool waits() const noexcept { return at_zero() || error > 0.0; }
 
-  /// Whether it has fired when it has this value.
+  /// Whether it fires at this value.
   bool crossed(double value) const {
     if (phase == Phase::resting) return std::abs(value) > error;
     const Direction watched = watched_direction();
     if (watched == Direction::edge_detection) return value != base;
     const int now = sign(value);
-    // A guard at zero that waits has not left it: only the strict far side counts.
+    // A guard that waits at zero has not left it: only the strict far side counts.
     return side != 0 && (now != 0 || !waits()) && fires(watched, side, now);
   }
 
-  /// Where it fires: at values <= first or >= second. The same as crossed(), for many values.
+  /// It fires at values <= first or >= second. This is crossed() in another form, for many values.
   std::pair<double, double> limits() const {
     constexpr double never = std::numeric_limits<double>::infinity();
     if (phase == Phase::resting)
@@ -99,20 +99,20 @@ struct Guard : GuardTraits {
     return {falls ? -reach : -never, rises ? reach : never};
   }
 
-  /// Another side; 0 for none. The phase changes with it only where the guard did not wait.
+  /// Sets the side; 0 for none. The phase changes only if the guard did not wait.
   void turn(int to) {
     side = static_cast<signed char>(to);
     if (phase == Phase::unseen || phase == Phase::armed)
       phase = to == 0 ? Phase::unseen : Phase::armed;
   }
-  /// On a side without any doubt.
+  /// Sets a side without an error.
   void settle(int on) {
     side = static_cast<signed char>(on);
     if (phase != Phase::carried) phase = Phase::armed;
     error = 0.0;
   }
 
-  /// The side of a guard of which nothing matters but whether it stays there; otherwise 0.
+  /// The side, if the guard fires exactly when it leaves that side; otherwise 0.
   double plain_side() const noexcept {
     return waits() || watched_direction() == Direction::edge_detection ? 0.0 : side;
   }
@@ -120,10 +120,10 @@ struct Guard : GuardTraits {
 
 /// A guard that fired, and the side it came from.
 struct Firing {
-  static constexpr int lifts_off = 2;  ///< in place of a side: the flow leads off a contact
+  static constexpr int lifts_off = 2;  ///< instead of a side: the flow leads off a contact
   int slot = -1;
   int from = 0;
-  bool at_zero = false;  ///< it had not been clearly off zero since integration began
+  bool at_zero = false;  ///< it has not been clearly off zero since integration began
 };
 
 /// A monitor's crossing inside the last step.

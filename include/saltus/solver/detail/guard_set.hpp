@@ -12,15 +12,15 @@
 
 namespace saltus {
 
-/// The only writer of guard records. What the engine writes counts the version up, so that a
-/// locator knows when the values it derived from the records are out of date; what the locator
-/// itself writes does not.
+/// The only writer of guard records. Each write by the engine increments the version, so that a
+/// locator knows when the values derived from the records are outdated. Writes by the locator do
+/// not change the version.
 class GuardSet {
  public:
   GuardSet() = default;
   explicit GuardSet(const Plan& plan);
 
-  /// One more guard, unseen.
+  /// Adds an unseen guard.
   void add(const GuardTraits& traits, bool active = true);
 
   std::size_t size() const noexcept { return guards_.size(); }
@@ -32,69 +32,69 @@ class GuardSet {
 
   // --- written by the engine
 
-  /// All guards as they were made: unseen, inactive.
+  /// Resets all guards: unseen, inactive.
   void clear();
   /// Chooses the guards that can fire now; a guard whose mode was just entered is unseen.
   void select(const std::vector<int>& groups, const Plan& plan);
-  /// On `side` without any doubt.
+  /// The guard is armed on `side`, without an error.
   void arm(std::size_t k, int side) { set(k, Phase::armed, side, 0.0); }
-  /// At zero within `error`: fires only after it has been clearly on `side`.
+  /// The guard waits at zero within `error`: it fires only after it has been clearly on `side`.
   void wait(std::size_t k, int side, double error) { set(k, Phase::waiting, side, error); }
-  /// Its block is at rest; the flow presses it to `side`.
+  /// The guard rests with its block; the flow presses it to `side`.
   void rest(std::size_t k, int side, double error) { set(k, Phase::resting, side, error); }
-  /// Its block is carried.
+  /// The guard is carried with its block.
   void carry(std::size_t k) { set(k, Phase::carried, -1, 0.0); }
-  /// Its block is not at rest any more; what its value counts as does not change.
+  /// Its block is not at rest any more; side and error do not change.
   void leave_rest(std::size_t k);
-  /// Another side; 0 for none. The phase changes with it only where the guard did not wait.
+  /// Sets the side; 0 for none. The phase changes only if the guard did not wait.
   void turn(std::size_t k, int side) {
     ++version_;
     guards_[k].turn(side);
   }
-  /// What counts as zero, the side unchanged.
+  /// Sets the error; the side does not change.
   void set_error(std::size_t k, double error) { ++version_, guards_[k].error = error; }
-  /// The value that edge_detection compares with.
+  /// Sets the value that edge_detection compares with.
   void set_base(std::size_t k, double value) { ++version_, guards_[k].base = value; }
-  /// A look at which it did not fire.
+  /// Notes a look at which the guard did not fire.
   void see(std::size_t k, double value) {
     ++version_;
     g[k] = value;
     follow(k, value);
   }
   void fired(std::size_t k, int from) { guards_[k].came_from = static_cast<signed char>(from); }
-  /// A relation keeps its truth from now on, or does not any more.
+  /// Whether a relation keeps its truth from now on.
   void keep_truth(std::size_t k, bool yes) { guards_[k].rests = yes; }
-  /// When it began to wait after a firing; NaN if it did not.
+  /// Sets the time at which the guard began to wait after a firing; NaN for none.
   void mark_armed_at(std::size_t k, double t) { guards_[k].armed_at = t; }
 
-  /// Its share of what a run that goes on has to know: the records.
+  /// Saves the records, which a continued run needs.
   std::vector<Continuation::Guard> save() const;
   bool fits(const Continuation& from) const { return from.guards.size() == guards_.size(); }
   void load(const Continuation& from);
 
   // --- written by the locator
 
-  /// Takes over the side after a look at which it did not fire.
+  /// Follows the side after a look at which the guard did not fire.
   void follow(std::size_t k, double value) {
     Guard& guard = guards_[k];
     guard.base = value;
     if (guard.phase == Phase::resting) return;
     if (const int now = guard.sign(value); now != 0) guard.settle(now);
   }
-  /// A guard that waits has been seen clearly on its side: an ordinary one from there on.
+  /// A guard that waits was clearly on its side at a look: it becomes armed.
   void leave_zero(std::size_t k) { guards_[k].settle(guards_[k].side); }
   /// A monitor that crossed is at zero on its new side.
   void pass(std::size_t k, int side, double error) {
     Guard& guard = guards_[k];
     guard.side = static_cast<signed char>(side), guard.phase = Phase::waiting, guard.error = error;
   }
-  /// The side it leaves to, where that is not known yet; 0: exactly on zero.
+  /// Sets the side to which a guard leaves zero; 0: it is exactly on zero.
   void leave_to(std::size_t k, int side) { guards_[k].turn(side); }
 
   std::vector<double> g;              ///< values at the last time looked at
   std::vector<Firing> fired_at_root;  ///< the guards that crossed at the last root
   std::vector<MonitorHit> monitors;   ///< crossings of monitors in the last advance
-  int scan_points = 3;                ///< interior points of a step at which guards are looked at
+  int scan_points = 3;                ///< interior points of a step with a look at the guards
 
  private:
   void set(std::size_t k, Phase phase, int side, double error) {

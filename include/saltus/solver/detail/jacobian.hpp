@@ -1,4 +1,4 @@
-// d(xdot)/d(x) of a machine: from the leaves' own Jacobians where they have one, else by
+// d(xdot)/d(x) of a machine: from the leaves' own Jacobians if they have one, otherwise by
 // differences.
 #pragma once
 
@@ -16,45 +16,45 @@ struct Increments {
   double h = 0.0;  ///< [s] the step the Jacobian is for
 };
 
-/// One for each run; nothing here allocates after construction.
+/// Each run has its own Jacobian. No function allocates after construction.
 class Jacobian {
  public:
-  /// Throws what jacobian_pattern throws.
+  /// Throws the exceptions of jacobian_pattern.
   explicit Jacobian(Machine& machine, const FoundBlocks& found = {});
 
   const JacobianPattern& pattern() const { return pattern_; }
   /// Calls of the right-hand side that one evaluation costs.
   Index colours() const { return colouring_.colours(); }
 
-  /// Takes every place for one that may differ from zero, where the pattern overflowed.
+  /// Fills a pattern that overflowed: every place may differ from zero.
   void fill_up();
   /// Entry k of the pattern will go to out[places[k]]; without it, to out[k].
   void store_at(std::vector<Index> places) { places_ = std::move(places); }
 
-  /// Writes the entries at (t, x), where the derivative is `xdot`; those of states at rest are
-  /// zero. Differences stand in for entries of a leaf's own Jacobian that are not finite, such as
-  /// the slope of a root at 0: only Newton's iteration is steered by them, and `words` tells.
+  /// Writes the entries at (t, x), where the derivative is `xdot`; the entries of states at rest
+  /// are zero. Differences replace entries of a leaf's own Jacobian that are not finite, such as
+  /// the slope of a square root at 0: only Newton's iteration uses them, and `words` reports them.
   /// False if the derivative nearby is not finite. Throws SimulationError if a leaf's own Jacobian
-  /// is not zero outside its declared sparsity, and what a user's function throws.
+  /// is not zero outside its declared sparsity. Exceptions of a user's function pass through.
   ///
   /// Column j is (f(x + d e_j) - f(x)) / d, columns of one colour together, with the increment of
-  /// CVODE's own differences, d = max(sqrt(eps) |x_j|, s (rtol |x_j| + atol)) where
-  /// s = 1000 |h| eps n |f| and |f| the weighted root mean square (A. C. Hindmarsh, R. Serban, User
+  /// CVODE's own differences, d = max(sqrt(eps) |x_j|, s (rtol |x_j| + atol)) where s = 1000 |h|
+  /// eps n |f| and |f| the weighted root mean square (A. C. Hindmarsh, R. Serban, User
   /// Documentation for CVODE, "Direct linear solvers", (2.9)). While a block rests on a moving
-  /// surface, what it carries counts as constant.
+  /// surface, the carried states count as constant.
   bool operator()(double t, const double* x, const double* xdot, const Increments& by, double* out);
 
   /// Whether these values, of (t, x), explain how f moves: for a random v, |v_j| from s w_j / 2 to
-  /// s w_j with w_j = rtol |x_j| + atol and s = min(1, sqrt(eps) / rtol), no row of
-  /// f(x + v) - f(x) - J v is beyond 1 % of |J| |v| plus a hundred roundings while h times it is
-  /// beyond 1 % of s w. A place that is missing shows so, with probability 1, as soon as Newton's
-  /// iteration could notice; so may a kink. Costs one call.
+  /// s w_j with w_j = rtol |x_j| + atol and s = min(1, sqrt(eps) / rtol), no row of f(x + v) - f(x)
+  /// - J v is beyond 1 % of |J| |v| plus a hundred roundings while h times it is beyond 1 % of s w.
+  /// This finds a missing place, with probability 1, as soon as Newton's iteration could notice it.
+  /// It may also find a kink. Costs one call.
   bool explains(double t, const double* x, const double* xdot, const Increments& by,
                 const double* values);
 
-  /// What was not as a leaf's own Jacobian should be; empty if all was well.
+  /// The faults of the leaves' own Jacobians; empty if there were none.
   std::string words() const;
-  auto mended() const noexcept { return mended_; }  ///< evaluations in which they stood in
+  auto mended() const noexcept { return mended_; }  ///< evaluations with replaced entries
 
  private:
   /// Entry `entry` of the pattern is value `from` of a leaf's own Jacobian.
@@ -64,7 +64,7 @@ class Jacobian {
   };
   struct Own {
     int leaf;
-    Index size;  // of its values
+    Index size;  // number of its values
     std::vector<Copy> copies;
   };
 
@@ -92,7 +92,7 @@ class Jacobian {
   std::vector<Index> places_;
   std::vector<Own> own_;
   Eigen::VectorXd x_, f_, base_, moved_, block_;
-  Eigen::VectorXd sum_, least_;  // of rows; made when they are first asked for
+  Eigen::VectorXd sum_, least_;  // of rows; made at their first use
   std::mt19937_64 random_{1};
   std::string first_mended_;
   int mended_ = 0;  // evaluations in which own entries were not finite

@@ -1,4 +1,4 @@
-// Steps that were compiled together with a right-hand side, as the stepper calls them.
+// The interface by which the stepper calls steps compiled together with a right-hand side.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@ namespace saltus::detail {
 
 struct Attempt;
 
-/// A right-hand side, its leaf, what the leaf sees, and the count of its calls.
+/// A right-hand side, its leaf, its arguments, and the count of its calls.
 struct Caller {
   const VectorFunction* function;
   const LeafSystem* leaf;
@@ -19,7 +19,7 @@ struct Caller {
   std::int64_t* calls;
 };
 
-/// Where a stepper keeps a step: see ExplicitStep.
+/// The memory of a stepper for one step: see ExplicitStep.
 struct StepMemory {
   const double* x0;
   double *x1, *scratch, *k;
@@ -31,7 +31,8 @@ struct MethodKernels {
   void (*dense)(const Caller&, double t0, double h, const StepMemory&);
 };
 
-/// The steps of both methods. `inlined` is the only one that makes InlinedSteps, so they are these.
+/// The steps of both methods. Only `inlined` makes InlinedSteps, so each InlinedSteps is a
+/// StepKernels.
 struct StepKernels : InlinedSteps {
   MethodKernels dopri5, dop853;
 

@@ -1,5 +1,4 @@
-// Lane: what the arithmetic of a step handles at once: two entries of a state in one register, or
-// one entry.
+// Lane: the unit of the arithmetic of a step: two entries of a state in one register, or one entry.
 #pragma once
 
 #include <algorithm>
@@ -20,8 +19,8 @@ namespace saltus::detail {
 template <int W>
 using Lane = std::conditional_t<W == 0, double, Eigen::Array2d>;
 
-/// How wide a stepper works on N states whose right-hand side it calls. Four states two by two, or
-/// as a whole, take 1.7 times the time: their stores by the user's function would be waited for.
+/// The lane width of a stepper that calls the right-hand side of N states. Four states in pairs, or
+/// as a whole, take 1.7 times the time: each load would wait for the stores of the user's function.
 template <int N>
 inline constexpr int called_width = N == 2 ? 2 : 0;
 
@@ -32,8 +31,8 @@ Lane<W> zero() {
   else
     return Lane<W>::Zero();
 }
-/// Entry by entry: a user's function has just stored them so, and a wider load would have to wait
-/// until they have reached the cache (11 % of a run of the ball).
+/// Loads entry by entry, as a user's function has just stored them. A wider load would have to wait
+/// until the entries have reached the cache (11 % of a run of the ball).
 template <int W>
 Lane<W> load(const double* p) {
   if constexpr (W == 0) {
@@ -56,14 +55,14 @@ void store(double* p, const Lane<W>& value) {
     Eigen::Map<Lane<W>>{p} = value;
 }
 
-/// n, at compile time where it is known as N.
+/// n, as the constant N if N is not 0.
 template <int N>
 constexpr Index count(Index n) {
   return N > 0 ? N : n;
 }
 
-/// body(i) for the first entry of each lane, W wide, of a state of n entries; N = n if that is
-/// known.
+/// Calls body(i) for the first entry of each lane, of width W, of a state of n entries. N is n, or
+/// 0 if n is known at run time only.
 template <int W, int N, class Body>
 void for_lanes(Index n, Body body) {
   if constexpr (W > 0)

@@ -1,4 +1,4 @@
-// Which linear solver stands behind the Newton iteration of a stiff method.
+// The linear solvers for the Newton iteration of a stiff method.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@ inline constexpr std::array<std::pair<std::string_view, LinearSolver>, 5> linear
     {"gmres", LinearSolver::gmres},
 }};
 
-/// The linear solver of that name; a ModelError with the nearest name if there is none.
+/// The linear solver of that name. Throws a ModelError with the nearest name if there is none.
 inline LinearSolver linear_solver_from(std::string_view name) {
   return detail::value_of(linear_solver_names, "linear_solver", name);
 }

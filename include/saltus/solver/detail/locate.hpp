@@ -12,8 +12,9 @@
 
 namespace saltus {
 
-/// Looks at all guards at a few interior points of a step, and where three looks say that a guard
-/// dips across zero and back (pairs of roots); the first interval in which one crosses is narrowed.
+/// Looks at all guards at a few interior points of a step. It also looks where three looks suggest
+/// that a guard dips across zero and back (a pair of roots). The first interval in which a guard
+/// crosses is narrowed.
 class Locator : private Glance {
  public:
   Locator(Machine& machine, GuardSet& guards) : Glance(machine, guards) {
@@ -21,9 +22,9 @@ class Locator : private Glance {
     for (auto* values : {&at_root_, &before_, &end_}) values->assign(slots, 1.0);
   }
 
-  /// The first offset in (from, to] at which a guard that is no monitor fires; false if there is
-  /// none. The step begins at `t0`; `interpolate(u, x)` gives the state inside it, `end` is the
-  /// state at `to` exactly, `guards` are the guards there if they are known, else null.
+  /// Finds the first offset in (from, to] at which a guard other than a monitor fires; false if
+  /// there is none. The step begins at `t0`; `interpolate(u, x)` gives the state inside it, `end`
+  /// is the state at exactly `to`, `guards` are the guards there if they are known, otherwise null.
   template <class Interpolate>
   bool find(double t0, double from, double to, const double* end, const double* guards,
             const Interpolate& interpolate) {
@@ -37,11 +38,11 @@ class Locator : private Glance {
     if (!skips || skipped_ >= patience_) return find_inside(from, to, end, skips, interpolate);
     ++skipped_;
     shift_all(from, to);
-    earlier_at_ -= to;  // seen from the next step
+    earlier_at_ -= to;  // relative to the next step
     return false;
   }
 
-  /// Begins anew: what was seen of the guards before a restart says nothing.
+  /// Forgets the looks before a restart, which have no meaning after it.
   void forget() {
     Glance::forget();
     skipped_ = patience_ = least_patience;
@@ -50,12 +51,12 @@ class Locator : private Glance {
   double offset() const noexcept { return root_; }
 
  private:
-  /// The same by looks inside the step, piece by piece; high_ is known at its end. Kept out of
-  /// find, which most steps go through and no further.
+  /// `find` with looks inside the step, piece by piece; high_ has the guards at its end. It is a
+  /// function of its own because most steps need only the rest of `find`.
   template <class Interpolate>
   [[gnu::noinline]] bool find_inside(double from, double to, const double* end, bool needless,
                                      const Interpolate& interpolate) {
-    // A look that was not needed may come later the next time: after 7 steps, 15, 31, then 63.
+    // If the look was not needed, the next one comes later: after 7 steps, 15, 31, then 63.
     patience_ = needless && skipped_ > 0 ? std::min(2 * patience_ + 1, 63) : least_patience;
     skipped_ = 0;
     end_.swap(high_);
@@ -79,8 +80,9 @@ class Locator : private Glance {
     return false;
   }
 
-  /// One piece of a step, `high_` looked at at its end, without points in between, save where a
-  /// guard seems to dip across zero and back; monitors are noted and passed.
+  /// `find` in one piece of a step; `high_` has the guards at its end. There are no looks in
+  /// between, except where a guard seems to dip across zero and back. Monitors are noted and
+  /// passed.
   template <class Interpolate>
   bool find_in(double from, double to, const double* end, const Interpolate& interpolate,
                bool between = true) {
@@ -90,7 +92,8 @@ class Locator : private Glance {
       if (high == never) continue;
       const double before = from;
       before_ = guards_->g;
-      // A look that does not depend on the other guards: no monitor may change a bit of a root.
+      // This look does not depend on the other guards, because no monitor may change a bit of a
+      // root.
       third_ = end_, third_at_ = high < end_at_ ? end_at_ : never;
       from = narrow(from, high, interpolate);
       if (between && guards_->active().size() > 1 && guards_->scan_points > 0) {
@@ -105,14 +108,14 @@ class Locator : private Glance {
     return false;
   }
 
-  /// Where nothing fired at `to`: the offset of a dip at which a guard does; `never` if there is
-  /// none, and `from` is moved past what was looked at.
+  /// No guard fired at `to`: the offset of a dip at which a guard fires. If there is none, returns
+  /// `never` and moves `from` to the end of the part that was looked at.
   template <class Interpolate>
   double next_dip(double& from, double to, const Interpolate& interpolate) {
     const double dip = guards_->scan_points > 0 ? find_dip(from, to, interpolate) : never;
     if (dip != never) {
       high_.swap(middle_);
-      if (note_crossed(high_)) return dip;  // else it dips to the side on which it does not fire
+      if (note_crossed(high_)) return dip;  // otherwise it dips to its other side
     }
     shift(from);
     follow();
@@ -120,8 +123,8 @@ class Locator : private Glance {
     return never;
   }
 
-  /// The same for what lies before a root: it cuts the step, and what was looked at were points of
-  /// the longer one. Afterwards `high_` and crossed_ are those of the root again.
+  /// `find` in the part before a root. The root shortens the step, so the looks need new points.
+  /// Afterwards `high_` and crossed_ belong to the root again.
   template <class Interpolate>
   bool find_before(double from, double root, const Interpolate& interpolate) {
     at_root_ = high_;
@@ -133,11 +136,11 @@ class Locator : private Glance {
       from = next;
     }
     high_ = at_root_;
-    if (!note_crossed(high_)) crossed_.clear();  // a monitor that was found a rounding before it
+    if (!note_crossed(high_)) crossed_.clear();  // a monitor was found one rounding before it
     return false;
   }
 
-  /// A monitor located exactly on zero: the side it leaves to, a hair further on.
+  /// Gives a monitor located exactly on zero its side: the sign at a point slightly later.
   template <class Interpolate>
   void leave_zero_of_monitors(double from, double to, const Interpolate& interpolate) {
     const auto unsure = [&](std::size_t k) { return (*guards_)[k].side == 0; };
@@ -151,10 +154,11 @@ class Locator : private Glance {
     look_up_guards();
   }
 
-  /// Where between two looks a guard seems to cross zero and come back: the vertex of the parabola
-  /// through three looks, moved by successive parabolic interpolation (R. P. Brent, "Algorithms for
-  /// Minimization without Derivatives", 1973, ch. 5) until the guard there is beyond zero.
-  /// `middle_` then holds the guards at that offset; `never` if there is no such place.
+  /// The offset between two looks at which a guard seems to cross zero and come back. It is the
+  /// vertex of the parabola through three looks, moved by successive parabolic interpolation (R. P.
+  /// Brent, "Algorithms for Minimization without Derivatives", 1973, ch. 5) until the guard there
+  /// is beyond zero. `middle_` then has the guards at that offset; `never` if there is no such
+  /// offset.
   template <class Interpolate>
   double find_dip(double from, double to, const Interpolate& interpolate) {
     if (earlier_at_ == never) return never;
@@ -163,7 +167,7 @@ class Locator : private Glance {
       if (guard.side == 0 || guard.at_zero() || guard.jumps) continue;
       Dip dip{{earlier_at_, from, to},
               {guard.side * earlier_[k], guard.side * guards_->g[k], guard.side * high_[k]}};
-      // A touch within rounding is none; nor is a vertex far above zero.
+      // A touch within rounding is no dip; nor is a vertex far above zero.
       const double size = std::max({dip.g[0], dip.g[1], dip.g[2]});
       double u = dip.vertex(0.25 * size);
       for (int round = 0; round < 6 && u > from && u < to; ++round) {
@@ -185,7 +189,7 @@ class Locator : private Glance {
                           t, plan.leaves[static_cast<std::size_t>(group.leaf)].path);
   }
 
-  /// A monitor goes over to the other side, and is at zero until it is clearly off.
+  /// Moves a monitor to its other side. It is at zero until it is clearly off.
   void pass_monitor(const Firing& firing, double u) {
     const auto k = static_cast<std::size_t>(firing.slot);
     guards_->monitors.push_back({t0_ + u, firing});
@@ -193,7 +197,7 @@ class Locator : private Glance {
     guards_->pass(k, sign_of(high_[k]), noise_[k]);
   }
 
-  /// Notes what fired at offset u; true if one of them is no monitor.
+  /// Notes the guards that fired at offset u; true if one of them is not a monitor.
   bool take(double u) {
     root_ = u;
     guards_->fired_at_root.clear();
@@ -210,7 +214,7 @@ class Locator : private Glance {
       const Guard& guard = (*guards_)[k];
       guards_->g[k] = high_[k];
       guards_->follow(k, high_[k]);
-      // Exactly on zero it takes the side it leaves to.
+      // A guard exactly on zero takes the side to which it leaves.
       if (guard.phase != Phase::resting && guard.crossed(high_[k])) guards_->leave_to(k, 0);
     }
     const bool stops = !guards_->fired_at_root.empty();
@@ -222,10 +226,10 @@ class Locator : private Glance {
 
   std::vector<double> at_root_, before_;
   double root_ = 0.0;
-  std::vector<double> end_;  // guards at the end of the step, until its last piece is looked at
+  std::vector<double> end_;  // guards at the end of the step, until the look at its last piece
   double end_at_ = 0.0;
-  int patience_ = least_patience;  // how many steps in a row may go without a look inside
-  int skipped_ = least_patience;   // how many did
+  int patience_ = least_patience;  // allowed steps in a row without a look inside
+  int skipped_ = least_patience;   // steps in a row without a look inside
 };
 
 }  // namespace saltus

@@ -1,4 +1,4 @@
-// Narrowing: from an interval in which a guard crosses to the offset where it does.
+// Narrowing: from an interval in which a guard crosses to the offset of the crossing.
 #pragma once
 
 #include <algorithm>
@@ -13,13 +13,13 @@ namespace saltus {
 
 /// Looks at all guards in one vector call, and narrows an interval in which one crosses: by the
 /// parabola through the last three looks (D. E. Muller, "A method for solving algebraic equations
-/// using an automatic computer", Math. Tables Aids Comput. 10 (1956) 208), where that leaves one
-/// end standing by the Illinois variant of regula falsi, guarded by bisection (K. L. Hiebert and L.
-/// F. Shampine, "Implicitly defined output points for solutions of ODEs", Sandia report
-/// SAND80-0180, 1980: the vector form, earliest root first). The end that is kept is always the one
-/// on the firing side, so the state handed on is past the crossing or exactly on it. Places inside
-/// the step are offsets u from its beginning, not times: the bracket ends below 2 eps u, finer than
-/// any |t| allows, so that a state lands on its surface late in a long run as well as early.
+/// using an automatic computer", Math. Tables Aids Comput. 10 (1956) 208). If the parabola keeps
+/// one end unchanged, the Illinois variant of regula falsi follows, guarded by bisection (K. L.
+/// Hiebert and L. F. Shampine, "Implicitly defined output points for solutions of ODEs", Sandia
+/// report SAND80-0180, 1980: the vector form, earliest root first). The result is always the end on
+/// the firing side, so the state there is past the crossing or exactly on it. Points inside the
+/// step are offsets u from its beginning, not times: the bracket ends below 2 eps u, finer than the
+/// resolution of t, so that a state reaches its surface equally well late and early in a long run.
 class Narrower {
  protected:
   Narrower(Machine& machine, GuardSet& guards)
@@ -29,7 +29,7 @@ class Narrower {
     crossed_.reserve(slots), limits_.reserve(slots);
   }
 
-  /// All guards at offset u.
+  /// Computes all guards at offset u.
   template <class Interpolate>
   void look(double u, const double* known, const Interpolate& interpolate,
             std::vector<double>& values) {
@@ -37,7 +37,7 @@ class Narrower {
     machine_->guards(t0_ + u, known == nullptr ? x_.data() : known, values.data());
   }
 
-  /// Where the active guards fire, by their present records.
+  /// Sets the values at which the active guards fire, from their present records.
   void set_limits() {
     limits_.clear();
     for (const std::size_t k : guards_->active()) limits_.push_back((*guards_)[k].limits());
@@ -45,7 +45,7 @@ class Narrower {
 
   bool fired(std::size_t i, const std::vector<double>& values) const {
     const double value = values[guards_->active()[i]];
-    return !(value > limits_[i].first && value < limits_[i].second);  // so does what is not finite
+    return !(value > limits_[i].first && value < limits_[i].second);  // NaN and Inf fire too
   }
 
   /// Whether some guard has crossed at these values; if so, crossed_ says which.
@@ -61,23 +61,21 @@ class Narrower {
     return true;
   }
 
-  /// Narrows [low, high], where no guard has fired at low and `high_` shows that one has at high.
-  /// On return `high_` and crossed_ are those of the offset returned. `third_` are the guards at
-  /// third_at_, another look nearby; infinite if there is none.
+  /// Narrows [low, high]: no guard has fired at low, and by `high_` a guard has fired at high. On
+  /// return `high_` and crossed_ belong to the offset returned. `third_` has the guards at
+  /// third_at_, another look nearby; third_at_ is infinite if there is none.
   template <class Interpolate>
   double narrow(double low, double high, const Interpolate& interpolate) {
     low_ = guards_->g;
-    int kept = 0;   // how often in a row the low (> 0) or high (< 0) end was kept: Illinois halves
-                    // its value
-    int zeros = 0;  // looks in a row that found nothing but exact zeros: a plateau is halved down
-                    // to its beginning
+    int kept = 0;   // looks in a row that kept the low (> 0) or the high (< 0) end
+    int zeros = 0;  // looks in a row with exact zeros only: a plateau is halved to its beginning
     double weight = 1.0;
     for (int count = 0; count < 200; ++count) {
       const double resolution = 2.0 * std::numeric_limits<double>::epsilon() * high;
       if (high - low <= resolution) break;
       zeros = only_exact_zeros() ? zeros + 1 : 0;
       const bool halves = zeros > 1 || (zeros == 0 && count > 60);
-      const double u = zeros == 1 ? high - resolution  // a root hit exactly: one look before it
+      const double u = zeros == 1 ? high - resolution  // an exact root: look just before it
                        : halves   ? low + 0.5 * (high - low)
                                   : next_point(low, high, weight, resolution);
       if (!(u > low && u < high)) break;
@@ -101,13 +99,13 @@ class Narrower {
   GuardSet* guards_;
   std::vector<double> low_, high_, middle_, third_;
   double third_at_ = 0.0;
-  std::vector<double> noise_;  // of guards about their root: interpolants waver by a rounding
+  std::vector<double> noise_;  // of guards near their root, by the rounding of interpolants
   std::vector<std::size_t> crossed_;
   std::vector<std::pair<double, double>> limits_;  // of the active guards
   double t0_ = 0.0;
 
  private:
-  /// Illinois halves the value of an end that was kept twice in a row.
+  /// The next weight: Illinois halves the value of an end that was kept twice in a row.
   static double next_weight(double weight, int kept) {
     return kept > 1 ? weight * 0.5 : kept < -1 ? weight * 2.0 : 1.0;
   }
@@ -116,7 +114,7 @@ class Narrower {
       noise_[k] = 4.0 * std::max(std::abs(low_[k]), std::abs(high_[k]));
   }
 
-  /// A guard that waits, seen on its armed side, is an ordinary one from there on.
+  /// A guard that waits and is on its armed side at low becomes armed.
   void leave_zero() {
     for (std::size_t i = 0; i < limits_.size(); ++i) {
       const std::size_t k = guards_->active()[i];
@@ -131,11 +129,12 @@ class Narrower {
     return std::ranges::all_of(crossed_, [&](std::size_t k) { return high_[k] == 0.0; });
   }
 
-  /// Where the guard that seems to cross first does so, kept one resolution off the ends; the
-  /// middle where nothing can be said: guards that jump, or that are at zero at the low end.
+  /// The estimated crossing of the guard that seems to cross first, at least one resolution away
+  /// from the ends. It is the middle if there is no estimate: for guards that jump, or that are at
+  /// zero at the low end.
   double next_point(double low, double high, double weight, double resolution) const {
     if (high - low <= 3.0 * resolution) return low + 0.5 * (high - low);
-    double fraction = 2.0;  // of the interval, from low
+    double fraction = 2.0;  // part of the interval, from low
     for (std::size_t k : crossed_) {
       const Guard& guard = (*guards_)[k];
       const double a = std::abs(low_[k]) * weight, b = std::abs(high_[k]);
@@ -148,9 +147,9 @@ class Narrower {
     return std::clamp(low + fraction * (high - low), low + resolution, high - resolution);
   }
 
-  /// Where the parabola through low, high and the third look is zero, as a part of the interval;
-  /// the line through low and high where there is none. Values in units of their difference, places
-  /// in units of the interval: their squares may be out of range.
+  /// The zero of the parabola through low, high and the third look, as a part of the interval. If
+  /// there is none, the zero of the line through low and high. Values are in units of their
+  /// difference, offsets in units of the interval, because their squares may be out of range.
   double parabola(std::size_t k, double low, double high) const {
     const double unit = 1.0 / (high_[k] - low_[k]), w = (third_at_ - low) / (high - low);
     const double a = low_[k] * unit, third = third_[k] * unit - a;  // 0: a, 1: a + 1, w: a + third

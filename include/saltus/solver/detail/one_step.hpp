@@ -1,4 +1,4 @@
-// The explicit one-step methods: what "auto" asks of one, and where they are made.
+// The explicit one-step methods: the functions that "auto" needs, and the functions that make them.
 #pragma once
 
 #include <memory>
@@ -9,7 +9,7 @@ namespace saltus {
 
 class OneStepSolver : public Solver {
  public:
-  /// Looks for stiffness from now on.
+  /// Tests for stiffness from now on.
   virtual void watch_stiffness() = 0;
   /// Whether the last steps were bounded by stability rather than by accuracy.
   virtual bool looks_stiff() const = 0;
@@ -17,8 +17,9 @@ class OneStepSolver : public Solver {
   virtual double stability() const = 0;
 };
 
-/// Each is compiled once for one to four states, where the whole arithmetic of a step unrolls, and
-/// once for any number; each in a file of its own: together in one, the compiler inlines less.
+/// Each method is compiled once for each of one to four states, for which the whole arithmetic of a
+/// step unrolls, and once for any number. Each method has its own file, because the compiler
+/// inlines less if both are in one.
 std::unique_ptr<OneStepSolver> make_dopri5(Machine& machine, GuardSet& guards,
                                            const SolverOptions& options);
 std::unique_ptr<OneStepSolver> make_dop853(Machine& machine, GuardSet& guards,

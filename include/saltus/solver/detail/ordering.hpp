@@ -1,4 +1,4 @@
-// An order of the states in which the places of a Jacobian lie near the diagonal.
+// An order of the states in which the places of a Jacobian are near the diagonal.
 #pragma once
 
 #include "saltus/plan/detail/sparsity.hpp"
@@ -11,14 +11,14 @@ struct Bandwidth {
   Index total() const { return lower + upper + 1; }
 };
 
-/// The bandwidth when state i stands at position[i]; in the natural order where that is empty.
+/// The bandwidth if state i has position[i]; in the natural order if `position` is empty.
 Bandwidth bandwidth(const Sparsity& places, const std::vector<int>& position = {});
 
 /// Positions by the reverse Cuthill-McKee order of the graph of the matrix and its transpose, each
 /// component from a state far from its middle (E. Cuthill, J. McKee, "Reducing the bandwidth of
 /// sparse symmetric matrices", Proc. 24th Nat. Conf. ACM, 1969, p. 157; reversed and started as in
 /// A. George, J. W. H. Liu, Computer Solution of Large Sparse Positive Definite Systems, 1981, ch.
-/// 4). Linear in the number of places but for sorting neighbours by degree.
+/// 4). The time is linear in the number of places, except for the sorting of neighbours by degree.
 std::vector<int> reverse_cuthill_mckee(const Sparsity& places);
 
 }  // namespace saltus

@@ -1,4 +1,4 @@
-// The places of blocks that declare none, found by calling them.
+// Finds the places of blocks that declare none, by calls of their derivatives.
 #pragma once
 
 #include <string>
@@ -8,28 +8,28 @@
 
 namespace saltus {
 
-/// Of each block of more than 256 states that declares neither sparsity nor Jacobian: which of its
-/// derivatives change when which of its states move (find_places). They are moved from two points
-/// drawn at random beside the state, 1e-4 and 1e-2 of max(|x_j|, root mean square of x) away, so
-/// that an entry that vanishes at the state itself shows. States are never made NaN: a loop in a
-/// user's function might not end, a table be read at no index.
+/// Looks at each block of more than 256 states that declares neither sparsity nor Jacobian, and
+/// finds which of its derivatives change when which of its states move (find_places). The states
+/// are moved from two random points near the state, 1e-4 and 1e-2 of max(|x_j|, root mean square of
+/// x) away, so that an entry that is zero only at the state itself is found. States are never set
+/// to NaN: a loop in a user's function might not end, or a table might be read at no valid index.
 ///
-/// What is found may be too little, where an entry vanishes all around the state: a spring that
-/// does not touch yet. Whoever uses it has to look whether it explains how f moves, and to ask
-/// again where it does not (Jacobian::explains).
+/// The result misses an entry that is zero in a whole region around the state: a spring that does
+/// not touch yet. The caller has to check whether the result explains how f moves, and to look
+/// again if it does not (Jacobian::explains).
 class Probe {
  public:
   explicit Probe(Machine& machine);
 
-  /// Adds what can be seen at (t, x). Whether that changed what is known. Nothing that a block
-  /// throws ends the search: it is left as if full, and `words` has the message. An Interruption
-  /// passes.
+  /// Adds the places found at (t, x). Returns whether the known places changed. An exception of a
+  /// block does not end the search: the block counts as full, and `words` has the message. An
+  /// Interruption passes through.
   bool look(double t, const double* x);
   /// All such blocks count as full from now on.
   void give_up(const std::string& why);
 
   const FoundBlocks& found() const noexcept { return found_; }
-  /// Who was looked at and what came of it; empty if there was nobody.
+  /// The blocks that were searched, and the results; empty if there were none.
   std::string words() const;
 
  private:

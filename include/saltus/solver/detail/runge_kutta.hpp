@@ -1,5 +1,5 @@
-// One-step method of explicit Runge-Kutta type with dense output and location on it. No history: a
-// restart after a reset costs one evaluation of the right-hand side.
+// One-step method of explicit Runge-Kutta type with dense output and location on it. It has no
+// history: a restart after a reset costs one evaluation of the right-hand side.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@
 
 namespace saltus {
 
-/// N: how many states there are, or 0 for a number that is known at run time only.
+/// The stepper. N is the number of states, or 0 if it is known at run time only.
 template <Tableau Method, int N = 0>
 class RungeKutta final : public StepSolver<RungeKutta<Method, N>, OneStepSolver> {
  public:
@@ -92,12 +92,12 @@ class RungeKutta final : public StepSolver<RungeKutta<Method, N>, OneStepSolver>
     if (h_ == 0.0)
       h_ = first_step(*machine_, t0_, x0_, stage(0), scratch_, stage(1), options_,
                       Method::error_order, t_stop);
-    h_ = std::max(h_, options_.min_step);  // a guess is no need
+    h_ = std::max(h_, options_.min_step);  // the first step is only a guess
     double wish = std::min({h_, options_.max_step, std::exchange(horizon_, infinite)});
     const double left = t_stop - t0_;
     for (bool rejected = false;; rejected = true) {
       const bool ends = wish >= left;
-      // Two equal steps rather than a step and a sliver.
+      // Two equal steps are better than a long step and a very short one.
       const double h = ends ? left : 2.0 * wish > left ? 0.5 * left : wish;
       if (!ends) require_room(h);
       const double error = try_step(h, ends ? t_stop : t0_ + h);
@@ -106,7 +106,7 @@ class RungeKutta final : public StepSolver<RungeKutta<Method, N>, OneStepSolver>
         length_ = h;
         h_ = controller_.accept(error, h, rejected);
         if (!rejected && h < wish)
-          h_ = std::max(h_, wish);  // cut by the stop time, not by the error
+          h_ = std::max(h_, wish);  // the stop time shortened it, not the error
         return;
       }
       ++statistics_.rejected;
@@ -114,7 +114,8 @@ class RungeKutta final : public StepSolver<RungeKutta<Method, N>, OneStepSolver>
     }
   }
 
-  /// All stages of a step to t1; returns the scaled error, infinite if anything is not finite.
+  /// Computes all stages of a step to t1. Returns the scaled error, infinite if a value is not
+  /// finite.
   double try_step(double h, double t1) {
     const detail::Attempt attempt{t0_, t1, h, options_.rtol, options_.atol};
     t1_ = t1;
@@ -142,8 +143,9 @@ class RungeKutta final : public StepSolver<RungeKutta<Method, N>, OneStepSolver>
   detail::ExplicitStep<Method, N> arithmetic(const double* from, double* to) {
     return {n_, from, to, scratch_.data(), k_.data()};
   }
-  /// Inlined into each stage but where two states are a pair: inlined too, the pair is loaded as
-  /// one before the user's two stores of it are done (a run 1.3 times as long; four states: 0.5).
+  /// The right-hand side. It is inlined into each stage, except when two states form a pair:
+  /// inlined code would load the pair as one before the user's two stores are done (a run takes 1.3
+  /// times the time; 0.5 times with four states).
   auto rate() {
     if constexpr (W > 0)
       return [this](double t, const double* x, double* xdot) { machine_->derivative(t, x, xdot); };
@@ -160,7 +162,7 @@ class RungeKutta final : public StepSolver<RungeKutta<Method, N>, OneStepSolver>
     if constexpr (checks_dense) halves_.used = dense_is_off() && halve();
   }
 
-  /// Those that only the dense output needs.
+  /// Computes the stages that only the dense output needs.
   void prepare_stages() {
     if (const detail::MethodKernels* steps = compiled())
       steps->dense(caller(), t0_, length_, memory());
@@ -169,7 +171,7 @@ class RungeKutta final : public StepSolver<RungeKutta<Method, N>, OneStepSolver>
           .template stages<Method::stages, Method::rows>(t0_, length_, rate());
   }
 
-  /// Root mean square of value(i), a lane each, in tolerances.
+  /// Root mean square of value(i), which is one lane, in tolerances.
   template <class Value>
   double in_tolerances(Value value) const {
     double sum = 0.0;
@@ -181,12 +183,12 @@ class RungeKutta final : public StepSolver<RungeKutta<Method, N>, OneStepSolver>
     return std::sqrt(sum / static_cast<double>(size()));
   }
 
-  /// Whether the dense output misses by more than `room` tolerances: seen without a call where its
-  /// last term is small, else by its defect where that is largest.
+  /// Whether the error of the dense output is above `room` tolerances. It is not if its last term
+  /// is small, which costs no call. Otherwise the largest defect decides.
   [[gnu::noinline]] bool dense_is_off()
     requires checks_dense
   {
-    constexpr double room = 4.0;  // of the ten that an event may be off
+    constexpr double room = 4.0;  // of the ten tolerances allowed for an event
     constexpr double at = Method::defect_at;
     const auto term = [&](Index i) { return dense_.last_term(i); };
     if (Method::last_term_share * in_tolerances(term) <= room) return false;
@@ -199,8 +201,8 @@ class RungeKutta final : public StepSolver<RungeKutta<Method, N>, OneStepSolver>
     return !(Method::defect_share * in_tolerances(defect) <= room);
   }
 
-  /// Takes the step again in two halves, to be looked into; the step itself stays what it was.
-  /// False if something is not finite there.
+  /// Takes the step again in two halves, for looks inside it. The step itself does not change.
+  /// False if a value is not finite.
   bool halve()
     requires checks_dense
   {
@@ -223,8 +225,8 @@ class RungeKutta final : public StepSolver<RungeKutta<Method, N>, OneStepSolver>
   }
 
   void require_finite_start() {
-    // A sum is finite if all of its terms are, short of overflow: then the terms are asked one by
-    // one.
+    // The sum is finite if all of its terms are finite, unless it overflows. If it is not finite,
+    // each term is checked.
     double sum = 0.0;
     for (Index i = 0; i < size(); ++i) sum += stage(0)[i];
     if (!std::isfinite(sum) && !view(stage(0)).allFinite())

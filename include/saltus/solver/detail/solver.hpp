@@ -1,4 +1,4 @@
-// The seam: what the engine asks of a method that advances xdot = f(t, x) between instants.
+// Solver: the interface of a method that advances xdot = f(t, x) between instants.
 #pragma once
 
 #include <cstdint>
@@ -15,11 +15,11 @@ namespace saltus {
 
 enum class StopReason {
   step,       ///< one accepted minor step, nothing else
-  stop_time,  ///< exactly the time that was asked for
+  stop_time,  ///< exactly the requested time
   root        ///< a guard fired: see GuardSet::fired_at_root
 };
 
-/// What a solver needs to know beyond the scene.
+/// The settings of a solver.
 struct SolverOptions {
   double rtol = 1e-6;
   double atol = 1e-8;
@@ -33,28 +33,28 @@ struct SolverOptions {
 struct Start {
   double horizon = std::numeric_limits<double>::infinity();  ///< [s] within which an event may
                                                              ///< follow: resolve it
-  const Eigen::VectorXd* flow = nullptr;  ///< f(t, x), where the engine had to ask for it anyway
-  bool first = false;                     ///< a new run: step size and counts are forgotten too
-  bool handover = false;  ///< another method was at work: no restart of the scene, and none counted
+  const Eigen::VectorXd* flow = nullptr;  ///< f(t, x), if the engine knows it already
+  bool first = false;                     ///< a new run: step size and counts are reset too
+  bool handover = false;                  ///< a change of method: it does not count as a restart
 };
 
 /// Advances the continuous state of a machine. Between two calls of `restart` the machine's
-/// discrete values do not change, so f and the guards are smooth. Throws SimulationError where no
-/// step can be taken, and whatever a user's function threw, as it was thrown.
+/// discrete values do not change, so f and the guards are smooth. Throws SimulationError if no step
+/// can be taken. Exceptions of a user's function pass through unchanged.
 class Solver {
  public:
   virtual ~Solver() = default;
 
   /// Forgets the history and begins at (t, x).
   virtual void restart(double t, const Eigen::VectorXd& x, const Start& start) = 0;
-  /// One minor step, not past t_stop, or to the first root in it.
+  /// Takes one minor step, at most to t_stop, or to the first root in it.
   virtual StopReason advance(double t_stop) = 0;
   /// The state at a time within the last step.
   virtual void interpolate(double t, double* x) = 0;
-  /// Degree in time of what it says within the last step.
+  /// Degree in time of `interpolate` within the last step.
   virtual int degree() const = 0;
-  /// The time [s] within the last step where that goes over from one polynomial to the next; before
-  /// the step where there is but one.
+  /// The time [s] within the last step at which one polynomial ends and the next begins; a time
+  /// before the step if there is only one.
   virtual double joint() { return -std::numeric_limits<double>::infinity(); }
   virtual const SolverStatistics& statistics() const = 0;
 
@@ -63,7 +63,7 @@ class Solver {
 
   virtual double time() const = 0;
   virtual const Eigen::VectorXd& state() const = 0;
-  /// False if a root stopped the last step inside and the rest of it is still to be delivered.
+  /// False if a root stopped the last step inside, and the rest of it is not delivered yet.
   virtual bool at_step_end() const = 0;
   /// Method in use now, for the statistics.
   virtual std::string method() const = 0;

@@ -1,4 +1,4 @@
-// How fast is the fastest part of a scene? The spectral radius of its Jacobian, without a Jacobian.
+// The spectral radius of the Jacobian of a scene, without a Jacobian: the rate of its fastest part.
 #pragma once
 
 #include <cmath>
@@ -12,9 +12,9 @@ namespace saltus {
 /// Nonlinear power iteration (B. P. Sommeijer, L. F. Shampine, J. G. Verwer, "RKC: an explicit
 /// solver for parabolic PDEs", J. Comput. Appl. Math. 88 (1997) 315, section 2.2): v <- f(x + v) -
 /// f(x), kept small; its growth estimates |lambda|. Lengths are measured in |x| + atol / rtol of
-/// each state, which changes no eigenvalue. Three iterations from the direction found last, with a
-/// little of every other one: the order of magnitude, which is all that a choice of method needs.
-/// Four calls of the right-hand side.
+/// each state, which changes no eigenvalue. It takes three iterations from the direction found
+/// last, with a small part of every other direction. They give the order of magnitude, which is
+/// enough to choose a method. They cost four calls of the right-hand side.
 class SpectralRadius {
  public:
   SpectralRadius(Machine& machine, const SolverOptions& options)
@@ -51,8 +51,7 @@ class SpectralRadius {
     return growth;
   }
 
-  /// Begins with no direction, as a new one does: what was found depends on nothing that was asked
-  /// before.
+  /// Forgets the direction, so that later results do not depend on earlier calls.
   void forget() { direction_.setZero(); }
 
  private:

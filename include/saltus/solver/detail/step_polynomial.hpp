@@ -7,7 +7,7 @@ namespace saltus {
 
 namespace detail {
 
-/// d/ds, at s, of what multiplies each c in s nested(c): s^(j/2 + 1) r^((j + 1)/2), r = 1 - s.
+/// d/ds, at s, of the factor of each c_j in s nested(c): s^(j/2 + 1) r^((j + 1)/2), r = 1 - s.
 template <std::size_t Count>
 constexpr std::array<double, Count> slopes(double s) {
   const auto power = [](double base, std::size_t n) {
@@ -26,9 +26,9 @@ constexpr std::array<double, Count> slopes(double s) {
 
 }  // namespace detail
 
-/// x0 + s (c_0 + r (c_1 + s (c_2 + r (c_3 + ...)))), s the part of the step, r = 1 - s: the first
-/// three terms meet x and f at both ends, the others are the method's (Hairer, Norsett, Wanner I,
-/// II.6 and II.10).
+/// x0 + s (c_0 + r (c_1 + s (c_2 + r (c_3 + ...)))), with s the part of the step and r = 1 - s. The
+/// first three terms meet x and f at both ends, the others come from the method (Hairer, Norsett,
+/// Wanner I, II.6 and II.10).
 template <Tableau Method, int N>
 class StepPolynomial {
   static constexpr int W = detail::called_width<N>;
@@ -39,7 +39,7 @@ class StepPolynomial {
 
   explicit StepPolynomial(Index n) : n_(n), c_(n) {}
 
-  /// Of the step of length h from x0 to x1 with all stages in k.
+  /// Sets the polynomial of the step of length h from x0 to x1, with all stages in k.
   void set(double h, const double* x0, const double* x1, const double* k) {
     const Index n = size();
     detail::for_lanes<W, N>(n, [&](Index i) {
@@ -62,7 +62,7 @@ class StepPolynomial {
     });
   }
 
-  /// Its derivative by s, at a constant s, of lane i.
+  /// The derivative by s of lane i, at a constant s.
   template <double S>
   Lane slope(Index i) const {
     return detail::dot<[] { return detail::slopes<terms>(S); }, terms, W>(c_.data() + i, size());

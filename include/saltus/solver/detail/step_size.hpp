@@ -1,4 +1,4 @@
-// Step sizes of the one-step methods: the first one, the next one, and what to say when none is
+// Step sizes of the one-step methods: the first step, the next step, and the errors when no step is
 // small enough.
 #pragma once
 
@@ -12,8 +12,8 @@
 namespace saltus {
 
 /// Proportional-integral control of the step size (K. Gustafsson; Hairer, Wanner II, p. 28,
-/// (2.43c), safety 0.9; beta and the bounds of the factor are those of the codes DOPRI5, the
-/// default here, and DOP853).
+/// (2.43c), safety 0.9; beta and the bounds of the factor come from the codes DOPRI5, the default
+/// here, and DOP853).
 class StepController {
  public:
   StepController(double order, double beta = 0.04, double shortest = 0.2, double longest = 10.0)
@@ -24,7 +24,7 @@ class StepController {
         plain_(1.0 / order) {}
 
   double accept(double error, double h, bool after_rejection) {
-    // Below 1e-9 both powers together exceed the longest factor: no need to ask.
+    // Below 1e-9 both powers together exceed the longest factor, so log2 is not needed.
     const double size = error < 1e-9 ? tiny : std::log2(error);
     const double factor = error < 1e-9
                               ? longest_
@@ -33,8 +33,8 @@ class StepController {
     before_ = std::max(size, tiny);
     return h * (after_rejection ? std::min(factor, 1.0) : factor);
   }
-  /// The codes shorten to a tenth at most; after a change of mode a thousandth may be right, and an
-  /// error of 1e10 says so.
+  /// The step after a rejection. The codes shorten to a tenth at most; after a change of mode a
+  /// thousandth may be right, which an error of 1e10 shows.
   double reject(double error, double h) const {
     return h *
            (std::isfinite(error) ? std::clamp(safety * std::pow(error, -plain_), 1e-3, 0.9) : 0.1);
@@ -44,12 +44,12 @@ class StepController {
   static constexpr double safety = 0.9;
   static constexpr double tiny = -13.287712379549449;  // log2(1e-4)
   double beta_, shortest_, longest_, exponent_, plain_;
-  double before_ = tiny;  // log2 of the error of the step before
+  double before_ = tiny;  // log2 of the error of the last step
 };
 
-/// First step by the size of x, f and f' (Hairer, Norsett, Wanner I, p. 169, "Starting step size").
-/// The book's constants are in seconds; here the unit is the time in which x changes by itself, or
-/// by a tolerance where it is less, so that another unit of time gives the same steps.
+/// The first step, from the size of x, f and f' (Hairer, Norsett, Wanner I, p. 169, "Starting step
+/// size"). The book's constants are in seconds; here the unit is the time in which x changes by
+/// itself, or by a tolerance if x is smaller, so that another unit of time gives the same steps.
 inline double first_step(Machine& machine, double t, const Eigen::VectorXd& x, const double* f,
                          Eigen::VectorXd& scratch, double* f1, const SolverOptions& options,
                          double order, double t_stop) {
@@ -63,28 +63,28 @@ inline double first_step(Machine& machine, double t, const Eigen::VectorXd& x, c
     return n > 0 ? std::sqrt(sum / static_cast<double>(n)) : 0.0;
   };
   const double longest = std::min(t_stop - t, options.max_step);
-  const double limit = std::isfinite(longest) ? longest : 1.0;  // no end: nothing else to go by
+  const double limit = std::isfinite(longest) ? longest : 1.0;  // no end, no other scale
   const double d0 = norm([&](Index i) { return x[i]; }), d1 = norm([&](Index i) { return f[i]; });
-  const bool stands = d1 * limit < 1e-5;  // it will not get anywhere at this speed
+  const bool stands = d1 * limit < 1e-5;  // x hardly moves at this speed
   const double h0 = stands ? 1e-3 * limit : std::min(0.01 * std::max(d0, 1.0) / d1, limit);
   const double unit = 100.0 * h0;
   for (Index i = 0; i < n; ++i) scratch[i] = x[i] + h0 * f[i];
   machine.derivative(t + h0, scratch.data(), f1);
   const double d2 = norm([&](Index i) { return f1[i] - f[i]; }) / h0;
-  // A component at zero is measured by atol alone and makes d1 look large: where f' says that x
-  // changes more slowly than that, the clock is that of f'.
+  // A component at zero is measured by atol alone and makes d1 look large: if x changes more slowly
+  // by f', the time scale is from f'.
   const double whole = std::max(d0, 1.0), bend = d2 * unit * unit;
   const double clock = bend < whole ? std::sqrt(whole / d2) : unit;
   const double largest = std::max(d1 * unit, bend);
   const double h1 = largest <= 1e-15 ? unit : clock * std::pow(0.01 / largest, 1.0 / order);
-  // No shorter than time can tell: 100 roundings, as CVODE's first step.
+  // The step is at least 100 roundings of the time, as CVODE's first step.
   const double shortest =
       100.0 * std::numeric_limits<double>::epsilon() * std::max(std::abs(t), limit);
   const double h = std::min(std::max(shortest, std::min(unit, h1)), limit);
   return std::isfinite(h) && h > 0.0 ? h : limit;
 }
 
-/// At (t, x), or at (t + ahead, x), where the run that stands at t cannot get to.
+/// Throws for a value that is not finite at (t + ahead, x). The run is at t and cannot get there.
 [[noreturn]] inline void throw_not_finite(Machine& machine, double t, const double* x,
                                           double ahead = 0.0) {
   const NotFinite found = machine.not_finite(t + ahead, x).value_or(NotFinite{});
@@ -93,8 +93,8 @@ inline double first_step(Machine& machine, double t, const Eigen::VectorXd& x, c
                         t, found.block);
 }
 
-/// Throws if a derivative is not finite at (t, x), or just ahead on the flow, where no step could
-/// end.
+/// Throws if a derivative is not finite at (t, x), or just ahead on the flow, so that no step can
+/// end there.
 inline void require_finite_near(Machine& machine, double t, double h, const double* x) {
   const double ahead =
       std::max(16.0 * h, 64.0 * std::numeric_limits<double>::epsilon() * std::abs(t));
@@ -108,7 +108,7 @@ inline void require_finite_near(Machine& machine, double t, double h, const doub
     throw_not_finite(machine, t, there.data(), ahead);
 }
 
-/// The block whose state moves fastest, measured by the tolerance: where a solution blows up.
+/// The block whose state moves fastest, in tolerances: the block in which a solution blows up.
 inline std::string fastest_block(Machine& machine, double t, const double* x,
                                  const SolverOptions& options) {
   Eigen::VectorXd f(machine.plan().nx);

@@ -13,8 +13,8 @@ namespace saltus {
 ///   step(t_stop)       go from t1_ to a new t1_ <= t_stop; set x1_ to the state there and length_
 ///                      to the size of the step
 ///   inside_step(u, x)  the state at offset u from the beginning of the step, 0 <= u <= length_
-/// This class does everything else, roots included. After a root that changes nothing continuous
-/// the rest of the same step is delivered: the trajectory is the same as without the root.
+/// This class does everything else, including roots. After a root that changes nothing continuous,
+/// the rest of the same step is delivered, so the trajectory is the same as without the root.
 template <class Method, class Interface = Solver>
 class StepSolver : public Interface {
  public:
@@ -73,7 +73,7 @@ class StepSolver : public Interface {
   double time() const final { return time_; }
   const Eigen::VectorXd& state() const final { return delivered_ ? x1_ : state_; }
 
-  // --- one step that looks at no guard, for a method that starts with the steps of another -------
+  // --- one step without guards, for a method that starts with the steps of another
   void begin_at(double t, const Eigen::VectorXd& x, const Start& start) {
     t0_ = t1_ = t, x1_ = x;
     self().begin(start);
@@ -114,8 +114,8 @@ class StepSolver : public Interface {
 
   Locator locator_;
   double time_ = 0.0, offset_ = 0.0, run_begun_ = 0.0;
-  bool delivered_ = true;  // the last step, to its end
-  Eigen::VectorXd state_;  // where a root cut the last step
+  bool delivered_ = true;  // the last step is delivered to its end
+  Eigen::VectorXd state_;  // the state at a root inside the last step
 };
 
 }  // namespace saltus

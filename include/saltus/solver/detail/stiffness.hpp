@@ -1,4 +1,4 @@
-// Stiffness as an explicit method sees it: is the step bounded by something else than the solution?
+// Stiffness for an explicit method: whether stability, not the solution, bounds the step.
 #pragma once
 
 #include <cmath>
@@ -7,26 +7,27 @@
 
 namespace saltus {
 
-/// Two signs, from values the step has anyway.
+/// Tests for two signs of stiffness, from values that a step computes anyway.
 ///
-/// h |f(x1) - f(X)| / |x1 - X|, X the argument of the last stage but one, also at t + h, estimates
-/// h |lambda|. Beyond `stability` that bounds the step (L. F. Shampine; Hairer, Wanner II, p. 21,
+/// h |f(x1) - f(X)| / |x1 - X| estimates h |lambda|; X is the argument of the last stage but one,
+/// also at t + h. Beyond `stability` it bounds the step (L. F. Shampine; Hairer, Wanner II, p. 21,
 /// (2.33)).
 ///
-/// At tight tolerances an explicit method keeps h |lambda| well below that, and crawls all the
-/// same: its error estimate sees powers of h lambda where the solution is smooth (Robertson, rtol
-/// 1e-12: h |lambda| = 0.35 with dopri5, for 10^5 steps). So a step is also called stiff where the
-/// families compared as L. Petzold does ("Automatic selection of methods for solving stiff and
-/// nonstiff systems of ordinary differential equations", SIAM J. Sci. Stat. Comput. 4 (1983) 136:
-/// by the step each could take) speak for BDF: the derivative changes in a step by a part r = |f1 -
-/// f0| / |f| only, the Jacobian by more than ten times that, and BDF, whose step on a smooth
-/// solution was measured as 0.4 rtol^(1/6) h / r (two modes of bench/methods, rtol 1e-3 to 1e-12)
-/// at a call and a half, would need less than half of our calls.
+/// At tight tolerances an explicit method keeps h |lambda| well below that, and its steps are still
+/// short: its error estimate contains powers of h lambda although the solution is smooth
+/// (Robertson, rtol 1e-12: h |lambda| = 0.35 with dopri5, for 10^5 steps). So a step is also called
+/// stiff if a comparison of the families by L. Petzold's rule ("Automatic selection of methods for
+/// solving stiff and nonstiff systems of ordinary differential equations", SIAM J. Sci. Stat.
+/// Comput. 4 (1983) 136: by the step each could take) favours BDF: the derivative changes in a step
+/// by a part r = |f1 - f0| / |f| only, the Jacobian by more than ten times that, and BDF, whose
+/// step on a smooth solution was measured as 0.4 rtol^(1/6) h / r (two modes of bench/methods, rtol
+/// 1e-3 to 1e-12) at a call and a half, would need less than half of our calls.
 ///
-/// Fifteen such steps, with no more than five other ones in a row between, are called stiff.
+/// The scene is called stiff after fifteen such steps, with at most five other steps in a row
+/// between them.
 class StiffnessTest {
  public:
-  /// `calls` of the right-hand side in a step.
+  /// `calls`: calls of the right-hand side in a step.
   StiffnessTest(double stability, double calls, const SolverOptions& options)
       : stability_(stability),
         smooth_(0.5 * calls / 1.5 * 0.4 * std::pow(options.rtol, 1.0 / 6.0)),
@@ -35,7 +36,8 @@ class StiffnessTest {
   bool detected() const noexcept { return stiff_ >= 15; }
   void forget() noexcept { stiff_ = calm_ = 0; }
 
-  /// A step of size h to x1: f at both ends, and at (t + h, x), x another approximation of x1.
+  /// Looks at a step of size h to x1, with f at both ends, and f at (t + h, x), where x is another
+  /// approximation of x1.
   void look(double h, VectorView x1, VectorView x, VectorView f, VectorView f0, VectorView f1) {
     if (stiff_step(h, x1, x, f, f0, f1))
       ++stiff_, calm_ = 0;

@@ -1,4 +1,4 @@
-// What a tableau of an explicit Runge-Kutta method with dense output offers to the stepper.
+// The tableau of an explicit Runge-Kutta method with dense output.
 #pragma once
 
 #include <algorithm>
@@ -47,7 +47,7 @@ void add_term(Lane<N>& sum, const double* k, Index n) {
   if constexpr (weight != 0.0) sum += weight * load<N>(k + static_cast<Index>(J) * n);
 }
 
-/// sum_j Row[j] k[j n], j < Count; terms that are zero are not there.
+/// sum_j Row[j] k[j n], j < Count; zero terms are left out.
 template <auto Row, std::size_t Count, int N>
 Lane<N> dot(const double* k, Index n) {
   Lane<N> sum = zero<N>();
@@ -64,14 +64,15 @@ void add_difference(Lane<N>& sum, const double* k, Index n) {
     sum += weight * (load<N>(k + static_cast<Index>(J) * n) - load<N>(k));
 }
 
-/// Whether weights this large lose digits when they cancel: DOP853 has some of 20 to 44.
+/// Whether the weights are so large that they lose digits when they cancel: DOP853 has weights of
+/// 20 to 44.
 template <class Row>
 constexpr bool cancels(const Row& row) {
   return std::ranges::any_of(row, [](double w) { return w > 4.0 || w < -4.0; });
 }
 
-/// sum_j Row[j] (k[j n] - k[0]): the same but for k[0] times the sum of the row. Where k hardly
-/// varies, large weights cancel exactly and not only but for rounding.
+/// sum_j Row[j] (k[j n] - k[0]), which leaves out k[0] times the sum of the row. If k hardly
+/// varies, large weights cancel exactly, without a rounding error.
 template <auto Row, std::size_t Count, int N>
 Lane<N> dot_of_differences(const double* k, Index n) {
   Lane<N> sum = zero<N>();
@@ -81,7 +82,8 @@ Lane<N> dot_of_differences(const double* k, Index n) {
   return sum;
 }
 
-/// c_J + r (c_J+1 + s (c_J+2 + ...)), r and s in turns, J even first: c[j] stands at c[j n].
+/// c_J + r (c_J+1 + s (c_J+2 + ...)), with r and s in turns, r after an even J. Coefficient c_j
+/// begins at c[j n].
 template <std::size_t J, std::size_t Count, int N>
 Lane<N> nested(const double* c, Index n, double s, double r) {
   const Lane<N> here = load<N>(c + static_cast<Index>(J) * n);
