@@ -85,8 +85,8 @@ void CrossingArming::arm(std::size_t k, bool at_start) {
   carry_out(k, decide_crossing(facts, {flow.side, flow.rounding}, ask), flow.rounding);
 }
 
-/// Does what the author chose for a guard that begins at zero or beyond it. False if the flow has
-/// to decide.
+/// Obeys the author's wish for a guard that begins at zero or beyond it. False if the flow has to
+/// decide.
 bool CrossingArming::begins_as_wished(const GuardGroup& group, std::size_t k) {
   const double g = present_->g[k];
   switch (decide_beginning(machine_->plan().crossing_of(group).at_start, group.direction, g)) {

@@ -45,7 +45,7 @@ bool EventLog::is_called(std::string_view full, std::string_view name) {
 void EventLog::require(std::string_view name) const {
   const auto has_name = [&](const std::string& full) { return is_called(full, name); };
   if (std::ranges::any_of(names_, has_name)) return;
-  std::vector<std::string> known;  // as short or as long as what was asked for
+  std::vector<std::string> known;  // names as short or as long as the requested name
   for (const std::string& full : names_) {
     const bool whole = name.find('.') != std::string_view::npos;
     std::string one(whole ? full : split(full).second);

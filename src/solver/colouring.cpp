@@ -8,10 +8,10 @@ namespace saltus {
 
 namespace {
 
-/// The rows that differences have to find, with all their columns; and the columns to colour.
-class Meetings {
+/// The rows that differences have to find, with all their columns, and the columns to colour.
+class SoughtRows {
  public:
-  explicit Meetings(const JacobianPattern& pattern) : columns_of_(rows_of(pattern)) {
+  explicit SoughtRows(const JacobianPattern& pattern) : columns_of_(rows_of(pattern)) {
     const Sparsity& places = pattern.places;
     for (Index j = 0; j < places.columns(); ++j) {
       const auto first = places.start[static_cast<std::size_t>(j)],
@@ -29,10 +29,10 @@ class Meetings {
     return most;
   }
 
-  /// Colour of each column, -1 where there is none, taken greedily in this order.
+  /// Colour of each column, or -1 for none. Each column takes the first free colour, in this order.
   std::vector<int> greedy(const Sparsity& places, const std::vector<int>& order) const {
     std::vector<int> colour(static_cast<std::size_t>(places.columns()), -1);
-    std::vector<int> taken_by(order.size() + 1, -1);  // colour: the column that met it last
+    std::vector<int> taken_by(order.size() + 1, -1);  // by colour: the last column beside it
     for (const int j : order) {
       for (const int row : places.column(j)) {
         for (const int other : columns_of_[static_cast<std::size_t>(row)]) {
@@ -92,15 +92,15 @@ Colouring one_each(const std::vector<int>& columns) {
 }  // namespace
 
 Colouring colour(const JacobianPattern& pattern) {
-  const Meetings meetings(pattern);
-  std::vector<int> order = meetings.to_colour();
-  const std::size_t fullest = meetings.fullest();
+  const SoughtRows sought(pattern);
+  std::vector<int> order = sought.to_colour();
+  const std::size_t fullest = sought.fullest();
   if (2 * fullest > order.size()) return one_each(order);
-  Colouring natural = by_colour(meetings.greedy(pattern.places, order));
+  Colouring natural = by_colour(sought.greedy(pattern.places, order));
   if (natural.colours() <= static_cast<Index>(fullest)) return natural;
   std::ranges::stable_sort(order, std::greater{},
                            [&](int j) { return pattern.places.column(j).size(); });
-  Colouring largest_first = by_colour(meetings.greedy(pattern.places, order));
+  Colouring largest_first = by_colour(sought.greedy(pattern.places, order));
   return largest_first.colours() < natural.colours() ? largest_first : natural;
 }
 

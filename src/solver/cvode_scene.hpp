@@ -1,4 +1,4 @@
-// The scene as CVODE calls it. Nothing may be thrown through C.
+// The scene for CVODE's calls. No exception may pass through C.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace saltus {
 class CvodeScene {
  public:
   CvodeScene(Machine& machine, GuardSet& guards) : machine_(&machine), guards_(&guards) {}
-  CvodeScene(const CvodeScene&) = delete;  // CVODE knows its address
+  CvodeScene(const CvodeScene&) = delete;  // CVODE keeps its address
   CvodeScene& operator=(const CvodeScene&) = delete;
 
   static int right_hand_side(double t, N_Vector x, N_Vector xdot, void* user) {
@@ -30,12 +30,12 @@ class CvodeScene {
     });
   }
 
-  /// Throws what a callback threw.
+  /// Throws the exception of a callback, if any.
   void rethrow() {
     if (error_) std::rethrow_exception(std::exchange(error_, nullptr));
   }
 
-  // --- linear systems, of BDF
+  // --- the linear systems of BDF
 
   void make_linear(const SolverOptions& options, double t, const double* x) {
     linear_.emplace(*machine_, options, error_, t, x);
@@ -45,15 +45,16 @@ class CvodeScene {
   }
   /// See LinearSystem::renew.
   bool renew_linear(int flag) { return linear_ && linear_->renew(flag); }
-  /// Empty where there is none.
+  /// Empty if there is no linear system.
   std::string_view describe_linear() const {
     return linear_ ? std::string_view(linear_->describe()) : std::string_view();
   }
 
   // --- guards
 
-  /// Only a scene with guards that stop the solver has root-finding. CVodeReInit would keep guards
-  /// switched off that were zero once; none is, since CVODE is never shown a zero: shown().
+  /// Switches root-finding on if some guard stops the solver. CVodeReInit would keep guards
+  /// switched off that were zero once. CVODE never gets a zero, so this does not happen: see
+  /// shown().
   void watch_guards(void* cvode) {
     if (std::ranges::all_of(guards_->all(), &Guard::monitor)) return;
     directions_.resize(guards_->size()), asked_.resize(guards_->size());
@@ -61,7 +62,7 @@ class CvodeScene {
     CVodeSetNoInactiveRootWarn(cvode);
   }
 
-  /// The present directions: the guard of a carried block is watched for its lift.
+  /// Gives CVODE the present directions. The guard of a carried block is watched for its lift.
   void aim(void* cvode) {
     if (directions_.empty()) return;
     std::ranges::transform(guards_->all(), directions_.begin(), [](const Guard& guard) {
@@ -75,13 +76,13 @@ class CvodeScene {
 
   /// A stretch begins here.
   void begin_at(double t) { begun_at_ = t; }
-  /// The guards, if CVODE last looked at them at this time.
+  /// The guards, if CVODE's last look at them was at this time.
   const double* guards_at(double t) const {
     return !asked_.empty() && asked_at_ == t ? asked_.data() : nullptr;
   }
 
  private:
-  /// Keeps the first exception of a callback: CVODE tries ten times more before it gives up.
+  /// Keeps the first exception of a callback, because CVODE tries ten times more before it fails.
   template <class Call>
   int guarded(Call call) {
     if (error_) return -1;
@@ -114,8 +115,8 @@ class CvodeScene {
     return self->guarded([&] { return self->linear_->precondition(r, z); });
   }
 
-  /// CVODE only wakes us; the locator judges. So it never sees an exact zero at the start of a
-  /// stretch, which would switch the guard off, nor a monitor.
+  /// CVODE only reports that a guard may have crossed; the locator decides. So CVODE gets no
+  /// monitor, and no exact zero at the start of a stretch, which would switch the guard off.
   static int root_functions(double t, N_Vector x, double* g, void* user) {
     auto* self = static_cast<CvodeScene*>(user);
     return self->guarded([&] {
@@ -147,8 +148,8 @@ class CvodeScene {
   GuardSet* guards_;
   std::exception_ptr error_;
   std::optional<LinearSystem> linear_;
-  std::vector<int> directions_;  // of the guards; empty without root-finding
-  std::vector<double> asked_;    // the guards when CVODE last asked for them
+  std::vector<int> directions_;  // of all guards; empty without root-finding
+  std::vector<double> asked_;    // the guards at CVODE's last call
   double asked_at_ = 0.0, begun_at_ = 0.0;
 };
 

@@ -1,5 +1,5 @@
-// CVODE behind the seam: Adams with fixed-point iteration, BDF with Newton and the
-// linear solver that suits the scene.
+// CVODE as a Solver: Adams with fixed-point iteration, BDF with Newton and the linear solver that
+// suits the scene.
 #include "saltus/solver/detail/cvode.hpp"
 
 #include <algorithm>
@@ -66,11 +66,11 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
   void begin(const Start& how) {
     if (how.first) first_step_ = 0.0;
     scene_.begin_at(t1_);
-    // A multistep method begins with order 1 and steps that keep that within the tolerance. A
-    // flight hardly longer than those is drawn as a line that falls from the start: the ball would
-    // fall through. So a one-step method starts where an event may follow that soon (C. W. Gear,
-    // "Runge-Kutta starters for multistep methods", ACM TOMS 6 (1980) 263), and CVODE takes over
-    // once the flight has proved longer.
+    // A multistep method begins with order 1, and with steps so short that order 1 is within the
+    // tolerance. It would draw a flight hardly longer than these steps as a line that falls from
+    // the start, and the ball would fall through the floor. So a one-step method starts if an event
+    // may follow so soon (C. W. Gear, "Runge-Kutta starters for multistep methods", ACM TOMS 6
+    // (1980) 263), and CVODE continues if the flight is longer.
     starting_ = how.horizon < 2e4 * first_step_;
     if (starting_)
       start_with_one_step(t1_, x1_, how.horizon);
@@ -126,7 +126,7 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
 
   void undo() { t1_ = t0_; }
 
-  /// CVODE has looked at the end of its step just now.
+  /// The guards at the end of the step, where CVODE has just looked at them.
   const double* end_guards() const { return starting_ ? nullptr : scene_.guards_at(t1_); }
 
   void step(double t_stop) {
@@ -166,16 +166,17 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
     ++steps_;
     t1_ = flag == CV_TSTOP_RETURN ? t_stop : t;
     length_ = t1_ - t0_;
-    standing_ =
-        length_ > 16.0 * std::numeric_limits<double>::epsilon() * std::abs(t0_) ? 0 : standing_ + 1;
-    if (standing_ > 100)
+    tiny_steps_ = length_ > 16.0 * std::numeric_limits<double>::epsilon() * std::abs(t0_)
+                      ? 0
+                      : tiny_steps_ + 1;
+    if (tiny_steps_ > 100)
       throw_step_too_small(*machine_, t0_, length_, x1_.data(),
-                           options_);  // CVODE itself would go on
+                           options_);  // CVODE would continue
     std::copy_n(N_VGetArrayPointer(y_.get()), n_, x1_.data());
   }
 
-  /// A guard that was at zero when this stretch began, found at zero again within the two steps of
-  /// order 1.
+  /// Whether a guard that was at zero when this stretch began may have a false root, because it was
+  /// found within the two steps of order 1.
   bool too_coarse() const {
     return steps_ < 2 && std::ranges::any_of(guards_->all(), [](const Guard& guard) {
              return guard.active && guard.at_zero() && !guard.monitor;
@@ -217,13 +218,13 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
   sun::Context context_;
   sun::Vector y_, dky_;
   sun::Nonlinear nonlinear_;
-  CvodeScene scene_;  // its linear system needs the context, and CVODE needs it
+  CvodeScene scene_;  // it needs the context, and CVODE needs it
   sun::Cvode cvode_;
   RungeKutta<Dopri5> starter_;
   bool started_ = false, starting_ = false;
   double first_step_ = 0.0, starter_until_ = 0.0;
-  int steps_ = 0;     // of CVODE since it was started
-  int standing_ = 0;  // steps in a row that drown in the rounding of t
+  int steps_ = 0;       // CVODE's steps since its start
+  int tiny_steps_ = 0;  // steps in a row within the rounding of t
   mutable SolverStatistics sum_;
 };
 

@@ -1,4 +1,4 @@
-// Groups of arguments, halved while calls tell which half a value reads.
+// Groups of arguments are halved, and calls find which half a value reads.
 #include "saltus/solver/detail/find_places.hpp"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace {
 /// Groups of neighbours, `size` arguments each, and the values that read some of them.
 class Groups {
  public:
-  /// One group that every value may read.
+  /// The first groups: one group that every value may read.
   explicit Groups(Index n) : n_(n), members_{0} {
     while (size_ < n) size_ *= 2;
     read_by_.rows.resize(static_cast<std::size_t>(n));
@@ -22,7 +22,7 @@ class Groups {
   }
 
   Index size() const { return size_; }
-  /// Each argument alone: column j of argument j.
+  /// The places, once each group is one argument: column j belongs to argument j.
   Sparsity places() const {
     Sparsity all;
     std::size_t group = 0;
@@ -41,7 +41,7 @@ class Groups {
     return groups >= 64 && 2 * read_by_.size() > groups * n_;
   }
 
-  /// Groups that no value reads together.
+  /// Colours the groups: no value reads two groups of one colour.
   Colouring apart() const {
     return colour({.places = read_by_,
                    .own = {},
@@ -49,7 +49,8 @@ class Groups {
                    .overflow = false});
   }
 
-  /// Splits every group in two; what reads neither half, or a half that nothing reads, is dropped.
+  /// Splits every group in two. Drops a value that reads neither half, and a half that no value
+  /// reads.
   Groups halved(const Colouring& together, const Response& response, int& calls) const {
     const auto groups = static_cast<std::size_t>(read_by_.columns());
     std::vector<std::vector<int>> halves(2 * groups);
@@ -91,7 +92,7 @@ class Groups {
 
   Index n_, size_ = 2;
   std::vector<int> members_;  // the first argument of each group
-  Sparsity read_by_;          // column: group
+  Sparsity read_by_;          // column k: the values that read group k
 };
 
 }  // namespace

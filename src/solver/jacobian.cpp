@@ -1,4 +1,4 @@
-// Compressed differences, and the leaves' own Jacobians.
+// Jacobian: compressed differences, and the leaves' own Jacobians.
 #include "saltus/solver/detail/jacobian.hpp"
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
 
-/// Where entry (row, column) stands in the pattern.
+/// Index of entry (row, column) in the pattern.
 Index entry_of(const Sparsity& places, Index row, Index column) {
   const auto rows = places.column(column);
   const auto found = std::ranges::lower_bound(rows, static_cast<int>(row));
@@ -46,7 +46,8 @@ void Jacobian::prepare() {
   for (auto* v : {&x_, &f_, &base_, &moved_}) v->resize(machine_->plan().nx);
 }
 
-/// Values by their declared order; else those of the dense block, column by column.
+/// Notes how the values of a leaf's own Jacobian are copied. They are in declared order, or they
+/// are a dense block, column by column.
 void Jacobian::add_own(int number) {
   const PlanLeaf& leaf = machine_->plan().leaves[static_cast<std::size_t>(number)];
   const ContinuousState& state = leaf.declared().continuous;
@@ -79,8 +80,9 @@ bool Jacobian::operator()(double t, const double* x, const double* xdot, const I
   return std::ranges::all_of(own_, [&](const Own& own) { return take(own, t, x, xdot, by, out); });
 }
 
-/// x_ becomes the state as it is seen; what the derivative is there. The one at hand has the speed
-/// of the surface in it, where something is carried.
+/// Copies the state, with carried blocks on their surfaces, to x_, and returns the derivative
+/// there. `xdot` cannot be used if a block is carried, because it contains the speed of the
+/// surface.
 const double* Jacobian::begin_at(double t, const double* x, const double* xdot) {
   std::copy_n(machine_->carried(t, x), x_.size(), x_.data());
   if (!machine_->carries()) return xdot;
@@ -88,7 +90,7 @@ const double* Jacobian::begin_at(double t, const double* x, const double* xdot) 
   return base_.data();
 }
 
-/// CVODE's: what makes the change of f about a thousand of its rounding errors, over the weight.
+/// CVODE's least increment, in weights: f changes by about a thousand of its rounding errors.
 double Jacobian::least_increment(const double* x, const double* xdot, const Increments& by) const {
   const Index n = x_.size();
   double sum = 0.0;
@@ -119,7 +121,7 @@ bool Jacobian::differences(double t, const double* x, const double* xdot, const 
     machine_->flow(t, x_.data(), f_.data());
     if (!f_.allFinite()) return false;
     for (const int j : colouring_.of(colour)) {
-      const double inverse = 1.0 / (x_[j] - moved_[j]);  // as it was rounded
+      const double inverse = 1.0 / (x_[j] - moved_[j]);  // the rounded increment
       x_[j] = moved_[j];
       const auto first = static_cast<std::size_t>(places.start[static_cast<std::size_t>(j)]),
                  last = static_cast<std::size_t>(places.start[static_cast<std::size_t>(j) + 1]);
@@ -155,8 +157,8 @@ bool Jacobian::explains(double t, const double* x, const double* xdot, const Inc
   return true;
 }
 
-/// J v with v = x_ - moved_, as it was rounded, and for each row what a sum of that size may be off
-/// by.
+/// Computes J v with v = x_ - moved_, which includes the rounding of x_, and for each row the error
+/// bound of that sum.
 void Jacobian::move_by_values(const double* values) {
   sum_.setZero(x_.size()), least_.setZero(x_.size());
   const Sparsity& places = pattern_.places;
@@ -192,8 +194,8 @@ bool Jacobian::take(const Own& own, double t, const double* x, const double* xdo
   return true;
 }
 
-/// Entries that are not finite, by differences of the leaf alone: it reads its own states nowhere
-/// else. False if these are not finite either.
+/// Replaces entries that are not finite by differences of the leaf alone, because its inputs do not
+/// depend on its own states. False if a difference is not finite either.
 bool Jacobian::mend(const Own& own, double t, const double* x, const double* xdot,
                     const Increments& by) {
   const PlanLeaf& leaf = machine_->plan().leaves[static_cast<std::size_t>(own.leaf)];
@@ -209,7 +211,7 @@ bool Jacobian::mend(const Own& own, double t, const double* x, const double* xdo
     if (std::exchange(column, bad.column) != bad.column) {
       const double before = x_[column];
       x_[column] += increment(before, least, by);
-      moved = x_[column] - before;  // as it was rounded
+      moved = x_[column] - before;  // the rounded increment
       ode_of(leaf, t, f_);
       x_[column] = before;
     }

@@ -1,4 +1,4 @@
-// The stepper that is unrolled for the size of a scene, or the general one.
+// The stepper unrolled for the number of states, or the general stepper.
 #pragma once
 
 #include "saltus/solver/detail/runge_kutta.hpp"

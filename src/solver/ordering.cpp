@@ -7,7 +7,7 @@ namespace saltus {
 
 namespace {
 
-/// Who stands in a row or column with whom.
+/// The graph of a matrix: states are neighbours if they share a place.
 class Graph {
  public:
   explicit Graph(const Sparsity& places) : neighbours_(static_cast<std::size_t>(places.columns())) {
@@ -32,8 +32,8 @@ class Graph {
   std::vector<std::vector<int>> neighbours_;
 };
 
-/// Breadth first from `root`, neighbours by rising degree; what is met is appended to `order`.
-/// Returns where the last level begins in it.
+/// Searches breadth first from `root`, neighbours by rising degree, and appends each state to
+/// `order`. Returns the index in `order` at which the last level begins.
 std::size_t search(const Graph& graph, int root, std::vector<char>& met, std::vector<int>& order) {
   std::size_t level = order.size(), next = order.size();
   order.push_back(root), met[static_cast<std::size_t>(root)] = 1;
@@ -52,7 +52,7 @@ std::size_t search(const Graph& graph, int root, std::vector<char>& met, std::ve
   return level;
 }
 
-/// A state at the rim of the component of `root`: the least connected of those furthest away.
+/// A state at the rim of the component of `root`: the least connected of the furthest states.
 int rim(const Graph& graph, int root, std::vector<char>& met, std::vector<int>& order) {
   for (int rounds = 0; rounds < 2; ++rounds) {
     const auto begin = order.size();

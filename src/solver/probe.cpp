@@ -1,4 +1,4 @@
-// Moving the states of one block and looking at its derivatives.
+// Probe: moves the states of one block and looks at its derivatives.
 #include "saltus/solver/detail/probe.hpp"
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace saltus {
 
 namespace {
 
-/// A smaller block is left full: its Jacobian by differences costs no more calls than the search.
+/// A smaller block counts as full: its Jacobian by differences costs no more calls than the search.
 constexpr Index small_block = 256;
 
 bool says_nothing(const PlanLeaf& leaf) {
@@ -20,7 +20,7 @@ bool says_nothing(const PlanLeaf& leaf) {
          !state.sparsity && !state.jacobian && !state.sparse_jacobian;
 }
 
-/// Whether it ran to its end; else the first line of what it threw goes into `message`.
+/// Runs a call. If it throws, returns false and copies the first line of the error to `message`.
 template <class Call>
 bool tried(Call call, std::string& message) {
   std::string what;
@@ -38,7 +38,7 @@ bool tried(Call call, std::string& message) {
   return false;
 }
 
-/// The derivatives of one block near (t, x), its inputs as they are there.
+/// The derivatives of one block near (t, x), with the inputs at (t, x).
 class Neighbourhood {
  public:
   Neighbourhood(Machine& machine, int leaf, double t, const double* x)
@@ -57,11 +57,11 @@ class Neighbourhood {
   Neighbourhood& operator=(const Neighbourhood&) = delete;
 
   struct Point {
-    double distance;       // of the sizes of the states
-    Eigen::VectorXd x, f;  // of the block
+    double distance;       // in sizes of the states
+    Eigen::VectorXd x, f;  // states and derivatives of the block
   };
 
-  /// Throws an Error if the derivative is not finite there.
+  /// A point at that distance. Throws an Error if the derivative is not finite there.
   Point point(double distance) {
     own() = here_;
     for (Index j = 0; j < leaf_.nx; ++j) move(j, distance);
@@ -70,7 +70,7 @@ class Neighbourhood {
     return {distance, own(), f_};
   }
 
-  /// Marks the derivatives that change with these states, and leaves the others as they are.
+  /// Marks the derivatives that change with these states, and leaves the other marks unchanged.
   void compare(const Point& from, std::span<const int> moved, std::vector<char>& changed) {
     own() = from.x;
     for (const int j : moved) move(j, from.distance);
@@ -82,7 +82,8 @@ class Neighbourhood {
  private:
   Eigen::VectorBlock<Eigen::VectorXd> own() { return x_.segment(leaf_.x, leaf_.nx); }
 
-  /// By half of the distance to all of it, another part each time: no two moves cancel.
+  /// Moves a state by a random part of the distance, from half of it to all of it, so that no two
+  /// moves cancel.
   void move(Index j, double distance) {
     const double part = 0.5 + 0.5 * std::ldexp(static_cast<double>(random_() >> 11), -53);
     x_[leaf_.x + j] += distance * part * sizes_[j];
@@ -96,13 +97,14 @@ class Neighbourhood {
   const PlanLeaf& leaf_;
   std::size_t number_;
   double t_;
-  Eigen::VectorXd x_;         // of all blocks
-  Eigen::VectorXd here_, f_;  // of this one
-  Eigen::VectorXd sizes_;     // of its states
+  Eigen::VectorXd x_;         // states of all blocks
+  Eigen::VectorXd here_, f_;  // of this block
+  Eigen::VectorXd sizes_;     // sizes of its states
   std::mt19937_64 random_{1};
 };
 
-/// What two points tell. The farther one is given up where the block throws or is not finite.
+/// Finds the places from two points. The farther point is dropped if the block throws there or is
+/// not finite.
 Places look_around(Neighbourhood& around, Index n, std::string& message) {
   const Neighbourhood::Point near = around.point(1e-4);
   std::optional<Neighbourhood::Point> far;
@@ -175,7 +177,7 @@ void Probe::give_up(const std::string& why) {
 
 std::string Probe::words() const {
   std::string out;
-  if (blocks_.empty() || blocks_.front().calls == 0) return out;  // nobody, or not asked
+  if (blocks_.empty() || blocks_.front().calls == 0) return out;  // no such block, or not searched
   constexpr std::size_t shown = 3;
   for (std::size_t k = 0; k < std::min(blocks_.size(), shown); ++k) {
     const Block& block = blocks_[k];

@@ -1,6 +1,6 @@
-// Vector operations written out for small systems, one set for each length. A call of SUNDIALS'
-// serial vectors goes through two tables and a general loop; for a few states that costs more than
-// the arithmetic. The content stays that of the serial vector.
+// Vector operations for small systems, one set for each length. A call of SUNDIALS' serial vectors
+// passes through two tables and a general loop, which costs more than the arithmetic for a few
+// states. The data layout is that of the serial vector.
 #pragma once
 
 #include <cmath>
@@ -12,7 +12,7 @@ namespace saltus::sun {
 
 inline double* data(N_Vector v) { return static_cast<N_VectorContent_Serial>(v->content)->data; }
 
-/// The operations on vectors of length n: the compiler knows it and unrolls.
+/// The operations on vectors of length n. The compiler knows n and unrolls the loops.
 template <int n>
 struct Small {
   static void linear_sum(double a, N_Vector x, double b, N_Vector y, N_Vector z) {
@@ -80,10 +80,10 @@ struct Small {
   }
 };
 
-/// From sixteen states on the general operations are as fast.
+/// The general operations are as fast from sixteen states on.
 constexpr int small_size = 16;
 
-/// Puts them into a vector; its clones inherit them.
+/// Gives a vector these operations; its clones inherit them.
 inline void use_small_operations(N_Vector v) {
   const auto n = N_VGetLength(v);
   [n, v]<int... i>(std::integer_sequence<int, i...>) {

@@ -1,4 +1,4 @@
-// The differences between SUNDIALS 6.2 to 6.x and 7.x, in one place; and owners for its C handles.
+// The differences between SUNDIALS 6.2 to 6.x and 7.x, and owners for its C handles.
 #pragma once
 
 #include <memory>
@@ -53,19 +53,19 @@ using Linear = Owner<SUNLinearSolver, FreeLinear>;
 using Nonlinear = Owner<SUNNonlinearSolver, FreeNonlinear>;
 using Cvode = Owner<void*, FreeCvode>;
 
-/// A context that prints nothing; one for each solver, never shared between threads.
+/// A context that prints nothing. Each solver has its own, because threads may not share one.
 inline Context make_context() {
   SUNContext context = nullptr;
 #if SUNDIALS_VERSION_MAJOR >= 7
   if (SUNContext_Create(SUN_COMM_NULL, &context) != 0) return nullptr;
-  SUNContext_ClearErrHandlers(context);  // the default one prints
+  SUNContext_ClearErrHandlers(context);  // the default handler prints
 #else
   if (SUNContext_Create(nullptr, &context) != 0) return nullptr;
 #endif
   return Context(context);
 }
 
-/// Takes an error's text: `sink(message, user)`.
+/// Receives the text of an error: `sink(message, user)`.
 using ErrorSink = void (*)(const char* message, void* user);
 
 struct ErrorHook {

@@ -8,8 +8,8 @@ namespace saltus {
 
 namespace {
 
-/// Entry (i, j) stands at offset lower + upper + i - j of column j; `lower` rows above the band
-/// take what pivoting brings in (LAPACK's layout and dgbtf2: E. Anderson et al., LAPACK Users'
+/// Entry (i, j) is at offset lower + upper + i - j of column j; `lower` rows above the band take
+/// the entries that pivoting adds (LAPACK's layout and dgbtf2: E. Anderson et al., LAPACK Users'
 /// Guide, 3rd ed., 1999, section 5.3.3). The diagonal keeps the reciprocals of the pivots.
 class Band final : public Factorisation {
  public:
@@ -25,7 +25,7 @@ class Band final : public Factorisation {
 
   bool factor(double* a) override {
     a_ = a;
-    Index last = 0;  // column that the rows met so far reach to
+    Index last = 0;  // the last column of the rows so far
     for (Index j = 0; j < n_; ++j) {
       double* column = diagonal(j);
       const Index below = std::min(lower_, n_ - 1 - j);
@@ -79,7 +79,7 @@ class Band final : public Factorisation {
   Index n_, lower_, reach_, height_, upper_;
   double* a_ = nullptr;
   std::vector<Index> pivots_;
-  std::vector<int> position_;  // of each state; empty: as it is
+  std::vector<int> position_;  // of each state; empty: natural order
   std::vector<double> moved_;
 };
 

@@ -1,4 +1,4 @@
-// The rule: estimated time of one factorisation by each solver.
+// The choice of a linear solver, by the estimated time of one factorisation.
 #include "choice.hpp"
 
 #include <cmath>
@@ -9,8 +9,8 @@ namespace saltus {
 
 namespace {
 
-// Times of one factorisation and its solves in nanoseconds, fitted to bench/linear_solvers; what
-// counts is where they cross.
+// Times of one factorisation and its solves in nanoseconds, fitted to bench/linear_solvers. Only
+// the sizes at which they cross matter.
 double dense_time(double n) { return 0.06 * n * n * n + 3.0 * n * n; }
 double band_time(double n, const Bandwidth& band) {
   const auto lower = static_cast<double>(band.lower), upper = static_cast<double>(band.upper);
@@ -19,10 +19,11 @@ double band_time(double n, const Bandwidth& band) {
 double sparse_time(double n, const Fill& fill) {
   return 300.0 * n + 15.0 * fill.entries + 1.0 * fill.operations;
 }
-/// Three times what was measured: how many iterations GMRES will need is not known beforehand.
+/// The estimate is three times the measured time, because the number of GMRES iterations is not
+/// known beforehand.
 double gmres_time(Index places) { return 3.0 * 150.0 * static_cast<double>(places); }
 
-/// A factor of more entries is not counted to its end.
+/// The count of the entries of a factor stops here.
 constexpr double most_entries = 2e7;
 
 std::string facts(const Jacobian& jacobian, Index n, const LinearChoice& choice) {
@@ -38,7 +39,7 @@ std::string facts(const Jacobian& jacobian, Index n, const LinearChoice& choice)
   return out;
 }
 
-/// The natural order unless another one makes the band narrower by far.
+/// Keeps the natural order unless another order makes the band much narrower.
 void find_band(const Sparsity& places, LinearChoice& choice) {
   choice.band = bandwidth(places), choice.position.clear();
   if (choice.band.total() <= 8) return;

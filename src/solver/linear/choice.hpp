@@ -1,4 +1,4 @@
-// Which linear solver suits a pattern.
+// The choice of the linear solver for a pattern.
 #pragma once
 
 #include <string>
@@ -12,12 +12,12 @@ namespace saltus {
 struct LinearChoice {
   LinearSolver solver = LinearSolver::dense;
   Bandwidth band = {};
-  std::vector<int> position = {};  // of each state in the band; empty: as it is
+  std::vector<int> position = {};  // of each state in the band; empty: natural order
   std::string why = {};            // "n = 20, ..."
 };
 
-/// The one that was asked for, or for automatic the one that is expected to be the fastest; docs:
-/// choosing_a_solver.md.
+/// Chooses the requested solver; for `automatic` the solver with the least estimated time (docs:
+/// choosing_a_solver.md).
 LinearChoice choose_linear_solver(const Jacobian& jacobian, Index n, LinearSolver asked);
 
 }  // namespace saltus

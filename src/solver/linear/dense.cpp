@@ -11,9 +11,9 @@ namespace saltus {
 
 namespace {
 
-/// In place, column by column (G. H. Golub, C. F. Van Loan, Matrix Computations, 4th ed., algorithm
-/// 3.4.1). The diagonal keeps the reciprocals of the pivots. With a fixed size the compiler
-/// unrolls; 0: known when it is made.
+/// Factorises in place, column by column (G. H. Golub, C. F. Van Loan, Matrix Computations, 4th
+/// ed., algorithm 3.4.1). The diagonal keeps the reciprocals of the pivots. With a fixed size the
+/// compiler unrolls the loops; size 0 is known at run time only.
 template <int fixed>
 class SmallDense final : public Factorisation {
  public:
@@ -81,7 +81,7 @@ class LargeDense final : public Factorisation {
   Eigen::PartialPivLU<Eigen::MatrixXd> lu_;
 };
 
-/// From here on Eigen's blocks are faster (bench/linear_solvers).
+/// Eigen's blocks are faster from this size on (bench/linear_solvers).
 constexpr Index large = 48;
 
 }  // namespace

@@ -21,7 +21,7 @@ SUNMatrix clone(SUNMatrix matrix) {
   try {
     return make_matrix(*content_of(matrix).layout, matrix->sunctx).release();
   } catch (...) {
-    return nullptr;  // SUNDIALS reports it as its own lack of memory
+    return nullptr;  // SUNDIALS reports a lack of memory
   }
 }
 
@@ -58,7 +58,8 @@ SolverContent& content_of(SUNLinearSolver solver) {
   return *static_cast<SolverContent*>(solver->content);
 }
 
-/// 1, recoverable: CVODE tries again with a shorter step and a new Jacobian.
+/// A singular matrix is the recoverable error 1: CVODE tries again with a shorter step and a new
+/// Jacobian.
 int setup(SUNLinearSolver solver, SUNMatrix matrix) {
   const SolverContent& content = content_of(solver);
   try {

@@ -1,4 +1,4 @@
-// A Factorisation and its matrix behind SUNDIALS's interfaces, of 6.x and 7.x alike.
+// A Factorisation and its matrix, with the interfaces of SUNDIALS 6.x and 7.x.
 #pragma once
 
 #include <exception>
@@ -8,12 +8,12 @@
 
 namespace saltus::sun {
 
-/// The matrix of a layout, which has to outlive it. It can become zero, a copy, and c A + I: all
-/// that CVODE asks.
+/// The matrix of a layout, which has to outlive it. It can become zero, a copy, and c A + I; CVODE
+/// needs no more.
 Matrix make_matrix(const MatrixLayout& layout, SUNContext context);
 double* values_of(SUNMatrix matrix);
 
-/// Solves with such a matrix. What is thrown meanwhile is kept in `error`.
+/// A linear solver for such a matrix. It keeps an exception in `error`.
 Linear make_direct(Factorisation& factorisation, std::exception_ptr& error, SUNContext context);
 
 }  // namespace saltus::sun

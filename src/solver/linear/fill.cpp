@@ -17,7 +17,7 @@ Fill predicted_fill(const Sparsity& places, double most) {
   const Eigen::VectorXi position = inverse.indices();
 
   const auto n = static_cast<std::size_t>(places.columns());
-  std::vector<std::vector<int>> before(n);  // of each state in that order: those it meets
+  std::vector<std::vector<int>> before(n);  // the earlier neighbours of each state, in that order
   for (int j = 0; j < places.columns(); ++j) {
     for (const int i : places.column(j)) {
       const auto [first, last] = std::minmax(position[i], position[j]);

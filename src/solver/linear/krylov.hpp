@@ -8,14 +8,14 @@
 
 namespace saltus {
 
-/// Drops what is small and keeps the largest of each row (Y. Saad, "ILUT: a dual threshold
+/// Drops small entries and keeps the largest entries of each row (Y. Saad, "ILUT: a dual threshold
 /// incomplete LU factorization", Numer. Linear Algebra Appl. 1 (1994) 387).
 class Preconditioner {
  public:
   explicit Preconditioner(const Sparsity& places);
 
   double* jacobian() { return jacobian_.data(); }
-  /// False if a pivot is zero.
+  /// Factorises. False if a pivot is zero.
   bool factor(double gamma);
   void solve(const double* r, double* z);
 

@@ -9,9 +9,10 @@ namespace saltus {
 
 namespace {
 
-/// CVODE takes a residual that was reduced, but not to its tolerance, for a solution in the first
-/// iteration of Newton's method; the correction is too small then, and the test of convergence,
-/// which looks at its size, passes. Here the step is tried again, shorter.
+/// In the first iteration of Newton's method, CVODE accepts a residual that was reduced, but not to
+/// its tolerance. The correction is too small then, and the test of convergence passes, because it
+/// looks at the size of the correction. This function fails instead, so that CVODE tries a shorter
+/// step.
 int solve_or_fail(SUNLinearSolver solver, SUNMatrix matrix, N_Vector x, N_Vector b,
                   double tolerance) {
   const int flag = SUNLinSolSolve_SPGMR(solver, matrix, x, b, tolerance);
@@ -49,8 +50,8 @@ bool LinearSystem::renew(int flag) {
   return true;
 }
 
-/// Places told by calls near one state may be too few near another. A false alarm, at a kink or by
-/// rounding, doubles the time to the next look.
+/// Whether the probe found new places. The places found near one state may be too few near another.
+/// A false alarm, by a kink or by rounding, doubles the time to the next look.
 bool LinearSystem::doubtful(double t, const double* x, const double* xdot, const double* values) {
   if (probe_.found().empty() || --until_check_ > 0) return false;
   const bool explained = jacobian_->explains(t, x, xdot, increments(), values);
@@ -87,9 +88,9 @@ void LinearSystem::attach(void* cvode, N_Vector y, SUNContext context, const Cal
     if (machine_->plan().nx <= small) refresh_often();
     return;
   }
-  // On the right, so that GMRES judges the residual itself: seen through a preconditioner on the
-  // left that is far off, a step without any correction looks converged.
-  constexpr int directions = 20;  // of the Krylov space, before it is left
+  // The preconditioner is on the right, so that GMRES tests the residual itself. With an inaccurate
+  // preconditioner on the left, a step without any correction looks converged.
+  constexpr int directions = 20;  // of the Krylov space, at most
   linear_.reset(
       SUNLinSol_SPGMR(y, preconditioner_ ? SUN_PREC_RIGHT : SUN_PREC_NONE, directions, context));
   if (!linear_) throw Error("SUNDIALS: out of memory");
@@ -98,11 +99,11 @@ void LinearSystem::attach(void* cvode, N_Vector y, SUNContext context, const Cal
   if (preconditioner_) CVodeSetPreconditioner(cvode, callbacks.prepare, callbacks.precondition);
 }
 
-/// With a Jacobian fifty steps old Newton's corrections may be too small by as much as an
-/// eigenvalue has moved since, and the test of convergence, which looks at their size, passes all
-/// the same: the Oregonator left its slow manifold by a hundred tolerances and failed in 62 of 200
-/// runs at rtol 1e-4. For a small system a new one costs about a call or two of the right-hand
-/// side.
+/// Renews the Jacobian often. With a Jacobian fifty steps old, Newton's corrections may be too
+/// small by as much as an eigenvalue has moved since. The test of convergence still passes, because
+/// it looks at their size: the Oregonator left its slow manifold by a hundred tolerances and failed
+/// in 62 of 200 runs at rtol 1e-4. For a small system a new Jacobian costs about one or two calls
+/// of the right-hand side.
 void LinearSystem::refresh_often() {
   CVodeSetJacEvalFrequency(cvode_, 1);
   CVodeSetLSetupFrequency(cvode_, 5);

@@ -1,5 +1,5 @@
-// What BDF needs for its Newton iteration: a Jacobian, a matrix and a linear solver, as the scene
-// asks for them.
+// The linear system of BDF's Newton iteration: a Jacobian, a matrix and a linear solver that suit
+// the scene.
 #pragma once
 
 #include <optional>
@@ -14,12 +14,12 @@ namespace saltus {
 
 class LinearSystem {
  public:
-  /// For a run that starts at (t, x). What is thrown inside SUNDIALS is kept in `error`. Throws
-  /// ModelError for a sparsity that cannot be.
+  /// The system of a run that starts at (t, x). Exceptions inside SUNDIALS are kept in `error`.
+  /// Throws ModelError for an impossible sparsity.
   LinearSystem(Machine& machine, const SolverOptions& options, std::exception_ptr& error, double t,
                const double* x);
 
-  /// Functions that are to call ours.
+  /// C functions that have to call the members of this class.
   struct Callbacks {
     CVLsJacFn jacobian;
     CVLsPrecSetupFn prepare;
@@ -28,16 +28,16 @@ class LinearSystem {
   /// Gives CVODE its linear solver.
   void attach(void* cvode, N_Vector y, SUNContext context, const Callbacks& callbacks);
 
-  /// After a step that failed with this flag of CVODE: whether the system is another one now, to
-  /// be attached anew, since places it had been told by calls were not all there are.
+  /// Handles a step that failed with this flag of CVODE. True if the system was built anew, because
+  /// the probe had missed places; then it has to be attached again.
   bool renew(int flag);
 
-  // What CVODE calls: 0 well, 1 try a shorter step, -1 renew.
+  // CVODE calls these. They return 0 for success, 1 for a shorter step, -1 to renew the system.
   int jacobian(double t, N_Vector x, N_Vector xdot, SUNMatrix out);
   int prepare(double t, N_Vector x, N_Vector xdot, bool keep, bool& renewed, double gamma);
   int precondition(N_Vector r, N_Vector z);
 
-  /// Which solver and why, in words; put together again only where that has changed.
+  /// The solver and the reason, in words. The text is made again only if it has changed.
   const std::string& describe() const;
 
  private:
@@ -53,13 +53,13 @@ class LinearSystem {
   std::exception_ptr* error_;
   void* cvode_ = nullptr;
   Probe probe_;
-  bool news_ = false;  // of the probe, not yet built in
+  bool news_ = false;  // the probe has found places that are not built in yet
   int renewals_ = 0;
-  int wait_ = 1, until_check_ = 1;  // Jacobians from one look at the probe's places to the next
+  int wait_ = 1, until_check_ = 1;  // Jacobians between two checks of the probe's places
   std::optional<Jacobian> jacobian_;
   LinearChoice choice_;
   mutable std::string words_;
-  mutable int told_ = 0;  // evaluations of Jacobians that were mended, as words_ has it
+  mutable int told_ = 0;  // count of mended Jacobians in words_
   MatrixLayout layout_;
   std::unique_ptr<Factorisation> factorisation_;
   std::optional<Preconditioner> preconditioner_;

@@ -9,9 +9,10 @@ namespace saltus {
 
 namespace {
 
-/// The places are analysed once, columns in COLAMD's order; each factorisation has its own pivots.
-/// (J. W. Demmel et al., "A supernodal approach to sparse partial pivoting", SIAM J. Matrix Anal.
-/// Appl. 20 (1999) 720; T. A. Davis et al., "Algorithm 836: COLAMD", ACM TOMS 30 (2004) 377.)
+/// The places are analysed once, with the columns in COLAMD's order. Each factorisation chooses its
+/// own pivots. (J. W. Demmel et al., "A supernodal approach to sparse partial pivoting", SIAM J.
+/// Matrix Anal. Appl. 20 (1999) 720; T. A. Davis et al., "Algorithm 836: COLAMD", ACM TOMS 30
+/// (2004) 377.)
 class Sparse final : public Factorisation {
  public:
   explicit Sparse(const Sparsity& places)

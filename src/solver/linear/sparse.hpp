@@ -1,4 +1,4 @@
-// A pattern as Eigen's matrix of columns.
+// A pattern as a sparse matrix of Eigen.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace saltus {
 
 using SparseColumns = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
 
-/// The matrix of these places, all ones; its values stand in the order of the pattern.
+/// The matrix with a one at each of these places. Its values are in the order of the pattern.
 inline SparseColumns sparse_matrix(const Sparsity& places) {
   const auto n = places.columns();
   SparseColumns matrix(n, n);

@@ -29,7 +29,7 @@ struct SurfaceContact {
   std::vector<Index> states = {};  // entries of x that rest
 };
 
-/// On a moving surface the state at rest is the fixed point of the reset maps at that time, x =
+/// The state at rest on a moving surface is the fixed point of the reset maps at that time, x =
 /// R(t, x): height and speed of the surface. It is found by Aitken's extrapolation entry by entry
 /// (A. C. Aitken, Proc. R. Soc. Edinb. 46 (1926) 289), exact where a reset map is affine, as laws
 /// of impact are. The contact ends when the free flow from there leads off the surface.

@@ -66,7 +66,7 @@ struct CrossingFacts {
 ///     fired in this instant                                    yes
 ///     at zero, or within its error while it waits              yes, unless it waits and nothing
 ///                                                              was written: dormant as before
-///     mode just entered, within what rounding leaves           yes
+///     mode just entered, within `uncertainty()`                yes
 ///     otherwise                                                no: it keeps the side it has
 template <class Uncertainty>
 bool needs_flow(const CrossingFacts& guard, const Uncertainty& uncertainty) {

@@ -67,7 +67,7 @@ class Departure {
   Side of(const GuardGroup& group, Index slot, double error, int expected) {
     const Side side = follow(group, slot, error, expected);
     if (side.side != 0 || group.kind == GuardGroup::Kind::opaque) return side;
-    fine_ = true;  // what a chain of more than two integrators does shows at higher order only
+    fine_ = true;  // a chain of more than two integrators shows at higher order only
     const Side finer = follow(group, slot, error, expected);
     fine_ = false;
     return finer;

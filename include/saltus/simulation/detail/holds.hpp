@@ -37,7 +37,7 @@ class Holds {
   /// Whether the present pass, not yet committed, has written the states that rest.
   bool kicked(const Hold& hold) const;
 
-  /// Does what the author of a guard chose for a Zeno point: its firings accumulate, or its flow
+  /// Acts on a Zeno point as the author of the guard chose: its firings accumulate, or its flow
   /// leads straight back. `in_pass`: the modes to come may still be written.
   void come_to_rest(Hold& hold, double predicted, bool in_pass);
   void release(Hold& hold);

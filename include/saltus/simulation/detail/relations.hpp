@@ -17,7 +17,7 @@ class Relations {
   /// A root was found: the relation takes the side of its crossing, because its value there may be
   /// exactly zero.
   void flip(const Firing& firing);
-  /// After a commit: held outputs and truths follow what was written.
+  /// Held outputs and truths follow the writes of a commit.
   void read_again();
   /// Sets the side on which a relation continues when integration does.
   void arm(std::size_t k);

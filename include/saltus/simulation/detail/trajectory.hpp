@@ -38,7 +38,7 @@ class Trajectory {
   struct Held {
     Eigen::VectorXd z, y;  // y: of `held_nodes`, one after the other
     std::vector<int> modes;
-    std::vector<SurfaceContact> contacts;  // those that carry
+    std::vector<SurfaceContact> contacts;  // the contacts that carry
   };
   /// The place to read: a piece, or one of the two ends.
   struct Spot {

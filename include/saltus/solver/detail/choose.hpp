@@ -1,4 +1,4 @@
-// From the name of a method to a solver.
+// The choice of the solver for a method.
 #pragma once
 
 #include <memory>

@@ -1,4 +1,4 @@
-// CVODE as a Solver. Only files under src/ include SUNDIALS headers.
+// CVODE as a Solver. Only files under src/ include the headers of SUNDIALS.
 #pragma once
 
 #include <memory>

@@ -43,10 +43,10 @@ struct GuardTraits {
 /// The record of one guard. GuardSet is its only writer.
 ///
 ///     phase      side        error
-///     unseen     0           of an earlier stay in its mode
+///     unseen     0           from an earlier stay in its mode
 ///     armed      +1, -1      0; above 0 until the next look where a guard fires by decision
-///     waiting    +1, -1, 0   what counts as zero; side 0: the one it leaves to
-///     resting    +1, -1, 0   what counts as zero
+///     waiting    +1, -1, 0   the guard counts as zero within it; side 0: the side it leaves to
+///     resting    +1, -1, 0   the guard counts as zero within it
 ///     carried    -1          0
 struct Guard : GuardTraits {
   Phase phase = Phase::unseen;

@@ -13,7 +13,7 @@ namespace saltus {
 
 /// Coefficients of one method, all constexpr:
 /// - stages: how many; the last is f(t + h, x1), the first of the next step
-/// - rows: stages, and those that only the dense output needs, computed when it is asked for
+/// - rows: stages, and the stages for the dense output only, computed at its first use
 /// - a[i][j], c[i]: stage i reads x0 + h sum_j a[i][j] k_j at t + c[i] h; row stages - 1 gives x1
 /// - e[m][j]: error estimate m is h sum_j e[m][j] k_j
 /// - error(squares): the error, from the mean squares of the estimates
