@@ -30,10 +30,10 @@ SurfaceContact& Contacts::add(int slot) {
   remove(slot);
   present_.push_back(slot);
   SurfaceContact& contact = of_slot_[static_cast<std::size_t>(slot)];
-  SurfaceContact fresh{.slot = slot};
-  fresh.members.swap(contact.members), fresh.states.swap(contact.states);
-  fresh.members.clear(), fresh.states.clear();
-  return contact = std::move(fresh);
+  SurfaceContact made{.slot = slot};
+  made.members.swap(contact.members), made.states.swap(contact.states);
+  made.members.clear(), made.states.clear();
+  return contact = std::move(made);
 }
 
 void Contacts::remove(int slot) { std::erase(present_, slot); }

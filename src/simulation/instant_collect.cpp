@@ -7,8 +7,8 @@ namespace saltus {
 
 namespace {
 
-/// Sorts actions by leaf. Within a leaf updates come first: they read x- z-, and a reset does not
-/// overwrite their results. The order is stable, and the sort allocates nothing.
+/// Sorts actions by leaf. Within a leaf updates come first: they read x- z-, and a reset map that
+/// follows sees their results. The order is stable, and the sort allocates nothing.
 void sort(std::vector<Action>& actions) {
   const auto rank = [](Cause cause) { return cause == Cause::time ? -1 : static_cast<int>(cause); };
   const auto before = [&](const Action& a, const Action& b) {

@@ -76,7 +76,7 @@ struct Present {
   Outcome outcome = {};
 
   void fire(std::size_t k, int from) { firings.push_back({static_cast<int>(k), from}); }
-  /// [s] A shorter flight drowns in the rounding of the time.
+  /// [s] A shorter flight is within the rounding of the time.
   double least_time() const { return thresholds::time_roundings * thresholds::eps * std::abs(t); }
   /// How far from zero the location of a root left a guard. A guard that fired on leaving its error
   /// keeps that error instead: errors made from errors would grow without end.

@@ -152,7 +152,7 @@ class AutoSolver final : public Solver {
   double longest_ = 0.0;   // [s] longest step since the last restart, change of method or check
   double window_ = 0.0;    // [s] longest of the fifty steps before the last check
   double before_ = 0.0;    // [s] longest step before the last restart
-  bool unchecked_ = true;  // no step was checked since then
+  bool unchecked_ = true;  // no step was checked since the last restart or change
   int steps_ = 0;          // since the last restart or change
   int not_stiff_ = 0, patience_ = 2;
   Eigen::VectorXd handed_over_;  // the state at a change

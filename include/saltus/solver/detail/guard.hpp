@@ -56,7 +56,7 @@ struct Guard : GuardTraits {
   bool was_active = false;      ///< could fire in the modes before
   bool rests = false;           ///< a relation that keeps its truth while its blocks rest
   double error = 0.0;           ///< the guard is at zero within it
-  double base = 0.0;            ///< edge_detection: its last value
+  double base = 0.0;            ///< edge_detection: fires at any other value
   double armed_at = not_armed;  ///< [s] when it began to wait after a firing
 
   /// The direction in which it is watched: the direction of the lift while its block is carried.
@@ -112,7 +112,7 @@ struct Guard : GuardTraits {
     error = 0.0;
   }
 
-  /// The side, if the guard fires exactly when it leaves that side; otherwise 0.
+  /// The side, if only staying on it matters for this guard; otherwise 0.
   double plain_side() const noexcept {
     return waits() || watched_direction() == Direction::edge_detection ? 0.0 : side;
   }

@@ -91,7 +91,7 @@ class GuardSet {
   /// Sets the side to which a guard leaves zero; 0: it is exactly on zero.
   void leave_to(std::size_t k, int side) { guards_[k].turn(side); }
 
-  std::vector<double> g;              ///< values at the last time looked at
+  std::vector<double> g;              ///< values at the last look
   std::vector<Firing> fired_at_root;  ///< the guards that crossed at the last root
   std::vector<MonitorHit> monitors;   ///< crossings of monitors in the last advance
   int scan_points = 3;                ///< interior points of a step with a look at the guards
