@@ -91,7 +91,7 @@ struct Arming {
 /// Decides about a guard at zero that has not fired. A guard with an effect is in contact if the
 /// flow takes it to its firing side. It fires at once if the run begins so, or if a reset just
 /// turned the flow round. All other guards wait until they have been clearly off zero (2.3). If the
-/// flow keeps a guard at zero, the guard is dormant (2.6): it keeps its armed side.
+/// flow keeps a guard with an effect at zero, the guard is dormant (2.6): it keeps its armed side.
 ///
 ///     effect  flow to        begins or turned   then     waits on
 ///     yes     firing side    yes                fire     the flow's side
@@ -104,7 +104,7 @@ struct Arming {
 ///
 /// A guard of either direction is in contact at the start only if its slope is zero and the flow
 /// leads down. A reset turns the flow round only for a guard that is not on its firing side
-/// already. A guard with edge_detection has no side, and its record does not change.
+/// already. A guard with edge_detection has no side, and it keeps its phase.
 template <class Ask>
 Arming decide_at_zero(const CrossingFacts& guard, FlowSide flow, const Ask& ask) {
   if (guard.direction == Direction::edge_detection) return {};
@@ -139,8 +139,8 @@ Arming decide_at_zero(const CrossingFacts& guard, FlowSide flow, const Ask& ask)
 ///     yes         off              -                  go on; waits on the flow's side
 ///     no          -                -                  go on; waits on the flow's side
 ///
-/// If the flow keeps it at zero, it waits on the side it came from, provided that it has a reset map
-/// and some reset map of this instant wrote; otherwise it waits on no side.
+/// If the flow keeps it at zero, it waits on the side it came from, if it has a reset map and some
+/// reset map of this instant wrote; otherwise it waits on no side.
 template <class Ask>
 Arming decide_fired(const CrossingFacts& guard, FlowSide flow, const Ask& ask) {
   const int from = guard.came_from;
