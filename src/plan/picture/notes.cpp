@@ -71,8 +71,7 @@ std::vector<std::string> notes_of(const LeafSystem& leaf, const Plan* plan, int 
   for (const TimeEvent& event : d.time_events) notes.push_back(words_of(event));
   if (plan == nullptr) return notes;
   for (const GuardGroup& guard : plan->guards) {
-    if (guard.leaf == number && guard.is_opaque())
-      notes.emplace_back("located by bisection");
+    if (guard.leaf == number && guard.is_opaque()) notes.emplace_back("located by bisection");
   }
   return notes;
 }
