@@ -1,5 +1,5 @@
 // Guards that touch zero, stay at zero, or cross it twice in a step; scale and direction.
-#include "support/leaves.hpp"
+#include "support/watcher.hpp"
 
 using namespace saltus;
 using namespace support;
@@ -8,25 +8,6 @@ using Catch::Matchers::WithinAbs;
 namespace {
 
 const double pi = std::acos(-1.0);
-
-/// A clock x = t with one counted guard.
-template <class Guard>
-Leaf watcher(Guard guard, Direction direction = Direction::crosses_zero) {
-  return Leaf("leaf", [=](Leaf& l) {
-    declare_ramp(l);
-    l.declare_discrete_state(vec({0.0}));
-    l.declare_zero_crossing(
-        {.name = "hit", .guard = guard, .reset_map = count_up, .direction = direction});
-  });
-}
-
-std::vector<double> hits(const Leaf& leaf, double end, const char* method,
-                         double max_step = infinite) {
-  const auto results = simulate(
-      leaf, leaf.create_context(), {0.0, end},
-      {.rtol = 1e-9, .atol = 1e-11, .ode_solver_method = method, .max_minor_step_size = max_step});
-  return results.events.times("hit");
-}
 
 }  // namespace
 
