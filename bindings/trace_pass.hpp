@@ -20,7 +20,7 @@ class TracePass final : public Refinement {
 
   std::shared_ptr<const Declarations> before(const LeafSystem& leaf) override;
   std::shared_ptr<const Declarations> with_shapes(const Plan& plan, const PlanLeaf& leaf) override;
-  /// One that needs no interpreter, with a copy of the traces. All blocks are traced.
+  /// A pass that needs no interpreter, with a copy of the traces. All blocks are traced.
   std::shared_ptr<TracePass> of_known() const {
     return std::make_shared<TracePass>(std::make_shared<Traces>(*traces_), py::object());
   }

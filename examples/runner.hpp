@@ -20,7 +20,7 @@ struct Settings {
   std::string method = "auto";
   std::string csv = {}, json = {};
   bool report = false;
-  std::vector<std::string> methods = {};  // of the report; empty: those that suit the scene
+  std::vector<std::string> methods = {};  // of the report; empty: all that suit the scene
   std::vector<double> rtols = saltus::WorkOptions().rtols;
 };
 

@@ -40,7 +40,7 @@ struct PlanLeaf {
   std::vector<Place> input_places = {};
   std::vector<int> outputs = {};    // the node of each output
   std::vector<int> relations = {};  // the node of each relation
-  /// The declarations of the system, or those that a Refinement gave in their place.
+  /// The declarations of the system, or the declarations with which a Refinement replaced them.
   std::shared_ptr<const Declarations> declarations = {};
 
   const Declarations& declared() const { return *declarations; }

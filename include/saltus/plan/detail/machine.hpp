@@ -83,7 +83,7 @@ class Machine : public Memory {
   /// Computes the held outputs, and the values that resets, updates and edges read, at (t, x) of
   /// the machine.
   void evaluate_instant(double t) { run(calls_.instants, t, x.data()); }
-  /// Of these values, computes again those that change between instants too, at (t, x).
+  /// Computes again, at (t, x), the part of these values that also changes between instants.
   void evaluate_moving(double t, const double* state) { run(calls_.moving, t, state); }
   /// Computes the values that the recorded rows show, at (t, x), and returns where they are.
   Values evaluate_taps(double t, const double* state) {
