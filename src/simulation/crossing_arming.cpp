@@ -31,6 +31,7 @@ CrossingFacts CrossingArming::facts_of(std::size_t k, bool at_start) const {
           .error = guard.error,
           .at_start = at_start,
           .entered = transition_->entered_mode() && !guard.was_active,
+          .put_at_zero = present_->now[k].put_at_zero,
           .fired = present_->now[k].fired,
           .came_from = guard.came_from,
           .effect = crossing.has_effect(),
@@ -70,19 +71,29 @@ void CrossingArming::arm(std::size_t k, bool at_start) {
   const auto slot = static_cast<Index>(k);
   const CrossingFacts facts = facts_of(k, at_start);
   if (!facts.fired && (at_start || facts.entered) && begins_as_wished(group, k)) return;
-  // A guard is also at zero if it moves no further than this within the rounding of the time.
-  const auto uncertainty = [&] {
-    const double time = thresholds::location_roundings * thresholds::eps * std::abs(present_->t);
-    const double moved = time * std::abs(flow_->slope(group, slot));
-    return flow_->rounding(slot) + moved;
-  };
-  if (!needs_flow(facts, uncertainty)) return;
+  if (!needs_flow(facts, [&] { return uncertainty(k); })) return;
   const double error = facts.fired ? present_->location_error(k)
-                       : facts.entered || facts.phase == Phase::waiting ? std::abs(facts.g)
-                                                                        : 0.0;
+                       : facts.entered || facts.put_at_zero || facts.phase == Phase::waiting
+                           ? std::abs(facts.g)
+                           : 0.0;
   const Departure::Side flow = flow_->side(group, slot, error, facts.fired ? facts.came_from : 0);
   const Ask ask{this, &group, k, facts.came_from, flow.rounding};
   carry_out(k, decide_crossing(facts, {flow.side, flow.rounding}, ask), flow.rounding);
+}
+
+/// The error of a guard at the present state by the rounding of the states and of the time: its own
+/// rounding, and its movement within the resolution of the time.
+double CrossingArming::uncertainty(std::size_t k) {
+  const double time = thresholds::location_roundings * thresholds::eps * std::abs(present_->t);
+  const double moved = time * std::abs(flow_->slope(group_of(k), static_cast<Index>(k)));
+  return flow_->rounding(static_cast<Index>(k)) + moved;
+}
+
+bool CrossingArming::is_at_zero(std::size_t k) {
+  if ((*guards_)[k].direction == Direction::edge_detection) return false;
+  const double g = present_->g[k], moved = std::abs(g - guards_->g[k]);
+  if (g == 0.0) return true;
+  return std::abs(g) <= thresholds::clearly_across * moved && std::abs(g) <= uncertainty(k);
 }
 
 /// Obeys the author's wish for a guard that begins at zero or beyond it. False if the flow has to
@@ -112,6 +123,8 @@ bool CrossingArming::begins_as_wished(const GuardGroup& group, std::size_t k) {
 }
 
 void CrossingArming::carry_out(std::size_t k, const Arming& arming, double error) {
+  if (arming.within == Arming::Within::tolerance)
+    error = std::max(error, flow_->tolerance(static_cast<Index>(k), false));
   if (!arming.phase)
     guards_->set_error(k, error);
   else if (*arming.phase == Phase::armed)
@@ -169,7 +182,7 @@ bool CrossingArming::goes_against(const Firing& firing) {
     return false;
   // A guard that was clearly off zero in between has a true root.
   if (!group.is_opaque() && !firing.at_zero) return false;
-  const double location = thresholds::location_error * std::abs(present_->now[k].g_minus);
+  const double location = present_->now[k].location;
   const Departure::Side flow = flow_->side_within(present_->t - guard.armed_at, group,
                                                   static_cast<Index>(k), location, -firing.from);
   if (flow.side != firing.from) return false;

@@ -2,6 +2,7 @@
 #include "saltus/simulation/detail/instant.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace saltus {
 
@@ -15,8 +16,11 @@ void Instant::open(double t, const std::vector<int>& due, double longest) {
   guards_->fired_at_root.clear();
   for (const Firing& root : present_.firings) {
     const auto k = static_cast<std::size_t>(root.slot);
-    present_.now[k].g_minus = guards_->g[k];
-    if (root.at_zero) present_.now[k].flight = t - (*guards_)[k].armed_at;
+    GuardNow& now = present_.now[k];
+    now.jumped = root.jumped;
+    if (root.jumped) continue;
+    now.location = thresholds::location_error * std::abs(guards_->g[k]);
+    if (root.at_zero) now.flight = t - (*guards_)[k].armed_at;
   }
   for (const int event : due)
     present_.actions.push_back({plan().scheduled(event).leaf, Cause::time, event, -1, 0, false});
@@ -25,6 +29,7 @@ void Instant::open(double t, const std::vector<int>& due, double longest) {
 Outcome Instant::run(double t, const std::vector<int>& due, double longest, bool at_start) {
   open(t, due, longest);
   bool armed = !at_start;
+  turn_beside_root();
   for (;; ++present_.pass) {
     if (present_.pass >= options_->max_passes) {
       if (transition_.pass_wrote()) journal_.throw_no_end();
@@ -45,6 +50,21 @@ Outcome Instant::run(double t, const std::vector<int>& due, double longest, bool
   present_.outcome.restart = present_.outcome.restart || transition_.restarts();
   present_.outcome.events = journal_.events();
   return present_.outcome;
+}
+
+/// A guard may be at zero within the resolution of the root of another one. The flow decides its
+/// side; a guard that the flow takes to its firing side has not crossed yet.
+void Instant::turn_beside_root() {
+  for (const std::size_t k : guards_->beside_root) {
+    const Guard& guard = (*guards_)[k];
+    if (guard.phase != Phase::armed || !plan().guard(guard.group).is_crossing()) continue;
+    const int side =
+        flow_.side(plan().guard(guard.group), static_cast<Index>(k), std::abs(guards_->g[k]), 0)
+            .side;
+    if (side == -firing_side(guard.direction)) guards_->turn(k, side);
+  }
+  guards_->beside_root.clear();
+  flow_.forget();
 }
 
 /// Collects the actions of the next pass. False if there is nothing to do.
@@ -80,7 +100,7 @@ void Instant::run_update(const Action& action) {
   const int source = journal_.source_of(action.cause, action.index);
   const TimeEvent& event = plan().time_event_of(plan().scheduled(action.index));
   if (event.update)
-    transition_.run({&event.update, action.leaf, 0, true, present_.t, journal_.name_of(source)});
+    transition_.run({&event.update, action.leaf, 0, present_.t, journal_.name_of(source)});
   journal_.note({.kind = EventKind::time, .source = source, .leaf = action.leaf});
 }
 
@@ -94,9 +114,9 @@ Instant::Effect Instant::effect_of(const Action& action) {
           &holds_.of_guard(static_cast<std::size_t>(action.slot))};
 }
 
-/// Runs an effect. Returns whether it wrote continuous state or a mode.
+/// Runs an effect. Returns whether it wrote a state or a mode.
 bool Instant::run_effect(const Effect& effect, int leaf, const std::string& source) {
-  const bool wrote = *effect.map && transition_.run({effect.map, leaf, effect.hold->entry, false,
+  const bool wrote = *effect.map && transition_.run({effect.map, leaf, effect.hold->entry,
                                                      present_.t, source});
   if (effect.end_mode) transition_.enter_mode(leaf, *effect.end_mode);
   return wrote || effect.end_mode != nullptr;
@@ -142,7 +162,9 @@ void Instant::find_next() {
       guards_->turn(k, sign_of(g));
       guards_->set_base(k, g);
     } else if (!guard.monitor && guard.crossed(g)) {
-      present_.fire(k, guard.side);
+      // Its side does not change: the flow decides when integration continues (3.4).
+      if (present_.now[k].put_at_zero = crossings_.is_at_zero(k); !present_.now[k].put_at_zero)
+        present_.fire(k, guard.side);
     } else {
       guards_->see(k, g);
     }
@@ -152,6 +174,7 @@ void Instant::find_next() {
 /// Arms all active guards for the solver. A guard at zero, or a guard that just fired, gets its
 /// side from the flow.
 void Instant::arm(bool at_start) {
+  guards_->some_beyond = false;
   for (const std::size_t k : guards_->active()) {
     const Guard& guard = (*guards_)[k];
     guards_->g[k] = present_.g[k];
@@ -162,6 +185,7 @@ void Instant::arm(bool at_start) {
       contacts_.arm_crossing(k);
     else
       crossings_.arm(k, at_start);
+    guards_->some_beyond = guards_->some_beyond || guard.is_beyond();
     guards_->mark_armed_at(k, present_.now[k].fired && guard.at_zero() ? present_.t : not_armed);
   }
 }

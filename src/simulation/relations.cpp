@@ -112,8 +112,7 @@ int Relations::side_by_flow(const GuardGroup& group, std::size_t k, int crossed_
   const bool opaque = group.is_opaque();
   GuardNow& now = present_->now[k];
   const Departure::Side flow =
-      flow_->side(group, slot, opaque ? 0.0 : thresholds::location_error * std::abs(now.g_minus),
-                  opaque ? 0 : Departure::either_side);
+      flow_->side(group, slot, opaque ? 0.0 : now.location, opaque ? 0 : Departure::either_side);
   if (flow.side == 0) return crossed_to;
   const bool rests = flow.side == crossed_to && edges_->set_off_by(group.index) &&
                      (opaque || flow_->leads_back(group, slot, -crossed_to, transition_->before()));

@@ -23,11 +23,9 @@ bool Transition::run(const Call& call) {
   const PlanLeaf& of = machine_->plan().leaf(number);
   At at = machine_->at(number, call.t, machine_->x.data());
   at.entry = call.entry;
-  if (!call.reads_before) {
-    new (&at.x) VectorView(x_next_.data() + of.x, of.nx);
-    new (&at.z) VectorView(z_next_.data() + of.z, of.nz);
-    at.mode = modes_next_[number];
-  }
+  new (&at.x) VectorView(x_next_.data() + of.x, of.nx);
+  new (&at.z) VectorView(z_next_.data() + of.z, of.nz);
+  const int mode = at.mode = modes_next_[number];
   Next next({x_next_.data() + of.x, of.nx}, {z_next_.data() + of.z, of.nz}, modes_next_[number],
             of.path);
   (*call.map)(*of.system, at, next);
@@ -40,7 +38,7 @@ bool Transition::run(const Call& call) {
   pass_wrote_ = pass_wrote_ || x || z;
   effects_ += x;
   restarts_ = restarts_ || x || (z && derivatives_read_discrete_state(call.leaf));
-  return x;
+  return x || z || modes_next_[number] != mode;
 }
 
 /// A held output that depends on z only is found by its value. An output that also reads x or t is

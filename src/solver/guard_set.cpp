@@ -30,7 +30,8 @@ void GuardSet::add(const GuardTraits& traits, bool active) {
 
 void GuardSet::clear() {
   ++version_;
-  fired_at_root.clear(), monitors.clear(), active_.clear();
+  some_beyond = false;
+  fired_at_root.clear(), beside_root.clear(), monitors.clear(), active_.clear();
   for (Guard& guard : guards_) {
     const GuardTraits traits = guard;
     guard = {};

@@ -14,6 +14,9 @@ class CrossingArming {
 
   /// Arms a guard before integration continues. It gets a side, fires at once, or comes to rest.
   void arm(std::size_t k, bool at_start);
+  /// Whether a guard that a commit moved across zero is at zero within its error. If so, it has not
+  /// fired: the flow decides (3.4).
+  bool is_at_zero(std::size_t k);
   /// Whether the flow leads a guard that seems to have fired to its armed side. The first step
   /// after a restart has order 1, or is hidden by the rounding of its states; it can show a false
   /// root while the ball still rises. Only guards that have been at zero since they were armed can
@@ -25,6 +28,7 @@ class CrossingArming {
 
   const GuardGroup& group_of(std::size_t k) const;
   CrossingFacts facts_of(std::size_t k, bool at_start) const;
+  double uncertainty(std::size_t k);
   bool begins_as_wished(const GuardGroup& group, std::size_t k);
   void carry_out(std::size_t k, const Arming& arming, double error);
   bool reset_turns(const GuardGroup& group, std::size_t k);

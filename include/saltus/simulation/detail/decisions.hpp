@@ -50,6 +50,7 @@ struct CrossingFacts {
   double error = 0.0;     ///< until now
   bool at_start = false;  ///< the run begins here
   bool entered = false;   ///< its mode was entered in this instant
+  bool put_at_zero = false;  ///< the last commit moved it to zero, within its error
   bool fired = false;     ///< in this instant
   int came_from = 0;      ///< the side it fired from
   bool effect = false;    ///< it writes a state or a mode
@@ -63,14 +64,17 @@ struct CrossingFacts {
 /// Whether a zero crossing has to be armed by the flow. `uncertainty()` is the error of its value
 /// by the rounding of the states and of the time.
 ///
+///     edge_detection                                           no: its zero has no meaning
 ///     fired in this instant                                    yes
+///     moved to zero by the last commit                         yes
 ///     at zero, or within its error while it waits              yes, unless it waits and nothing
 ///                                                              was written: dormant as before
 ///     mode just entered, within `uncertainty()`                yes
 ///     otherwise                                                no: it keeps the side it has
 template <class Uncertainty>
 bool needs_flow(const CrossingFacts& guard, const Uncertainty& uncertainty) {
-  if (guard.fired) return true;
+  if (guard.direction == Direction::edge_detection) return false;
+  if (guard.fired || guard.put_at_zero) return true;
   const bool waits = guard.phase == Phase::waiting;
   const bool at_zero = guard.g == 0.0 || (waits && std::abs(guard.g) <= guard.error) ||
                        (guard.entered && std::abs(guard.g) <= uncertainty());
@@ -81,10 +85,14 @@ bool needs_flow(const CrossingFacts& guard, const Uncertainty& uncertainty) {
 /// new error.
 struct Arming {
   enum class Then { go_on, fire, rest };
+  /// The error within which a guard waits: its rounding; or the tolerance of the run, if it leaves
+  /// zero along the surface.
+  enum class Within { rounding, tolerance };
   std::optional<Phase> phase = {};
   int side = 0;
   Then then = Then::go_on;
   int from = 0;  ///< the side that a firing at once comes from
+  Within within = Within::rounding;
   bool operator==(const Arming&) const = default;
 };
 
@@ -92,6 +100,9 @@ struct Arming {
 /// flow takes it to its firing side. It fires at once if the run begins so, or if a reset just
 /// turned the flow round. All other guards wait until they have been clearly off zero (2.3). If the
 /// flow keeps a guard with an effect at zero, the guard is dormant (2.6): it keeps its armed side.
+///
+/// A guard that the last commit moved to zero has arrived there: it fires unless the flow takes it
+/// back to its armed side (3.4).
 ///
 ///     effect  flow to        begins or turned   then     waits on
 ///     yes     firing side    yes                fire     the flow's side
@@ -102,12 +113,14 @@ struct Arming {
 ///     no      none           -                  go on    no side
 ///     -       armed side     -                  go on    the flow's side
 ///
+/// A guard with an effect whose mode was just entered, and whose slope is zero, leaves zero along
+/// the surface: it counts as zero within the tolerance of the run, as after a lift-off.
+///
 /// A guard of either direction is in contact at the start only if its slope is zero and the flow
 /// leads down. A reset turns the flow round only for a guard that is not on its firing side
-/// already. A guard with edge_detection has no side, and it keeps its phase.
+/// already.
 template <class Ask>
 Arming decide_at_zero(const CrossingFacts& guard, FlowSide flow, const Ask& ask) {
-  if (guard.direction == Direction::edge_detection) return {};
   const int firing = firing_side(guard.direction);
   const int armed = guard.either() ? guard.side : -firing;
   const bool not_beyond = guard.either() || guard.side != firing;
@@ -118,7 +131,11 @@ Arming decide_at_zero(const CrossingFacts& guard, FlowSide flow, const Ask& ask)
   const bool turned = guard.wrote() && across && not_beyond;
   const bool dormant = flow.side == 0 && guard.effect && not_beyond;
   Arming arming{.phase = Phase::waiting, .side = dormant ? armed : flow.side};
-  if (guard.effect && (begins || turned))
+  const bool leaves = flow.side == 0 ? dormant : flow.side == armed;
+  if (guard.entered && guard.effect && leaves && ask.slope() == 0.0) arming.within = Arming::Within::tolerance;
+  if (guard.put_at_zero && flow.side != armed)
+    arming.then = Arming::Then::fire, arming.from = armed;
+  else if (guard.effect && (begins || turned))
     arming.then = Arming::Then::fire, arming.from = -flow.side;
   return arming;
 }
@@ -128,14 +145,15 @@ Arming decide_at_zero(const CrossingFacts& guard, FlowSide flow, const Ask& ask)
 /// "Back" is the flow to the firing side, or to any side after a flight too low to be seen.
 ///
 ///     reset map   flow leads       value              then
-///     yes         to firing side   beyond its error,  go on, armed: it is about to cross
+///     yes         -                beyond its error,  go on, armed
 ///                                  armed side
 ///     yes         back             within its error   fire, if another reset of this instant
 ///                                                     wrote, and its own sends the flow off
 ///     yes         back             within its error   rest, if the flight was too low, or the
 ///                                                     guard was not merely passed through
 ///     yes         back             within its error   otherwise go on; waits on the flow's side
-///     yes         back             elsewhere          go on; waits on the flow's side
+///     yes         back             beyond it, firing  go on; waits on the flow's side
+///                                  side
 ///     yes         off              -                  go on; waits on the flow's side
 ///     no          -                -                  go on; waits on the flow's side
 ///
@@ -144,7 +162,7 @@ Arming decide_at_zero(const CrossingFacts& guard, FlowSide flow, const Ask& ask)
 template <class Ask>
 Arming decide_fired(const CrossingFacts& guard, FlowSide flow, const Ask& ask) {
   const int from = guard.came_from;
-  if (guard.reset && flow.side == -from && from * guard.g > flow.error)
+  if (guard.reset && from * guard.g > flow.error)
     return {.phase = Phase::armed, .side = from};
   const int kept = guard.reset && guard.wrote() ? from : 0;
   Arming arming{.phase = Phase::waiting, .side = flow.side != 0 ? flow.side : kept};

@@ -21,7 +21,10 @@ namespace saltus {
 class Departure {
  public:
   Departure(Machine& machine, const SimulatorOptions& options)
-      : machine_(&machine), rtol_(options.rtol), atol_(options.atol) {
+      : machine_(&machine),
+        rtol_(options.rtol),
+        atol_(options.atol),
+        longest_step_(options.max_minor_step_size) {
     const Index n = machine.plan().nx;
     for (auto* v : {&f_, &f_disturbed_, &f1_, &x1_, &move_, &trial_}) v->setZero(n);
     const Index slots = machine.plan().guard_slots;
@@ -42,6 +45,7 @@ class Departure {
     using namespace thresholds;
     if (longest < short_run)
       longest_ = std::max(longest, std::min(short_run, short_run_looks * quickest()));
+    longest_ = std::min(longest_, longest_step_);  // the author knows of something as quick
     disturbed_ = looked_ = false;
   }
 
@@ -247,7 +251,7 @@ class Departure {
   }
 
   Machine* machine_;
-  double rtol_, atol_;
+  double rtol_, atol_, longest_step_;
   double t_ = 0.0, longest_ = 0.0;
   const Eigen::VectorXd* x_ = nullptr;
   bool fine_ = false;       // follow the flow with order 4

@@ -58,6 +58,7 @@ class Instant {
   };
 
   void open(double t, const std::vector<int>& due, double longest);
+  void turn_beside_root();
   bool collect();
   bool take_contacts();
   bool flip_relations();

@@ -44,7 +44,7 @@ struct Action {
 
 /// The facts about one guard in the present instant, beyond its record.
 struct GuardNow {
-  double g_minus = 0.0;  ///< its value at its located root
+  double location = 0.0;  ///< error of its value by the location of its root; 0 where it jumped
   /// [s] from its last firing to this one; NaN if it was clearly off zero in between
   double flight = std::numeric_limits<double>::quiet_NaN();
   int flips = 0;               ///< flips of a relation in this instant
@@ -52,6 +52,8 @@ struct GuardNow {
   bool fired_in_pass = false;  ///< it fired in this pass
   bool frozen = false;         ///< a relation: it keeps its side through this instant
   bool turned = false;         ///< a relation: its side changed when it was read again
+  bool jumped = false;         ///< its value jumped across zero at the root
+  bool put_at_zero = false;    ///< the last commit moved it to zero, within its error
 };
 
 /// The time of an instant, the time left of the run, and the findings pass by pass.
@@ -81,8 +83,8 @@ struct Present {
   /// How far from zero the location of a root left a guard. A guard that fired on leaving its error
   /// keeps that error instead: errors made from errors would grow without end.
   double location_error(std::size_t k) const {
-    return std::isnan(now[k].flight) ? thresholds::location_error * std::abs(now[k].g_minus)
-                                     : thresholds::kept_error * std::abs(g[k]);
+    return now[k].jumped || std::isnan(now[k].flight) ? now[k].location
+                                                      : thresholds::kept_error * std::abs(g[k]);
   }
 };
 

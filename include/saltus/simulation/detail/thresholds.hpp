@@ -30,6 +30,9 @@ inline constexpr double location_error = 4.0;
 /// [of the guard's value] Error of a guard that fired on leaving its error: the old error, and one
 /// part in a hundred for the rounding of the reset.
 inline constexpr double kept_error = 1.01;
+/// [of its movement by a commit] A guard that a commit moved further beyond zero than this part of
+/// the whole movement is across: a rounding of that size would leave three digits.
+inline constexpr double clearly_across = 1e-3;
 /// [tolerances of the states] A guard that leaves a falling surface is at zero within this error:
 /// its distance grows as the third power of time, while the error of the state grows as the first.
 inline constexpr double lift_off_tolerances = 30.0;

@@ -25,11 +25,12 @@ class Transition {
     const ResetMap* map;
     int leaf;
     Index entry;              ///< which guard of a vector of guards
-    bool reads_before;        ///< an update reads x- z-; a reset map sees earlier writes
     double t;                 ///< [s]
     std::string_view source;  ///< "block.event", for errors
   };
-  /// Runs a reset map or an update. Returns whether it wrote continuous state.
+  /// Runs a reset map or an update of a leaf. It sees what the earlier ones of this pass wrote to
+  /// the states and the mode of its leaf (3.2, 3.3). Returns whether it had an effect: it wrote a
+  /// state, or changed the mode.
   bool run(const Call& call);
   void enter_mode(int leaf, int mode) { modes_next_[static_cast<std::size_t>(leaf)] = mode; }
 

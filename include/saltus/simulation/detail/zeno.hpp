@@ -18,7 +18,9 @@ namespace saltus {
 /// the last gaps; the states after the resets accumulate likewise.
 class ZenoMonitor {
  public:
-  explicit ZenoMonitor(double tolerance = 0.0) : tolerance_(tolerance) {}
+  /// `rtol` is the relative tolerance of the method, which bounds the error of a gap.
+  explicit ZenoMonitor(double tolerance = 0.0, double rtol = 0.0)
+      : tolerance_(tolerance), rtol_(rtol) {}
 
   bool on() const noexcept { return tolerance_ > 0.0; }
   double tolerance() const noexcept { return tolerance_; }
@@ -39,11 +41,14 @@ class ZenoMonitor {
   }
 
   /// Whether the firings accumulate: the last gap is within the tolerance, and three gaps in a row
-  /// shrink by more than the rounding of the event times. A steady fast rhythm does not accumulate.
+  /// shrink by more than the rounding of the event times and the tolerance of the method. A steady
+  /// fast rhythm does not accumulate: a multistep method loses a part of its speed at each impact,
+  /// and its gaps shrink by a part of the tolerance.
   bool accumulates() const {
     if (!(gap(0) <= tolerance_) || !std::isfinite(gap(2))) return false;
-    const double rounding = thresholds::gap_roundings * thresholds::eps * std::abs(times_[0]);
-    return gap(1) - gap(0) > rounding && gap(2) - gap(1) > rounding;
+    const double error =
+        thresholds::gap_roundings * thresholds::eps * std::abs(times_[0]) + rtol_ * gap(0);
+    return gap(1) - gap(0) > error && gap(2) - gap(1) > error;
   }
 
   /// q / (1 - q): the factor of the last gap, and of the last change of state.
@@ -86,7 +91,7 @@ class ZenoMonitor {
     return std::isnan(gap) ? std::numeric_limits<double>::infinity() : gap;
   }
 
-  double tolerance_;
+  double tolerance_, rtol_;
   std::array<double, 4> times_{nan, nan, nan, nan};  // [s] of the last firings, latest first
   Eigen::VectorXd after_;
 };

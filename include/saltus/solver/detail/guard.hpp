@@ -74,11 +74,18 @@ struct Guard : GuardTraits {
   /// early by the whole error, or would be repeated at once.
   bool waits() const noexcept { return at_zero() || error > 0.0; }
 
+  /// Whether it has one direction, and is on its firing side.
+  bool is_beyond() const noexcept {
+    return (direction == Direction::positive_then_non_positive ||
+            direction == Direction::negative_then_non_negative) &&
+           side == firing_side(direction);
+  }
+
   /// Whether it fires at this value.
   bool crossed(double value) const {
     if (phase == Phase::resting) return std::abs(value) > error;
     const Direction watched = watched_direction();
-    if (watched == Direction::edge_detection) return value != base;
+    if (watched == Direction::edge_detection) return phase != Phase::unseen && value != base;
     const int now = sign(value);
     // A guard that waits at zero has not left it: only the strict far side counts.
     return side != 0 && (now != 0 || !waits()) && fires(watched, side, now);
@@ -90,6 +97,7 @@ struct Guard : GuardTraits {
     if (phase == Phase::resting)
       return {-std::nextafter(error, never), std::nextafter(error, never)};
     const Direction watched = watched_direction();
+    if (watched == Direction::edge_detection && phase == Phase::unseen) return {-never, never};
     if (watched == Direction::edge_detection)
       return {std::nextafter(base, -never), std::nextafter(base, never)};
     const double reach = error > 0.0               ? std::nextafter(error, never)
@@ -124,6 +132,7 @@ struct Firing {
   int slot = -1;
   int from = 0;
   bool at_zero = false;  ///< it has not been clearly off zero since integration began
+  bool jumped = false;   ///< its value at the root is no measure of its error
 };
 
 /// A monitor's crossing inside the last step.

@@ -79,7 +79,8 @@ class GuardSet {
     Guard& guard = guards_[k];
     guard.base = value;
     if (guard.phase == Phase::resting) return;
-    if (const int now = guard.sign(value); now != 0) guard.settle(now);
+    const int now = guard.sign(value);
+    if (now != 0 || guard.direction == Direction::edge_detection) guard.settle(now);
   }
   /// A guard that waits was clearly on its side at a look: it becomes armed.
   void leave_zero(std::size_t k) { guards_[k].settle(guards_[k].side); }
@@ -93,7 +94,9 @@ class GuardSet {
 
   std::vector<double> g;              ///< values at the last look
   std::vector<Firing> fired_at_root;  ///< the guards that crossed at the last root
+  std::vector<std::size_t> beside_root;  ///< others within the resolution of that root from zero
   std::vector<MonitorHit> monitors;   ///< crossings of monitors in the last advance
+  bool some_beyond = false;  ///< some guard with one direction is on its firing side at a restart
   int scan_points = 3;                ///< interior points of a step with a look at the guards
 
  private:

@@ -63,9 +63,16 @@ class Locator : private Glance {
     end_at_ = to;
     const int pieces = guards_->scan_points + 1;
     const double piece_length = (to - from) / pieces;
+    double next = from;
+    if (earlier_at_ == never && guards_->some_beyond && guards_->scan_points > 0) {
+      const double early = from + first_look * piece_length;
+      look(early, nullptr, interpolate, high_);
+      if (find_in(from, early, nullptr, interpolate)) return true;
+      from = early;
+    }
     for (int piece = 1; piece <= pieces; ++piece) {
       const bool last = piece == pieces;
-      const double next = last ? to : std::min(to, from + piece_length);
+      next = last ? to : std::min(to, next + piece_length);
       if (last)
         high_.swap(end_);
       else
@@ -181,6 +188,16 @@ class Locator : private Glance {
     return never;
   }
 
+  /// Whether a guard that has a firing side, and has not crossed, is as close to zero as it moves in
+  /// four brackets of the root.
+  bool is_beside_root(std::size_t k) const {
+    const Guard& guard = (*guards_)[k];
+    return guard.phase == Phase::armed && !guard.monitor && !guard.jumps &&
+           (guard.direction == Direction::positive_then_non_positive ||
+            guard.direction == Direction::negative_then_non_negative) &&
+           std::abs(high_[k]) <= 4.0 * std::abs(high_[k] - low_[k]) && !guard.crossed(high_[k]);
+  }
+
   [[noreturn]] void throw_not_finite(std::size_t k, double t) const {
     const Plan& plan = machine_->plan();
     const GuardGroup& group = plan.guards[static_cast<std::size_t>((*guards_)[k].group)];
@@ -200,11 +217,11 @@ class Locator : private Glance {
   /// Notes the guards that fired at offset u; true if one of them is not a monitor.
   bool take(double u) {
     root_ = u;
-    guards_->fired_at_root.clear();
+    guards_->fired_at_root.clear(), guards_->beside_root.clear();
     for (const std::size_t k : crossed_) {
       const Guard& guard = (*guards_)[k];
       if (!std::isfinite(high_[k])) throw_not_finite(k, t0_ + u);
-      const Firing firing{static_cast<int>(k), guard.side, guard.at_zero()};
+      const Firing firing{static_cast<int>(k), guard.side, guard.at_zero(), jumped_[k] != 0};
       if (guard.monitor)
         pass_monitor(firing, u);
       else
@@ -213,6 +230,7 @@ class Locator : private Glance {
     for (const std::size_t k : guards_->active()) {
       const Guard& guard = (*guards_)[k];
       guards_->g[k] = high_[k];
+      if (is_beside_root(k)) guards_->beside_root.push_back(k);
       guards_->follow(k, high_[k]);
       // A guard exactly on zero takes the side to which it leaves.
       if (guard.phase != Phase::resting && guard.crossed(high_[k])) guards_->leave_to(k, 0);
@@ -223,6 +241,9 @@ class Locator : private Glance {
   }
 
   static constexpr int least_patience = 7;
+  /// [of a piece of a step] The first look after a restart, where a guard is beyond zero: with the
+  /// looks at both ends of the first piece it shows whether the guard comes back inside it.
+  static constexpr double first_look = 1.0 / 64.0;
 
   std::vector<double> at_root_, before_;
   double root_ = 0.0;

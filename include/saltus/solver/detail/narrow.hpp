@@ -26,6 +26,7 @@ class Narrower {
       : machine_(&machine), guards_(&guards), x_(static_cast<std::size_t>(machine.plan().nx)) {
     const auto slots = static_cast<std::size_t>(machine.plan().guard_slots);
     for (auto* values : {&low_, &high_, &middle_, &third_, &noise_}) values->assign(slots, 1.0);
+    jumped_.assign(slots, 0);
     crossed_.reserve(slots), limits_.reserve(slots);
   }
 
@@ -67,6 +68,7 @@ class Narrower {
   template <class Interpolate>
   double narrow(double low, double high, const Interpolate& interpolate) {
     low_ = guards_->g;
+    const double begun = high - low;
     int kept = 0;   // looks in a row that kept the low (> 0) or the high (< 0) end
     int zeros = 0;  // looks in a row with exact zeros only: a plateau is halved to its beginning
     double weight = 1.0;
@@ -91,7 +93,7 @@ class Narrower {
       third_.swap(middle_);
       weight = next_weight(weight, kept);
     }
-    note_noise();
+    note_ends(high - low, begun);
     return high;
   }
 
@@ -100,6 +102,7 @@ class Narrower {
   std::vector<double> low_, high_, middle_, third_;
   double third_at_ = 0.0;
   std::vector<double> noise_;  // of guards near their root, by the rounding of interpolants
+  std::vector<char> jumped_;   // the guard jumped across zero at its last root
   std::vector<std::size_t> crossed_;
   std::vector<std::pair<double, double>> limits_;  // of the active guards
   double t0_ = 0.0;
@@ -109,10 +112,19 @@ class Narrower {
   static double next_weight(double weight, int kept) {
     return kept > 1 ? weight * 0.5 : kept < -1 ? weight * 2.0 : 1.0;
   }
-  void note_noise() {
-    for (const std::size_t k : crossed_)
-      noise_[k] = 4.0 * std::max(std::abs(low_[k]), std::abs(high_[k]));
+  /// The values at the ends of the last bracket are the noise of a smooth guard. A guard that jumps
+  /// has no noise: it is `jump_steepness` times as steep there as in the whole interval.
+  void note_ends(double last, double begun) {
+    for (const std::size_t k : crossed_) {
+      const double jump = std::abs(high_[k] - low_[k]), change = std::abs(high_[k] - guards_->g[k]);
+      jumped_[k] = jump * begun > jump_steepness * last * std::max(change, jump);
+      noise_[k] = jumped_[k] ? 0.0 : 4.0 * std::max(std::abs(low_[k]), std::abs(high_[k]));
+    }
   }
+
+  /// [1] A bracket is narrowed by some 1e12 and more. A smooth guard is hardly steeper at its end
+  /// than at its beginning; a jump is steeper by the whole factor. This lies between, in decades.
+  static constexpr double jump_steepness = 1e6;
 
   /// A guard that waits and is on its armed side at low becomes armed.
   void leave_zero() {
