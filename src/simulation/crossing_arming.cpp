@@ -53,11 +53,12 @@ struct CrossingArming::Ask {
 
   double slope() const { return flow().slope(*group, slot()); }
   /// Whether the flight that ended here was too low to differ from rest: its height is within the
-  /// error. The height of a parabola is its slope times a quarter of its time.
+  /// error. The height of a parabola is its slope times a quarter of its time. The slope is bounded
+  /// from above: a slope that is lost in its rounding is no reason to rest.
   bool too_low() const {
     const double flight = arming->present_->now[k].flight;
     if (std::isnan(flight) || !arming->transition_->wrote_x()) return false;
-    return std::abs(flow().slope_from(before(), *group, slot())) * flight <= 4.0 * error;
+    return flow().speed_from(before(), *group, slot(), flight) * flight <= 4.0 * error;
   }
   bool leads_back() const {
     return arming->transition_->wrote_x() && flow().leads_back(*group, slot(), from, before());
@@ -81,8 +82,7 @@ void CrossingArming::arm(std::size_t k, bool at_start) {
   carry_out(k, decide_crossing(facts, {flow.side, flow.rounding}, ask), flow.rounding);
 }
 
-/// The error of a guard at the present state by the rounding of the states and of the time: its own
-/// rounding, and its movement within the resolution of the time.
+/// Its rounding, and its movement within the resolution of the time.
 double CrossingArming::uncertainty(std::size_t k) {
   const double time = thresholds::location_roundings * thresholds::eps * std::abs(present_->t);
   const double moved = time * std::abs(flow_->slope(group_of(k), static_cast<Index>(k)));

@@ -14,6 +14,8 @@ class CrossingArming {
 
   /// Arms a guard before integration continues. It gets a side, fires at once, or comes to rest.
   void arm(std::size_t k, bool at_start);
+  /// The error of a guard at the present state by the rounding of the states and of the time.
+  double uncertainty(std::size_t k);
   /// Whether a guard that a commit moved across zero is at zero within its error. If so, it has not
   /// fired: the flow decides (3.4).
   bool is_at_zero(std::size_t k);
@@ -28,7 +30,6 @@ class CrossingArming {
 
   const GuardGroup& group_of(std::size_t k) const;
   CrossingFacts facts_of(std::size_t k, bool at_start) const;
-  double uncertainty(std::size_t k);
   bool begins_as_wished(const GuardGroup& group, std::size_t k);
   void carry_out(std::size_t k, const Arming& arming, double error);
   bool reset_turns(const GuardGroup& group, std::size_t k);

@@ -90,6 +90,12 @@ class Departure {
     return std::abs(extrapolated) > noise ? extrapolated : 0.0;
   }
 
+  /// A bound of |d g / d t| along the flow over at most `longest` [s], its rounding included.
+  double speed(const GuardGroup& group, Index slot, double longest) {
+    const double d = std::min(longest, thresholds::speed_looks * first_time(group));
+    return std::abs(guard_after(d, slot) - g0(slot)) / d;
+  }
+
   /// d g / d t along another flow f through (t, x), to first order.
   double slope_along(const Eigen::VectorXd& f, const GuardGroup& group, Index slot) {
     const double d = first_time(group);

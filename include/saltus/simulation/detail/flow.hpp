@@ -44,6 +44,11 @@ class Flow {
     depart_from(x, longest_);
     return departure_.slope(group, slot);
   }
+  /// A bound of |dg/dt| along the flow from another state, over at most `longest` [s].
+  double speed_from(const Eigen::VectorXd& x, const GuardGroup& group, Index slot, double longest) {
+    depart_from(x, longest_);
+    return departure_.speed(group, slot, longest);
+  }
   /// The side to which the flow takes a guard within at most `longest` [s].
   Departure::Side side_within(double longest, const GuardGroup& group, Index slot, double error,
                               int expected) {

@@ -132,7 +132,7 @@ struct Firing {
   int slot = -1;
   int from = 0;
   bool at_zero = false;  ///< it has not been clearly off zero since integration began
-  bool jumped = false;   ///< its value at the root is no measure of its error
+  double jump = 0.0;     ///< the size of its jump, if it seems to jump across zero
 };
 
 /// A monitor's crossing inside the last step.

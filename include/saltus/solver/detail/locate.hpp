@@ -221,7 +221,7 @@ class Locator : private Glance {
     for (const std::size_t k : crossed_) {
       const Guard& guard = (*guards_)[k];
       if (!std::isfinite(high_[k])) throw_not_finite(k, t0_ + u);
-      const Firing firing{static_cast<int>(k), guard.side, guard.at_zero(), jumped_[k] != 0};
+      const Firing firing{static_cast<int>(k), guard.side, guard.at_zero(), jump_[k]};
       if (guard.monitor)
         pass_monitor(firing, u);
       else

@@ -25,8 +25,7 @@ class Narrower {
   Narrower(Machine& machine, GuardSet& guards)
       : machine_(&machine), guards_(&guards), x_(static_cast<std::size_t>(machine.plan().nx)) {
     const auto slots = static_cast<std::size_t>(machine.plan().guard_slots);
-    for (auto* values : {&low_, &high_, &middle_, &third_, &noise_}) values->assign(slots, 1.0);
-    jumped_.assign(slots, 0);
+    for (auto* values : {&low_, &high_, &middle_, &third_, &noise_, &jump_}) values->assign(slots, 1.0);
     crossed_.reserve(slots), limits_.reserve(slots);
   }
 
@@ -102,7 +101,7 @@ class Narrower {
   std::vector<double> low_, high_, middle_, third_;
   double third_at_ = 0.0;
   std::vector<double> noise_;  // of guards near their root, by the rounding of interpolants
-  std::vector<char> jumped_;   // the guard jumped across zero at its last root
+  std::vector<double> jump_;   // of guards that seem to jump at their root, otherwise 0
   std::vector<std::size_t> crossed_;
   std::vector<std::pair<double, double>> limits_;  // of the active guards
   double t0_ = 0.0;
@@ -117,8 +116,9 @@ class Narrower {
   void note_ends(double last, double begun) {
     for (const std::size_t k : crossed_) {
       const double jump = std::abs(high_[k] - low_[k]), change = std::abs(high_[k] - guards_->g[k]);
-      jumped_[k] = jump * begun > jump_steepness * last * std::max(change, jump);
-      noise_[k] = jumped_[k] ? 0.0 : 4.0 * std::max(std::abs(low_[k]), std::abs(high_[k]));
+      const bool jumps = jump * begun > jump_steepness * last * std::max(change, jump);
+      jump_[k] = jumps ? jump : 0.0;
+      noise_[k] = jumps ? 0.0 : 4.0 * std::max(std::abs(low_[k]), std::abs(high_[k]));
     }
   }
 
