@@ -114,6 +114,7 @@ void Writer::put(const Slot& slot) {
       return;
     case Role::guard:
       crossing().guard = taped(slot);
+      crossing().reads_states = slot->tape.states_read();
       return;
     case Role::reset_map:
       crossing().reset_map = taped_reset(original_, slot, crossing().reset_map);

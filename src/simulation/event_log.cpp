@@ -19,7 +19,8 @@ Event EventLog::operator[](std::size_t i) const {
           row.predicted,
           std::span(states_).subspan(row.states, row.width),
           std::span(states_).subspan(row.states + row.width, row.width),
-          row.entry};
+          row.entry,
+          std::span(rests_).subspan(row.first_rest, row.rests)};
 }
 
 std::vector<double> EventLog::times(std::string_view name, EventKind kind) const {

@@ -89,7 +89,7 @@ void Journal::add(const Entry& entry, double t, int jump, const double* before,
   const PlanLeaf& of = plan_->leaf(entry.leaf);
   results_->events.add({t, jump, entry.direction, entry.kind, entry.source, entry.predicted, 0,
                         static_cast<std::size_t>(of.nx), static_cast<int>(entry.entry)},
-                       before + of.x, after + of.x);
+                       before + of.x, after + of.x, entry.rests, of.x);
 }
 
 void Journal::cause(int source) {

@@ -26,6 +26,7 @@ bool Transition::run(const Call& call) {
   new (&at.x) VectorView(x_next_.data() + of.x, of.nx);
   new (&at.z) VectorView(z_next_.data() + of.z, of.nz);
   const int mode = at.mode = modes_next_[number];
+  last_.before = x_next_.segment(of.x, of.nx);
   Next next({x_next_.data() + of.x, of.nx}, {z_next_.data() + of.z, of.nz}, modes_next_[number],
             of.path);
   (*call.map)(*of.system, at, next);
@@ -34,25 +35,27 @@ bool Transition::run(const Call& call) {
         text("t = ", call.t, " s: '", call.source, "' set a state that is not finite (NaN or Inf)"),
         call.t, of.path);
   }
-  const bool x = next.wrote_continuous_state(), z = next.wrote_discrete_state();
+  const bool x = last_.x = next.wrote_continuous_state(),
+             z = last_.z = next.wrote_discrete_state();
+  last_.mode = modes_next_[number] != mode;
   pass_wrote_ = pass_wrote_ || x || z;
   effects_ += x;
-  restarts_ = restarts_ || x || (z && derivatives_read_discrete_state(call.leaf));
-  return x || z || modes_next_[number] != mode;
+  restarts_ = restarts_ || x || (z && derivatives_read(Reads::discrete_state, call.leaf));
+  return x || z || last_.mode;
 }
 
 /// A held output that depends on z only is found by its value. An output that also reads x or t is
 /// not.
-bool Transition::derivatives_read_discrete_state(int number) const {
+bool Transition::derivatives_read(Reads kind, int number) const {
   const Plan& plan = machine_->plan();
   const PlanLeaf& of = plan.leaf(number);
-  const auto shows_z = [&](int i) {
+  const auto shows = [&](int i) {
     const Node& node = plan.node(i);
     return node.leaf == number && !node.relation &&
-           has(plan.output_of(node).reads, Reads::discrete_state);
+           has(plan.output_of(node).reads, kind);
   };
-  return (of.nx > 0 && has(of.declared().continuous.reads, Reads::discrete_state)) ||
-         std::ranges::any_of(plan.derivatives, shows_z);
+  return (of.nx > 0 && has(of.declared().continuous.reads, kind)) ||
+         std::ranges::any_of(plan.derivatives, shows);
 }
 
 bool Transition::commit() {

@@ -1,6 +1,7 @@
 #include "saltus/tape/tape.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "program.hpp"
 #include "saltus/base/error.hpp"
@@ -45,6 +46,28 @@ void Tape::check(const At& at) const {
     }
     expect(text("input ", port), program_->widths[i], at.u[port].size());
   }
+}
+
+std::vector<std::vector<int>> Tape::states_read() const {
+  std::vector<std::vector<int>> states;
+  std::vector<int> seen(static_cast<std::size_t>(graph().size()), -1), open;
+  for (const Node output : outputs()) {
+    const int number = static_cast<int>(states.size());
+    std::vector<int>& found = states.emplace_back();
+    const auto visit = [&](Node node) {
+      if (std::exchange(seen[static_cast<std::size_t>(node.id)], number) != number)
+        open.push_back(node.id);
+    };
+    for (visit(output); !open.empty();) {
+      const Expression& expression = graph()[Node{open.back()}];
+      open.pop_back();
+      if (expression.op == Op::continuous_state) found.push_back(static_cast<int>(expression.index));
+      for (int k = 0; k < operand_count(expression.op); ++k)
+        visit(expression.operands[static_cast<std::size_t>(k)]);
+    }
+    std::ranges::sort(found);
+  }
+  return states;
 }
 
 }  // namespace saltus::tape

@@ -133,9 +133,14 @@ struct ZeroCrossing {
   AtStart at_start = AtStart::automatic;      ///< at zero, or beyond it, when integration begins
   OnZeno on_zeno = OnZeno::hold();            ///< how it continues at its Zeno points
   std::optional<double> zeno_tolerance = {};  ///< [s] overrides SimulatorOptions::zeno_tolerance
-  /// The entries of the leaf's continuous state that rest on a hold, one list for each guard; all
-  /// entries if not given.
+  /// The entries of the leaf's continuous state that rest on a hold, one list for each guard. If not
+  /// given: the entries that the effect wrote and those that the guard reads (`reads_states`); all
+  /// entries if these are unknown, or if the effect writes a discrete state or a mode that the
+  /// derivatives read.
   std::vector<std::vector<int>> holds = {};
+  /// The entries of the leaf's continuous state that each guard reads; unknown if not given. The
+  /// tape of a traced guard gives them.
+  std::optional<std::vector<std::vector<int>>> reads_states = {};
   std::optional<std::vector<int>> inputs = {};  ///< the inputs the guard reads; all if not given
   Formula formula = {};                         ///< in place of guard: a plan may fuse it
 

@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "saltus/base/view.hpp"
+
 namespace saltus {
 
 enum class EventKind { zero_crossing, time, zeno_enter, zeno_release, terminal };
@@ -30,6 +32,8 @@ struct Event {
   double predicted = std::numeric_limits<double>::quiet_NaN();
   std::span<const double> before, after;
   int entry = 0;  ///< the index of the guard in a vector of guards
+  /// The entries of the block's continuous state that rest from a zeno_enter on.
+  std::span<const int> rests = {};
 };
 
 /// Stores events as rows of numbers. It grows by whole rows and keeps its memory from run to run.
@@ -56,13 +60,17 @@ class EventLog {
     double predicted;
     std::size_t states, width;
     int entry = 0;
+    std::size_t first_rest = 0, rests = 0;
   };
 
   void begin(std::vector<std::string> names) { names_ = std::move(names), clear(); }
-  void clear() { rows_.clear(), states_.clear(); }
+  void clear() { rows_.clear(), states_.clear(), rests_.clear(); }
   EventLog emptied() const;
-  void add(Row row, const double* before, const double* after) {
-    row.states = states_.size();
+  /// `rests` are the entries of x that rest; the block's begin at `first`.
+  void add(Row row, const double* before, const double* after, std::span<const Index> rests = {},
+           Index first = 0) {
+    row.states = states_.size(), row.first_rest = rests_.size(), row.rests = rests.size();
+    for (const Index i : rests) rests_.push_back(static_cast<int>(i - first));
     states_.insert(states_.end(), before, before + row.width);
     states_.insert(states_.end(), after, after + row.width);
     rows_.push_back(row);
@@ -75,6 +83,7 @@ class EventLog {
 
   std::vector<Row> rows_;
   std::vector<double> states_;
+  std::vector<int> rests_;
   std::vector<std::string> names_;
 };
 

@@ -41,6 +41,8 @@ class Tape {
   bool reads_input(int k) const noexcept;  ///< whether a result depends on input k
   bool reads_parameter() const noexcept;   ///< whether a result depends on a parameter
   bool reads_entry() const noexcept;       ///< whether a result depends on at.entry
+  /// The entries of the continuous state that each value depends on, in ascending order.
+  std::vector<std::vector<int>> states_read() const;
   const Graph& graph() const noexcept;     ///< the needed part of the graph it was made from
   const std::vector<Node>& outputs() const noexcept;  ///< the values, as nodes of `graph()`
 

@@ -39,6 +39,7 @@ class Journal {
     int direction = 0;
     double predicted = std::numeric_limits<double>::quiet_NaN();
     Index entry = 0;
+    std::span<const Index> rests = {};  ///< entries of x that rest from a zeno_enter on
   };
   void note(const Entry& entry);
   /// The crossing of a monitor, which changes nothing, at the state x.

@@ -32,6 +32,12 @@ class Transition {
   /// the states and the mode of its leaf (3.2, 3.3). Returns whether it had an effect: it wrote a
   /// state, or changed the mode.
   bool run(const Call& call);
+  /// The effect of the last call, and the continuous state of its leaf before it.
+  struct Written {
+    bool x = false, z = false, mode = false;
+    Eigen::VectorXd before = {};
+  };
+  const Written& last() const noexcept { return last_; }
   void enter_mode(int leaf, int mode) { modes_next_[static_cast<std::size_t>(leaf)] = mode; }
 
   /// The values to come become the present ones. Returns whether a mode changed.
@@ -48,6 +54,9 @@ class Transition {
   int effects() const noexcept { return effects_; }  ///< reset maps that wrote continuous state
   bool entered_mode() const noexcept { return entered_; }  ///< in some pass of this instant
 
+  /// Whether some derivative reads the discrete state or the mode of a leaf.
+  bool derivatives_read(Reads kind, int leaf) const;
+
   const Eigen::VectorXd& before() const noexcept { return x_minus_; }
   Eigen::VectorXd& next() noexcept { return x_next_; }
   const Eigen::VectorXd& next() const noexcept { return x_next_; }
@@ -55,13 +64,12 @@ class Transition {
   std::vector<int>& modes_before() noexcept { return modes_before_; }
 
  private:
-  bool derivatives_read_discrete_state(int leaf) const;
-
   Machine* machine_;
   Eigen::VectorXd x_minus_, z_minus_, y_minus_, x_next_, z_next_;
   std::vector<int> modes_next_, modes_before_;
   bool pass_wrote_ = false, entered_ = false, restarts_ = false;
   int effects_ = 0;
+  Written last_;
 };
 
 }  // namespace saltus
