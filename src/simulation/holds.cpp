@@ -35,7 +35,8 @@ void Holds::add_guards(const GuardSet& guards) {
     if (!group.is_crossing() || !plan.crossing_of(group).has_effect()) continue;
     const ZeroCrossing& crossing = plan.crossing_of(group);
     const PlanLeaf& leaf = plan.leaf(group.leaf);
-    hold = {.monitor = ZenoMonitor(crossing.zeno_tolerance.value_or(options_->zeno_tolerance), options_->rtol),
+    hold = {.monitor = ZenoMonitor(crossing.zeno_tolerance.value_or(options_->zeno_tolerance),
+                                   options_->rtol),
             .leaf = group.leaf,
             .source = guard.group,
             .entry = guard.entry,
@@ -56,7 +57,8 @@ void Holds::add_edges() {
   for (std::size_t e = 0; e < plan.edges.size(); ++e) {
     const EdgeReset& reset = plan.reset_of(plan.edges[e]);
     of_edges_.push_back(
-        {.monitor = ZenoMonitor(reset.zeno_tolerance.value_or(options_->zeno_tolerance), options_->rtol),
+        {.monitor =
+             ZenoMonitor(reset.zeno_tolerance.value_or(options_->zeno_tolerance), options_->rtol),
          .leaf = plan.edges[e].leaf,
          .source = journal_->source_of(Cause::edge, static_cast<int>(e)),
          .on_zeno = reset.on_zeno,

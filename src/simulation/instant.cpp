@@ -117,8 +117,8 @@ Instant::Effect Instant::effect_of(const Action& action) {
 
 /// Runs an effect. Returns whether it wrote a state or a mode.
 bool Instant::run_effect(const Effect& effect, int leaf, const std::string& source) {
-  const bool wrote = *effect.map && transition_.run({effect.map, leaf, effect.hold->entry,
-                                                     present_.t, source});
+  const bool wrote =
+      *effect.map && transition_.run({effect.map, leaf, effect.hold->entry, present_.t, source});
   if (effect.end_mode) transition_.enter_mode(leaf, *effect.end_mode);
   return wrote || effect.end_mode != nullptr;
 }

@@ -35,8 +35,7 @@ bool Transition::run(const Call& call) {
         text("t = ", call.t, " s: '", call.source, "' set a state that is not finite (NaN or Inf)"),
         call.t, of.path);
   }
-  const bool x = last_.x = next.wrote_continuous_state(),
-             z = last_.z = next.wrote_discrete_state();
+  const bool x = last_.x = next.wrote_continuous_state(), z = last_.z = next.wrote_discrete_state();
   last_.mode = modes_next_[number] != mode;
   pass_wrote_ = pass_wrote_ || x || z;
   effects_ += x;
@@ -51,8 +50,7 @@ bool Transition::derivatives_read(Reads kind, int number) const {
   const PlanLeaf& of = plan.leaf(number);
   const auto shows = [&](int i) {
     const Node& node = plan.node(i);
-    return node.leaf == number && !node.relation &&
-           has(plan.output_of(node).reads, kind);
+    return node.leaf == number && !node.relation && has(plan.output_of(node).reads, kind);
   };
   return (of.nx > 0 && has(of.declared().continuous.reads, kind)) ||
          std::ranges::any_of(plan.derivatives, shows);

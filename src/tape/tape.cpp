@@ -61,7 +61,8 @@ std::vector<std::vector<int>> Tape::states_read() const {
     for (visit(output); !open.empty();) {
       const Expression& expression = graph()[Node{open.back()}];
       open.pop_back();
-      if (expression.op == Op::continuous_state) found.push_back(static_cast<int>(expression.index));
+      if (expression.op == Op::continuous_state)
+        found.push_back(static_cast<int>(expression.index));
       for (int k = 0; k < operand_count(expression.op); ++k)
         visit(expression.operands[static_cast<std::size_t>(k)]);
     }

@@ -114,3 +114,30 @@ TEST_CASE("3.8 a reset in one leaf leaves the state of another as it is", "[sema
   CHECK(results.context.continuous_state()[0] == 0.1);
   CHECK(results.context.discrete_state()[0] == 0.7);
 }
+
+TEST_CASE("3.3 updates of one leaf at one time run in order, and each sees the one before",
+          "[semantics]") {
+  const auto* method = GENERATE(from_range(methods));
+  const Leaf leaf("counters", [](Leaf& l) {
+    declare_ramp(l);
+    l.declare_discrete_state(vec({0.0, 0.0, 0.0}));
+    const auto tick = [](Index i) {
+      return [=](const At& at, Next& next) {
+        next.set_discrete_state(at.z + Eigen::VectorXd::Unit(3, i));
+      };
+    };
+    l.declare_periodic_update(tick(0), 0.5, 0.0, "fast");
+    l.declare_periodic_update(tick(1), 1.0, 0.0, "slow");
+    // The last one sees what both left at its time.
+    l.declare_periodic_update(
+        [](const At& at, Next& next) {
+          Eigen::VectorXd z = at.z;
+          z[2] = 100.0 * z[0] + z[1];
+          next.set_discrete_state(z);
+        },
+        5.0, 0.0, "sum");
+  });
+  const auto results =
+      simulate(leaf, leaf.create_context(), {0.0, 10.0}, {.ode_solver_method = method});
+  CHECK(results.context.discrete_state() == vec({21.0, 11.0, 2111.0}));
+}

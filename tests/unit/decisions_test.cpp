@@ -39,6 +39,9 @@ const Arming waits_at(int side) { return {.phase = Phase::waiting, .side = side}
 const Arming fires_from(int from, int side) {
   return {.phase = Phase::waiting, .side = side, .then = Arming::Then::fire, .from = from};
 }
+const Arming within_tolerance(int side) {
+  return {.phase = Phase::waiting, .side = side, .within = Arming::Within::tolerance};
+}
 const Arming rests_at(int side) {
   return {.phase = Phase::waiting, .side = side, .then = Arming::Then::rest};
 }
@@ -108,6 +111,8 @@ TEST_CASE("The flow is asked about guards at zero, and about no others") {
   CHECK_FALSE(needs_flow(off, unasked));
   CHECK(needs_flow(at, unasked));
   CHECK(needs_flow(fired, unasked));
+  CHECK(needs_flow({.g = 1e-17, .put_at_zero = true}, unasked));
+  CHECK_FALSE(needs_flow({.direction = edge, .g = 0.0, .fired = true}, unasked));
   CrossingFacts waits{.phase = Phase::waiting, .g = 1e-13, .error = eps};
   CHECK_FALSE(needs_flow(waits, unasked));  // dormant as before
   waits.resets = 1;
@@ -173,7 +178,36 @@ TEST_CASE("A guard at zero that has not fired: contact, dormant, or waiting") {
        {0, eps},
        {},
        waits_at(1)},
-      {"edge_detection has no side", with([](auto& f) { f.direction = edge; }), {-1, eps}, {}, {}},
+      {"a commit moved it to zero, and the flow takes it on: it has arrived",
+       with([](auto& f) { f.put_at_zero = true; }),
+       {-1, eps},
+       {},
+       fires_from(1, -1)},
+      {"a commit moved it to zero, and it stays there: it has arrived",
+       with([](auto& f) { f.put_at_zero = true; }),
+       {0, eps},
+       {},
+       fires_from(1, 1)},
+      {"a commit moved it to zero, and the flow takes it back: a wrap does not ring",
+       with([](auto& f) { f.put_at_zero = true, f.resets = 1; }),
+       {1, eps},
+       {},
+       waits_at(1)},
+      {"a terminal guard without an effect arrives too",
+       with([](auto& f) { f.put_at_zero = true, f.effect = f.reset = false; }),
+       {0, eps},
+       {},
+       fires_from(1, 0)},
+      {"of either direction, moved to zero from below, taken on",
+       with([](auto& f) { f.direction = either, f.side = -1, f.put_at_zero = true; }),
+       {1, eps},
+       {},
+       fires_from(-1, 1)},
+      {"of either direction, moved to zero from below, taken back",
+       with([](auto& f) { f.direction = either, f.side = -1, f.put_at_zero = true; }),
+       {-1, eps},
+       {},
+       waits_at(-1)},
   });
 }
 
@@ -208,6 +242,11 @@ TEST_CASE("A guard that fired: off, back, at rest, or passed through") {
        {.low = false, .back = false},
        waits_at(-1)},
       {"the flight was too low to see: at rest", bounce, {1, eps}, {.low = true}, rests_at(1)},
+      {"clearly above, headed up: armed at once",
+       with([](auto& f) { f.g = 1.0; }),
+       {1, eps},
+       {},
+       {.phase = Phase::armed, .side = 1}},
       {"clearly above, headed down: armed, about to cross",
        with([](auto& f) { f.g = 1.0; }),
        {-1, eps},
@@ -277,6 +316,16 @@ TEST_CASE("A guard whose mode was entered at its zero") {
        {.slope_ = 1.0},
        waits_at(1)},
       {"headed off the surface", entered, {1, eps}, {.slope_ = 1.0}, waits_at(1)},
+      {"leaves along the surface: at zero within the tolerance",
+       entered,
+       {1, eps},
+       {.slope_ = 0.0},
+       within_tolerance(1)},
+      {"leaves along the surface, not seen by rounding",
+       entered,
+       {0, eps},
+       {.slope_ = 0.0},
+       within_tolerance(1)},
       {"fired into a mode that leads back too: it fires",
        [&] {
          CrossingFacts f = entered;

@@ -43,7 +43,7 @@ class Tape {
   bool reads_entry() const noexcept;       ///< whether a result depends on at.entry
   /// The entries of the continuous state that each value depends on, in ascending order.
   std::vector<std::vector<int>> states_read() const;
-  const Graph& graph() const noexcept;     ///< the needed part of the graph it was made from
+  const Graph& graph() const noexcept;  ///< the needed part of the graph it was made from
   const std::vector<Node>& outputs() const noexcept;  ///< the values, as nodes of `graph()`
 
   /// One line for each instruction, in the order in which they run, and one for each output.

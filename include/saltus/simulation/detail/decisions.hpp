@@ -45,17 +45,17 @@ struct FlowSide {
 struct CrossingFacts {
   Direction direction = Direction::crosses_zero;
   Phase phase = Phase::armed;
-  int side = 0;           ///< its side until now
-  double g = 0.0;         ///< its value
-  double error = 0.0;     ///< until now
-  bool at_start = false;  ///< the run begins here
-  bool entered = false;   ///< its mode was entered in this instant
+  int side = 0;              ///< its side until now
+  double g = 0.0;            ///< its value
+  double error = 0.0;        ///< until now
+  bool at_start = false;     ///< the run begins here
+  bool entered = false;      ///< its mode was entered in this instant
   bool put_at_zero = false;  ///< the last commit moved it to zero, within its error
-  bool fired = false;     ///< in this instant
-  int came_from = 0;      ///< the side it fired from
-  bool effect = false;    ///< it writes a state or a mode
-  bool reset = false;     ///< by a reset map
-  int resets = 0;         ///< reset maps that wrote continuous state in this instant
+  bool fired = false;        ///< in this instant
+  int came_from = 0;         ///< the side it fired from
+  bool effect = false;       ///< it writes a state or a mode
+  bool reset = false;        ///< by a reset map
+  int resets = 0;            ///< reset maps that wrote continuous state in this instant
 
   bool either() const { return direction == Direction::crosses_zero; }
   bool wrote() const { return resets > 0; }
@@ -132,7 +132,8 @@ Arming decide_at_zero(const CrossingFacts& guard, FlowSide flow, const Ask& ask)
   const bool dormant = flow.side == 0 && guard.effect && not_beyond;
   Arming arming{.phase = Phase::waiting, .side = dormant ? armed : flow.side};
   const bool leaves = flow.side == 0 ? dormant : flow.side == armed;
-  if (guard.entered && guard.effect && leaves && ask.slope() == 0.0) arming.within = Arming::Within::tolerance;
+  if (guard.entered && guard.effect && leaves && ask.slope() == 0.0)
+    arming.within = Arming::Within::tolerance;
   if (guard.put_at_zero && flow.side != armed)
     arming.then = Arming::Then::fire, arming.from = armed;
   else if (guard.effect && (begins || turned))
@@ -162,8 +163,7 @@ Arming decide_at_zero(const CrossingFacts& guard, FlowSide flow, const Ask& ask)
 template <class Ask>
 Arming decide_fired(const CrossingFacts& guard, FlowSide flow, const Ask& ask) {
   const int from = guard.came_from;
-  if (guard.reset && from * guard.g > flow.error)
-    return {.phase = Phase::armed, .side = from};
+  if (guard.reset && from * guard.g > flow.error) return {.phase = Phase::armed, .side = from};
   const int kept = guard.reset && guard.wrote() ? from : 0;
   Arming arming{.phase = Phase::waiting, .side = flow.side != 0 ? flow.side : kept};
   if (!guard.reset) return arming;

@@ -20,7 +20,7 @@ class Holds {
     int leaf = -1, source = -1;
     Index entry = 0;
     OnZeno on_zeno = {};
-    std::span<const Index> candidates = {};  ///< entries of x that may rest
+    std::span<const Index> candidates = {};   ///< entries of x that may rest
     const std::vector<int>* reads = nullptr;  ///< the leaf's states its guard reads; null: unknown
     std::vector<char> written = {};           ///< which candidates an effect changed
     bool steers = false;  ///< an effect wrote discrete state or a mode that derivatives read

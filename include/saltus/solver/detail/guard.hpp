@@ -110,8 +110,9 @@ struct Guard : GuardTraits {
   /// Sets the side; 0 for none. The phase changes only if the guard did not wait.
   void turn(int to) {
     side = static_cast<signed char>(to);
-    if (phase == Phase::unseen || phase == Phase::armed)
-      phase = to == 0 ? Phase::unseen : Phase::armed;
+    if (phase != Phase::unseen && phase != Phase::armed) return;
+    const bool has_side = to != 0 || direction == Direction::edge_detection;
+    phase = has_side ? Phase::armed : Phase::unseen;
   }
   /// Sets a side without an error.
   void settle(int on) {

@@ -92,12 +92,12 @@ class GuardSet {
   /// Sets the side to which a guard leaves zero; 0: it is exactly on zero.
   void leave_to(std::size_t k, int side) { guards_[k].turn(side); }
 
-  std::vector<double> g;              ///< values at the last look
-  std::vector<Firing> fired_at_root;  ///< the guards that crossed at the last root
+  std::vector<double> g;                 ///< values at the last look
+  std::vector<Firing> fired_at_root;     ///< the guards that crossed at the last root
   std::vector<std::size_t> beside_root;  ///< others within the resolution of that root from zero
-  std::vector<MonitorHit> monitors;   ///< crossings of monitors in the last advance
+  std::vector<MonitorHit> monitors;      ///< crossings of monitors in the last advance
   bool some_beyond = false;  ///< some guard with one direction is on its firing side at a restart
-  int scan_points = 3;                ///< interior points of a step with a look at the guards
+  int scan_points = 3;       ///< interior points of a step with a look at the guards
 
  private:
   void set(std::size_t k, Phase phase, int side, double error) {

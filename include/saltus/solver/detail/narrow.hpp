@@ -25,7 +25,8 @@ class Narrower {
   Narrower(Machine& machine, GuardSet& guards)
       : machine_(&machine), guards_(&guards), x_(static_cast<std::size_t>(machine.plan().nx)) {
     const auto slots = static_cast<std::size_t>(machine.plan().guard_slots);
-    for (auto* values : {&low_, &high_, &middle_, &third_, &noise_, &jump_}) values->assign(slots, 1.0);
+    for (auto* values : {&low_, &high_, &middle_, &third_, &noise_, &jump_})
+      values->assign(slots, 1.0);
     crossed_.reserve(slots), limits_.reserve(slots);
   }
 

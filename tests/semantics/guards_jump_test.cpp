@@ -1,0 +1,130 @@
+// Semantics 2.1: a guard may jump.
+#include "support/leaves.hpp"
+
+using namespace saltus;
+using namespace support;
+
+namespace {
+
+const double root2 = std::sqrt(2.0);
+
+/// x' = 1; x goes back to 0 where a guard of two values jumps, at sqrt(2).
+Leaf saw(Direction direction, double before, double behind) {
+  return Leaf("saw", [=](Leaf& l) {
+    declare_ramp(l);
+    l.declare_zero_crossing(
+        {.name = "jump",
+         .guard = [=](const At& at) { return at.x[0] < root2 ? before : behind; },
+         .reset_map = [](const At&, Next& next) { next.set_continuous_state({0.0}); },
+         .direction = direction});
+  });
+}
+
+/// Seven teeth in ten seconds. The location of each is off by the resolution of the time.
+void has_seven_teeth(const Leaf& leaf, const char* method) {
+  const auto results =
+      simulate(leaf, leaf.create_context(), {0.0, 10.0}, {.ode_solver_method = method});
+  INFO(method);
+  const std::vector<double> times = results.events.times("jump");
+  REQUIRE(times.size() == 7);
+  for (std::size_t i = 0; i < times.size(); ++i)
+    CHECK(std::abs(times[i] - static_cast<double>(i + 1) * root2) < 100.0 * eps * 10.0 * 7.0);
+  CHECK(count(results.events, EventKind::zeno_enter) == 0);
+}
+
+}  // namespace
+
+TEST_CASE("2.1 a guard that jumps fires each time, whatever its two values", "[semantics]") {
+  const auto* method = GENERATE(from_range(methods));
+  using Values = std::pair<double, double>;
+  const auto [before, behind] = GENERATE(Values{1.0, -1.0}, Values{1e6, -1.0}, Values{1.0, 0.0},
+                                         Values{1.0, -1e-300}, Values{1e-200, -1e200});
+  has_seven_teeth(saw(Direction::positive_then_non_positive, before, behind), method);
+  has_seven_teeth(saw(Direction::crosses_zero, before, behind), method);
+  has_seven_teeth(saw(Direction::negative_then_non_negative, -before, -behind), method);
+}
+
+TEST_CASE("2.1 edge_detection fires at each change that time brings, and not at its own reset",
+          "[semantics]") {
+  has_seven_teeth(saw(Direction::edge_detection, 1.0, -1.0), GENERATE(from_range(methods)));
+  has_seven_teeth(saw(Direction::edge_detection, 0.0, 1.0), GENERATE(from_range(methods)));
+}
+
+TEST_CASE("2.1 a staircase fires where it passes zero, again and again", "[semantics]") {
+  const auto* method = GENERATE(from_range(methods));
+  const Leaf leaf("saw", [](Leaf& l) {
+    declare_ramp(l);
+    l.declare_zero_crossing(
+        {.name = "jump",
+         .guard = [](const At& at) { return 2.5 - std::floor(3.0 * at.x[0] / root2); },
+         .reset_map = [](const At&, Next& next) { next.set_continuous_state({0.0}); },
+         .direction = Direction::positive_then_non_positive});
+  });
+  has_seven_teeth(leaf, method);
+}
+
+TEST_CASE("2.1 a monitor that jumps is logged each time", "[semantics]") {
+  const auto* method = GENERATE(from_range(methods));
+  const Leaf leaf("wave", [](Leaf& l) {
+    declare_ramp(l);
+    l.declare_zero_crossing({.name = "jump", .guard = [](const At& at) {
+                               return std::fmod(at.x[0], 2.0) < 1.0 ? 1.0 : -1.0;
+                             }});
+  });
+  const auto results = simulate(leaf, leaf.create_context(), {0.0, 9.5},
+                                {.ode_solver_method = method, .max_minor_step_size = 0.25});
+  CHECK(results.events.times("jump").size() == 9);
+}
+
+TEST_CASE("2.1 a ball whose guard is the truth `above the floor` bounces and stays above",
+          "[semantics]") {
+  const auto* method = GENERATE(from_range(methods));
+  const auto direction = GENERATE(Direction::positive_then_non_positive, Direction::crosses_zero);
+  constexpr double g = 10.0, e = 0.8;
+  const Leaf ball("ball", [=](Leaf& l) {
+    l.declare_continuous_state({.initial = vec({5.0, 0.0}),
+                                .ode = [](const At& at, VectorRef xdot) { xdot << at.x[1], -g; }});
+    l.declare_zero_crossing({.name = "bounce",
+                             .guard = [](const At& at) { return at.x[0] > 0.0 ? 1.0 : -1.0; },
+                             .reset_map =
+                                 [=](const At& at, Next& next) {
+                                   next.set_continuous_state({std::abs(at.x[0]), -e * at.x[1]});
+                                 },
+                             .direction = direction});
+  });
+  // Impacts at 1 s, and after flights of 2 e^k s; before 7 s there are five: 1, 2.6, 3.88, 4.904,
+  // 5.7232, 6.37856 s are six.
+  const auto results =
+      simulate(ball, ball.create_context(), {0.0, 7.0}, {.ode_solver_method = method});
+  const std::vector<double> times = results.events.times("bounce");
+  REQUIRE(times.size() >= 6);
+  double expected = 1.0;
+  for (int k = 0; k < 6; ++k) {
+    CHECK(std::abs(times[static_cast<std::size_t>(k)] - expected) < 1e-4);
+    expected += 2.0 * std::pow(e, k + 1);
+  }
+  CHECK(results.context.continuous_state()[0] >= 0.0);
+}
+
+TEST_CASE("2.1 edge_detection compares with the value at which its mode was entered",
+          "[semantics]") {
+  const auto* method = GENERATE(from_range(methods));
+  const Leaf leaf("modes", [](Leaf& l) {
+    declare_ramp(l);
+    l.declare_default_mode(0);
+    const auto step = [](const At& at) { return at.x[0] < 1.0 ? 0.0 : at.x[0] < 3.0 ? 1.0 : 2.0; };
+    l.declare_zero_crossing({.name = "enter",
+                             .guard = [](const At& at) { return at.x[0] - 2.0; },
+                             .start_mode = 0,
+                             .end_mode = 1});
+    l.declare_zero_crossing({.name = "edge",
+                             .guard = step,
+                             .direction = Direction::edge_detection,
+                             .start_mode = 1,
+                             .end_mode = 1});
+  });
+  const auto results =
+      simulate(leaf, leaf.create_context(), {0.0, 4.0}, {.ode_solver_method = method});
+  REQUIRE(results.events.times("edge").size() == 1);
+  CHECK(std::abs(results.events.times("edge")[0] - 3.0) < 100.0 * eps * 4.0);
+}
