@@ -60,7 +60,7 @@ void same_runs(const char* name) {
 }  // namespace
 
 TEST_CASE("an inlined right-hand side: the same steps, calls, events and states", "[inlined]") {
-  for (const char* name : methods) {
+  for (const Method name : methods) {
     same_runs<1>(name);
     same_runs<2>(name);
     same_runs<3>(name);
