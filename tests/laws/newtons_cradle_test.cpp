@@ -67,7 +67,7 @@ std::shared_ptr<const Diagram> cradle_of_blocks(double gap) {
 }
 
 struct Cradle {
-  const char* method;
+  Method method;
   double rtol = 1e-10, atol = 1e-12;
   /// Three quarter turns are 2.4 half ones; an oscillator does not let errors grow, they add up.
   double tolerance = allowed(method, 1e-10, 1e-12, 1.0, 5.0 * 3.15);

@@ -56,7 +56,7 @@ Scene kepler(double t_end = 10.0) {
                           }}}};
 }
 
-WorkReport quick(const Scene& scene, std::vector<std::string> methods, std::vector<double> rtols) {
+WorkReport quick(const Scene& scene, std::vector<Method> methods, std::vector<double> rtols) {
   return work_precision(scene, {.methods = std::move(methods),
                                 .rtols = std::move(rtols),
                                 .atol_over_rtol = 1e-2,

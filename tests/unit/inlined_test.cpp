@@ -40,7 +40,7 @@ class Ring final : public LeafSystem {
 };
 
 template <int N>
-void same_runs(const char* name) {
+void same_runs(Method name) {
   const SimulatorOptions options{.rtol = 1e-9, .atol = 1e-11, .ode_solver_method = name};
   const Ring<N, true> fast;
   const Ring<N, false> plain;

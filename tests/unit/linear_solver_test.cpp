@@ -80,7 +80,8 @@ Results run(const System& system, double t_end, LinearSolver solver, double rtol
 /// two, whose flow contracts or is mild, stays within the sum of local errors, one tolerance each
 /// step, a few hundred steps.
 void all_agree(const System& system, double t_end) {
-  const Eigen::VectorXd exact = run(system, t_end, "dense", 1e-9).context.continuous_state();
+  const Eigen::VectorXd exact =
+      run(system, t_end, LinearSolver::dense, 1e-9).context.continuous_state();
   for (const LinearSolver solver : solvers) {
     INFO("linear solver " << solver);
     const Results results = run(system, t_end, solver);

@@ -121,7 +121,7 @@ inline double visible_order(const WorkReport& report, Method method) {
 }
 
 /// The scene as a report runs it: with output times, if it is compared at these.
-inline Scene prepared(Scene scene, const WorkOptions& work) {
+inline Scene prepared(Scene scene) {
   ReferenceOptions defaults;
   if (!is_known(scene.exact) && scene.options.save_at.empty())
     scene.options.save_at = even_times(scene.span, defaults.points);
@@ -163,7 +163,7 @@ inline WorkRow measure(Scene scene, const SimulatorOptions& options, const Refer
 /// A row for each method at each tolerance; the other options of the scene remain unchanged. Throws
 /// ModelError for a method that does not exist, and if there is nothing to compare with.
 inline WorkReport work_precision(Scene scene, const WorkOptions& work = {}) {
-  scene = detail::prepared(std::move(scene), work);
+  scene = detail::prepared(std::move(scene));
   const double ratio =
       work.atol_over_rtol > 0.0 ? work.atol_over_rtol : scene.options.atol / scene.options.rtol;
   const double tightest = work.rtols.empty() ? 1e-6 : *std::ranges::min_element(work.rtols);
