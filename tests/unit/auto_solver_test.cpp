@@ -196,7 +196,7 @@ TEST_CASE("auto costs half more than BDF at most on Robertson's reaction, at any
   const Leaf leaf = robertson();
   const auto results = run(leaf, 4e10, Method::automatic, rtol, 1e-4 * rtol),
              bdf = run(leaf, 4e10, Method::bdf, rtol, 1e-4 * rtol);
-  CHECK(methods_of(results).back() == Method::bdf);
+  CHECK(methods_of(results).back() == "bdf");
   // Measured 1.00 to 1.30: the fifteen steps of the stiffness test, and four calls every fifty
   // steps.
   CHECK(static_cast<double>(calls(results)) < 1.5 * static_cast<double>(calls(bdf)));
