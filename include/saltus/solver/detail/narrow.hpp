@@ -8,6 +8,7 @@
 
 #include "saltus/plan/detail/machine.hpp"
 #include "saltus/solver/detail/guard_set.hpp"
+#include "saltus/solver/detail/thresholds.hpp"
 
 namespace saltus {
 
@@ -72,11 +73,11 @@ class Narrower {
     int kept = 0;   // looks in a row that kept the low (> 0) or the high (< 0) end
     int zeros = 0;  // looks in a row with exact zeros only: a plateau is halved to its beginning
     double weight = 1.0;
-    for (int count = 0; count < 200; ++count) {
-      const double resolution = 2.0 * std::numeric_limits<double>::epsilon() * high;
+    for (int count = 0; count < thresholds::most_looks; ++count) {
+      const double resolution = thresholds::bracket_roundings * thresholds::eps * high;
       if (high - low <= resolution) break;
       zeros = only_exact_zeros() ? zeros + 1 : 0;
-      const bool halves = zeros > 1 || (zeros == 0 && count > 60);
+      const bool halves = zeros > 1 || (zeros == 0 && count > thresholds::bisects_after);
       const double u = zeros == 1 ? high - resolution  // an exact root: look just before it
                        : halves   ? low + 0.5 * (high - low)
                                   : next_point(low, high, weight, resolution);
@@ -117,15 +118,11 @@ class Narrower {
   void note_ends(double last, double begun) {
     for (const std::size_t k : crossed_) {
       const double jump = std::abs(high_[k] - low_[k]), change = std::abs(high_[k] - guards_->g[k]);
-      const bool jumps = jump * begun > jump_steepness * last * std::max(change, jump);
+      const bool jumps = jump * begun > thresholds::jump_steepness * last * std::max(change, jump);
       jump_[k] = jumps ? jump : 0.0;
-      noise_[k] = jumps ? 0.0 : 4.0 * std::max(std::abs(low_[k]), std::abs(high_[k]));
+      noise_[k] = jumps ? 0.0 : thresholds::root_noise * std::max(std::abs(low_[k]), std::abs(high_[k]));
     }
   }
-
-  /// [1] A bracket is narrowed by some 1e12 and more. A smooth guard is hardly steeper at its end
-  /// than at its beginning; a jump is steeper by the whole factor. This lies between, in decades.
-  static constexpr double jump_steepness = 1e6;
 
   /// A guard that waits and is on its armed side at low becomes armed.
   void leave_zero() {
@@ -146,7 +143,7 @@ class Narrower {
   /// from the ends. It is the middle if there is no estimate: for guards that jump, or that are at
   /// zero at the low end.
   double next_point(double low, double high, double weight, double resolution) const {
-    if (high - low <= 3.0 * resolution) return low + 0.5 * (high - low);
+    if (high - low <= thresholds::last_look * resolution) return low + 0.5 * (high - low);
     double fraction = 2.0;  // part of the interval, from low
     for (std::size_t k : crossed_) {
       const Guard& guard = (*guards_)[k];
