@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "saltus/simulation/detail/contact_decisions.hpp"
 #include "saltus/simulation/detail/contact_guards.hpp"
 
 namespace saltus {
@@ -24,16 +25,21 @@ bool ContactGuards::wake(SurfaceContact& contact) {
   const auto k = static_cast<std::size_t>(contact.slot);
   const double t = present_->t;
   double* x = machine_->x.data();
-  if (!contact.carried) {
-    machine_->guards_at(t, x, present_->g.data());
-    const double g = present_->g[k];
-    contact.carried = !contact.members.empty() && contacts_.settle(contact, t, x) &&
-                      contacts_.lift(contact, t, x) < 0.0;
-    if (contact.carried) return false;
-    if (!(g * -contact.pressed > 0.0)) {
+  if (!contact.carried) machine_->guards_at(t, x, present_->g.data());
+  const double g = present_->g[k];
+  const auto may_be_carried = [&] {
+    return !contact.members.empty() && contacts_.settle(contact, t, x) &&
+           contacts_.lift(contact, t, x) < 0.0;
+  };
+  switch (decide_waking(contact.carried, g, contact.pressed, may_be_carried)) {
+    case Waking::carry:
+      contact.carried = true;
+      return false;
+    case Waking::stay:
       contact.error = std::max(contact.error, thresholds::wavered * std::abs(g));
       return false;
-    }
+    case Waking::release:
+      break;
   }
   let_go(contact);
   return true;
@@ -56,23 +62,20 @@ void ContactGuards::let_go(SurfaceContact& contact) {
 void ContactGuards::look_at_held(std::size_t k) {
   const SurfaceContact* contact = contacts_.on(static_cast<int>(k));
   const int pressed = firing_side(group_of(k).direction);
-  const double error = contact ? contact->error : (*guards_)[k].error, g = present_->g[k];
-  if (std::abs(g) <= error) return;
-  if (g * pressed < 0.0) {
-    leave(k);
-    holds_->release(holds_->of_guard(k));
-    guards_->turn(k, -pressed);
-  } else if (std::abs(g) > thresholds::clearly_beyond * error) {
-    present_->fire(k, -pressed);
-  }
+  const double error = contact ? contact->error : (*guards_)[k].error;
+  const Held then = decide_held(present_->g[k], error, pressed);
+  if (then == Held::apply_again) present_->fire(k, -pressed);
+  if (then != Held::release) return;
+  leave(k);
+  holds_->release(holds_->of_guard(k));
+  guards_->turn(k, -pressed);
 }
 
 bool ContactGuards::still_at_rest(std::size_t k) {
   SurfaceContact* contact = contacts_.on(static_cast<int>(k));
   if (contact == nullptr) return false;
   if (contact->opaque) return contacts_.lift(*contact, present_->t, machine_->x.data()) < 0.0;
-  const double g = present_->g[k];
-  return std::abs(g) <= contact->error || g * contact->pressed > 0.0;
+  return is_pressed(present_->g[k], contact->error, contact->pressed);
 }
 
 void ContactGuards::keep_relations_of(const EdgeWatch& edge) {

@@ -73,10 +73,8 @@ void CrossingArming::arm(std::size_t k, bool at_start) {
   const CrossingFacts facts = facts_of(k, at_start);
   if (!facts.fired && (at_start || facts.entered) && begins_as_wished(group, k)) return;
   if (!needs_flow(facts, [&] { return uncertainty(k); })) return;
-  const double error = facts.fired ? present_->location_error(k)
-                       : facts.entered || facts.put_at_zero || facts.phase == Phase::waiting
-                           ? std::abs(facts.g)
-                           : 0.0;
+  const bool counts_as_zero = facts.entered || facts.put_at_zero || facts.phase == Phase::waiting;
+  const double error = present_->error_so_far(k, counts_as_zero);
   const Departure::Side flow = flow_->side(group, slot, error, facts.fired ? facts.came_from : 0);
   const Ask ask{this, &group, k, facts.came_from, flow.rounding};
   carry_out(k, decide_crossing(facts, {flow.side, flow.rounding}, ask), flow.rounding);

@@ -18,9 +18,8 @@ void Instant::open(double t, const std::vector<int>& due, double longest) {
     const auto k = static_cast<std::size_t>(root.slot);
     GuardNow& now = present_.now[k];
     now.jumped = root.jump > 0.0 && root.jump > crossings_.uncertainty(k);  // else it is rounding
-    if (now.jumped) continue;
-    now.location = thresholds::location_error * std::abs(guards_->g[k]);
-    if (root.at_zero) now.flight = t - (*guards_)[k].armed_at;
+    now.location = location_error(guards_->g[k], now.jumped);
+    if (root.at_zero && !now.jumped) now.flight = t - (*guards_)[k].armed_at;
   }
   flow_.forget();  // it belongs to x-
   for (const int event : due)

@@ -113,10 +113,12 @@ int Relations::side_by_flow(const GuardGroup& group, std::size_t k, int crossed_
   GuardNow& now = present_->now[k];
   const Departure::Side flow =
       flow_->side(group, slot, opaque ? 0.0 : now.location, opaque ? 0 : Departure::either_side);
-  if (flow.side == 0) return crossed_to;
-  const bool rests = flow.side == crossed_to && edges_->set_off_by(group.index) &&
-                     (opaque || flow_->leads_back(group, slot, -crossed_to, transition_->before()));
-  if (!rests) return flow.side;
+  const auto leads_back = [&] {
+    return opaque || flow_->leads_back(group, slot, -crossed_to, transition_->before());
+  };
+  const bool set_off = flow.side == crossed_to && edges_->set_off_by(group.index);
+  const RelationSide then = decide_relation_side(flow.side, crossed_to, set_off, leads_back);
+  if (!then.rests) return then.side;
   now.frozen = true;
   if (holds_->hold_edges(edges_->fired(), group.index)) {
     guards_->keep_truth(k, true);
@@ -156,8 +158,8 @@ void Relations::arm(std::size_t k) {
     case RelationArming::by_flow:
       break;
   }
-  const Departure::Side flow = flow_->side(group, static_cast<Index>(k),
-                                           now.fired ? present_->location_error(k) : 0.0, side);
+  const Departure::Side flow =
+      flow_->side(group, static_cast<Index>(k), now.fired ? present_->error_so_far(k) : 0.0, side);
   guards_->wait(k, side, flow.rounding);
   if (flow.side != 0 && flow.side != side) present_->fire(k, side);
 }

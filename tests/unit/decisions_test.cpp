@@ -393,3 +393,14 @@ TEST_CASE("How a relation goes on") {
   CHECK(decide_relation_arming(false, 1, 1, true, false) == by_flow);
   CHECK(decide_relation_arming(false, 0, 1, false, false) == by_flow);
 }
+
+TEST_CASE("A relation at its zero follows the flow, and rests where the flow leads straight back") {
+  const auto yes = [] { return true; }, no = [] { return false; };
+  const auto unasked = []() -> bool { throw std::logic_error("asked for the flow before"); };
+  const int to = GENERATE(-1, 1);
+  CHECK(decide_relation_side(0, to, true, unasked) == RelationSide{to, false});
+  CHECK(decide_relation_side(to, to, true, yes) == RelationSide{to, true});
+  CHECK(decide_relation_side(to, to, true, no) == RelationSide{to, false});
+  CHECK(decide_relation_side(to, to, false, unasked) == RelationSide{to, false});
+  CHECK(decide_relation_side(-to, to, true, unasked) == RelationSide{-to, false});
+}

@@ -232,6 +232,27 @@ constexpr std::optional<int> decide_relation(const RelationFacts& relation) {
   return side;
 }
 
+/// The side of a relation at its zero that the flow decides, and whether its blocks come to rest.
+///
+///     flow to                          set off a reset    leads straight back    side           rests
+///     none                             -                  -                      the crossing's no
+///     the crossing's side              yes                yes                    the flow's     yes
+///     otherwise                        -                  -                      the flow's     no
+///
+/// "Leads straight back" is asked only where the flow leads to the side that set off the reset.
+struct RelationSide {
+  int side = 0;
+  bool rests = false;
+  bool operator==(const RelationSide&) const = default;
+};
+
+template <class LeadsBack>
+RelationSide decide_relation_side(int flow_to, int crossed_to, bool set_off,
+                                  const LeadsBack& leads_back) {
+  if (flow_to == 0) return {crossed_to, false};
+  return {flow_to, flow_to == crossed_to && set_off && leads_back()};
+}
+
 /// Decides how a relation is armed when integration continues.
 ///
 ///     opaque                                       as its truth, phase unchanged

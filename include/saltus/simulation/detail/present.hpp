@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "saltus/simulation/detail/thresholds.hpp"
+#include "saltus/simulation/detail/error_bound.hpp"
 #include "saltus/solver/detail/guard.hpp"
 
 namespace saltus {
@@ -80,11 +80,14 @@ struct Present {
   void fire(std::size_t k, int from) { firings.push_back({static_cast<int>(k), from}); }
   /// [s] A shorter flight is within the rounding of the time.
   double least_time() const { return thresholds::time_roundings * thresholds::eps * std::abs(t); }
-  /// How far from zero the location of a root left a guard. A guard that fired on leaving its error
-  /// keeps that error instead: errors made from errors would grow without end.
-  double location_error(std::size_t k) const {
-    return now[k].jumped || std::isnan(now[k].flight) ? now[k].location
-                                                      : thresholds::kept_error * std::abs(g[k]);
+  /// The error bound of a guard before the flow is asked.
+  double error_so_far(std::size_t k, bool counts_as_zero = false) const {
+    return saltus::error_so_far({.g = g[k],
+                                 .location = now[k].location,
+                                 .fired = now[k].fired,
+                                 .jumped = now[k].jumped,
+                                 .left_error = !std::isnan(now[k].flight),
+                                 .counts_as_zero = counts_as_zero});
   }
 };
 

@@ -1,0 +1,37 @@
+// Decisions about blocks at rest, row by row of their tables.
+#include "saltus/simulation/detail/contact_decisions.hpp"
+
+#include <stdexcept>
+
+#include "support/catch.hpp"
+
+using namespace saltus;
+
+TEST_CASE("A held guard stays within its error, releases on its armed side, is carried beyond it") {
+  const int pressed = GENERATE(-1, 1);
+  const double up = -pressed;  // towards the armed side
+  CHECK(decide_held(0.0, 1e-12, pressed) == Held::stay);
+  CHECK(decide_held(up * 1e-12, 1e-12, pressed) == Held::stay);
+  CHECK(decide_held(up * 2e-12, 1e-12, pressed) == Held::release);
+  CHECK(decide_held(up * -2e-12, 1e-12, pressed) == Held::stay);
+  CHECK(decide_held(up * -2e-9, 1e-12, pressed) == Held::apply_again);
+}
+
+TEST_CASE("A relation at rest stays within its error, and while it is pressed") {
+  const int pressed = GENERATE(-1, 1);
+  CHECK(is_pressed(0.0, 0.0, pressed));
+  CHECK(is_pressed(pressed * 1.0, 1e-12, pressed));
+  CHECK(is_pressed(pressed * -1e-12, 1e-12, pressed));
+  CHECK_FALSE(is_pressed(pressed * -2e-12, 1e-12, pressed));
+}
+
+TEST_CASE("A contact whose guard leaves its error is carried, wavers, or releases its blocks") {
+  const int pressed = GENERATE(-1, 1);
+  const auto yes = [] { return true; }, no = [] { return false; };
+  const auto unasked = []() -> bool { throw std::logic_error("asked whether it may be carried"); };
+  CHECK(decide_waking(true, pressed * 1.0, pressed, unasked) == Waking::release);
+  CHECK(decide_waking(false, pressed * -1.0, pressed, yes) == Waking::carry);
+  CHECK(decide_waking(false, pressed * 1.0, pressed, no) == Waking::stay);
+  CHECK(decide_waking(false, 0.0, pressed, no) == Waking::stay);
+  CHECK(decide_waking(false, pressed * -1.0, pressed, no) == Waking::release);
+}
