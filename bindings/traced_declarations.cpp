@@ -55,6 +55,16 @@ tape::Jacobian at_places(const tape::Jacobian& jacobian, const std::vector<Matri
   return {places, tape::Tape(graph, values)};
 }
 
+/// The entries of x+ that are not the same entry of x: the first n values of the tape are x+.
+std::vector<int> changed_states(const tape::Tape& tape, Index n) {
+  std::vector<int> changed;
+  for (int i = 0; i < n; ++i) {
+    const tape::Expression& value = tape.graph()[tape.outputs()[static_cast<std::size_t>(i)]];
+    if (value.op != tape::Op::continuous_state || value.index != i) changed.push_back(i);
+  }
+  return changed;
+}
+
 /// The inputs that a tape reads.
 std::vector<int> inputs_of(const PythonLeaf& leaf, const Slot& slot) {
   std::vector<int> inputs;
@@ -80,6 +90,7 @@ class Writer {
   RelationIndex add_relation(Relation relation);
   void put_time_event(const Slot& slot);
   void narrow_inputs(ZeroCrossing& crossing, int index);
+  void note_touches(ZeroCrossing& crossing, int index);
   std::optional<Slot> slot_of(Role role, int index) const;
   VectorFunction taped(const Slot& slot) const;
 
@@ -93,7 +104,8 @@ Declarations Writer::write(const std::vector<Shape>& outputs) {
   for (const Slot& slot : slots_) put(slot);
   auto& crossings = declared_.zero_crossings;
   for (std::size_t i = 0; i < crossings.size(); ++i)
-    narrow_inputs(crossings[i], static_cast<int>(i));
+    narrow_inputs(crossings[i], static_cast<int>(i)),
+        note_touches(crossings[i], static_cast<int>(i));
   return std::move(declared_);
 }
 
@@ -114,7 +126,6 @@ void Writer::put(const Slot& slot) {
       return;
     case Role::guard:
       crossing().guard = taped(slot);
-      crossing().reads_states = slot->tape.states_read();
       return;
     case Role::reset_map:
       crossing().reset_map = taped_reset(original_, slot, crossing().reset_map);
@@ -240,6 +251,21 @@ void Writer::narrow_inputs(ZeroCrossing& crossing, int index) {
       if (std::ranges::find(inputs, k) == inputs.end()) inputs.push_back(k);
   }
   crossing.inputs = std::move(inputs);
+}
+
+/// Notes which states a guard and its reset map touch. A reset map that depends on the index of the
+/// guard may write other entries for each: then nothing is known of it.
+void Writer::note_touches(ZeroCrossing& crossing, int index) {
+  const auto guard = slot_of(Role::guard, index), reset = slot_of(Role::reset_map, index);
+  if (!guard || (crossing.reset_map && !reset)) return;
+  Touches touches{.reads = (*guard)->tape.states_read(),
+                  .writes_discrete_state = reset && (*reset)->wrote_z,
+                  .writes_mode = reset && (*reset)->wrote_mode};
+  if (reset && (*reset)->wrote_x) {
+    if ((*reset)->tape.reads_entry()) return;
+    touches.writes = changed_states((*reset)->tape, declared_.continuous.initial.size());
+  }
+  crossing.touches = std::move(touches);
 }
 
 /// Whether a plan made with the old trace computes all that the new one needs.

@@ -41,15 +41,28 @@ void Holds::add_guards(const GuardSet& guards) {
             .source = guard.group,
             .entry = guard.entry,
             .on_zeno = crossing.on_zeno,
-            .candidates = whole(leaf)};
-    if (crossing.holds.empty() && crossing.reads_states)
-      hold.reads = &(*crossing.reads_states)[static_cast<std::size_t>(guard.entry)];
-    if (crossing.holds.empty()) continue;
-    std::vector<Index>& chosen = chosen_.emplace_back();
-    for (const int i : crossing.holds[static_cast<std::size_t>(guard.entry)])
-      chosen.push_back(leaf.x + i);
-    hold.candidates = chosen;
+            .states = whole(leaf)};
+    const auto entry = static_cast<std::size_t>(guard.entry);
+    if (!crossing.holds.empty())
+      hold.states = choose(leaf, crossing.holds[entry]);
+    else if (crossing.touches && !steers(crossing, group.leaf))
+      hold.states = choose(leaf, crossing.touches->of_guard(entry));
   }
+}
+
+std::span<const Index> Holds::choose(const PlanLeaf& leaf, const std::vector<int>& entries) {
+  std::vector<Index>& chosen = chosen_.emplace_back();
+  for (const int i : entries) chosen.push_back(leaf.x + i);
+  return chosen;
+}
+
+/// Whether an effect writes a discrete state or a mode that derivatives read: it acts on the flow
+/// of all states of its leaf (4.4).
+bool Holds::steers(const ZeroCrossing& crossing, int leaf) const {
+  const bool mode = crossing.end_mode || crossing.touches->writes_mode;
+  return (mode && transition_->derivatives_read(Reads::mode, leaf)) ||
+         (crossing.touches->writes_discrete_state &&
+          transition_->derivatives_read(Reads::discrete_state, leaf));
 }
 
 void Holds::add_edges() {
@@ -62,13 +75,13 @@ void Holds::add_edges() {
          .leaf = plan.edges[e].leaf,
          .source = journal_->source_of(Cause::edge, static_cast<int>(e)),
          .on_zeno = reset.on_zeno,
-         .candidates = whole(plan.leaf(plan.edges[e].leaf))});
+         .states = whole(plan.leaf(plan.edges[e].leaf))});
   }
 }
 
 void Holds::begin() {
   for (auto* holds : {&of_guards_, &of_edges_}) {
-    for (Hold& hold : *holds) hold.monitor.forget(), hold.written.clear(), hold.steers = false;
+    for (Hold& hold : *holds) hold.monitor.forget();
   }
   count_ = 0;
 }
@@ -111,39 +124,8 @@ void Holds::throw_accumulation(const Hold& hold, double predicted) const {
       present_->t, machine_->plan().leaf(hold.leaf).path);
 }
 
-void Holds::note_effect(Hold& hold, bool by_reset, bool by_mode) {
-  if (hold.reads == nullptr) return;  // all candidates rest
-  const Transition::Written& last = transition_->last();
-  const bool z = by_reset && last.z, mode = by_mode || (by_reset && last.mode);
-  hold.steers = hold.steers ||
-                (z && transition_->derivatives_read(Reads::discrete_state, hold.leaf)) ||
-                (mode && transition_->derivatives_read(Reads::mode, hold.leaf));
-  hold.written.resize(hold.candidates.size(), 0);
-  if (!by_reset || !last.x) return;
-  for (std::size_t i = 0; i < hold.candidates.size(); ++i) {
-    if (transition_->next()[hold.candidates[i]] != last.before[static_cast<Index>(i)])
-      hold.written[i] = 1;
-  }
-}
-
-/// The states that rest: those that the effect wrote, and those that the guard reads; all where the
-/// guard's are unknown, or where the effect steers the flow of the others too (4.4).
-void Holds::choose_states(Hold& hold) const {
-  hold.states.clear();
-  const Index first = machine_->plan().leaf(hold.leaf).x;
-  for (std::size_t i = 0; i < hold.candidates.size(); ++i) {
-    const Index state = hold.candidates[i];
-    const bool all = hold.reads == nullptr || hold.steers;
-    const bool written = i < hold.written.size() && hold.written[i];
-    if (all || written ||
-        std::ranges::find(*hold.reads, static_cast<int>(state - first)) != hold.reads->end())
-      hold.states.push_back(state);
-  }
-}
-
 void Holds::rest(Hold& hold, double predicted) {
   hold.monitor.holding = true, ++count_;
-  choose_states(hold);
   for (const Index i : hold.states) machine_->resting().rest(i);
   present_->outcome.horizon = std::numeric_limits<double>::infinity();
   present_->outcome.restart = true;
@@ -157,7 +139,7 @@ void Holds::rest(Hold& hold, double predicted) {
 }
 
 void Holds::release(Hold& hold) {
-  hold.monitor.forget(), hold.written.clear(), hold.steers = false, --count_;
+  hold.monitor.forget(), --count_;
   for (const Index i : hold.states) machine_->resting().move(i);
   present_->outcome.restart = true;
   flow_->forget();
@@ -169,9 +151,9 @@ void Holds::release(Hold& hold) {
 
 bool Holds::look_for_accumulation(Hold& hold) {
   Eigen::VectorXd& next = transition_->next();
-  gathered_.resize(static_cast<Index>(hold.candidates.size()));
-  for (std::size_t i = 0; i < hold.candidates.size(); ++i)
-    gathered_[static_cast<Index>(i)] = next[hold.candidates[i]];
+  gathered_.resize(static_cast<Index>(hold.states.size()));
+  for (std::size_t i = 0; i < hold.states.size(); ++i)
+    gathered_[static_cast<Index>(i)] = next[hold.states[i]];
   if (!hold.monitor.on() || !hold.monitor.accumulates()) {
     hold.monitor.remember(gathered_);
     double& horizon = present_->outcome.horizon;
@@ -180,12 +162,8 @@ bool Holds::look_for_accumulation(Hold& hold) {
     return false;
   }
   hold.monitor.accumulate(gathered_);
-  choose_states(hold);
-  for (std::size_t i = 0; i < hold.candidates.size(); ++i) {
-    const Index state = hold.candidates[i];
-    if (std::ranges::find(hold.states, state) != hold.states.end())
-      next[state] = gathered_[static_cast<Index>(i)];
-  }
+  for (std::size_t i = 0; i < hold.states.size(); ++i)
+    next[hold.states[i]] = gathered_[static_cast<Index>(i)];
   come_to_rest(hold, hold.monitor.accumulation_time(), true);
   return hold.monitor.holding;
 }
@@ -207,11 +185,7 @@ bool Holds::hold_edges(const std::vector<int>& edges, int node) {
 std::vector<Continuation::Firings> Holds::save() const {
   std::vector<Continuation::Firings> firings;
   for (const auto* holds : {&of_guards_, &of_edges_}) {
-    for (const Hold& hold : *holds) {
-      firings.push_back(hold.monitor.save());
-      if (hold.monitor.holding)
-        firings.back().resting.assign(hold.states.begin(), hold.states.end());
-    }
+    for (const Hold& hold : *holds) firings.push_back(hold.monitor.save());
   }
   return firings;
 }
@@ -220,14 +194,9 @@ void Holds::load(const Continuation& from) {
   auto firings = from.firings.begin();
   for (auto* holds : {&of_guards_, &of_edges_}) {
     for (Hold& hold : *holds) {
-      const Continuation::Firings& saved = *firings++;
-      hold.monitor.load(saved);
+      hold.monitor.load(*firings++);
       if (!hold.monitor.holding) continue;
       ++count_;
-      hold.states.clear();
-      std::ranges::copy_if(hold.candidates, std::back_inserter(hold.states), [&](Index i) {
-        return std::ranges::find(saved.resting, static_cast<int>(i)) != saved.resting.end();
-      });
       for (const Index i : hold.states) machine_->resting().rest(i);
     }
   }

@@ -130,7 +130,6 @@ void Instant::run_reset(const Action& action) {
   Holds::Hold& hold = *effect.hold;
   if (effect.any() && !action.carry) hold.monitor.fired(present_.t);
   const bool wrote = run_effect(effect, action.leaf, journal_.name_of(source));
-  if (wrote) holds_.note_effect(hold, static_cast<bool>(*effect.map), effect.end_mode != nullptr);
   const bool last = action.cause == Cause::crossing && journal_.ends_run(index);
   present_.outcome.terminal = present_.outcome.terminal || last;
   journal_.note({.kind = last ? EventKind::terminal : EventKind::zero_crossing,

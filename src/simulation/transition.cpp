@@ -26,7 +26,6 @@ bool Transition::run(const Call& call) {
   new (&at.x) VectorView(x_next_.data() + of.x, of.nx);
   new (&at.z) VectorView(z_next_.data() + of.z, of.nz);
   const int mode = at.mode = modes_next_[number];
-  last_.before = x_next_.segment(of.x, of.nx);
   Next next({x_next_.data() + of.x, of.nx}, {z_next_.data() + of.z, of.nz}, modes_next_[number],
             of.path);
   (*call.map)(*of.system, at, next);
@@ -35,12 +34,11 @@ bool Transition::run(const Call& call) {
         text("t = ", call.t, " s: '", call.source, "' set a state that is not finite (NaN or Inf)"),
         call.t, of.path);
   }
-  const bool x = last_.x = next.wrote_continuous_state(), z = last_.z = next.wrote_discrete_state();
-  last_.mode = modes_next_[number] != mode;
+  const bool x = next.wrote_continuous_state(), z = next.wrote_discrete_state();
   pass_wrote_ = pass_wrote_ || x || z;
   effects_ += x;
   restarts_ = restarts_ || x || (z && derivatives_read(Reads::discrete_state, call.leaf));
-  return x || z || last_.mode;
+  return x || z || modes_next_[number] != mode;
 }
 
 /// A held output that depends on z only is found by its value. An output that also reads x or t is

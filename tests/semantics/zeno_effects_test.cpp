@@ -73,7 +73,7 @@ TEST_CASE("4.1 discrete state is an effect: the twisting algorithm comes to rest
 namespace {
 
 /// A ball (entries 0, 1) beside a state that has nothing to do with it, x' = 0.37.
-Leaf ball_beside(std::optional<std::vector<std::vector<int>>> reads, bool counts = false) {
+Leaf ball_beside(std::optional<Touches> touches, bool counts = false) {
   return Leaf("ball", [=](Leaf& l) {
     l.declare_continuous_state(
         {.initial = vec({1.0, 0.0, 0.0}),
@@ -88,7 +88,7 @@ Leaf ball_beside(std::optional<std::vector<std::vector<int>>> reads, bool counts
                                    if (counts) next.set_discrete_state({at.z[0] + 1.0});
                                  },
                              .direction = Direction::positive_then_non_positive,
-                             .reads_states = reads});
+                             .touches = touches});
   });
 }
 
@@ -106,7 +106,7 @@ TEST_CASE("4.4 a hold stops what its guard reads and its effect writes, and noth
           "[semantics]") {
   const auto* method = GENERATE(from_range(methods));
   const bool counts = GENERATE(false, true);  // a counter that no derivative reads steers nothing
-  const Leaf leaf = ball_beside(std::vector<std::vector<int>>{{0}}, counts);
+  const Leaf leaf = ball_beside(Touches{{{0}}, {0, 1}, counts, false}, counts);
   const auto results =
       simulate(leaf, leaf.create_context(), {0.0, 9.5}, {.ode_solver_method = method});
   std::vector<Event> kept;
@@ -115,7 +115,7 @@ TEST_CASE("4.4 a hold stops what its guard reads and its effect writes, and noth
   CHECK(std::abs(results.context.continuous_state()[0]) < 1e-9);
 }
 
-TEST_CASE("4.4 where nothing tells what the guard reads, the leaf rests, and the log says so",
+TEST_CASE("4.4 where nothing tells what a guard touches, the leaf rests, and the log says so",
           "[semantics]") {
   const Leaf leaf = ball_beside({});
   const auto results = simulate(leaf, leaf.create_context(), {0.0, 9.5}, {});
@@ -127,7 +127,7 @@ TEST_CASE("4.4 where nothing tells what the guard reads, the leaf rests, and the
 
 TEST_CASE("4.4 a run that was cut while part of a leaf rested goes on in the same way",
           "[semantics]") {
-  const Leaf leaf = ball_beside(std::vector<std::vector<int>>{{0}});
+  const Leaf leaf = ball_beside(Touches{{{0}}, {0, 1}, false, false});
   const auto first = simulate(leaf, leaf.create_context(), {0.0, 5.0}, {});
   const auto second = simulate(leaf, first.context, {5.0, 9.5}, {});
   CHECK(std::abs(second.context.continuous_state()[2] - 0.37 * 9.5) < 1e-6);

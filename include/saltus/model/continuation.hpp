@@ -24,7 +24,6 @@ struct Continuation {
     std::vector<double> times = {};  ///< [s] of the last firings, latest first; at most four
     std::vector<double> after = {};  ///< the state after the latest
     bool holding = false;
-    std::vector<int> resting = {};  ///< the entries of x that rest, while it holds
     bool operator==(const Firings&) const = default;
   };
 

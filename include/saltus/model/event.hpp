@@ -116,6 +116,16 @@ class OnZeno {
   int mode_ = 0;
 };
 
+/// The states of its leaf that a zero crossing touches.
+struct Touches {
+  std::vector<std::vector<int>> reads = {};  ///< entries of x that each guard reads
+  std::vector<int> writes = {};              ///< entries of x that the reset map changes
+  bool writes_discrete_state = true, writes_mode = true;  ///< by the reset map
+
+  /// The entries that one of the guards reads or the reset map changes, in ascending order.
+  std::vector<int> of_guard(std::size_t entry) const;
+};
+
 /// A guard and its effect. Without reset map, mode change and `terminal` it is a monitor: its
 /// crossings are located and logged, and the trajectory has the same bits as without it. With
 /// `size` n it is n guards that one call computes. Each fires on its own, and its reset map reads
@@ -134,13 +144,10 @@ struct ZeroCrossing {
   OnZeno on_zeno = OnZeno::hold();            ///< how it continues at its Zeno points
   std::optional<double> zeno_tolerance = {};  ///< [s] overrides SimulatorOptions::zeno_tolerance
   /// The entries of the leaf's continuous state that rest on a hold, one list for each guard. If not
-  /// given: the entries that the effect wrote and those that the guard reads (`reads_states`); all
-  /// entries if these are unknown, or if the effect writes a discrete state or a mode that the
-  /// derivatives read.
+  /// given: the entries that the guard and the effect touch; all entries if `touches` is not given,
+  /// or if the effect writes a discrete state or a mode that the derivatives read.
   std::vector<std::vector<int>> holds = {};
-  /// The entries of the leaf's continuous state that each guard reads; unknown if not given. The
-  /// tape of a traced guard gives them.
-  std::optional<std::vector<std::vector<int>>> reads_states = {};
+  std::optional<Touches> touches = {};  ///< the tapes of the guard and of the reset map give it
   std::optional<std::vector<int>> inputs = {};  ///< the inputs the guard reads; all if not given
   Formula formula = {};                         ///< in place of guard: a plan may fuse it
 

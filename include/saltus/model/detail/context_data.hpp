@@ -90,7 +90,6 @@ void fields_of(Archive& archive, Continuation& c) {
     one.field("times", firings.times);
     one.field("after", firings.after);
     one.field("holding", firings.holding);
-    one.field("resting", firings.resting);
   });
   archive.field("edges", c.edges);
   archive.field("counts", c.counts);

@@ -20,11 +20,7 @@ class Holds {
     int leaf = -1, source = -1;
     Index entry = 0;
     OnZeno on_zeno = {};
-    std::span<const Index> candidates = {};   ///< entries of x that may rest
-    const std::vector<int>* reads = nullptr;  ///< the leaf's states its guard reads; null: unknown
-    std::vector<char> written = {};           ///< which candidates an effect changed
-    bool steers = false;  ///< an effect wrote discrete state or a mode that derivatives read
-    std::vector<Index> states = {};  ///< the candidates that rest
+    std::span<const Index> states = {};  ///< entries of x that rest
   };
 
   Holds(Machine& machine, const GuardSet& guards, const SimulatorOptions& options, Flow& flow,
@@ -48,8 +44,6 @@ class Holds {
   /// Comes to rest after a firing whose reset map wrote, if the firings accumulate; otherwise notes
   /// how soon the next firing may follow. Returns whether it rests.
   bool look_for_accumulation(Hold& hold);
-  /// Notes what the last effect of a guard wrote: by its reset map, by its `end_mode`.
-  void note_effect(Hold& hold, bool by_reset, bool by_mode);
   /// A relation at rest holds the blocks whose edges it set off. False if an edge has no monitor.
   bool hold_edges(const std::vector<int>& edges, int node);
 
@@ -64,7 +58,8 @@ class Holds {
   void add_guards(const GuardSet& guards);
   void add_edges();
   std::span<const Index> whole(const PlanLeaf& leaf) const;
-  void choose_states(Hold& hold) const;
+  std::span<const Index> choose(const PlanLeaf& leaf, const std::vector<int>& entries);
+  bool steers(const ZeroCrossing& crossing, int leaf) const;
   void rest(Hold& hold, double predicted);
   [[noreturn]] void throw_accumulation(const Hold& hold, double predicted) const;
 
@@ -75,7 +70,7 @@ class Holds {
   Journal* journal_;
   Present* present_;
   std::vector<Index> states_;              // all entries of x; a leaf rests with its part of them
-  std::deque<std::vector<Index>> chosen_;  // the states that guards with `holds` name
+  std::deque<std::vector<Index>> chosen_;  // the states of guards that rest with a part of a leaf
   std::vector<Hold> of_guards_, of_edges_;
   Eigen::VectorXd gathered_;  // the states of one hold
   int count_ = 0;             // present holds

@@ -32,12 +32,6 @@ class Transition {
   /// the states and the mode of its leaf (3.2, 3.3). Returns whether it had an effect: it wrote a
   /// state, or changed the mode.
   bool run(const Call& call);
-  /// The effect of the last call, and the continuous state of its leaf before it.
-  struct Written {
-    bool x = false, z = false, mode = false;
-    Eigen::VectorXd before = {};
-  };
-  const Written& last() const noexcept { return last_; }
   void enter_mode(int leaf, int mode) { modes_next_[static_cast<std::size_t>(leaf)] = mode; }
 
   /// The values to come become the present ones. Returns whether a mode changed.
@@ -69,7 +63,6 @@ class Transition {
   std::vector<int> modes_next_, modes_before_;
   bool pass_wrote_ = false, entered_ = false, restarts_ = false;
   int effects_ = 0;
-  Written last_;
 };
 
 }  // namespace saltus
