@@ -6,7 +6,7 @@ using namespace support;
 
 TEST_CASE("2.5 a reset that leaves the ball below the floor, on its way up, misses no impact",
           "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const double rtol = GENERATE(1e-6, 1e-8, 1e-10), depth = GENERATE(1e-15, 1e-9, 1e-6, 1e-3);
   constexpr double g = 10.0, e = 0.9;
   const Leaf ball("ball", [=](Leaf& l) {

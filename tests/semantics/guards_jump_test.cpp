@@ -21,7 +21,7 @@ Leaf saw(Direction direction, double before, double behind) {
 }
 
 /// Seven teeth in ten seconds. The location of each is off by the resolution of the time.
-void has_seven_teeth(const Leaf& leaf, const char* method) {
+void has_seven_teeth(const Leaf& leaf, Method method) {
   const auto results =
       simulate(leaf, leaf.create_context(), {0.0, 10.0}, {.ode_solver_method = method});
   INFO(method);
@@ -35,7 +35,7 @@ void has_seven_teeth(const Leaf& leaf, const char* method) {
 }  // namespace
 
 TEST_CASE("2.1 a guard that jumps fires each time, whatever its two values", "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   using Values = std::pair<double, double>;
   const auto [before, behind] = GENERATE(Values{1.0, -1.0}, Values{1e6, -1.0}, Values{1.0, 0.0},
                                          Values{1.0, -1e-300}, Values{1e-200, -1e200});
@@ -51,7 +51,7 @@ TEST_CASE("2.1 edge_detection fires at each change that time brings, and not at 
 }
 
 TEST_CASE("2.1 a staircase fires where it passes zero, again and again", "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const Leaf leaf("saw", [](Leaf& l) {
     declare_ramp(l);
     l.declare_zero_crossing(
@@ -64,7 +64,7 @@ TEST_CASE("2.1 a staircase fires where it passes zero, again and again", "[seman
 }
 
 TEST_CASE("2.1 a monitor that jumps is logged each time", "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const Leaf leaf("wave", [](Leaf& l) {
     declare_ramp(l);
     l.declare_zero_crossing({.name = "jump", .guard = [](const At& at) {
@@ -78,7 +78,7 @@ TEST_CASE("2.1 a monitor that jumps is logged each time", "[semantics]") {
 
 TEST_CASE("2.1 a ball whose guard is the truth `above the floor` bounces and stays above",
           "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const auto direction = GENERATE(Direction::positive_then_non_positive, Direction::crosses_zero);
   constexpr double g = 10.0, e = 0.8;
   const Leaf ball("ball", [=](Leaf& l) {
@@ -108,7 +108,7 @@ TEST_CASE("2.1 a ball whose guard is the truth `above the floor` bounces and sta
 
 TEST_CASE("2.1 edge_detection compares with the value at which its mode was entered",
           "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const Leaf leaf("modes", [](Leaf& l) {
     declare_ramp(l);
     l.declare_default_mode(0);

@@ -117,7 +117,7 @@ TEST_CASE("3.8 a reset in one leaf leaves the state of another as it is", "[sema
 
 TEST_CASE("3.3 updates of one leaf at one time run in order, and each sees the one before",
           "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const Leaf leaf("counters", [](Leaf& l) {
     declare_ramp(l);
     l.declare_discrete_state(vec({0.0, 0.0, 0.0}));

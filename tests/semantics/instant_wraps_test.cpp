@@ -31,7 +31,7 @@ Leaf circle(double low, double high, double rate) {
 }  // namespace
 
 TEST_CASE("3.4 a state that wraps round does not ring between its two ends", "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   using Ends = std::pair<double, double>;
   const auto [low, high] = GENERATE(Ends{0.0, 1.0}, Ends{-pi, pi}, Ends{-1.0 / 3.0, 2.0 / 3.0},
                                     Ends{1e6, 1e6 + 1.0}, Ends{-0.7, 0.0});
@@ -48,7 +48,7 @@ TEST_CASE("3.4 a state that wraps round does not ring between its two ends", "[s
 }
 
 TEST_CASE("3.4 a cell index that moves on does not move back", "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const double rate = GENERATE(1.0, -1.0, 0.3);
   const Leaf leaf("grid", [=](Leaf& l) {
     declare_ramp(l, rate, 0.5);

@@ -31,7 +31,7 @@ Leaf tanks(bool by_reset) {
 }  // namespace
 
 TEST_CASE("4.1 a mode that a reset map writes is an effect, as one by end_mode is", "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const Leaf leaf = tanks(GENERATE(false, true));
   const auto results =
       simulate(leaf, leaf.create_context(), {0.0, 30.0}, {.ode_solver_method = method});
@@ -43,7 +43,7 @@ TEST_CASE("4.1 a mode that a reset map writes is an effect, as one by end_mode i
 }
 
 TEST_CASE("4.1 discrete state is an effect: the twisting algorithm comes to rest", "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   // x'' = -3 sign(x) - sign(x'): the signs are discrete states. Zeno time 5.12132034 s.
   const Leaf leaf("twist", [](Leaf& l) {
     l.declare_continuous_state(
@@ -104,7 +104,7 @@ const Event& hold_of(const Results& results, std::vector<Event>& kept) {
 
 TEST_CASE("4.4 a hold stops what its guard reads and its effect writes, and nothing else",
           "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const bool counts = GENERATE(false, true);  // a counter that no derivative reads steers nothing
   const Leaf leaf = ball_beside(Touches{{{0}}, {0, 1}, counts, false}, counts);
   const auto results =

@@ -27,7 +27,8 @@ TEST_CASE("A relation at rest stays within its error, and while it is pressed") 
 
 TEST_CASE("A contact whose guard leaves its error is carried, wavers, or releases its blocks") {
   const int pressed = GENERATE(-1, 1);
-  const auto yes = [] { return true; }, no = [] { return false; };
+  const auto yes = [] { return true; };
+  const auto no = [] { return false; };
   const auto unasked = []() -> bool { throw std::logic_error("asked whether it may be carried"); };
   CHECK(decide_waking(true, pressed * 1.0, pressed, unasked) == Waking::release);
   CHECK(decide_waking(false, pressed * -1.0, pressed, yes) == Waking::carry);

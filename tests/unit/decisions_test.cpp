@@ -395,7 +395,8 @@ TEST_CASE("How a relation goes on") {
 }
 
 TEST_CASE("A relation at its zero follows the flow, and rests where the flow leads straight back") {
-  const auto yes = [] { return true; }, no = [] { return false; };
+  const auto yes = [] { return true; };
+  const auto no = [] { return false; };
   const auto unasked = []() -> bool { throw std::logic_error("asked for the flow before"); };
   const int to = GENERATE(-1, 1);
   CHECK(decide_relation_side(0, to, true, unasked) == RelationSide{to, false});

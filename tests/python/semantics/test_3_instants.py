@@ -33,8 +33,8 @@ def test_3_1_equal_times_are_one_instant():
     assert [e.jump for e in results.events] == [1, 1, 2]
 
 
-def test_3_3_two_updates_of_one_block_at_one_time_both_read_the_state_before():
-    assert go(counter(0.5, 0.5), 1.0).context.discrete_state.tolist() == [1.0]
+def test_3_3_of_two_updates_of_one_block_at_one_time_the_second_sees_the_first():
+    assert go(counter(0.5, 0.5), 1.0).context.discrete_state.tolist() == [2.0]
 
 
 def test_3_2_within_a_leaf_in_the_order_of_declaration_each_sees_the_one_before():
