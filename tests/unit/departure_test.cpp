@@ -90,6 +90,7 @@ TEST_CASE("a guard within an error is followed until it has left the error", "[d
   CHECK(chain.side(0.0).side == -1);
   const Departure::Side within = chain.side(1e-3);
   CHECK(within.side == 1);
+  CHECK(chain.side(1e-3, 10.0, 0.0, -1).side == 1);
   CHECK(within.rounding >= 1e-3);
   CHECK(within.rounding <= 1.01e-3);
 }

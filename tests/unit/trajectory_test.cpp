@@ -99,6 +99,19 @@ TEST_CASE("at a joint the left value is before the reset, the right one after it
   CHECK(run.trajectory.joints() == std::vector{0.0, 1.0, 2.0});
 }
 
+TEST_CASE("a step begins with the state that the solver began with", "[trajectory]") {
+  Steps run;
+  run.open(0.0, {0.0, 1.0}), run.step(0.0, 1.0, {0.0, 1.0});
+  // The interpolant of a multistep method differs slightly from the state at the joint.
+  run.trajectory.depart(vec({1.0 + 1e-9, -1.0}));
+  run.trajectory.add(1.0, 2.0, 1, run.machine, run.contacts, vec({2.0, -2.0}),
+                     [](double t, double* x) { x[0] = t, x[1] = -t; });
+  run.close(2.0);
+  CHECK(run.at(1.0, Side::left)[0] == 1.0);
+  CHECK(run.at(1.0, Side::right)[0] == 1.0 + 1e-9);
+  CHECK(run.at(1.5)[0] == 1.5);
+}
+
 TEST_CASE("at the beginning and at the end an instant has both its values", "[trajectory]") {
   Steps run;
   run.open(0.0, {1.0});                              // before the instant at the beginning
