@@ -7,8 +7,8 @@
 #include <limits>
 #include <vector>
 
+#include "saltus/solver/detail/crowd_locator.hpp"
 #include "saltus/solver/detail/dip.hpp"
-#include "saltus/solver/detail/glance.hpp"
 #include "saltus/solver/detail/thresholds.hpp"
 
 namespace saltus {
@@ -16,9 +16,9 @@ namespace saltus {
 /// Looks at all guards at a few interior points of a step. It also looks where three looks suggest
 /// that a guard dips across zero and back (a pair of roots). The first interval in which a guard
 /// crosses is narrowed.
-class Locator : private Glance {
+class Locator : private CrowdLocator {
  public:
-  Locator(Machine& machine, GuardSet& guards) : Glance(machine, guards) {
+  Locator(Machine& machine, GuardSet& guards) : CrowdLocator(machine, guards) {
     const auto slots = static_cast<std::size_t>(machine.plan().guard_slots);
     for (auto* values : {&at_root_, &before_, &end_}) values->assign(slots, 1.0);
   }
@@ -99,6 +99,17 @@ class Locator : private Glance {
       if (!looked) look(to, end, interpolate, high_);
       const double high = note_crossed(high_) ? to : next_dip(from, to, interpolate);
       if (high == never) continue;
+      if (high == to && crossed_.size() >= crowd_size) {
+        const Crowd crowd = locate_crowd(from, to, interpolate);
+        if (crowd == Crowd::located) return false;
+        if (crowd == Crowd::too_wide) {
+          const double middle = from + 0.5 * (to - from);
+          look(middle, nullptr, interpolate, high_);
+          if (find_in(from, middle, nullptr, interpolate, between)) return true;
+          from = middle;
+          continue;
+        }
+      }
       const double before = from;
       before_ = guards_->g;
       // This look does not depend on the other guards, because no monitor may change a bit of a
