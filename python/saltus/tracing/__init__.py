@@ -4,8 +4,17 @@
 Jacobian, and smooth guards where a result is a comparison. See the README beside this file.
 """
 
+from saltus.tracing.readers import readers_of_writes
 from saltus.tracing.sandbox import Watch
 from saltus.tracing.signature import Refused, Relations, Signature, Traced
 from saltus.tracing.tracing import trace
 
-__all__ = ["Refused", "Relations", "Signature", "Traced", "Watch", "trace"]
+__all__ = [
+    "Refused",
+    "Relations",
+    "Signature",
+    "Traced",
+    "Watch",
+    "readers_of_writes",
+    "trace",
+]

@@ -5,6 +5,6 @@
 """
 
 from saltus.tracing.sandbox.sandbox import Sandbox
-from saltus.tracing.sandbox.watch import Watch, same
+from saltus.tracing.sandbox.watch import MISSING, PLAIN, Watch, same
 
-__all__ = ["Sandbox", "Watch", "same"]
+__all__ = ["MISSING", "PLAIN", "Sandbox", "Watch", "same"]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import reprlib
 import weakref
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from types import CodeType
 from typing import Any
 
@@ -135,6 +135,11 @@ class Watch:
             if not (same(value, now) if inside is None else content(now) == inside):
                 return f"{words} was {_named(value)}, is {_named(now)}"
         return None
+
+    def reads(self) -> Iterator[tuple[str, Any, Any]]:
+        """The words, the place (a name, or a variable of a closure) and the value of each read."""
+        for words, _, key, value, _ in self._reads:
+            yield words, key, value
 
     def merge(self, other: Watch) -> None:
         """Watch the values of another `Watch` too."""
