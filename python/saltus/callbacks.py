@@ -18,6 +18,9 @@ Others = Sequence[tuple[str, Any]]  # functions that are no callbacks of a block
 KINDS = {"jacobian": "matrix", "reset_map": "reset", "edge_reset": "reset", "update": "update"}
 """role of a function -> the tracer's word for it; the others return a vector"""
 
+GUARDS = {"guard", "relation"}
+"""roles of functions whose sign matters: a comparison gives its smooth difference"""
+
 
 class ExplainedCallback(NamedTuple):
     """How one callback runs.
@@ -249,7 +252,8 @@ def _trace(block: Block, function: Block) -> Any:
 
     if function["compiled"]:
         return None
-    return tracing.trace(_signature(block, function))
+    outcome = tracing.trace(_signature(block, function))
+    return tracing.as_guard(outcome) if function["role"] in GUARDS else outcome
 
 
 def _signature(block: Block, function: Block) -> Any:

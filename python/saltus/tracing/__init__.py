@@ -5,6 +5,7 @@ Jacobian, and smooth guards where a result is a comparison. See the README besid
 """
 
 from saltus.tracing.readers import readers_of_writes
+from saltus.tracing.relations import as_guard
 from saltus.tracing.sandbox import Watch
 from saltus.tracing.signature import Refused, Relations, Signature, Traced
 from saltus.tracing.tracing import trace
@@ -15,6 +16,7 @@ __all__ = [
     "Signature",
     "Traced",
     "Watch",
+    "as_guard",
     "readers_of_writes",
     "trace",
 ]
