@@ -92,11 +92,13 @@ class Callbacks:
         self.outcomes: dict[int, list[Any]] = {}  # of the functions of each block, by its number
         self._runs: dict[int, list[_core.Trace | None]] = {}  # what the engine runs of them
         self._called: dict[Place, Any] = {}  # those that are called all the same, Refused
+        self._siblings: Any = None  # while functions are traced
 
     def trace_block(self, number: int, block: Block) -> list[_core.Trace]:
         """Trace the functions of a block, which the engine calls for while it makes a plan."""
         functions = block["functions"]
-        outcomes = [_trace(block, function) for function in functions]
+        trace = self._tracer()
+        outcomes = [_trace(block, function, trace) for function in functions]
         self.outcomes[number] = outcomes
         self._called = {}
         self._runs[number] = [
@@ -112,9 +114,10 @@ class Callbacks:
         self.settle(others)
         changed = self._changed()
         if changed:
+            trace = self._tracer()
             blocks: list[Block] = self.traces.blocks()
             for b, i in changed:
-                self.outcomes[b][i] = _trace(blocks[b], blocks[b]["functions"][i])
+                self.outcomes[b][i] = _trace(blocks[b], blocks[b]["functions"][i], trace)
             self._run_anew(blocks, changed)
             self.settle(others)
         return self.version
@@ -124,6 +127,7 @@ class Callbacks:
 
         Only when all functions are traced or refused is it known what a run may write.
         """
+        self._siblings = None
         found = self._readers_of_writes(others)
         changed = found.keys() ^ self._called.keys()
         self._called = found
@@ -190,6 +194,14 @@ class Callbacks:
             note = note or "no callback is a Python function: all of it runs compiled"
         return Explanation(callbacks, note)
 
+    def _tracer(self) -> Callable[[Any], Any]:
+        """Traces a function; those of one code only once, until `settle`."""
+        from saltus import tracing  # not before there is something to trace
+
+        self._siblings = self._siblings or tracing.Siblings()
+        trace: Callable[[Any], Any] = self._siblings.trace
+        return trace
+
     def _core_traces(self, number: int) -> list[_core.Trace]:
         return [trace for trace in self._runs[number] if trace is not None]
 
@@ -246,13 +258,13 @@ def explain(system: Any) -> Explanation:
         )
 
 
-def _trace(block: Block, function: Block) -> Any:
+def _trace(block: Block, function: Block, trace: Callable[[Any], Any]) -> Any:
     """Traced or Refused; None for a compiled function."""
-    from saltus import tracing  # not before there is something to trace
+    from saltus import tracing
 
     if function["compiled"]:
         return None
-    outcome = tracing.trace(_signature(block, function))
+    outcome = trace(_signature(block, function))
     return tracing.as_guard(outcome) if function["role"] in GUARDS else outcome
 
 

@@ -270,8 +270,8 @@ class LeafSystem(System, _core.LeafSystem):
     ) -> None:
         """An event where g = guard(time, state, *inputs, **parameters), a smooth number in any
         unit, reaches zero or crosses it. A truth is a guard, too, with the positive side where it
-        is true: `x[0] > 0` is located as smoothly as x[0], any other truth where it jumps. Without a reset map, a mode change and `terminal` it is
-        only logged, and changes nothing.
+        is true: `x[0] > 0` is located as smoothly as x[0], any other truth where it jumps. Without
+        a reset map, a mode change and `terminal` it is only logged, and changes nothing.
 
         - `reset_map`, called like the guard, returns x+ from x-, the state before the event.
         - `direction` is 'crosses_zero' (or 'both'), 'positive_then_non_positive' ('falling'),

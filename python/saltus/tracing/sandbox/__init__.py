@@ -5,6 +5,6 @@
 """
 
 from saltus.tracing.sandbox.sandbox import Sandbox
-from saltus.tracing.sandbox.watch import MISSING, PLAIN, Watch, same
+from saltus.tracing.sandbox.watch import MISSING, PLAIN, Watch, same, same_content
 
-__all__ = ["MISSING", "PLAIN", "Sandbox", "Watch", "same"]
+__all__ = ["MISSING", "PLAIN", "Sandbox", "Watch", "same", "same_content"]
