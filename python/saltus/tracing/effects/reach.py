@@ -30,13 +30,14 @@ from saltus.tracing.effects.libraries import (
     of_library,
     only_attributes,
 )
-from saltus.tracing.sandbox import PLAIN
+from saltus.tracing.sandbox import PLAIN, names_in
 
 __all__ = ["CONTAINERS", "Reach", "memory_of"]
 
 CONTAINERS = (list, tuple, dict, set, frozenset, deque, bytearray)
 MOST = 5_000  # objects; beyond that nothing is known
 MAKES = {"__init__", "__new__", "__init_subclass__", "__class_getitem__"}
+CODE = (FunctionType, staticmethod, classmethod, property)
 SETS = {"__setattr__", "__delattr__"}
 WRAPPERS = {"property": ("fget",), "staticmethod": ("__func__",), "classmethod": ("__func__",),
             "cached_property": ("func",)}  # fmt: skip
@@ -52,6 +53,13 @@ def memory_of(array: np.ndarray) -> Any:
 
 def _items(container: Any) -> Iterable[Any]:
     return [*container, *container.values()] if isinstance(container, dict) else container
+
+
+def _generated(entry: Any) -> bool:
+    """Whether a method is one that dataclasses writes: it compares, shows or freezes fields."""
+    function = getattr(entry, "__wrapped__", entry)
+    code = getattr(function, "__code__", None)
+    return code is not None and code.co_filename == "<string>" and code.co_name != "__init__"
 
 
 def _special(name: str) -> bool:
@@ -138,7 +146,7 @@ class Reach:
         self._arguments = max(self._arguments, facts.arguments)
         if facts.dynamic:
             self.unknown = f"it uses {facts.dynamic}"
-        self._visit_all(variables[name] for name in facts.names if name in variables)
+        self._visit_all(variables[name] for name in names_in(code) if name in variables)
         return facts.cells
 
     def _generator(self, generator: GeneratorType[Any, Any, Any]) -> None:
@@ -183,7 +191,8 @@ class Reach:
                 special = (
                     _special(name) and name not in SETS and (name not in MAKES or name in made)
                 )
-                if special or (self._foreign and isinstance(entry, FunctionType)):
+                code = isinstance(entry, CODE) and not _generated(entry)
+                if code and (special or self._foreign):
                     self._visit(entry)
 
     def _object(self, value: Any) -> None:
@@ -194,7 +203,8 @@ class Reach:
             self.touched[id(memory_of(value))] = value
             self._visit_all(value.flat if value.dtype == object else ())
         elif isinstance(value, CONTAINERS):
-            self.touched[id(value)] = value
+            if not isinstance(value, (tuple, frozenset)):
+                self.touched[id(value)] = value
             self._visit_all(_items(value))
         elif not only_attributes(kind):
             self._of_library(value if callable(value) and hasattr(value, "__name__") else kind)
@@ -209,7 +219,7 @@ class Reach:
         for entry in _entries(holder, name):
             if type(entry).__name__ in ("member_descriptor", "getset_descriptor"):
                 self._visit_all(_of_slot(entry, holder))
-            else:
+            elif not (_special(name) and _generated(entry)):
                 self._visit(entry)
 
 
