@@ -139,8 +139,10 @@ class Simulator:
             )
 
     def _run(self, context: _core.Context, end: float) -> Results:
-        """A whole run. Its results take the recorded rows without a copy."""
-        self.initialize(context)
+        """A whole run of a simulator that was made just now, so that its traces are right. The
+        results take the recorded rows without a copy.
+        """
+        self._core.initialize(core_context(context))
         return self._advance(end, take=True)
 
     def _advance(self, time: float, take: bool) -> Results:

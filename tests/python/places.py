@@ -501,6 +501,26 @@ def random_generator():
     return lambda: known[0], lambda v: place.random(out=known)
 
 
+def object_of_code_without_a_module():
+    code = """
+class Place:
+    u = 1.0
+
+    def move(self, v):
+        self.u = v
+
+place = Place()
+
+def read():
+    return place.u
+
+def write(v):
+    place.move(v)
+"""
+    exec(code, made := {})
+    return made["read"], made["write"]
+
+
 def memo():
     known = {"u": 1.0}
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from types import ModuleType, SimpleNamespace
+from types import FunctionType, ModuleType, SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -32,6 +32,7 @@ NO_OUT = set(
 )
 """functions of NumPy that fill no array they are given"""
 NEVER = 10_000  # arguments
+HEAP_TYPE = 1 << 9  # the flag of classes that a class statement made
 
 
 def changing_call(function: Any) -> int:
@@ -49,7 +50,15 @@ def _root(value: Any) -> str:
 def of_library(value: Any) -> bool:
     """Whether the code of a function, class or module is that of a library."""
     wraps = str(getattr(value, "__module__", "")).startswith("saltus.solving")
-    return _root(value) in LIBRARIES and not wraps
+    return _root(value) in LIBRARIES and not wraps and not _nameless(value)
+
+
+def _nameless(value: Any) -> bool:
+    """Code of a user that was run without a module, by exec: Python counts it to the builtins."""
+    made = isinstance(value, FunctionType) or (
+        isinstance(value, type) and bool(value.__flags__ & HEAP_TYPE)
+    )
+    return made and _root(value) == "builtins"
 
 
 def only_attributes(kind: type) -> bool:

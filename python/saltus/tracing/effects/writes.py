@@ -27,16 +27,7 @@ class Writes:
 
 
 def writes_of(roots: Iterable[Any]) -> Writes:
-    """What the functions and objects in `roots` may write when they are called.
-
-    Examples
-    --------
-    >>> class Counter:
-    ...     def tick(self):
-    ...         self.count += 1
-    >>> sorted(writes_of([Counter().tick]).binds)
-    ['count']
-    """
+    """What the functions and objects in `roots` may write when they are called."""
     reach = Reach(roots)
     touched = reach.touched if reach.mutates or reach.unknown else {}
     return Writes(frozenset(reach.binds), reach.cells, touched, reach.unknown)
