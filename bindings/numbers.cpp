@@ -162,6 +162,14 @@ void read_any_numbers(py::handle result, VectorRef out, const std::string& what)
   out = as_vector(array);
 }
 
+bool read_truths(py::handle result, VectorRef out) {
+  const py::array array = py::array::ensure(result);
+  if (!array) PyErr_Clear();
+  if (!array || array.dtype().kind() != 'b' || array.size() != out.size()) return false;
+  out = (2.0 * as_vector(Array(array)).array() - 1.0).matrix();
+  return true;
+}
+
 void bind_numbers(py::module_& module) {
   module.def(
       "numbers", &to_array, py::arg("numbers"), py::arg("what"),

@@ -31,12 +31,9 @@ bool read_plain_numbers(py::handle result, VectorRef out);
 /// Numbers in any form; a ModelError if the object is not numbers, or has another number of them.
 void read_any_numbers(py::handle result, VectorRef out, const std::string& what);
 
-/// Writes the result of a Python function to `out`. A ModelError, beginning with the text of
-/// `whose`, if it has another number of entries.
-template <class Whose>
-void read_numbers(py::handle result, VectorRef out, const Whose& whose) {
-  if (!read_plain_numbers(result, out)) read_any_numbers(result, out, whose());
-}
+/// Truths, such as a bool, an array or a list of them: 1 for true, -1 for false, the value of a
+/// guard that jumps. False if the object is anything else, or has another number of entries.
+bool read_truths(py::handle result, VectorRef out);
 
 Dimensions dimensions_of(const py::array& array);
 /// A new array with its own memory that Python code cannot write to; `values` may be null.

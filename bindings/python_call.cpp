@@ -222,7 +222,9 @@ void PythonLeaf::fill(int k, const At& at, VectorRef out) const {
   const Frame& frame = prepare(borrowed.frame, function, at, out.size());
   const py::object result = vectorcall(function, frame);
   if (in_place(function)) return take_out(function, frame, result, out);
-  read_numbers(result, out, [&] { return whose(function); });
+  if (read_plain_numbers(result, out)) return;
+  if (is_guard(function.role) && read_truths(result, out)) return;
+  read_any_numbers(result, out, whose(function));
 }
 
 void PythonLeaf::take_out(const Function& function, const Frame& frame, py::handle result,

@@ -35,6 +35,9 @@ enum class Role {
   edge_reset
 };
 
+/// Whether the sign of its values says on which side of an event the block is.
+inline bool is_guard(Role role) { return role == Role::guard || role == Role::relation; }
+
 /// The Python objects of one call. The next call reuses them, except those that the function has
 /// kept by a reference.
 struct Frame {

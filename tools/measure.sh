@@ -15,7 +15,7 @@ demo() {
 
 fuzz() {  # [N]
   module all && mkdir -p build/log || return 1
-  SALTUS_FUZZ_EXAMPLES=${1:-2000} PYTHONPYCACHEPREFIX=$root/build/pycache "$python" -m pytest -q tests/python/fuzz/test_fuzz.py \
+  SALTUS_FUZZ_EXAMPLES=${1:-2000} PYTHONPYCACHEPREFIX=$root/build/pycache "$python" -m pytest -q tests/python/fuzz/test_fuzz.py tests/python/fuzz/test_side_effects.py \
     | tee build/log/fuzz.log
 }
 

@@ -269,8 +269,9 @@ class LeafSystem(System, _core.LeafSystem):
         holds: Sequence[Sequence[int]] | None = None,
     ) -> None:
         """An event where g = guard(time, state, *inputs, **parameters), a smooth number in any
-        unit, reaches zero or crosses it. Without a reset map, a mode change and `terminal` it is
-        only logged, and changes nothing.
+        unit, reaches zero or crosses it. A truth is a guard, too, with the positive side where it
+        is true: `x[0] > 0` is located as smoothly as x[0], any other truth where it jumps. Without
+        a reset map, a mode change and `terminal` it is only logged, and changes nothing.
 
         - `reset_map`, called like the guard, returns x+ from x-, the state before the event.
         - `direction` is 'crosses_zero' (or 'both'), 'positive_then_non_positive' ('falling'),

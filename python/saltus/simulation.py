@@ -11,7 +11,7 @@ from saltus import _core
 from saltus._engine import core_context, core_options
 from saltus._porting import OPTIONS, refuse
 from saltus._span import span_of
-from saltus.callbacks import Callbacks, callbacks_of, keep
+from saltus.callbacks import Callbacks, planned
 from saltus.errors import ModelError, SimulationError
 from saltus.options import SimulatorOptions
 from saltus.progress import reporter_of
@@ -70,11 +70,21 @@ class Simulator:
 
     def _make(self) -> None:
         """The engine's simulator."""
-        callbacks = callbacks_of(self.system) if self.options.python == "traced" else None
-        self._core = _core.Simulator(self.system, self._options, self._reporter, callbacks)
-        keep(self.system, callbacks)
-        self._callbacks: Callbacks | None = callbacks
-        self._version = callbacks.version if callbacks else 0
+        self._callbacks: Callbacks | None = None
+        if self.options.python == "traced":
+            self._core, self._callbacks = planned(self.system, self._core_simulator, self._others)
+        else:
+            self._core = self._core_simulator(None)
+        self._version = self._callbacks.version if self._callbacks else 0
+
+    def _core_simulator(self, callbacks: Callbacks | None) -> _core.Simulator:
+        return _core.Simulator(self.system, self._options, self._reporter, callbacks)
+
+    @property
+    def _others(self) -> list[tuple[str, Any]]:
+        """The functions of the user that a run calls beside the callbacks of its blocks."""
+        progress = self.options.progress
+        return [("the progress function", progress)] if callable(progress) else []
 
     def initialize(self, context: _core.Context) -> None:
         """Begins a run with these values, at their time.
@@ -83,7 +93,9 @@ class Simulator:
         ModelError for a context of another system.
         """
         callbacks = self._callbacks
-        if callbacks and (callbacks.traces.stale or callbacks.refresh() != self._version):
+        if callbacks and (
+            callbacks.traces.stale or callbacks.refresh(self._others) != self._version
+        ):
             self._make()
         self._core.initialize(core_context(context))
         self._failed = None
@@ -116,7 +128,7 @@ class Simulator:
 
     def _follow_changes(self) -> None:
         """Replaces the traces whose sources have changed since the last piece of the run."""
-        if not self._callbacks or self._callbacks.refresh() == self._version:
+        if not self._callbacks or self._callbacks.refresh(self._others) == self._version:
             return
         self._version = self._callbacks.version
         if not self._core.replace_traces():
@@ -127,8 +139,10 @@ class Simulator:
             )
 
     def _run(self, context: _core.Context, end: float) -> Results:
-        """A whole run. Its results take the recorded rows without a copy."""
-        self.initialize(context)
+        """A whole run of a simulator that was made just now, so that its traces are right. The
+        results take the recorded rows without a copy.
+        """
+        self._core.initialize(core_context(context))
         return self._advance(end, take=True)
 
     def _advance(self, time: float, take: bool) -> Results:
@@ -144,11 +158,26 @@ class Simulator:
             self._report(time)
         core, raised = self._core.results(take)
         results = self._results(core, raised)
+        self._refuse_stale(results)
         if results.status in ("failed", "interrupted"):
             self._failed = results
         if self.options.throw and results.status not in ("reached_end", "terminal", "zeno_stop"):
             self._raise(results, raised)
         return results
+
+    def _refuse_stale(self, results: Results) -> None:
+        """The last resort, behind the search for writers that comes before the run."""
+        change = self._callbacks.written() if self._callbacks else None
+        if change is None:
+            return
+        error = SimulationError(
+            f"t = {self.time} s: {change}: something wrote it during the run, and a traced "
+            "callback that reads it used the old value; use the option python='called'",
+            self.time,
+            "",
+        )
+        error.results = results  # type: ignore[attr-defined]
+        raise error
 
     def _outcome(self, core: _core.Results, raised: BaseException | None, asks: Any) -> Results:
         """The form in which a run is returned; `solve` has one of its own."""

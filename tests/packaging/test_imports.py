@@ -19,6 +19,7 @@ LATE = {
 ROOMS = {
     "saltus.tracing.numbers": {"saltus.tracing.refusal"},
     "saltus.tracing.sandbox": {"saltus.tracing.numbers", "saltus.tracing.refusal"},
+    "saltus.tracing.effects": {"saltus.tracing.sandbox"},
 }
 """folder with a face -> what its modules may import from outside the folder"""
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from saltus import _core
 from saltus._engine import core_context, core_options
-from saltus.callbacks import callbacks_of, keep
+from saltus.callbacks import Callbacks, planned
 from saltus.ensemble.columns import Columns, empty, failed, join
 from saltus.ensemble.table import Column
 from saltus.errors import ModelError
@@ -81,9 +81,12 @@ class Job:
         signals = {name: port_of(system, port) for name, port in self.signals.items()}
         options = core_options(replace(self.options, recorded_signals=signals))
         context = self.context or system.create_context(self.span[0])
-        callbacks = callbacks_of(system) if self.options.python == "traced" else None
-        ensemble = _core.Ensemble(system, core_context(context), self.span, options, callbacks)
-        keep(system, callbacks)
+        begin = core_context(context)
+
+        def plan(callbacks: Callbacks | None) -> _core.Ensemble:
+            return _core.Ensemble(system, begin, self.span, options, callbacks)
+
+        ensemble = planned(system, plan)[0] if self.options.python == "traced" else plan(None)
         for name, column in values.items():
             ensemble.vary(name, _numbers(name, column))
         return ensemble

@@ -31,7 +31,7 @@ class Guard:
     Parameters
     ----------
     guard : callable
-        A smooth number g(t, x, *args), in any unit.
+        A smooth number g(t, x, *args), in any unit; or a truth, positive where it is true.
     reset : callable, optional
         r(t, x, *args) returns the state after the event from `x`, a copy of that before it.
         Without it, and if it is not terminal, the event is only logged.

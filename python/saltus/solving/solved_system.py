@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import functools
 import inspect
 from collections.abc import Callable, Sequence
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -123,11 +125,23 @@ def _checked(flow: Function, f: Function, begin: float, x0: np.ndarray) -> Funct
     return flow
 
 
+@functools.lru_cache(maxsize=1024)
+def _label(name: str) -> SimpleNamespace:
+    """A name that a function mentions in messages only: so it is not read when it is traced, and
+    functions that differ in it alone have one trace.
+    """
+    return SimpleNamespace(name=name)
+
+
 def _reset(reset: Function, name: str, args: tuple[Any, ...]) -> Function:
+    label = _label(name)
+
     def reset_map(time: float, state: Any) -> Any:
         after = reset(time, state.continuous_state.copy(), *args)
         if after is None:
-            raise ModelError(f"solve: the reset of '{name}' returned None; return the new state")
+            raise ModelError(
+                f"solve: the reset of '{label.name}' returned None; return the new state"
+            )
         return state.with_continuous_state(after)
 
     return wrapping(reset, reset_map)

@@ -4,8 +4,21 @@
 Jacobian, and smooth guards where a result is a comparison. See the README beside this file.
 """
 
+from saltus.tracing.readers import readers_of_writes
+from saltus.tracing.relations import as_guard
 from saltus.tracing.sandbox import Watch
+from saltus.tracing.siblings import Siblings
 from saltus.tracing.signature import Refused, Relations, Signature, Traced
 from saltus.tracing.tracing import trace
 
-__all__ = ["Refused", "Relations", "Signature", "Traced", "Watch", "trace"]
+__all__ = [
+    "Refused",
+    "Relations",
+    "Siblings",
+    "Signature",
+    "Traced",
+    "Watch",
+    "as_guard",
+    "readers_of_writes",
+    "trace",
+]

@@ -19,7 +19,7 @@ from saltus.tracing.refusal import Refusal
 from saltus.tracing.sandbox import same
 from saltus.tracing.signature import Refused, Signature, Traced
 
-__all__ = ["Kept", "find", "keep"]
+__all__ = ["Kept", "call_of", "find", "keep", "start_of"]
 
 TRACES = "__saltus_traces__"
 MOST = 8  # ways to call one function that are remembered
@@ -47,12 +47,12 @@ class Traces(dict[Any, Kept]):
 
 def find(signature: Signature) -> Traced | Refused | None:
     """The trace there is, if nothing it was made from has changed."""
-    kept = _traces(signature).get(_call(signature))
+    kept = _traces(signature).get(call_of(signature))
     if kept is None or not _stands_for(kept.function, signature.function):
         return None
     if kept.outcome.watch.changed() is not None:
         return None
-    if kept.start == _start(signature):
+    if kept.start == start_of(signature):
         return kept.outcome
     if kept.check is None or isinstance(kept.outcome, Refused):
         return None
@@ -69,8 +69,8 @@ def keep(signature: Signature, outcome: Traced | Refused, check: Check | None) -
     if len(traces) >= MOST:
         traces.clear()
     if type(signature.function) is FunctionType:
-        kept = Kept(signature.function, _start(signature), outcome, check)
-        traces[_call(signature)] = kept
+        kept = Kept(signature.function, start_of(signature), outcome, check)
+        traces[call_of(signature)] = kept
 
 
 def _traces(signature: Signature) -> dict[Any, Kept]:
@@ -86,7 +86,7 @@ def _traces(signature: Signature) -> dict[Any, Kept]:
     return traces
 
 
-def _call(signature: Signature) -> tuple[Any, ...]:
+def call_of(signature: Signature) -> tuple[Any, ...]:
     """The properties of a call, except the function and the values it starts with."""
     s = signature
     code = getattr(s.function, "__code__", None)
@@ -97,7 +97,8 @@ def _call(signature: Signature) -> tuple[Any, ...]:
     return (code, s.convention, s.kind, s.out, inputs, s.mode, tuple(s.modes), parameters, sizes)
 
 
-def _start(signature: Signature) -> tuple[bytes, ...]:
+def start_of(signature: Signature) -> tuple[bytes, ...]:
+    """The values a function starts with, to compare."""
     values = (signature.start("x"), signature.start("z"), signature.parameter_values())
     return tuple(value.tobytes() for value in values)
 

@@ -20,6 +20,9 @@ class Refusal(BaseException):
     No `Exception`, so that an `except Exception` on the way does not swallow it.
     """
 
+    by_check = False
+    """whether a tape was made before"""
+
 
 def refuse(what: str, remedy: str = "") -> NoReturn:
     """Raise a `Refusal`: `what`, the line of the user's function that led here, `remedy`."""

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
-from saltus.tracing.signature import Relations
+from saltus.tracing.signature import Refused, Relations, Traced
 
-__all__ = ["find", "single"]
+__all__ = ["as_guard", "find", "single"]
 
 SIDES = {"gt": (True, False), "ge": (True, True), "lt": (False, False), "le": (False, True)}
 """comparison a ? b -> (whether it is true where a - b is positive, true where it is zero)"""
@@ -79,6 +80,23 @@ def single(graph: Any, outputs: list[int]) -> tuple[Any, bool] | None:
     if not outputs or len(differences) != len(outputs) or len(at_zero) != 1:
         return None
     return graph.tape(differences), at_zero.pop()
+
+
+def as_guard(outcome: Traced | Refused) -> Traced | Refused:
+    """The function as a guard: a truth that is one comparison becomes the difference of its sides.
+
+    The difference is positive where the comparison is true. Another truth has no smooth form: its
+    function is called, and its value is 1 or -1.
+    """
+    if isinstance(outcome, Refused) or not outcome.boolean:
+        return outcome
+    if outcome.comparison is None:
+        return Refused(
+            "returns a truth that is no single comparison <, <=, >, >=, so it jumps; "
+            "return a number that crosses zero, or declare a guard for each comparison",
+            outcome.watch,
+        )
+    return replace(outcome, tape=outcome.comparison[0], boolean=False)
 
 
 def _side(graph: Any, node: int) -> tuple[int, bool] | None:

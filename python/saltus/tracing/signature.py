@@ -128,3 +128,5 @@ class Refused:
     """one sentence: the obstacle, its place, and a remedy"""
     watch: Watch = field(default_factory=Watch)
     """the values read until then: if one changes, another try may succeed"""
+    by_check: bool = False
+    """a tape was made, but it could not be confirmed around the values it starts with"""

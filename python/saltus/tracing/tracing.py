@@ -21,7 +21,7 @@ from saltus.tracing.signature import Refused, Signature, Traced
 __all__ = ["trace"]
 
 
-def trace(signature: Signature) -> Traced | Refused:
+def trace(signature: Signature, few: bool = False) -> Traced | Refused:
     """Call a function once with symbols and make a tape of its operations.
 
     The function is not called itself before a copy of it, which cannot write to anything outside,
@@ -31,6 +31,8 @@ def trace(signature: Signature) -> Traced | Refused:
     ----------
     signature : Signature
         the function, how it is called, and the values it starts with.
+    few : bool
+        a function of the same code was traced and compared before; compare at fewer points.
 
     Returns
     -------
@@ -58,18 +60,18 @@ def trace(signature: Signature) -> Traced | Refused:
     with np.errstate(all="ignore"):
         found = kept.find(signature)
         if found is None:
-            found, check = _made(signature)
+            found, check = _made(signature, few)
             kept.keep(signature, found, check)
     return found
 
 
-def _made(signature: Signature) -> tuple[Traced | Refused, Check | None]:
+def _made(signature: Signature, few: bool) -> tuple[Traced | Refused, Check | None]:
     """A new trace, and how it is checked around other values."""
     sandbox = Sandbox()
     try:
-        return _traced(signature, sandbox)
+        return _traced(signature, sandbox, few)
     except Refusal as refusal:
-        return Refused(str(refusal), sandbox.watch), None
+        return Refused(str(refusal), sandbox.watch, refusal.by_check), None
     except Exception as error:
         place = raised_at(error.__traceback__)
         what = f"{type(error).__name__}: {error}" if str(error) else type(error).__name__
@@ -82,7 +84,7 @@ def _made(signature: Signature) -> tuple[Traced | Refused, Check | None]:
         sandbox.close()
 
 
-def _traced(signature: Signature, sandbox: Sandbox) -> tuple[Traced, Check]:
+def _traced(signature: Signature, sandbox: Sandbox, few: bool) -> tuple[Traced, Check]:
     graph = _core.Graph()
     symbols = Symbols(graph, signature)
     function = sandbox.form_of(signature.function, _name(signature.function))
@@ -99,8 +101,16 @@ def _traced(signature: Signature, sandbox: Sandbox) -> tuple[Traced, Check]:
     _to_nodes(graph, result)
     tape = graph.tape(result.numbers)
     check = Check(tape, result, functools.partial(Bounds, graph, symbols.variables))
-    compared = check.run(signature)
+    compared = _compared(check, signature, few)
     return _outcome(graph, tape, result, sandbox, compared), check
+
+
+def _compared(check: Check, signature: Signature, few: bool) -> int:
+    try:
+        return check.run(signature, few)
+    except Refusal as refusal:
+        refusal.by_check = True
+        raise
 
 
 def _name(function: Callable[..., Any]) -> str:

@@ -4,7 +4,8 @@
 `Watch.changed()` says whether that has changed since.
 """
 
+from saltus.tracing.sandbox.code import names_in
 from saltus.tracing.sandbox.sandbox import Sandbox
-from saltus.tracing.sandbox.watch import Watch, same
+from saltus.tracing.sandbox.watch import MISSING, PLAIN, Watch, same, same_content
 
-__all__ = ["Sandbox", "Watch", "same"]
+__all__ = ["MISSING", "PLAIN", "Sandbox", "Watch", "names_in", "same", "same_content"]

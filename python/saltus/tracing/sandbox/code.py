@@ -16,6 +16,13 @@ __all__ = ["names_in", "refuse_code"]
 SINCE_311 = "PUSH_EXC_INFO" in dis.opmap
 HANDLERS = {"PUSH_EXC_INFO"} if SINCE_311 else {"SETUP_FINALLY"}
 IN_WITH = {"WITH_EXCEPT_START"} if SINCE_311 else set()  # before 3.11 a `with` has no handler
+LOOKS_UP = {
+    "LOAD_GLOBAL",
+    "LOAD_NAME",
+    "LOAD_FROM_DICT_OR_GLOBALS",
+    "STORE_GLOBAL",
+    "DELETE_GLOBAL",
+}
 KINDS = (
     (inspect.CO_COROUTINE, "is a coroutine (async def)"),
     (inspect.CO_ASYNC_GENERATOR, "is an asynchronous generator"),
@@ -31,8 +38,15 @@ def _all(code: CodeType) -> Iterator[CodeType]:
 
 @lru_cache(maxsize=4096)
 def names_in(code: CodeType) -> tuple[str, ...]:
-    """Every name it may look up globally, those of functions inside it too."""
-    return tuple(dict.fromkeys(name for part in _all(code) for name in part.co_names))
+    """Every name it looks up globally, those of functions inside it too; no attribute."""
+    return tuple(
+        dict.fromkeys(
+            instruction.argval
+            for part in _all(code)
+            for instruction in dis.get_instructions(part)
+            if instruction.opname in LOOKS_UP
+        )
+    )
 
 
 def _catches(code: CodeType) -> int | None:

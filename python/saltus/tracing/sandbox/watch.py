@@ -5,13 +5,13 @@ from __future__ import annotations
 import math
 import reprlib
 import weakref
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from types import CodeType
 from typing import Any
 
 import numpy as np
 
-__all__ = ["LARGEST", "MISSING", "PLAIN", "AttributeOf", "Watch", "entries", "same"]
+__all__ = ["LARGEST", "MISSING", "PLAIN", "AttributeOf", "Watch", "entries", "same", "same_content"]
 
 MISSING: Any = type("Missing", (), {"__repr__": lambda self: "not there"})()
 
@@ -59,6 +59,11 @@ def same(a: Any, b: Any) -> bool:
     return bool(a == b) if isinstance(a, PLAIN) else a is b
 
 
+def same_content(value: Any, inside: Any) -> bool:
+    """Whether a container has the parts that one had when it was read."""
+    return bool(content(value) == inside)
+
+
 def _named(value: Any) -> str:
     """A value in few words."""
     if isinstance(value, CodeType):
@@ -76,9 +81,27 @@ class AttributeOf:
         except TypeError:  # not every object can be referred to weakly
             self._object = lambda: value
 
+    def moved(self, move: Callable[[Any], Any]) -> Any:
+        """The same for another object."""
+        value = self._object()
+        other = move(value)
+        return self if other is value else type(self)(other)
+
     def __call__(self, name: str, default: Any) -> Any:
         value = self._object()
         return GONE if value is None else getattr(value, name, default)
+
+
+def _moved_get(get: Get, move: Callable[[Any], Any]) -> Get:
+    """The same look at another object."""
+    if isinstance(get, AttributeOf):
+        return get.moved(move)
+    mapping = getattr(get, "__self__", None)
+    if mapping is None:
+        return get
+    other = mapping.moved(move) if isinstance(mapping, AttributeOf) else move(mapping)
+    moved: Get = other.get
+    return moved
 
 
 class Watch:
@@ -135,6 +158,28 @@ class Watch:
             if not (same(value, now) if inside is None else content(now) == inside):
                 return f"{words} was {_named(value)}, is {_named(now)}"
         return None
+
+    def reads(self) -> Iterator[tuple[str, Any, Any]]:
+        """The words, the place (a name, or a variable of a closure) and the value of each read."""
+        for words, _, key, value, _ in self._reads:
+            yield words, key, value
+
+    def moved(
+        self, move: Callable[[Any], Any], equal: Callable[[Any, Any, Any], bool]
+    ) -> Watch | None:
+        """The same reads of other objects, if they give equal values now; or None.
+
+        `move` gives the other object; `equal(value, other, inside)` compares what was read, with
+        `inside` the parts of a container.
+        """
+        other = Watch()
+        for words, get, key, value, inside in self._reads:
+            moved_get, moved_key = _moved_get(get, move), move(key)
+            now = moved_get(moved_key, MISSING)
+            if now is GONE or not equal(value, now, inside):
+                return None
+            other.add(words, moved_get, moved_key, now)
+        return other
 
     def merge(self, other: Watch) -> None:
         """Watch the values of another `Watch` too."""

@@ -1,0 +1,11 @@
+"""What a function that is called may write, by its code and the objects that it can reach.
+
+`writes_of(roots)` gives the `Writes` of one callback. `Changes` collects them, and says which value
+that a trace was made from may change during a run.
+"""
+
+from saltus.tracing.effects.changes import Change, Changes
+from saltus.tracing.effects.libraries import only_attributes
+from saltus.tracing.effects.writes import Writes, writes_of
+
+__all__ = ["Change", "Changes", "Writes", "only_attributes", "writes_of"]

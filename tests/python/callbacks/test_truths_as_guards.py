@@ -1,0 +1,124 @@
+"""A guard that returns a truth: a comparison is located by its smooth difference, others jump."""
+
+import numpy as np
+import pytest
+import saltus
+from saltus import Guard, solve
+
+LEVEL = 0.25
+FINE = {"rtol": 1e-10, "atol": 1e-12}  # some 100 steps: times are right to 1e-8
+
+COMPARISONS = {
+    ">": (lambda t, x: x[0] > LEVEL, "falling"),
+    ">=": (lambda t, x: x[0] >= LEVEL, "falling"),
+    "<": (lambda t, x: x[0] < LEVEL, "rising"),
+    "<=": (lambda t, x: x[0] <= LEVEL, "rising"),
+    "sides exchanged": (lambda t, x: LEVEL >= x[0], "rising"),
+    "np.greater": (lambda t, x: np.greater(x[0], LEVEL), "falling"),
+    "not": (lambda t, x: np.logical_not(x[0] > LEVEL), "rising"),
+    "of a vector": (lambda t, x: x[:1] > LEVEL, "falling"),
+}
+CALLED = {
+    "and": lambda t, x: x[0] > LEVEL and x[0] < 10.0,
+    "or": lambda t, x: x[0] > LEVEL or x[0] < -10.0,
+    "not": lambda t, x: not x[0] <= LEVEL,
+    "np.logical_and": lambda t, x: np.logical_and(x[0] > LEVEL, x[0] < 10.0),
+    "equal": lambda t, x: (np.floor(2.0 * x[0]) == 5.0) | (x[0] > LEVEL),
+}
+RETURNED = {
+    "bool": bool,
+    "np.bool_": np.bool_,
+    "array of no dimension": lambda truth: np.array(bool(truth)),
+    "array": lambda truth: np.array([bool(truth)]),
+    "list": lambda truth: [bool(truth)],
+    "tuple of np.bool_": lambda truth: (np.bool_(truth),),
+}
+
+
+class Decay(saltus.LeafSystem):
+    """dx/dt = -x from 1."""
+
+    def __init__(self, guard, **options):
+        super().__init__(name="decay")
+        self.declare_continuous_state([1.0], ode=lambda t, s: -s.continuous_state)
+        self.declare_zero_crossing(
+            lambda t, s: guard(t, s.continuous_state), name="level", **options
+        )
+
+
+def run(system, **options):
+    return saltus.simulate(system, system.create_context(), (0.0, 3.0), **FINE, **options)
+
+
+def runs(system, of="guard of 'level'"):
+    return next(c for c in system.explain() if c.callback == of)
+
+
+@pytest.mark.parametrize("name", COMPARISONS)
+@pytest.mark.parametrize("opposite", [False, True])
+def test_a_comparison_is_traced_to_its_smooth_difference(name, opposite):
+    """True is the positive side: it falls where the comparison becomes false."""
+    guard, direction = COMPARISONS[name]
+    if opposite:
+        direction = {"falling": "rising", "rising": "falling"}[direction]
+    system = Decay(guard, direction=direction)
+    assert runs(system).runs == "traced"
+    events = run(system).events
+    assert len(events) == (0 if opposite else 1)
+    for event in events:
+        assert event.time == pytest.approx(np.log(1.0 / LEVEL), rel=1e-8)
+
+
+@pytest.mark.parametrize("name", COMPARISONS)
+def test_so_it_is_in_solve(name):
+    guard, direction = COMPARISONS[name]
+    solution = solve(
+        lambda t, x: -x, (0, 3), [1.0], events=Guard(guard, direction=direction), **FINE
+    )
+    assert [c.runs for c in solution.system.explain()] == ["traced"] * 2
+    assert solution.t_events[0] == pytest.approx([np.log(1.0 / LEVEL)], rel=1e-8)
+
+
+@pytest.mark.parametrize("name", CALLED)
+def test_any_other_truth_is_called(name):
+    assert runs(Decay(CALLED[name])).runs == "called"
+
+
+def test_the_reason_says_that_it_jumps():
+    assert "no single comparison" in runs(Decay(CALLED["np.logical_and"])).reason
+
+
+@pytest.mark.parametrize("form", RETURNED)
+@pytest.mark.parametrize("direction", ["falling", "rising", "both"])
+def test_a_called_truth_is_one_or_minus_one(form, direction):
+    """It would never change its sign as 1 or 0; it is located where it jumps."""
+    made = RETURNED[form]
+    system = Decay(lambda t, x: made(x[0] > LEVEL), direction=direction, size=1)
+    events = run(system, python="called").events
+    assert len(events) == (0 if direction == "rising" else 1)
+    for event in events:
+        assert event.time == pytest.approx(np.log(1.0 / LEVEL), rel=1e-8)
+
+
+def test_several_truths_in_one_guard():
+    levels = np.array([0.5, 0.25])
+    found = []
+    for python in ("traced", "called"):
+        system = Decay(lambda t, x: x[0] > levels, size=2)
+        found.append([event.time for event in run(system, python=python).events])
+    assert found[0] == pytest.approx(np.log(1.0 / levels), rel=1e-8)
+    assert found[1] == pytest.approx(found[0], rel=1e-8)
+
+
+def test_a_relation_by_a_truth():
+    for python in ("traced", "called"):
+        block = saltus.LeafSystem(name="b")
+        block.declare_continuous_state([1.0], ode=lambda t, s: -s.continuous_state)
+        block.declare_relation(lambda t, s: s.continuous_state[0] > LEVEL, name="high")
+        block.declare_output_port(lambda t, s: 1.0 if s.relations[0] else 0.0, name="y")
+        results = saltus.simulate(
+            block, block.create_context(), (0.0, 3.0), python=python,
+            recorded_signals={"y": block.output()},
+        )  # fmt: skip
+        y = results.outputs["y"]
+        assert (y[0], y[-1]) == (1.0, 0.0)
