@@ -12,7 +12,7 @@ namespace {
 using bench::Runner;
 
 /// Whether the scene reaches its end by this method within the second.
-bool ends(const saltus::Scene& scene, const std::string& method) {
+bool ends(const saltus::Scene& scene, saltus::Method method) {
   saltus::SimulatorOptions options = saltus::detail::bounded(scene.options, 1.0);
   options.ode_solver_method = method, options.recorded_signals.clear(), options.save_at.clear();
   options.save_steps = false;
@@ -23,21 +23,21 @@ bool ends(const saltus::Scene& scene, const std::string& method) {
 double compare(bench::Sheet& sheet, const std::string& name) {
   const saltus::Scene scene = saltus::models::scene(name);
   std::vector<std::unique_ptr<Runner>> runners;
-  std::vector<std::string> methods;
+  std::vector<saltus::Method> methods;
   std::vector<std::function<void()>> turns;
-  const auto add = [&](const std::string& method) {
+  const auto add = [&](saltus::Method method) {
     if (!ends(scene, method)) return;
     methods.push_back(method);
     runners.push_back(std::make_unique<Runner>(scene, method));
     turns.push_back([&run = *runners.back()] { run(); });
   };
-  add("auto");
+  add(saltus::Method::automatic);
   if (methods.empty()) {
     sheet.add({{"scene", name}, {"rtol", scene.options.rtol}, {"auto chose", "failed"}});
     return std::numeric_limits<double>::infinity();
   }
-  for (const std::string& method : scene.methods)
-    if (method != "auto") add(method);
+  for (saltus::Method method : scene.methods)
+    if (method != saltus::Method::automatic) add(method);
   const auto times = bench::interleave(turns, 9, 1e-3);
   // Ratios are to auto, the first: the best method has the smallest.
   std::size_t best = 0;
@@ -47,7 +47,7 @@ double compare(bench::Sheet& sheet, const std::string& name) {
   sheet.add({{"scene", name},
              {"rtol", scene.options.rtol},
              {"auto chose", runners[0]->statistics().method.substr(0, 40)},
-             {"best", best == 0 ? "none" : methods[best]},
+             {"best", best == 0 ? "none" : to_string(methods[best])},
              {"auto [us]", times[0].time * 1e6},
              {"best [us]", times[best].time * 1e6},
              {"ratio", ratio},

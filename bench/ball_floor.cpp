@@ -15,7 +15,7 @@ namespace {
 
 using bench::Ball, bench::Outcome, bench::SaltusRun;
 
-saltus::SimulatorOptions with(const char* method, double rtol, bool log, int scan) {
+saltus::SimulatorOptions with(saltus::Method method, double rtol, bool log, int scan) {
   return {.rtol = rtol,
           .atol = 1e-2 * rtol,
           .ode_solver_method = method,
@@ -54,7 +54,7 @@ Outcome reference(const Ball& ball) {
 
 /// Returns the ratio with the event log on, as it is by default.
 template <class Floor>
-double compare(bench::Sheet& sheet, const char* scene, const Ball& ball, const char* method,
+double compare(bench::Sheet& sheet, const char* scene, const Ball& ball, saltus::Method method,
                double rtol, const char* floor_name) {
   const Outcome exact = reference(ball);
   Floor floor(ball, rtol, 1e-2 * rtol);
@@ -73,7 +73,8 @@ double compare(bench::Sheet& sheet, const char* scene, const Ball& ball, const c
     sheet.add(row(scene, rtol, who, timings[i], o, error));
   };
   add(floor_name, 0, floor.outcome(), worst(floor.outcome(), exact));
-  add(saltus::text("saltus ", method), 1, logged.outcome(), worst(logged.outcome(), exact));
+  add(saltus::text("saltus ", to_string(method)), 1, logged.outcome(),
+      worst(logged.outcome(), exact));
   add("  no event log", 2, without_log(silent), std::abs(silent.outcome().y - logged.outcome().y));
   add("  nor a look inside steps", 3, without_log(ends_only),
       std::abs(ends_only.outcome().y - logged.outcome().y));
@@ -88,9 +89,9 @@ int only(const char* who, int runs, bool parabola) {
   bench::FloorDopri5 dopri5(ball, 1e-8, 1e-10);
   bench::FloorDop853 dop853(ball, 1e-8, 1e-10);
   bench::FloorCvode cvode(ball, 1e-8, 1e-10);
-  SaltusRun saltus_dopri5(ball, with("dopri5", 1e-8, true, 3)),
-      saltus_dop853(ball, with("dop853", 1e-8, true, 3)),
-      saltus_adams(ball, with("adams", 1e-8, true, 3));
+  SaltusRun saltus_dopri5(ball, with(saltus::Method::dopri5, 1e-8, true, 3)),
+      saltus_dop853(ball, with(saltus::Method::dop853, 1e-8, true, 3)),
+      saltus_adams(ball, with(saltus::Method::adams, 1e-8, true, 3));
   for (int i = 0; i < runs; ++i) {
     if (std::strcmp(who, "floor_dopri5") == 0)
       dopri5();
@@ -119,10 +120,12 @@ int main(int argc, char** argv) {
   for (const auto& [name, ball] : {std::pair("ball", parabola), std::pair("drag", drag)}) {
     std::array<double, 3> most{};
     for (const double rtol : {1e-4, 1e-6, 1e-8, 1e-10, 1e-12}) {
-      const std::array now{
-          compare<bench::FloorDopri5>(sheet, name, ball, "dopri5", rtol, "inlined DOPRI5"),
-          compare<bench::FloorDop853>(sheet, name, ball, "dop853", rtol, "inlined DOP853"),
-          compare<bench::FloorCvode>(sheet, name, ball, "adams", rtol, "plain CVODE loop")};
+      const std::array now{compare<bench::FloorDopri5>(sheet, name, ball, saltus::Method::dopri5,
+                                                       rtol, "inlined DOPRI5"),
+                           compare<bench::FloorDop853>(sheet, name, ball, saltus::Method::dop853,
+                                                       rtol, "inlined DOP853"),
+                           compare<bench::FloorCvode>(sheet, name, ball, saltus::Method::adams,
+                                                      rtol, "plain CVODE loop")};
       for (std::size_t i = 0; i < now.size(); ++i) most[i] = std::max(most[i], now[i]);
     }
     const std::string worst = saltus::text(name, ", worst of five tolerances: ");

@@ -12,11 +12,11 @@ namespace {
 using bench::Ball, bench::Runner;
 using namespace saltus;
 
-SimulatorOptions with(const std::string& method) {
+SimulatorOptions with(Method method) {
   return {.rtol = 1e-6, .atol = 1e-8, .ode_solver_method = method};
 }
 
-Runner ball_leaf(const Ball& ball, const std::string& method) {
+Runner ball_leaf(const Ball& ball, Method method) {
   // Its functions are called, as those of blocks are.
   const auto leaf = std::make_shared<bench::BallLeaf>(ball, false);
   return {leaf, leaf->create_context().with_continuous_state(Eigen::Vector2d(ball.y0, 0.0)),
@@ -25,7 +25,7 @@ Runner ball_leaf(const Ball& ball, const std::string& method) {
 
 /// Two integrators in a row, which are reset when y falls below 0; drag is one block, v -> -k v
 /// |v|.
-Runner ball_blocks(const Ball& ball, const std::string& method) {
+Runner ball_blocks(const Ball& ball, Method method) {
   DiagramBuilder builder;
   const Integrator::Options reset{.enable_reset = true, .enable_external_reset = true};
   auto& v = builder.add<Integrator>("v", reset);
@@ -72,7 +72,7 @@ class VanDerPol final : public LeafSystem {
   }
 };
 
-Runner van_der_pol_blocks(const std::string& method) {
+Runner van_der_pol_blocks(Method method) {
   DiagramBuilder builder;
   auto& x = builder.add<Integrator>("x", Integrator::Options{.initial_state = 2.0});
   auto& v = builder.add<Integrator>("v", Integrator::Options{});
@@ -95,24 +95,25 @@ Runner van_der_pol_blocks(const std::string& method) {
   return {diagram, diagram->create_context(), 100.0, with(method)};
 }
 
-Runner van_der_pol_leaf(const std::string& method) {
+Runner van_der_pol_leaf(Method method) {
   const auto leaf = std::make_shared<VanDerPol>();
   return {leaf, leaf->create_context(), 100.0, with(method)};
 }
 
-void compare(bench::Sheet& sheet, const std::string& scene, const std::string& method, Runner leaf,
+void compare(bench::Sheet& sheet, const std::string& scene, Method method, Runner leaf,
              Runner blocks) {
   const auto times = bench::interleave({[&] { leaf(); }, [&] { blocks(); }}, 51);
   const auto &a = leaf.statistics(), &b = blocks.statistics();
   sheet.add({{"scene", scene},
-             {"method", method},
+             {"method", to_string(method)},
              {"leaf [us]", times[0].time * 1e6},
              {"blocks [us]", times[1].time * 1e6},
              {"ratio", times[1].ratio},
              {"steps of leaf", a.steps},
              {"steps of blocks", b.steps}});
-  sheet.target(text(scene, ", ", method, ": blocks against the leaf"), times[1].ratio, 1.6);
-  sheet.target(text(scene, ", ", method, ": steps that blocks add"),
+  sheet.target(text(scene, ", ", to_string(method), ": blocks against the leaf"), times[1].ratio,
+               1.6);
+  sheet.target(text(scene, ", ", to_string(method), ": steps that blocks add"),
                static_cast<double>(b.steps - a.steps), 0.0);
 }
 
@@ -121,7 +122,7 @@ void compare(bench::Sheet& sheet, const std::string& scene, const std::string& m
 int main() {
   bench::Sheet sheet("diagram", "What does a diagram of blocks cost, against one leaf?");
   const Ball parabola, drag{.k = 9.81 / 400.0};
-  for (const std::string method : {"dopri5", "dop853"}) {
+  for (const Method method : {Method::dopri5, Method::dop853}) {
     compare(sheet, "ball", method, ball_leaf(parabola, method), ball_blocks(parabola, method));
     compare(sheet, "drag", method, ball_leaf(drag, method), ball_blocks(drag, method));
     compare(sheet, "van der pol", method, van_der_pol_leaf(method), van_der_pol_blocks(method));

@@ -34,12 +34,12 @@ extremes::Table run_group(const extremes::Group& group, const Asked& what) {
   Table table{group.title, group.text, {}};
   for (const Case& c : group.cases) {
     if ((what.quick && !c.quick) || c.name.find(what.words) == std::string::npos) continue;
-    for (const std::string& method : c.methods) {
+    for (saltus::Method method : c.methods) {
       const Row row = run(c, method);
-      std::cout << to_string(row.verdict) << '\t' << method << '\t' << c.name << '\t'
+      std::cout << to_string(row.verdict) << '\t' << to_string(method) << '\t' << c.name << '\t'
                 << row.finding.error << '\t' << row.finding.events << '\t' << row.seconds << " s\t"
                 << row.happened << std::endl;
-      table.lines.push_back({c.name, method, row});
+      table.lines.push_back({c.name, std::string(to_string(method)), row});
     }
   }
   return table;

@@ -74,10 +74,10 @@ void compare(const std::string& name, Index n, const Pairs& pairs,
   std::vector<std::string> all{"auto"};
   all.insert(all.end(), solvers.begin(), solvers.end());
   for (const std::string& solver : all)
-    simulators.emplace_back(
-        scene,
-        SimulatorOptions{
-            .rtol = 1e-5, .atol = 1e-5, .ode_solver_method = "bdf", .linear_solver = solver});
+    simulators.emplace_back(scene, SimulatorOptions{.rtol = 1e-5,
+                                                    .atol = 1e-5,
+                                                    .ode_solver_method = Method::bdf,
+                                                    .linear_solver = linear_solver_from(solver)});
   for (Simulator& simulator : simulators)
     runs.emplace_back([&] { simulator.initialize(start), simulator.advance_to(1.0); });
   const auto times = bench::interleave(runs, n < 1000 ? 9 : 3, 2e-3);

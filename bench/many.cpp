@@ -15,7 +15,9 @@ using namespace saltus;
 
 constexpr double g = 9.81, e = 0.9, balls_end = 2.0;
 
-SimulatorOptions dopri5() { return {.rtol = 1e-6, .atol = 1e-8, .ode_solver_method = "dopri5"}; }
+SimulatorOptions dopri5() {
+  return {.rtol = 1e-6, .atol = 1e-8, .ode_solver_method = Method::dopri5};
+}
 
 double height_of(int i, int n) { return 10.0 + 5.0 * i / n; }  // [m] no two land together
 

@@ -50,7 +50,7 @@ struct Problem {
   saltus::Context start;
   double t_end;
   double scale;  ///< atol / rtol
-  std::vector<const char*> methods = {};
+  std::vector<saltus::Method> methods = {};
 };
 
 /// Two bodies, eccentricity e, `periods` turns.
@@ -96,7 +96,9 @@ Problem robertson() {
 
 std::vector<Problem> problems() {
   const auto ball = std::make_shared<bench::BallLeaf>(bench::Ball{.k = 9.81 / 400.0});
-  const std::vector<const char*> smooth{"dopri5", "dop853", "adams", "auto"}, stiff{"bdf", "auto"};
+  const std::vector<saltus::Method> smooth{saltus::Method::dopri5, saltus::Method::dop853,
+                                           saltus::Method::adams, saltus::Method::automatic},
+      stiff{saltus::Method::bdf, saltus::Method::automatic};
   std::vector<Problem> all{
       {"drag ball", ball, ball->create_context().with_continuous_state(vec({10.0, 0.0})), 12.0,
        1e-2},
@@ -113,7 +115,7 @@ std::vector<Problem> problems() {
   return all;
 }
 
-Eigen::VectorXd end_of(const Problem& p, const char* method, double rtol) {
+Eigen::VectorXd end_of(const Problem& p, saltus::Method method, double rtol) {
   saltus::Simulator run(*p.system,
                         {.rtol = rtol, .atol = p.scale * rtol, .ode_solver_method = method});
   run.initialize(p.start);
@@ -124,7 +126,7 @@ Eigen::VectorXd end_of(const Problem& p, const char* method, double rtol) {
 void compare(const Problem& p, double rtol, const Eigen::VectorXd& exact, bool timed) {
   std::vector<std::unique_ptr<saltus::Simulator>> runs;
   std::vector<std::function<void()>> runners;
-  for (const char* method : p.methods) {
+  for (saltus::Method method : p.methods) {
     auto& run = runs.emplace_back(std::make_unique<saltus::Simulator>(
         *p.system, saltus::SimulatorOptions{
                        .rtol = rtol, .atol = p.scale * rtol, .ode_solver_method = method}));
@@ -139,8 +141,8 @@ void compare(const Problem& p, double rtol, const Eigen::VectorXd& exact, bool t
     const saltus::Results& r = runs[i]->results();
     const double error = (r.context.continuous_state() - exact).cwiseAbs().maxCoeff();
     std::printf("%-10s %6.0e  %-7s %10.1f us %6.2f  %8ld steps %9ld rhs %6.2f  %8.1e  %s\n", p.name,
-                rtol, p.methods[i], timings[i].time * 1e6, timings[i].ratio, r.statistics.steps,
-                r.statistics.right_hand_side_calls,
+                rtol, to_string(p.methods[i]).data(), timings[i].time * 1e6, timings[i].ratio,
+                r.statistics.steps, r.statistics.right_hand_side_calls,
                 static_cast<double>(r.statistics.right_hand_side_calls) /
                     static_cast<double>(runs[0]->results().statistics.right_hand_side_calls),
                 error, r.statistics.method.substr(0, 90).c_str());
@@ -156,8 +158,9 @@ int main(int argc, char** argv) {
   std::printf("ratios to the first method of the problem\n");
   for (const Problem& p : problems()) {
     if (std::strncmp(p.name, only, std::strlen(only)) != 0) continue;
-    const bool stiff = std::strcmp(p.methods[0], "bdf") == 0;
-    const Eigen::VectorXd exact = end_of(p, stiff ? "bdf" : "dop853", 1e-13);
+    const bool stiff = p.methods[0] == saltus::Method::bdf;
+    const Eigen::VectorXd exact =
+        end_of(p, stiff ? saltus::Method::bdf : saltus::Method::dop853, 1e-13);
     for (int digits = 3; digits <= 12; ++digits) compare(p, std::pow(10.0, -digits), exact, timed);
   }
 }

@@ -16,7 +16,7 @@ class Runner {
         t_end_(t_end),
         simulator_(*system_, options) {}
   /// Runs a scene by this method, with its own tolerances; only events are recorded.
-  Runner(const saltus::Scene& scene, const std::string& method)
+  Runner(const saltus::Scene& scene, saltus::Method method)
       : Runner(
             scene.system, scene.context.with_time(scene.span.begin), scene.span.end,
             {.rtol = scene.options.rtol, .atol = scene.options.atol, .ode_solver_method = method}) {

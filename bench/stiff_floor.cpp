@@ -17,7 +17,7 @@ class Ours {
       : leaf_(problem),
         start_(leaf_.create_context()),
         t_end_(problem.t_end),
-        simulator_(leaf_, {.rtol = rtol, .atol = atol, .ode_solver_method = "bdf"}) {}
+        simulator_(leaf_, {.rtol = rtol, .atol = atol, .ode_solver_method = saltus::Method::bdf}) {}
   void operator()() {
     simulator_.initialize(start_);
     simulator_.advance_to(t_end_);

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "interpreter.hpp"
+#include "names.hpp"
 #include "python_scene.hpp"
 #include "saltus/report/written.hpp"
 #include "trace_pass.hpp"

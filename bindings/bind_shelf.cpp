@@ -3,6 +3,7 @@
 #include <pybind11/stl.h>
 
 #include "bindings.hpp"
+#include "names.hpp"
 #include "saltus/models/shelf.hpp"
 #include "shared_system.hpp"
 

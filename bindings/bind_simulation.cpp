@@ -5,6 +5,7 @@
 #include <pybind11/stl.h>
 
 #include "interpreter.hpp"
+#include "names.hpp"
 #include "python_results.hpp"
 #include "saltus/simulation/detail/option_table.hpp"
 #include "saltus/simulation/simulator.hpp"

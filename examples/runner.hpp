@@ -147,12 +147,18 @@ inline void run_once(saltus::Scene scene, const Settings& settings) {
   if (!settings.json.empty()) opened(settings.json) << to_json(scene, results).dump(1) << "\n";
 }
 
+inline std::vector<saltus::Method> methods_from(const std::vector<std::string>& names) {
+  std::vector<saltus::Method> methods;
+  for (const std::string& name : names) methods.push_back(saltus::method_from(name));
+  return methods;
+}
+
 // --- the report --------------------------------------------------------------------------------
 
 inline void run_report(const saltus::Scene& scene, const Settings& settings,
                        const std::string& title = {}) {
-  saltus::WorkReport report =
-      saltus::work_precision(scene, {.methods = settings.methods, .rtols = settings.rtols});
+  saltus::WorkReport report = saltus::work_precision(
+      scene, {.methods = methods_from(settings.methods), .rtols = settings.rtols});
   report.title = title;
   write_text(std::cout, report);
   if (!settings.csv.empty()) {
@@ -195,14 +201,15 @@ int run(int argc, char** argv, const std::string& name, const std::string& about
         saltus::Scene (*make)(const Parameters&)) {
   Parameters parameters;
   const saltus::SimulatorOptions defaults = make(parameters).options;
-  Settings settings{
-      .rtol = defaults.rtol, .atol = defaults.atol, .method = defaults.ode_solver_method};
+  Settings settings{.rtol = defaults.rtol,
+                    .atol = defaults.atol,
+                    .method = std::string(to_string(defaults.ode_solver_method))};
   CLI::App app(about, name);
   add(app, parameters);
   app.add_option("--t-end", parameters.t_end, "end of the run [s]")->capture_default_str();
   add_settings(app, settings);
   return guarded(app, argc, argv, [&] {
-    saltus::method_from(settings.method);  // before any work
+    const saltus::Method method = saltus::method_from(settings.method);  // before any work
     if (!(parameters.t_end >= 0.0)) {
       throw saltus::ModelError(
           saltus::text("--t-end: expected a time >= 0 s, found ", parameters.t_end));
@@ -210,7 +217,7 @@ int run(int argc, char** argv, const std::string& name, const std::string& about
     saltus::Scene scene = make(parameters);
     scene.options.rtol = settings.rtol;
     scene.options.atol = settings.atol;
-    scene.options.ode_solver_method = settings.method;
+    scene.options.ode_solver_method = method;
     settings.report ? run_report(scene, settings) : run_once(scene, settings);
   });
 }

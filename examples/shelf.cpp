@@ -21,7 +21,8 @@ saltus::Scene chosen(const std::string& name, const CLI::App& app,
   saltus::Scene scene = saltus::models::scene(name);
   if (app.count("--rtol") > 0) scene.options.rtol = settings.rtol;
   if (app.count("--atol") > 0) scene.options.atol = settings.atol;
-  if (app.count("--method") > 0) scene.options.ode_solver_method = settings.method;
+  if (app.count("--method") > 0)
+    scene.options.ode_solver_method = saltus::method_from(settings.method);
   scene.name = name;
   return scene;
 }

@@ -63,13 +63,12 @@ int main(int argc, char** argv) {
       "The four scenes of the tutorial: events, errors against the closed form, error against run "
       "time.",
       "tutorial");
-  WorkOptions work{.methods = {"dopri5", "adams"},
-                   .rtols = {1e-4, 1e-8, 1e-12},
-                   .atol_over_rtol = 1e-2,
-                   .time_limit = 1.0};
-  app.add_option("--methods", work.methods, "methods to compare")->capture_default_str();
+  std::vector<std::string> methods{"dopri5", "adams"};
+  WorkOptions work{.rtols = {1e-4, 1e-8, 1e-12}, .atol_over_rtol = 1e-2, .time_limit = 1.0};
+  app.add_option("--methods", methods, "methods to compare")->capture_default_str();
   app.add_option("--rtols", work.rtols, "relative tolerances to compare at")->capture_default_str();
   return examples::guarded(app, argc, argv, [&] {
+    work.methods = examples::methods_from(methods);
     for (const Scene& scene : models::tutorial()) {
       show(scene);
       compare(scene, work);

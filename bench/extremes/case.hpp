@@ -18,6 +18,7 @@ using saltus::Context;
 using saltus::Direction;
 using saltus::Index;
 using saltus::LeafSystem;
+using saltus::Method;
 using saltus::Next;
 using saltus::Results;
 using saltus::SimulatorOptions;
@@ -29,11 +30,13 @@ using saltus::VectorRef;
 inline constexpr double infinite = std::numeric_limits<double>::infinity();
 inline constexpr double eps = std::numeric_limits<double>::epsilon();
 
-using Methods = std::vector<std::string>;
-inline const Methods every{"dopri5", "dop853", "adams", "bdf", "auto"};
-inline const Methods explicit_ones{"dopri5", "dop853", "adams", "auto"};
-inline const Methods stiff_ones{"bdf", "auto"};
-inline const Methods runge_kutta{"dopri5", "dop853", "auto"};
+using Methods = std::vector<Method>;
+inline const Methods every{Method::dopri5, Method::dop853, Method::adams, Method::bdf,
+                           Method::automatic};
+inline const Methods explicit_ones{Method::dopri5, Method::dop853, Method::adams,
+                                   Method::automatic};
+inline const Methods stiff_ones{Method::bdf, Method::automatic};
+inline const Methods runge_kutta{Method::dopri5, Method::dop853, Method::automatic};
 
 /// The distance of a run from the exact answer.
 struct Finding {

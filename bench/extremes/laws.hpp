@@ -19,7 +19,9 @@ inline std::vector<double> firing_times(const saltus::EventLog& log) {
 
 /// The allowed error: ten tolerances; a hundred for BDF on scenes that are not stiff, where it
 /// takes ten times the steps.
-inline double allowed(const std::string& method) { return method == "bdf" ? 100.0 : 10.0; }
+inline double allowed(saltus::Method method) {
+  return method == saltus::Method::bdf ? 100.0 : 10.0;
+}
 
 /// The known answer of a run.
 struct Exact {

@@ -53,7 +53,7 @@ inline void judge(const Case& c, const Trial& trial, const Results& results, Row
 
 }  // namespace detail
 
-inline Row run(const Case& c, Trial trial, const std::string& method) {
+inline Row run(const Case& c, Trial trial, saltus::Method method) {
   Row row;
   const auto begin = std::chrono::steady_clock::now();
   const auto passed = [begin] {
@@ -76,7 +76,7 @@ inline Row run(const Case& c, Trial trial, const std::string& method) {
 }
 
 /// The worst of all trials, with the steps and the time of all.
-inline Row run(const Case& c, const std::string& method) {
+inline Row run(const Case& c, saltus::Method method) {
   Row worst;
   std::int64_t steps = 0;
   double seconds = 0.0;

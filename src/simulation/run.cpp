@@ -18,7 +18,7 @@ SolverOptions solver_options(const SimulatorOptions& options) {
           options.atol,
           options.min_minor_step_size,
           options.max_minor_step_size,
-          linear_solver_from(options.linear_solver),
+          options.linear_solver,
           options.find_sparsity};
 }
 
@@ -35,7 +35,6 @@ Run::Run(std::shared_ptr<const Plan> plan, SimulatorOptions options)
       guards_(machine_.plan()),
       instant_(machine_, guards_, options_, results_),
       calendar_(machine_.plan()),
-      method_(method_from(options_.ode_solver_method)),
       chattering_(options_) {}
 
 void Run::initialize(const Context& context) {
@@ -166,8 +165,8 @@ void Run::move_to(double t_stop, StopReason& reason) {
   }
   if (!solver_started_) {
     if (!solver_)
-      solver_ = make_solver(plan().nx == 0 ? Method::dopri5 : method_, machine_, guards_,
-                            solver_options(options_));
+      solver_ = make_solver(plan().nx == 0 ? Method::dopri5 : options_.ode_solver_method, machine_,
+                            guards_, solver_options(options_));
     solver_->restart(time_, machine_.x, {.first = true});
     solver_started_ = true;
   }

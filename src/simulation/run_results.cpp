@@ -72,7 +72,7 @@ Context Run::context() const {
 std::string Run::describe() const {
   const std::string linear = solver_ ? solver_->statistics().linear_solver : "";
   return plan().describe() +
-         text("method: ", options_.ode_solver_method,
+         text("method: ", to_string(options_.ode_solver_method),
               solver_ ? text(" (", solver_->method(), ")") : "", "\n") +
          (linear.empty() ? "" : text("linear solver: ", linear, "\n"));
 }

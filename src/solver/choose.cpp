@@ -22,12 +22,11 @@ double order_8_pays(const GuardSet& guards) {
 
 }  // namespace
 
-void require_linear_solver(std::string_view linear_solver, std::string_view method) {
-  const Method by = method_from(method);
-  const bool stiff = by == Method::automatic || by == Method::bdf;
-  if (linear_solver_from(linear_solver) != LinearSolver::automatic && !stiff) {
-    throw ModelError(text("option linear_solver = '", linear_solver, "': ode_solver_method '",
-                          method,
+void require_linear_solver(LinearSolver linear_solver, Method method) {
+  const bool stiff = method == Method::automatic || method == Method::bdf;
+  if (linear_solver != LinearSolver::automatic && !stiff) {
+    throw ModelError(text("option linear_solver = '", to_string(linear_solver),
+                          "': ode_solver_method '", to_string(method),
                           "' solves no linear systems; leave it at 'auto', or take the "
                           "method 'bdf' or 'auto'"));
   }

@@ -31,7 +31,7 @@ void loop_is_free(const System& system, const Context& context, double first, do
 }  // namespace
 
 TEST_CASE("10000 steps allocate nothing", "[absent][allocation]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Leaf oscillator("oscillator", [](Leaf& l) {
     l.declare_continuous_state(
@@ -50,11 +50,12 @@ TEST_CASE("a stiff scene allocates nothing in its loop", "[absent][allocation]")
          }});
     l.declare_jacobian([](const At&, MatrixRef j) { j << -1e4, 0.0, 1.0, 0.0; });
   });
-  loop_is_free(decay, decay.create_context(), 10.0, 20.0, 500.0, {.ode_solver_method = "bdf"});
+  loop_is_free(decay, decay.create_context(), 10.0, 20.0, 500.0,
+               {.ode_solver_method = Method::bdf});
 }
 
 TEST_CASE("a thousand bounces allocate nothing", "[absent][allocation]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   for (const Scene& scene : all_forms({.e = 1.0})) {
     INFO(scene.form << ", method " << method);
     loop_is_free(*scene.system, scene.context(0.1, 0.0), 10.0, 12.0, 300.0,
@@ -63,7 +64,7 @@ TEST_CASE("a thousand bounces allocate nothing", "[absent][allocation]") {
 }
 
 TEST_CASE("changes of mode allocate nothing", "[absent][allocation]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Leaf thermostat("room", [](Leaf& l) {
     l.declare_continuous_state({.initial = vec({20.0}), .ode = [](const At& at) {
@@ -85,7 +86,7 @@ TEST_CASE("changes of mode allocate nothing", "[absent][allocation]") {
 }
 
 TEST_CASE("ticks and monitors allocate nothing", "[absent][allocation]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   DiagramBuilder builder;
   auto& sine = builder.add<Sine>("sine");
@@ -155,7 +156,7 @@ std::shared_ptr<Leaf> all_at_once() {
 
 TEST_CASE("holds and releases allocate nothing, in a leaf and in a diagram",
           "[absent][allocation]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   for (const Form& form : forms(hopper())) {
     INFO(form.name << ", method " << method);
     loop_is_free(*form.system, form.context(), 10.5, 12.5, 60.5, {.ode_solver_method = method});
@@ -163,7 +164,7 @@ TEST_CASE("holds and releases allocate nothing, in a leaf and in a diagram",
 }
 
 TEST_CASE("holds and releases of balls from blocks allocate nothing", "[absent][allocation]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   for (const Contact contact : contacts) {
     const Scene scene =
         blocks(contact, {.e = 0.3},
@@ -176,7 +177,7 @@ TEST_CASE("holds and releases of balls from blocks allocate nothing", "[absent][
 
 TEST_CASE("guards, resets, monitors and modes at once allocate nothing, in a leaf and in a diagram",
           "[absent][allocation]") {
-  const auto* method = GENERATE("dopri5", "dop853", "adams", "bdf");
+  const auto method = GENERATE(Method::dopri5, Method::dop853, Method::adams, Method::bdf);
   for (const Form& form : forms(all_at_once())) {
     INFO(form.name << ", method " << method);
     loop_is_free(*form.system, form.context(), 13.0, 19.5, 60.0, {.ode_solver_method = method});
@@ -189,7 +190,8 @@ TEST_CASE("changes between stiff and not allocate nothing but the list of them",
   for (const Form& form : forms(all_at_once())) {
     INFO(form.name);
     const auto count = [&](double second) {
-      Simulator simulator(*form.system, {.ode_solver_method = "auto", .record_events = false});
+      Simulator simulator(*form.system,
+                          {.ode_solver_method = Method::automatic, .record_events = false});
       simulator.initialize(form.context());
       simulator.advance_to(13.0);
       const long asked = allocations_of([&] { simulator.advance_to(second); });
@@ -225,8 +227,8 @@ std::shared_ptr<Leaf> rod() {
   });
 }
 
-void solves_free(const std::string& solver) {
-  const auto* method = GENERATE("bdf", "auto");
+void solves_free(LinearSolver solver) {
+  const auto method = GENERATE(Method::bdf, Method::automatic);
   for (const Form& form : forms(rod())) {
     INFO(form.name << ", method " << method << ", " << solver);
     loop_is_free(*form.system, form.context(), 20.0, 30.0, 100.0,
@@ -237,14 +239,14 @@ void solves_free(const std::string& solver) {
 }  // namespace
 
 TEST_CASE("elimination, dense and banded, allocates nothing", "[absent][allocation]") {
-  solves_free(GENERATE("dense", "band"));
+  solves_free(GENERATE(LinearSolver::dense, LinearSolver::band));
 }
 
 // Eigen's SparseLU and IncompleteLUT make their working memory anew for each factorisation, by some
 // 25 requests; what CVODE, Newton and the solves do in between asks for none.
 TEST_CASE("sparse factors allocate in factorisations only", "[absent][allocation]") {
-  const std::string solver = GENERATE("sparse", "gmres");
-  const auto* method = GENERATE("bdf", "auto");
+  const auto solver = GENERATE(LinearSolver::sparse, LinearSolver::gmres);
+  const auto method = GENERATE(Method::bdf, Method::automatic);
   for (const Form& form : forms(rod())) {
     INFO(form.name << ", method " << method << ", " << solver);
     Simulator simulator(

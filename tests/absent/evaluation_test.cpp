@@ -27,7 +27,7 @@ struct Counted {
 }  // namespace
 
 TEST_CASE("a block that nobody reads is never computed, nor what only it reads", "[absent]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Counted unread("unread"), behind("behind"), read("read");
   DiagramBuilder builder;
@@ -48,7 +48,7 @@ TEST_CASE("a block that nobody reads is never computed, nor what only it reads",
 }
 
 TEST_CASE("what is recorded is computed once a row, and not in the right-hand side", "[absent]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Counted shown("shown");
   DiagramBuilder builder;
@@ -71,7 +71,7 @@ TEST_CASE("what is recorded is computed once a row, and not in the right-hand si
 }
 
 TEST_CASE("a constant is computed once a run, however many steps it has", "[absent]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Counted scaled("scaled");
   DiagramBuilder builder;
@@ -91,7 +91,7 @@ TEST_CASE("a constant is computed once a run, however many steps it has", "[abse
 }
 
 TEST_CASE("a held value is computed at instants, not in between", "[absent]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Counted held("held");
   DiagramBuilder builder;
@@ -114,7 +114,7 @@ TEST_CASE("a held value is computed at instants, not in between", "[absent]") {
 
 TEST_CASE("without continuous state there is no solver: time goes from event to event",
           "[absent]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Leaf counter("counter", [](Leaf& l) {
     l.declare_discrete_state(vec({0.0}));

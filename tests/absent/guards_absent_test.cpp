@@ -5,7 +5,7 @@ using namespace saltus;
 using namespace support;
 
 TEST_CASE("a comparison that reaches no derivative, guard or reset is no guard", "[absent]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   DiagramBuilder builder;
   auto& sine = builder.add<Sine>("sine");
@@ -23,7 +23,7 @@ TEST_CASE("a comparison that reaches no derivative, guard or reset is no guard",
 }
 
 TEST_CASE("without a Zeno tolerance there is no Zeno event", "[absent]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   for (const Scene& scene : all_forms({.e = 0.5, .zeno_tolerance = 0.0})) {
     INFO(scene.form << ", method " << method);
     const auto results = simulate(*scene.system, scene.context(1.0, 0.0), {0.0, 3.0},

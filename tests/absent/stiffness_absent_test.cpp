@@ -21,7 +21,7 @@ Leaf oscillator(int& calls) {
 }  // namespace
 
 TEST_CASE("a scene that is not stiff has no Jacobian and no linear solver", "[absent]") {
-  const auto* method = GENERATE("dopri5", "adams", "auto");
+  const auto method = GENERATE(Method::dopri5, Method::adams, Method::automatic);
   INFO("method " << method);
   int calls = 0;
   const Leaf leaf = oscillator(calls);
@@ -35,7 +35,7 @@ TEST_CASE("a scene that is not stiff has no Jacobian and no linear solver", "[ab
 
 TEST_CASE("a method that is not stiff looks at no sparsity, colours nothing, has no linear solver",
           "[absent]") {
-  const auto* method = GENERATE("dopri5", "dop853", "adams", "auto");
+  const auto method = GENERATE(Method::dopri5, Method::dop853, Method::adams, Method::automatic);
   INFO("method " << method);
   const Leaf leaf("leaf", [](Leaf& l) {
     l.declare_continuous_state(
@@ -46,8 +46,9 @@ TEST_CASE("a method that is not stiff looks at no sparsity, colours nothing, has
   const auto results =
       simulate(leaf, leaf.create_context(), {0.0, 10.0}, {.ode_solver_method = method});
   CHECK(results.statistics.linear_solver.empty());
-  CHECK_THROWS_AS(simulate(leaf, leaf.create_context(), {0.0, 10.0}, {.ode_solver_method = "bdf"}),
-                  ModelError);
+  CHECK_THROWS_AS(
+      simulate(leaf, leaf.create_context(), {0.0, 10.0}, {.ode_solver_method = Method::bdf}),
+      ModelError);
 }
 
 TEST_CASE("BDF asks the leaf for its Jacobian where there is one, and makes no differences",
@@ -55,7 +56,7 @@ TEST_CASE("BDF asks the leaf for its Jacobian where there is one, and makes no d
   int calls = 0;
   const Leaf leaf = oscillator(calls);
   const auto results =
-      simulate(leaf, leaf.create_context(), {0.0, 100.0}, {.ode_solver_method = "bdf"});
+      simulate(leaf, leaf.create_context(), {0.0, 100.0}, {.ode_solver_method = Method::bdf});
   CHECK(calls > 0);
   CHECK(results.statistics.jacobian_calls == calls);
   // Newton needs one or two evaluations a step; differences would add one a state for each
@@ -65,7 +66,7 @@ TEST_CASE("BDF asks the leaf for its Jacobian where there is one, and makes no d
 }
 
 TEST_CASE("updates that no derivative reads restart nothing", "[absent]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   DiagramBuilder builder;
   auto& sine = builder.add<Sine>("sine");
@@ -86,7 +87,7 @@ TEST_CASE("updates that no derivative reads restart nothing", "[absent]") {
 
 TEST_CASE("a held signal that a derivative reads restarts it when it changes, and only then",
           "[absent]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   DiagramBuilder builder;
   auto& pulse = builder.add<Pulse>("pulse", Pulse::Options{.period = 1.0, .pulse_width = 0.5});

@@ -39,7 +39,7 @@ Leaf sliding_relation() {
   });
 }
 
-void chatters(const System& system, const char* method, const std::string& block) {
+void chatters(const System& system, Method method, const std::string& block) {
   const auto results = simulate(system, system.create_context(), {0.0, 10.0},
                                 {.ode_solver_method = method, .throw_errors = false});
   INFO(to_string(results.status) << ": " << results.message
@@ -56,19 +56,19 @@ void chatters(const System& system, const char* method, const std::string& block
 }  // namespace
 
 TEST_CASE("sliding along a switching surface by modes chatters", "[errors][chattering]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   chatters(sliding_modes(), method, "relay");
 }
 
 TEST_CASE("sliding along a switching surface by a relation chatters", "[errors][chattering]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   chatters(sliding_relation(), method, "relay");
 }
 
 TEST_CASE("sliding in a diagram with a Comparator or a lambda chatters", "[errors][chattering]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const bool opaque = GENERATE(true, false);
   INFO("method " << method << ", opaque " << opaque);
   DiagramBuilder builder;
@@ -93,7 +93,7 @@ TEST_CASE("sliding in a diagram with a Comparator or a lambda chatters", "[error
 }
 
 TEST_CASE("a ball without Zeno monitor past its Zeno time chatters", "[errors][chattering]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const double e = GENERATE(0.0, 0.3, 0.9);
   for (const Scene& scene : all_forms({.e = e})) {
     INFO(scene.form << ", method " << method << ", e = " << e);
@@ -110,7 +110,7 @@ TEST_CASE("a ball without Zeno monitor past its Zeno time chatters", "[errors][c
 
 TEST_CASE("a sliding run that starts on its surface at t = 0 does not hang",
           "[errors][chattering]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const bool modes = GENERATE(true, false);
   INFO("method " << method << ", modes " << modes);
   const Leaf leaf = modes ? sliding_modes() : sliding_relation();

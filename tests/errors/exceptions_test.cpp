@@ -53,7 +53,7 @@ std::shared_ptr<const System> scene(Where where) {
 }  // namespace
 
 TEST_CASE("an exception from any callback comes out as it was thrown, by any method", "[errors]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const Where where = GENERATE(Where::ode, Where::guard, Where::reset, Where::update,
                                Where::relation, Where::shown);
   INFO("method " << method << ", function " << static_cast<int>(where));
@@ -77,15 +77,15 @@ TEST_CASE("an exception from any callback comes out as it was thrown, by any met
 TEST_CASE("an exception from a Jacobian comes out of BDF as it was thrown", "[errors]") {
   const auto system = scene(Where::jacobian);
   CHECK_THROWS_AS(
-      simulate(*system, system->create_context(), {0.0, 2.0}, {.ode_solver_method = "bdf"}),
+      simulate(*system, system->create_context(), {0.0, 2.0}, {.ode_solver_method = Method::bdf}),
       Spilled);
-  CHECK_NOTHROW(
-      simulate(*system, system->create_context(), {0.0, 2.0}, {.ode_solver_method = "adams"}));
+  CHECK_NOTHROW(simulate(*system, system->create_context(), {0.0, 2.0},
+                         {.ode_solver_method = Method::adams}));
 }
 
 TEST_CASE("with throw_errors off the cause and the partial results are in what is returned",
           "[errors]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   const auto system = scene(Where::ode);
   const auto results = simulate(*system, system->create_context(), {0.0, 2.0},
@@ -101,7 +101,7 @@ TEST_CASE("with throw_errors off the cause and the partial results are in what i
 }
 
 TEST_CASE("what is thrown need not be an exception", "[errors]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Leaf leaf("leaf", [](Leaf& l) {
     l.declare_continuous_state({.initial = vec({1.0}), .ode = [](const At& at) {
@@ -118,7 +118,7 @@ TEST_CASE("what is thrown need not be an exception", "[errors]") {
 }
 
 TEST_CASE("after an exception the simulator can be initialized again", "[errors]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   bool angry = true;
   const Leaf leaf("leaf", [&](Leaf& l) {

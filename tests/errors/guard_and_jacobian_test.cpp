@@ -39,7 +39,7 @@ Results jacobian_that_is(double bad, double until) {
     l.declare_jacobian(
         [=](const At& at, MatrixRef j) { j << -1.0, at.time < until ? bad : 0.0, 0.0, -1.0; });
   });
-  return simulate(leaf, leaf.create_context(), {0.0, 2.0}, {.ode_solver_method = "bdf"});
+  return simulate(leaf, leaf.create_context(), {0.0, 2.0}, {.ode_solver_method = Method::bdf});
 }
 
 TEST_CASE("where a Jacobian is not finite, differences stand in, and that is told", "[errors]") {
@@ -62,7 +62,7 @@ TEST_CASE("a root has no slope at zero, and goes on by differences", "[errors]")
     l.declare_jacobian([](const At& at, MatrixRef j) { j(0, 0) = -0.5 / std::sqrt(at.x[0]); });
   });
   const Results results = simulate(tank, tank.create_context(), {0.0, 30.0},
-                                   {.rtol = 1e-8, .ode_solver_method = "bdf"});
+                                   {.rtol = 1e-8, .ode_solver_method = Method::bdf});
   // In w = sqrt(x): w' = (1 - w) / (2 w), so t = -2 (w + log(1 - w)). Errors die out on the way.
   const double w = std::sqrt(results.context.continuous_state()[0]);
   CHECK_THAT(-2.0 * (w + std::log1p(-w)), WithinAbs(30.0, 1.0));

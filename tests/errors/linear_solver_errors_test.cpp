@@ -6,7 +6,8 @@ using namespace support;
 
 namespace {
 
-const std::vector<std::string> solvers{"dense", "band", "sparse", "gmres"};
+const std::vector<LinearSolver> solvers{LinearSolver::dense, LinearSolver::band,
+                                        LinearSolver::sparse, LinearSolver::gmres};
 
 /// x_i' = -(i + 1) x_i for n states, with this sparse Jacobian of its diagonal.
 Leaf decays(Index n, VectorFunction values) {
@@ -19,10 +20,10 @@ Leaf decays(Index n, VectorFunction values) {
   });
 }
 
-std::string failure(const System& system, const std::string& solver) {
+std::string failure(const System& system, LinearSolver solver) {
   return message<SimulationError>([&] {
     simulate(system, system.create_context(), {0.0, 2.0},
-             {.ode_solver_method = "bdf", .linear_solver = solver});
+             {.ode_solver_method = Method::bdf, .linear_solver = solver});
   });
 }
 
@@ -40,7 +41,7 @@ TEST_CASE("differences stand in for a sparse Jacobian that is not finite", "[err
       for (Index i = 0; i < 20; ++i) out[i] = -factor * static_cast<double>(i + 1);
     });
     return simulate(leaf, leaf.create_context(), {0.0, 2.0},
-                    {.ode_solver_method = "bdf", .linear_solver = solver});
+                    {.ode_solver_method = Method::bdf, .linear_solver = solver});
   };
   const Results well = run(1.0), mended = run(not_a_number);
   CHECK(!contains(well.statistics.linear_solver, "not finite"));
@@ -59,7 +60,7 @@ TEST_CASE("what a Jacobian throws comes out as it was", "[errors][linear]") {
   const Leaf leaf = decays(20, [](const At&, VectorRef) { throw Thrown{17}; });
   try {
     simulate(leaf, leaf.create_context(), {0.0, 2.0},
-             {.ode_solver_method = "bdf", .linear_solver = solver});
+             {.ode_solver_method = Method::bdf, .linear_solver = solver});
     FAIL("nothing was thrown");
   } catch (const Thrown& thrown) {
     CHECK(thrown.number == 17);
@@ -75,7 +76,7 @@ TEST_CASE("a dense Jacobian with values outside its declared sparsity is refused
          .jacobian = [](const At&, MatrixRef j) { j << 0.0, 1.0, -1.0, 0.0; }});
     l.declare_jacobian_sparsity({{0, 1}});
   });
-  const std::string what = failure(leaf, "auto");
+  const std::string what = failure(leaf, LinearSolver::automatic);
   INFO(what);
   CHECK(contains(what, "block 'leaf' has values outside the sparsity"));
 }
@@ -98,7 +99,7 @@ TEST_CASE("a matrix that is singular at some step size is a shorter step, not an
     });
   });
   const Results results = simulate(leaf, leaf.create_context(), {0.0, 1.0},
-                                   {.ode_solver_method = "bdf", .linear_solver = solver});
+                                   {.ode_solver_method = Method::bdf, .linear_solver = solver});
   CHECK(calls > 1);
   // Growth e, rtol 1e-6, some 50 steps.
   CHECK(std::abs(results.context.continuous_state()[0] - std::exp(1.0)) < 50 * 2.72 * 2e-6);
@@ -106,8 +107,9 @@ TEST_CASE("a matrix that is singular at some step size is a shorter step, not an
 
 TEST_CASE("a Jacobian that is far off costs steps, not digits", "[errors][linear]") {
   const Leaf leaf = decays(20, [](const At&, VectorRef out) { out.setConstant(-5.0); });
-  const Results results = simulate(leaf, leaf.create_context(), {0.0, 1.0},
-                                   {.ode_solver_method = "bdf", .linear_solver = "band"});
+  const Results results =
+      simulate(leaf, leaf.create_context(), {0.0, 1.0},
+               {.ode_solver_method = Method::bdf, .linear_solver = LinearSolver::band});
   for (Index i = 0; i < 20; ++i)
     CHECK(std::abs(results.context.continuous_state()[i] - std::exp(-static_cast<double>(i + 1))) <
           1e-4);
@@ -115,10 +117,11 @@ TEST_CASE("a Jacobian that is far off costs steps, not digits", "[errors][linear
 
 TEST_CASE("an unknown linear solver, or one for a method without, is refused", "[errors][linear]") {
   const Leaf leaf = decays(2, [](const At&, VectorRef out) { out << -1.0, -2.0; });
-  CHECK(contains(message<ModelError>([&] { Simulator(leaf, {.linear_solver = "bnad"}); }),
+  CHECK(contains(message<ModelError>([] { linear_solver_from("bnad"); }),
                  "unknown linear_solver 'bnad'; did you mean 'band'?"));
-  const std::string unused = message<ModelError>(
-      [&] { Simulator(leaf, {.ode_solver_method = "dopri5", .linear_solver = "band"}); });
+  const std::string unused = message<ModelError>([&] {
+    Simulator(leaf, {.ode_solver_method = Method::dopri5, .linear_solver = LinearSolver::band});
+  });
   INFO(unused);
   CHECK(contains(unused, "ode_solver_method 'dopri5' solves no linear systems"));
 }

@@ -21,7 +21,7 @@ Leaf blow_up() {
 
 TEST_CASE("x' = x^2 blows up at t = 1: the error says where, with the partial results",
           "[errors]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Leaf leaf = blow_up();
   std::string message_text;
@@ -45,8 +45,8 @@ TEST_CASE("x' = x^2 blows up at t = 1: the error says where, with the partial re
 
 TEST_CASE("a jump that no guard announces, too sharp for the tolerance, does not hang a run",
           "[errors]") {
-  const auto* method =
-      GENERATE("dopri5", "auto");  // CVODE's error estimate does not see such a jump at all
+  const auto method = GENERATE(
+      Method::dopri5, Method::automatic);  // CVODE's error estimate does not see such a jump at all
   INFO("method " << method);
   const Leaf leaf("leaf", [](Leaf& l) {
     l.declare_continuous_state(
@@ -64,13 +64,13 @@ TEST_CASE("a step below min_minor_step_size is an error that names the option", 
   const Leaf leaf = blow_up();
   const std::string what = message<SimulationError>([&] {
     simulate(leaf, leaf.create_context(), {0.0, 2.0},
-             {.ode_solver_method = "dopri5", .min_minor_step_size = 1e-3});
+             {.ode_solver_method = Method::dopri5, .min_minor_step_size = 1e-3});
   });
   CHECK(contains(what, "below min_minor_step_size = 0.001 s; lower that, or loosen rtol and atol"));
 }
 
 TEST_CASE("max_major_steps ends a run with the status step_limit and all it has", "[errors]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Leaf leaf("leaf", [](Leaf& l) {
     declare_ramp(l);
@@ -98,7 +98,7 @@ TEST_CASE("max_major_steps ends a run with the status step_limit and all it has"
 }
 
 TEST_CASE("an interrupt ends a run with what it has", "[errors]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const bool with_ticks = GENERATE(true, false);
   INFO("method " << method << ", ticks " << with_ticks);
   const Leaf leaf("leaf", [&](Leaf& l) {

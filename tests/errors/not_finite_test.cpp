@@ -17,7 +17,7 @@ struct Ended {
 };
 
 /// Runs to t = 2 and reports how a SimulationError ended it.
-Ended run(const System& system, const char* method, SimulatorOptions options = {}) {
+Ended run(const System& system, Method method, SimulatorOptions options = {}) {
   Ended ended;
   options.ode_solver_method = method;
   ended.printed = printed_by([&] {
@@ -37,7 +37,7 @@ Ended run(const System& system, const char* method, SimulatorOptions options = {
 }  // namespace
 
 TEST_CASE("a derivative that becomes NaN or Inf is named with its block and its time", "[errors]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const double bad = GENERATE(from_range(std::vector{not_a_number, infinite, -infinite}));
   INFO("method " << method << ", " << bad);
   DiagramBuilder builder;
@@ -62,7 +62,7 @@ TEST_CASE("a derivative that becomes NaN or Inf is named with its block and its 
 }
 
 TEST_CASE("a derivative that is NaN from the start is named at t0", "[errors]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Leaf leaf("root of minus one", [](Leaf& l) {
     l.declare_continuous_state(
@@ -76,7 +76,7 @@ TEST_CASE("a derivative that is NaN from the start is named at t0", "[errors]") 
 }
 
 TEST_CASE("the entry that is not finite is named, and what the block sees", "[errors]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   const auto message_of = [&](Index n) {
     DiagramBuilder builder;
@@ -98,7 +98,7 @@ TEST_CASE("the entry that is not finite is named, and what the block sees", "[er
 }
 
 TEST_CASE("an output that is not finite and that a derivative reads is named itself", "[errors]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   DiagramBuilder builder;
   const auto& x = builder.add<Integrator>("x", IntegratorOptions{.initial_state = -1.0});
@@ -118,7 +118,7 @@ TEST_CASE("an output that is not finite and that a derivative reads is named its
 }
 
 TEST_CASE("a reset map that sets NaN is named with its event", "[errors]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Leaf leaf("leaf", [](Leaf& l) {
     declare_ramp(l);
@@ -135,7 +135,7 @@ TEST_CASE("a reset map that sets NaN is named with its event", "[errors]") {
 }
 
 TEST_CASE("a guard that becomes NaN is an error, not an event", "[errors]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Leaf leaf("leaf", [](Leaf& l) {
     declare_ramp(l);

@@ -15,7 +15,7 @@ struct Ended {
 };
 
 /// Runs to t = 2 and reports how a SimulationError ended it.
-Ended run(const System& system, const char* method, SimulatorOptions options = {}) {
+Ended run(const System& system, Method method, SimulatorOptions options = {}) {
   Ended ended;
   options.ode_solver_method = method;
   ended.printed = printed_by([&] {
@@ -35,7 +35,7 @@ Ended run(const System& system, const char* method, SimulatorOptions options = {
 }  // namespace
 
 TEST_CASE("a recorded output that is NaN is an error that names it", "[errors]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Leaf leaf("leaf", [](Leaf& l) {
     declare_ramp(l);

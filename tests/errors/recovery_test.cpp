@@ -51,7 +51,7 @@ struct Fragile {
 
 TEST_CASE("after an error from any function the simulator runs as if nothing had been",
           "[errors]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const Where where =
       GENERATE(Where::ode, Where::guard, Where::reset, Where::update, Where::output);
   const bool throws = GENERATE(false, true);
@@ -92,7 +92,7 @@ TEST_CASE("an update that sets NaN is named with its event", "[errors]") {
 }
 
 TEST_CASE("an interrupt that throws ends the run, and the next one goes well", "[errors]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const Fragile fragile;
   const Leaf leaf = fragile.leaf();
   SimulatorOptions options{.ode_solver_method = method, .record_events = false};

@@ -10,15 +10,15 @@ namespace {
 
 /// Runs, and makes sure that the run was seen: see hook.cpp.
 template <class Run>
-void run(const std::string& scene, const std::string& method, Run run_it) {
-  INFO(scene << ", method " << method);
+void run(const std::string& scene, saltus::Method method, Run run_it) {
+  INFO(scene << ", method " << to_string(method));
   const std::size_t before = fingerprint::lines();
   try {
-    const fingerprint::Named name(scene, method);
+    const fingerprint::Named name(scene, std::string(to_string(method)));
     run_it();
   } catch (const saltus::ModelError& error) {  // refused before it ran
     if (fingerprint::lines() == before)
-      fingerprint::write(scene, method, fingerprint::refused(error.what()));
+      fingerprint::write(scene, std::string(to_string(method)), fingerprint::refused(error.what()));
   }
   REQUIRE(fingerprint::lines() == before + 1);
 }
@@ -28,7 +28,7 @@ bool is_long(const extremes::Case& c) {
   return c.name.starts_with("1e6 ") || c.name.starts_with("1e4 guards of a leaf, monitors");
 }
 
-void run_extreme(const extremes::Case& c, const std::string& method) {
+void run_extreme(const extremes::Case& c, saltus::Method method) {
   int number = 0;
   for (extremes::Trial& trial : c.trials()) {
     trial.options.ode_solver_method = method;
@@ -47,7 +47,7 @@ TEST_CASE("fingerprint: shelf", "[.fingerprint][.]") {
       scene.options.atol *= rtol / scene.options.rtol;
       scene.options.rtol = rtol;
       scene.options.throw_errors = false;
-      for (const std::string& method : scene.methods) {
+      for (const saltus::Method method : scene.methods) {
         scene.options.ode_solver_method = method;
         run(saltus::text("shelf/", entry.name, " ", rtol), method, [&] { simulate(scene); });
       }
@@ -60,7 +60,7 @@ TEST_CASE("fingerprint: extremes", "[.fingerprint][.]") {
   for (const extremes::Group& group : extremes::all_groups()) {
     for (const extremes::Case& c : group.cases) {
       if (is_long(c)) continue;
-      for (const std::string& method : c.methods) run_extreme(c, method);
+      for (const saltus::Method method : c.methods) run_extreme(c, method);
     }
   }
 }

@@ -60,7 +60,7 @@ Diagram chain(const std::vector<double>& v0) {
 }  // namespace
 
 TEST_CASE("an avalanche goes down a chain of neurons in one instant", "[laws][passes]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   // All within one push of the threshold when the first fires: each of the others is pushed over
   // it.
   const Diagram diagram = chain({0.5, 0.48, 0.47, 0.46, 0.45});
@@ -77,7 +77,7 @@ TEST_CASE("an avalanche goes down a chain of neurons in one instant", "[laws][pa
 
 TEST_CASE("a chain of neurons out of step fires on the times of its closed form",
           "[laws][passes]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const Diagram diagram = chain({0.5, 0.0, 0.0, 0.0, 0.0});
   const double rtol = 1e-9, atol = 1e-11;
   const double end = 3.5;  // after that all fire together, and a rounding decides who is pushed

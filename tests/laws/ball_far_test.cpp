@@ -11,7 +11,7 @@ constexpr double g = 9.81;
 
 /// Whether what a run leaves is a ball at rest on `floor`, to `height` and the speed such a height
 /// gives.
-void rests(const std::string& scene, const char* method, const Results& results, double floor,
+void rests(const std::string& scene, Method method, const Results& results, double floor,
            double height, double gravity = g) {
   INFO(scene << ", method " << method << ": " << results.message);
   CHECK(results.status == Status::reached_end);
@@ -20,7 +20,7 @@ void rests(const std::string& scene, const char* method, const Results& results,
   within(scene + ", v", method, std::abs(x[1]), 2.0 * std::sqrt(2.0 * gravity * height));
 }
 
-void late_in_time(const char* method, double t0) {
+void late_in_time(Method method, double t0) {
   const BallExact exact{g, 0.5, 1.0};
   const double rtol = 1e-9, atol = 1e-11;
   for (const Scene& scene :
@@ -44,7 +44,7 @@ void late_in_time(const char* method, double t0) {
   }
 }
 
-void far_from_zero(const char* method, double floor, double e, bool of_blocks) {
+void far_from_zero(Method method, double floor, double e, bool of_blocks) {
   const BallOptions options{.g = g, .e = e, .floor = floor};
   const Scene scene = of_blocks ? blocks(Contact::comparator, options) : leaf(options);
   const double rtol = 1e-13, atol = 1e-10;
@@ -56,7 +56,7 @@ void far_from_zero(const char* method, double floor, double e, bool of_blocks) {
         8.0 * eps * std::abs(floor) + 40.0 * (rtol * std::abs(floor) + atol));
 }
 
-void of_any_size(const char* method, double y0, double gravity) {
+void of_any_size(Method method, double y0, double gravity) {
   for (const double e : {0.0, 0.5, 0.9}) {
     const BallExact exact{gravity, e, y0};
     for (const Scene& scene :
@@ -78,13 +78,13 @@ void of_any_size(const char* method, double y0, double gravity) {
 
 TEST_CASE("late in time a ball bounces to the rounding of the time, by every method",
           "[laws][ball][zeno]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   late_in_time(method, GENERATE(-1e6, 1e6, 1e8));
 }
 
 TEST_CASE("far above zero a ball bounces on its floor and comes to rest there",
           "[laws][ball][zeno]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const double floor = GENERATE(1e3, -1e6, 1e9), e = GENERATE(0.0, 0.5, 0.9);
   far_from_zero(method, floor, e, false);
 }
@@ -93,19 +93,19 @@ TEST_CASE("far above zero a ball bounces on its floor and comes to rest there",
 // in the rounding of y - floor while the ball rises, and turns it downward.
 TEST_CASE("far above zero a ball of blocks bounces on its floor and comes to rest there",
           "[laws][ball][zeno]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const double floor = GENERATE(1e3, -1e6, 1e8, 1e9), e = GENERATE(0.0, 0.5, 0.9);
   far_from_zero(method, floor, e, true);
 }
 
 TEST_CASE("with the default options a ball of any size rests in the end", "[laws][ball][zeno]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const double y0 = GENERATE(1e-9, 1e-3, 1.0, 1e3), gravity = GENERATE(1e-6, 9.81, 1e6);
   of_any_size(method, y0, gravity);
 }
 
 TEST_CASE("with the default options a ball from a million kilometres rests in the end",
           "[laws][ball][zeno]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   of_any_size(method, 1e9, GENERATE(1e-6, 9.81, 1e6));
 }

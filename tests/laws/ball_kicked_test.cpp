@@ -48,7 +48,7 @@ std::vector<Form> kicked(double e, double v) {
 
 TEST_CASE("a ball at rest that is kicked up flies, comes down, and rests until the next kick",
           "[laws][ball][zeno]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const double e = GENERATE(0.0, 0.5);
   const double rtol = 1e-9, atol = 1e-11;
   for (const Form& form : kicked(e, 4.0)) {
@@ -71,7 +71,7 @@ TEST_CASE("a ball at rest that is kicked up flies, comes down, and rests until t
 }
 
 TEST_CASE("a ball at rest that is kicked down stays where it is", "[laws][ball][zeno]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   for (const Form& form : kicked(0.0, -4.0)) {
     const auto results = simulate(*form.system, form.context(), {0.0, 6.9},
                                   {.ode_solver_method = method, .throw_errors = false});

@@ -43,7 +43,7 @@ std::shared_ptr<Leaf> thrown_ball(OnZeno choice, std::vector<std::vector<int>> h
 
 constexpr double relative = 1e-10, absolute = 1e-12;  // tolerances
 
-Results run(const Form& form, const char* method, double end) {
+Results run(const Form& form, Method method, double end) {
   return simulate(
       *form.system, form.context(), {0.0, end},
       {.rtol = relative, .atol = absolute, .ode_solver_method = method, .throw_errors = false});
@@ -51,7 +51,7 @@ Results run(const Form& form, const char* method, double end) {
 
 /// Rest of a dropped ball is seen this early or late: exact but for a multistep method, which is
 /// blind to flights lower than the errors of a flight.
-double rest_error(const char* method, double e) {
+double rest_error(Method method, double e) {
   const double blind = one_step(method) ? 0.0 : 40.0 * (relative + absolute);
   return 1e-9 + 8.0 * std::sqrt(2.0 * blind / g) / (1.0 - e);
 }
@@ -61,7 +61,7 @@ double rest_error(const char* method, double e) {
 // now.
 TEST_CASE("at zero at the start, heading across: a guard does what its author says",
           "[laws][choices]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   for (const double start : {0.0, 0.5}) {
     for (const auto& [choice, fires] :
          {std::pair{AtStart::automatic, start == 0.0}, std::pair{AtStart::ignore, false},
@@ -84,7 +84,7 @@ TEST_CASE("at zero at the start, heading across: a guard does what its author sa
 
 TEST_CASE("at its Zeno point a ball stops the run, is an error, or goes on in a mode",
           "[laws][choices][zeno]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const double e = GENERATE(0.0, 0.5);
   const double rest = BallExact{g, e, 1.0}.rest(), error = rest_error(method, e);
   for (const Form& form : forms(thrown_ball(OnZeno::stop(), {}, e))) {
@@ -109,7 +109,7 @@ TEST_CASE("at its Zeno point a ball stops the run, is an error, or goes on in a 
 }
 
 TEST_CASE("a hold keeps the states it is said to, the others go on", "[laws][choices][zeno]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const double e = GENERATE(0.0, 0.5);
   for (const Form& form : forms(thrown_ball(OnZeno::hold(), {{0, 1}}, e))) {
     const auto results = run(form, method, 5.0);
@@ -124,7 +124,7 @@ TEST_CASE("a hold keeps the states it is said to, the others go on", "[laws][cho
 }
 
 TEST_CASE("a terminal guard with max_count n ends the run on its n-th firing", "[laws][choices]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const int n = GENERATE(1, 2, 7);
   const auto leaf = make_leaf("leaf", [=](Leaf& l) {
     declare_ramp(l);

@@ -26,7 +26,7 @@ std::shared_ptr<Leaf> counter(int n, bool with_state) {
 }  // namespace
 
 TEST_CASE("a counter of ticks overflows at its tick, and starts anew", "[laws][passes]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const bool with_state = GENERATE(true, false);
   const int n = GENERATE(1, 3, 10);
   for (const Form& form : forms(counter(n, with_state))) {
@@ -43,7 +43,7 @@ TEST_CASE("a counter of ticks overflows at its tick, and starts anew", "[laws][p
 }
 
 TEST_CASE("limits of steps change no event", "[laws][events]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const auto leaf = make_leaf("leaf", [](Leaf& l) {
     declare_ramp(l);
     l.declare_zero_crossing(

@@ -35,7 +35,7 @@ std::vector<double> crossings(double level, double end) {
   return times;
 }
 
-void counts(const char* method, double rtol, Reads reads, double level) {
+void counts(Method method, double rtol, Reads reads, double level) {
   for (const Form& form : forms(counted_oscillator(level, reads))) {
     const double end = 43.0;  // nearly seven turns, off every crossing
     const double atol = 1e-2 * rtol, slope = std::sqrt(1.0 - level * level);
@@ -55,7 +55,7 @@ void counts(const char* method, double rtol, Reads reads, double level) {
 }  // namespace
 
 TEST_CASE("an oscillator's crossings of a level are counted once each", "[laws][guards]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const double rtol = GENERATE(1e-6, 1e-10), level = GENERATE(0.9, 0.5, 0.1, -0.5);
   for (const Reads reads : {Reads::continuous_state, Reads::everything})
     counts(method, rtol, reads, level);

@@ -69,7 +69,7 @@ TEST_CASE("a run leaves nothing behind for the next one of its thread", "[ensemb
     const saltus::Scene scene = models::scene(entry.name);
     const Index n = scene.context.continuous_state().size();
     if (n > 40 || entry.name == "vdpol-1e6" || entry.name == "thermostat") continue;
-    for (const std::string& method : scene.methods) {
+    for (const Method method : scene.methods) {
       INFO(entry.name << ", method " << method);
       SimulatorOptions options = scene.options;
       options.ode_solver_method = method;

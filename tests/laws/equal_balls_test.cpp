@@ -34,7 +34,7 @@ struct Bodies {
 
 TEST_CASE("equal balls in one diagram do the same to the last bit, in the same passes",
           "[laws][ball][zeno]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const double e = GENERATE(0.0, 0.5, 1.0);
   const int n = 5;
   const Bodies bodies(std::vector<double>(n, e));
@@ -56,7 +56,7 @@ TEST_CASE("equal balls in one diagram do the same to the last bit, in the same p
 
 TEST_CASE("balls of unlike restitution meet the floor together once, then each alone",
           "[laws][ball][zeno]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const std::vector<double> restitutions{0.0, 0.2, 0.5, 0.8, 1.0};
   const Bodies bodies(restitutions);
   const double rtol = 1e-9, atol = 1e-11, end = 4.0;

@@ -28,7 +28,7 @@ std::shared_ptr<Leaf> clock(double at, bool terminal = false) {
   });
 }
 
-void cut_in_two(const char* method, const std::vector<double>& cuts) {
+void cut_in_two(Method method, const std::vector<double>& cuts) {
   // The located time may be a rounding before the cut, on it, or behind it.
   for (const double cut : cuts) {
     for (const Form& form : forms(clock(0.5))) {
@@ -45,7 +45,7 @@ void cut_in_two(const char* method, const std::vector<double>& cuts) {
 }  // namespace
 
 TEST_CASE("an event on a tick and on a time that is saved happens once", "[laws][events]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   // 0.5 is a tick to the last bit, 0.3 = 3 * 0.1 is one but for it.
   const double at = GENERATE(0.5, 0.3, 0.7);
   for (const Form& form : forms(clock(at))) {
@@ -63,7 +63,7 @@ TEST_CASE("an event on a tick and on a time that is saved happens once", "[laws]
 }
 
 TEST_CASE("a reset and a tick of one leaf at one time both count", "[laws][events]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const double at = GENERATE(0.5, 0.3, 0.7);
   for (const Form& form : forms(clock(at))) {
     INFO(form.name << ", method " << method << ", at " << at);
@@ -74,7 +74,7 @@ TEST_CASE("a reset and a tick of one leaf at one time both count", "[laws][event
 }
 
 TEST_CASE("rows at saved times are the same with an event exactly there", "[laws][events]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const auto leaf = clock(0.5);
   const auto results = simulate(*leaf, leaf->create_context(), {0.0, 1.0},
                                 {.ode_solver_method = method,
@@ -102,7 +102,7 @@ TEST_CASE("a run that is cut at an event has it once, in the piece before or the
 
 // What comes out with adams and bdf at t0 = 0: an error, "tout too close to t0".
 TEST_CASE("a run of one rounding error's length runs", "[laws][events]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const double t0 = GENERATE(0.0, 0.5, -5.0, 1e8);
   for (const Form& form : forms(clock(0.5))) {
     const double end = std::nextafter(t0, infinite);
@@ -115,7 +115,7 @@ TEST_CASE("a run of one rounding error's length runs", "[laws][events]") {
 }
 
 TEST_CASE("a terminal contact at t0 ends the run there, after its reset", "[laws][events]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const double t0 = GENERATE(0.0, -5.0, 1e8);
   for (const Form& form : forms(clock(0.0, true))) {
     const auto results =
@@ -129,7 +129,7 @@ TEST_CASE("a terminal contact at t0 ends the run there, after its reset", "[laws
 }
 
 TEST_CASE("a terminal event exactly at the end is a terminal event", "[laws][events]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const auto leaf = make_leaf("leaf", [](Leaf& l) {
     declare_ramp(l);
     l.declare_zero_crossing(
@@ -146,7 +146,7 @@ TEST_CASE("a terminal event exactly at the end is a terminal event", "[laws][eve
 
 TEST_CASE("of a terminal event and later ones in one step only the terminal one happens",
           "[laws][events]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const auto leaf = make_leaf("leaf", [](Leaf& l) {
     declare_ramp(l);
     l.declare_discrete_state(vec({0.0}));

@@ -25,7 +25,7 @@ Leaf alarm(double at_time, bool with_state, bool terminal = false) {
 }  // namespace
 
 TEST_CASE("a guard on time only is located, with continuous state and without", "[laws][events]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const bool with_state = GENERATE(true, false);
   const double at = GENERATE(0.537, 0.123, 0.5);
   INFO("method " << method << ", at " << at << ", state " << with_state);
@@ -40,7 +40,7 @@ TEST_CASE("a guard on time only is located, with continuous state and without", 
 
 TEST_CASE("an event exactly at the end of a run happens, once, also if the run goes on",
           "[laws][events]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const bool with_state = GENERATE(true, false);
   INFO("method " << method << ", state " << with_state);
   const Leaf leaf = alarm(1.0, with_state);
@@ -70,7 +70,7 @@ TEST_CASE("a time event exactly at t0 and exactly at the end happens", "[laws][e
 
 TEST_CASE("a guard that reaches zero exactly at a tick fires, and the tick happens",
           "[laws][events]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Leaf leaf("leaf", [](Leaf& l) {
     declare_ramp(l);
@@ -94,7 +94,7 @@ TEST_CASE("a guard that reaches zero exactly at a tick fires, and the tick happe
 
 TEST_CASE("a terminal event ends the run after its reset, with the row after it",
           "[laws][events]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Leaf leaf("leaf", [](Leaf& l) {
     declare_ramp(l, -3.0, 2.0);
@@ -128,7 +128,7 @@ TEST_CASE("a terminal event on time alone ends a run without continuous state", 
 
 TEST_CASE("a terminal guard at zero at the start waits: an orbit starts on its own finish line",
           "[laws][events]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   const double pi = std::acos(-1.0);
   const Leaf orbit("orbit", [](Leaf& l) {

@@ -30,7 +30,7 @@ std::shared_ptr<Leaf> resting_ball(Declare more) {
   });
 }
 
-Results run(const Form& form, const char* method, double end) {
+Results run(const Form& form, Method method, double end) {
   return simulate(
       *form.system, form.context(), {0.0, end},
       {.rtol = 1e-9, .atol = 1e-11, .ode_solver_method = method, .throw_errors = false});
@@ -42,7 +42,7 @@ double late(const At& at) { return at.time - 1.0; }
 
 TEST_CASE("ticks and guards on time that write no continuous state happen on a hold, which goes on",
           "[laws][zeno]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const auto ball = resting_ball([](Leaf& l) {
     l.declare_periodic_update(count_up, 0.1, 0.05, "tick");  // off the alarm
     l.declare_zero_crossing({.name = "alarm", .guard = late, .reset_map = count_up});
@@ -64,7 +64,7 @@ TEST_CASE("ticks and guards on time that write no continuous state happen on a h
 }
 
 TEST_CASE("a terminal guard ends a run on a hold", "[laws][zeno]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const auto ball = resting_ball(
       [](Leaf& l) { l.declare_zero_crossing({.name = "end", .guard = late, .terminal = true}); });
   for (const Form& form : forms(ball)) {
@@ -77,7 +77,7 @@ TEST_CASE("a terminal guard ends a run on a hold", "[laws][zeno]") {
 
 // What comes out, here and below: the hold goes on to the end, with whatever state was written.
 TEST_CASE("a change of mode that lifts the ball ends its hold", "[laws][zeno]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const bool by_tick = GENERATE(false, true);
   const auto ball = resting_ball([=](Leaf& l) {
     if (by_tick)
@@ -96,7 +96,7 @@ TEST_CASE("a change of mode that lifts the ball ends its hold", "[laws][zeno]") 
 }
 
 TEST_CASE("a guard on time that throws the ball up ends its hold", "[laws][zeno]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const auto ball = resting_ball([](Leaf& l) {
     l.declare_zero_crossing({.name = "kick", .guard = late, .reset_map = [](const At&, Next& next) {
                                next.set_continuous_state({0.0, 10.0});
@@ -112,7 +112,7 @@ TEST_CASE("a guard on time that throws the ball up ends its hold", "[laws][zeno]
 }
 
 TEST_CASE("a force that comes on lifts a ball at rest off its hold", "[laws][zeno]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const auto ball = make_leaf("ball", [](Leaf& l) {
     const int in = l.declare_input_port({.name = "thrust", .shape = Shape::scalar()});
     l.declare_continuous_state(

@@ -26,7 +26,7 @@ std::vector<double> releases(const Results& results) {
 }  // namespace
 
 TEST_CASE("a floor that drops under a resting ball lets it go exactly then", "[laws][ball][zeno]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const double drop = GENERATE(1.0, 1.0 / 3.0);
   for (const Scene& scene :
        all_forms_over({.g = g, .e = 0.5}, [&] { return step(0.0, -2.0, drop); })) {
@@ -46,7 +46,7 @@ TEST_CASE("a floor that drops under a resting ball lets it go exactly then", "[l
 
 TEST_CASE("the tutorial's third scene: to rest, let go at 1 s, seven bounces by 1.1 s",
           "[laws][ball][zeno]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const double e = 0.8, y0 = 1e-3;
   const BallExact exact{g, e, y0};
   for (const Scene& scene : all_forms_over({.g = g, .e = e}, [&] { return step(0.0, -y0, 1.0); })) {
@@ -70,7 +70,7 @@ TEST_CASE("the tutorial's third scene: to rest, let go at 1 s, seven bounces by 
 }
 
 TEST_CASE("a floor that steps up under a resting ball carries it", "[laws][ball][zeno]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   for (const Scene& scene :
        all_forms_over({.g = g, .e = 0.5}, [&] { return step(0.0, 0.75, 1.0); })) {
     INFO(scene.form << ", method " << method);
@@ -86,7 +86,7 @@ TEST_CASE("a floor that steps up under a resting ball carries it", "[laws][ball]
 }
 
 TEST_CASE("a floor that steps up past a flying ball takes it along", "[laws][ball]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   for (const Scene& scene :
        all_forms_over({.g = g, .e = 0.5}, [&] { return step(0.0, 3.0, 0.1); })) {
     INFO(scene.form << ", method " << method);
@@ -103,7 +103,7 @@ TEST_CASE("a floor that steps up past a flying ball takes it along", "[laws][bal
 
 TEST_CASE("a ball that a floor took along bounces on it and comes to rest there",
           "[laws][ball][zeno]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   for (const Scene& scene :
        all_forms_over({.g = g, .e = 0.5}, [&] { return step(0.0, 3.0, 0.1); })) {
     INFO(scene.form << ", method " << method);
@@ -128,7 +128,7 @@ TEST_CASE("a ball that a floor took along bounces on it and comes to rest there"
 }
 
 TEST_CASE("of two balls in one diagram one rests while the other bounces", "[laws][ball][zeno]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   DiagramBuilder builder;
   auto& first = builder.add<Ball>(BallOptions{.g = g, .e = 0.0}, "first");

@@ -7,7 +7,7 @@ using namespace support;
 
 namespace {
 
-void stiff_lag(const char* method, double stiffness) {
+void stiff_lag(Method method, double stiffness) {
   // y' = stiffness (T - y) follows T at a distance T' / stiffness; T runs from -1 to 1 and back at
   // 1/s, turned by y: a period of 4 (1 + 1/stiffness) s, but for the first, from rest.
   const auto leaf = make_leaf("leaf", [=](Leaf& l) {
@@ -42,7 +42,7 @@ void stiff_lag(const char* method, double stiffness) {
 }  // namespace
 
 TEST_CASE("an unstable state that is put back at e comes there every second", "[laws]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const double rtol = 1e-9, atol = 1e-11;
   const auto leaf = make_leaf("leaf", [](Leaf& l) {
     l.declare_continuous_state(
@@ -69,8 +69,8 @@ TEST_CASE("a stiff lag under a relay switches on time", "[laws][modes]") {
 }
 
 TEST_CASE("a guard over a thousand states fires when their sum says", "[laws]") {
-  const auto* method =
-      GENERATE("dopri5", "adams", "auto");  // a dense Jacobian of 1e6 is not for here
+  const auto method = GENERATE(Method::dopri5, Method::adams,
+                               Method::automatic);  // a dense Jacobian of 1e6 is not for here
   const Index n = 1000;
   const double rtol = 1e-9, atol = 1e-11;
   const auto leaf = make_leaf("leaf", [=](Leaf& l) {

@@ -17,7 +17,7 @@ std::shared_ptr<Leaf> counted(Guard guard, Direction direction = Direction::cros
   });
 }
 
-void fires_at(const std::string& scene, const std::shared_ptr<Leaf>& leaf, const char* method,
+void fires_at(const std::string& scene, const std::shared_ptr<Leaf>& leaf, Method method,
               double end, const std::vector<double>& expected, double max_step = infinite) {
   for (const Form& form : forms(leaf)) {
     const auto results = simulate(*form.system, form.context(), {0.0, end},
@@ -32,7 +32,7 @@ void fires_at(const std::string& scene, const std::shared_ptr<Leaf>& leaf, const
 }  // namespace
 
 TEST_CASE("a guard with a kink, at its root or between two, fires at its roots", "[laws][guards]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   fires_at("kink between roots",
            counted([](const At& at) { return std::abs(at.x[0] - 1.0) - 0.4; }), method, 2.0,
            {0.6, 1.4}, 0.5);
@@ -44,7 +44,7 @@ TEST_CASE("a guard with a kink, at its root or between two, fires at its roots",
 }
 
 TEST_CASE("a guard that jumps across zero fires at its jump", "[laws][guards]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const double size = GENERATE(1.0, 1e-200, 1e200);
   const auto jump = [=](const At& at) { return at.x[0] < 0.3 ? -size : 3.0 * size; };
   fires_at("jump", counted(jump), method, 1.0, {0.3});
@@ -52,7 +52,7 @@ TEST_CASE("a guard that jumps across zero fires at its jump", "[laws][guards]") 
 
 TEST_CASE("a guard that reaches a plateau of zeros fires when it reaches it, once",
           "[laws][guards]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   // Up to the plateau at 1, on it until 2. Reaching it counts; going on up or down does not.
   for (const double after : {1.0, -1.0}) {
     const auto plateau = [=](const At& at) {
@@ -66,14 +66,14 @@ TEST_CASE("a guard that reaches a plateau of zeros fires when it reaches it, onc
 // Dormant from the start: zero until 1, and no side yet. Leaving it is no crossing from either.
 TEST_CASE("a guard that is zero from the start fires neither on the plateau nor on leaving it",
           "[laws][guards]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const double after = GENERATE(1.0, -1.0);
   const auto late = [=](const At& at) { return after * std::max(at.x[0] - 1.0, 0.0); };
   fires_at(text("zero from the start, then ", after), counted(late), method, 2.0, {}, 0.1);
 }
 
 TEST_CASE("of two hundred guards the one that crosses fires", "[laws][guards]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const auto leaf = make_leaf("leaf", [](Leaf& l) {
     declare_ramp(l);
     l.declare_discrete_state(vec({0.0}));
@@ -88,7 +88,7 @@ TEST_CASE("of two hundred guards the one that crosses fires", "[laws][guards]") 
 }
 
 TEST_CASE("an event within the first step is found, however early", "[laws][guards]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const double at = GENERATE(1e-3, 1e-9, 1e-14, 1e-100, 1e-300);
   for (const Form& form : forms(counted([=](const At& now) { return now.x[0] - at; }))) {
     const auto results =

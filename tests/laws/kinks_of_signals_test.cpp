@@ -56,7 +56,7 @@ std::vector<double> meetings(double end) {
 }  // namespace
 
 TEST_CASE("an integral over a comparison of two sines is the sum of its pieces", "[laws]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const double end = 58.0;  // before the phases are equal at 59.8 s, and the sines nearly tangent
   double expected = 0.0, from = 0.0, sign = -1.0;  // at 0, sin 0 < sin 0.3
   for (const double t : meetings(end)) expected += sign * (t - from), from = t, sign = -sign;
@@ -77,7 +77,7 @@ TEST_CASE("an integral over a comparison of two sines is the sum of its pieces",
 }
 
 TEST_CASE("the integral of |sin| grows by two each half turn", "[laws]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   DiagramBuilder builder;
   auto& sine = builder.add<Sine>("sine", SineOptions{});
   auto& abs = builder.add<Abs>("abs");
@@ -93,7 +93,7 @@ TEST_CASE("the integral of |sin| grows by two each half turn", "[laws]") {
 }
 
 TEST_CASE("a limited integral of a cosine stands still at its limits and turns at once", "[laws]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   DiagramBuilder builder;
   auto& cosine = builder.add<Sine>("cosine", SineOptions{.phase = 0.5 * pi});
   auto& x = builder.add<Integrator>(

@@ -6,7 +6,7 @@ using namespace saltus;
 using namespace support;
 
 TEST_CASE("a thousand events 1e5 s apart are where they belong after 1e8 s", "[laws][events]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const auto leaf = make_leaf("leaf", [](Leaf& l) {
     declare_ramp(l, 1e-5);
     l.declare_zero_crossing(
@@ -31,7 +31,7 @@ TEST_CASE("a thousand events 1e5 s apart are where they belong after 1e8 s", "[l
 TEST_CASE(
     "a guard that fires between thousands of ticks of 1/3 s fires on time, and no tick is lost",
     "[laws][events]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const auto leaf = make_leaf("leaf", [](Leaf& l) {
     l.declare_continuous_state(
         {.initial = vec({0.0, 1.0}),
@@ -57,7 +57,7 @@ TEST_CASE(
 }
 
 TEST_CASE("ticks of two blocks that coincide now and then do both, at one time", "[laws][events]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const auto counter = [](std::string name, double period) {
     return make_leaf(std::move(name), [=](Leaf& l) {
       declare_ramp(l);
@@ -77,7 +77,7 @@ TEST_CASE("ticks of two blocks that coincide now and then do both, at one time",
 }
 
 TEST_CASE("ticks are counted from their offset, wherever a run begins", "[laws][events]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const auto ticks = [&](double period, double offset, double t0, double end) {
     const auto leaf = make_leaf("counter", [=](Leaf& l) {
       declare_ramp(l);

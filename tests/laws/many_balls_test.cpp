@@ -41,7 +41,7 @@ std::shared_ptr<Leaf> balls(const Eigen::VectorXd& heights, double e) {
 }  // namespace
 
 TEST_CASE("N balls in one leaf bounce each for itself", "[laws][ball]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const Eigen::VectorXd heights = vec({1.0, 2.0, 2.0, 0.5, 5.0});
   const double rtol = 1e-9, atol = 1e-11, end = 3.0, e = 0.9;
   std::vector<double> expected;  // of all of them; those of equal height together, each its own
@@ -62,7 +62,7 @@ TEST_CASE("N balls in one leaf bounce each for itself", "[laws][ball]") {
 }
 
 TEST_CASE("of N balls in one leaf some rest while others bounce", "[laws][ball][zeno]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const Eigen::VectorXd heights = vec({0.0, 1e-3, 1.0, 20.0});
   const double rtol = 1e-9, atol = 1e-12, e = 0.5, end = 5.0;
   // At rest from the start; from 0.043 s; from 1.35 s; in flight until 6 s.

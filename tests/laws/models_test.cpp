@@ -11,7 +11,7 @@ using Catch::Matchers::WithinRel;
 
 namespace {
 
-Scene at_tolerance(Scene scene, const std::string& method, double rtol, double atol) {
+Scene at_tolerance(Scene scene, Method method, double rtol, double atol) {
   scene.options.ode_solver_method = method;
   scene.options.rtol = rtol;
   scene.options.atol = atol;
@@ -52,7 +52,7 @@ TEST_CASE("the exact answer follows a floor that drops", "[laws][models]") {
 }
 
 TEST_CASE("the ball agrees with the closed form with every method", "[laws][models]") {
-  const auto* method = GENERATE("dopri5", "adams", "bdf", "auto");
+  const auto method = GENERATE(Method::dopri5, Method::adams, Method::bdf, Method::automatic);
   const double rtol = GENERATE(1e-6, 1e-10);
   INFO("method " << method << ", rtol " << rtol);
   const Scene scene = at_tolerance(models::bouncing_ball(), method, rtol, 1e-2 * rtol);
@@ -68,7 +68,7 @@ TEST_CASE("the ball agrees with the closed form with every method", "[laws][mode
 
 TEST_CASE("one-step methods are exact on parabolas, at any tolerance", "[laws][models]") {
   const double rtol = GENERATE(1e-2, 1e-5, 1e-12);
-  const Scene scene = at_tolerance(models::bouncing_ball(), "dopri5", rtol, 1e-2 * rtol);
+  const Scene scene = at_tolerance(models::bouncing_ball(), Method::dopri5, rtol, 1e-2 * rtol);
   const Achieved a = achieved(scene, simulate(scene));
   // 12 steps and 6 locations of 100 eps (t + h) each, t + h <= 24, at speeds up to 14 and an
   // acceleration of 10.
@@ -77,7 +77,7 @@ TEST_CASE("one-step methods are exact on parabolas, at any tolerance", "[laws][m
 }
 
 TEST_CASE("leaf and diagram are the same ball", "[laws][models]") {
-  const auto* method = GENERATE("dopri5", "adams", "auto");
+  const auto method = GENERATE(Method::dopri5, Method::adams, Method::automatic);
   INFO("method " << method);
   // At 1e-12 each is within 10 (14e-12 + 1e-14) = 1.4e-10 of the truth by the bound above; two that
   // see the same equation with the same norm err alike.
@@ -130,7 +130,7 @@ TEST_CASE(
 }
 
 TEST_CASE("Robertson's reaction runs to 4e10 s", "[laws][models]") {
-  const auto* method = GENERATE("bdf", "auto");
+  const auto method = GENERATE(Method::bdf, Method::automatic);
   const double rtol = GENERATE(1e-4, 1e-6, 1e-8);
   INFO("method " << method << ", rtol " << rtol);
   // y2 is below 1e-4 all the time and 1e-13 at the end: it has a say only with an atol that small.
@@ -153,8 +153,8 @@ TEST_CASE("Van der Pol's oscillator with mu = 1000 looks stiff, and auto goes ov
           "[laws][models]") {
   const double rtol = GENERATE(1e-4, 1e-6, 1e-8);
   INFO("rtol " << rtol);
-  const Scene by_bdf = at_tolerance(models::van_der_pol(), "bdf", rtol, 1e-2 * rtol);
-  const Scene by_auto = at_tolerance(models::van_der_pol(), "auto", rtol, 1e-2 * rtol);
+  const Scene by_bdf = at_tolerance(models::van_der_pol(), Method::bdf, rtol, 1e-2 * rtol);
+  const Scene by_auto = at_tolerance(models::van_der_pol(), Method::automatic, rtol, 1e-2 * rtol);
   const Results bdf = simulate(by_bdf), automatic = simulate(by_auto);
   CHECK(automatic.statistics.method.find("bdf") != std::string::npos);
   // Before it is sure it takes a few hundred explicit steps of six calls.
@@ -191,7 +191,7 @@ TEST_CASE("the report notices a bounce too few, and one in the wrong place", "[l
 TEST_CASE("rows at an event are compared on their own side", "[laws][report]") {
   // Both rows of a bounce have the same time; on the wrong side the velocity would be off by twice
   // its size.
-  const Scene scene = at_tolerance(models::bouncing_ball(), "adams", 1e-6, 1e-8);
+  const Scene scene = at_tolerance(models::bouncing_ball(), Method::adams, 1e-6, 1e-8);
   const Achieved a = achieved(scene, simulate(scene));
   CHECK(a.error < 1e-3);
 }

@@ -36,7 +36,7 @@ class Thermostat final : public LeafSystem {
 }  // namespace
 
 TEST_CASE("a thermostat switches when its closed form says", "[laws][modes]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Thermostat room;
   const double rtol = 1e-9, atol = 1e-11;
@@ -63,7 +63,7 @@ TEST_CASE("a thermostat switches when its closed form says", "[laws][modes]") {
 
 TEST_CASE("integrate and fire: a leaky membrane spikes with the period of its closed form",
           "[laws][modes]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   // V' = (I - V) / tau, reset to 0 at 1: T = tau ln(I / (I - 1)).
   const double current = 1.5, tau_m = 0.02, period = tau_m * std::log(current / (current - 1.0));
@@ -91,7 +91,7 @@ TEST_CASE("integrate and fire: a leaky membrane spikes with the period of its cl
 
 TEST_CASE("a guard already beyond zero when its mode is entered waits until it has been back",
           "[laws][modes]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   // x = sin t. Mode 0 ends at t = 1; the guard of mode 1, x falling through 0.5, is beyond zero
   // only after 5 pi / 6.
@@ -119,7 +119,7 @@ TEST_CASE("a guard already beyond zero when its mode is entered waits until it h
 }
 
 TEST_CASE("three modes in a circle: each guard is seen in its own mode only", "[laws][modes]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Leaf leaf("leaf", [](Leaf& l) {
     l.declare_continuous_state({.initial = vec({0.0}), .ode = [](const At&) { return 1.0; }});

@@ -27,7 +27,7 @@ Leaf pendulum(int monitors) {
 }  // namespace
 
 TEST_CASE("a trajectory is bit-identical with monitors and without", "[laws][monitors]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Leaf with = pendulum(10), without = pendulum(0);
   const auto run = [&](const Leaf& leaf) {
@@ -44,7 +44,7 @@ TEST_CASE("a trajectory is bit-identical with monitors and without", "[laws][mon
 }
 
 TEST_CASE("a monitor beside a bouncing ball changes no bit of it", "[laws][monitors]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   const auto ball = [](bool watched) {
     return Leaf("ball", [=](Leaf& l) {
@@ -71,7 +71,7 @@ TEST_CASE("a monitor beside a bouncing ball changes no bit of it", "[laws][monit
 }
 
 TEST_CASE("what a monitor logs is the time, the direction and the state", "[laws][monitors]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Leaf leaf("clock", [](Leaf& l) {
     l.declare_continuous_state(
@@ -97,7 +97,7 @@ TEST_CASE("what a monitor logs is the time, the direction and the state", "[laws
 
 TEST_CASE("events of monitors and of others stand in the log in the order of time",
           "[laws][monitors]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Leaf leaf("leaf", [](Leaf& l) {
     declare_ramp(l);

@@ -67,7 +67,7 @@ std::shared_ptr<const Diagram> cradle_of_blocks(double gap) {
 }
 
 struct Cradle {
-  const char* method;
+  Method method;
   double rtol = 1e-10, atol = 1e-12;
   /// Three quarter turns are 2.4 half ones; an oscillator does not let errors grow, they add up.
   double tolerance = allowed(method, 1e-10, 1e-12, 1.0, 5.0 * 3.15);
@@ -144,7 +144,7 @@ TEST_CASE("no ball of four or more that touch passes another, swing after swing"
   // The balls at rest lie within 1e-17 of each other and move at 1e-33: impacts among that noise
   // may come or not, but a ball that is clearly on its side of its neighbour stays there. At each
   // impact of a ball of speed 1 the guards are right to a rounding, between them to the tolerance.
-  const std::string method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const Index n = GENERATE(4, 5, 6);
   const double tolerance = GENERATE(1e-3, 1e-4, 1e-6, 1e-9);
   const auto system = make_leaf("cradle", [=](Leaf& l) {

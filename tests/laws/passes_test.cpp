@@ -41,7 +41,7 @@ std::shared_ptr<Leaf> starter() {
 
 TEST_CASE("a reset that moves the guard of another block across zero fires it in the next pass",
           "[laws][passes]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   DiagramBuilder builder;
   const auto first = starter();
@@ -67,7 +67,7 @@ TEST_CASE("a reset that moves the guard of another block across zero fires it in
 }
 
 TEST_CASE("a loop of resets is an error that prints the chain of causes", "[laws][passes]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   // b follows a, a turns against b: whenever one has moved the other has to.
   const auto flip = [](std::string name, double sign) {
@@ -142,7 +142,7 @@ TEST_CASE(
     "within a leaf resets run in declaration order and see each other; across leaves none sees "
     "another's",
     "[laws][passes]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Leaf one("leaf", [](Leaf& l) {
     declare_ramp(l);
@@ -186,7 +186,7 @@ TEST_CASE(
 }
 
 TEST_CASE("a reset by time and one by state: the sawtooth of both", "[laws][passes]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Leaf leaf("leaf", [](Leaf& l) {
     declare_ramp(l);

@@ -35,7 +35,7 @@ TEST_CASE("no ball of 500 falls through its floor, gains energy or takes long",
     const double rtol = draw.power(-11.0, -2.0), atol = rtol * draw.power(-3.0, 0.0);
     const double t0 = draw.chance(0.5) ? 0.0 : draw.uniform(-500.0, 500.0),
                  span = draw.uniform(0.5, 5.0);
-    const char* method = draw.any(methods);
+    const Method method = draw.any(methods);
     const auto forms = all_forms({.e = e, .floor = floor});
     const Scene& scene = draw.any(forms);
     INFO("scene " << n << ": " << scene.form << ", " << method << ", e " << e << ", height "

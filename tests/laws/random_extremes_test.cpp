@@ -10,7 +10,7 @@ using namespace support;
 
 namespace {
 
-void none_falls(const char* method, bool of_blocks, double farthest, double latest) {
+void none_falls(Method method, bool of_blocks, double farthest, double latest) {
   std::mt19937 random{20260306};
   const auto real = [&](double low, double high) {
     return std::uniform_real_distribution<>(low, high)(random);

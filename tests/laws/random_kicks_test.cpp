@@ -109,7 +109,7 @@ Course by_hand(const Oscillator& o, double end) {
   return course;
 }
 
-void agree(const char* method) {
+void agree(Method method) {
   std::mt19937 random{20260304};
   const double rtol = 1e-10, atol = 1e-12, end = 20.0;
   int scenes = 0;

@@ -122,7 +122,7 @@ Fired by_hand(const Draw& draw) {
   return fired.close = 0.0, fired;
 }
 
-void agrees(const char* method) {
+void agrees(Method method) {
   std::mt19937 random{20260301};
   int scenes = 0, events = 0;
   double most = 0.0;
@@ -155,7 +155,7 @@ TEST_CASE("random scenes of constant rates have the events that hand calculation
 
 TEST_CASE("random scenes of constant rates that are cut in two have the events of one run",
           "[laws][random]") {
-  const auto* method = GENERATE(filter(one_step, from_range(methods)));
+  const auto method = GENERATE(filter(one_step, from_range(methods)));
   std::mt19937 random{20260305};
   int scenes = 0;
   for (int n = 0; n < 1500; ++n) {

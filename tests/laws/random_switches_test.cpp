@@ -117,7 +117,7 @@ Course by_hand(const Network& net, double end) {
 
 TEST_CASE("random networks of switched integrators switch when hand calculation says",
           "[laws][random]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   std::mt19937 random{20260303};
   const double end = 20.0;
   int scenes = 0, switches = 0;

@@ -66,7 +66,7 @@ struct Scenery {
 }  // namespace
 
 TEST_CASE("balls on random vibrating tables follow their flights", "[laws][ball][random]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   std::mt19937 random{20260302};
   const auto real = [&](double low, double high) {
     return std::uniform_real_distribution<>(low, high)(random);

@@ -67,7 +67,7 @@ Diagram above_zero(Told told, double rate, double start) {
 }  // namespace
 
 TEST_CASE("a comparison at its root at the start takes the side the flow takes it to", "[laws]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const double rate = GENERATE(1.0, -1.0, 1e-6, -1e6);
   const double start = GENERATE(0.0, -0.0);
   for (const Told told : all_told) {
@@ -85,7 +85,7 @@ TEST_CASE("a comparison at its root at the start takes the side the flow takes i
 
 TEST_CASE("a comparison that a run enters from its root's other side switches there once",
           "[laws]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const double rate = GENERATE(1.0, -1.0);
   for (const Told told : all_told) {
     const Diagram diagram = above_zero(told, rate, -0.25 * rate);

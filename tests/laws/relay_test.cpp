@@ -51,7 +51,7 @@ Diagram bare_relay() {
 }  // namespace
 
 TEST_CASE("a relay over a first-order lag switches with one period", "[laws][modes]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const double band = GENERATE(0.5, 0.01);
   const double rtol = 1e-9, atol = 1e-11;
   const auto lag = relay(band, vec({-band}),
@@ -72,7 +72,7 @@ TEST_CASE("a relay over a first-order lag switches with one period", "[laws][mod
 }
 
 TEST_CASE("a relay with hysteresis over a double integrator pumps it up", "[laws][modes]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const double rtol = 1e-10, atol = 1e-12, band = 0.25, v0 = 1.0;
   const auto pumped = relay(band, vec({-band, v0}),
                             [](const At& at, double u, VectorRef xdot) { xdot << at.x[1], u; });
@@ -99,7 +99,7 @@ TEST_CASE("a relay with hysteresis over a double integrator pumps it up", "[laws
 }
 
 TEST_CASE("a bare relay over a double integrator keeps its period", "[laws][modes]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const double rtol = 1e-10, atol = 1e-12;
   const Diagram diagram = bare_relay();
   const int n = 50;

@@ -26,11 +26,11 @@ ResetMap tick(int i, std::optional<double> to = {}) {
   };
 }
 
-Results run(const System& system, const char* method, double end = 1.0) {
+Results run(const System& system, Method method, double end = 1.0) {
   return simulate(system, system.create_context(), {0.0, end}, {.ode_solver_method = method});
 }
 
-void jumps_over(const char* method, Direction direction) {
+void jumps_over(Method method, Direction direction) {
   const auto leaf = ramp_with([=](Leaf& l) {
     l.declare_zero_crossing({.name = "full", .guard = half, .reset_map = tick(0, 0.0)});
     l.declare_zero_crossing({.name = "level",
@@ -57,7 +57,7 @@ void jumps_over(const char* method, Direction direction) {
 
 TEST_CASE("two guards fire together, though the first reset un-trips the second",
           "[laws][passes]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const auto leaf = ramp_with([](Leaf& l) {
     l.declare_zero_crossing({.name = "back", .guard = half, .reset_map = tick(0, -10.0)});
     l.declare_zero_crossing({.name = "late", .guard = half, .reset_map = tick(1)});
@@ -75,7 +75,7 @@ TEST_CASE("two guards fire together, though the first reset un-trips the second"
 
 TEST_CASE("a reset that jumps over a level crosses it, in its direction, at the same time",
           "[laws][passes]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   jumps_over(method, Direction::crosses_zero);
   jumps_over(method, Direction::negative_then_non_negative);
 }
@@ -87,7 +87,7 @@ TEST_CASE("a guard that a reset jumped over, on its far side now, is no Zeno poi
 
 TEST_CASE("a reset that writes what was there is a reset: an event, two rows, a restart",
           "[laws][passes]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const bool tick_too = GENERATE(false, true);
   const auto leaf = ramp_with([=](Leaf& l) {
     const auto same = [](const At& at, Next& next) { next.set_continuous_state({at.x[0]}); };
@@ -110,7 +110,7 @@ TEST_CASE("a reset that writes what was there is a reset: an event, two rows, a 
 
 TEST_CASE("a reset of what no derivative reads restarts nothing and moves nothing",
           "[laws][passes]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const auto oscillator = [](bool counted) {
     return make_leaf("leaf", [=](Leaf& l) {
       l.declare_continuous_state(

@@ -29,7 +29,7 @@ std::shared_ptr<Leaf> wheel() {
 }  // namespace
 
 TEST_CASE("a rimless wheel comes down spoke by spoke as its quadrature says", "[laws]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const std::vector<double> times{2.4376494276572002, 5.1785361203034414, 8.1316153535854671,
                                   11.216034587672832, 14.374810471702362, 17.573374826345081,
                                   20.792554411654779, 24.022231509704741, 27.257206122412456,

@@ -44,7 +44,7 @@ Diagram on_a_lift(double e, double speed) {
 }  // namespace
 
 TEST_CASE("a lift that starts under a ball at rest takes it along", "[laws][ball][zeno]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const double speed = GENERATE(0.5, 1e-3);
   for (const double e : {0.0, 0.5}) {
     const Diagram lift = on_a_lift(e, speed);
@@ -61,7 +61,7 @@ TEST_CASE("a lift that starts under a ball at rest takes it along", "[laws][ball
 
 TEST_CASE("a floor that rises continuously under a held ball carries it, by every form",
           "[laws][ball][zeno]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const auto ramp = [] {
     return std::make_shared<Ramp>("floor", RampOptions{.slope = 0.5, .start_time = 1.0});
   };
@@ -76,7 +76,7 @@ TEST_CASE("a floor that rises continuously under a held ball carries it, by ever
 
 TEST_CASE("a floor that sinks slowly, slower than free fall, takes the ball down with it",
           "[laws][ball][zeno]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const Diagram lift = on_a_lift(0.5, -0.5);
   const auto results = simulate(lift, lift.create_context(), {0.0, 3.0},
                                 {.ode_solver_method = method, .throw_errors = false});
@@ -89,7 +89,7 @@ TEST_CASE("a floor that sinks slowly, slower than free fall, takes the ball down
 
 TEST_CASE("steps of a floor, up and down, each take a resting ball to the new height",
           "[laws][ball][zeno]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   // Up at 1 s, 3 s, ...: carried at once. Down at 2 s, 4 s, ...: it falls 0.2 m for 0.2 s, bounces
   // with e = 0.5 and is at rest 3 times as long after it.
   const auto stairs = [] {

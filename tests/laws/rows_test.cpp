@@ -37,7 +37,7 @@ void rows_are_sound(const Results& results, double begin, double end) {
 }  // namespace
 
 TEST_CASE("time never decreases and no row stands twice, whatever is recorded", "[laws][rows]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const auto drop = [] {
     return std::make_shared<Step>("floor", Step::Options{.end_value = -0.5, .step_time = 3.0});
   };
@@ -60,7 +60,7 @@ TEST_CASE("time never decreases and no row stands twice, whatever is recorded", 
 }
 
 TEST_CASE("rows at asked-for times are right, whatever the steps are", "[laws][rows]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Leaf leaf("leaf", [](Leaf& l) {
     l.declare_continuous_state(
@@ -92,7 +92,7 @@ TEST_CASE("rows at asked-for times are right, whatever the steps are", "[laws][r
 
 TEST_CASE("the row before a bounce shows the ball falling, the row after it rising",
           "[laws][rows]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Scene scene = leaf({.e = 0.5});
   const auto results =

@@ -16,7 +16,7 @@ std::string short_name(Direction direction) {
 }  // namespace
 
 TEST_CASE("guards of each direction on one surface fire each in its own", "[laws][guards]") {
-  const auto* method = GENERATE(filter(one_step, from_range(methods)));
+  const auto method = GENERATE(filter(one_step, from_range(methods)));
   const auto leaf = make_leaf("leaf", [](Leaf& l) {
     l.declare_continuous_state(
         {.initial = vec({0.5, -1.0}),
@@ -48,7 +48,7 @@ TEST_CASE("guards of each direction on one surface fire each in its own", "[laws
 }
 
 TEST_CASE("guards a hair apart fire in order, each before or with the next", "[laws][guards]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const double apart = GENERATE(0.0, 1e-16, 1e-15, 1e-13, 1e-9);
   const auto leaf = make_leaf("leaf", [=](Leaf& l) {
     declare_ramp(l);
@@ -75,7 +75,7 @@ TEST_CASE("guards a hair apart fire in order, each before or with the next", "[l
 }
 
 TEST_CASE("a guard and its copies scaled by any power of ten fire in one pass", "[laws][guards]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const auto leaf = make_leaf("leaf", [](Leaf& l) {
     declare_ramp(l);
     l.declare_discrete_state(vec({0.0}));
@@ -95,7 +95,7 @@ TEST_CASE("a guard and its copies scaled by any power of ten fire in one pass", 
 
 TEST_CASE("a ball whose guard is scaled bounces and rests as if it were not",
           "[laws][ball][zeno][guards]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const double scale = GENERATE(1e-200, 1e-10, 1e10, 1e200);
   const double e = GENERATE(0.0, 0.5);
   const auto ball = make_leaf("ball", [=](Leaf& l) {

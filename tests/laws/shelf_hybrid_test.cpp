@@ -38,7 +38,7 @@ const std::vector<Timing> timings{
 };
 
 /// A scene of the shelf by one method, atol in the ratio of its own options.
-saltus::Scene at_tolerance(saltus::Scene scene, const std::string& method, double rtol) {
+saltus::Scene at_tolerance(saltus::Scene scene, Method method, double rtol) {
   scene.options.atol *= rtol / scene.options.rtol;
   scene.options.rtol = rtol;
   scene.options.ode_solver_method = method;
@@ -59,7 +59,7 @@ TEST_CASE("each hybrid scene of the shelf meets its answer with each method that
   const Timing timing = GENERATE(from_range(timings));
   const double rtol = GENERATE(1e-5, 1e-6, 1e-9);
   const saltus::Scene scene = models::scene(timing.name);
-  for (const std::string& method : scene.methods) {
+  for (const Method method : scene.methods) {
     INFO(timing.name << " by " << method << " at rtol " << rtol);
     const saltus::Scene run = at_tolerance(scene, method, rtol);
     const Results results = simulate(run);
@@ -91,7 +91,7 @@ TEST_CASE("what no event changes of a hybrid scene stays as it was", "[laws][she
                               {models::newtons_cradle(), 0.5 + 25.0 * 0.1}};
   for (const auto& [scene, size] : all) {
     REQUIRE(scene.invariants.size() == 1);
-    for (const std::string& method : scene.methods) {
+    for (const Method method : scene.methods) {
       INFO(scene.name << " by " << method);
       const saltus::Scene run = at_tolerance(scene, method, 1e-9);
       const Results results = simulate(run);

@@ -90,7 +90,7 @@ TEST_CASE("with drawn parameters each event of the shelf's scenes comes, once, a
     // The drag of 0.2 and e = 0.9 are twice and twice as sensitive as what the law is stated for,
     // whose times err by 1e-3 s at 1e-6 at most.
     if (close_call(scene, 4e3 * rtol)) continue;
-    for (const std::string& method : scene.methods) {
+    for (const Method method : scene.methods) {
       INFO(scene.name << " by " << method << " at rtol " << rtol << ", seed " << seed);
       scene.options.ode_solver_method = method;
       const Results results = simulate(scene);

@@ -16,7 +16,7 @@ const std::vector<std::string> smooth_scenes{
     "robertson", "hires",  "orego",          "van-der-pol", "vdpol",    "vdpol-1e6", "e5",
     "pollu",     "kepler", "ring-modulator", "brusselator", "heat-rod", "pleiades",  "lorenz"};
 
-saltus::Scene at_tolerance(saltus::Scene scene, const std::string& method, double rtol) {
+saltus::Scene at_tolerance(saltus::Scene scene, Method method, double rtol) {
   scene.options.atol *= rtol / scene.options.rtol;
   scene.options.rtol = rtol;
   scene.options.ode_solver_method = method;
@@ -33,7 +33,7 @@ double allowed(const saltus::Scene& scene, const Results& results) {
   return multiple * scene.growth;
 }
 
-void check_scene(const std::string& name, const std::string& method, double rtol) {
+void check_scene(const std::string& name, Method method, double rtol) {
   const saltus::Scene scene = at_tolerance(models::scene(name), method, rtol);
   INFO(name << ", " << method << ", rtol " << rtol);
   const Results results = simulate(scene);
@@ -87,9 +87,9 @@ TEST_CASE("each smooth scene meets its reference with each method that suits it"
           "[laws][models]") {
   for (const std::string& name : smooth_scenes) {
     const auto& entry = *std::ranges::find(models::shelf(), name, &models::ShelfEntry::name);
-    for (const std::string& method : models::scene(name).methods) {
+    for (const Method method : models::scene(name).methods) {
       if (entry.quick) check_scene(name, method, 1e-9);
-      if (entry.quick || method == "bdf") check_scene(name, method, 1e-6);
+      if (entry.quick || method == Method::bdf) check_scene(name, method, 1e-6);
     }
   }
 }
@@ -98,7 +98,7 @@ TEST_CASE("at the edge of its stability dop853 finds the events there are, and n
           "[laws][models]") {
   // The Brusselator with N = 63, 0.02 s a step where its solution asks for 0.3.
   const double rtol = GENERATE(1e-3, 1e-4, 1e-5, 1e-8, 1e-10);
-  const saltus::Scene scene = at_tolerance(models::scene("brusselator"), "dop853", rtol);
+  const saltus::Scene scene = at_tolerance(models::scene("brusselator"), Method::dop853, rtol);
   INFO("rtol " << rtol);
   const Results results = simulate(scene);
   const Achieved a = achieved(scene, results);
@@ -109,7 +109,7 @@ TEST_CASE("at the edge of its stability dop853 finds the events there are, and n
 
 TEST_CASE("a rod of any number of nodes meets its closed form", "[laws][models]") {
   const Index n = GENERATE(5, 20, 200);
-  const saltus::Scene scene = at_tolerance(models::heat_rod({.n = n}), "bdf", 1e-6);
+  const saltus::Scene scene = at_tolerance(models::heat_rod({.n = n}), Method::bdf, 1e-6);
   INFO("n " << n);
   const Results results = simulate(scene);
   const Achieved a = achieved(scene, results);

@@ -19,7 +19,7 @@ Leaf van_der_pol(double mu) {
 }  // namespace
 
 TEST_CASE("no step is longer than max_minor_step_size", "[laws][step_limits]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Leaf leaf = van_der_pol(1.0);
   const auto results = simulate(leaf, leaf.create_context(), {0.0, 5.0},
@@ -31,7 +31,7 @@ TEST_CASE("no step is longer than max_minor_step_size", "[laws][step_limits]") {
 }
 
 TEST_CASE("no instant is further off than max_major_step_length", "[laws][step_limits]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Leaf leaf = van_der_pol(1.0);
   const auto results = simulate(leaf, leaf.create_context(), {0.0, 5.0},

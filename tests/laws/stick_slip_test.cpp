@@ -61,7 +61,7 @@ std::shared_ptr<Leaf> sliding_mass(double v0, double f, double push) {
 }  // namespace
 
 TEST_CASE("stick and slip have the periods of their closed form", "[laws][modes]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const Direction looks = GENERATE(Direction::negative_then_non_negative, Direction::crosses_zero);
   const double rtol = 1e-9, atol = 1e-11;
   for (const Form& form : forms(mass_on_belt(looks))) {
@@ -84,7 +84,7 @@ TEST_CASE("stick and slip have the periods of their closed form", "[laws][modes]
 }
 
 TEST_CASE("a mass that friction stops stays, and slides again when pushed", "[laws][modes]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const double v0 = GENERATE(1.0, 1e-3);
   const double f = GENERATE(0.7, 20.0);
   for (const Form& form : forms(sliding_mass(v0, f, 3.0))) {

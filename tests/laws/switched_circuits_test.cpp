@@ -44,7 +44,7 @@ std::vector<Form> bucks() {
 }  // namespace
 
 TEST_CASE("a buck converter is where its matrix exponentials say", "[laws]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   struct Reference {
     int periods;
     double i, v;
@@ -69,7 +69,7 @@ TEST_CASE("a buck converter is where its matrix exponentials say", "[laws]") {
 }
 
 TEST_CASE("a thermostat switches a thousand times, the last one on time", "[laws][modes]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const double tau = GENERATE(3.0, 1e5);  // [s]; with 1e5 the run is 1e8 s long
   const auto room = make_leaf("room", [=](Leaf& l) {
     l.declare_continuous_state({.initial = vec({low}), .ode = [=](const At& at) {

@@ -12,7 +12,7 @@ const double pi = std::acos(-1.0);
 }  // namespace
 
 TEST_CASE("a guard that touches zero from above does not fire", "[laws][guards]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   // sin t - 1 touches zero from below at pi/2 + 2 pi k; 1 - sin t from above. In doubles sin never
   // passes 1.
@@ -31,7 +31,7 @@ TEST_CASE(
     "armed "
     "side",
     "[laws][guards]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   // Falls to 0 at 1, stays until 2, then rises again or goes on down.
   const auto back = watcher(
@@ -43,7 +43,7 @@ TEST_CASE(
 }
 
 TEST_CASE("a monotone guard fires once in its direction and never against it", "[laws][guards]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   const auto rising = [](const At& at) { return at.x[0] - 0.7; };
   CHECK(hits(watcher(rising, Direction::negative_then_non_negative), 2.0, method).size() == 1);
@@ -53,7 +53,7 @@ TEST_CASE("a monotone guard fires once in its direction and never against it", "
 }
 
 TEST_CASE("every zero of a sine is found, in each direction its half", "[laws][guards]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   const auto sine = [](const At& at) { return std::sin(2.0 * at.x[0]); };
   const auto up = hits(watcher(sine, Direction::negative_then_non_negative), 10.0, method, 0.5);
@@ -68,7 +68,7 @@ TEST_CASE("every zero of a sine is found, in each direction its half", "[laws][g
 
 TEST_CASE("two crossings inside one step are found where an interior point lies between them",
           "[laws][guards]") {
-  const auto* method = GENERATE("dopri5", "auto");
+  const auto method = GENERATE(Method::dopri5, Method::automatic);
   INFO("method " << method);
   // x' = 1 lets steps grow to the end; the guard dips below zero between 0.45 and 0.8 of a step of
   // length 1.
@@ -80,7 +80,7 @@ TEST_CASE("two crossings inside one step are found where an interior point lies 
 }
 
 TEST_CASE("edge detection fires at every change of a stepwise value", "[laws][guards]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   const auto found =
       hits(watcher([](const At& at) { return std::floor(at.x[0]); }, Direction::edge_detection),

@@ -55,7 +55,7 @@ const std::array scenes{Tanks{0.75, 0.5, 0.5, 0.0, 0.0, 1.0, 1.0},
 }  // namespace
 
 TEST_CASE("water tanks switch when their closed form says", "[laws][zeno]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   for (const Tanks& tanks : scenes) {
     const auto expected = tanks.switches(15);
     const double end = expected.back() + 0.4 * (tanks.switches(16).back() - expected.back());
@@ -72,7 +72,7 @@ TEST_CASE("water tanks switch when their closed form says", "[laws][zeno]") {
 }
 
 TEST_CASE("past their Zeno time the tanks rest at their marks", "[laws][zeno]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   for (const Tanks& tanks : scenes) {
     for (const Form& form : forms(tanks.leaf())) {
       const double end = 1.5 * tanks.accumulation();

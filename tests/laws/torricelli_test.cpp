@@ -31,7 +31,7 @@ std::shared_ptr<Leaf> root(double low) {
   });
 }
 
-void ends(const char* method, double low) {
+void ends(Method method, double low) {
   const double rtol = 1e-9, atol = 1e-12;
   for (const Form& form : forms(root(low))) {
     const auto results =
@@ -49,7 +49,7 @@ void ends(const char* method, double low) {
 }  // namespace
 
 TEST_CASE("a draining tank is refilled when its parabola says", "[laws]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const double low = GENERATE(0.25, 1e-2, 1e-4);
   const double rtol = 1e-9, atol = 1e-12;
   for (const Form& form : forms(tank(low))) {

@@ -47,7 +47,7 @@ std::shared_ptr<Leaf> impact_oscillator(double e) {
 }  // namespace
 
 TEST_CASE("between two walls each way takes 1/e times as long as the one before", "[laws]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const double length = GENERATE(1.0, 1e-6, 1e6);
   for (const double e : {1.0, 0.9, 0.5}) {
     for (const Form& form : forms(between_walls(length, e))) {
@@ -78,7 +78,7 @@ TEST_CASE("between two walls each way takes 1/e times as long as the one before"
 }
 
 TEST_CASE("an oscillator meets its wall at every pi, whatever the restitution", "[laws]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   for (const double e : {1.0, 0.8, 0.3}) {
     const double rtol = 1e-9, atol = 1e-14;
     for (const Form& form : forms(impact_oscillator(e))) {

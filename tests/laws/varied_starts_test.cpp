@@ -14,9 +14,9 @@ TEST_CASE("BDF goes through the jumps of the Oregonator from sixty starts", "[bd
     const Eigen::Vector3d start(1.0 + (k * 19 % 60) / 15.0, 2.0 * std::exp(k / 15.0),
                                 3.0 + (k * 37 % 60) / 3.0);
     INFO("start " << start.transpose());
-    const Results results =
-        simulate(reaction, reaction.create_context().with_continuous_state(start), {0.0, 360.0},
-                 {.rtol = 1e-4, .atol = 1e-6, .ode_solver_method = "bdf", .throw_errors = false});
+    const Results results = simulate(
+        reaction, reaction.create_context().with_continuous_state(start), {0.0, 360.0},
+        {.rtol = 1e-4, .atol = 1e-6, .ode_solver_method = Method::bdf, .throw_errors = false});
     CHECK(results.status == Status::reached_end);
     // All concentrations are positive, and the second one is at most s^2 q^-1 (Hairer and Wanner).
     CHECK(results.context.continuous_state().minCoeff() > 0.0);

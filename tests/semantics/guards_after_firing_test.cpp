@@ -27,7 +27,7 @@ Leaf turning_ball(double e) {
 
 TEST_CASE("2.5 a guard that was merely passed through fires once, whatever its reset writes",
           "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const bool writes_state = GENERATE(true, false);
   INFO("method " << method << ", reset writes continuous state: " << writes_state);
   std::vector<double> roots;
@@ -52,7 +52,7 @@ TEST_CASE("2.5 a guard that was merely passed through fires once, whatever its r
 
 TEST_CASE("2.5 a guard whose mode is entered at its zero waits until it has been off zero",
           "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   // Both guards stand at sin t = 0; the first one hands on to the second at pi.
   const Leaf leaf("leaf", [](Leaf& l) {
@@ -78,7 +78,7 @@ TEST_CASE("2.5 a guard whose mode is entered at its zero waits until it has been
 
 TEST_CASE("2.5 a reset that turns the flow round re-arms a guard that rounding left beyond zero",
           "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const double e = GENERATE(1.0, 0.9, 0.5, 0.1, 0.0);
   const double rtol = GENERATE(1e-2, 1e-6, 1e-10);
   INFO("method " << method << ", e " << e << ", rtol " << rtol);
@@ -95,7 +95,7 @@ TEST_CASE("2.5 a reset that turns the flow round re-arms a guard that rounding l
 
 TEST_CASE("2.5 a swing that turns at zero by its reset goes on swinging, in every direction",
           "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const auto direction = GENERATE(Direction::crosses_zero, Direction::positive_then_non_positive,
                                   Direction::negative_then_non_negative);
   const bool keeps_x = GENERATE(true, false);  // what location left of it, or exactly zero
@@ -124,7 +124,7 @@ TEST_CASE("2.5 a swing that turns at zero by its reset goes on swinging, in ever
 
 TEST_CASE("2.5 a guard that a later pass carries across zero fires again at the same instant",
           "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   // x runs to 1 and is put to 0; the other block answers by putting it to 2, once.
   DiagramBuilder builder;

@@ -21,7 +21,7 @@ Leaf falling(double start, AtStart at_start, bool terminal = false) {
   });
 }
 
-std::vector<double> hits(const Leaf& leaf, const char* method) {
+std::vector<double> hits(const Leaf& leaf, Method method) {
   return simulate(leaf, leaf.create_context(), {0.0, 1.0}, {.ode_solver_method = method})
       .events.times("hit");
 }
@@ -49,7 +49,7 @@ Leaf entering(double level, AtStart at_start) {
 
 TEST_CASE("2.4 auto: on its firing side at the start a guard waits, at zero it is in contact",
           "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   CHECK(hits(falling(-0.5, AtStart::automatic), method).empty());
   CHECK(hits(falling(0.0, AtStart::automatic), method) == std::vector{0.0});
@@ -58,7 +58,7 @@ TEST_CASE("2.4 auto: on its firing side at the start a guard waits, at zero it i
 
 TEST_CASE("2.4 a guard on its firing side at the start fires when it comes back from the other",
           "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const auto at_start = GENERATE(AtStart::automatic, AtStart::ignore);
   INFO("method " << method);
   const Leaf leaf("swing", [=](Leaf& l) {  // x = -cos t
@@ -80,14 +80,14 @@ TEST_CASE("2.4 a guard on its firing side at the start fires when it comes back 
 }
 
 TEST_CASE("2.4 at_start \"ignore\" waits, at zero and beyond it", "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const double start = GENERATE(0.0, -0.5);
   INFO("method " << method << ", start " << start);
   CHECK(hits(falling(start, AtStart::ignore), method).empty());
 }
 
 TEST_CASE("2.4 at_start \"fire\" fires at t0, at zero and beyond it", "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const double start = GENERATE(0.0, -0.5);
   INFO("method " << method << ", start " << start);
   CHECK(hits(falling(start, AtStart::fire), method) == std::vector{0.0});
@@ -100,7 +100,7 @@ TEST_CASE("2.4 at_start \"fire\" fires at t0, at zero and beyond it", "[semantic
 
 TEST_CASE("2.4 at_start \"error\" is an error that names the guard, at zero and beyond it",
           "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const double start = GENERATE(0.0, -0.5);
   const auto what = message<SimulationError>([&] { hits(falling(start, AtStart::error), method); });
   INFO("method " << method << ", start " << start << ": " << what);
@@ -109,7 +109,7 @@ TEST_CASE("2.4 at_start \"error\" is an error that names the guard, at zero and 
 }
 
 TEST_CASE("2.4 no at_start says anything about a guard on its armed side", "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const auto at_start =
       GENERATE(AtStart::automatic, AtStart::ignore, AtStart::fire, AtStart::error);
   INFO("method " << method);
@@ -119,7 +119,7 @@ TEST_CASE("2.4 no at_start says anything about a guard on its armed side", "[sem
 }
 
 TEST_CASE("2.4 at_start counts where a mode is entered too", "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const double level = GENERATE(0.75, 0.5);  // beyond it, and at it, when mode 1 is entered
   INFO("method " << method << ", level " << level);
   CHECK(hits(entering(level, AtStart::automatic), method).empty());

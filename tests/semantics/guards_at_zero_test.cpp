@@ -26,7 +26,7 @@ Leaf chain(Index order, double sign, const ResetMap& reset) {
   });
 }
 
-std::vector<double> hits(const Leaf& leaf, const char* method, double end = 1.0) {
+std::vector<double> hits(const Leaf& leaf, Method method, double end = 1.0) {
   return simulate(leaf, leaf.create_context(), {0.0, end}, {.ode_solver_method = method})
       .events.times("hit");
 }
@@ -42,28 +42,28 @@ void declare_orbit(Leaf& l) {
 
 TEST_CASE("2.3 a guard with a reset that the flow takes to its firing side fires at t0",
           "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const Index order = GENERATE(1, 2);
   INFO("method " << method << ", first derivative that is not zero: " << order);
   CHECK(hits(chain(order, -1.0, count_up), method) == std::vector{0.0});
 }
 
 TEST_CASE("2.3 a guard that the flow takes to its armed side does not fire", "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const Index order = GENERATE(1, 2, 3);
   INFO("method " << method << ", first derivative that is not zero: " << order);
   CHECK(hits(chain(order, 1.0, count_up), method).empty());
 }
 
 TEST_CASE("2.3 the third derivative decides where the first two are zero", "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   CHECK(hits(chain(3, -1.0, count_up), method) == std::vector{0.0});
 }
 
 TEST_CASE("2.3 a guard of time alone at zero at the start takes the side of its derivative",
           "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const double sign = GENERATE(1.0, -1.0);
   const double t0 = GENERATE(0.0, 5.0, -1e3);
   INFO("method " << method << ", sign " << sign << ", t0 " << t0);
@@ -81,7 +81,7 @@ TEST_CASE("2.3 a guard of time alone at zero at the start takes the side of its 
 }
 
 TEST_CASE("2.3 a monitor at zero at the start waits for its next zero", "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const auto direction = GENERATE(Direction::crosses_zero, Direction::positive_then_non_positive,
                                   Direction::negative_then_non_negative);
   INFO("method " << method << ", direction " << to_string(direction));
@@ -104,7 +104,7 @@ TEST_CASE("2.3 a monitor at zero at the start waits for its next zero", "[semant
 
 TEST_CASE("2.3 a terminal guard without a reset waits though the flow takes it to its firing side",
           "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Leaf orbit("orbit", [](Leaf& l) {
     declare_orbit(l);

@@ -22,7 +22,7 @@ Leaf oscillator(Declare declare) {
 }  // namespace
 
 TEST_CASE("2.7 a scene without guards never asks for guards", "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Leaf leaf = oscillator([](Leaf&) {});
   const auto results =
@@ -32,7 +32,7 @@ TEST_CASE("2.7 a scene without guards never asks for guards", "[semantics]") {
 }
 
 TEST_CASE("2.7 a guard of direction none is never called", "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   int calls = 0;
   const Leaf leaf = oscillator([&](Leaf& l) {
@@ -47,7 +47,7 @@ TEST_CASE("2.7 a guard of direction none is never called", "[semantics]") {
 }
 
 TEST_CASE("2.7 a guard is not called outside its mode", "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   int wrong = 0, right = 0;
   const Leaf leaf = oscillator([&](Leaf& l) {

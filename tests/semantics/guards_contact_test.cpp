@@ -13,7 +13,7 @@ constexpr double g = 10.0;
 
 /// A box over a floor at 0 under its weight and a thrust that carries it until `off` [s]: it sinks
 /// with the speed it has.
-Results box(double y, double v, double off, double end, const char* method) {
+Results box(double y, double v, double off, double end, Method method) {
   DiagramBuilder builder;
   auto& thrust = builder.add<Step>(
       "thrust", Step::Options{.start_value = g, .end_value = 0.0, .step_time = off});
@@ -57,7 +57,7 @@ Leaf cradle(double gap) {
 
 TEST_CASE("2.6 a box that stood weightless on its floor rests there when its thrust ends",
           "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   const auto placed = box(0.0, 0.0, 1.0, 2.0, method);
   CHECK_THAT(placed.context.continuous_state()[0], WithinAbs(0.0, 1e-12));
@@ -66,7 +66,7 @@ TEST_CASE("2.6 a box that stood weightless on its floor rests there when its thr
 }
 
 TEST_CASE("2.6 beads that touch pass on a push: Newton's cradle", "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Leaf leaf = cradle(0.0);
   const auto results =
@@ -76,7 +76,7 @@ TEST_CASE("2.6 beads that touch pass on a push: Newton's cradle", "[semantics]")
 }
 
 TEST_CASE("2.5 beads with a gap pass on a push one after the other", "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Leaf leaf = cradle(0.1);
   const auto results =
@@ -86,7 +86,7 @@ TEST_CASE("2.5 beads with a gap pass on a push one after the other", "[semantics
 }
 
 TEST_CASE("2.5 a floor that steps up past a rising ball lets it not fall through", "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const auto step = [] {
     return std::make_shared<Step>("floor", Step::Options{.end_value = 3.0, .step_time = 0.1});
   };

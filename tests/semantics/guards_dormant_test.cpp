@@ -28,7 +28,7 @@ Leaf plateau(double after, bool monitor) {
 }  // namespace
 
 TEST_CASE("2.6 a plateau of zeros is one firing, on reaching it", "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const double after = GENERATE(1.0, 0.0);
   const bool monitor = GENERATE(false, true);
   INFO("method " << method << ", left with slope " << after << ", monitor " << monitor);
@@ -42,7 +42,7 @@ TEST_CASE("2.6 a plateau of zeros is one firing, on reaching it", "[semantics]")
 
 TEST_CASE("2.6 a plateau at the start fires nothing, nor does leaving it to the armed side",
           "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Leaf leaf = plateau(1.0, false);
   const auto results =
@@ -52,7 +52,7 @@ TEST_CASE("2.6 a plateau at the start fires nothing, nor does leaving it to the 
 }
 
 TEST_CASE("2.6 no warning of a solver about a guard at zero reaches the terminal", "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Leaf leaf = plateau(1.0, false);
   const Leaf flat("flat", [](Leaf& l) {

@@ -5,7 +5,7 @@ using namespace saltus;
 using namespace support;
 
 TEST_CASE("2.10 a monitor in another block changes no bit of a diagram", "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   const auto run = [&](bool watched) {
     DiagramBuilder builder;
@@ -33,7 +33,7 @@ TEST_CASE("2.10 a monitor in another block changes no bit of a diagram", "[seman
 
 TEST_CASE("2.11 a relation, a mode, a held input and discrete state change at instants only",
           "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   // x' = 1 in one long step. Each call sees what was at the last instant, also where x, or t, of a
   // trial step is far beyond the next one; and none sees the value before again.

@@ -29,7 +29,7 @@ Leaf pendulum(bool with_reset) {
 
 TEST_CASE("2.9 on its interpolant a guard is located to 100 eps (|t| + |h|), and not before zero",
           "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const bool with_reset = GENERATE(true, false);
   INFO("method " << method << ", reset " << with_reset);
   const Leaf leaf = pendulum(with_reset);
@@ -48,7 +48,7 @@ TEST_CASE("2.9 on its interpolant a guard is located to 100 eps (|t| + |h|), and
 }
 
 TEST_CASE("2.9 the earliest crossing among the guards of all blocks comes first", "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   DiagramBuilder builder;
   for (int i = 0; i < 10; ++i) {

@@ -10,8 +10,7 @@ constexpr double e = 0.84280749999999993;  // peaks: 1, e^2 = 0.7103, e^4 = 0.50
 
 /// A ball dropped from 1 m with monitors at `levels`, and one at its peaks; how often each level
 /// was crossed until 2.5 s.
-std::vector<std::size_t> crossings(const std::vector<double>& levels, bool peaks,
-                                   const char* method) {
+std::vector<std::size_t> crossings(const std::vector<double>& levels, bool peaks, Method method) {
   const Leaf ball("ball", [&](Leaf& l) {
     l.declare_continuous_state(
         {.initial = vec({1.0, 0.0}),
@@ -44,7 +43,7 @@ std::vector<std::size_t> crossings(const std::vector<double>& levels, bool peaks
 
 TEST_CASE("2.8 crossings between two bounces are found, though the trial step went far beyond both",
           "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   // A one-step method is exact on parabolas, so its steps have no bound but the end of the run;
   // each is cut at the bounce. The peak is in the middle of what is left.
@@ -60,7 +59,7 @@ TEST_CASE("2.8 crossings between two bounces are found, though the trial step we
 
 TEST_CASE("2.10 a monitor logs each crossing once", "[semantics]") {
   // Here the interpolant of dopri5 wavers by a rounding at the first level, at 0.7481 s.
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   const auto counts = crossings({0.68142829999999999, 0.14196020000000001, 0.38302160000000002,
                                  0.84072560000000007, 0.59166410000000003},
@@ -70,7 +69,7 @@ TEST_CASE("2.10 a monitor logs each crossing once", "[semantics]") {
 
 TEST_CASE("2.10 of thousands of monitors in one step each is logged once", "[semantics]") {
   // One rounding further on the search before a root finds the root itself.
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const Index n = 2000;
   INFO("method " << method);
   const Leaf leaf("leaf", [n](Leaf& l) {

@@ -39,7 +39,7 @@ Leaf ball(const Drop& drop) {
 }
 
 /// Three times the time to its Zeno point: it must be at rest on its floor. How far it is below.
-void rests(const Drop& drop, const char* method, double tolerance) {
+void rests(const Drop& drop, Method method, double tolerance) {
   const double first = std::sqrt(2.0 * drop.height / g);
   const double end = drop.t0 + 3.0 * first * (1.0 + drop.e) / (1.0 - drop.e);
   const Leaf leaf = ball(drop);
@@ -99,7 +99,7 @@ TEST_CASE("2.5 a ball that is located exactly on its floor rests there", "[seman
   const double height = 0.0005305162348562786, end = -3.0 + 0.026102952987114719;
   const Leaf leaf = ball({0.0, 1000.0, height, -3.0, Height::floor, Direction::crosses_zero});
   const auto results = simulate(leaf, leaf.create_context(-3.0), {-3.0, end},
-                                {.rtol = 1e-9, .atol = 1e-11, .ode_solver_method = "dopri5"});
+                                {.rtol = 1e-9, .atol = 1e-11, .ode_solver_method = Method::dopri5});
   CHECK(count(results.events, EventKind::zeno_enter) == 1);
   CHECK(results.events.times("bounce").size() == 1);
   CHECK(results.context.continuous_state() == vec({1000.0, 0.0}));

@@ -27,7 +27,7 @@ Leaf twins(bool with_reset) {
 
 TEST_CASE("2.3 a guard that stays within rounding of zero fires nothing, restarted 1000 times",
           "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const bool with_reset = GENERATE(true, false);
   INFO("method " << method << ", reset " << with_reset);
   const Leaf leaf = twins(with_reset);

@@ -21,7 +21,7 @@ Leaf falling(std::function<double(double)> guard, std::function<double(double)> 
   });
 }
 
-std::vector<double> hits(const Leaf& leaf, const char* method) {
+std::vector<double> hits(const Leaf& leaf, Method method) {
   return simulate(leaf, leaf.create_context(), {0.0, 2.0}, {.ode_solver_method = method})
       .events.times("hit");
 }
@@ -29,7 +29,7 @@ std::vector<double> hits(const Leaf& leaf, const char* method) {
 }  // namespace
 
 TEST_CASE("2.1 a guard is a function of t, x, z, m, u and p", "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   DiagramBuilder builder;
   auto& constant = builder.add<Constant>("constant", 0.25);
@@ -66,7 +66,7 @@ TEST_CASE("2.1 a guard is a function of t, x, z, m, u and p", "[semantics]") {
 
 TEST_CASE("2.1 edge_detection fires at each change of a held signal, at its very time",
           "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const bool with_state = GENERATE(true, false);
   INFO("method " << method << ", state " << with_state);
   DiagramBuilder builder;
@@ -93,7 +93,7 @@ TEST_CASE("2.1 crosses_zero is the direction of a guard that does not say one", 
 }
 
 TEST_CASE("2.2 a guard that reaches zero and goes no further fires", "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   const auto found = hits(falling([](double x) { return std::max(0.5 - x, 0.0); }), method);
   REQUIRE(found.size() == 1);
@@ -101,7 +101,7 @@ TEST_CASE("2.2 a guard that reaches zero and goes no further fires", "[semantics
 }
 
 TEST_CASE("2.2 a guard is armed anew on the side where a restart finds it", "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   // 1 - x: starts below zero at x = 2 and falls on; a jump to x = 0 arms it above.
   const Leaf leaf = falling([](double x) { return 1.0 - x; }, [](double) { return 0.0; });
@@ -113,7 +113,7 @@ TEST_CASE("2.2 a guard is armed anew on the side where a restart finds it", "[se
 }
 
 TEST_CASE("2.2 a jump to the armed side fires no falling guard", "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   // x goes past 1 at 1 s, and the guard with it; from 0.25 s on it is one second earlier.
   CHECK(hits(falling([](double x) { return x - 1.0; }), method).empty());

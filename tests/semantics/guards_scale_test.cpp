@@ -6,7 +6,7 @@ using namespace support;
 using Catch::Matchers::WithinAbs;
 
 TEST_CASE("2.9a a guard scaled to 1e-200 or 1e200 fires at the same time", "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const double scale = GENERATE(1e-200, 1e-300, 1e200, 1.0);
   INFO("method " << method << ", scale " << scale);
   const auto found =
@@ -16,7 +16,7 @@ TEST_CASE("2.9a a guard scaled to 1e-200 or 1e200 fires at the same time", "[sem
 }
 
 TEST_CASE("2.9a a slope that vanishes at the root does not hide it", "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   const auto found =
       hits(watcher([](const At& at) { return std::pow(at.x[0] - 0.5, 3.0); }), 1.0, method);
@@ -25,7 +25,7 @@ TEST_CASE("2.9a a slope that vanishes at the root does not hide it", "[semantics
 }
 
 TEST_CASE("2.9a a bad value behind an event is not seen: the step is shortened", "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   // Torricelli: the tank is empty at t = 1, and sqrt(h) is NaN beyond.
   const Leaf tank("tank", [](Leaf& l) {

@@ -43,7 +43,7 @@ Leaf balls(bool each_rests_alone) {
 
 TEST_CASE("2.1 each of a vector of guards fires for itself, and its reset map knows which",
           "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Leaf leaf = balls(true);
   const auto results = simulate(leaf, leaf.create_context(), {0.0, 0.55},
@@ -61,7 +61,7 @@ TEST_CASE("2.1 each of a vector of guards fires for itself, and its reset map kn
 }
 
 TEST_CASE("2.1 a monitor may be a vector of guards; it changes no bit", "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   const auto run = [&](bool watched) {
     const Leaf leaf("swing", [=](Leaf& l) {
@@ -80,7 +80,7 @@ TEST_CASE("2.1 a monitor may be a vector of guards; it changes no bit", "[semant
 }
 
 TEST_CASE("4.4 of a vector of guards each holds its own states, the others go on", "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Leaf leaf = balls(true);
   const auto results = simulate(leaf, leaf.create_context(), {0.0, 2.0},
@@ -97,7 +97,7 @@ TEST_CASE("4.4 of a vector of guards each holds its own states, the others go on
 }
 
 TEST_CASE("4.4 without `holds` all of the leaf rests", "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Leaf leaf = balls(false);
   const auto results = simulate(leaf, leaf.create_context(), {0.0, 2.0},

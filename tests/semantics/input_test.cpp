@@ -45,7 +45,7 @@ TEST_CASE("6.1 t1 < t0 is refused before anything is called", "[semantics]") {
 }
 
 TEST_CASE("6.2 a run that fails prints nothing, whatever the solver has to say", "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Leaf leaf = square();
   std::string what;
@@ -59,7 +59,7 @@ TEST_CASE("6.2 a run that fails prints nothing, whatever the solver has to say",
 
 TEST_CASE("6.3 t1 == t0 has the rows of the start instant, with what happens at it",
           "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Leaf leaf("leaf", [](Leaf& l) {
     declare_ramp(l);
@@ -76,7 +76,7 @@ TEST_CASE("6.3 t1 == t0 has the rows of the start instant, with what happens at 
 
 TEST_CASE("6.4 an interrupt ends a run at once, also where instant follows instant",
           "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   int asked = 0, calls_after = 0;
   const Leaf saw("saw", [&](Leaf& l) {

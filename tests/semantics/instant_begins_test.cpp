@@ -5,7 +5,7 @@ using namespace saltus;
 using namespace support;
 
 TEST_CASE("3.1 a time event is an exact stop: offset + k period to the last bit", "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const bool with_state = GENERATE(true, false);
   INFO("method " << method << ", state " << with_state);
   const double period = 1.0 / 3.0, offset = 0.1;
@@ -24,7 +24,7 @@ TEST_CASE("3.1 a time event is an exact stop: offset + k period to the last bit"
 }
 
 TEST_CASE("3.1 equal times in several blocks are one instant, and one pass", "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   DiagramBuilder builder;
   for (int i = 0; i < 3; ++i) {
@@ -51,7 +51,7 @@ TEST_CASE("3.1 equal times in several blocks are one instant, and one pass", "[s
 
 TEST_CASE("3.1 the start of a run is an instant: what is due at t0 happens before the first step",
           "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Leaf leaf("leaf", [](Leaf& l) {
     declare_ramp(l, -1.0, 0.0);

@@ -33,7 +33,7 @@ Leaf wave(double w, Effect effect, double tick = infinite) {
   });
 }
 
-SimulatorOptions options(const char* method) {
+SimulatorOptions options(Method method) {
   return {.rtol = 1e-9,
           .atol = 1e-11,
           .ode_solver_method = method,
@@ -42,7 +42,7 @@ SimulatorOptions options(const char* method) {
 }
 
 /// The firing in the middle of a run to 2 s, and how many there are.
-std::pair<double, std::size_t> middle(double w, Effect effect, const char* method) {
+std::pair<double, std::size_t> middle(double w, Effect effect, Method method) {
   const Leaf leaf = wave(w, effect);
   const auto times =
       simulate(leaf, leaf.create_context(), {0.0, 2.0}, options(method)).events.times("zero");
@@ -54,7 +54,7 @@ constexpr std::array roundings{-4, -1, 0, 1, 2, 4, 10, 30, 60, 100, 1000};
 }  // namespace
 
 TEST_CASE("5.6 a run split a few roundings before or behind a firing has it once", "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const auto effect = GENERATE(Effect::count, Effect::restart, Effect::relation);
   for (const double w : {3.0, 7.1, 9.9, 12.3}) {
     const auto [time, count] = middle(w, effect, method);
@@ -73,7 +73,7 @@ TEST_CASE("5.6 a run split a few roundings before or behind a firing has it once
 }
 
 TEST_CASE("3.1 a tick a few roundings before or behind a firing disturbs it not", "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const auto effect = GENERATE(Effect::count, Effect::restart, Effect::relation);
   for (const double w : {3.0, 7.1, 9.9, 12.3}) {
     const auto [time, count] = middle(w, effect, method);
@@ -94,7 +94,7 @@ TEST_CASE("3.1 a tick a few roundings before or behind a firing disturbs it not"
 }
 
 TEST_CASE("3.1 a run may be a few roundings long", "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const double t0 = GENERATE(0.0, 1.0, -3.0, 1e6);
   for (const int k : {1, 2, 10, 1000}) {
     const double end = t0 + k * eps * std::max(std::abs(t0), 1e-3);

@@ -46,7 +46,7 @@ std::shared_ptr<Leaf> cell(std::string name, const Cell& c) {
   });
 }
 
-Results ring(const std::vector<Cell>& cells, const char* method) {
+Results ring(const std::vector<Cell>& cells, Method method) {
   DiagramBuilder builder;
   std::vector<std::shared_ptr<Leaf>> all;
   for (std::size_t i = 0; i < cells.size(); ++i)
@@ -70,7 +70,7 @@ TEST_CASE("3.4 in a ring of cells that set each other off no spike is lost, by a
     for (Cell& c : cells) c = {1.1 + number(random), 0.9 * number(random), kick};
     const auto reference = ring(cells, methods[0]);
     CHECK(reference.events.size() > cells.size());
-    for (const auto* method : methods) {
+    for (const Method method : methods) {
       INFO("ring " << i << ", method " << method);
       const auto results = ring(cells, method);
       CHECK(events(results.events) == events(reference.events));

@@ -18,7 +18,7 @@ void declare_switch(Leaf& l) {
 
 TEST_CASE("3.4 an edge that a commit moved resets an Integrator at the same t, one j later",
           "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const bool opaque = GENERATE(false, true);
   INFO("method " << method << ", opaque " << opaque);
   DiagramBuilder builder;
@@ -48,7 +48,7 @@ TEST_CASE("3.4 an edge that a commit moved resets an Integrator at the same t, o
 }
 
 TEST_CASE("3.4 a guard that the commit moved against its direction does not fire", "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const bool rising = GENERATE(true, false);
   INFO("method " << method << ", rising " << rising);
   const Leaf leaf("leaf", [=](Leaf& l) {
@@ -69,7 +69,7 @@ TEST_CASE("3.4 a guard that the commit moved against its direction does not fire
 
 TEST_CASE("3.4 a loop ends after max_passes, 100, with the chain of causes by block path",
           "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   DiagramBuilder inner, outer;
   inner.add<Leaf>("leaf", [](Leaf& l) {

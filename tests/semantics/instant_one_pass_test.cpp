@@ -36,7 +36,7 @@ void set_to(Leaf& l, const char* name, std::function<double(double)> map) {
 
 TEST_CASE("3.2 across leaves each reset map sees the state before: two beads swap velocities",
           "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   DiagramBuilder builder;
   const auto a = bead("a", 0.0, 3.0, 1.0), b = bead("b", 1.0, -0.7, -1.0);
@@ -56,7 +56,7 @@ TEST_CASE("3.2 across leaves each reset map sees the state before: two beads swa
 }
 
 TEST_CASE("3.3 an update at the time of a guard reads the state before the reset", "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   DiagramBuilder builder;
   auto& saw = builder.add<Leaf>("saw", [](Leaf& l) {
@@ -78,7 +78,7 @@ TEST_CASE("3.3 an update at the time of a guard reads the state before the reset
 
 TEST_CASE("3.8 of two reset maps of one pass on one state, declaration order decides",
           "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   const auto set = [](double) { return -10.0; };
   const auto twice = [](double x) { return 2.0 * x; };
@@ -98,7 +98,7 @@ TEST_CASE("3.8 of two reset maps of one pass on one state, declaration order dec
 }
 
 TEST_CASE("3.8 a reset in one leaf leaves the state of another as it is", "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   DiagramBuilder builder;
   builder.add<Leaf>(

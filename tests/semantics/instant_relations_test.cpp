@@ -21,7 +21,7 @@ Leaf stopwatch(Guard guard, bool true_at_zero) {
   });
 }
 
-double true_for(const Leaf& leaf, const char* method) {
+double true_for(const Leaf& leaf, Method method) {
   return simulate(leaf, leaf.create_context(), {0.0, 1.0}, {.ode_solver_method = method})
       .context.continuous_state()[1];
 }
@@ -30,7 +30,7 @@ double true_for(const Leaf& leaf, const char* method) {
 
 TEST_CASE("3.5 at its root a relation takes the side that the crossing direction says",
           "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const bool true_at_zero = GENERATE(true, false);
   const double root = GENERATE(0.25, 0.3, 1.0 / 3.0);
   INFO("method " << method << ", true_at_zero " << true_at_zero << ", root " << root);
@@ -41,7 +41,7 @@ TEST_CASE("3.5 at its root a relation takes the side that the crossing direction
 }
 
 TEST_CASE("3.5 also where the guard stays at exactly zero from there on", "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const bool true_at_zero = GENERATE(true, false);
   INFO("method " << method << ", true_at_zero " << true_at_zero);
   const auto rises = [](double x) { return std::min(x - 0.25, 0.0); };
@@ -52,7 +52,7 @@ TEST_CASE("3.5 also where the guard stays at exactly zero from there on", "[sema
 
 TEST_CASE("3.5 a relation that a commit puts at exactly zero keeps the side it has",
           "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const double before = GENERATE(1.0, -1.0);
   const bool continuous = GENERATE(true, false);  // what it reads: a still state, or a held one
   INFO("method " << method << ", before " << before << ", continuous " << continuous);
@@ -77,7 +77,7 @@ TEST_CASE("3.5 a relation that a commit puts at exactly zero keeps the side it h
 
 TEST_CASE("3.5 a relation at its root is not read again for what another block writes",
           "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   // sin(7 pi t) has six zeros in (0, 1). Another block writes at the very same times: whatever
   // rounding left at the root, the relation has one side from one zero to the next.

@@ -26,7 +26,7 @@ Leaf swing(int n, double level) {
 }  // namespace
 
 TEST_CASE("3.9 max_count: a terminal event ends the run on its n-th firing", "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const int n = GENERATE(1, 3);
   INFO("method " << method << ", n = " << n);
   const Leaf leaf = swing(n, 0.5);
@@ -41,7 +41,7 @@ TEST_CASE("3.9 max_count: a terminal event ends the run on its n-th firing", "[s
 }
 
 TEST_CASE("3.9 a run that is continued goes on counting", "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Leaf leaf = swing(3, 0.5);
   Simulator simulator(leaf, {.ode_solver_method = method});

@@ -17,7 +17,7 @@ Leaf with_reset(const ResetMap& reset) {
   });
 }
 
-Results run(const System& system, const char* method, double end = 1.0) {
+Results run(const System& system, Method method, double end = 1.0) {
   return simulate(system, system.create_context(), {0.0, end}, {.ode_solver_method = method});
 }
 
@@ -25,7 +25,7 @@ Results run(const System& system, const char* method, double end = 1.0) {
 
 TEST_CASE("3.6 writing the value that was there is a reset: j counts it, the solver restarts",
           "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   const auto same =
       run(with_reset([](const At& at, Next& next) { next.set_continuous_state(at.x); }), method);
@@ -36,7 +36,7 @@ TEST_CASE("3.6 writing the value that was there is a reset: j counts it, the sol
 
 TEST_CASE("3.7 a guard without start_mode is seen in all modes; after it the mode is end_mode",
           "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Leaf leaf("leaf", [](Leaf& l) {
     declare_ramp(l);
@@ -57,7 +57,7 @@ TEST_CASE("3.7 a guard without start_mode is seen in all modes; after it the mod
 
 TEST_CASE("3.10 the solver is restarted once for each bounce, and for nothing else",
           "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Scene scene = leaf({.e = 1.0});
   const auto results =
@@ -68,7 +68,7 @@ TEST_CASE("3.10 the solver is restarted once for each bounce, and for nothing el
 
 TEST_CASE("3.10 a reset that writes discrete state which no derivative reads restarts nothing",
           "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Leaf leaf("leaf", [](Leaf& l) {
     l.declare_continuous_state({.initial = vec({0.0}),
@@ -86,7 +86,7 @@ TEST_CASE("3.10 a reset that writes discrete state which no derivative reads res
 
 TEST_CASE("3.10 a change of a relation or of a mode that a derivative reads restarts the solver",
           "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Leaf by_mode("leaf", [](Leaf& l) {
     l.declare_continuous_state(

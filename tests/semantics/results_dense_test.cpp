@@ -7,7 +7,7 @@ using namespace support;
 using Catch::Matchers::WithinAbs;
 
 TEST_CASE("5.8 dense output is what the solver itself interpolates", "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   const auto times = inner_times(0.0, 10.0, 997);
   // A polynomial of degree 12 at most, rebuilt from its values at Chebyshev points: a few
@@ -29,7 +29,7 @@ TEST_CASE("5.8 dense output is what the solver itself interpolates", "[semantics
 }
 
 TEST_CASE("5.8 at the times of rows dense output has the bits of the rows", "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   for (const Scene& scene : all_forms({.e = 0.7})) {
     INFO(scene.form << ", method " << method);
     const auto results = simulate(*scene.system, scene.context(1.0, 0.0), {0.0, 1.2},
@@ -96,7 +96,7 @@ TEST_CASE("5.8 nothing is extrapolated, and nothing is kept unasked", "[semantic
 }
 
 TEST_CASE("5.8 dense output changes no bit of a run, and costs nothing unasked", "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Ball ball({.e = 0.8});
   const auto context = ball.create_context().with_continuous_state({1.0, 0.0});
@@ -115,7 +115,7 @@ TEST_CASE("5.8 dense output changes no bit of a run, and costs nothing unasked",
   // "auto" takes DOPRI5 at this tolerance.
   const std::int64_t more =
       dense.statistics.right_hand_side_calls - plain.statistics.right_hand_side_calls;
-  if (std::string(method) == "dop853")
+  if (method == Method::dop853)
     CHECK(more <= 3 * dense.statistics.steps);
   else
     CHECK(more == 0);

@@ -55,7 +55,7 @@ std::vector<Ending> endings() {
 
 TEST_CASE("5.5 every run ends in one status, and only the good ones end without an error",
           "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   for (const Ending& ending : endings()) {
     INFO(ending.what << ", method " << method);
     const auto quiet = ending.run({.ode_solver_method = method, .throw_errors = false});
@@ -87,7 +87,7 @@ TEST_CASE("5.5 the names of the seven statuses", "[semantics]") {
 
 TEST_CASE("6.2 a derivative that is NaN from some state on is named with its block",
           "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Leaf leaf = ramp(false, 0.5);
   try {

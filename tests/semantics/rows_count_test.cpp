@@ -6,7 +6,7 @@ using namespace saltus;
 using namespace support;
 
 TEST_CASE("5.1 one row for each accepted step, and one more after each pass", "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   for (const Scene& scene : all_forms({.e = 0.8})) {
     INFO(scene.form << ", method " << method);
     const auto results =
@@ -22,7 +22,7 @@ TEST_CASE("5.1 one row for each accepted step, and one more after each pass", "[
 }
 
 TEST_CASE("5.3 the event log is complete though nothing is recorded", "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Scene scene = leaf({.e = 1.0});
   const auto results =
@@ -38,7 +38,7 @@ TEST_CASE("5.3 the event log is complete though nothing is recorded", "[semantic
 }
 
 TEST_CASE("5.3 a release and a time event are in the log with their kind", "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Scene scene = leaf_on(
       {}, std::make_shared<Step>("floor", Step::Options{.end_value = -1.0, .step_time = 1.0}));
@@ -50,7 +50,7 @@ TEST_CASE("5.3 a release and a time event are in the log with their kind", "[sem
 }
 
 TEST_CASE("5.4 statistics are summed across restarts", "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   std::int64_t odes = 0, guards = 0;
   const Leaf ball("ball", [&](Leaf& l) {

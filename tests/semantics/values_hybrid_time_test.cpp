@@ -41,7 +41,7 @@ TEST_CASE("1.1 a context holds time, continuous and discrete state, a mode per l
 }
 
 TEST_CASE("1.1 a run changes neither the context it started from nor the system", "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const Leaf leaf = busy();
   const Context before = leaf.create_context().with_parameter("p", vec({5.0, 6.0}));
   const Context kept = before;
@@ -53,7 +53,7 @@ TEST_CASE("1.1 a run changes neither the context it started from nor the system"
 
 TEST_CASE("1.2 j counts passes with a reset, an update or a mode change, and no monitors",
           "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Leaf leaf = busy();
   const auto results =

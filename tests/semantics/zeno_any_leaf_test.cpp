@@ -44,7 +44,7 @@ double entered_at(const Results& results) {
 }  // namespace
 
 TEST_CASE("4.1 a leaf that is no ball comes to rest too: two tanks and one hose", "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Leaf leaf = tanks();
   const double rtol = 1e-10, atol = 1e-13;
@@ -70,7 +70,7 @@ TEST_CASE(
   BallOptions patient = ball;
   patient.zeno_tolerance = 0.003;
   const BallExact exact{10.0, 0.5, 0.2};
-  const SimulatorOptions options{.rtol = 1e-10, .atol = 1e-12, .ode_solver_method = "dopri5"};
+  const SimulatorOptions options{.rtol = 1e-10, .atol = 1e-12, .ode_solver_method = Method::dopri5};
   SimulatorOptions loose = options;
   loose.zeno_tolerance = 0.003;
   for (std::size_t i = 0; i < all_forms(ball).size(); ++i) {
@@ -86,7 +86,7 @@ TEST_CASE(
 }
 
 TEST_CASE("4.3 a monitored guard that never rests logs no prediction", "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const Scene scene = leaf({.e = 1.0});
   const auto results =
       simulate(*scene.system, scene.context(1.0, 0.0), {0.0, 5.0}, {.ode_solver_method = method});

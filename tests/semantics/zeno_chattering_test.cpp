@@ -24,7 +24,7 @@ Leaf falling(std::string name, double start) {
       [](const At&, bool on, VectorRef xdot) { xdot << (on ? -1.0 : 1.0); }, std::move(name));
 }
 
-void chatters(const System& system, const char* method, double zeno_tolerance = 1e-6) {
+void chatters(const System& system, Method method, double zeno_tolerance = 1e-6) {
   const auto results = simulate(
       system, system.create_context(), {0.0, 20.0},
       {.ode_solver_method = method, .zeno_tolerance = zeno_tolerance, .throw_errors = false});
@@ -37,7 +37,7 @@ void chatters(const System& system, const char* method, double zeno_tolerance = 
 
 TEST_CASE("4.7 sliding on a surface that moves, in the plane, or under friction chatters",
           "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const auto moving = relay(
       vec({1.0}), [](const At& at) { return at.x[0] - std::sin(at.time); },
       [](const At&, bool on, VectorRef xdot) { xdot << (on ? -3.0 : 3.0); });
@@ -53,7 +53,7 @@ TEST_CASE("4.7 sliding on a surface that moves, in the plane, or under friction 
 }
 
 TEST_CASE("4.7 two sliding blocks chatter", "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   DiagramBuilder builder;
   builder.add(std::make_shared<Leaf>(falling("first", 0.5)));
   builder.add(std::make_shared<Leaf>(falling("second", 0.6)));
@@ -62,7 +62,7 @@ TEST_CASE("4.7 two sliding blocks chatter", "[semantics]") {
 
 TEST_CASE("4.7 sliding beside a clock that ticks when the surface is reached chatters too",
           "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   DiagramBuilder builder;
   builder.add(std::make_shared<Leaf>(falling("sliding", 0.5)));
   builder.add<Leaf>("clock", [](Leaf& l) {
@@ -74,7 +74,7 @@ TEST_CASE("4.7 sliding beside a clock that ticks when the surface is reached cha
 
 TEST_CASE("4.7 switching that accumulates is not slipped through where no monitor holds it",
           "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   // Two leaking tanks and one hose; modes only. All switching accumulates at 2 s, with both empty.
   const Leaf tanks("tanks", [](Leaf& l) {
     l.declare_continuous_state(

@@ -15,7 +15,7 @@ TEST_CASE("4.2 gaps that shrink more slowly than geometrically accumulate too", 
 }
 
 TEST_CASE("4.2 a reset that leaves no time to pass holds at once: restitution 0", "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   for (const Scene& scene : all_forms({.g = 10.0, .e = 0.0})) {
     INFO(scene.form << ", method " << method);
     const auto results = simulate(*scene.system, scene.context(0.2, 0.0), {0.0, 1.0},
@@ -32,7 +32,7 @@ TEST_CASE("4.2 a reset that leaves no time to pass holds at once: restitution 0"
 
 TEST_CASE("4.2 a fast rhythm with equal gaps is no hold, below the tolerance and late in time",
           "[semantics]") {
-  const auto* method = GENERATE("dopri5", "auto");
+  const auto method = GENERATE(Method::dopri5, Method::automatic);
   const double t0 = GENERATE(0.0, 100.0);
   INFO("method " << method << ", t0 " << t0);
   // A ball with restitution 1 and flights of 4e-7 s: gaps equal but for the rounding of times.
@@ -53,7 +53,7 @@ TEST_CASE("4.2 a fast rhythm with equal gaps is no hold, below the tolerance and
 }
 
 TEST_CASE("4.4 on hold the state is the same to the last bit, row after row", "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   for (const Scene& scene : all_forms({.e = 0.5, .floor = 0.3})) {
     INFO(scene.form << ", method " << method);
     std::vector<double> times;
@@ -71,7 +71,7 @@ TEST_CASE("4.4 on hold the state is the same to the last bit, row after row", "[
 
 TEST_CASE("4.4 an Integrator on hold holds its own state; others of the diagram go on",
           "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   for (const Contact contact : contacts) {
     const Scene ball = blocks(contact, {.e = 0.5});
     DiagramBuilder builder;

@@ -12,7 +12,7 @@ namespace {
 constexpr double g = 10.0;
 
 /// A box at rest on its floor whose thrust steps from 0 to `thrust` [m/s^2] at 1 s.
-Results pushed(double thrust, const char* method) {
+Results pushed(double thrust, Method method) {
   DiagramBuilder builder;
   auto& step = builder.add<Step>("thrust", Step::Options{.end_value = thrust, .step_time = 1.0});
   auto& box = builder.add<Leaf>("box", [](Leaf& l) {
@@ -36,7 +36,7 @@ Results pushed(double thrust, const char* method) {
 }  // namespace
 
 TEST_CASE("4.5 a thrust below the weight leaves a held box where it is", "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   const auto results = pushed(0.5 * g, method);
   CHECK(results.events.times("bounce", EventKind::zeno_release).empty());
@@ -44,7 +44,7 @@ TEST_CASE("4.5 a thrust below the weight leaves a held box where it is", "[seman
 }
 
 TEST_CASE("4.5 a thrust above the weight lifts a held box off, at its very time", "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   const auto results = pushed(2.0 * g, method);
   CHECK(results.events.times("bounce", EventKind::zeno_release) == std::vector{1.0});
@@ -52,7 +52,7 @@ TEST_CASE("4.5 a thrust above the weight lifts a held box off, at its very time"
 }
 
 TEST_CASE("4.5 a mode that does not see the guard of a hold ends it", "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Leaf rocket("rocket", [](Leaf& l) {
     l.declare_continuous_state(

@@ -24,7 +24,7 @@ std::vector<double> releases(const Results& results) {
 }  // namespace
 
 TEST_CASE("4.5 a floor that rises continuously under a resting ball carries it", "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   for (const Scene& scene : all_forms_over({.g = g, .e = 0.5}, [] { return ramp(0.5); })) {
     INFO(scene.form << ", method " << method);
     const auto results = simulate(*scene.system, scene.context(0.0, 0.0), {0.0, 3.0},
@@ -36,7 +36,7 @@ TEST_CASE("4.5 a floor that rises continuously under a resting ball carries it",
 }
 
 TEST_CASE("4.5 a floor that begins to fall lets a resting ball go exactly then", "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   // At 1 s the floor leaves with 1 m/s; the ball catches up after 2 / g = 0.2 s and bounces.
   const std::vector<Scene> scenes{leaf_on({.g = g, .e = 0.5}, ramp(-1.0)),
                                   blocks(Contact::comparator, {.g = g, .e = 0.5}, ramp(-1.0))};
@@ -53,7 +53,7 @@ TEST_CASE("4.5 a floor that begins to fall lets a resting ball go exactly then",
 
 TEST_CASE("4.5 a floor that begins to fall lets go of a ball whose contact is opaque",
           "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const auto contact = GENERATE(Contact::reduce, Contact::function);
   const Scene scene = blocks(contact, {.g = g, .e = 0.5}, ramp(-1.0));
   INFO(scene.form << ", method " << method);
@@ -64,7 +64,7 @@ TEST_CASE("4.5 a floor that begins to fall lets go of a ball whose contact is op
 }
 
 TEST_CASE("4.5 a ball let go by a floor lands on it again, bounces and rests", "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const Scene scene =
       leaf_on({.g = g, .e = 0.5},
               std::make_shared<Step>("floor", Step::Options{.end_value = -0.2, .step_time = 1.0}));

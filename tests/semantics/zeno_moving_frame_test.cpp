@@ -51,7 +51,7 @@ Leaf fixed_frame(double e) {
 
 TEST_CASE("4.5 a ball lifts off a table at the moment it falls away faster than gravity",
           "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const bool frame_moves = GENERATE(true, false);
   const double e = GENERATE(0.0, 0.2);
   INFO("method " << method << ", moving frame " << frame_moves << ", e " << e);

@@ -32,7 +32,7 @@ Leaf ball(OnZeno on_zeno, double e = 0.5) {
   });
 }
 
-Results run(const Leaf& leaf, const char* method, bool throw_errors = true) {
+Results run(const Leaf& leaf, Method method, bool throw_errors = true) {
   return simulate(
       leaf, leaf.create_context(), {0.0, 2.0},
       {.rtol = 1e-10, .atol = 1e-13, .ode_solver_method = method, .throw_errors = throw_errors});
@@ -46,7 +46,7 @@ TEST_CASE("4.4 on_zeno hold is the default", "[semantics]") {
 }
 
 TEST_CASE("4.4 on_zeno stop ends the run well, with the status zeno_stop", "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const double e = GENERATE(0.5, 0.0);
   INFO("method " << method << ", e " << e);
   const auto results = run(ball(OnZeno::stop(), e), method);
@@ -58,7 +58,7 @@ TEST_CASE("4.4 on_zeno stop ends the run well, with the status zeno_stop", "[sem
 }
 
 TEST_CASE("4.4 on_zeno error is an error with block, guard, time and remedy", "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const auto what = message<SimulationError>([&] { run(ball(OnZeno::error()), method); });
   INFO("method " << method << ": " << what);
   CHECK(contains(what, "ball"));
@@ -70,7 +70,7 @@ TEST_CASE("4.4 on_zeno error is an error with block, guard, time and remedy", "[
 }
 
 TEST_CASE("4.4 on_zeno with a mode goes on there from the accumulation state", "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const double e = GENERATE(0.5, 0.0);
   INFO("method " << method << ", e " << e);
   const auto results = run(ball(OnZeno::enter(sliding), e), method);

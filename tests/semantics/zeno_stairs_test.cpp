@@ -47,7 +47,7 @@ void no_ball_falls(bool up_too, bool forms_agree) {
     const Stairs stairs = random_stairs(random, up_too);
     const double e = std::array{0.0, 0.3, 0.6, 0.9}[random() % 4];
     const double start = std::array{0.0, 0.2, 1.0}[random() % 3], end = stairs.times.back() + 0.5;
-    const auto* method = methods[random() % methods.size()];
+    const auto method = methods[random() % methods.size()];
     std::vector<double> heights;
     for (const Scene& scene :
          all_forms_over({.g = 10.0, .e = e}, [&] { return floor_of(stairs); })) {

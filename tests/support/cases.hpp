@@ -36,13 +36,15 @@ inline std::vector<Form> forms(const std::shared_ptr<Leaf>& leaf) {
 
 /// Ten local errors of a state of this size, times the growth of the problem. BDF, which suits no
 /// smooth scene that is not stiff, takes ten times the steps there: a hundred.
-inline double allowed(std::string_view method, double rtol, double atol, double size,
+inline double allowed(saltus::Method method, double rtol, double atol, double size,
                       double growth = 1.0) {
-  return (method == "bdf" ? 100.0 : 10.0) * (rtol * size + atol) * growth;
+  return (method == saltus::Method::bdf ? 100.0 : 10.0) * (rtol * size + atol) * growth;
 }
 
 /// A Runge-Kutta method is exact on parabolas; a multistep method, starting anew, is not.
-inline bool one_step(std::string_view method) { return method != "adams" && method != "bdf"; }
+inline bool one_step(saltus::Method method) {
+  return method != saltus::Method::adams && method != saltus::Method::bdf;
+}
 
 /// The largest of |found - expected|; infinite where there are more of one than of the other.
 inline double worst(const std::vector<double>& found, const std::vector<double>& expected) {
@@ -57,7 +59,7 @@ inline double worst(const std::vector<double>& found, const std::vector<double>&
 
 /// error <= tolerance. With SALTUS_CASES in the environment each comparison is a line of that file:
 /// scene, method, error, tolerance.
-inline void within(const std::string& scene, const std::string& method, double error,
+inline void within(const std::string& scene, saltus::Method method, double error,
                    double tolerance) {
   if (const char* file = std::getenv("SALTUS_CASES")) {
     std::ofstream(file, std::ios::app)

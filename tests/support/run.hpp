@@ -10,9 +10,23 @@
 #include "saltus/simulation/simulate.hpp"
 #include "support/catch.hpp"
 
+namespace saltus {
+
+// For INFO and REQUIRE.
+inline std::ostream& operator<<(std::ostream& out, Method method) {
+  return out << to_string(method);
+}
+inline std::ostream& operator<<(std::ostream& out, LinearSolver solver) {
+  return out << to_string(solver);
+}
+
+}  // namespace saltus
+
 namespace support {
 
-inline constexpr std::array methods{"dopri5", "dop853", "adams", "bdf", "auto"};
+inline constexpr std::array methods{saltus::Method::dopri5, saltus::Method::dop853,
+                                    saltus::Method::adams, saltus::Method::bdf,
+                                    saltus::Method::automatic};
 
 inline constexpr double eps = std::numeric_limits<double>::epsilon();
 inline constexpr double infinite = std::numeric_limits<double>::infinity();

@@ -18,7 +18,7 @@ Leaf watcher(Guard guard, saltus::Direction direction = saltus::Direction::cross
   });
 }
 
-inline std::vector<double> hits(const Leaf& leaf, double end, const char* method,
+inline std::vector<double> hits(const Leaf& leaf, double end, saltus::Method method,
                                 double max_step = infinite) {
   const auto results = simulate(
       leaf, leaf.create_context(), {0.0, end},

@@ -8,8 +8,8 @@ using Catch::Matchers::WithinAbs;
 
 namespace {
 
-Results run(const Leaf& leaf, double t_end, const char* method, double rtol = 1e-6,
-            double atol = 1e-6, RecordedSignals record = {}) {
+Results run(const Leaf& leaf, double t_end, Method method, double rtol = 1e-6, double atol = 1e-6,
+            RecordedSignals record = {}) {
   return simulate(leaf, leaf.create_context(), {0.0, t_end},
                   {.rtol = rtol,
                    .atol = atol,
@@ -77,7 +77,8 @@ TEST_CASE("auto follows a scene whose modes are stiff in turns, and every switch
   const double rtol = GENERATE(1e-4, 1e-6, 1e-10);
   INFO("rtol " << rtol);
   const Leaf leaf = two_modes();
-  const auto results = run(leaf, 7.0, "auto", rtol, rtol), bdf = run(leaf, 7.0, "bdf", rtol, rtol);
+  const auto results = run(leaf, 7.0, Method::automatic, rtol, rtol),
+             bdf = run(leaf, 7.0, Method::bdf, rtol, rtol);
   const auto& stretches = results.statistics.stretches;
   REQUIRE(results.events.size() == 6);
   for (std::size_t i = 0; i < 6; ++i) {
@@ -121,11 +122,11 @@ TEST_CASE("auto hands back inside a stretch when the scene stops being stiff", "
                                   return std::exp(13.8 * fall) * (std::cos(at.time) - at.x[0]);
                                 }});
   });
-  const auto results = run(leaf, 60.0, "auto");
+  const auto results = run(leaf, 60.0, Method::automatic);
   CHECK(methods_of(results) == std::vector<std::string>{"dopri5", "bdf", "dopri5"});
   CHECK(contains(results.statistics.method, "dopri5, then bdf from t = "));
   CHECK(contains(results.statistics.method, "the scene no longer does"));
-  CHECK(calls(results) < calls(run(leaf, 60.0, "dopri5")) / 100);
+  CHECK(calls(results) < calls(run(leaf, 60.0, Method::dopri5)) / 100);
 }
 
 TEST_CASE("auto does not play ball between the methods where a scene is hardly stiff", "[auto]") {
@@ -133,20 +134,20 @@ TEST_CASE("auto does not play ball between the methods where a scene is hardly s
   const double rtol = GENERATE(1e-3, 1e-6, 1e-9, 1e-12);
   INFO("mu " << mu << ", rtol " << rtol);
   const Leaf leaf = van_der_pol(mu);
-  const auto results = run(leaf, 10.0 * mu, "auto", rtol, rtol);
+  const auto results = run(leaf, 10.0 * mu, Method::automatic, rtol, rtol);
   // Ten mu are 6.2 periods at most, with two creeps and two jumps each: one change of method for
   // each is what the solution itself asks for, and one at the start.
   CHECK(results.statistics.stretches.size() <= 27);
-  const auto best = std::min(calls(run(leaf, 10.0 * mu, "dopri5", rtol, rtol)),
-                             std::min(calls(run(leaf, 10.0 * mu, "dop853", rtol, rtol)),
-                                      calls(run(leaf, 10.0 * mu, "bdf", rtol, rtol))));
+  const auto best = std::min(calls(run(leaf, 10.0 * mu, Method::dopri5, rtol, rtol)),
+                             std::min(calls(run(leaf, 10.0 * mu, Method::dop853, rtol, rtol)),
+                                      calls(run(leaf, 10.0 * mu, Method::bdf, rtol, rtol))));
   INFO("calls " << calls(results) << ", best " << best << ": " << results.statistics.method);
   CHECK(calls(results) < 3 * best);
 }
 
 TEST_CASE("a guard fires once wherever it stands around a change of method", "[auto]") {
   const Leaf plain = van_der_pol(1000.0);
-  const auto free = run(plain, 100.0, "auto", 1e-6, 1e-8, {{"x", plain.output()}});
+  const auto free = run(plain, 100.0, Method::automatic, 1e-6, 1e-8, {{"x", plain.output()}});
   REQUIRE(methods_of(free) == std::vector<std::string>{"dopri5", "bdf"});
   const double change = free.statistics.stretches[0].end;
   const auto x = column(free, "x");
@@ -166,7 +167,7 @@ TEST_CASE("a guard fires once wherever it stands around a change of method", "[a
                .direction = Direction::positive_then_non_positive,
                .terminal = terminal});
         });
-        return run(leaf, 100.0, "auto", 1e-6, 1e-8);
+        return run(leaf, 100.0, Method::automatic, 1e-6, 1e-8);
       };
       // x is exact to the last bits where a row stands; between rows it is as good as the step:
       // half a step either way.
@@ -193,8 +194,8 @@ TEST_CASE("auto costs half more than BDF at most on Robertson's reaction, at any
   const double rtol = GENERATE(1e-4, 1e-6, 1e-8, 1e-10);
   INFO("rtol " << rtol);
   const Leaf leaf = robertson();
-  const auto results = run(leaf, 4e10, "auto", rtol, 1e-4 * rtol),
-             bdf = run(leaf, 4e10, "bdf", rtol, 1e-4 * rtol);
+  const auto results = run(leaf, 4e10, Method::automatic, rtol, 1e-4 * rtol),
+             bdf = run(leaf, 4e10, Method::bdf, rtol, 1e-4 * rtol);
   CHECK(methods_of(results).back() == "bdf");
   // Measured 1.00 to 1.30: the fifteen steps of the stiffness test, and four calls every fifty
   // steps.
@@ -208,7 +209,7 @@ TEST_CASE("auto takes order 8 where that pays, and names its one stretch", "[aut
         {.name = "zero", .guard = [](const At& at) { return at.x[0]; }, .reset_map = count_up});
   });
   const auto one = [](const Leaf& leaf, double rtol) {
-    const auto results = run(leaf, 50.0, "auto", rtol, rtol);
+    const auto results = run(leaf, 50.0, Method::automatic, rtol, rtol);
     REQUIRE(results.statistics.stretches.size() == 1);
     const Stretch& only = results.statistics.stretches[0];
     CHECK(only.begin == 0.0);
@@ -226,24 +227,25 @@ TEST_CASE("auto takes order 8 where that pays, and names its one stretch", "[aut
 
 TEST_CASE("auto sees that Van der Pol with mu = 1000 is stiff and hands over to BDF", "[auto]") {
   const Leaf stiff = van_der_pol(1000.0);
-  const auto results =
-      simulate(stiff, stiff.create_context(), {0.0, 2000.0}, {.ode_solver_method = "auto"});
+  const auto results = simulate(stiff, stiff.create_context(), {0.0, 2000.0},
+                                {.ode_solver_method = Method::automatic});
   CHECK(contains(results.statistics.method, "dopri5, then bdf"));
   CHECK(results.statistics.steps < 10000);  // dopri5 alone takes millions
   const auto bdf =
-      simulate(stiff, stiff.create_context(), {0.0, 2000.0}, {.ode_solver_method = "bdf"});
+      simulate(stiff, stiff.create_context(), {0.0, 2000.0}, {.ode_solver_method = Method::bdf});
   CHECK(std::abs(results.context.continuous_state()[0] - bdf.context.continuous_state()[0]) < 1e-2);
 }
 
 TEST_CASE("auto stays with dopri5 where nothing is stiff", "[auto]") {
   const Leaf mild = van_der_pol(1.0);
-  CHECK(simulate(mild, mild.create_context(), {0.0, 200.0}, {.ode_solver_method = "auto"})
-            .statistics.method == "dopri5");
+  CHECK(
+      simulate(mild, mild.create_context(), {0.0, 200.0}, {.ode_solver_method = Method::automatic})
+          .statistics.method == "dopri5");
   const Leaf fast("fast", [](Leaf& l) {  // fast, but as fast as its solution
     l.declare_continuous_state(
         {.initial = vec({1.0, 0.0}),
          .ode = [](const At& at, VectorRef xdot) { xdot << 1e4 * at.x[1], -1e4 * at.x[0]; }});
   });
-  CHECK(simulate(fast, fast.create_context(), {0.0, 0.1}, {.ode_solver_method = "auto"})
+  CHECK(simulate(fast, fast.create_context(), {0.0, 0.1}, {.ode_solver_method = Method::automatic})
             .statistics.method == "dopri5");
 }

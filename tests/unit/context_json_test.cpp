@@ -31,7 +31,7 @@ TEST_CASE("a context comes back from JSON to the last bit", "[context][json]") {
 
 TEST_CASE("a run from a context read back is the run from the context, to the last bit",
           "[context][json]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   for (const Scene& scene : all_forms({.e = 0.6})) {
     INFO(scene.form << ", method " << method);
     const Context context = awkward(scene);

@@ -12,7 +12,7 @@ using Catch::Matchers::WithinAbs;
 namespace {
 
 /// Error of the dense output inside steps of length h from exact values on.
-double error_of_steps(const std::string& method, double h) {
+double error_of_steps(Method method, double h) {
   const auto results = run_circle({.rtol = 1e6,
                                    .atol = 1e6,
                                    .ode_solver_method = method,
@@ -31,8 +31,10 @@ TEST_CASE("dense output keeps the order of the method", "[dense][order]") {
   // Inside a step the error is that of the interpolant, h^(degree + 1), as far as that of the steps
   // at their ends, h^5 and h^8 summed over 1/h of them, allows: 5 and 8, less what is observed at
   // finite h.
-  const double dopri5 = order(error_of_steps("dopri5", 0.2), error_of_steps("dopri5", 0.1));
-  const double dop853 = order(error_of_steps("dop853", 0.5), error_of_steps("dop853", 0.25));
+  const double dopri5 =
+      order(error_of_steps(Method::dopri5, 0.2), error_of_steps(Method::dopri5, 0.1));
+  const double dop853 =
+      order(error_of_steps(Method::dop853, 0.5), error_of_steps(Method::dop853, 0.25));
   CHECK(dopri5 > 4.6);
   CHECK(dopri5 < 5.6);
   CHECK(dop853 > 7.4);
@@ -40,7 +42,7 @@ TEST_CASE("dense output keeps the order of the method", "[dense][order]") {
 }
 
 TEST_CASE("a ball between bounces, at them and at rest, against the closed form", "[dense]") {
-  const auto* method = GENERATE("dopri5", "dop853", "auto");
+  const auto method = GENERATE(Method::dopri5, Method::dop853, Method::automatic);
   INFO("method " << method);
   const Ball ball({.g = 10.0, .e = 0.5});
   const auto results = simulate(ball, ball.create_context().with_continuous_state({5.0, 0.0}),
@@ -60,7 +62,7 @@ TEST_CASE("a ball between bounces, at them and at rest, against the closed form"
 }
 
 TEST_CASE("dense output rides on a surface that moves", "[dense]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   struct Ride {
     Scene scene;
     double (*floor)(double);

@@ -67,11 +67,12 @@ TEST_CASE("DOP853's error estimate falls with h^8", "[dop853]") {
   // steps it takes at tolerances 2^8 apart would not have the ratio 2.
   const auto steps = [](double rtol) {
     const Leaf leaf = logistic();
-    return static_cast<double>(
-        simulate(
-            leaf, leaf.create_context(), {0.0, 20.0},
-            {.rtol = rtol, .atol = rtol, .ode_solver_method = "dop853", .max_minor_step_size = 2.0})
-            .statistics.steps);
+    return static_cast<double>(simulate(leaf, leaf.create_context(), {0.0, 20.0},
+                                        {.rtol = rtol,
+                                         .atol = rtol,
+                                         .ode_solver_method = Method::dop853,
+                                         .max_minor_step_size = 2.0})
+                                   .statistics.steps);
   };
   const double ratio = steps(1e-13) / steps(256e-13);
   CHECK(ratio > 1.7);  // the first steps do not shrink with the tolerance
@@ -129,7 +130,7 @@ TEST_CASE("the three stages of the dense output are computed once, and only if a
 }
 
 TEST_CASE("a trial step that is not finite anywhere is shortened, not fatal", "[dop853]") {
-  const auto* method = GENERATE("dopri5", "dop853");
+  const auto method = GENERATE(Method::dopri5, Method::dop853);
   INFO("method " << method);
   // x' = -sqrt(x), x(0) = 1: x = (1 - t/2)^2, and behind x = 0 nothing.
   const Leaf leaf("tank", [](Leaf& l) {

@@ -29,7 +29,7 @@ TEST_CASE("the error of the step falls with h^5, that of the dense output with h
 }
 
 TEST_CASE("the achieved error stays within ten tolerances, by any one-step method", "[dopri5]") {
-  const auto* method = GENERATE("dopri5", "dop853", "auto");
+  const auto method = GENERATE(Method::dopri5, Method::dop853, Method::automatic);
   const double rtol = GENERATE(1e-4, 1e-6, 1e-8, 1e-10);
   INFO("method " << method << ", rtol " << rtol);
   const Leaf leaf = logistic();
@@ -50,6 +50,6 @@ TEST_CASE("a right-hand side of degree four in time is integrated exactly", "[do
         {.initial = vec({0.0}), .ode = [](const At& at) { return 5.0 * std::pow(at.time, 4.0); }});
   });
   const auto results =
-      simulate(leaf, leaf.create_context(), {0.0, 1.0}, {.ode_solver_method = "dopri5"});
+      simulate(leaf, leaf.create_context(), {0.0, 1.0}, {.ode_solver_method = Method::dopri5});
   CHECK_THAT(results.context.continuous_state()[0], WithinAbs(1.0, 1e-14));
 }

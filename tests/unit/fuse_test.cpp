@@ -216,7 +216,7 @@ TEST_CASE("fused formulas give the bits of single calls, whatever they are put t
 }
 
 TEST_CASE("a run of fused blocks is the run of single ones, to the last bit", "[fuse]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Diagram diagram = ball();
   const auto plan = compile(diagram, {{"y", diagram["y"].output()}});
@@ -361,7 +361,7 @@ TEST_CASE("a wide formula gives entry by entry what narrow ones give", "[fuse]")
 }
 
 TEST_CASE("of fused blocks the one that gives NaN or Inf is named", "[fuse]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   DiagramBuilder builder;
   auto& state = builder.add<Integrator>("state", Integrator::Options{.initial_state = 1.0});

@@ -105,7 +105,7 @@ TEST_CASE("dense output follows a step that is drawn in two halves", "[dense]") 
     return inner;
   }();
   const auto run = [&](SimulatorOptions options) {
-    options.rtol = options.atol = 1e-4, options.ode_solver_method = "dop853";
+    options.rtol = options.atol = 1e-4, options.ode_solver_method = Method::dop853;
     options.recorded_signals = {{"x", lag.output(0)}};
     return simulate(lag, lag.create_context(), {0.0, 3.0}, options);
   };

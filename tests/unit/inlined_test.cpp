@@ -40,7 +40,7 @@ class Ring final : public LeafSystem {
 };
 
 template <int N>
-void same_runs(const char* name) {
+void same_runs(Method name) {
   const SimulatorOptions options{.rtol = 1e-9, .atol = 1e-11, .ode_solver_method = name};
   const Ring<N, true> fast;
   const Ring<N, false> plain;
@@ -60,7 +60,7 @@ void same_runs(const char* name) {
 }  // namespace
 
 TEST_CASE("an inlined right-hand side: the same steps, calls, events and states", "[inlined]") {
-  for (const char* name : methods) {
+  for (const Method name : methods) {
     same_runs<1>(name);
     same_runs<2>(name);
     same_runs<3>(name);

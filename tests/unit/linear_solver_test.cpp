@@ -8,7 +8,9 @@ using Catch::Matchers::WithinAbs;
 
 namespace {
 
-const std::vector<std::string> solvers{"dense", "band", "sparse", "gmres", "auto"};
+const std::vector<LinearSolver> solvers{LinearSolver::dense, LinearSolver::band,
+                                        LinearSolver::sparse, LinearSolver::gmres,
+                                        LinearSolver::automatic};
 
 /// u_t = 1 + u^2 v - 4 u + c u_xx, v_t = 3 u - u^2 v + c v_xx, u and v in turn, ends held at (1,
 /// 3).
@@ -68,28 +70,31 @@ Leaf heat(Index m, bool own_jacobian) {
   });
 }
 
-Results run(const System& system, double t_end, const std::string& solver, double rtol = 1e-7) {
+Results run(const System& system, double t_end, LinearSolver solver, double rtol = 1e-7) {
   return simulate(
       system, system.create_context(), {0.0, t_end},
-      {.rtol = rtol, .atol = rtol, .ode_solver_method = "bdf", .linear_solver = solver});
+      {.rtol = rtol, .atol = rtol, .ode_solver_method = Method::bdf, .linear_solver = solver});
 }
 
 /// All solvers end where a run at a hundredth of the tolerance ends. BDF's global error on these
 /// two, whose flow contracts or is mild, stays within the sum of local errors, one tolerance each
 /// step, a few hundred steps.
 void all_agree(const System& system, double t_end) {
-  const Eigen::VectorXd exact = run(system, t_end, "dense", 1e-9).context.continuous_state();
-  for (const std::string& solver : solvers) {
+  const Eigen::VectorXd exact =
+      run(system, t_end, LinearSolver::dense, 1e-9).context.continuous_state();
+  for (const LinearSolver solver : solvers) {
     INFO("linear solver " << solver);
     const Results results = run(system, t_end, solver);
     CHECK((results.context.continuous_state() - exact).cwiseAbs().maxCoeff() < 300e-7);
-    CHECK((solver == "auto" || results.statistics.linear_solver.starts_with(solver + ": n = ")));
-    CHECK((solver == "auto") != contains(results.statistics.linear_solver, "asked for"));
+    const bool chosen = solver == LinearSolver::automatic;
+    CHECK((chosen ||
+           results.statistics.linear_solver.starts_with(text(to_string(solver), ": n = "))));
+    CHECK(chosen != contains(results.statistics.linear_solver, "asked for"));
   }
 }
 
 std::string chosen(const System& system) {
-  return run(system, 1e-3, "auto", 1e-3).statistics.linear_solver;
+  return run(system, 1e-3, LinearSolver::automatic, 1e-3).statistics.linear_solver;
 }
 
 /// x_0 pulls at all others, and they at it: no order of the states makes that a band.
@@ -168,7 +173,7 @@ TEST_CASE("a pattern that is not to be looked for is left to GMRES, which says w
   const Leaf leaf = brusselator_leaf(4000, false);
   const std::string choice =
       simulate(leaf, leaf.create_context(), {0.0, 1e-3},
-               {.rtol = 1e-3, .ode_solver_method = "bdf", .find_sparsity = false})
+               {.rtol = 1e-3, .ode_solver_method = Method::bdf, .find_sparsity = false})
           .statistics.linear_solver;
   INFO(choice);
   CHECK(choice.starts_with("gmres: n = 4000"));
@@ -177,7 +182,7 @@ TEST_CASE("a pattern that is not to be looked for is left to GMRES, which says w
 
 TEST_CASE("describe() tells the linear solver once it exists", "[linear]") {
   const Leaf leaf = brusselator_leaf(20, true);
-  Simulator simulator(leaf, {.ode_solver_method = "bdf"});
+  Simulator simulator(leaf, {.ode_solver_method = Method::bdf});
   simulator.initialize(leaf.create_context());
   CHECK(!contains(simulator.describe(), "linear solver"));
   simulator.advance_to(0.1);
@@ -186,7 +191,7 @@ TEST_CASE("describe() tells the linear solver once it exists", "[linear]") {
 }
 
 TEST_CASE("BDF with differences costs as many calls as there are colours", "[linear]") {
-  const Results results = run(brusselator_leaf(400, true), 10.0, "auto");
+  const Results results = run(brusselator_leaf(400, true), 10.0, LinearSolver::automatic);
   const Statistics& s = results.statistics;
   CHECK(s.jacobian_calls > 0);
   // Newton takes at most three evaluations an attempt, and one more begins the run and each retry.
@@ -211,9 +216,11 @@ TEST_CASE("GMRES that does not converge is no solution", "[linear]") {
          }});
   });
   constexpr double rtol = 1e-4, t = 0.01;
-  const Results results = simulate(
-      rod, rod.create_context(), {0.0, t},
-      {.rtol = rtol, .atol = 1e-2 * rtol, .ode_solver_method = "bdf", .find_sparsity = false});
+  const Results results = simulate(rod, rod.create_context(), {0.0, t},
+                                   {.rtol = rtol,
+                                    .atol = 1e-2 * rtol,
+                                    .ode_solver_method = Method::bdf,
+                                    .find_sparsity = false});
   CHECK(results.statistics.linear_solver.starts_with("gmres"));
   // The sine is an eigenvector and decays at -4 c sin^2(pi / (2 (n + 1))), by a tenth in all. Where
   // systems are solved five steps do for that, each with a local error up to rtol; far fewer than

@@ -10,7 +10,7 @@ using Catch::Matchers::WithinAbs;
 
 namespace {
 
-Results run(const System& system, const Context& from, double t_end, const char* method,
+Results run(const System& system, const Context& from, double t_end, Method method,
             SimulatorOptions options = {}) {
   options.ode_solver_method = method;
   return simulate(system, from, {0.0, t_end}, options);
@@ -21,7 +21,7 @@ Results run(const System& system, const Context& from, double t_end, const char*
 TEST_CASE("a guard that stays at zero behind its crossing fires once, and nothing is printed",
           "[locate][cvode]") {
   // Left alone, CVODE ends with CV_CLOSERR (-22), and warns of a guard that seems inactive.
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Leaf leaf("plateau", [](Leaf& l) {
     declare_ramp(l);
@@ -43,7 +43,7 @@ TEST_CASE("a guard that stays at zero behind its crossing fires once, and nothin
 TEST_CASE("a guard at zero when a stretch begins is seen in its first step", "[locate][cvode]") {
   // Left alone, CVODE keeps a guard switched off that was zero at a restart, over the next one too,
   // and its order-1 interpolant of a flight falls from the start: the ball falls through.
-  const auto* method = GENERATE("adams", "bdf");
+  const auto method = GENERATE(Method::adams, Method::bdf);
   const double e = GENERATE(0.1, 0.5, 0.9), rtol = GENERATE(1e-4, 1e-7, 1e-10);
   INFO("method " << method << ", e " << e << ", rtol " << rtol);
   const Scene scene = leaf({.e = e});
@@ -60,7 +60,7 @@ TEST_CASE("a guard at zero when a stretch begins is seen in its first step", "[l
 
 TEST_CASE("guards whose product underflows or overflows are located like any other",
           "[locate][cvode]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const double scale = GENERATE(1e-300, 1e-200, -1e-160, 1e160, 1e300);
   INFO("method " << method << ", scale " << scale);
   const Leaf leaf("scaled", [=](Leaf& l) {
@@ -78,7 +78,7 @@ TEST_CASE("guards whose product underflows or overflows are located like any oth
 
 TEST_CASE("a located state is on the surface but for 100 eps (|t| + |h|), on a curved path too",
           "[locate][cvode]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const double rtol = GENERATE(1e-4, 1e-8, 1e-11);
   INFO("method " << method << ", rtol " << rtol);
   const Leaf leaf("oscillator", [](Leaf& l) {
@@ -103,7 +103,7 @@ TEST_CASE("a located state is on the surface but for 100 eps (|t| + |h|), on a c
 
 TEST_CASE("a guard that never fires costs one look at each end and interior point of a step",
           "[locate][cvode]") {
-  const auto* method = GENERATE("dopri5", "dop853", "adams", "bdf");
+  const auto method = GENERATE(Method::dopri5, Method::dop853, Method::adams, Method::bdf);
   const int points = GENERATE(0, 3);
   INFO("method " << method << ", points " << points);
   const Leaf leaf("oscillator", [](Leaf& l) {
@@ -117,6 +117,6 @@ TEST_CASE("a guard that never fires costs one look at each end and interior poin
       run(leaf, leaf.create_context(), 100.0, method, {.event_scan_points = points});
   const Statistics& s = results.statistics;
   // CVODE looks at the end of a step once more, and where it starts; the engine where a run starts.
-  const bool cvode = std::string(method) == "adams" || std::string(method) == "bdf";
+  const bool cvode = method == Method::adams || method == Method::bdf;
   CHECK(s.guard_calls <= s.steps * (points + (cvode ? 2 : 1)) + 10);
 }

@@ -22,7 +22,7 @@ Leaf ruler(const std::vector<double>& roots, double scale = 1.0) {
   });
 }
 
-Results run(const Leaf& leaf, const char* method, SimulatorOptions options = {}) {
+Results run(const Leaf& leaf, Method method, SimulatorOptions options = {}) {
   options.ode_solver_method = method;
   return simulate(leaf, leaf.create_context(), {0.0, 1.0}, options);
 }
@@ -30,7 +30,7 @@ Results run(const Leaf& leaf, const char* method, SimulatorOptions options = {})
 }  // namespace
 
 TEST_CASE("two guards 0, 1e-13 and 1e-9 apart fire both, the earlier one first", "[locate]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const double gap = GENERATE(0.0, 1e-13, 1e-9, 1e-3);
   INFO("method " << method << ", gap " << gap);
   const auto results = run(ruler({0.5 + gap, 0.5}), method);  // the later one is declared first
@@ -49,7 +49,7 @@ TEST_CASE("two guards 0, 1e-13 and 1e-9 apart fire both, the earlier one first",
 }
 
 TEST_CASE("twenty guards in one step fire in the order of their roots", "[locate]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   std::vector<double> roots;
   for (int i = 0; i < 20; ++i) roots.push_back(0.01 + 0.9 * std::fmod(0.618 * (i + 1), 1.0));
@@ -61,7 +61,7 @@ TEST_CASE("twenty guards in one step fire in the order of their roots", "[locate
 }
 
 TEST_CASE("the state handed on is at the root or beyond it, never before", "[locate]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const double scale = GENERATE(1.0, -1.0, 1e-30, 1e30);
   INFO("method " << method << ", scale " << scale);
   for (const double root : {0.1, 0.3, 1.0 / 3.0, 0.537, 0.7, 0.9}) {
@@ -85,14 +85,14 @@ TEST_CASE("a pair of roots in one step is found at interior points, and missed w
          .guard = [](const At& at) { return (at.x[0] - 0.45) * (at.x[0] - 0.8); },
          .reset_map = count_up});
   });
-  CHECK(run(leaf, "dopri5").events.size() == 2);
-  CHECK(run(leaf, "dopri5", {.event_scan_points = 20}).events.size() == 2);
+  CHECK(run(leaf, Method::dopri5).events.size() == 2);
+  CHECK(run(leaf, Method::dopri5, {.event_scan_points = 20}).events.size() == 2);
   // x' = 1: the first step is 1e-6 or so, each next one tenfold; the last spans the dip.
-  CHECK(run(leaf, "dopri5", {.event_scan_points = 0}).events.empty());
+  CHECK(run(leaf, Method::dopri5, {.event_scan_points = 0}).events.empty());
 }
 
 TEST_CASE("a guard with a steep and one with a flat root are located alike", "[locate]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Leaf leaf("curves", [](Leaf& l) {
     declare_ramp(l);
@@ -115,7 +115,7 @@ TEST_CASE("a guard with a steep and one with a flat root are located alike", "[l
 }
 
 TEST_CASE("late in a long run events are located as exactly as time can say", "[locate]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   const double t0 = 1e6;
   const Leaf leaf = ruler({0.537});

@@ -68,5 +68,16 @@ TEST_CASE("a method has synonyms", "[options]") {
   CHECK(method_from("stiff") == Method::bdf);
   CHECK(method_from("BDF") == Method::bdf);
   CHECK(method_from("auto") == Method::automatic);
-  CHECK(contains(refused({.ode_solver_method = "DOPRI5"}), "unknown ode_solver_method 'DOPRI5'"));
+  CHECK(method_from("DOP853") == Method::dop853);
+  CHECK(method_from("RK45") == Method::dopri5);
+  CHECK(contains(message<ModelError>([] { method_from("DOPRI5"); }),
+                 "unknown ode_solver_method 'DOPRI5'"));
+}
+
+TEST_CASE("methods and linear solvers are written by the name they are read by", "[options]") {
+  for (const Method method : methods) CHECK(method_from(to_string(method)) == method);
+  for (const auto& [name, solver] : linear_solver_names) {
+    CHECK(to_string(solver) == name);
+    CHECK(linear_solver_from(name) == solver);
+  }
 }

@@ -64,8 +64,9 @@ Looked look_at(const System& system) {
 }
 
 Results run(const System& system, double t_end, bool find, double rtol = 1e-6) {
-  return simulate(system, system.create_context(), {0.0, t_end},
-                  {.rtol = rtol, .atol = rtol, .ode_solver_method = "bdf", .find_sparsity = find});
+  return simulate(
+      system, system.create_context(), {0.0, t_end},
+      {.rtol = rtol, .atol = rtol, .ode_solver_method = Method::bdf, .find_sparsity = find});
 }
 
 /// A row of beads, each drawn home and pushed by the one before it once that is nearer than 0.5;
@@ -210,7 +211,7 @@ TEST_CASE("what was found is given up where Newton's iteration fails, and the fa
   const Results results = simulate(relay, relay.create_context(), {0.0, 1.0},
                                    {.rtol = 1e-3,
                                     .atol = 1e-6,
-                                    .ode_solver_method = "bdf",
+                                    .ode_solver_method = Method::bdf,
                                     .min_minor_step_size = 1e-2,
                                     .throw_errors = false});
   CHECK(results.status == Status::failed);

@@ -73,7 +73,7 @@ TEST_CASE("the first firing has no gap; forgetting makes it the first again", "[
 }
 
 TEST_CASE("a steady fast rhythm in a run is no Zeno hold", "[zeno]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   // A sawtooth of 5e-7 s, below the tolerance of 1e-6 s.
   const Leaf saw("saw", [](Leaf& l) {

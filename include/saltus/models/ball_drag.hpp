@@ -115,7 +115,7 @@ inline Scene ball_drag(const BallDragParameters& with = {}) {
           .options = {.rtol = 1e-6, .atol = 1e-5, .recorded_signals = {{"state", ball->output(0)}}},
           .exact = std::move(exact),
           .gap = [](double, const Eigen::VectorXd& row) { return row[0]; },
-          .methods = {"dopri5", "dop853", "auto"},
+          .methods = {Method::dopri5, Method::dop853, Method::automatic},
           .growth = 100.0};
 }
 

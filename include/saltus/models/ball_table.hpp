@@ -107,7 +107,7 @@ inline Scene ball_table(const BallTableParameters& with = {}) {
           .options = {.rtol = 1e-6, .atol = 1e-6, .recorded_signals = {{"state", ball->output(0)}}},
           .exact = table_answer(with),
           .gap = [with](double t, const Eigen::VectorXd& row) { return row[0] - with.height(t); },
-          .methods = {"dopri5", "dop853", "adams", "auto"},
+          .methods = {Method::dopri5, Method::dop853, Method::adams, Method::automatic},
           .growth = 250.0};
 }
 

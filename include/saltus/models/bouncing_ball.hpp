@@ -67,7 +67,7 @@ inline Scene bouncing_ball(const BouncingBallParameters& with = {}) {
       .options = {.recorded_signals = {{"y", ball->output(0)}}},
       .exact = std::move(exact),
       .gap = [](double, const Eigen::VectorXd& row) { return row[0]; },
-      .methods = {"dopri5", "dop853", "adams", "auto"},
+      .methods = {Method::dopri5, Method::dop853, Method::adams, Method::automatic},
       .growth = 2.7e4};
   if (with.e == 1.0)
     scene.invariants = {{"energy per mass", [g = with.g](double, const Eigen::VectorXd& row) {

@@ -81,7 +81,7 @@ inline Scene bouncing_ball_diagram(const BouncingBallDiagramParameters& with = {
               [with](double t, const Eigen::VectorXd& row) {
                 return row[0] - (t <= with.drop_time ? with.floor : with.dropped);
               },
-          .methods = {"dopri5", "dop853", "auto"},
+          .methods = {Method::dopri5, Method::dop853, Method::automatic},
           .growth = 700.0};
 }
 

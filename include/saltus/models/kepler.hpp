@@ -94,7 +94,7 @@ inline Scene kepler(const KeplerParameters& with = {}) {
                       }},
                      {"angular momentum",
                       [](double, const Eigen::VectorXd& s) { return s[0] * s[3] - s[1] * s[2]; }}},
-      .methods = {"dopri5", "dop853", "adams", "auto"},
+      .methods = {Method::dopri5, Method::dop853, Method::adams, Method::automatic},
       .growth = 1.9e4};
 }
 

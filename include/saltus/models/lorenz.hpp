@@ -79,7 +79,7 @@ inline Scene lorenz(const LorenzParameters& with = {}) {
        .span = {0.0, with.t_end},
        .options = {.rtol = 1e-6, .atol = 1e-6, .recorded_signals = {{"x", convection->output(0)}}},
        .exact = detail::until(with.t_end, 10.0, detail::lorenz_reference(with)),
-       .methods = {"dopri5", "dop853", "adams", "auto"},
+       .methods = {Method::dopri5, Method::dop853, Method::adams, Method::automatic},
        .growth = 30.0});
 }
 

@@ -145,7 +145,7 @@ inline Scene newtons_cradle(const NewtonsCradleParameters& with = {}) {
           [n](double, const Eigen::VectorXd& row) {
             return (row.segment(1, n - 1) - row.head(n - 1)).minCoeff();
           },
-      .methods = {"dopri5", "dop853", "adams", "auto"},
+      .methods = {Method::dopri5, Method::dop853, Method::adams, Method::automatic},
       .growth = 90.0};
 }
 

@@ -123,7 +123,7 @@ inline Scene pleiades(const PleiadesParameters& with = {}) {
        .options = {.rtol = 1e-6, .atol = 1e-6, .recorded_signals = {{"r", bodies->output(0)}}},
        .exact = detail::until(with.t_end, with.t_end, detail::pleiades_reference()),
        .invariants = detail::pleiades_invariants(),
-       .methods = {"dopri5", "dop853", "adams", "auto"},
+       .methods = {Method::dopri5, Method::dop853, Method::adams, Method::automatic},
        .growth = 9200.0});
 }
 

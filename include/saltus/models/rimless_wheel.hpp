@@ -95,7 +95,7 @@ inline Scene rimless_wheel(const RimlessWheelParameters& with = {}) {
       .exact = rimless_wheel_answer(with),
       .gap = [with](double,
                     const Eigen::VectorXd& row) { return with.slope + with.alpha - row[0]; },
-      .methods = {"dopri5", "dop853", "adams", "auto"},
+      .methods = {Method::dopri5, Method::dop853, Method::adams, Method::automatic},
       .growth = 270.0};
   for (const Sample& sample : scene.exact.samples) scene.options.save_at.push_back(sample.time);
   return scene;

@@ -104,7 +104,7 @@ inline Scene rocking_block(const RockingBlockParameters& with = {}) {
       .span = {0.0, with.t_end},
       .options = {.rtol = 1e-6, .atol = 1e-7, .recorded_signals = {{"state", block->output(0)}}},
       .exact = pieces_answer("closed form: cosh and sinh, Housner's times", "block.*", rocks(with)),
-      .methods = {"dopri5", "dop853", "auto"},
+      .methods = {Method::dopri5, Method::dop853, Method::automatic},
       .growth = 1500.0};
 }
 

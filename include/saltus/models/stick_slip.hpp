@@ -102,7 +102,7 @@ inline Scene stick_slip(const StickSlipParameters& with = {}) {
           .options = {.rtol = 1e-6, .atol = 1e-7, .recorded_signals = {{"state", mass->output(0)}}},
           .exact = pieces_answer("closed form: lines and circles", "mass.*", rides(with)),
           .gap = [with](double, const Eigen::VectorXd& row) { return with.belt - row[1]; },
-          .methods = {"dopri5", "dop853", "adams", "auto"},
+          .methods = {Method::dopri5, Method::dop853, Method::adams, Method::automatic},
           .growth = 500.0};
 }
 

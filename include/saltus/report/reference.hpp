@@ -106,7 +106,7 @@ inline Exact answer_of(const Scene& scene, const Results& results,
 
 /// A run that reaches its end: two orders tighter than asked, or one order if the method refuses
 /// that.
-inline std::optional<ReferenceRun> reference_run(const Scene& scene, const std::string& method,
+inline std::optional<ReferenceRun> reference_run(const Scene& scene, Method method,
                                                  const ReferenceOptions& with,
                                                  std::string& reasons) {
   for (const double tighter : {1e-2, 1e-1}) {
@@ -119,10 +119,10 @@ inline std::optional<ReferenceRun> reference_run(const Scene& scene, const std::
         simulate(*scene.system, scene.context, scene.span, bounded(options, with.time_limit));
     if (with.between) with.between(&results);
     if (ended_well(results.status)) {
-      return ReferenceRun{method, options.rtol, options.atol,
+      return ReferenceRun{std::string(to_string(method)), options.rtol, options.atol,
                           answer_of(scene, results, guard_names(scene, options))};
     }
-    reasons += text("\n  ", method, ", rtol ", options.rtol, ": ",
+    reasons += text("\n  ", to_string(method), ", rtol ", options.rtol, ": ",
                     results.message.empty()
                         ? text(to_string(results.status), " at t = ", results.context.time(), " s")
                         : results.message);
@@ -133,11 +133,11 @@ inline std::optional<ReferenceRun> reference_run(const Scene& scene, const std::
 
 /// Methods in the order of trial: first those that suit the scene, those that are more accurate at
 /// a given tolerance first; then a method that does not suit the scene but may still reach the end.
-inline std::vector<std::string> reference_methods(const Scene& scene) {
-  std::vector<std::string> suit, others;
-  for (const char* method : {"dop853", "dopri5", "adams", "bdf"}) {
+inline std::vector<Method> reference_methods(const Scene& scene) {
+  std::vector<Method> suit, others;
+  for (const Method method : {Method::dop853, Method::dopri5, Method::adams, Method::bdf}) {
     const bool suits = std::ranges::find(scene.methods, method) != scene.methods.end();
-    (suits ? suit : others).emplace_back(method);
+    (suits ? suit : others).push_back(method);
   }
   if (!others.empty()) suit.push_back(others.front());
   return suit;
@@ -217,7 +217,7 @@ inline Reference reference_for(const Scene& scene, const ReferenceOptions& with)
   const bool events = !exact.events.empty() || detail::guard_names(scene, scene.options).empty();
   if (states && events) return reference;
   std::string reasons;
-  for (const std::string& method : detail::reference_methods(scene)) {
+  for (const Method method : detail::reference_methods(scene)) {
     if (auto run = detail::reference_run(scene, method, with, reasons))
       reference.runs.push_back(*run);
     if (reference.runs.size() == 2) break;

@@ -27,7 +27,7 @@ struct WorkRow {
 };
 
 struct WorkOptions {
-  std::vector<std::string> methods = {};  ///< empty: those that suit the scene
+  std::vector<Method> methods = {};  ///< empty: those that suit the scene
   std::vector<double> rtols = {1e-4, 1e-6, 1e-8, 1e-10, 1e-12};
   double atol_over_rtol = 0.0;  ///< 0: the ratio of the scene's own options
   TimingOptions timing = {};
@@ -105,13 +105,12 @@ inline double rounding_floor(const WorkReport& report, double largest, double st
 /// The visible order of a method with a fixed order; the other methods change theirs with the
 /// tolerance. Runs that restart in more than one step of ten do not count, because events decide
 /// the length of their steps; nor do runs with a wrong number of events.
-inline double visible_order(const WorkReport& report, const std::string& method) {
-  const Method which = method_from(method);
-  if (which != Method::dopri5 && which != Method::dop853) return Achieved::unknown;
+inline double visible_order(const WorkReport& report, Method method) {
+  if (method != Method::dopri5 && method != Method::dop853) return Achieved::unknown;
   std::vector<OrderPoint> runs;
   double most = 1.0, largest = 0.0;
   for (const WorkRow& row : report.rows) {
-    if (row.method != method || !ended_well(row.status)) continue;
+    if (row.method != to_string(method) || !ended_well(row.status)) continue;
     const Statistics& s = row.statistics;
     if (10 * s.restarts > s.steps || row.achieved.event_mismatch != 0) continue;
     const auto steps = static_cast<double>(row.statistics.steps);
@@ -122,13 +121,12 @@ inline double visible_order(const WorkReport& report, const std::string& method)
 }
 
 /// The scene as a report runs it: with output times, if it is compared at these.
-inline Scene prepared(Scene scene, const WorkOptions& work) {
+inline Scene prepared(Scene scene) {
   ReferenceOptions defaults;
   if (!is_known(scene.exact) && scene.options.save_at.empty())
     scene.options.save_at = even_times(scene.span, defaults.points);
   if (scene.gap || !scene.invariants.empty() || scene.options.save_at.empty())
     scene.options.save_steps = true;
-  for (const std::string& method : work.methods) method_from(method);  // before any work
   if (scene.options.recorded_signals.empty() &&
       (scene.exact.state || !scene.exact.samples.empty() || !scene.invariants.empty())) {
     throw ModelError(text("'", scene.name,
@@ -144,7 +142,9 @@ inline Scene prepared(Scene scene, const WorkOptions& work) {
 /// refused, gives a row with its reason.
 inline WorkRow measure(Scene scene, const SimulatorOptions& options, const Reference& reference,
                        const WorkOptions& work = {}) {
-  WorkRow row{.method = options.ode_solver_method, .rtol = options.rtol, .atol = options.atol};
+  WorkRow row{.method = std::string(to_string(options.ode_solver_method)),
+              .rtol = options.rtol,
+              .atol = options.atol};
   row.against = to_string(reference.kind);
   if (!reference.runs.empty()) {
     const auto other = std::ranges::find_if(
@@ -163,7 +163,7 @@ inline WorkRow measure(Scene scene, const SimulatorOptions& options, const Refer
 /// A row for each method at each tolerance; the other options of the scene remain unchanged. Throws
 /// ModelError for a method that does not exist, and if there is nothing to compare with.
 inline WorkReport work_precision(Scene scene, const WorkOptions& work = {}) {
-  scene = detail::prepared(std::move(scene), work);
+  scene = detail::prepared(std::move(scene));
   const double ratio =
       work.atol_over_rtol > 0.0 ? work.atol_over_rtol : scene.options.atol / scene.options.rtol;
   const double tightest = work.rtols.empty() ? 1e-6 : *std::ranges::min_element(work.rtols);
@@ -178,7 +178,7 @@ inline WorkReport work_precision(Scene scene, const WorkOptions& work = {}) {
                                            .time_limit = 4.0 * work.time_limit,
                                            .between = work.between});
   const auto& methods = work.methods.empty() ? scene.methods : work.methods;
-  for (const std::string& method : methods) {
+  for (const Method method : methods) {
     for (const double rtol : work.rtols) {
       SimulatorOptions options = scene.options;
       options.ode_solver_method = method;
@@ -186,7 +186,7 @@ inline WorkReport work_precision(Scene scene, const WorkOptions& work = {}) {
       options.atol = rtol * ratio;
       report.rows.push_back(measure(scene, options, report.reference, work));
     }
-    report.orders[method] = detail::visible_order(report, method);
+    report.orders[std::string(to_string(method))] = detail::visible_order(report, method);
   }
   return report;
 }

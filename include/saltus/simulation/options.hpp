@@ -6,10 +6,11 @@
 #include <limits>
 #include <memory>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "saltus/plan/refinement.hpp"
+#include "saltus/solver/linear_solver.hpp"
+#include "saltus/solver/method.hpp"
 
 namespace saltus {
 
@@ -19,15 +20,14 @@ struct SimulatorOptions {
   double rtol = 1e-6;
   double atol = 1e-8;
 
-  /// "auto" (dopri5 or dop853 by tolerance, BDF while the scene is stiff), "dopri5", "dop853",
-  /// "adams", "bdf". Synonyms: "rk45", "RK45" and "non-stiff" for dopri5, "DOP853" for dop853,
-  /// "stiff" and "BDF" for bdf.
-  std::string ode_solver_method = "auto";
+  /// The method that advances the states: `automatic` takes dopri5 or dop853 by tolerance, and bdf
+  /// while the scene is stiff. A name is converted by method_from("bdf").
+  Method ode_solver_method = Method::automatic;
 
-  /// The solver of a stiff method's linear systems: "auto" (chosen by the number of states and
-  /// entries of the Jacobian), "dense", "band", "sparse" or "gmres". The statistics say which was
-  /// chosen, and why.
-  std::string linear_solver = "auto";
+  /// The solver of a stiff method's linear systems; `automatic` chooses by the number of states and
+  /// entries of the Jacobian. The statistics say which was chosen, and why. A name is converted by
+  /// linear_solver_from("band").
+  LinearSolver linear_solver = LinearSolver::automatic;
   /// If a block of more than 256 states declares neither Jacobian nor sparsity, a stiff method
   /// finds the sparsity by calls of its derivative near the state. The statistics say what was
   /// found. False: such a block counts as full, or its entries as unknown.

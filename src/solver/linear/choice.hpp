@@ -4,8 +4,8 @@
 #include <string>
 
 #include "saltus/solver/detail/jacobian.hpp"
-#include "saltus/solver/detail/linear_solver.hpp"
 #include "saltus/solver/detail/ordering.hpp"
+#include "saltus/solver/linear_solver.hpp"
 
 namespace saltus {
 

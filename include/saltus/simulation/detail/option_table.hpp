@@ -37,8 +37,8 @@ inline const std::tuple option_table{
     Option{"rtol", &SimulatorOptions::rtol, rule_of_rtol},
     Option{"atol", &SimulatorOptions::atol,
            +[](const SimulatorOptions& o) { return positive(o.atol); }},
-    Option<std::string>{"ode_solver_method", &SimulatorOptions::ode_solver_method},
-    Option<std::string>{"linear_solver", &SimulatorOptions::linear_solver},
+    Option<Method>{"ode_solver_method", &SimulatorOptions::ode_solver_method},
+    Option<LinearSolver>{"linear_solver", &SimulatorOptions::linear_solver},
     Option<bool>{"find_sparsity", &SimulatorOptions::find_sparsity},
     Option{"max_major_steps", &SimulatorOptions::max_major_steps,
            +[](const SimulatorOptions& o) {

@@ -67,7 +67,6 @@ class Run {
   Calendar calendar_;
   std::optional<Recorder> recorder_;
   std::unique_ptr<Solver> solver_;
-  Method method_;
   Context begin_;
   double time_ = 0.0, last_instant_ = 0.0;
   bool begun_ = false, solver_started_ = false, over_ = false;

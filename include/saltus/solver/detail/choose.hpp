@@ -2,15 +2,14 @@
 #pragma once
 
 #include <memory>
-#include <string_view>
 
 #include "saltus/solver/detail/solver.hpp"
 #include "saltus/solver/method.hpp"
 
 namespace saltus {
 
-/// Throws ModelError for a linear solver that does not exist, or that the method would not use.
-void require_linear_solver(std::string_view linear_solver, std::string_view method);
+/// Throws ModelError for a linear solver that the method would not use.
+void require_linear_solver(LinearSolver linear_solver, Method method);
 
 /// Makes the solver of a method for one run. CVODE is made only if the user asks for it, or when
 /// "auto" first needs it.

@@ -8,7 +8,7 @@
 
 #include "saltus/plan/detail/machine.hpp"
 #include "saltus/solver/detail/guard_set.hpp"
-#include "saltus/solver/detail/linear_solver.hpp"
+#include "saltus/solver/linear_solver.hpp"
 #include "saltus/solver/statistics.hpp"
 
 namespace saltus {

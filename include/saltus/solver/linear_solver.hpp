@@ -9,8 +9,11 @@
 
 namespace saltus {
 
+/// How the linear systems are solved. `automatic` chooses by the number of states and the entries of
+/// the Jacobian.
 enum class LinearSolver { automatic, dense, band, sparse, gmres };
 
+/// The names, in the order of the enum.
 inline constexpr std::array<std::pair<std::string_view, LinearSolver>, 5> linear_solver_names{{
     {"auto", LinearSolver::automatic},
     {"dense", LinearSolver::dense},
@@ -22,6 +25,10 @@ inline constexpr std::array<std::pair<std::string_view, LinearSolver>, 5> linear
 /// The linear solver of that name. Throws a ModelError with the nearest name if there is none.
 inline LinearSolver linear_solver_from(std::string_view name) {
   return detail::value_of(linear_solver_names, "linear_solver", name);
+}
+
+constexpr std::string_view to_string(LinearSolver solver) {
+  return linear_solver_names[static_cast<std::size_t>(solver)].first;
 }
 
 }  // namespace saltus

@@ -1,0 +1,35 @@
+// Methods and linear solvers are strings in Python: a name that does not exist is a ModelError with
+// the nearest one, as soon as it is given.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include "saltus/solver/linear_solver.hpp"
+#include "saltus/solver/method.hpp"
+
+namespace saltus::python {
+
+/// A caster for an enum with a table of names.
+template <class Choice, Choice (*from)(std::string_view)>
+struct NamedChoice {
+  PYBIND11_TYPE_CASTER(Choice, pybind11::detail::const_name("str"));
+
+  bool load(pybind11::handle name, bool) {
+    if (!pybind11::isinstance<pybind11::str>(name)) return false;
+    value = from(pybind11::cast<std::string>(name));
+    return true;
+  }
+  static pybind11::handle cast(Choice choice, pybind11::return_value_policy, pybind11::handle) {
+    return pybind11::str(std::string(to_string(choice))).release();
+  }
+};
+
+}  // namespace saltus::python
+
+template <>
+struct pybind11::detail::type_caster<saltus::Method>
+    : saltus::python::NamedChoice<saltus::Method, &saltus::method_from> {};
+
+template <>
+struct pybind11::detail::type_caster<saltus::LinearSolver>
+    : saltus::python::NamedChoice<saltus::LinearSolver, &saltus::linear_solver_from> {};
