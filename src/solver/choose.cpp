@@ -5,19 +5,17 @@
 
 #include "saltus/solver/detail/auto_solver.hpp"
 #include "saltus/solver/detail/one_step.hpp"
+#include "saltus/solver/detail/thresholds.hpp"
 
 namespace saltus {
 
 namespace {
 
-/// The rtol below which dop853 takes less time than dopri5 at equal rtol (bench/methods). Ratios of
-/// the times for Kepler, Arenstorf, Van der Pol with mu = 1: 0.8 at 1e-6, 0.5 to 0.9 at 1e-7, 0.3
-/// at 1e-12. Ratios for a ball with drag, whose flights end inside a step and whose steps need
-/// looks inside: 1.6 at 1e-9, 1.0 at 1e-10, 0.8 at 1e-12.
+/// The rtol below which dop853 takes less time than dopri5.
 double order_8_pays(const GuardSet& guards) {
   const bool stops =
       std::ranges::any_of(guards.all(), [](const Guard& each) { return !each.monitor; });
-  return stops ? 1e-10 : 1e-7;
+  return stops ? thresholds::order_8_pays_with_guards : thresholds::order_8_pays;
 }
 
 }  // namespace

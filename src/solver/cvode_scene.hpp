@@ -10,6 +10,7 @@
 
 #include "linear/linear_system.hpp"
 #include "saltus/solver/detail/guard_set.hpp"
+#include "saltus/solver/detail/thresholds.hpp"
 #include "sundials_compat.hpp"
 
 namespace saltus {
@@ -130,8 +131,7 @@ class CvodeScene {
 
   double shown(std::size_t k, double t, double value) const {
     const Guard& guard = (*guards_)[k];
-    constexpr double tiny =
-        1e-100;  // CVODE multiplies values to compare signs: nothing it sees may underflow then
+    const double tiny = thresholds::least_shown;
     if (!guard.active || guard.monitor) return 1.0;
     if (guard.phase == Phase::resting) return std::abs(value) > guard.error ? -tiny : tiny;
     if (guard.watched_direction() == Direction::edge_detection)

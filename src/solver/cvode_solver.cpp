@@ -11,6 +11,7 @@
 #include "saltus/solver/detail/runge_kutta.hpp"
 #include "saltus/solver/detail/step_size.hpp"
 #include "saltus/solver/detail/step_solver.hpp"
+#include "saltus/solver/detail/thresholds.hpp"
 #include "small_vector.hpp"
 #include "sundials_compat.hpp"
 
@@ -71,7 +72,7 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
     // the start, and the ball would fall through the floor. So a one-step method starts if an event
     // may follow so soon (C. W. Gear, "Runge-Kutta starters for multistep methods", ACM TOMS 6
     // (1980) 263), and CVODE continues if the flight is longer.
-    starting_ = how.horizon < 2e4 * first_step_;
+    starting_ = how.horizon < thresholds::one_step_flight * first_step_;
     if (starting_)
       start_with_one_step(t1_, x1_, how.horizon);
     else
@@ -87,7 +88,7 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
 
   void start_with_one_step(double t, const Eigen::VectorXd& x, double horizon) {
     starting_ = true;
-    starter_until_ = t + 4.0 * horizon;
+    starter_until_ = t + thresholds::start_horizons * horizon;
     starter_.begin_at(t, x, {.horizon = horizon, .first = true});
   }
 
@@ -110,7 +111,7 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
     CVodeSetUserData(cvode, &scene_);
     CVodeSStolerances(cvode, options_.rtol, options_.atol);
     CVodeSetMaxHnilWarns(cvode, -1);
-    CVodeSetMaxConvFails(cvode, 20);
+    CVodeSetMaxConvFails(cvode, thresholds::convergence_failures);
     if (options_.min_step > 0.0) CVodeSetMinStep(cvode, options_.min_step);
     if (std::isfinite(options_.max_step)) CVodeSetMaxStep(cvode, options_.max_step);
     if (method_ == CvodeMethod::adams) {
@@ -131,10 +132,9 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
 
   void step(double t_stop) {
     if (starting_ && t1_ >= starter_until_) start_cvode();
-    // CVODE takes no step within a few roundings of the time.
     const double shortest = std::max(
-        64.0 * std::numeric_limits<double>::epsilon() * std::max(std::abs(t_stop), std::abs(t1_)),
-        1e-290);
+        thresholds::cvode_roundings * thresholds::eps * std::max(std::abs(t_stop), std::abs(t1_)),
+        thresholds::cvode_shortest);
     if (!starting_ && t_stop - t1_ < shortest) {
       start_with_one_step(t1_, x1_, t_stop - t1_);
       starter_until_ = t_stop;
@@ -166,10 +166,10 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
     ++steps_;
     t1_ = flag == CV_TSTOP_RETURN ? t_stop : t;
     length_ = t1_ - t0_;
-    tiny_steps_ = length_ > 16.0 * std::numeric_limits<double>::epsilon() * std::abs(t0_)
+    tiny_steps_ = length_ > thresholds::least_step_roundings * thresholds::eps * std::abs(t0_)
                       ? 0
                       : tiny_steps_ + 1;
-    if (tiny_steps_ > 100)
+    if (tiny_steps_ > thresholds::tiny_steps)
       throw_step_too_small(*machine_, t0_, length_, x1_.data(),
                            options_);  // CVODE would continue
     std::copy_n(N_VGetArrayPointer(y_.get()), n_, x1_.data());
@@ -178,7 +178,8 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
   /// Whether a guard that was at zero when this stretch began may have a false root, because it was
   /// found within the two steps of order 1.
   bool too_coarse() const {
-    return steps_ < 2 && std::ranges::any_of(guards_->all(), [](const Guard& guard) {
+    return steps_ < thresholds::coarse_steps &&
+           std::ranges::any_of(guards_->all(), [](const Guard& guard) {
              return guard.active && guard.at_zero() && !guard.monitor;
            });
   }

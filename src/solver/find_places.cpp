@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "saltus/solver/detail/colouring.hpp"
+#include "saltus/solver/detail/thresholds.hpp"
 
 namespace saltus {
 
@@ -38,7 +39,7 @@ class Groups {
 
   bool looks_full() const {
     const Index groups = read_by_.columns();
-    return groups >= 64 && 2 * read_by_.size() > groups * n_;
+    return groups >= thresholds::judged_groups && 2 * read_by_.size() > groups * n_;
   }
 
   /// Colours the groups: no value reads two groups of one colour.
@@ -98,14 +99,13 @@ class Groups {
 }  // namespace
 
 Places find_places(Index n, const Response& response) {
-  constexpr Index most_colours = 1000;
   Places result;
   Groups groups(n);
   while (groups.size() > 1) {
     const Colouring together = groups.apart();
     if (groups.looks_full())
       result.search = Search::full;
-    else if (together.colours() > most_colours)
+    else if (together.colours() > thresholds::most_colours)
       result.search = Search::dear;
     if (result.search != Search::found) return result;
     groups = groups.halved(together, response, result.calls);

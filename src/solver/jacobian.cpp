@@ -1,5 +1,6 @@
 // Jacobian: compressed differences, and the leaves' own Jacobians.
 #include "saltus/solver/detail/jacobian.hpp"
+#include "saltus/solver/detail/thresholds.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +11,7 @@ namespace saltus {
 
 namespace {
 
-constexpr double eps = std::numeric_limits<double>::epsilon();
+using thresholds::eps;
 
 /// Index of entry (row, column) in the pattern.
 Index entry_of(const Sparsity& places, Index row, Index column) {
@@ -99,7 +100,8 @@ double Jacobian::least_increment(const double* x, const double* xdot, const Incr
     sum += scaled * scaled;
   }
   const double norm = std::sqrt(sum / static_cast<double>(n));
-  const double least = 1000.0 * std::abs(by.h) * eps * static_cast<double>(n) * norm;
+  const double least =
+      thresholds::difference_roundings * std::abs(by.h) * eps * static_cast<double>(n) * norm;
   return least > 0.0 && std::isfinite(least) ? least : 1.0;
 }
 
@@ -150,8 +152,8 @@ bool Jacobian::explains(double t, const double* x, const double* xdot, const Inc
   move_by_values(values);
   for (Index i = 0; i < x_.size(); ++i) {
     const double rest = std::abs(f_[i] - xdot[i] - sum_[i]);
-    if (rest > least_[i] + 100.0 * eps * std::abs(xdot[i]) &&
-        std::abs(by.h) * rest > 0.01 * size * tolerance(i))
+    if (rest > least_[i] + thresholds::unexplained_roundings * eps * std::abs(xdot[i]) &&
+        std::abs(by.h) * rest > thresholds::unexplained * size * tolerance(i))
       return false;
   }
   return true;
@@ -165,7 +167,8 @@ void Jacobian::move_by_values(const double* values) {
   Index k = 0;
   for (Index j = 0; j < x_.size(); ++j) {
     const double v = x_[j] - moved_[j];
-    const double share = 0.01 * std::abs(v) + 100.0 * eps * std::abs(moved_[j]);
+    const double share = thresholds::unexplained * std::abs(v) +
+                         thresholds::unexplained_roundings * eps * std::abs(moved_[j]);
     for (const int i : places.column(j)) {
       const double value = values[place(k++)];
       sum_[i] += value * v, least_[i] += std::abs(value) * share;

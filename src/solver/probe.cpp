@@ -6,18 +6,17 @@
 #include <random>
 
 #include "saltus/solver/detail/find_places.hpp"
+#include "saltus/solver/detail/thresholds.hpp"
 
 namespace saltus {
 
 namespace {
 
-/// A smaller block counts as full: its Jacobian by differences costs no more calls than the search.
-constexpr Index small_block = 256;
-
 bool says_nothing(const PlanLeaf& leaf) {
   const ContinuousState& state = leaf.declared().continuous;
-  return leaf.nx > small_block && state.ode && has(state.reads, Reads::continuous_state) &&
-         !state.sparsity && !state.jacobian && !state.sparse_jacobian;
+  return leaf.nx > thresholds::small_block && state.ode &&
+         has(state.reads, Reads::continuous_state) && !state.sparsity && !state.jacobian &&
+         !state.sparse_jacobian;
 }
 
 /// Runs a call. If it throws, returns false and copies the first line of the error to `message`.
@@ -106,9 +105,10 @@ class Neighbourhood {
 /// Finds the places from two points. The farther point is dropped if the block throws there or is
 /// not finite.
 Places look_around(Neighbourhood& around, Index n, std::string& message) {
-  const Neighbourhood::Point near = around.point(1e-4);
+  const Neighbourhood::Point near = around.point(thresholds::near_point);
   std::optional<Neighbourhood::Point> far;
-  if (std::string left; !tried([&] { far = around.point(1e-2); }, left)) message = left;
+  if (std::string left; !tried([&] { far = around.point(thresholds::far_point); }, left))
+    message = left;
   return find_places(n, [&](std::span<const int> moved, std::vector<char>& changed) {
     std::ranges::fill(changed, char{0});
     if (far && !tried([&] { around.compare(*far, moved, changed); }, message)) far.reset();

@@ -8,6 +8,8 @@
 
 #include "sundials_compat.hpp"
 
+#include "saltus/solver/detail/thresholds.hpp"
+
 namespace saltus::sun {
 
 inline double* data(N_Vector v) { return static_cast<N_VectorContent_Serial>(v->content)->data; }
@@ -80,15 +82,12 @@ struct Small {
   }
 };
 
-/// The general operations are as fast from sixteen states on.
-constexpr int small_size = 16;
-
 /// Gives a vector these operations; its clones inherit them.
 inline void use_small_operations(N_Vector v) {
   const auto n = N_VGetLength(v);
   [n, v]<int... i>(std::integer_sequence<int, i...>) {
     (void)((n == i + 1 && (Small<i + 1>::put_into(v), true)) || ...);
-  }(std::make_integer_sequence<int, small_size>());
+  }(std::make_integer_sequence<int, thresholds::small_vector>());
 }
 
 }  // namespace saltus::sun

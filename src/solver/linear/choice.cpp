@@ -5,26 +5,25 @@
 
 #include "fill.hpp"
 
+#include "saltus/solver/detail/thresholds.hpp"
+
 namespace saltus {
 
 namespace {
 
-// Times of one factorisation and its solves in nanoseconds, fitted to bench/linear_solvers. Only
-// the sizes at which they cross matter.
-double dense_time(double n) { return 0.06 * n * n * n + 3.0 * n * n; }
+using namespace thresholds;
+
+// Times of one factorisation and its solves in nanoseconds.
+double dense_time(double n) { return dense_cube * n * n * n + dense_square * n * n; }
 double band_time(double n, const Bandwidth& band) {
   const auto lower = static_cast<double>(band.lower), upper = static_cast<double>(band.upper);
-  return n * (20.0 + 2.0 * (lower + upper) + 0.15 * (lower + 1.0) * (lower + upper + 1.0));
+  return n * (band_row + band_diagonal * (lower + upper) +
+              band_product * (lower + 1.0) * (lower + upper + 1.0));
 }
 double sparse_time(double n, const Fill& fill) {
-  return 300.0 * n + 15.0 * fill.entries + 1.0 * fill.operations;
+  return sparse_row * n + sparse_entry * fill.entries + sparse_operation * fill.operations;
 }
-/// The estimate is three times the measured time, because the number of GMRES iterations is not
-/// known beforehand.
-double gmres_time(Index places) { return 3.0 * 150.0 * static_cast<double>(places); }
-
-/// The count of the entries of a factor stops here.
-constexpr double most_entries = 2e7;
+double gmres_time(Index places) { return gmres_place * static_cast<double>(places); }
 
 std::string facts(const Jacobian& jacobian, Index n, const LinearChoice& choice) {
   const JacobianPattern& pattern = jacobian.pattern();
@@ -42,17 +41,18 @@ std::string facts(const Jacobian& jacobian, Index n, const LinearChoice& choice)
 /// Keeps the natural order unless another order makes the band much narrower.
 void find_band(const Sparsity& places, LinearChoice& choice) {
   choice.band = bandwidth(places), choice.position.clear();
-  if (choice.band.total() <= 8) return;
+  if (choice.band.total() <= narrow_band) return;
   std::vector<int> position = reverse_cuthill_mckee(places);
   const Bandwidth other = bandwidth(places, position);
-  if (5 * other.total() > 4 * choice.band.total()) return;
+  if (static_cast<double>(other.total()) > band_pays * static_cast<double>(choice.band.total()))
+    return;
   choice.band = other, choice.position = std::move(position);
 }
 
 std::string automatic(const Jacobian& jacobian, Index n, LinearChoice& choice) {
   const Sparsity& places = jacobian.pattern().places;
   choice.solver = LinearSolver::dense;
-  if (n <= 8) return "few states";
+  if (n <= few_states) return "few states";
   if (jacobian.pattern().overflow) {
     choice.solver = LinearSolver::gmres;
     return "without a preconditioner: declare the sparsity of the largest blocks for a better one";
@@ -60,11 +60,11 @@ std::string automatic(const Jacobian& jacobian, Index n, LinearChoice& choice) {
   find_band(places, choice);
   const auto size = static_cast<double>(n);
   const double dense = dense_time(size), band = band_time(size, choice.band);
-  if (band <= dense && choice.band.total() <= 8) {
+  if (band <= dense && choice.band.total() <= narrow_band) {
     choice.solver = LinearSolver::band;
     return "the band is narrow";
   }
-  const Fill fill = predicted_fill(places, most_entries);
+  const Fill fill = predicted_fill(places, most_factor_entries);
   const double sparse = sparse_time(size, fill), direct = std::min({dense, band, sparse});
   if (direct > gmres_time(places.size())) {
     choice.solver = LinearSolver::gmres;

@@ -7,6 +7,8 @@
 
 #include "factorisation.hpp"
 
+#include "saltus/solver/detail/thresholds.hpp"
+
 namespace saltus {
 
 namespace {
@@ -81,9 +83,6 @@ class LargeDense final : public Factorisation {
   Eigen::PartialPivLU<Eigen::MatrixXd> lu_;
 };
 
-/// Eigen's blocks are faster from this size on (bench/linear_solvers).
-constexpr Index large = 48;
-
 }  // namespace
 
 MatrixLayout dense_layout(const Sparsity& places) {
@@ -110,7 +109,7 @@ std::unique_ptr<Factorisation> make_dense(Index n) {
     default:
       break;
   }
-  if (n < large) return std::make_unique<SmallDense<0>>(small);
+  if (n < thresholds::large_dense) return std::make_unique<SmallDense<0>>(small);
   return std::make_unique<LargeDense>(n);
 }
 

@@ -3,6 +3,8 @@
 
 #include "factorisation.hpp"
 
+#include "saltus/solver/detail/thresholds.hpp"
+
 namespace saltus {
 
 Preconditioner::Preconditioner(const Sparsity& places)
@@ -11,7 +13,7 @@ Preconditioner::Preconditioner(const Sparsity& places)
       diagonal_(sparse_layout(places).diagonal),
       matrix_(sparse_matrix(places)),
       lu_() {
-  lu_.setDroptol(1e-3), lu_.setFillfactor(10);
+  lu_.setDroptol(thresholds::dropped), lu_.setFillfactor(thresholds::kept_fill);
   lu_.analyzePattern(matrix_);
 }
 

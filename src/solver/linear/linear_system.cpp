@@ -5,6 +5,8 @@
 
 #include <sunlinsol/sunlinsol_spgmr.h>
 
+#include "saltus/solver/detail/thresholds.hpp"
+
 namespace saltus {
 
 namespace {
@@ -39,13 +41,12 @@ void LinearSystem::build() {
 }
 
 bool LinearSystem::renew(int flag) {
-  constexpr int most_renewals = 20;
   const bool failed = flag == CV_CONV_FAILURE && !probe_.found().empty();
   if (!std::exchange(news_, false) && !failed) return false;
   if (failed)
     probe_.give_up("Newton's iteration did not converge with what was found");
-  else if (++renewals_ > most_renewals)
-    probe_.give_up(text("others were missing ", most_renewals, " times"));
+  else if (++renewals_ > thresholds::most_renewals)
+    probe_.give_up(text("others were missing ", thresholds::most_renewals, " times"));
   build();
   return true;
 }
@@ -85,14 +86,13 @@ void LinearSystem::attach(void* cvode, N_Vector y, SUNContext context, const Cal
     linear_ = sun::make_direct(*factorisation_, *error_, context);
     CVodeSetLinearSolver(cvode, linear_.get(), matrix_.get());
     CVodeSetJacFn(cvode, callbacks.jacobian);
-    if (machine_->plan().nx <= small) refresh_often();
+    if (machine_->plan().nx <= thresholds::fresh_jacobian) refresh_often();
     return;
   }
   // The preconditioner is on the right, so that GMRES tests the residual itself. With an inaccurate
   // preconditioner on the left, a step without any correction looks converged.
-  constexpr int directions = 20;  // of the Krylov space, at most
-  linear_.reset(
-      SUNLinSol_SPGMR(y, preconditioner_ ? SUN_PREC_RIGHT : SUN_PREC_NONE, directions, context));
+  linear_.reset(SUNLinSol_SPGMR(y, preconditioner_ ? SUN_PREC_RIGHT : SUN_PREC_NONE,
+                                thresholds::krylov_vectors, context));
   if (!linear_) throw Error("SUNDIALS: out of memory");
   linear_->ops->solve = solve_or_fail;
   CVodeSetLinearSolver(cvode, linear_.get(), nullptr);
@@ -106,7 +106,7 @@ void LinearSystem::attach(void* cvode, N_Vector y, SUNContext context, const Cal
 /// of the right-hand side.
 void LinearSystem::refresh_often() {
   CVodeSetJacEvalFrequency(cvode_, 1);
-  CVodeSetLSetupFrequency(cvode_, 5);
+  CVodeSetLSetupFrequency(cvode_, thresholds::setup_steps);
 }
 
 Increments LinearSystem::increments() const {

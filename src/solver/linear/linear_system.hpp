@@ -41,7 +41,6 @@ class LinearSystem {
   const std::string& describe() const;
 
  private:
-  static constexpr Index small = 16;  // states: see refresh_often
   void build();
   void make_factorisation();
   void refresh_often();

@@ -3,11 +3,9 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
+#include "saltus/solver/detail/thresholds.hpp"
 
 namespace saltus::thresholds {
-
-inline constexpr double eps = std::numeric_limits<double>::epsilon();
 
 // --- when a guard is at zero: departure.hpp, present.hpp, crossing_arming.cpp
 

@@ -10,6 +10,7 @@
 #include "saltus/solver/detail/cvode.hpp"
 #include "saltus/solver/detail/one_step.hpp"
 #include "saltus/solver/detail/spectral_radius.hpp"
+#include "saltus/solver/detail/thresholds.hpp"
 
 namespace saltus {
 
@@ -34,7 +35,7 @@ class AutoSolver final : public Solver {
 
   void restart(double t, const Eigen::VectorXd& x, const Start& start) override {
     if (start.first) begin_run(t);
-    if (stiff_ && radius_(t, x) * longest() < 1.0) change(t, false);
+    if (stiff_ && radius_(t, x) * longest() < thresholds::stable_reach) change(t, false);
     before_ = start.first ? 0.0 : longest();
     forget_steps();
     now().restart(t, x, start);
@@ -91,7 +92,7 @@ class AutoSolver final : public Solver {
   void begin_run(double t) {
     stiff_ = false, bdf_.reset(), radius_.forget();
     past_.clear(), begun_ = t, steps_before_ = 0;
-    longest_ = window_ = 0.0, patience_ = 2;
+    longest_ = window_ = 0.0, patience_ = thresholds::first_checks;
   }
   void forget_steps() { longest_ = window_ = 0.0, steps_ = not_stiff_ = 0, unchecked_ = true; }
   double longest() const { return std::max(longest_, window_); }
@@ -102,7 +103,8 @@ class AutoSolver final : public Solver {
     if (stiff == stiff_) return;
     const double t = now().time();
     handed_over_ = now().state();
-    if (stiff && steps_ < 100 && !past_.empty()) patience_ = std::min(2 * patience_, 64);
+    if (stiff && steps_ < thresholds::short_stretch && !past_.empty())
+      patience_ = std::min(2 * patience_, thresholds::most_checks);
     change(t, stiff);
     forget_steps(), before_ = 0.0;
     now().restart(t, handed_over_, {.handover = true});
@@ -114,18 +116,21 @@ class AutoSolver final : public Solver {
   bool collapsed() {
     if (!unchecked_ || steps_ == 0) return false;
     unchecked_ = false;
-    if (!(longest_ < 0.01 * before_)) return false;
+    if (!(longest_ < thresholds::collapse * before_)) return false;
     const double radius = radius_(explicit_->time(), explicit_->state());
-    return radius * before_ > 10.0 * explicit_->stability() && radius * longest_ > 0.25;
+    return radius * before_ > thresholds::far_beyond_stability * explicit_->stability() &&
+           radius * longest_ > thresholds::least_reach;
   }
 
   /// Whether the scene is not stiff any more. It is checked every fifty steps of BDF, except after
   /// the first fifty, in which the order and the steps still rise.
   bool not_stiff_again() {
-    if (steps_ == 0 || steps_ % 50 != 0) return false;
+    if (steps_ == 0 || steps_ % thresholds::check_every != 0) return false;
     window_ = std::exchange(longest_, 0.0);
-    if (steps_ < 100) return false;
-    not_stiff_ = radius_(bdf_->time(), bdf_->state()) * window_ < 1.0 ? not_stiff_ + 1 : 0;
+    if (steps_ < thresholds::short_stretch) return false;
+    not_stiff_ = radius_(bdf_->time(), bdf_->state()) * window_ < thresholds::stable_reach
+                     ? not_stiff_ + 1
+                     : 0;
     return not_stiff_ >= patience_;
   }
 
@@ -154,7 +159,7 @@ class AutoSolver final : public Solver {
   double before_ = 0.0;    // [s] longest step before the last restart
   bool unchecked_ = true;  // no step was checked since the last restart or change
   int steps_ = 0;          // since the last restart or change
-  int not_stiff_ = 0, patience_ = 2;
+  int not_stiff_ = 0, patience_ = thresholds::first_checks;
   Eigen::VectorXd handed_over_;  // the state at a change
   std::vector<Stretch> past_;
   double begun_ = 0.0;  // [s] begin of the present stretch

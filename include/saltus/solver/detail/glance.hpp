@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "saltus/solver/detail/narrow.hpp"
+#include "saltus/solver/detail/thresholds.hpp"
 
 namespace saltus {
 
@@ -50,7 +51,7 @@ class Glance : protected Narrower {
       const std::size_t k = guards_->active()[i];
       const double now = plain_[i] * high_[k], before = plain_[i] * guards_->g[k];
       const double moves = std::max(std::abs(now - before), speed_[k] * (to - from));
-      if (!(now > 0.0 && now + before > 8.0 * moves)) return false;
+      if (!(now > 0.0 && now + before > thresholds::speed_margin * moves)) return false;
     }
     return true;
   }
@@ -76,7 +77,8 @@ class Glance : protected Narrower {
   }
   void shift_all(double from, double to) {
     for (const std::size_t k : guards_->active()) {
-      speed_[k] = std::max(0.5 * speed_[k], std::abs(high_[k] - guards_->g[k]) / (to - from));
+      speed_[k] = std::max(thresholds::speed_memory * speed_[k],
+                           std::abs(high_[k] - guards_->g[k]) / (to - from));
       earlier_[k] = guards_->g[k], guards_->g[k] = high_[k];
     }
     earlier_at_ = from;

@@ -9,6 +9,7 @@
 
 #include "saltus/solver/detail/dip.hpp"
 #include "saltus/solver/detail/glance.hpp"
+#include "saltus/solver/detail/thresholds.hpp"
 
 namespace saltus {
 
@@ -45,7 +46,7 @@ class Locator : private Glance {
   /// Forgets the looks before a restart, which have no meaning after it.
   void forget() {
     Glance::forget();
-    skipped_ = patience_ = least_patience;
+    skipped_ = patience_ = thresholds::least_patience;
   }
 
   double offset() const noexcept { return root_; }
@@ -57,7 +58,8 @@ class Locator : private Glance {
   [[gnu::noinline]] bool find_inside(double from, double to, const double* end, bool needless,
                                      const Interpolate& interpolate) {
     // If the look was not needed, the next one comes later: after 7 steps, 15, 31, then 63.
-    patience_ = needless && skipped_ > 0 ? std::min(2 * patience_ + 1, 63) : least_patience;
+    patience_ = needless && skipped_ > 0 ? std::min(2 * patience_ + 1, thresholds::most_patience)
+                                         : thresholds::least_patience;
     skipped_ = 0;
     end_.swap(high_);
     end_at_ = to;
@@ -98,7 +100,7 @@ class Locator : private Glance {
       from = narrow(from, high, interpolate);
       if (between && guards_->active().size() > 1 && guards_->scan_points > 0) {
         if (find_before(before, from, interpolate)) return true;
-      } else if (from - before > 1e-3 * (to - before)) {
+      } else if (from - before > thresholds::short_share * (to - before)) {
         earlier_.swap(before_);
         earlier_at_ = before;
       }
@@ -145,9 +147,10 @@ class Locator : private Glance {
   void leave_zero_of_monitors(double from, double to, const Interpolate& interpolate) {
     const auto unsure = [&](std::size_t k) { return (*guards_)[k].side == 0; };
     if (std::ranges::none_of(crossed_, unsure)) return;
-    const double resolution = std::numeric_limits<double>::epsilon() * (std::abs(t0_) + from);
-    look(std::min(to, from + std::max(64.0 * resolution, 1e-9 * (to - from))), nullptr, interpolate,
-         middle_);
+    const double resolution = thresholds::eps * (std::abs(t0_) + from);
+    look(std::min(to, from + std::max(thresholds::leave_roundings * resolution,
+                                      thresholds::leave_share * (to - from))),
+         nullptr, interpolate, middle_);
     for (const std::size_t k : crossed_) {
       if (unsure(k)) guards_->leave_to(k, sign_of(middle_[k]));
     }
@@ -169,13 +172,13 @@ class Locator : private Glance {
               {guard.side * earlier_[k], guard.side * guards_->g[k], guard.side * high_[k]}};
       // A touch within rounding is no dip; nor is a vertex far above zero.
       const double size = std::max({dip.g[0], dip.g[1], dip.g[2]});
-      double u = dip.vertex(0.25 * size);
-      for (int round = 0; round < 6 && u > from && u < to; ++round) {
+      double u = dip.vertex(thresholds::shallow_dip * size);
+      for (int round = 0; round < thresholds::dip_looks && u > from && u < to; ++round) {
         look(u, nullptr, interpolate, middle_);
         const double g = guard.side * middle_[k];
-        if (g < -1e-12 * size) return u;
+        if (g < -thresholds::dip_rounding * size) return u;
         dip.replace(u, g);
-        u = dip.vertex(0.5 * dip.g[1]);
+        u = dip.vertex(thresholds::slow_dip * dip.g[1]);
       }
     }
     return never;
@@ -222,14 +225,12 @@ class Locator : private Glance {
     return stops;
   }
 
-  static constexpr int least_patience = 7;
-
   std::vector<double> at_root_, before_;
   double root_ = 0.0;
   std::vector<double> end_;  // guards at the end of the step, until the look at its last piece
   double end_at_ = 0.0;
-  int patience_ = least_patience;  // allowed steps in a row without a look inside
-  int skipped_ = least_patience;   // steps in a row without a look inside
+  int patience_ = thresholds::least_patience;  // allowed steps in a row without a look inside
+  int skipped_ = thresholds::least_patience;   // steps in a row without a look inside
 };
 
 }  // namespace saltus

@@ -8,6 +8,7 @@
 
 #include "saltus/plan/detail/machine.hpp"
 #include "saltus/solver/detail/guard_set.hpp"
+#include "saltus/solver/detail/thresholds.hpp"
 
 namespace saltus {
 
@@ -70,11 +71,11 @@ class Narrower {
     int kept = 0;   // looks in a row that kept the low (> 0) or the high (< 0) end
     int zeros = 0;  // looks in a row with exact zeros only: a plateau is halved to its beginning
     double weight = 1.0;
-    for (int count = 0; count < 200; ++count) {
-      const double resolution = 2.0 * std::numeric_limits<double>::epsilon() * high;
+    for (int count = 0; count < thresholds::most_looks; ++count) {
+      const double resolution = thresholds::bracket_roundings * thresholds::eps * high;
       if (high - low <= resolution) break;
       zeros = only_exact_zeros() ? zeros + 1 : 0;
-      const bool halves = zeros > 1 || (zeros == 0 && count > 60);
+      const bool halves = zeros > 1 || (zeros == 0 && count > thresholds::bisects_after);
       const double u = zeros == 1 ? high - resolution  // an exact root: look just before it
                        : halves   ? low + 0.5 * (high - low)
                                   : next_point(low, high, weight, resolution);
@@ -111,7 +112,7 @@ class Narrower {
   }
   void note_noise() {
     for (const std::size_t k : crossed_)
-      noise_[k] = 4.0 * std::max(std::abs(low_[k]), std::abs(high_[k]));
+      noise_[k] = thresholds::root_noise * std::max(std::abs(low_[k]), std::abs(high_[k]));
   }
 
   /// A guard that waits and is on its armed side at low becomes armed.
@@ -133,7 +134,7 @@ class Narrower {
   /// from the ends. It is the middle if there is no estimate: for guards that jump, or that are at
   /// zero at the low end.
   double next_point(double low, double high, double weight, double resolution) const {
-    if (high - low <= 3.0 * resolution) return low + 0.5 * (high - low);
+    if (high - low <= thresholds::last_look * resolution) return low + 0.5 * (high - low);
     double fraction = 2.0;  // part of the interval, from low
     for (std::size_t k : crossed_) {
       const Guard& guard = (*guards_)[k];

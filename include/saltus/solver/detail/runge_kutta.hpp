@@ -14,6 +14,7 @@
 #include "saltus/solver/detail/step_size.hpp"
 #include "saltus/solver/detail/step_solver.hpp"
 #include "saltus/solver/detail/stiffness.hpp"
+#include "saltus/solver/detail/thresholds.hpp"
 
 namespace saltus {
 
@@ -183,22 +184,21 @@ class RungeKutta final : public StepSolver<RungeKutta<Method, N>, OneStepSolver>
     return std::sqrt(sum / static_cast<double>(size()));
   }
 
-  /// Whether the error of the dense output is above `room` tolerances. It is not if its last term
+  /// Whether the error of the dense output is above what is allowed. It is not if its last term
   /// is small, which costs no call. Otherwise the largest defect decides.
   [[gnu::noinline]] bool dense_is_off()
     requires checks_dense
   {
-    constexpr double room = 4.0;  // of the ten tolerances allowed for an event
     constexpr double at = Method::defect_at;
     const auto term = [&](Index i) { return dense_.last_term(i); };
-    if (Method::last_term_share * in_tolerances(term) <= room) return false;
+    if (Method::last_term_share * in_tolerances(term) <= thresholds::dense_room) return false;
     dense_.read(x0_.data(), at, scratch_.data());
     double* f = halves_.slope.data();
     machine_->derivative(t0_ + at * length_, scratch_.data(), f);
     const auto defect = [&](Index i) -> Lane {
       return dense_.template slope<at>(i) - length_ * detail::load<W>(f + i);
     };
-    return !(Method::defect_share * in_tolerances(defect) <= room);
+    return !(Method::defect_share * in_tolerances(defect) <= thresholds::dense_room);
   }
 
   /// Takes the step again in two halves, for looks inside it. The step itself does not change.
@@ -233,7 +233,7 @@ class RungeKutta final : public StepSolver<RungeKutta<Method, N>, OneStepSolver>
       throw_not_finite(*machine_, t0_, x0_.data());
   }
   void require_room(double h) {
-    const double smallest = 16.0 * std::numeric_limits<double>::epsilon() * std::abs(t0_);
+    const double smallest = thresholds::least_step_roundings * thresholds::eps * std::abs(t0_);
     if (!(h > smallest && h >= options_.min_step))
       throw_step_too_small(*machine_, t0_, h, x0_.data(), options_);
   }

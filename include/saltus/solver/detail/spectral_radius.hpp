@@ -6,6 +6,7 @@
 
 #include "saltus/plan/detail/machine.hpp"
 #include "saltus/solver/detail/solver.hpp"
+#include "saltus/solver/detail/thresholds.hpp"
 
 namespace saltus {
 
@@ -29,14 +30,14 @@ class SpectralRadius {
   /// |lambda| [1/s] at (t, x); infinite where f is not finite nearby.
   double operator()(double t, const Eigen::VectorXd& x) {
     if (x.size() == 0) return 0.0;
-    const double small = std::sqrt(std::numeric_limits<double>::epsilon());
+    const double small = std::sqrt(thresholds::eps);
     scale_ = x.cwiseAbs().array() + floor_;
     for (Index i = 0; i < x.size(); ++i)
-      direction_[i] += 0.1 * std::cos(static_cast<double>(i + 1));
+      direction_[i] += thresholds::other_directions * std::cos(static_cast<double>(i + 1));
     direction_.normalize();
     machine_->derivative(t, x.data(), f_.data());
     double growth = 0.0;
-    for (int k = 0; k < 3; ++k) {
+    for (int k = 0; k < thresholds::power_iterations; ++k) {
       point_ = x + small * scale_.cwiseProduct(direction_);
       machine_->derivative(t, point_.data(), moved_.data());
       direction_ = (moved_ - f_).cwiseQuotient(scale_) / small;

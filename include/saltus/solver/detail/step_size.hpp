@@ -8,6 +8,7 @@
 #include <string>
 
 #include "saltus/solver/detail/solver.hpp"
+#include "saltus/solver/detail/thresholds.hpp"
 
 namespace saltus {
 
@@ -20,31 +21,30 @@ class StepController {
       : beta_(beta),
         shortest_(shortest),
         longest_(longest),
-        exponent_(1.0 / order - 0.75 * beta),
+        exponent_(1.0 / order - thresholds::beta_of_exponent * beta),
         plain_(1.0 / order) {}
 
   double accept(double error, double h, bool after_rejection) {
-    // Below 1e-9 both powers together exceed the longest factor, so log2 is not needed.
-    const double size = error < 1e-9 ? tiny : std::log2(error);
-    const double factor = error < 1e-9
-                              ? longest_
-                              : std::clamp(safety * std::exp2(beta_ * before_ - exponent_ * size),
-                                           shortest_, longest_);
-    before_ = std::max(size, tiny);
+    const bool negligible = error < thresholds::negligible_error;
+    const double size = negligible ? thresholds::least_remembered : std::log2(error);
+    const double factor =
+        negligible
+            ? longest_
+            : std::clamp(thresholds::step_safety * std::exp2(beta_ * before_ - exponent_ * size),
+                         shortest_, longest_);
+    before_ = std::max(size, thresholds::least_remembered);
     return h * (after_rejection ? std::min(factor, 1.0) : factor);
   }
-  /// The step after a rejection. The codes shorten to a tenth at most; after a change of mode a
-  /// thousandth may be right, which an error of 1e10 shows.
+  /// The step after a rejection.
   double reject(double error, double h) const {
-    return h *
-           (std::isfinite(error) ? std::clamp(safety * std::pow(error, -plain_), 1e-3, 0.9) : 0.1);
+    if (!std::isfinite(error)) return h * thresholds::blind_retry;
+    return h * std::clamp(thresholds::step_safety * std::pow(error, -plain_),
+                          thresholds::shortest_retry, thresholds::longest_retry);
   }
 
  private:
-  static constexpr double safety = 0.9;
-  static constexpr double tiny = -13.287712379549449;  // log2(1e-4)
   double beta_, shortest_, longest_, exponent_, plain_;
-  double before_ = tiny;  // log2 of the error of the last step
+  double before_ = thresholds::least_remembered;  // log2 of the error of the last step
 };
 
 /// The first step, from the size of x, f and f' (Hairer, Norsett, Wanner I, p. 169, "Starting step
@@ -65,9 +65,10 @@ inline double first_step(Machine& machine, double t, const Eigen::VectorXd& x, c
   const double longest = std::min(t_stop - t, options.max_step);
   const double limit = std::isfinite(longest) ? longest : 1.0;  // no end, no other scale
   const double d0 = norm([&](Index i) { return x[i]; }), d1 = norm([&](Index i) { return f[i]; });
-  const bool stands = d1 * limit < 1e-5;  // x hardly moves at this speed
-  const double h0 = stands ? 1e-3 * limit : std::min(0.01 * std::max(d0, 1.0) / d1, limit);
-  const double unit = 100.0 * h0;
+  const bool rests = d1 * limit < thresholds::resting_change;  // x hardly moves at this speed
+  const double h0 = rests ? thresholds::resting_step * limit
+                          : std::min(thresholds::first_change * std::max(d0, 1.0) / d1, limit);
+  const double unit = thresholds::time_of_change * h0;
   for (Index i = 0; i < n; ++i) scratch[i] = x[i] + h0 * f[i];
   machine.derivative(t + h0, scratch.data(), f1);
   const double d2 = norm([&](Index i) { return f1[i] - f[i]; }) / h0;
@@ -76,10 +77,11 @@ inline double first_step(Machine& machine, double t, const Eigen::VectorXd& x, c
   const double whole = std::max(d0, 1.0), bend = d2 * unit * unit;
   const double clock = bend < whole ? std::sqrt(whole / d2) : unit;
   const double largest = std::max(d1 * unit, bend);
-  const double h1 = largest <= 1e-15 ? unit : clock * std::pow(0.01 / largest, 1.0 / order);
-  // The step is at least 100 roundings of the time, as CVODE's first step.
+  const double h1 = largest <= thresholds::no_curvature
+                        ? unit
+                        : clock * std::pow(thresholds::first_change / largest, 1.0 / order);
   const double shortest =
-      100.0 * std::numeric_limits<double>::epsilon() * std::max(std::abs(t), limit);
+      thresholds::first_step_roundings * thresholds::eps * std::max(std::abs(t), limit);
   const double h = std::min(std::max(shortest, std::min(unit, h1)), limit);
   return std::isfinite(h) && h > 0.0 ? h : limit;
 }
@@ -96,8 +98,8 @@ inline double first_step(Machine& machine, double t, const Eigen::VectorXd& x, c
 /// Throws if a derivative is not finite at (t, x), or just ahead on the flow, so that no step can
 /// end there.
 inline void require_finite_near(Machine& machine, double t, double h, const double* x) {
-  const double ahead =
-      std::max(16.0 * h, 64.0 * std::numeric_limits<double>::epsilon() * std::abs(t));
+  const double ahead = std::max(thresholds::ahead_steps * h,
+                                thresholds::ahead_roundings * thresholds::eps * std::abs(t));
   const VectorView here(x, machine.plan().nx);
   Eigen::VectorXd there = here;
   if (machine.not_finite(t, x)) throw_not_finite(machine, t, x);
@@ -128,7 +130,7 @@ inline std::string fastest_block(Machine& machine, double t, const double* x,
                                               const SolverOptions& options) {
   require_finite_near(machine, t, h, x);
   const std::string block = fastest_block(machine, t, x, options);
-  if (options.min_step > 0.0 && h <= 1.01 * options.min_step) {
+  if (options.min_step > 0.0 && h <= thresholds::at_min_step * options.min_step) {
     throw SimulationError(
         text("t = ", t, " s: the tolerance needs a step of ", h,
              " s, below min_minor_step_size = ", options.min_step,

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "saltus/solver/detail/solver.hpp"
+#include "saltus/solver/detail/thresholds.hpp"
 
 namespace saltus {
 
@@ -30,10 +31,11 @@ class StiffnessTest {
   /// `calls`: calls of the right-hand side in a step.
   StiffnessTest(double stability, double calls, const SolverOptions& options)
       : stability_(stability),
-        smooth_(0.5 * calls / 1.5 * 0.4 * std::pow(options.rtol, 1.0 / 6.0)),
+        smooth_(thresholds::saved_calls * calls / thresholds::bdf_calls * thresholds::bdf_step *
+                std::pow(options.rtol, 1.0 / 6.0)),
         options_(options) {}
 
-  bool detected() const noexcept { return stiff_ >= 15; }
+  bool detected() const noexcept { return stiff_ >= thresholds::stiff_steps; }
   void forget() noexcept { stiff_ = calm_ = 0; }
 
   /// Looks at a step of size h to x1, with f at both ends, and f at (t + h, x), where x is another
@@ -41,7 +43,7 @@ class StiffnessTest {
   void look(double h, VectorView x1, VectorView x, VectorView f, VectorView f0, VectorView f1) {
     if (stiff_step(h, x1, x, f, f0, f1))
       ++stiff_, calm_ = 0;
-    else if (++calm_ == 6)
+    else if (++calm_ == thresholds::other_steps)
       stiff_ = 0;
   }
 
@@ -52,7 +54,8 @@ class StiffnessTest {
     if (!(distance > 0.0)) return false;
     const double reach = h * (f1 - f).norm() / distance;  // h |lambda|
     if (reach > stability_) return true;
-    return reach > 0.25 && turned(x1, f0, f1) < std::min(smooth_, 0.1 * reach);
+    return reach > thresholds::least_reach &&
+           turned(x1, f0, f1) < std::min(smooth_, thresholds::smooth_turn * reach);
   }
 
   /// |f1 - f0| / |f1|, in units of the tolerance.
