@@ -14,10 +14,10 @@ inline constexpr double eps = std::numeric_limits<double>::epsilon();
 // --- the next step: step_size.hpp, runge_kutta.hpp
 
 /// [1] The step is this part of the step that the error estimate allows (Hairer, Wanner II, p. 28,
-/// (2.43c)).
+/// (2.43c)). tests/unit/step_size_test.cpp
 inline constexpr double step_safety = 0.9;
 /// [of beta] The part of the integral share beta that the proportional share gives up (the same
-/// formula).
+/// formula). tests/unit/step_size_test.cpp
 inline constexpr double beta_of_exponent = 0.75;
 /// [log2 of tolerances] The controller remembers no error below 1e-4 (the code DOPRI5).
 inline constexpr double least_remembered = -13.287712379549449;
