@@ -11,7 +11,7 @@ namespace {
 /// Runs, and makes sure that the run was seen: see hook.cpp.
 template <class Run>
 void run(const std::string& scene, saltus::Method method, Run run_it) {
-  INFO(scene << ", method " << method);
+  INFO(scene << ", method " << to_string(method));
   const std::size_t before = fingerprint::lines();
   try {
     const fingerprint::Named name(scene, std::string(to_string(method)));

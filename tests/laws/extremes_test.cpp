@@ -39,7 +39,7 @@ void hold(const Group& group, bool failing) {
     for (const saltus::Method method : c.methods) {
       if (yet(c, method) != failing) continue;
       const Row row = run(c, method);
-      INFO(c.name << ", method " << method << ": " << row.happened << ", error "
+      INFO(c.name << ", method " << to_string(method) << ": " << row.happened << ", error "
                   << row.finding.error << ", events " << row.finding.events);
       CHECK(row.verdict != Verdict::wrong);
       if (c.expected == Expected::answer) CHECK(row.verdict == Verdict::right);

@@ -6,11 +6,15 @@
 #include <cmath>
 #include <functional>
 
+#include <Eigen/Core>
+
 namespace saltus {
 
 /// Applies each operation to every number of the pack, with the same bits as one by one; the
 /// processor does several at once if it can. A comparison gives 0 or 1 for each number.
-/// tape::Symbol has the same operations.
+/// tape::Symbol has the same operations. It is no Eigen::Array: that is not faster but for the roots
+/// (bench/packs), its exp, log, sin and cos have other bits, and an `auto` of a user's formula would
+/// be an expression that refers to temporaries.
 class Pack {
  public:
   static constexpr int size = 8;
@@ -52,8 +56,16 @@ class Pack {
   friend Pack operator==(const Pack& a, const Pack& b) { return each(std::equal_to<>(), a, b); }
   friend Pack operator!=(const Pack& a, const Pack& b) { return each(std::not_equal_to<>(), a, b); }
 
-  friend Pack abs(const Pack& a) { return each(static_cast<F1*>(std::fabs), a); }
-  friend Pack sqrt(const Pack& a) { return each(static_cast<F1*>(std::sqrt), a); }
+  friend Pack abs(const Pack& a) {
+    return each([](double value) { return std::fabs(value); }, a);
+  }
+  /// Eigen's: std::sqrt sets errno, so a compiler does not use the processor's pairs of roots.
+  friend Pack sqrt(const Pack& a) {
+    using Values = Eigen::Array<double, size, 1>;
+    Pack result;
+    Eigen::Map<Values>(result.values_.data()) = Eigen::Map<const Values>(a.values_.data()).sqrt();
+    return result;
+  }
   friend Pack cbrt(const Pack& a) { return each(static_cast<F1*>(std::cbrt), a); }
   friend Pack exp(const Pack& a) { return each(static_cast<F1*>(std::exp), a); }
   friend Pack expm1(const Pack& a) { return each(static_cast<F1*>(std::expm1), a); }

@@ -1,0 +1,19 @@
+// Elimination for few states, unrolled. This file is compiled without vectors: a pair would be loaded
+// before the two stores of its numbers are done, and four states would take twice the time
+// (bench/factorisations).
+#include <utility>
+
+#include "elimination.hpp"
+#include "saltus/solver/detail/thresholds.hpp"
+
+namespace saltus {
+
+std::unique_ptr<Factorisation> make_unrolled(int n) {
+  std::unique_ptr<Factorisation> result;
+  [n, &result]<int... i>(std::integer_sequence<int, i...>) {
+    (void)((n == i + 1 && (result = std::make_unique<Elimination<i + 1>>(n), true)) || ...);
+  }(std::make_integer_sequence<int, thresholds::unrolled_dense>());
+  return result;
+}
+
+}  // namespace saltus
