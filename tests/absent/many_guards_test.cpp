@@ -34,7 +34,7 @@ Leaf ruler(Index n, bool vector) {
 
 TEST_CASE("monitors that fire once each cost a number of looks that does not grow with them",
           "[absent]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const bool vector = GENERATE(true, false);
   INFO("method " << method << (vector ? ", a vector" : ", single guards"));
   // A step has four pieces. A piece with eight crossings or more takes eleven looks inside it, and

@@ -40,7 +40,7 @@ std::vector<Function> differences(const std::vector<double>& at, const Function&
   return all;
 }
 
-Results run(const System& leaf, const char* method = "dopri5", double end = 1.0) {
+Results run(const System& leaf, Method method = Method::dopri5, double end = 1.0) {
   return simulate(leaf, leaf.create_context(), {0.0, end}, {.ode_solver_method = method});
 }
 
@@ -48,7 +48,7 @@ Results run(const System& leaf, const char* method = "dopri5", double end = 1.0)
 
 TEST_CASE("each monitor of a crowd fires once, at its time, in the order of time",
           "[crowd_locator]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   struct Guarded {
     const char* name;
     Function g;
@@ -146,7 +146,7 @@ TEST_CASE("guards within the rounding of their terms are located by looks", "[cr
 // Hidden because it fails yet, with and without a crowd: a monitor that crosses in the same piece
 // as a guard with a reset map may move its root by a rounding.
 TEST_CASE("a crowd changes no bit of a trajectory with resets", "[.][crowd_locator]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   const auto ball = [](bool watched) {
     return Leaf("ball", [watched](Leaf& l) {

@@ -200,8 +200,8 @@ inline constexpr double sparse_row = 300.0, sparse_entry = 15.0, sparse_operatio
 inline constexpr double gmres_place = 3.0 * 150.0;
 /// [entries] of a factor, at which their count stops: 0.3 s of a factorisation.
 inline constexpr double most_factor_entries = 2e7;
-/// [states] Up to here elimination is unrolled, without vectors: 0.4 of the time for four states, 0.6
-/// for eight; more states do not unroll. Eigen's blocks are faster from `large_dense` on
+/// [states] Up to here elimination is unrolled, without vectors: 0.4 of the time for four states,
+/// 0.9 for eight; more states do not unroll. Eigen's blocks are faster from `large_dense` on
 /// (bench/factorisations).
 inline constexpr int unrolled_dense = 8;
 inline constexpr Index large_dense = 48;
