@@ -26,6 +26,9 @@ MUTATORS = frozenset(
 )
 """names of functions and methods that change a list, a dictionary, a set or an array they get"""
 
+OF_ARRAYS = frozenset("data dtype flat imag real shape strides".split())
+"""attributes of an array whose assignment changes its entries"""
+
 DYNAMIC = frozenset(
     """
     setattr delattr exec eval compile globals locals vars getattr __import__ import_module
@@ -107,7 +110,7 @@ def facts_of(code: CodeType) -> Facts:
         names |= {"write", "flush"}  # of a file that a user wrote
     if binds:
         names |= {"__setattr__", "__delattr__"}
-    mutates |= not names.isdisjoint(MUTATORS) or "out" in names
+    mutates |= not names.isdisjoint(MUTATORS) or "out" in names or not binds.isdisjoint(OF_ARRAYS)
     used = {name for part in _all(code) for name in part.co_names}
     dynamic = min(used & DYNAMIC, default="")
     found = frozenset(names), frozenset(binds), frozenset(cells)

@@ -39,8 +39,13 @@ MOST = 5_000  # objects; beyond that nothing is known
 MAKES = {"__init__", "__new__", "__init_subclass__", "__class_getitem__"}
 CODE = (FunctionType, staticmethod, classmethod, property)
 SETS = {"__setattr__", "__delattr__"}
-WRAPPERS = {"property": ("fget",), "staticmethod": ("__func__",), "classmethod": ("__func__",),
-            "cached_property": ("func",)}  # fmt: skip
+WRAPPERS = {
+    "property": ("fget", "fset", "fdel"),
+    "staticmethod": ("__func__",),
+    "classmethod": ("__func__",),
+    "cached_property": ("func",),
+}
+"""types of what stands in a class for a function -> the attributes with the function"""
 
 
 def memory_of(array: np.ndarray) -> Any:
