@@ -106,6 +106,61 @@ def attribute_by_a_property():
     return lambda: place.u, write
 
 
+def attribute_by_the_property_of_another():
+    class Place:
+        u = 1.0
+
+        @property
+        def twice(self):
+            return 2.0 * self.u
+
+        @twice.setter
+        def twice(self, v):
+            self.u = 0.5 * v
+
+    place = Place()
+
+    def write(v):
+        place.twice = 2.0 * v
+
+    return lambda: place.u, write
+
+
+def attribute_by_a_descriptor():
+    class Other:
+        def __get__(self, owner, kind):
+            return owner.u
+
+        def __set__(self, owner, v):
+            owner.u = v
+
+    class Place:
+        u = 1.0
+        other = Other()
+
+    place = Place()
+
+    def write(v):
+        place.other = v
+
+    return lambda: place.u, write
+
+
+def attribute_by_its_own_setattr():
+    class Place:
+        u = 1.0
+
+        def __setattr__(self, name, v):
+            super().__setattr__("u", v)
+
+    place = Place()
+
+    def write(v):
+        place.w = v
+
+    return lambda: place.u, write
+
+
 def attribute_of_a_nested_object():
     place = SimpleNamespace(inner=SimpleNamespace(parts=[SimpleNamespace(u=1.0)]))
 
@@ -341,6 +396,29 @@ def list_by_map():
     return lambda: place[0], lambda v: list(map(put, [v]))
 
 
+def list_by_a_dispatch():
+    place = [1.0]
+
+    def put(v):
+        place[0] = v
+
+    table = {"put": put}
+    return lambda: place[0], lambda v: table["put"](v)
+
+
+def list_by_a_wrapped_function():
+    place = [1.0]
+
+    def put(v):
+        place[0] = v
+
+    @functools.wraps(put)
+    def wrapper(*arguments):
+        return put(*arguments)
+
+    return lambda: place[0], wrapper
+
+
 def list_in_a_default():
     place = [1.0]
 
@@ -392,6 +470,29 @@ def array_by_out():
 def array_by_copyto():
     place = np.ones(2)
     return lambda: place[0], lambda v: np.copyto(place, v)
+
+
+def array_by_its_flat():
+    place = np.ones(2)
+
+    def write(v):
+        place.flat = v
+
+    return lambda: place[0], write
+
+
+def array_by_its_memory():
+    place = np.ones(2)
+
+    def write(v):
+        memoryview(place)[0] = v
+
+    return lambda: place[0], write
+
+
+def array_by_a_positional_out():
+    place = np.ones(2)
+    return lambda: place[0], lambda v: np.multiply(v, np.ones(2), place)
 
 
 def array_by_a_view():

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
@@ -73,4 +74,6 @@ def _reason(change: Change) -> str:
 def _callback(block: Mapping[str, Any], i: int) -> _Callback:
     function = block["functions"][i]
     owner = [block["leaf"]] if function["method"] else []
+    if function["compiled"]:  # perhaps a function of Python that ctypes calls
+        owner = gc.get_referents(function["function"])
     return _Callback(f"the {function['what']} of '{block['path']}'", [function["function"], *owner])

@@ -1,5 +1,6 @@
 """6.5: a value that one callback writes has its present value wherever another one reads it."""
 
+import ctypes
 import threading
 
 import numpy as np
@@ -234,3 +235,22 @@ def test_a_callback_that_is_led_elsewhere_by_what_another_wrote_may_write_too():
         return simulator.results.outputs["y"][-1]
 
     assert run("traced") == run("called") == 2.0
+
+
+def test_a_compiled_function_that_is_python_after_all_may_write():
+    number, numbers = ctypes.c_double, ctypes.POINTER(ctypes.c_double)
+    kind = ctypes.CFUNCTYPE(
+        ctypes.c_int, number, numbers, numbers, numbers, numbers, ctypes.c_void_p
+    )
+    read, write = PLACES["list_entry"]()
+
+    @kind
+    def level(t, x, u, p, out, user_data):
+        write(2.0)
+        out[0] = 1.0
+        return 0
+
+    block = saltus.LeafSystem(name="b")
+    block.declare_continuous_state([0.0], ode=lambda t, s: [read()])
+    block.declare_zero_crossing(level, name="level")
+    assert [c.runs for c in block.explain()] == ["called", "compiled"]

@@ -26,6 +26,9 @@ MUTATORS = frozenset(
 )
 """names of functions and methods that change a list, a dictionary, a set or an array they get"""
 
+OF_ARRAYS = frozenset("data dtype flat imag real shape strides".split())
+"""attributes of an array whose assignment changes its entries"""
+
 DYNAMIC = frozenset(
     """
     setattr delattr exec eval compile globals locals vars getattr __import__ import_module
@@ -86,29 +89,41 @@ def _arguments(instruction: dis.Instruction) -> int:
     return instruction.arg or 0 if call else 0
 
 
+def _stores(parts: list[CodeType]) -> tuple[set[str], set[str], bool, int]:
+    """What it binds, there and in functions around; whether it writes entries; its longest call."""
+    binds: set[str] = set()
+    cells: set[str] = set()
+    writes, arguments = False, 0
+    for part, instruction in ((p, i) for p in parts for i in dis.get_instructions(p)):
+        if instruction.opname in BINDS:
+            binds.add(instruction.argval)
+        elif instruction.opname in CELLS and instruction.argval in part.co_freevars:
+            cells.add(instruction.argval)
+        writes |= instruction.opname in ENTRIES or _in_place(instruction)
+        arguments = max(arguments, _arguments(instruction))
+    return binds, cells, writes, arguments
+
+
+def _names(parts: list[CodeType]) -> set[str]:
+    names = {name for part in parts for name in part.co_names}
+    return names | {
+        text for part in parts for text in _texts(part.co_consts) if text.isidentifier()
+    }
+
+
 @lru_cache(maxsize=4096)
 def facts_of(code: CodeType) -> Facts:
     """The facts of a function by its code."""
-    names: set[str] = set()
-    binds: set[str] = set()
-    cells: set[str] = set()
-    mutates, arguments = False, 0
-    for part in _all(code):
-        names.update(part.co_names)
-        names.update(text for text in _texts(part.co_consts) if text.isidentifier())
-        for instruction in dis.get_instructions(part):
-            if instruction.opname in BINDS:
-                binds.add(instruction.argval)
-            elif instruction.opname in CELLS and instruction.argval in part.co_freevars:
-                cells.add(instruction.argval)
-            mutates |= instruction.opname in ENTRIES or _in_place(instruction)
-            arguments = max(arguments, _arguments(instruction))
+    parts = list(_all(code))
+    binds, cells, writes, arguments = _stores(parts)
+    names = _names(parts)
     if "print" in names:
         names |= {"write", "flush"}  # of a file that a user wrote
     if binds:
         names |= {"__setattr__", "__delattr__"}
-    mutates |= not names.isdisjoint(MUTATORS) or "out" in names
-    used = {name for part in _all(code) for name in part.co_names}
+    called = not names.isdisjoint(MUTATORS | {"out"})
+    mutates = writes or called or not binds.isdisjoint(OF_ARRAYS)
+    used = {name for part in parts for name in part.co_names}
     dynamic = min(used & DYNAMIC, default="")
     found = frozenset(names), frozenset(binds), frozenset(cells)
     return Facts(*found, mutates, arguments, dynamic)

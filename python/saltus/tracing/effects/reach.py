@@ -39,8 +39,13 @@ MOST = 5_000  # objects; beyond that nothing is known
 MAKES = {"__init__", "__new__", "__init_subclass__", "__class_getitem__"}
 CODE = (FunctionType, staticmethod, classmethod, property)
 SETS = {"__setattr__", "__delattr__"}
-WRAPPERS = {"property": ("fget",), "staticmethod": ("__func__",), "classmethod": ("__func__",),
-            "cached_property": ("func",)}  # fmt: skip
+WRAPPERS = {
+    "property": ("fget", "fset", "fdel"),
+    "staticmethod": ("__func__",),
+    "classmethod": ("__func__",),
+    "cached_property": ("func",),
+}
+"""types of what stands in a class for a function -> the attributes with the function"""
 
 
 def memory_of(array: np.ndarray) -> Any:
@@ -199,13 +204,8 @@ class Reach:
         kind = type(value)
         if kind.__name__ in WRAPPERS and of_library(kind):
             self._visit_all(getattr(value, part) for part in WRAPPERS[kind.__name__])
-        elif isinstance(value, np.ndarray):
-            self.touched[id(memory_of(value))] = value
-            self._visit_all(value.flat if value.dtype == object else ())
-        elif isinstance(value, CONTAINERS):
-            if not isinstance(value, (tuple, frozenset)):
-                self.touched[id(value)] = value
-            self._visit_all(_items(value))
+        elif isinstance(value, (np.ndarray, *CONTAINERS)):
+            self._container(value)
         elif not only_attributes(kind):
             self._of_library(value if callable(value) and hasattr(value, "__name__") else kind)
             parts = gc.get_referents(value)
@@ -213,6 +213,15 @@ class Reach:
         if only_attributes(kind):
             self._holders.append((value, set()))
             self._class(kind, set())
+
+    def _container(self, value: Any) -> None:
+        if isinstance(value, np.ndarray):
+            self.touched[id(memory_of(value))] = value
+            self._visit_all(value.flat if value.dtype == object else ())
+            return
+        if not isinstance(value, (tuple, frozenset)):
+            self.touched[id(value)] = value
+        self._visit_all(_items(value))
 
     def _attribute(self, holder: Any, name: str) -> None:
         """An attribute, found without running code of its object."""
