@@ -149,3 +149,27 @@ def test_6_1_a_signal_of_the_wrong_shape_is_refused(block, message):
     assert message == refused(
         lambda: saltus.simulate(built, built.create_context(), (0.0, 1.0), recorded_signals=record)
     )
+
+
+def test_6_1_ports_in_the_wrong_order_are_called_swapped():
+    one, x = Constant(1.0, name="one"), Integrator(name="x")
+    builder = diagram(blocks=[one, x])
+    message = refused(lambda: builder.connect(x.input(), one.output()))
+    assert message.startswith(
+        "connect: the ports are swapped: expected an output and then an input"
+    )
+    builder.connect(one.output(), x.input())
+    assert x_at_one(builder.build()) == pytest.approx([1.0])
+
+
+def test_6_1_a_port_of_the_other_kind_is_said():
+    one, x = Constant(1.0, name="one"), Integrator(name="x")
+    builder = diagram(blocks=[one, x])
+    wrong = "expected an output, such as block.output_ports[0], found <input 'in' of 'x'>"
+    assert refused(lambda: builder.connect(x.input(), x.input())) == wrong
+    assert refused(lambda: builder.export_output(x.input())) == wrong
+    wrong = "expected an input, such as block.input_ports[0], found <output 'out' of 'one'>"
+    assert refused(lambda: builder.connect(one.output(), x.output())).startswith(
+        "expected an input"
+    )
+    assert refused(lambda: builder.export_input(one.output())) == wrong
