@@ -1,19 +1,12 @@
 // LeafSystem: the functions with which python/saltus/leaf_system.py declares blocks.
 #include <pybind11/stl.h>
 
+#include "made.hpp"
 #include "zero_crossing.hpp"
 
 namespace saltus::python {
 
 namespace {
-
-/// Whether a Python object contains a block already. While pybind11 makes the object it contains
-/// none, and the garbage collector may run then, before the object has room for a block.
-bool holds_block(PyObject* self) {
-  const auto* object = reinterpret_cast<const py::detail::instance*>(self);
-  if (!object->simple_layout && object->nonsimple.status == nullptr) return false;
-  return py::detail::is_holder_constructed(self);
-}
 
 /// Shows the functions held by a block to the garbage collector, so a lambda that holds its block
 /// is no leak.
@@ -146,12 +139,16 @@ int declare_view(py::handle self, std::string name, Space space) {
                                    .view = Place{space, 0, shape.size}});
 }
 
-ResetMap update_of(py::handle self, py::object callback, const char* what) {
+/// `what` and `prefix` name an update: "periodic update 'periodic_0'".
+ResetMap update_of(py::handle self, py::object callback, const char* what, const char* prefix,
+                   const std::string& name) {
   PythonLeaf& leaf = leaf_of(self);
   if (callback.is_none()) return {};
-  return leaf.update(leaf.add(
-      self, std::move(callback),
-      {.what = what, .role = Role::update, .index = count_of(leaf.declarations().time_events)}));
+  const int index = count_of(leaf.declarations().time_events);
+  const std::string called = name.empty() ? text(prefix, index) : name;
+  return leaf.reset_map(
+      leaf.add(self, std::move(callback),
+               {.what = text(what, " '", called, "'"), .role = Role::update, .index = index}));
 }
 
 }  // namespace
@@ -196,18 +193,18 @@ void bind_leaf_system(py::module_& module) {
       .def("declare_zero_crossing", &declare_zero_crossing)
       .def("declare_relation", &declare_relation)
       .def("declare_edge_reset", &declare_edge_reset)
-      .def(
-          "declare_periodic_update",
-          [](py::handle self, py::object callback, double period, double offset, std::string name) {
-            leaf_of(self).declare_periodic_update(
-                update_of(self, std::move(callback), "periodic update"), period, offset,
-                std::move(name));
-          })
-      .def("declare_one_shot",
-           [](py::handle self, py::object callback, double time, std::string name) {
-             leaf_of(self).declare_one_shot(
-                 time, update_of(self, std::move(callback), "one-shot update"), std::move(name));
-           });
+      .def("declare_periodic_update",
+           [](py::handle self, py::object callback, double period, double offset,
+              const std::string& name) {
+             leaf_of(self).declare_periodic_update(
+                 update_of(self, std::move(callback), "periodic update", "periodic_", name), period,
+                 offset, name);
+           })
+      .def("declare_one_shot", [](py::handle self, py::object callback, double time,
+                                  const std::string& name) {
+        leaf_of(self).declare_one_shot(
+            time, update_of(self, std::move(callback), "one-shot update", "one_shot_", name), name);
+      });
 }
 
 }  // namespace saltus::python

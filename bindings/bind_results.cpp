@@ -75,14 +75,17 @@ py::tuple event(const Results& results, std::size_t i) {
                         e.predicted, copy_of(e.before), copy_of(e.after), e.entry);
 }
 
-py::array event_times(const Results& results, std::string_view name, std::string_view kind) {
+/// Without a kind: of all events that fired.
+py::array event_times(const Results& results, std::string_view name,
+                      std::optional<std::string_view> kind) {
+  if (!kind) return copy_of(results.events.times(name));
   std::vector<std::string> known;
   for (int i = 0; i <= static_cast<int>(EventKind::terminal); ++i) {
     const auto one = static_cast<EventKind>(i);
     if (to_string(one) == kind) return copy_of(results.events.times(name, one));
     known.emplace_back(to_string(one));
   }
-  throw ModelError(text("unknown kind of event '", kind, "'", known_names(kind, known)));
+  throw ModelError(text("unknown kind of event '", *kind, "'", known_names(*kind, known)));
 }
 
 /// The counts, by the names of the fields of saltus.results.Statistics.

@@ -4,6 +4,7 @@
 #include <pybind11/stl.h>
 
 #include "bindings.hpp"
+#include "made.hpp"
 #include "python_leaf.hpp"
 #include "saltus/model/diagram_builder.hpp"
 
@@ -58,9 +59,15 @@ void bind_system(py::module_& module) {
            });
 
   py::class_<Diagram, System>(module, "Diagram")
-      .def(py::init(
-          [](DiagramBuilder& builder, std::string name) { return builder.build(std::move(name)); }))
+      .def(py::init([](DiagramBuilder& builder, std::string name) {
+        const ShapesAsDeclared declared;
+        return builder.build(std::move(name));
+      }))
       .def("require", [](const Diagram& diagram, std::string_view child) { diagram[child]; });
+
+  module.def("made", [](const py::handle& system) {
+    return py::isinstance<System>(system) && holds_block(system.ptr());
+  });
 
   // The default name of the next system: Gain_7.
   module.def("next_name", [](const std::string& kind) {

@@ -61,6 +61,10 @@ std::string not_numbers(py::handle object) {
 Array numbers_in(py::handle object) {
   if (entry_that(is_text_or_none, object)) return py::reinterpret_steal<Array>(nullptr);
   Array array = Array::ensure(object);
+  if (array) return array;
+  PyErr_Clear();
+  if (!py::hasattr(object, "toarray")) return array;
+  array = Array::ensure(object.attr("toarray")());  // a sparse matrix of SciPy
   if (!array) PyErr_Clear();
   return array;
 }

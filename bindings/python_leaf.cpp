@@ -83,31 +83,55 @@ ResetMap PythonLeaf::reset_map(int k) const {
   }
   return [this, k](const At& at, Next& next) {
     const Locked lock;
-    const py::object result = call(k, at, 0);
-    if (!py::isinstance<State>(result)) {
-      throw ModelError(text(whose(function(k)), " returned ", std::string(py::repr(result)),
-                            ", expected a state: `return state.with_continuous_state(...)`"));
-    }
-    result.cast<const State&>().write_to(next);
+    write(k, call(k, at, 0), next);
   };
 }
 
-ResetMap PythonLeaf::update(int k) const {
-  if (function(k).compiled) {
-    return [this, k](const At& at, Next& next) { reset_compiled(function(k), at, next); };
+namespace {
+
+/// The numbers that a reset map or an update returned in place of a state.
+Eigen::VectorXd numbers_of_state(py::handle result, const std::string& whose) {
+  try {
+    return to_vector(result, whose);
+  } catch (const ModelError&) {
+    throw ModelError(text(whose, " returned ", std::string(py::repr(result)),
+                          ", expected a state: `return state.with_continuous_state(...)`, or the "
+                          "numbers of one"));
   }
-  return [this, k](const At& at, Next& next) {
-    const Locked lock;
-    const py::object result = call(k, at, 0);
-    if (py::isinstance<State>(result)) {
-      result.cast<const State&>().write_to(next);
-    } else if (result.is_none()) {
-      throw ModelError(
-          text(whose(function(k)), " returned None, expected a state or the new discrete state"));
-    } else {
-      next.set_discrete_state(to_vector(result, whose(function(k))));
-    }
-  };
+}
+
+}  // namespace
+
+/// The state that numbers alone are. An update of a block with both means the discrete one; a reset
+/// map of such a block has to say which.
+bool PythonLeaf::means_discrete(const Function& function, bool has_x, bool has_z) const {
+  if (has_x != has_z) return has_z;
+  if (has_x && function.role == Role::update) return true;
+  throw ModelError(
+      text(whose(function), " returned numbers, expected a state: the block has ",
+           has_x ? "a continuous and a discrete state; say which: " : "neither; write ",
+           has_x ? "`return state.with_continuous_state(...)`" : "`return state.with_mode(...)`"));
+}
+
+/// Writes what a reset map or an update returned: a state, or the numbers of the one state that the
+/// block has.
+void PythonLeaf::write(int k, py::handle result, Next& next) const {
+  if (py::isinstance<State>(result)) return result.cast<const State&>().write_to(next);
+  const Function& of = function(k);
+  if (result.is_none()) {
+    throw ModelError(text(whose(of),
+                          " returned None, expected a state: `return "
+                          "state.with_continuous_state(...)`; is a `return` missing?"));
+  }
+  const Eigen::VectorXd values = numbers_of_state(result, whose(of));
+  const Index x = declarations().continuous.initial.size(), z = declarations().discrete.size();
+  const bool discrete = means_discrete(of, x > 0, z > 0);
+  const Index size = discrete ? z : x;
+  if (values.size() != size) {
+    throw ModelError(text(whose(of), " returned ", values.size(), " numbers, expected ", size,
+                          " for the ", discrete ? "discrete" : "continuous", " state"));
+  }
+  discrete ? next.set_discrete_state(values) : next.set_continuous_state(values);
 }
 
 int PythonLeaf::traverse(visitproc visit, void* arg) const {

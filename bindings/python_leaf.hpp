@@ -14,6 +14,21 @@
 
 namespace saltus::python {
 
+/// While one lives, no shape is found by calling a function of the user: `build` goes by the
+/// declarations.
+class ShapesAsDeclared {
+ public:
+  ShapesAsDeclared() : before_(active_) { active_ = true; }
+  ~ShapesAsDeclared() { active_ = before_; }
+  ShapesAsDeclared(const ShapesAsDeclared&) = delete;
+  ShapesAsDeclared& operator=(const ShapesAsDeclared&) = delete;
+  static bool active() noexcept { return active_; }
+
+ private:
+  static inline thread_local bool active_ = false;
+  bool before_;
+};
+
 class PythonLeaf final : public LeafSystem {
  public:
   explicit PythonLeaf(std::string name) : LeafSystem(std::move(name)) {}
@@ -50,7 +65,6 @@ class PythonLeaf final : public LeafSystem {
   VectorFunction vector_function(int k) const;
   MatrixFunction matrix_function(int k) const;
   ResetMap reset_map(int k) const;
-  ResetMap update(int k) const;
   const std::vector<Function>& functions() const { return functions_; }
   const Function& function(int k) const { return functions_[static_cast<std::size_t>(k)]; }
   /// A parameter called `out` is a parameter, not an array to fill.
@@ -105,6 +119,8 @@ class PythonLeaf final : public LeafSystem {
   std::optional<py::array> sample(int k, std::vector<Shape> shapes,
                                   std::span<const Index> widths) const;
   Shape shape_of(int k, std::span<const Shape> inputs) const;
+  bool means_discrete(const Function& function, bool has_x, bool has_z) const;
+  void write(int k, py::handle result, Next& next) const;
   void require_shape(int k, const std::optional<Shape>& shape) const;
   void finish_outputs();
   std::string whose(const Function& function) const {

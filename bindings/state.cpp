@@ -62,17 +62,31 @@ PyObject* get(PyObject* self, void*) {
   }
 }
 
+/// A state never changes: an assignment is refused, with the remedy.
+int refuse_set(PyObject*, PyObject*, void* remedy) {
+  const std::string message = text("a state cannot be changed; ", static_cast<char*>(remedy));
+  PyErr_SetString(py::module_::import("saltus.errors").attr("ModelError").ptr(), message.c_str());
+  return -1;
+}
+
+template <auto Member>
+PyGetSetDef member(const char* name, const char* doc, const char* remedy) {
+  return {name, &get<Member>, &refuse_set, doc, const_cast<char*>(remedy)};
+}
+
 void add_getters(PyHeapTypeObject* heap_type) {
   static std::array<PyGetSetDef, 6> getters{{
-      {"continuous_state", &get<&State::x>, nullptr, "Read-only array of the declared shape.",
-       nullptr},
-      {"discrete_state", &get<&State::z>, nullptr, "Read-only array of the declared shape.",
-       nullptr},
-      {"relations", &get<&State::relations>, nullptr,
-       "The truth of each relation of the block: a bool, or a read-only array.", nullptr},
-      {"mode", &get<&State::mode>, nullptr, "The mode of the block.", nullptr},
-      {"entry", &get<&State::entry>, nullptr,
-       "In a reset map: which guard of a zero crossing of several fired; else 0.", nullptr},
+      member<&State::x>("continuous_state", "Read-only array of the declared shape.",
+                        "return state.with_continuous_state(...)"),
+      member<&State::z>("discrete_state", "Read-only array of the declared shape.",
+                        "return state.with_discrete_state(...)"),
+      member<&State::relations>(
+          "relations", "The truth of each relation of the block: a bool, or a read-only array.",
+          "its relations follow from their guards"),
+      member<&State::mode>("mode", "The mode of the block.", "return state.with_mode(...)"),
+      member<&State::entry>(
+          "entry", "In a reset map: which guard of a zero crossing of several fired; else 0.",
+          "the entry is that of the guard that fired"),
       {},
   }};
   heap_type->ht_type.tp_getset = getters.data();

@@ -45,6 +45,8 @@ def core_options(options: SimulatorOptions) -> _core.SimulatorOptions:
         value = getattr(options, field.name)
         if field.name in PYTHON_ONLY:
             continue
+        if field.type == "bool" and not isinstance(value, (bool, np.bool_)):
+            raise ModelError(f"option {field.name}: expected bool, found {value!r}")
         try:
             setattr(
                 core,

@@ -40,10 +40,20 @@ DECLARATIONS = {
     "as_array": "every value is an array; leave it out",
     "mass_matrix": "divide by it in the ode",
     "prerequisites_of_calc": "say which inputs are read with requires_inputs",
-    "period": "put a ZeroOrderHold behind the output",
-    "offset": "put a ZeroOrderHold behind the output",
     "grad_guard": "Saltus computes no gradients; leave it out",
 }
+OUTPUTS = DECLARATIONS | {
+    "period": "put a ZeroOrderHold behind the output",
+    "offset": "put a ZeroOrderHold behind the output",
+}
+CALLED = {
+    "period": "dt",
+    "sample_time": "dt",
+    "dt": "period",
+    "initial_value": "initial_state",
+    "default_value": "initial_state",
+}
+"""arguments of the blocks of similar tools, and the names they have here, where a block has them"""
 
 
 def refuse(
@@ -68,12 +78,13 @@ def refusing(method: Callable[P, R]) -> Callable[P, R]:
     where = method.__name__ if method.__name__ != "__init__" else method.__qualname__.split(".")[-2]
 
     declares = method.__name__.startswith("declare_")
+    hints = _hints(method.__name__, known)
 
     @functools.wraps(method)
     def checked(*arguments: P.args, **options: P.kwargs) -> R:
         if declares and not getattr(arguments[0], "_made", False):
             raise ModelError(f"{where}: call super().__init__(name=...) first, then declare")
-        refuse(where, options, known)
+        refuse(where, options, known, hints)
         try:
             return method(*arguments, **options)
         except TypeError as error:
@@ -82,6 +93,13 @@ def refusing(method: Callable[P, R]) -> Callable[P, R]:
         raise ModelError(f"{where}: {_wrong_kind(method, arguments, options)}")
 
     return checked
+
+
+def _hints(method: str, known: tuple[str, ...]) -> dict[str, str]:
+    """The advice for arguments that a declaration, or the constructor of a block, does not have."""
+    if method.startswith("declare_"):
+        return OUTPUTS if "output" in method else DECLARATIONS
+    return {other: f"it is called {name} here" for other, name in CALLED.items() if name in known}
 
 
 WRONG_KIND = re.compile(r"incompatible (function|constructor) arguments")  # the compiled module's

@@ -5,6 +5,7 @@ from __future__ import annotations
 import inspect
 import os
 from collections.abc import Callable, Sequence
+from types import TracebackType
 from typing import Any
 
 from saltus.errors import ModelError
@@ -33,6 +34,24 @@ def refuse_signature(
         raise ModelError(
             f"{what}: expected {name}({expected}), found {name}{signature}{_place(function)}{hint}"
         ) from error
+
+
+def refuse_writing(what: str, error: ValueError, trace: TracebackType | None) -> None:
+    """ModelError where a callback wrote to an array in place that it may only read."""
+    if "read-only" not in str(
+        error
+    ):  # of NumPy: "assignment destination is read-only", "output ..."
+        return
+    at, last = "", trace
+    while last is not None:
+        file = os.path.basename(last.tb_frame.f_code.co_filename)
+        at, last = f" at {file}:{last.tb_lineno}", last.tb_next
+    raise ModelError(
+        f"{what} wrote to an array that may only be read{at}: the state, the inputs and the "
+        "parameters that a callback gets never change. Take a copy, `x = "
+        "state.continuous_state.copy()` or `x = x.copy()`, and return what it becomes; a reset map "
+        "or an update returns `state.with_continuous_state(x)`"
+    ) from error.with_traceback(trace)
 
 
 def _place(function: Any) -> str:

@@ -13,8 +13,10 @@ __all__ = ["Diagram", "DiagramBuilder"]
 
 def _port(port: object, kind: type[OutputPort] | type[InputPort]) -> tuple[System, int]:
     if not isinstance(port, kind):
+        wanted = "an input" if kind is InputPort else "an output"
+        wanted = wanted if isinstance(port, (InputPort, OutputPort)) else "a port"
         example = "input_ports[0]" if kind is InputPort else "output_ports[0]"
-        raise ModelError(f"expected a port, such as block.{example}, found {port!r}")
+        raise ModelError(f"expected {wanted}, such as block.{example}, found {port!r}")
     return port.system, port.index
 
 
@@ -141,6 +143,11 @@ class DiagramBuilder:
             ...
         saltus.errors.ModelError: input 'in' of block 'double' already has a source, ...
         """
+        if isinstance(source, InputPort) and isinstance(destination, OutputPort):
+            raise ModelError(
+                f"connect: the ports are swapped: expected an output and then an input, found "
+                f"{source!r} and then {destination!r}; write connect(output, input)"
+            )
         self._core.connect(*_port(source, OutputPort), *_port(destination, InputPort))
 
     def export_input(self, port: InputPort, name: str | None = None) -> int:

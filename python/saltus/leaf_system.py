@@ -48,6 +48,12 @@ class LeafSystem(System, _core.LeafSystem):
       precisely: an input that is not read is neither computed nor part of a loop;
     - parameters come by keyword, a float for a number, else a read-only array.
 
+    A callback returns numbers as a list, a tuple or an array, one number as itself too; a Jacobian
+    also as a sparse matrix of SciPy. A reset map or an update returns a state, or numbers alone:
+    these are the one state that the block has. If it has a continuous and a discrete one, they are
+    the discrete one in an update, and a reset map has to say which. Another number of them than
+    expected is a `ModelError`.
+
     Every array may be kept: it never changes. A callback must not change the world: it is called as
     often as the engine likes, from the thread that runs the simulation. `simulate` raises the
     exception of a callback unchanged.
@@ -254,7 +260,7 @@ class LeafSystem(System, _core.LeafSystem):
     def declare_zero_crossing(
         self,
         guard: Callable[..., ArrayLike],
-        reset_map: Callable[..., _core.State] | None = None,
+        reset_map: Callable[..., _core.State | ArrayLike] | None = None,
         name: str | None = None,
         direction: str = "crosses_zero",
         start_mode: int | None = None,
@@ -273,7 +279,8 @@ class LeafSystem(System, _core.LeafSystem):
         is true: `x[0] > 0` is located as smoothly as x[0], any other truth where it jumps. Without
         a reset map, a mode change and `terminal` it is only logged, and changes nothing.
 
-        - `reset_map`, called like the guard, returns x+ from x-, the state before the event.
+        - `reset_map`, called like the guard, returns x+ from x-, the state before the event, or the
+          numbers of the one state that the block has.
         - `direction` is 'crosses_zero' (or 'both'), 'positive_then_non_positive' ('falling'),
           'negative_then_non_negative' ('rising'), 'edge_detection' (any change, for values that
           jump) or 'none' (never).
@@ -365,7 +372,7 @@ class LeafSystem(System, _core.LeafSystem):
     @refusing
     def declare_edge_reset(
         self,
-        reset_map: Callable[..., _core.State],
+        reset_map: Callable[..., _core.State | ArrayLike],
         input: int,
         edge: str = "rising",
         name: str | None = None,
@@ -419,7 +426,7 @@ class LeafSystem(System, _core.LeafSystem):
         name: str | None = None,
     ) -> None:
         """At offset + k period [s], k = 0, 1, ..., callback returns the new state, or the new
-        discrete state alone.
+        discrete state alone (the continuous one where the block has no other).
         """
         super().declare_periodic_update(callback_of(callback), period, offset, name or "")
 

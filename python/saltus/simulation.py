@@ -239,20 +239,21 @@ class Simulator:
 
 def simulate(
     system: System,
-    context: _core.Context,
-    time_span: tuple[float, float],
+    context: _core.Context | tuple[float, float] | None = None,
+    time_span: tuple[float, float] | None = None,
     options: SimulatorOptions | None = None,
     recorded_signals: Mapping[str, OutputPort] | None = None,
     **option_overrides: Any,
 ) -> Results:
-    """Runs `system` from the values of `context`.
+    """Runs `system` from the values of `context`: ``simulate(system, context, (0.0, 1.0))``.
 
     Parameters
     ----------
     system : System
         A `LeafSystem` or a `Diagram`. It never changes.
-    context : Context
-        The values at the beginning, such as ``system.create_context()``.
+    context : Context, optional
+        The values at the beginning; those of ``system.create_context()`` if not said, as in
+        ``simulate(system, (0.0, 1.0))``.
     time_span : (float, float)
         [s] begin and end.
     options : SimulatorOptions, optional
@@ -304,10 +305,12 @@ def simulate(
     >>> f"{results.outputs['x'][-1, 0]:.6f}"
     '0.367879'
     """
+    if time_span is None and not isinstance(context, _core.Context):
+        context, time_span = None, context  # simulate(system, (0.0, 1.0))
     begin, end = span_of("simulate", time_span)
     if recorded_signals is not None:
         option_overrides["recorded_signals"] = recorded_signals
     simulator = Simulator(system, options, **option_overrides)
-    context = core_context(context)
+    context = core_context(system.create_context(begin) if context is None else context)
     # a context from the end of a run at this time knows which events have happened already
     return simulator._run(context if context.time == begin else context.with_time(begin), end)

@@ -250,4 +250,6 @@ class System:
         return _picture.in_markdown(self)
 
     def __repr__(self) -> str:
+        if not _core.made(self):  # its constructor has raised, and a traceback shows it
+            return f"<{type(self).__name__}, which was not made>"
         return f"<{type(self).__name__} '{self.name}'>"

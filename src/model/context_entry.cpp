@@ -1,6 +1,7 @@
 // ContextEntry: the names of values, and how they are found and written.
 #include "saltus/model/context_entry.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <optional>
@@ -34,6 +35,15 @@ std::vector<std::pair<std::string, ContextEntry>> entries_of(const Layout::Leaf&
   return all;
 }
 
+/// Refuses a name that a parameter shares with a state or the mode of its block.
+void require_single(const Layout::Leaf& leaf, const std::string& local, std::string_view name) {
+  const auto all = entries_of(leaf, 0);
+  if (std::ranges::count(all, local, &std::pair<std::string, ContextEntry>::first) > 1) {
+    throw ModelError(text("'", name, "' is a parameter of block '", leaf.path, "' and its ", local,
+                          " too; rename the parameter, or set it by with_parameter"));
+  }
+}
+
 /// Adds an entry to a list of names: a short vector entry by entry.
 void add_names(std::vector<std::string>& names, const std::string& name,
                const ContextEntry& entry) {
@@ -64,6 +74,7 @@ ContextEntry find_entry(const Layout& layout, std::string_view name) {
     for (auto& [local, entry] : entries_of(leaf, static_cast<Index>(l))) {
       const bool alone = layout.leaves.size() == 1 && local == whole;
       if (!alone && whole != text(leaf.path, ".", local)) continue;
+      require_single(leaf, local, name);
       if (!index) return entry;
       if (*index < entry.size) return {entry.kind, entry.first + *index, 1};
       throw ModelError(text("'", name, "': '", whole, "' has ", entry.size,

@@ -2,6 +2,7 @@
 #include "saltus/model/diagram_builder.hpp"
 
 #include "saltus/model/detail/names.hpp"
+#include "saltus/model/detail/soundness.hpp"
 
 namespace saltus {
 
@@ -34,6 +35,7 @@ int DiagramBuilder::export_input(InputPort port, std::string name) {
   require_free(port);
   if (name.empty()) name = text(name_of(port.system), "_", port_name(port));
   detail::name_it(name, diagram_.inputs_, "in_", "the diagram");
+  name = detail::without_dot(std::move(name), "input");
   diagram_.inputs_.push_back({std::move(name), port});
   return static_cast<int>(diagram_.inputs_.size()) - 1;
 }
@@ -45,6 +47,7 @@ int DiagramBuilder::export_output(OutputPort port, std::string name) {
                 port.system->output_names()[static_cast<std::size_t>(port.index)]);
   }
   detail::name_it(name, diagram_.outputs_, "out_", "the diagram");
+  name = detail::without_dot(std::move(name), "output");
   diagram_.outputs_.push_back({std::move(name), port});
   return static_cast<int>(diagram_.outputs_.size()) - 1;
 }
@@ -62,8 +65,9 @@ Diagram DiagramBuilder::build(std::string name) {
       }
     }
   }
+  detail::require_sound(diagram_);
+  Diagram built(detail::without_dot(std::move(name), "diagram"));
   spent_ = true;
-  Diagram built(std::move(name));
   built.children_ = std::move(diagram_.children_);
   built.wires_ = std::move(diagram_.wires_);
   built.inputs_ = std::move(diagram_.inputs_);

@@ -45,7 +45,7 @@ void require_sound(const ZeroCrossing& c, const Declarations& declared, const st
 
 }  // namespace
 
-LeafSystem::LeafSystem(std::string name) : System(std::move(name)) {}
+LeafSystem::LeafSystem(std::string name) : System(detail::without_dot(std::move(name), "block")) {}
 LeafSystem::~LeafSystem() = default;
 LeafSystem::LeafSystem(LeafSystem&&) noexcept = default;
 LeafSystem& LeafSystem::operator=(LeafSystem&&) noexcept = default;
@@ -128,6 +128,7 @@ void LeafSystem::declare_default_mode(int mode) {
 ParameterIndex LeafSystem::declare_dynamic_parameter(std::string parameter,
                                                      const Eigen::VectorXd& value) {
   detail::name_it(parameter, declared_.parameters, "parameter_", name());
+  parameter = detail::without_dot(std::move(parameter), text("block '", name(), "': parameter"));
   detail::require_finite(value, text("block '", name(), "': parameter '", parameter, "'"));
   const ParameterIndex index{declared_.parameter_values.size(), value.size()};
   declared_.parameters.push_back({std::move(parameter), index.offset, index.size});
@@ -138,12 +139,14 @@ ParameterIndex LeafSystem::declare_dynamic_parameter(std::string parameter,
 
 int LeafSystem::declare_input_port(InputDeclaration input) {
   detail::name_it(input.name, declared_.inputs, "in_", name());
+  input.name = detail::without_dot(std::move(input.name), text("block '", name(), "': input"));
   declared_.inputs.push_back(std::move(input));
   return static_cast<int>(declared_.inputs.size()) - 1;
 }
 
 int LeafSystem::declare_output_port(OutputDeclaration output) {
   detail::name_it(output.name, declared_.outputs, "out_", name());
+  output.name = detail::without_dot(std::move(output.name), text("block '", name(), "': output"));
   take_formula(output.calc, output.formula, text("output '", output.name, "'"), name());
   if (!output.calc && !output.view) {
     throw ModelError(

@@ -7,15 +7,24 @@
 
 namespace saltus {
 
+namespace {
+
+/// Whether an event of this kind says that its guard or its clock fired.
+bool is_firing(EventKind kind) {
+  return kind == EventKind::zero_crossing || kind == EventKind::terminal || kind == EventKind::time;
+}
+
+}  // namespace
+
 Event EventLog::operator[](std::size_t i) const {
   const Row& row = rows_[i];
-  const auto [block, name] = split(names_[static_cast<std::size_t>(row.source)]);
+  const EventName& source = names_[static_cast<std::size_t>(row.source)];
   return {row.time,
           row.jump,
           row.kind,
           row.direction,
-          block,
-          name,
+          source.block,
+          source.event,
           row.predicted,
           std::span(states_).subspan(row.states, row.width),
           std::span(states_).subspan(row.states + row.width, row.width),
@@ -23,14 +32,20 @@ Event EventLog::operator[](std::size_t i) const {
           std::span(rests_).subspan(row.first_rest, row.rests)};
 }
 
-std::vector<double> EventLog::times(std::string_view name, EventKind kind) const {
-  require(name);
+std::vector<double> EventLog::times(std::string_view name, std::optional<EventKind> kind) const {
+  const std::vector<bool> wanted = called(name);
   std::vector<double> found;
   for (const Row& row : rows_) {
-    if (row.kind == kind && is_called(names_[static_cast<std::size_t>(row.source)], name))
-      found.push_back(row.time);
+    if (!wanted[static_cast<std::size_t>(row.source)]) continue;
+    if (kind ? row.kind == *kind : is_firing(row.kind)) found.push_back(row.time);
   }
   return found;
+}
+
+std::vector<std::string> EventLog::names() const {
+  std::vector<std::string> full;
+  for (const EventName& name : names_) full.push_back(name.full());
+  return full;
 }
 
 EventLog EventLog::emptied() const {
@@ -39,26 +54,20 @@ EventLog EventLog::emptied() const {
   return log;
 }
 
-bool EventLog::is_called(std::string_view full, std::string_view name) {
-  return full == name || split(full).second == name;
-}
-
-void EventLog::require(std::string_view name) const {
-  const auto has_name = [&](const std::string& full) { return is_called(full, name); };
-  if (std::ranges::any_of(names_, has_name)) return;
+std::vector<bool> EventLog::called(std::string_view name) const {
+  std::vector<bool> whole, own;
+  for (const EventName& one : names_) {
+    whole.push_back(one.full() == name);
+    own.push_back(one.event == name);
+  }
+  if (std::ranges::find(whole, true) != whole.end()) return whole;
+  if (std::ranges::find(own, true) != own.end()) return own;
   std::vector<std::string> known;  // names as short or as long as the requested name
-  for (const std::string& full : names_) {
-    const bool whole = name.find('.') != std::string_view::npos;
-    std::string one(whole ? full : split(full).second);
-    if (std::ranges::find(known, one) == known.end()) known.push_back(std::move(one));
+  for (const EventName& one : names_) {
+    std::string like = name.find('.') == std::string_view::npos ? one.event : one.full();
+    if (std::ranges::find(known, like) == known.end()) known.push_back(std::move(like));
   }
   throw ModelError(text("no event is called '", name, "'", known_names(name, known)));
-}
-
-std::pair<std::string_view, std::string_view> EventLog::split(std::string_view full) {
-  const auto dot = full.rfind('.');
-  return dot == std::string_view::npos ? std::pair{full, std::string_view()}
-                                       : std::pair{full.substr(0, dot), full.substr(dot + 1)};
 }
 
 }  // namespace saltus

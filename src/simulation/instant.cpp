@@ -72,11 +72,23 @@ bool Instant::collect() {
   journal_.at_jump(jump_ + 1);
   const bool let_go = take_contacts();
   const bool flipped = flip_relations();
+  rows_.before(jump_, flipped);
   machine_->evaluate_instant(present_.t);
   const bool released = collect_edges() || let_go;
   collect_crossings();
-  return flipped || released || !present_.actions.empty() ||
-         (present_.pass == 0 && transition_.held_outputs_changed());
+  present_.changes =
+      flipped || released || (present_.pass == 0 && transition_.held_outputs_changed()) ||
+      std::ranges::any_of(present_.actions, [this](const Action& action) { return acts(action); });
+  if (!present_.changes) journal_.at_jump(jump_);
+  note_passive();
+  return present_.changes || !present_.actions.empty();
+}
+
+/// Whether an action counts as a change. A guard that only ends the run does not. A time event does:
+/// whether held signals follow it must not depend on which of them are recorded.
+bool Instant::acts(const Action& action) const {
+  return action.cause != Cause::crossing ||
+         plan().crossing_of(plan().guard(action.index)).has_effect();
 }
 
 void Instant::run_pass() {
@@ -86,8 +98,7 @@ void Instant::run_pass() {
   commit();
   relations_.read_again();
   find_next();
-  ++jump_;
-  if (recorder_ != nullptr) recorder_->record(present_.t, jump_, machine_->x.data());
+  if (present_.changes) rows_.after(++jump_);
 }
 
 void Instant::run_action(const Action& action) {
@@ -132,11 +143,12 @@ void Instant::run_reset(const Action& action) {
   const bool wrote = run_effect(effect, action.leaf, journal_.name_of(source));
   const bool last = action.cause == Cause::crossing && journal_.ends_run(index);
   present_.outcome.terminal = present_.outcome.terminal || last;
-  journal_.note({.kind = last ? EventKind::terminal : EventKind::zero_crossing,
-                 .source = source,
-                 .leaf = action.leaf,
-                 .direction = -action.from,
-                 .entry = hold.entry});
+  journal_.note(
+      {.kind = last ? EventKind::terminal : EventKind::zero_crossing,
+       .source = source,
+       .leaf = action.leaf,
+       .direction = -action.from,
+       .entry = action.slot < 0 ? 0 : (*guards_)[static_cast<std::size_t>(action.slot)].entry});
   if (!wrote || action.carry) return;
   if (holds_.look_for_accumulation(hold) && action.cause == Cause::edge)
     contacts_.keep_relations_of(plan().edges[index]);

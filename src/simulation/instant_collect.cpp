@@ -83,28 +83,43 @@ void Instant::collect_carried(std::size_t e) {
   edges_.carried(e);
 }
 
-/// Collects the zero crossings that fire in this pass, by leaf, in declaration order.
+/// Collects the zero crossings that act in this pass, by leaf, in declaration order. Those that do
+/// nothing when they fire remain in the list: monitors, and terminal guards that end the run at a
+/// later firing.
 void Instant::collect_crossings() {
+  auto passive = present_.firings.begin();
   for (const Firing& firing : present_.firings) {
     const auto k = static_cast<std::size_t>(firing.slot);
-    const Guard& guard = (*guards_)[k];
-    const GuardGroup& group = plan().guard(guard.group);
+    const int number = (*guards_)[k].group;
+    const GuardGroup& group = plan().guard(number);
     if (!group.is_crossing()) continue;
-    const bool acts = plan().crossing_of(group).has_effect() ||
-                      journal_.ends_run(static_cast<std::size_t>(guard.group));
-    if (acts) {
-      present_.actions.push_back({group.leaf, Cause::crossing, guard.group, firing.slot,
-                                  firing.from, holds_.of_guard(k).monitor.holding});
-    } else {  // a monitor, or a terminal guard that ends the run at a later firing
-      journal_.note({.kind = EventKind::zero_crossing,
-                     .source = guard.group,
-                     .leaf = group.leaf,
-                     .direction = -firing.from,
-                     .entry = guard.entry});
+    const auto same = [&](const Firing& other) {
+      return (*guards_)[static_cast<std::size_t>(other.slot)].group == number;
+    };
+    const auto waiting = std::count_if(present_.firings.begin(), passive, same);
+    if (plan().crossing_of(group).has_effect() ||
+        journal_.ends_run(static_cast<std::size_t>(number), waiting)) {
+      present_.actions.push_back({group.leaf, Cause::crossing, number, firing.slot, firing.from,
+                                  holds_.of_guard(k).monitor.holding});
+    } else {
+      *passive++ = firing;
     }
   }
-  present_.firings.clear();
+  present_.firings.erase(passive, present_.firings.end());
   sort(present_.actions);
+}
+
+/// Logs the zero crossings that fire and do nothing.
+void Instant::note_passive() {
+  for (const Firing& firing : present_.firings) {
+    const Guard& guard = (*guards_)[static_cast<std::size_t>(firing.slot)];
+    journal_.note({.kind = EventKind::zero_crossing,
+                   .source = guard.group,
+                   .leaf = plan().guard(guard.group).leaf,
+                   .direction = -firing.from,
+                   .entry = guard.entry});
+  }
+  present_.firings.clear();
 }
 
 }  // namespace saltus

@@ -12,6 +12,7 @@ Instant::Instant(Machine& machine, GuardSet& guards, const SimulatorOptions& opt
       guards_(&guards),
       options_(&options),
       present_(guards.size()),
+      rows_(machine, guards, present_),
       transition_(machine),
       journal_(machine, transition_, options, results),
       flow_(machine, options),
@@ -25,7 +26,7 @@ Instant::Instant(Machine& machine, GuardSet& guards, const SimulatorOptions& opt
 }
 
 void Instant::begin(double t, Recorder* recorder) {
-  jump_ = 0, recorder_ = recorder;
+  jump_ = 0, rows_.begin(recorder);
   present_.open(t, 0.0);
   std::ranges::fill(present_.g, 1.0);  // guards that are inactive now have no value yet
   transition_.open();

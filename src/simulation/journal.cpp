@@ -8,16 +8,23 @@ namespace saltus {
 namespace {
 
 /// Names of declared events that can never fire. A user may still ask for them by name.
-void add_silent(const Plan& plan, std::vector<std::string>& names) {
+void add_silent(const Plan& plan, std::vector<EventName>& names) {
   for (const PlanLeaf& leaf : plan.leaves) {
     for (const ZeroCrossing& crossing : leaf.declared().zero_crossings) {
-      if (crossing.direction == Direction::none)
-        names.push_back(text(leaf.path, ".", crossing.name));
+      if (crossing.direction == Direction::none) names.push_back({leaf.path, crossing.name});
     }
   }
   for (const Node& node : plan.nodes) {
-    if (node.relation && !node.located) names.push_back(plan.name_of(node));
+    if (node.relation && !node.located)
+      names.push_back({plan.leaf_of(node).path, plan.relation_of(node).name});
   }
+}
+
+/// The name of an entry of the plan, "block.event", in its two parts.
+template <class Entry>
+EventName name_in(const Plan& plan, const Entry& entry) {
+  const std::string& block = plan.leaf(entry.leaf).path;
+  return {block, entry.name.substr(block.size() + 1)};
 }
 
 }  // namespace
@@ -29,10 +36,10 @@ Journal::Journal(const Machine& machine, const Transition& transition,
       transition_(&transition),
       options_(&options),
       results_(&results) {
-  std::vector<std::string> names;
-  for (const GuardGroup& group : plan_->guards) names.push_back(group.name);
-  for (const EdgeWatch& edge : plan_->edges) names.push_back(edge.name);
-  for (const ScheduledEvent& event : plan_->schedule) names.push_back(event.name);
+  std::vector<EventName> names;
+  for (const GuardGroup& group : plan_->guards) names.push_back(name_in(*plan_, group));
+  for (const EdgeWatch& edge : plan_->edges) names.push_back(name_in(*plan_, edge));
+  for (const ScheduledEvent& event : plan_->schedule) names.push_back(name_in(*plan_, event));
   counts_.assign(names.size(), 0), earlier_.assign(plan_->guards.size(), 0);
   add_silent(*plan_, names);
   results.events.begin(std::move(names));
@@ -96,9 +103,9 @@ void Journal::cause(int source) {
   if (chain_.size() < thresholds::remembered_causes) chain_.push_back(source);
 }
 
-bool Journal::ends_run(std::size_t group) const {
+bool Journal::ends_run(std::size_t group, std::int64_t waiting) const {
   const ZeroCrossing& crossing = plan_->crossing_of(plan_->guards[group]);
-  return crossing.terminal && earlier_[group] + counts_[group] + 1 >= crossing.max_count;
+  return crossing.terminal && earlier_[group] + counts_[group] + waiting + 1 >= crossing.max_count;
 }
 
 std::vector<std::pair<std::string, std::int64_t>> Journal::counts() const {
@@ -109,9 +116,16 @@ std::vector<std::pair<std::string, std::int64_t>> Journal::counts() const {
   return named;
 }
 
-const std::string& Journal::last_event() const {
-  static const std::string none;
-  return last_source_ < 0 ? none : name_of(last_source_);
+EventName Journal::last_event() const {
+  return last_source_ < 0 ? EventName{} : event_of(last_source_);
+}
+
+EventName Journal::event_of(int source) const {
+  const auto groups = static_cast<int>(plan_->guards.size()),
+             edges = static_cast<int>(plan_->edges.size());
+  if (source < groups) return name_in(*plan_, plan_->guard(source));
+  if (source < groups + edges) return name_in(*plan_, plan_->edge(source - groups));
+  return name_in(*plan_, plan_->scheduled(source - groups - edges));
 }
 
 void Journal::throw_no_end() const {
@@ -120,11 +134,11 @@ void Journal::throw_no_end() const {
       chain_.size() > thresholds::shown_causes ? chain_.size() - thresholds::shown_causes : 0;
   for (std::size_t i = first; i < chain_.size(); ++i)
     causes += text(i == first ? "'" : " -> '", name_of(chain_[i]), "'");
-  const std::string last = chain_.empty() ? std::string() : name_of(chain_.back());
+  const EventName last = chain_.empty() ? EventName{} : event_of(chain_.back());
   throw SimulationError(text("t = ", t_, " s: this instant does not come to an end: more than ",
                              options_->max_passes, " passes; the events set each other off: ... ",
                              causes, " ...; break the loop, or raise max_passes"),
-                        t_, last.substr(0, last.rfind('.')));
+                        t_, last.block);
 }
 
 std::vector<std::int64_t> Journal::save() const {

@@ -35,6 +35,7 @@ Run::Run(std::shared_ptr<const Plan> plan, SimulatorOptions options)
       guards_(machine_.plan()),
       instant_(machine_, guards_, options_, results_),
       calendar_(machine_.plan()),
+      major_(options_.max_major_step_length),
       chattering_(options_) {}
 
 void Run::initialize(const Context& context) {
@@ -133,14 +134,13 @@ Status Run::begin(double t_end) {
   record(time_, machine_.x.data());
   if (options_.dense_output) results_.trajectory.open(time_, machine_, instant_.contacts());
   if (!resumes) return settle(StopReason::stop_time, t_end, true);
-  last_instant_ = time_;
+  major_.begin(time_);
   return Status::reached_end;
 }
 
 /// Takes one minor step, and runs the instant at its end if there is one.
 Status Run::step(double t_end) {
-  const double t_stop =
-      std::min({t_end, calendar_.next(), last_instant_ + options_.max_major_step_length});
+  const double t_stop = major_.next(time_, std::min(t_end, calendar_.next()));
   const double from = time_;
   StopReason reason = StopReason::stop_time;
   if (options_.dense_output) results_.trajectory.depart(present_state());
@@ -179,13 +179,12 @@ void Run::move_to(double t_stop, StopReason& reason) {
 Status Run::settle(StopReason reason, double t_end, bool at_start) {
   if (solver_started_) take_state();
   ++results_.statistics.instants;
-  last_instant_ = time_;
   results_.trajectory.instant();
   due_.clear();
   if (calendar_.due(time_) || at_start) calendar_.take(time_, due_);
   if (reason != StopReason::root && due_.empty() && !at_start)
     return Status::reached_end;  // only the end of a major step
-  record(time_, machine_.x.data());
+  major_.begin(time_);
   const bool at_root = reason == StopReason::root, idle = at_root && chattering_.idle(machine_.x);
   const Outcome outcome = instant_.run(time_, due_, t_end - time_, at_start);
   if (outcome.restart && solver_started_)
@@ -202,12 +201,11 @@ Status Run::after(const Outcome& outcome, const Chattering::Seen& seen, bool idl
 }
 
 Status Run::end_chattering() {
-  const std::string& name = instant_.journal().last_event();
-  results_.block = name.substr(0, name.rfind('.'));
+  const EventName name = instant_.journal().last_event();
+  results_.block = name.block;
   return end(Status::chattering,
-             text("t = ", time_, " s: guard '", name.substr(name.rfind('.') + 1), "' of block '",
-                  results_.block, "' fired ", chattering_.found().count, " times in ",
-                  time_ - chattering_.found().since,
+             text("t = ", time_, " s: guard '", name.event, "' of block '", name.block, "' fired ",
+                  chattering_.found().count, " times in ", time_ - chattering_.found().since,
                   " s: time does not advance. Give it hysteresis, a zeno_tolerance above 0 s, or a "
                   "mode of its own for the motion along the switching surface"));
 }

@@ -224,3 +224,45 @@ def test_a_reduce_block_of_another_width_says_so():
         saltus.ModelError, match="block 'f': output 'out' returned 1 numbers, expected 2"
     ):
         output_of(block, [5.0, 5.0])
+
+
+@pytest.mark.parametrize(
+    ("make", "inputs", "expected"),
+    [
+        (lambda: Adder(2, operators="+-"), (5.0, 2.0), 3.0),
+        (lambda: Adder(2, "+-"), (5.0, 2.0), 3.0),
+        (lambda: Adder(n_in=2, operators="+-"), (5.0, 2.0), 3.0),
+        (lambda: Adder(operators="+-"), (5.0, 2.0), 3.0),
+        (lambda: Adder("+-"), (5.0, 2.0), 3.0),
+        (lambda: Adder(2), (5.0, 2.0), 7.0),
+        (lambda: Adder(), (5.0, 2.0), 7.0),
+        (lambda: Product(2, operators="*/"), (6.0, 4.0), 1.5),
+        (lambda: Product("*/"), (6.0, 4.0), 1.5),
+        (lambda: Product(2), (6.0, 4.0), 24.0),
+    ],
+)
+def test_operators_with_and_without_their_number(make, inputs, expected):
+    assert output_of(make(), *inputs) == expected
+
+
+@pytest.mark.parametrize("block", [Adder, Product])
+@pytest.mark.parametrize(
+    "arguments", [(3, "++"), (2.5,), (True,), (0,), (-1,), ("",), ("++", "+-")]
+)
+def test_operators_that_do_not_fit_are_refused(block, arguments):
+    with pytest.raises(saltus.ModelError, match=r"expected|say them once"):
+        block(*arguments)
+
+
+@pytest.mark.parametrize(
+    ("make", "name"),
+    [
+        (lambda: ZeroOrderHold(period=0.1), "dt"),
+        (lambda: UnitDelay(sample_time=0.1), "dt"),
+        (lambda: UnitDelay(0.1, initial_value=1.0), "initial_state"),
+        (lambda: Pulse(dt=0.1), "period"),
+    ],
+)
+def test_an_argument_of_another_name_is_told_its_own(make, name):
+    with pytest.raises(saltus.ModelError, match=f"it is called {name} here"):
+        make()

@@ -176,7 +176,7 @@ def declared(**arguments):
         ({"edge": "risin"}, "edge reset 'n': unknown edge 'risin'; did you mean 'rising'"),
         ({"on_zeno": "halt"}, "edge reset 'n': unknown on_zeno 'halt'"),
         ({"zeno_tolerance": "small"}, "zeno_tolerance: expected a time"),
-        ({"period": 1.0}, "no option 'period'"),
+        ({"period": 1.0}, "unknown option 'period'"),
     ],
 )
 def test_arguments_that_make_no_sense_are_refused(arguments, message):

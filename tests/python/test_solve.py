@@ -1,6 +1,7 @@
 """`saltus.solve`: the short door, shaped like scipy.integrate.solve_ivp."""
 
 import functools
+import pickle
 
 import numpy as np
 import pytest
@@ -363,3 +364,90 @@ def test_an_endless_span_needs_a_terminal_event():
     wall = saltus.Guard(lambda t, x: x[0] - 3.0, terminal=True)
     ended = saltus.solve(lambda t, x: [1.0], (0.0, np.inf), [0.0], events=[wall])
     assert abs(ended.t[-1] - 3.0) < 1e-12  # rounding of 3 s and of the state
+
+
+STIFF = np.array([[-1.0, -5.0], [1.0, 1.0]])
+
+
+@pytest.mark.parametrize(
+    "form", ["csc_matrix", "csr_matrix", "coo_matrix", "csc_array", "lil_matrix"]
+)
+@pytest.mark.parametrize("constant", [True, False])
+def test_a_sparse_jacobian_is_taken_as_scipy_returns_it(form, constant):
+    sparse = pytest.importorskip("scipy.sparse")
+    matrix = getattr(sparse, form)(STIFF)
+    jacobian = matrix if constant else (lambda t, x: matrix)
+    fine = {"method": "bdf", "rtol": 1e-8, "atol": 1e-10}
+    found = solve(lambda t, x: STIFF @ x, (0, 2), [0.0, 2.0], jacobian=jacobian, **fine)
+    dense = solve(lambda t, x: STIFF @ x, (0, 2), [0.0, 2.0], jacobian=lambda t, x: STIFF, **fine)
+    # the same Newton matrices but for the order in which a sparse solver eliminates
+    assert found.y[:, -1] == pytest.approx(dense.y[:, -1], rel=1e-6)
+
+
+def test_entries_of_a_sparse_jacobian_that_are_named_twice_add_up():
+    sparse = pytest.importorskip("scipy.sparse")
+    halves = sparse.coo_matrix(([-30.0, -20.0], ([0, 0], [0, 0])), shape=(1, 1))
+    found = solve(lambda t, x: -50.0 * x, (0, 1), [1.0], method="bdf", jacobian=halves)
+    right = solve(lambda t, x: -50.0 * x, (0, 1), [1.0], method="bdf", jacobian=[[-50.0]])
+    assert found.statistics.steps == right.statistics.steps
+
+
+def test_a_sparse_jacobian_in_a_leaf_system():
+    sparse = pytest.importorskip("scipy.sparse")
+    leaf = saltus.LeafSystem(name="leaf")
+    leaf.declare_continuous_state(
+        [0.0, 2.0],
+        ode=lambda t, s: STIFF @ s.continuous_state,
+        jacobian=lambda t, s: sparse.csc_matrix(STIFF),
+    )
+    results = saltus.simulate(leaf, (0, 2), ode_solver_method="bdf")
+    assert results.statistics.jacobian_calls > 0
+
+
+@pytest.mark.parametrize("shape", [(1, 2), (2, 1), (3, 3)])
+@pytest.mark.parametrize("form", ["dense", "sparse"])
+def test_a_constant_jacobian_of_another_shape_is_refused(form, shape):
+    jacobian = np.ones(shape)
+    if form == "sparse":
+        jacobian = pytest.importorskip("scipy.sparse").csr_matrix(jacobian)
+    with pytest.raises(saltus.ModelError, match=r"solve: jacobian: expected shape \(2, 2\)"):
+        solve(lambda t, x: STIFF @ x, (0, 2), [0.0, 2.0], jacobian=jacobian)
+
+
+@pytest.mark.parametrize("form", ["list", "array", "sparse"])
+def test_a_constant_jacobian_is_never_computed(form, tmp_path):
+    jacobian = {"list": STIFF.tolist(), "array": STIFF}.get(form)
+    if jacobian is None:
+        jacobian = pytest.importorskip("scipy.sparse").csc_matrix(STIFF)
+    bdf = {"method": "bdf"}
+    found = solve(lambda t, x: STIFF @ x, (0, 2), [0.0, 2.0], jacobian=jacobian, **bdf)
+    assert found.njev == 0
+    assert found.nlu > 0
+    found.save(tmp_path / "run.npz")
+    assert saltus.load_results(tmp_path / "run.npz").njev == 0
+    assert pickle.loads(pickle.dumps(found)).njev == 0
+    computed = solve(lambda t, x: STIFF @ x, (0, 2), [0.0, 2.0], jacobian=lambda t, x: STIFF, **bdf)
+    assert computed.njev > 0
+    assert solve(lambda t, x: STIFF @ x, (0, 2), [0.0, 2.0], **bdf).njev > 0
+
+
+@pytest.mark.parametrize("where", ["f", "guard"])
+def test_a_write_to_x_in_place_says_what_to_do(where):
+    def write(t, x):
+        x[0] = 1.0
+        return x
+
+    f, guards = (write, None) if where == "f" else (fall, [Guard(write)])
+    with pytest.raises(
+        saltus.ModelError, match=r"may only be read at test_solve.py:\d+: .* `x = x"
+    ):
+        solve(f, (0, 1), [0.0, 2.0], events=guards)
+
+
+@pytest.mark.parametrize("returned", [[1.0], [1.0, 2.0, 3.0], 5.0])
+def test_a_reset_of_the_wrong_length_is_named(returned):
+    guard = Guard(height, reset=lambda t, x: returned, direction="falling", name="bounce")
+    with pytest.raises(
+        saltus.ModelError, match=r"reset map of 'bounce' returned \d numbers, expect"
+    ):
+        solve(fall, (0, 4), [5.0, 0.0], events=guard)

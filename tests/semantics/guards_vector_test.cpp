@@ -105,3 +105,30 @@ TEST_CASE("4.4 without `holds` all of the leaf rests", "[semantics]") {
   CHECK(count(results.events, EventKind::zeno_enter) == 1);
   CHECK(results.context.continuous_state()[1] > 0.0);  // in mid-air, as it was at 0.6 s
 }
+
+TEST_CASE("2.1 a vector of guards that only ends the run says in the log which one did",
+          "[semantics]") {
+  const auto* method = GENERATE(from_range(methods));
+  const Index which = GENERATE(0, 1, 3);
+  const int max_count = GENERATE(1, 2);
+  INFO("method " << method << ", guard " << which << ", max_count " << max_count);
+  const Leaf leaf("leaf", [=](Leaf& l) {
+    l.declare_continuous_state({.initial = vec({0.0, 1.0}),
+                                .ode = [](const At& at, VectorRef f) { f << at.x[1], -at.x[0]; }});
+    l.declare_zero_crossing({.name = "end",
+                             .guard =
+                                 [=](const At& at, VectorRef out) {
+                                   out.setConstant(-1.0);
+                                   out[which] = at.x[0] - 0.5;
+                                 },
+                             .direction = Direction::negative_then_non_negative,
+                             .terminal = true,
+                             .max_count = max_count,
+                             .size = n});
+  });
+  const auto results =
+      simulate(leaf, leaf.create_context(), {0.0, 20.0}, {.ode_solver_method = method});
+  CHECK(results.status == Status::terminal);
+  REQUIRE(results.events.size() == static_cast<std::size_t>(max_count));
+  for (std::size_t i = 0; i < results.events.size(); ++i) CHECK(results.events[i].entry == which);
+}

@@ -66,3 +66,22 @@ TEST_CASE("3.9 max_count below 1, or on a guard that is not terminal, is refused
   CHECK(contains(refused(0, true), "max_count"));
   CHECK(contains(refused(2, false), "max_count"));
 }
+
+TEST_CASE("3.9 firings of one vector of guards at one time are counted one by one", "[semantics]") {
+  const auto* method = GENERATE(from_range(methods));
+  const int max_count = GENERATE(1, 2, 3);
+  INFO("method " << method << ", max_count " << max_count);
+  const Leaf leaf("leaf", [=](Leaf& l) {
+    declare_ramp(l);
+    l.declare_zero_crossing(
+        {.name = "end",
+         .guard = [](const At& at, VectorRef out) { out.setConstant(at.x[0] - 0.5); },
+         .terminal = true,
+         .max_count = max_count,
+         .size = 2});
+  });
+  const auto results =
+      simulate(leaf, leaf.create_context(), {0.0, 1.0}, {.ode_solver_method = method});
+  CHECK(results.status == (max_count < 3 ? Status::terminal : Status::reached_end));
+  CHECK(results.events.size() == 2);
+}

@@ -80,3 +80,36 @@ TEST_CASE("5.4 statistics are summed across restarts", "[semantics]") {
   CHECK(half.steps < s.steps);
   CHECK(half.restarts == 6);
 }
+
+TEST_CASE("5.1 a guard that only ends the run leaves one row and is no jump", "[semantics]") {
+  const auto* method = GENERATE(from_range(methods));
+  INFO("method " << method);
+  const Leaf leaf("leaf", [=](Leaf& l) {
+    declare_ramp(l);
+    l.declare_zero_crossing(
+        {.name = "end", .guard = [](const At& at) { return at.x[0] - 0.5; }, .terminal = true});
+  });
+  const auto results =
+      simulate(leaf, leaf.create_context(), {0.0, 1.0},
+               {.ode_solver_method = method, .recorded_signals = {{"x", leaf.output()}}});
+  REQUIRE(results.events.size() == 1);
+  CHECK(std::ranges::count(results.time, results.events[0].time) == 1);
+  CHECK(results.events[0].jump == 0);
+  CHECK(results.jump.back() == 0);
+}
+
+TEST_CASE("5.1 in the row before a pass a trigger that fired is true, in the one after it false",
+          "[semantics]") {
+  const auto* method = GENERATE(from_range(methods));
+  const Scene scene = blocks(GENERATE(from_range(contacts)), {.e = 0.8});
+  INFO(scene.form << ", method " << method);
+  const System& touches = dynamic_cast<const Diagram&>(*scene.system)["touches"];
+  const auto results =
+      simulate(*scene.system, scene.context(1.0, 0.0), {0.0, 3.0},
+               {.ode_solver_method = method, .recorded_signals = {{"touches", touches.output()}}});
+  const std::vector<double>& touched = results.signals[0].values;
+  REQUIRE(results.jump.back() >= 4);
+  CHECK(std::ranges::count(touched, 1.0) == results.jump.back());
+  for (std::size_t i = 0; i + 1 < touched.size(); ++i)
+    CHECK((touched[i] == 1.0) == (results.jump[i] < results.jump[i + 1]));
+}

@@ -9,7 +9,7 @@ namespace {
 
 EventLog two_rows() {
   EventLog log;
-  log.begin({"plant.ball.bounce", "clock.tick"});
+  log.begin({{"plant.ball", "bounce"}, {"clock", "tick"}});
   const double before[] = {0.0, -3.0}, after[] = {0.0, 2.0};
   log.add({.time = 1.0,
            .jump = 1,
@@ -51,14 +51,65 @@ TEST_CASE("times are asked for by name, full or short, and kind", "[event_log]")
   const EventLog log = two_rows();
   CHECK(log.times("bounce") == std::vector{1.0});
   CHECK(log.times("plant.ball.bounce") == std::vector{1.0});
-  CHECK(log.times("tick").empty());
+  CHECK(log.times("tick", EventKind::zero_crossing).empty());
   CHECK(log.times("tick", EventKind::time) == std::vector{1.5});
+}
+
+TEST_CASE("without a kind the times are those at which an event fired", "[event_log]") {
+  EventLog log;
+  log.begin({{"ball", "bounce"}, {"clock", "tick"}});
+  double t = 0.0;
+  for (const EventKind kind : {EventKind::zero_crossing, EventKind::zeno_enter,
+                               EventKind::zeno_release, EventKind::terminal})
+    log.add({.time = ++t,
+             .jump = 1,
+             .direction = -1,
+             .kind = kind,
+             .source = 0,
+             .predicted = not_a_number,
+             .states = 0,
+             .width = 0},
+            nullptr, nullptr);
+  log.add({.time = 9.0,
+           .jump = 2,
+           .direction = 0,
+           .kind = EventKind::time,
+           .source = 1,
+           .predicted = not_a_number,
+           .states = 0,
+           .width = 0},
+          nullptr, nullptr);
+  CHECK(log.times("bounce") == std::vector{1.0, 4.0});
+  CHECK(log.times("tick") == std::vector{9.0});
+}
+
+TEST_CASE("a name with dots is the event of that path, or else the own name of events",
+          "[event_log]") {
+  EventLog log;
+  log.begin({{"b", "c"}, {"x", "b.c"}, {"x", "y=0.5"}, {"z", "c"}});
+  for (int source = 0; source < 4; ++source)
+    log.add({.time = 1.0 + source,
+             .jump = 1,
+             .direction = 0,
+             .kind = EventKind::zero_crossing,
+             .source = source,
+             .predicted = not_a_number,
+             .states = 0,
+             .width = 0},
+            nullptr, nullptr);
+  CHECK((log[1].block == "x" && log[1].name == "b.c"));
+  CHECK(log.times("b.c") == std::vector{1.0});  // the path
+  CHECK(log.times("x.b.c") == std::vector{2.0});
+  CHECK(log.times("y=0.5") == std::vector{3.0});
+  CHECK(log.times("x.y=0.5") == std::vector{3.0});
+  CHECK(log.times("c") == std::vector{1.0, 4.0});
+  CHECK_THROWS_AS(log.times("5"), ModelError);
 }
 
 TEST_CASE("a name that no event has is refused with the nearest one; one that never fired is not",
           "[event_log]") {
   EventLog log;
-  log.begin({"plant.ball.bounce", "plant.other.bounce", "clock.tick"});
+  log.begin({{"plant.ball", "bounce"}, {"plant.other", "bounce"}, {"clock", "tick"}});
   CHECK(log.times("bounce").empty());
   CHECK(log.times("clock.tick", EventKind::time).empty());
   CHECK(message<ModelError>([&] { log.times("bonce"); }) ==

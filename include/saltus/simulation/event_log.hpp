@@ -2,6 +2,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -36,6 +37,13 @@ struct Event {
   std::span<const int> rests = {};
 };
 
+/// The name of a declared event. The path of its block has no dot within a name, its own name may
+/// have some: "ball" and "y=0.5".
+struct EventName {
+  std::string block, event;
+  std::string full() const { return block + "." + event; }
+};
+
 /// Stores events as rows of numbers. It grows by whole rows and keeps its memory from run to run.
 class EventLog {
  public:
@@ -44,12 +52,14 @@ class EventLog {
 
   Event operator[](std::size_t i) const;
 
-  /// The times [s] of the events of one name ("bounce" or "ball.bounce") and kind; empty if it
-  /// never fired. ModelError for a name that no event of the run has, with the nearest there is.
-  std::vector<double> times(std::string_view name, EventKind kind = EventKind::zero_crossing) const;
+  /// The times [s] of the events of one name and kind; empty if it never fired. "ball.bounce" is
+  /// that event of that block; a name that is no such path, as "bounce", is that of an event in any
+  /// block. Without a kind: when it fired, at a zero crossing, at the end of the run, or in time.
+  /// ModelError for a name that no event of the run has, with the nearest there is.
+  std::vector<double> times(std::string_view name, std::optional<EventKind> kind = {}) const;
 
   /// The name "ball.bounce" of every declared event, fired or not.
-  const std::vector<std::string>& names() const noexcept { return names_; }
+  std::vector<std::string> names() const;
 
   // --- for the engine --------------------------------------------------------------------------
   struct Row {
@@ -63,7 +73,7 @@ class EventLog {
     std::size_t first_rest = 0, rests = 0;
   };
 
-  void begin(std::vector<std::string> names) { names_ = std::move(names), clear(); }
+  void begin(std::vector<EventName> names) { names_ = std::move(names), clear(); }
   void clear() { rows_.clear(), states_.clear(), rests_.clear(); }
   EventLog emptied() const;
   /// `rests` are the entries of x that rest; the block's begin at `first`.
@@ -77,14 +87,13 @@ class EventLog {
   }
 
  private:
-  static bool is_called(std::string_view full, std::string_view name);
-  void require(std::string_view name) const;
-  static std::pair<std::string_view, std::string_view> split(std::string_view full);
+  /// The sources that a name means. ModelError if there is none.
+  std::vector<bool> called(std::string_view name) const;
 
   std::vector<Row> rows_;
   std::vector<double> states_;
   std::vector<int> rests_;
-  std::vector<std::string> names_;
+  std::vector<EventName> names_;
 };
 
 }  // namespace saltus

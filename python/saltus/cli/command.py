@@ -6,6 +6,7 @@ import argparse
 import os
 import sys
 from collections.abc import Sequence
+from typing import NoReturn
 
 from saltus import __version__
 from saltus.cli import describe_scene, list_scenes, report_scene, run_scene
@@ -21,9 +22,16 @@ class UsageError(Exception):
     """Something the user can mend: a message, no traceback."""
 
 
+class _Parser(argparse.ArgumentParser):
+    """Answers wrong use in one line, as the subcommands do."""
+
+    def error(self, message: str) -> NoReturn:
+        self.exit(2, f"{self.prog}: {message}; `{self.prog} --help` says more\n")
+
+
 def parser() -> argparse.ArgumentParser:
     """The parser of all subcommands."""
-    whole = argparse.ArgumentParser(
+    whole = _Parser(
         prog="saltus",
         description="Hybrid ODEs: run ready scenes, or systems of your own.",
         epilog="`saltus SUBCOMMAND --help` says more. Exit codes: 0; 1 for a run that did not end "
@@ -72,7 +80,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         if isinstance(error, BrokenPipeError):  # `saltus list | head`
             os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
             return 0
-        print(f"saltus {chosen.name}: {error}", file=sys.stderr)
+        message = " ".join(str(error).split())  # one line, of an algebraic loop too
+        print(f"saltus {chosen.name}: {message}", file=sys.stderr)
         return 2
     except KeyboardInterrupt:
         print(f"saltus {chosen.name}: interrupted", file=sys.stderr)

@@ -32,9 +32,10 @@ def act(chosen: argparse.Namespace) -> int:
     overrides = options_of(chosen)
     refuse("--option", overrides, SimulatorOptions.__dataclass_fields__, OPTIONS)
     options = replace(scene.options, **overrides)
+    plan = Simulator(scene.system, options).describe()  # refuses wrong options before a line is out
     print_table(_facts(scene, options))
     print()
-    print(Simulator(scene.system, options).describe(), end="")
+    print(plan, end="")
     return 0
 
 

@@ -7,11 +7,14 @@ saltus report robertson --methods bdf,auto --rtols 1e-4,1e-6,1e-8 --plot roberts
 from __future__ import annotations
 
 import argparse
+import math
 from pathlib import Path
 from typing import Any
 
+from saltus.cli.files import require_picture, require_suffix
 from saltus.cli.scene_of import Chosen, chosen_scene
 from saltus.cli.settings import add_scene, settings_of
+from saltus.errors import ModelError
 from saltus.report import WorkPrecision, work_precision
 
 __all__ = ["act", "add_arguments"]
@@ -20,7 +23,12 @@ NAME = "report"
 
 
 def _numbers(text: str) -> list[float]:
-    return [float(number) for number in text.split(",")]
+    try:
+        return [float(number) for number in text.split(",")]
+    except ValueError:
+        raise argparse.ArgumentTypeError(
+            f"expected numbers 1e-4,1e-8,..., found '{text}'"
+        ) from None
 
 
 def _words(text: str) -> list[str]:
@@ -46,6 +54,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def act(chosen: argparse.Namespace) -> int:
+    _check(chosen)
     scene = chosen_scene(chosen.scene, settings_of(chosen.set))
     scene = scene.with_span(chosen.t_begin, chosen.t_end)
     how: dict[str, Any] = {"time_limit": chosen.time_limit, "least_time": chosen.least_time}
@@ -59,6 +68,20 @@ def act(chosen: argparse.Namespace) -> int:
     return (
         0 if any(row["status"] in ("reached_end", "terminal", "zeno_stop") for row in table) else 1
     )
+
+
+def _check(chosen: argparse.Namespace) -> None:
+    """ModelError for values that cannot be meant, before anything is measured."""
+    for rtol in chosen.rtols or ():
+        if not 0.0 < rtol < math.inf:
+            raise ModelError(f"--rtols: expected positive numbers, found {rtol:g}")
+    if not 0.0 < chosen.time_limit:
+        raise ModelError(f"--time-limit: expected a time above 0 s, found {chosen.time_limit:g}")
+    if not 0.0 <= chosen.least_time < math.inf:
+        raise ModelError(f"--least-time: expected a time from 0 s, found {chosen.least_time:g}")
+    require_suffix("--csv", chosen.csv, ".csv", ".txt")
+    require_suffix("--json", chosen.json, ".json", ".txt")
+    require_picture("--plot", chosen.plot)
 
 
 def _table(scene: Chosen, how: dict[str, Any]) -> WorkPrecision:

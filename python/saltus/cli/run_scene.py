@@ -17,6 +17,7 @@ from typing import Any
 
 import numpy as np
 
+from saltus.cli.files import require_picture, require_suffix
 from saltus.cli.scene_of import Chosen, chosen_scene
 from saltus.cli.settings import add_options, add_scene, options_of, settings_of
 from saltus.cli.table import print_table
@@ -30,6 +31,7 @@ __all__ = ["act", "add_arguments"]
 NAME = "run"
 WELL = ("reached_end", "terminal", "zeno_stop")
 INTERRUPTED = 130
+MOST_ROWS = 10_000_000  # even rows: some hundred bytes each until they are written
 SHOWN = 12  # values at the end that are shown one by one
 
 
@@ -51,10 +53,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def act(chosen: argparse.Namespace) -> int:
+    require_suffix("--csv", chosen.csv, ".csv", ".txt")
+    require_picture("--plot", chosen.plot)
     scene = chosen_scene(chosen.scene, settings_of(chosen.set))
     scene = scene.with_span(chosen.t_begin, chosen.t_end)
     span = scene.required_span()
     overrides = _recording(chosen, scene, span) | options_of(chosen)
+    if "throw" in overrides:
+        raise ModelError("--option throw: leave it out; the exit code says how the run ended")
     results = simulate(scene.system, scene.context, span, scene.options, throw=False, **overrides)
     _show(results, scene, chosen)
     _write(results, chosen)
@@ -84,10 +90,21 @@ def _recording(
 def _times(text: str, span: tuple[float, float]) -> list[float]:
     try:
         if "," not in text and text.isdigit() and int(text) > 1:
+            if int(text) > MOST_ROWS:
+                raise ModelError(f"--save-at: expected at most {MOST_ROWS} rows, found {text}")
             return list(np.linspace(*span, int(text)))
-        return [float(t) for t in text.split(",")]
+        times = [float(t) for t in text.split(",")]
+    except ModelError:
+        raise
     except ValueError:
         raise ModelError(f"--save-at: expected times or how many, found '{text}'") from None
+    for time in times:
+        if not span[0] <= time <= span[1]:
+            raise ModelError(
+                f"--save-at: expected times in the run, {span[0]:g} s to {span[1]:g} s, or how "
+                f"many, found {time:g}"
+            )
+    return times
 
 
 def _summary(results: Results, scene: Chosen) -> dict[str, Any]:
@@ -173,10 +190,7 @@ def _write(results: Results, chosen: argparse.Namespace) -> None:
         import matplotlib
 
         matplotlib.use("Agg")  # a file is drawn, no window
-        try:
-            np.ravel(results.plot())[0].figure.savefig(chosen.plot)
-        except ValueError as error:  # a format that matplotlib does not know
-            raise ModelError(f"--plot {chosen.plot}: {error}") from None
+        np.ravel(results.plot())[0].figure.savefig(chosen.plot)
 
 
 def _write_csv(results: Results, path: Path) -> None:

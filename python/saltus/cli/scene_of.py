@@ -5,6 +5,7 @@ from __future__ import annotations
 import importlib
 import importlib.util
 import inspect
+import math
 import sys
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -41,6 +42,9 @@ class Chosen:
         """The scene with the span from the command line in place of the usual one."""
         if begin is None and end is None:
             return self
+        for flag, time in (("--t-begin", begin), ("--t-end", end)):
+            if time is not None and not math.isfinite(time):
+                raise ModelError(f"{flag}: expected a finite time in seconds, found {time:g}")
         usual = self.span or (0.0, None)
         begin, end = usual[0] if begin is None else begin, usual[1] if end is None else end
         return replace(self, span=None if end is None else (begin, end), scene=None)

@@ -3,20 +3,16 @@
 from __future__ import annotations
 
 import os
-import time
 from typing import Any
 
-import numpy as np
-
 from saltus import _core
-from saltus.ensemble.columns import STATUS, Columns, join
+from saltus.ensemble.columns import Columns
 from saltus.ensemble.job import Job, Watch
 from saltus.ensemble.table import Table
 from saltus.errors import ModelError
 
 __all__ = ["run"]
 
-SOON = 0.5  # [s] a shorter sweep is not worth the start of other processes
 KINDS = ("threads", "processes", "serial")
 Outcome = tuple[Columns, "BaseException | None", str, int]
 
@@ -52,53 +48,12 @@ def run(job: Job, table: Table, executor: Any, workers: int | None, watch: Watch
 
 
 def _run_as_suits(job: Job, table: Table, workers: int | None, count: int, watch: Watch) -> Outcome:
+    """What the system and `workers` decide, never the clock: the same call runs the same way."""
     if not job.needs_interpreter:
         return *job.run(table.columns, count, watch), "threads", count
-    portable = _portable(job, must=(workers or 1) > 1)
-    if count == 1 or not portable:
+    if workers is None or count == 1:
         return *job.run(table.columns, 1, watch), "serial", 1
-    start = time.perf_counter()
-    columns, raised = job.run(
-        table.columns, 1, lambda done: watch(done) or time.perf_counter() - start > SOON
-    )
-    done = _begun(columns)
-    if raised is not None or done == table.runs:
-        return columns, raised, "serial", 1
-    rest = Table(table.part(done, table.runs), {"run": []}, table.runs - done)
-    more, raised = _in_processes(job, rest, count, lambda n: watch(done + n))
-    return join([_rows(columns, done), more]), raised, "processes", count
-
-
-def _portable(job: Job, must: bool) -> bool:
-    """Whether it can go to another process; ModelError where it must."""
-    from saltus.ensemble import pools
-
-    try:
-        pools.pickled(job)
-    except ModelError:
-        if must:
-            raise
-        return False
-    return True
-
-
-def _begun(columns: Columns) -> int:
-    """How many runs were made to their end, counted from the first."""
-    ended = ~_is(columns, "not_run", "interrupted")
-    return len(ended) if ended.all() else int(ended.argmin())
-
-
-def _is(columns: Columns, *names: str) -> Any:
-    return np.isin(STATUS[columns["status"]], names)
-
-
-def _rows(columns: Columns, count: int) -> Columns:
-    """The first rows."""
-    cut = {n: c[:count] for n, c in columns.items() if hasattr(c, "shape")}
-    cut["signals"] = {name: array[:count] for name, array in columns["signals"].items()}
-    for name in ("reasons", "reduced"):
-        cut[name] = {run: value for run, value in columns[name].items() if run < count}
-    return cut | {"names": columns["names"]}
+    return *_in_processes(job, table, count, watch), "processes", count
 
 
 def _in_processes(

@@ -19,7 +19,7 @@ from saltus.options import SimulatorOptions
 from saltus.results import Results
 from saltus.system import OutputPort, System
 
-__all__ = ["Job", "Watch", "port_of"]
+__all__ = ["Job", "NoSystem", "Watch", "port_of"]
 
 Watch = Callable[[int], bool]
 Values = Mapping[str, Column]
@@ -35,6 +35,10 @@ def port_of(system: System, port: OutputPort | str) -> OutputPort:
     for block in path:
         system = system[block]  # type: ignore[index]
     return system.output(name)
+
+
+class NoSystem(ModelError):
+    """The function that a sweep was given makes no system: no row of it can run."""
 
 
 @dataclass(frozen=True)
@@ -74,10 +78,6 @@ class Job:
 
     def ensemble(self, system: System, values: Values) -> _core.Ensemble:
         """The runs of one system with these values. ModelError if they do not fit it."""
-        if not isinstance(system, System):
-            raise ModelError(
-                f"sweep: expected a system, or a function that makes one, found {system!r}"
-            )
         signals = {name: port_of(system, port) for name, port in self.signals.items()}
         options = core_options(replace(self.options, recorded_signals=signals))
         context = self.context or system.create_context(self.span[0])
@@ -97,14 +97,47 @@ class Job:
             self.ensemble(self.system, values)
             return
         own = self.for_factory(list(values))
+        self._require_arguments(own)
         if len(own) == len(values):
             return
         self._first(values, own)
 
+    def _require_arguments(self, own: list[str]) -> None:
+        """ModelError where the factory needs an argument that the values do not have."""
+        assert not isinstance(self.system, System)
+        try:
+            signature = inspect.signature(self.system)
+        except (TypeError, ValueError):  # a compiled function has no signature
+            return
+        variadic = (inspect.Parameter.VAR_POSITIONAL, inspect.Parameter.VAR_KEYWORD)
+        needed = [
+            name
+            for name, p in signature.parameters.items()
+            if p.default is p.empty and p.kind not in variadic
+        ]
+        if missing := [name for name in needed if name not in own]:
+            raise NoSystem(
+                f"sweep: {_name(self.system)}{signature} needs {', '.join(map(repr, missing))}, "
+                "which the values do not have; expected a system, or a function make(**values) "
+                "that returns one. A derivative f(t, x, k) becomes a system as the ode of a "
+                "LeafSystem, with k as a parameter of it or of make(k)"
+            )
+
+    def _make(self, row: Mapping[str, Any], own: list[str]) -> System:
+        """The system of one row."""
+        assert not isinstance(self.system, System)
+        system = self.system(**{name: row[name] for name in own})
+        if not isinstance(system, System):
+            raise NoSystem(
+                f"sweep: {_name(self.system)} returned {system!r}; expected a function that makes "
+                "a system"
+            )
+        return system
+
     def _first(self, values: Values, own: list[str]) -> None:
         """The names that are no arguments belong to the system: the first one tells."""
         assert not isinstance(self.system, System)
-        system = self.system(**{name: _entry(values[name], 0) for name in own})
+        system = self._make({name: _entry(values[name], 0) for name in own}, own)
         rest = {name: column[:1] for name, column in values.items() if name not in own}
         context = system.create_context()
         for name in rest:
@@ -155,11 +188,11 @@ class Job:
         return join(parts), raised
 
     def _run_one(self, row: Mapping[str, Any], own: list[str]) -> tuple[Columns, Any]:
-        assert not isinstance(self.system, System)
         try:
-            system = self.system(**{name: row[name] for name in own})
             rest = {name: [value] for name, value in row.items() if name not in own}
-            return self._run(system, rest, 1, None)
+            return self._run(self._make(row, own), rest, 1, None)
+        except NoSystem:
+            raise
         except Exception as error:  # the factory raised it, or the values do not fit its system
             return failed(1, _said(error)), None
         except KeyboardInterrupt as error:
@@ -187,6 +220,10 @@ class _Reduced:
         for run, error in self.errors.items():
             columns["status"][run] = failure
             columns["reasons"][run] = (error, "")
+
+
+def _name(function: Any) -> str:
+    return getattr(function, "__name__", type(function).__name__)
 
 
 def _said(error: BaseException) -> str:

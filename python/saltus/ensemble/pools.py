@@ -13,7 +13,7 @@ from contextlib import contextmanager
 from typing import Any
 
 from saltus.ensemble.columns import Columns, empty, failed, join
-from saltus.ensemble.job import Job, Watch
+from saltus.ensemble.job import Job, NoSystem, Watch
 from saltus.ensemble.table import Column, Table
 from saltus.errors import ModelError
 
@@ -131,6 +131,8 @@ def _part(submitted: Iterator[Any], runs: int) -> Columns:
         columns: Columns = next(submitted)()
     except (pickle.PicklingError, AttributeError, TypeError) as error:  # it could not go there
         raise ModelError(f"sweep: cannot be run in another process ({error}); {REMEDY}") from None
+    except NoSystem:
+        raise
     except (CancelledError, BrokenProcessPool) as error:
         return failed(runs, f"the process that made this run ended: {error}")
     except Exception as error:

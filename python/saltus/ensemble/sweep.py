@@ -53,7 +53,7 @@ def sweep(
     The runs know nothing of each other: each is, bit for bit, the run that `simulate` would make,
     whatever the executor, the number of workers and the order. A run that fails keeps its reason,
     and the others go on. Systems of C++ blocks run in threads over one compiled plan; those with
-    Python functions one after another here, or in processes.
+    Python functions one after another here, or in processes if you ask for these.
 
     Parameters
     ----------
@@ -81,8 +81,9 @@ def sweep(
     executor : optional
         ``"threads"``, ``"processes"``, ``"serial"``, or an object with ``submit`` or ``map``:
         an executor of `concurrent.futures` or of mpi4py, a Dask ``Client``, a pool of joblib or
-        multiprocessing. Not said: threads where no Python function runs; else it begins here, and
-        what remains after half a second goes to processes if it can.
+        multiprocessing. Not said: threads where no Python function runs; else one run after
+        another here, or processes if `workers` is above 1. A script that starts processes needs
+        ``if __name__ == "__main__":`` around what it does.
     workers : int, optional
         Threads or processes, or workers of the executor; the number of cores if not said.
     reduce : callable, optional
@@ -111,7 +112,8 @@ def sweep(
     ------
     ModelError
         Before anything is run: for unknown names, with the nearest one, for values that cannot be
-        meant, and where a system cannot go to another process.
+        meant, for a function that needs more than the values, and where a system cannot go to
+        another process. For a function that makes something else than a system.
     ImportError
         Before anything is run: where xarray is not installed, unless `as_dict`.
     KeyboardInterrupt

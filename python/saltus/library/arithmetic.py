@@ -4,12 +4,35 @@
 
 from __future__ import annotations
 
+import numpy as np
 from numpy.typing import ArrayLike
 
 from saltus import _core
+from saltus.errors import ModelError
 from saltus.library.block import Block
 
 __all__ = ["Abs", "Adder", "Gain", "Offset", "Product", "Saturate"]
+
+
+def _operators(block: str, usual: str, n_in: object, operators: object) -> str:
+    """One operator an input; `usual` for each where only their number is said."""
+    given = [value for value in (n_in, operators) if value is not None] or [2]
+    counts = [len(v) if isinstance(v, str) else v for v in given]
+    for count in counts:
+        if not isinstance(count, (int, np.integer)) or isinstance(count, bool) or count < 1:
+            raise ModelError(
+                f"block '{block}': expected the number of inputs, or an operator for each such as "
+                f"'{usual}{usual}', found {count!r}"
+            )
+    if len(set(counts)) > 1:
+        raise ModelError(
+            f"block '{block}': {counts[0]} inputs and {counts[1]} operators {given[1]!r}; expected "
+            "one operator for each input"
+        )
+    signs = [v for v in given if isinstance(v, str)]
+    if len(set(signs)) > 1:
+        raise ModelError(f"block '{block}': operators {signs[0]!r} and {signs[1]!r}; say them once")
+    return signs[0] if signs else usual * int(counts[0])
 
 
 class Gain(Block, _core.Gain):
@@ -73,15 +96,18 @@ class Adder(Block, _core.Adder):
 
     Parameters
     ----------
+    n_in
+        The number of inputs; or the operators, in their place.
     operators
-        The signs, one character an input: "+-" is u_0 - u_1. A number n stands for n plus signs.
+        The signs, one character an input: "+-" is u_0 - u_1. Without them all are plus, of two
+        inputs if `n_in` is not said either.
     name
         How messages, contexts and `diagram[...]` know it; if not said, its class and number.
 
     Raises
     ------
     ModelError
-        For another character than + and -.
+        For another character than + and -, or another number of them than `n_in`.
 
     Examples
     --------
@@ -97,10 +123,15 @@ class Adder(Block, _core.Adder):
     array([3.])
     """
 
-    def __init__(self, operators: str | int = "++", *, name: str | None = None):
-        super().__init__(
-            self._named(name), operators if isinstance(operators, str) else "+" * operators
-        )
+    def __init__(
+        self,
+        n_in: int | str | None = None,
+        operators: str | int | None = None,
+        *,
+        name: str | None = None,
+    ):
+        name = self._named(name)
+        super().__init__(name, _operators(name, "+", n_in, operators))
 
 
 class Product(Block, _core.Product):
@@ -108,15 +139,18 @@ class Product(Block, _core.Product):
 
     Parameters
     ----------
+    n_in
+        The number of inputs; or the operators, in their place.
     operators
-        "*" or "/" for each input: "*/" is u_0 / u_1. A number n stands for n times "*".
+        "*" or "/" for each input: "*/" is u_0 / u_1. Without them all are "*", of two inputs if
+        `n_in` is not said either.
     name
         How messages, contexts and `diagram[...]` know it; if not said, its class and number.
 
     Raises
     ------
     ModelError
-        For another character than * and /.
+        For another character than * and /, or another number of them than `n_in`.
 
     Examples
     --------
@@ -132,10 +166,15 @@ class Product(Block, _core.Product):
     array([1.5])
     """
 
-    def __init__(self, operators: str | int = "**", *, name: str | None = None):
-        super().__init__(
-            self._named(name), operators if isinstance(operators, str) else "*" * operators
-        )
+    def __init__(
+        self,
+        n_in: int | str | None = None,
+        operators: str | int | None = None,
+        *,
+        name: str | None = None,
+    ):
+        name = self._named(name)
+        super().__init__(name, _operators(name, "*", n_in, operators))
 
 
 class Abs(Block, _core.Abs):

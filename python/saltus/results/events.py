@@ -10,6 +10,7 @@ import numpy as np
 
 from saltus import _core
 from saltus.errors import ModelError
+from saltus.results.record import FIRINGS
 from saltus.results.tables import extra
 
 if TYPE_CHECKING:
@@ -91,16 +92,17 @@ class EventLog(Sequence[Event]):
     def __iter__(self) -> Iterator[Event]:
         return (Event(*self._record.event(row)) for row in self._rows)
 
-    def times(self, name: str | None = None, kind: str = "zero_crossing") -> np.ndarray:
+    def times(self, name: str | None = None, kind: str | None = None) -> np.ndarray:
         """When the events of one name and kind happened.
 
         Parameters
         ----------
         name : str
             Of the event, with or without that of its block: 'bounce' or 'ball.bounce'; of all if
-            it is left out.
-        kind : str
-            'zero_crossing', 'time', 'zeno_enter', 'zeno_release' or 'terminal'.
+            it is left out. A name that is the path of an event means that one.
+        kind : str, optional
+            'zero_crossing', 'time', 'zeno_enter', 'zeno_release' or 'terminal'; if not said, the
+            three in which it fired: a zero crossing, the one that ended the run, a time event.
 
         Returns
         -------
@@ -120,14 +122,18 @@ class EventLog(Sequence[Event]):
         >>> results.events.times("bounce").size > 0
         True
         """
-        if kind not in KINDS:
+        if kind is not None and kind not in KINDS:
             raise ModelError(f"unknown kind of event {kind!r}{_core.known_names(str(kind), KINDS)}")
+        kinds = FIRINGS if kind is None else (kind,)
         if name is None:
-            return np.array([e.time for e in self if e.kind == kind])
+            return np.array([e.time for e in self if e.kind in kinds])
         times = self._record.event_times(name, kind)  # refuses an unknown name
         if self._rows == range(self._record.event_count):
             return times
-        return np.array([e.time for e in self if e.kind == kind and name in (e.name, _path(e))])
+        path = name in self._record.event_names
+        return np.array(
+            [e.time for e in self if e.kind in kinds and name == (_path(e) if path else e.name)]
+        )
 
     def to_pandas(self) -> pandas.DataFrame:
         """A row for each event, a column for each field of `Event`. Needs pandas.

@@ -227,6 +227,11 @@ class Results:
             The file, which is replaced if it is there; '.npz' suits it. The format is NumPy's own,
             and `numpy.load` opens it too.
 
+        Raises
+        ------
+        ModelError
+            For a suffix of another format, such as '.csv'; the message says how to write that.
+
         Examples
         --------
         >>> import os, tempfile, saltus

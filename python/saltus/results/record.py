@@ -11,7 +11,10 @@ import numpy as np
 from saltus import _core
 from saltus.errors import ModelError
 
-__all__ = ["KINDS", "KeptRun", "Record"]
+__all__ = ["FIRINGS", "KINDS", "KeptRun", "Record"]
+
+FIRINGS = ("zero_crossing", "terminal", "time")
+"""kinds of events that say that a guard or a clock fired"""
 
 Columns = dict[str, np.ndarray]
 
@@ -47,7 +50,7 @@ class Record(Protocol):
     def joints(self) -> np.ndarray: ...
 
     def event(self, index: int, /) -> tuple[Any, ...]: ...
-    def event_times(self, name: str, kind: str, /) -> np.ndarray: ...
+    def event_times(self, name: str, kind: str | None, /) -> np.ndarray: ...
     def at(self, times: Sequence[float], left: bool, /) -> tuple[np.ndarray, Columns]: ...
 
 
@@ -93,13 +96,21 @@ class KeptRun:
     def event(self, index: int, /) -> tuple[Any, ...]:
         return self.events[index]
 
-    def event_times(self, name: str, kind: str, /) -> np.ndarray:
-        known = self.event_names if "." in name else [n.split(".")[-1] for n in self.event_names]
-        if name not in known:
+    def event_times(self, name: str, kind: str | None, /) -> np.ndarray:
+        path = name in self.event_names
+        if not path and not any(full.endswith(f".{name}") for full in self.event_names):
+            known = (
+                self.event_names if "." in name else [n.split(".")[-1] for n in self.event_names]
+            )
             known = list(dict.fromkeys(known))
             raise ModelError(f"no event is called '{name}'{_core.known_names(name, known)}")
+        kinds = FIRINGS if kind is None else (kind,)
         return np.array(
-            [e[0] for e in self.events if e[2] == kind and name in (e[5], f"{e[4]}.{e[5]}")]
+            [
+                e[0]
+                for e in self.events
+                if e[2] in kinds and name == (f"{e[4]}.{e[5]}" if path else e[5])
+            ]
         )
 
     def at(self, times: Sequence[float], left: bool, /) -> tuple[np.ndarray, Columns]:

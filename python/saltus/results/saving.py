@@ -7,6 +7,7 @@ beside it. Nothing in it is ever executed, so a file of unknown origin is safe t
 from __future__ import annotations
 
 import math
+import os
 from os import PathLike, fspath
 from typing import TYPE_CHECKING, Any
 
@@ -22,12 +23,30 @@ if TYPE_CHECKING:
 __all__ = ["load_results", "save"]
 
 FORMAT = "saltus results 2"
+OTHERS = {
+    ".csv": "results.to_pandas().to_csv(path) writes the rows as text",
+    ".tsv": "results.to_pandas().to_csv(path, sep='\\t') writes the rows as text",
+    ".txt": "results.to_pandas().to_string(path) writes the rows as text",
+    ".json": "results.to_pandas().to_json(path) writes the rows so",
+    ".xlsx": "results.to_pandas().to_excel(path) writes the rows so",
+    ".parquet": "results.to_pandas().to_parquet(path) writes the rows so",
+    ".feather": "results.to_pandas().to_feather(path) writes the rows so",
+    ".h5": "results.to_pandas().to_hdf(path, key='results') writes the rows so",
+    ".hdf5": "results.to_pandas().to_hdf(path, key='results') writes the rows so",
+    ".nc": "results.to_xarray().to_netcdf(path) writes the rows so",
+    ".npy": "numpy.save(path, results.time) writes one array",
+    ".mat": "scipy.io.savemat(path, dict(results.outputs)) writes the signals so",
+    ".pkl": "pickle.dump(results, file) writes so",
+    ".pickle": "pickle.dump(results, file) writes so",
+}
+"""suffixes of formats that a saved run does not have, and how to write them"""
 
 
 def save(run: KeptRun, path: str | PathLike[str], kind: dict[str, Any]) -> None:
     """Writes a run; the file has exactly the name that was given."""
     import json
 
+    refuse_suffix(path)
     arrays = {"time": run.time, "jump": run.jump}
     arrays |= {f"output {i}": array for i, array in enumerate(run.outputs.values())}
     arrays["event time"] = np.array([e[0] for e in run.events], dtype=float)
@@ -50,6 +69,16 @@ def save(run: KeptRun, path: str | PathLike[str], kind: dict[str, Any]) -> None:
     arrays["header"] = np.frombuffer(json.dumps(header).encode(), dtype=np.uint8)
     with open(fspath(path), "wb") as file:
         np.savez_compressed(file, **arrays)  # type: ignore[arg-type,unused-ignore]
+
+
+def refuse_suffix(path: str | PathLike[str]) -> None:
+    """ModelError for a name that promises another format than NumPy's .npz."""
+    suffix = os.path.splitext(fspath(path))[1].lower()
+    if suffix in OTHERS:
+        raise ModelError(
+            f"save: expected a name that ends in '.npz', found '{fspath(path)}', and the file is "
+            f"no {suffix} file; {OTHERS[suffix]}"
+        )
 
 
 def load_results(path: str | PathLike[str]) -> Results:

@@ -9,12 +9,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from saltus.results import Results
-from saltus.results.record import KINDS, KeptRun, Record
+from saltus.results.record import FIRINGS, KINDS, KeptRun, Record
 from saltus.system import System
 
 __all__ = ["Solution"]
 
-FIRINGS = ("zero_crossing", "terminal")
+BLOCK = "solve"  # the name of the block that `solve` makes
 WELL = {
     "reached_end": "the end of the span was reached",
     "terminal": "a terminal event ended the run",
@@ -63,9 +63,11 @@ class Solution(Results):
         asks: Any = None,
         names: Sequence[str] | None = None,
         system: System | None = None,
+        fixed_jacobian: bool = False,
     ):
         super().__init__(core, raised, asks)
         self.system = system
+        self._fixed_jacobian = fixed_jacobian  # a matrix, so that no Jacobian was computed
         self._names = None if names is None else list(names)
         self.message = self.message or WELL.get(self.status, "")
 
@@ -113,8 +115,8 @@ class Solution(Results):
 
     @property
     def njev(self) -> int:
-        """Jacobians computed."""
-        return self.statistics.jacobian_calls
+        """Jacobians computed; 0 if `jacobian` was a matrix."""
+        return 0 if self._fixed_jacobian else self.statistics.jacobian_calls
 
     @property
     def nlu(self) -> int:
@@ -122,7 +124,7 @@ class Solution(Results):
         return self.statistics.linear_setups
 
     def _times(self, name: str) -> np.ndarray:
-        return np.sort(np.concatenate([self.events.times(name, kind) for kind in FIRINGS]))
+        return self.events.times(f"{BLOCK}.{name}")  # a guard's own name may look like a path
 
     def _fired(self, name: str) -> list[Any]:
         return [e for e in self.events if e.name == name and e.kind in FIRINGS]
@@ -131,10 +133,17 @@ class Solution(Results):
         return np.moveaxis(self(t).continuous_state, -1, 0)
 
     def _kind(self) -> dict[str, Any]:
-        return {"kind": "Solution", "guards": self._names}
+        return {
+            "kind": "Solution",
+            "guards": self._names,
+            "fixed_jacobian": self._fixed_jacobian,
+        }
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return Solution, (KeptRun.of(self._core), self.cause, None, self._names)
+        kept = KeptRun.of(self._core)
+        return Solution, (kept, self.cause, None, self._names, None, self._fixed_jacobian)
 
 
-KINDS["Solution"] = lambda run, header: Solution(run, names=header["guards"])
+KINDS["Solution"] = lambda run, header: Solution(
+    run, names=header["guards"], fixed_jacobian=bool(header.get("fixed_jacobian", False))
+)

@@ -184,7 +184,8 @@ class _SolveSimulator(Simulator):
         self._names = names
 
     def _outcome(self, core: Record, raised: BaseException | None, asks: Any) -> Solution:
-        return Solution(core, raised, asks, self._names, self.system)
+        assert isinstance(self.system, SolvedSystem)
+        return Solution(core, raised, asks, self._names, self.system, self.system.fixed_jacobian)
 
     def solution(self, context: Context, end: float) -> Solution:
         solution = self._run(context, end)

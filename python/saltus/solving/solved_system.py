@@ -13,9 +13,11 @@ from numpy.typing import ArrayLike
 
 from saltus._core import numbers
 from saltus._wrapped import wrapping
+from saltus.calling import refuse_writing
 from saltus.errors import ModelError
 from saltus.leaf_system import LeafSystem
 from saltus.solving.guard import Guard
+from saltus.solving.solution import BLOCK
 
 __all__ = ["SolvedSystem", "arguments_of", "state_of", "times_of"]
 
@@ -38,12 +40,12 @@ class SolvedSystem(LeafSystem):
         jacobian: Function | ArrayLike | None,
         jacobian_sparsity: Any,
     ):
-        super().__init__(name="solve")
+        super().__init__(name=BLOCK)
+        self.fixed_jacobian = jacobian is not None and not callable(jacobian)
         self.declare_continuous_state(
             default_value=x0,
             ode=_checked(_flow(f, len(x0), args), f, begin, x0),
-            jacobian=_jacobian(jacobian, len(x0), args),
-            jacobian_sparsity=jacobian_sparsity,
+            **_derivatives(jacobian, jacobian_sparsity, len(x0), args),
         )
         self.declare_continuous_state_output(name="x")
         for number, guard in enumerate(guards):
@@ -114,7 +116,11 @@ def _checked(flow: Function, f: Function, begin: float, x0: np.ndarray) -> Funct
         continuous_state = x0.copy()
 
     Start.continuous_state.flags.writeable = False
-    returned = flow(begin, Start)
+    try:
+        returned = flow(begin, Start)
+    except ValueError as error:
+        refuse_writing(f"solve: {getattr(f, '__name__', 'f')}", error, error.__traceback__)
+        raise
     found = np.shape(returned)
     if found != x0.shape and np.size(returned) != x0.size:
         name = getattr(f, "__name__", "f")
@@ -142,22 +148,35 @@ def _reset(reset: Function, name: str, args: tuple[Any, ...]) -> Function:
             raise ModelError(
                 f"solve: the reset of '{label.name}' returned None; return the new state"
             )
-        return state.with_continuous_state(after)
+        return after
 
     return wrapping(reset, reset_map)
 
 
-def _jacobian(
-    jacobian: Function | ArrayLike | None, size: int, args: tuple[Any, ...]
-) -> Function | None:
-    if jacobian is None:
-        return None
-    if callable(jacobian):
-        return _value(jacobian, args)
-    matrix = np.array(jacobian, dtype=float)
+def _derivatives(jacobian: Any, sparsity: Any, size: int, args: tuple[Any, ...]) -> dict[str, Any]:
+    """The Jacobian as arguments of `declare_continuous_state`. What SciPy takes: a function or a
+    matrix, dense or sparse; the places of a sparse one are its sparsity.
+    """
+    if jacobian is None or callable(jacobian):
+        function = None if jacobian is None else _value(jacobian, args)
+        return {"jacobian": function, "jacobian_sparsity": sparsity}
+    if hasattr(jacobian, "tocoo"):
+        matrix = jacobian.tocoo(copy=True)
+        matrix.sum_duplicates()
+    else:
+        matrix = np.array(numbers(jacobian, "solve: jacobian"))
     if matrix.shape != (size, size):
         raise ModelError(f"solve: jacobian: expected shape {(size, size)}, found {matrix.shape}")
-    return lambda time, state: matrix
+    if not hasattr(matrix, "tocoo"):
+        return {"jacobian": lambda time, state: matrix, "jacobian_sparsity": sparsity}
+    if sparsity is not None:
+        dense = matrix.toarray()
+        return {"jacobian": lambda time, state: dense, "jacobian_sparsity": sparsity}
+    values = np.array(matrix.data, dtype=float)
+    return {
+        "jacobian_sparsity": (matrix.row.tolist(), matrix.col.tolist()),
+        "sparse_jacobian": lambda time, state: values,
+    }
 
 
 def state_of(x0: ArrayLike) -> np.ndarray:

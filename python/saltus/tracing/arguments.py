@@ -156,18 +156,34 @@ def call(
 
 def result_of(signature: Signature, returned: Any) -> Result:
     """The numbers in the result of a symbolic call."""
-    if signature.kind in ("reset", "update"):
-        if isinstance(returned, TracedState):
-            return _written(returned)
-        if signature.kind == "reset":
-            refuse("returns no state", "return state.with_continuous_state(...)")
+    if isinstance(returned, TracedState) and signature.kind in ("reset", "update"):
+        return _written(returned)
     if returned is None:
         refuse("returns None", "is a `return` missing?")
     data = as_array(returned)
     numbers = list(data.data.flat)
-    if signature.kind == "update":
-        return Result(numbers, data.shape, False, "z")
+    if signature.kind in ("reset", "update"):
+        letter = _meant(signature)
+        if len(numbers) != _size(signature, letter):
+            refuse(f"returns {len(numbers)} numbers", f"return {_size(signature, letter)}")
+        return Result(numbers, data.shape, False, letter)
     return Result(numbers, data.shape, data.kind == "b", "")
+
+
+def _size(signature: Signature, letter: str) -> int:
+    return signature.start(letter).size
+
+
+def _meant(signature: Signature) -> str:
+    """The state that numbers alone are: the one that the block has; of both, an update writes the
+    discrete one, and a reset map has to say which.
+    """
+    has_x, has_z = _size(signature, "x") > 0, _size(signature, "z") > 0
+    if has_x != has_z:
+        return "z" if has_z else "x"
+    if not has_x or signature.kind == "reset":
+        refuse("returns no state", "return state.with_continuous_state(...)")
+    return "z"
 
 
 def _written(state: TracedState) -> Result:
@@ -187,4 +203,4 @@ def plain_numbers(signature: Signature, returned: Any) -> tuple[Numbers, str]:
     if returned is None or np.iscomplexobj(returned):
         raise TypeError("no real numbers")
     numbers = np.asarray(returned, dtype=float).reshape(-1)
-    return numbers, "z" if signature.kind == "update" else ""
+    return numbers, _meant(signature) if signature.kind in ("reset", "update") else ""

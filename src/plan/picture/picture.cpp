@@ -64,8 +64,8 @@ class Drawing {
   }
 
   void make_plan() {
-    whole_ = closed(root_);
     try {
+      whole_ = closed(root_);
       plan_ = compile(*whole_);
     } catch (const ModelError& error) {
       picture_.trouble = error.what();

@@ -4,7 +4,7 @@ is as it was, and goes on.
 
 import pytest
 import saltus
-from saltus.library import Adder, Constant, Gain, Integrator, ReduceBlock
+from saltus.library import Adder, Comparator, Constant, Gain, Integrator, ReduceBlock
 
 
 def diagram(*wires, blocks):
@@ -58,8 +58,7 @@ def test_6_1_an_algebraic_loop_is_printed_as_the_path_of_ports():
         return [Adder("++", name="sum"), Gain(0.5, name="half"), Constant(1.0, name="one")]
 
     wires = [("one", "sum", 0), ("half", "sum", 1), ("sum", "half", 0)]
-    looped = diagram(*wires, blocks=blocks()).build()
-    message = refused(lambda: saltus.simulate(looped, looped.create_context(), (0.0, 1.0)))
+    message = refused(diagram(*wires, blocks=blocks()).build)
     lines = [line.strip() for line in message.splitlines()]
     assert "algebraic loop" in lines[0]
     start = next(i for i, line in enumerate(lines) if line.startswith("'"))
@@ -136,16 +135,141 @@ def test_6_1_an_unknown_name_is_answered_with_the_nearest(call, message):
             Integrator([0.0, 0.0], name="k"),
             "input 'in' of block 'k': expected 2 values, found 3 from output 'v.out'",
         ),
-        (
-            ReduceBlock(1, lambda u: u[0], shape=2, boolean=False, name="k"),
-            "block 'k': output 'out' returned 3 numbers, expected 2",
-        ),
     ],
 )
 def test_6_1_a_signal_of_the_wrong_shape_is_refused(block, message):
     blocks = [Constant([1.0, 2.0, 3.0], name="v"), block]
-    built = diagram(("v", "k", 0), blocks=blocks).build()
+    assert message == refused(diagram(("v", "k", 0), blocks=blocks).build)
+
+
+def test_6_1_an_output_that_returns_another_number_than_it_declares_is_refused():
+    block = ReduceBlock(1, lambda u: u[0], shape=2, boolean=False, name="k")
+    built = diagram(("v", "k", 0), blocks=[Constant([1.0, 2.0, 3.0], name="v"), block]).build()
     record = {"y": block.output()}
-    assert message == refused(
-        lambda: saltus.simulate(built, built.create_context(), (0.0, 1.0), recorded_signals=record)
+    message = "block 'k': output 'out' returned 3 numbers, expected 2"
+    assert message == refused(lambda: saltus.simulate(built, (0, 1), recorded_signals=record))
+
+
+def test_6_1_ports_in_the_wrong_order_are_called_swapped():
+    one, x = Constant(1.0, name="one"), Integrator(name="x")
+    builder = diagram(blocks=[one, x])
+    message = refused(lambda: builder.connect(x.input(), one.output()))
+    assert message.startswith(
+        "connect: the ports are swapped: expected an output and then an input"
     )
+    builder.connect(one.output(), x.input())
+    assert x_at_one(builder.build()) == pytest.approx([1.0])
+
+
+def test_6_1_a_port_of_the_other_kind_is_said():
+    one, x = Constant(1.0, name="one"), Integrator(name="x")
+    builder = diagram(blocks=[one, x])
+    wrong = "expected an output, such as block.output_ports[0], found <input 'in' of 'x'>"
+    assert refused(lambda: builder.connect(x.input(), x.input())) == wrong
+    assert refused(lambda: builder.export_output(x.input())) == wrong
+    wrong = "expected an input, such as block.input_ports[0], found <output 'out' of 'one'>"
+    assert refused(lambda: builder.connect(one.output(), x.output())).startswith(
+        "expected an input"
+    )
+    assert refused(lambda: builder.export_input(one.output())) == wrong
+
+
+def boxed(name, **ports):
+    """A gain in a diagram of its own."""
+    builder = saltus.DiagramBuilder()
+    gain = builder.add(Gain(0.5, name="gain"))
+    builder.export_input(gain.input(), "u")
+    builder.export_output(gain.output(), "y")
+    return builder.build(name)
+
+
+LOOPS = {
+    "itself": lambda: (Gain(0.5, name="a"), [("a", "a", 0)]),
+    "through a function": lambda: (ReduceBlock(1, lambda u: u[0], name="a"), [("a", "a", 0)]),
+    "through a diagram": lambda: (boxed("a"), [("a", "a", 0)]),
+}
+
+
+@pytest.mark.parametrize("kind", LOOPS)
+def test_6_1_build_refuses_an_algebraic_loop_and_the_builder_goes_on(kind):
+    block, wires = LOOPS[kind]()
+    assert "algebraic loop" in refused(diagram(*wires, blocks=[block]).build)
+    # an inner diagram with an open input is no loop before it is closed
+    x = Integrator(1.0, name="x")
+    block, _ = LOOPS[kind]()
+    assert diagram(("a", "x", 0), ("x", "a", 0), blocks=[block, x]).build().name == "root"
+
+
+def test_6_1_what_is_held_between_instants_is_no_loop():
+    """A comparison that acts on its own input through a relation."""
+    x, above = Integrator(0.0, name="x"), Comparator(">", name="above")
+    level, speed = Constant(0.5, name="level"), Gain(-1.0, name="speed")
+    one, sum_ = Constant(1.0, name="one"), Adder("++", name="sum")
+    wires = [
+        ("x", "above", 0), ("level", "above", 1), ("above", "speed", 0),
+        ("speed", "sum", 0), ("one", "sum", 1), ("sum", "x", 0),
+    ]  # fmt: skip
+    built = diagram(*wires, blocks=[x, above, level, speed, one, sum_]).build()
+    # rises at 1 to the level at 0.5 s, and stays there
+    assert x_at_one(built) == pytest.approx([0.5])
+
+
+def narrow(name):
+    block = saltus.LeafSystem(name=name)
+    block.declare_input_port("in", shape=2)
+    block.declare_output_port(lambda t, s, u: u, "out", shape=2)
+    return block
+
+
+WIDTHS = {
+    "a state": lambda: (Constant([1.0, 2.0, 3.0], name="v"), Integrator([0.0, 0.0], name="k")),
+    "a declared input": lambda: (Constant([1.0, 2.0, 3.0], name="v"), narrow("k")),
+    "after blocks of any width": lambda: (Constant([1.0, 2.0, 3.0], name="v"), narrow("k"), 2),
+}
+
+
+@pytest.mark.parametrize("kind", WIDTHS)
+def test_6_1_build_refuses_widths_that_do_not_fit(kind):
+    source, target, *between = WIDTHS[kind]()
+    builder = saltus.DiagramBuilder()
+    builder.add(source, target)
+    port = source.output()
+    for i in range(between[0] if between else 0):
+        gain = builder.add(Gain(1.0, name=f"gain_{i}"))
+        builder.connect(port, gain.input())
+        port = gain.output()
+    builder.connect(port, target.input())
+    if not isinstance(target, Integrator):
+        builder.export_output(target.output(), "y")
+    assert refused(builder.build).startswith(
+        f"input 'in' of block 'k': expected 2 values, found 3 from output '{port.system.name}.out'"
+    )
+
+
+def test_6_1_build_refuses_widths_that_meet_in_an_inner_diagram():
+    builder = saltus.DiagramBuilder()
+    two = builder.add(Constant([1.0, 2.0], name="two"))
+    sum_ = builder.add(Adder("++", name="sum"))
+    builder.export_input(sum_.input(0), "u")
+    builder.connect(two.output(), sum_.input(1))
+    builder.export_output(sum_.output(), "y")
+    inner = builder.build("inner")  # nothing is known of the open input
+    outer = saltus.DiagramBuilder()
+    three = outer.add(Constant([1.0, 2.0, 3.0], name="three"))
+    outer.add(inner)
+    outer.connect(three.output(), inner.input())
+    assert "block 'sum': expected scalars and vectors of one width" in refused(outer.build)
+
+
+def test_6_1_build_calls_no_function_of_a_user():
+    calls = []
+
+    def doubled(u):
+        calls.append(u)
+        return [2.0 * u[0], 0.0]
+
+    blocks = [Constant(1.0, name="one"), ReduceBlock(1, doubled, name="two"), narrow("k")]
+    built = diagram(("one", "two", 0), ("two", "k", 0), blocks=blocks).build()
+    assert not calls
+    built.create_context()
+    assert calls

@@ -99,7 +99,7 @@ def test_nothing_that_a_callback_gets_can_be_written_to():
     _, state, (u,), params = seen_by(declare, [Constant([1.0, 2.0])])
     for array in (state.continuous_state, state.discrete_state, u, params["p"]):
         assert not array.flags.writeable
-    with pytest.raises(AttributeError):
+    with pytest.raises(saltus.ModelError, match=r"return state\.with_mode"):
         state.mode = 3
 
 

@@ -130,7 +130,7 @@ def test_step_input_reaches_a_guard():
     np.testing.assert_allclose(results.events.times("hit"), [1.0, 3.0], rtol=0, atol=1e-12)
 
 
-@pytest.mark.parametrize("result", [None, [1.0], 3])
+@pytest.mark.parametrize("result", [None, "x", object(), {}, [1.0, "x"], 1j])
 def test_a_reset_map_gives_a_state(result):
     def declare(self):
         self.declare_continuous_state(1, ode=lambda t, s: [1.0])

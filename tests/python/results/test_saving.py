@@ -154,3 +154,20 @@ def test_columns_of_other_lengths_are_refused(tmp_path):
     with pytest.raises(saltus.ModelError, match="'jump' has"):
         saltus.load_results(cut)
     assert zipfile.is_zipfile(path)
+
+
+@pytest.mark.parametrize(
+    "suffix", [".csv", ".CSV", ".txt", ".json", ".parquet", ".nc", ".pkl", ".npy"]
+)
+def test_a_suffix_of_another_format_is_refused_and_nothing_is_written(suffix, tmp_path):
+    path = tmp_path / f"run{suffix}"
+    with pytest.raises(saltus.ModelError, match=r"expected a name that ends in '\.npz'"):
+        saltus.solve(lambda t, x: -x, (0, 1), [1.0]).save(path)
+    assert not path.exists()
+
+
+@pytest.mark.parametrize("name", ["run", "run.npz", "run_0.5", "run.saved"])
+def test_any_other_name_is_taken_as_it_is(name, tmp_path):
+    solution = saltus.solve(lambda t, x: -x, (0, 1), [1.0])
+    solution.save(tmp_path / name)
+    same(saltus.load_results(tmp_path / name), solution)

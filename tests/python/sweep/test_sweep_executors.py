@@ -1,12 +1,14 @@
 """Threads, processes, and executors of others: the same bits from all of them."""
 
 import concurrent.futures
+import itertools
 import multiprocessing
 import os
 import signal
 import subprocess
 import sys
 import threading
+import time
 
 import numpy as np
 import pytest
@@ -129,14 +131,33 @@ def test_a_process_that_dies_takes_its_runs_with_it():
     assert "the process that made this run ended" in found["message"].values[-1]
 
 
-def test_what_takes_long_goes_to_processes(monkeypatch):
-    from saltus.ensemble import executors
-
+@pytest.mark.parametrize(
+    ("workers", "executor"), [(None, "serial"), (1, "serial"), (2, "processes")]
+)
+def test_what_is_asked_for_decides_and_no_clock(monkeypatch, workers, executor):
+    """A clock that leaps by an hour at each reading changes nothing."""
+    hours = itertools.count(0.0, 3600.0)
+    monkeypatch.setattr(time, "perf_counter", lambda: next(hours))
     alone = saltus.sweep(make_ball, {"e": [0.5, 0.6, 0.7]}, (0.0, 1.0), executor="serial")
-    monkeypatch.setattr(executors, "SOON", -1.0)
-    found = saltus.sweep(make_ball, {"e": [0.5, 0.6, 0.7]}, (0.0, 1.0), workers=2)
-    assert found.attrs["executor"] == "processes"
+    found = saltus.sweep(make_ball, {"e": [0.5, 0.6, 0.7]}, (0.0, 1.0), workers=workers)
+    assert found.attrs["executor"] == executor
     assert np.array_equal(found["continuous_state"].values, alone["continuous_state"].values)
+
+
+def test_a_long_sweep_of_a_script_without_guard_runs(tmp_path):
+    """Fifty systems are made, each takes 20 ms, and no process is started."""
+    (tmp_path / "script.py").write_text(
+        "import time, saltus\n"
+        "def make(e):\n"
+        "    time.sleep(0.02)\n"
+        "    return saltus.scene('bouncing-ball', e=e).system\n"
+        "grid = {'e': [0.5] * 50}\n"
+        "print(saltus.sweep(make, grid, (0, 1), as_dict=True)['status'].tolist())\n"
+    )
+    done = subprocess.run(
+        [sys.executable, "script.py"], capture_output=True, text=True, timeout=120, cwd=tmp_path
+    )
+    assert done.stdout.count("reached_end") == 50, done.stderr
 
 
 def test_a_script_without_guard_is_told_so(tmp_path):

@@ -127,3 +127,26 @@ def test_values_that_cannot_be_meant(ball, values, how, says):
 def test_unknown_names_of_a_factory():
     with pytest.raises(ModelError, match="did you mean 'y0'"):
         saltus.sweep(make_ball, {"yO": [1.0]}, (0.0, 1.0))
+
+
+def derivative(t, x, k):
+    return -k * x
+
+
+@pytest.mark.parametrize("executor", [None, "serial", "processes"])
+@pytest.mark.parametrize("function", [derivative, lambda t, x, *, k: -k * x, lambda e, /: None])
+def test_a_function_that_needs_more_than_the_values_is_no_factory(function, executor):
+    with pytest.raises(ModelError, match="which the values do not have; expected a system"):
+        saltus.sweep(function, {"k": [1.0, 2.0]}, (0.0, 1.0), executor=executor)
+
+
+def not_a_system(k):
+    return [-k]
+
+
+@pytest.mark.parametrize("executor", [None, "serial", "processes"])
+def test_a_function_that_makes_no_system_is_no_factory(executor):
+    with pytest.raises(
+        ModelError, match=r"not_a_system returned \[-1.0\]; expected a function that"
+    ):
+        saltus.sweep(not_a_system, {"k": [1.0, 2.0]}, (0.0, 1.0), executor=executor)

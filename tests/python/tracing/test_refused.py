@@ -40,7 +40,9 @@ def test_what_is_wrong_when_called_too():
     assert "inhomogeneous shape" in reason(ragged)
     assert "raised ValueError: too cold at test_refused.py:" in reason(fails)
     assert "no attribute 'continous_state'" in reason(misspelt)
-    assert "returns no state" in reason(lambda t, s: 3.0, kind="reset")
+    assert "returns 1 numbers" in reason(lambda t, s: 3.0, kind="reset")
+    both = {"kind": "reset", "discrete_shape": (1,)}
+    assert "returns no state" in reason(lambda t, s: [1.0, 2.0], **both)
     wrong = "continuous state: expected 2 numbers, found 3"
     assert wrong in reason(lambda t, s: s.with_continuous_state([1, 2, 3]), kind="reset")
     assert "sets the mode to a real number" in reason(lambda t, s: s.with_mode(t), kind="reset")

@@ -27,4 +27,15 @@ void name_it(std::string& name, const List& others, std::string_view prefix,
   }
 }
 
+/// Refuses a name with a dot where names make paths: "ball.x" would be two things. `what` is what
+/// has the name, such as "block".
+inline std::string without_dot(std::string name, std::string_view what) {
+  if (name.find('.') != std::string::npos) {
+    throw ModelError(text(what, " '", name,
+                          "': a dot separates the names of a path; expected a name without one, "
+                          "such as with '_' in its place"));
+  }
+  return name;
+}
+
 }  // namespace saltus::detail

@@ -214,9 +214,8 @@ inline void check_shapes(const Plan& plan) {
       const Node& source = plan.node(leaf.inputs[i]);
       const InputDeclaration& input = leaf.declared().inputs[i];
       if (input.shape && input.shape->size != source.shape.size) {
-        throw ModelError(text("input '", input.name, "' of block '", leaf.path, "': expected ",
-                              input.shape->size, " values, found ", source.shape.size,
-                              " from output '", plan.name_of(source), "'"));
+        throw_wrong_width(input.name, leaf.path, input.shape->size, source.shape.size,
+                          plan.name_of(source));
       }
     }
   }

@@ -2,6 +2,7 @@
 // path.
 #pragma once
 
+#include "saltus/model/detail/wiring_errors.hpp"
 #include "saltus/plan/plan.hpp"
 
 namespace saltus::detail {
@@ -47,16 +48,10 @@ class Ordering {
   }
 
   [[noreturn]] void throw_loop(int start) const {
-    // path_ runs from a reader to the nodes it reads; the signal flows the other way round.
-    const auto first = std::ranges::find(path_, start, &Open::node);
-    std::string message = "algebraic loop: each output depends on the next at the same time\n";
-    for (auto it = first; it != path_.end(); ++it)
-      message += text("  '", plan_.name_of(plan_.node(it->node)), "' reads\n");
-    message += text("  '", plan_.name_of(plan_.node(start)),
-                    "'\nput a block without feedthrough into the loop (Integrator, UnitDelay), or "
-                    "declare which "
-                    "inputs an output does not read");
-    throw ModelError(message);
+    std::vector<std::string> loop;
+    for (auto it = std::ranges::find(path_, start, &Open::node); it != path_.end(); ++it)
+      loop.push_back(plan_.name_of(plan_.node(it->node)));
+    throw_algebraic_loop(loop);
   }
 
   const Plan& plan_;

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "saltus/simulation/detail/crossing_arming.hpp"
-#include "saltus/simulation/detail/recorder.hpp"
+#include "saltus/simulation/detail/instant_rows.hpp"
 #include "saltus/simulation/detail/relations.hpp"
 
 namespace saltus {
@@ -60,11 +60,13 @@ class Instant {
   void open(double t, const std::vector<int>& due, double longest);
   void turn_beside_root();
   bool collect();
+  bool acts(const Action& action) const;
   bool take_contacts();
   bool flip_relations();
   bool collect_edges();
   void collect_carried(std::size_t e);
   void collect_crossings();
+  void note_passive();
   bool run_effect(const Effect& effect, int leaf, const std::string& source);
   void run_pass();
   void run_action(const Action& action);
@@ -82,8 +84,8 @@ class Instant {
   Machine* machine_;
   GuardSet* guards_;
   const SimulatorOptions* options_;
-  Recorder* recorder_ = nullptr;
   Present present_;
+  InstantRows rows_;
   Transition transition_;
   Journal journal_;
   Flow flow_;

@@ -47,12 +47,13 @@ class Journal {
   /// A link of the chain of causes.
   void cause(int source);
 
-  /// Whether the next firing of a terminal guard ends the run.
-  bool ends_run(std::size_t group) const;
+  /// Whether a firing of a terminal guard ends the run, after `waiting` others that are not logged
+  /// yet.
+  bool ends_run(std::size_t group, std::int64_t waiting = 0) const;
   /// Events noted in this instant.
   int events() const noexcept { return events_; }
-  /// "block.event" of the last event; empty before the first one.
-  const std::string& last_event() const;
+  /// The name of the last event; empty before the first one.
+  EventName last_event() const;
   /// How often each event happened, by name; events that did not happen are left out.
   std::vector<std::pair<std::string, std::int64_t>> counts() const;
   [[noreturn]] void throw_no_end() const;
@@ -63,6 +64,7 @@ class Journal {
   void load(const Continuation& from) { earlier_ = from.counts; }
 
  private:
+  EventName event_of(int source) const;
   void add(const Entry& entry, double t, int jump, const double* before, const double* after);
 
   const Machine* machine_;

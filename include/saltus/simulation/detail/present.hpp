@@ -71,6 +71,7 @@ struct Present {
   double t = 0.0;        ///< [s]
   double longest = 0.0;  ///< [s] from here to the end of the run
   int pass = 0;
+  bool changes = false;  ///< whether the pass to come changes something; else it only logs
   std::vector<Firing> firings = {};  ///< for the pass to come
   std::vector<Action> actions = {};  ///< likewise
   std::vector<GuardNow> now;         ///< of each guard

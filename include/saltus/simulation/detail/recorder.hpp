@@ -39,6 +39,12 @@ class Recorder {
     }
   }
 
+  /// As `record`; a row at (t, j) that is there already is replaced.
+  void replace(double t, int jump, const double* x) {
+    if (has_row(t, jump)) drop();
+    record(t, jump, x);
+  }
+
   bool has_row(double t, int jump) const {
     return !results_->time.empty() && results_->time.back() == t && results_->jump.back() == jump;
   }

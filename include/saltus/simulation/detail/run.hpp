@@ -11,6 +11,7 @@
 #include "saltus/simulation/detail/calendar.hpp"
 #include "saltus/simulation/detail/chattering.hpp"
 #include "saltus/simulation/detail/instant.hpp"
+#include "saltus/simulation/detail/major_steps.hpp"
 #include "saltus/solver/detail/choose.hpp"
 
 namespace saltus {
@@ -65,10 +66,11 @@ class Run {
   Results results_;
   Instant instant_;
   Calendar calendar_;
+  MajorSteps major_;
   std::optional<Recorder> recorder_;
   std::unique_ptr<Solver> solver_;
   Context begin_;
-  double time_ = 0.0, last_instant_ = 0.0;
+  double time_ = 0.0;
   bool begun_ = false, solver_started_ = false, over_ = false;
   std::vector<int> due_;
   std::size_t next_save_ = 0;

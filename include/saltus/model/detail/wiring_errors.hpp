@@ -1,0 +1,31 @@
+// Wiring errors: the messages about wires that `build` and a plan share.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "saltus/base/error.hpp"
+#include "saltus/base/ids.hpp"
+
+namespace saltus::detail {
+
+/// Refuses a loop of outputs, of which each reads the next.
+[[noreturn]] inline void throw_algebraic_loop(const std::vector<std::string>& loop) {
+  // The list runs from a reader to what it reads; the signal flows the other way round.
+  std::string message = "algebraic loop: each output depends on the next at the same time\n";
+  for (const std::string& output : loop) message += text("  '", output, "' reads\n");
+  message += text("  '", loop.front(),
+                  "'\nput a block without feedthrough into the loop (Integrator, UnitDelay), or "
+                  "declare which inputs an output does not read");
+  throw ModelError(message);
+}
+
+/// Refuses a wire to an input that expects another number of values.
+[[noreturn]] inline void throw_wrong_width(std::string_view input, std::string_view block,
+                                           Index expected, Index found, std::string_view output) {
+  throw ModelError(text("input '", input, "' of block '", block, "': expected ", expected,
+                        " values, found ", found, " from output '", output, "'"));
+}
+
+}  // namespace saltus::detail

@@ -1,0 +1,209 @@
+// Soundness: algebraic loops and widths of a diagram that is being built.
+#include "saltus/model/detail/soundness.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <unordered_map>
+
+#include "saltus/model/detail/wiring_errors.hpp"
+
+namespace saltus::detail {
+
+namespace {
+
+/// The outputs of all leaves as nodes of a graph. A relation is held between instants, so an output
+/// that reads one needs nothing through it.
+class Wiring {
+ public:
+  explicit Wiring(const Diagram& diagram) {
+    add(diagram, "");
+    for (const Leaf& leaf : leaves_) {
+      for (int i = 0; i < static_cast<int>(leaf.declared().outputs.size()); ++i)
+        nodes_.push_back({numbers_.at(leaf.system), i});
+    }
+    connect(diagram);
+  }
+
+  struct Leaf {
+    const LeafSystem* system;
+    std::string path;
+    std::size_t first;         // its first output among the nodes
+    std::vector<int> sources;  // the node that feeds each input; -1: open
+    const Declarations& declared() const { return system->declarations(); }
+  };
+  struct Node {
+    std::size_t leaf;
+    int output;
+  };
+
+  const std::vector<Leaf>& leaves() const { return leaves_; }
+  std::size_t size() const { return nodes_.size(); }
+  const Leaf& leaf_of(int node) const { return leaves_[at(node).leaf]; }
+  const OutputDeclaration& output_of(int node) const {
+    return leaf_of(node).declared().outputs[static_cast<std::size_t>(at(node).output)];
+  }
+  std::string name_of(int node) const {
+    return text(leaf_of(node).path, ".", output_of(node).name);
+  }
+
+  /// The nodes that an output reads at the same time.
+  std::vector<int> needs(int node) const {
+    const OutputDeclaration& output = output_of(node);
+    const std::vector<int>& sources = leaf_of(node).sources;
+    if (output.view || !has(output.reads, Reads::inputs)) return {};
+    std::vector<int> read;
+    for (std::size_t i = 0; i < sources.size(); ++i) {
+      const bool reads = !output.inputs || std::ranges::find(*output.inputs, static_cast<int>(i)) !=
+                                               output.inputs->end();
+      if (reads && sources[i] >= 0) read.push_back(sources[i]);
+    }
+    return read;
+  }
+
+ private:
+  const Node& at(int node) const { return nodes_[static_cast<std::size_t>(node)]; }
+
+  void add(const System& system, const std::string& path) {
+    if (const auto* diagram = dynamic_cast<const Diagram*>(&system.itself())) {
+      for (const Diagram::Child& child : diagram->children())
+        add(*child.system, path.empty() ? child.name : path + "." + child.name);
+    } else if (const auto* leaf = dynamic_cast<const LeafSystem*>(&system.itself())) {
+      numbers_.emplace(leaf, leaves_.size());
+      leaves_.push_back(
+          {leaf, path, outputs_, std::vector(leaf->declarations().inputs.size(), -1)});
+      outputs_ += leaf->declarations().outputs.size();
+    }
+  }
+
+  void connect(const System& system) {
+    const auto* diagram = dynamic_cast<const Diagram*>(&system.itself());
+    if (diagram == nullptr) return;
+    for (const Diagram::Wire& wire : diagram->wires()) {
+      const LeafPort from = wire.from.system->output_source(wire.from.index),
+                     to = wire.to.system->input_target(wire.to.index);
+      Leaf& reader = leaves_[numbers_.at(to.leaf)];
+      reader.sources[static_cast<std::size_t>(to.index)] =
+          static_cast<int>(leaves_[numbers_.at(from.leaf)].first) + from.index;
+    }
+    for (const Diagram::Child& child : diagram->children()) connect(*child.system);
+  }
+
+  std::vector<Leaf> leaves_;
+  std::vector<Node> nodes_;
+  std::unordered_map<const LeafSystem*, std::size_t> numbers_;
+  std::size_t outputs_ = 0;
+};
+
+/// Visits each node after the nodes it needs, depth first; a node that needs itself ends a loop.
+class Loops {
+ public:
+  explicit Loops(const Wiring& wiring) : wiring_(wiring), mark_(wiring.size(), Mark::fresh) {}
+
+  std::vector<int> order() {
+    for (std::size_t i = 0; i < mark_.size(); ++i) {
+      enter(static_cast<int>(i));
+      while (!path_.empty()) go_on();
+    }
+    return std::move(order_);
+  }
+
+ private:
+  enum class Mark : char { fresh, open, done };
+  struct Open {
+    int node;
+    std::vector<int> left;  // of the nodes it needs
+  };
+
+  void enter(int i) {
+    Mark& mark = mark_[static_cast<std::size_t>(i)];
+    if (mark == Mark::done) return;
+    if (mark == Mark::open) throw_loop(i);
+    mark = Mark::open;
+    path_.push_back({i, wiring_.needs(i)});
+    std::ranges::reverse(path_.back().left);
+  }
+
+  void go_on() {
+    Open& last = path_.back();
+    if (!last.left.empty()) {
+      const int next = last.left.back();
+      last.left.pop_back();
+      return enter(next);
+    }
+    mark_[static_cast<std::size_t>(last.node)] = Mark::done;
+    order_.push_back(last.node);
+    path_.pop_back();
+  }
+
+  [[noreturn]] void throw_loop(int start) const {
+    std::vector<std::string> loop;
+    for (auto it = std::ranges::find(path_, start, &Open::node); it != path_.end(); ++it)
+      loop.push_back(wiring_.name_of(it->node));
+    throw_algebraic_loop(loop);
+  }
+
+  const Wiring& wiring_;
+  std::vector<Mark> mark_;
+  std::vector<Open> path_;  // from reader to read node
+  std::vector<int> order_;
+};
+
+/// The shapes of all nodes as far as they are known. A rule that gives no entries does not know yet.
+class Widths {
+ public:
+  Widths(const Wiring& wiring, const std::vector<int>& order)
+      : wiring_(wiring), shapes_(wiring.size()) {
+    for (bool found = true; found;) {
+      found = false;
+      for (const int i : order) found = look(i) || found;
+    }
+  }
+
+  void check() const {
+    for (const Wiring::Leaf& leaf : wiring_.leaves()) {
+      for (std::size_t i = 0; i < leaf.sources.size(); ++i) {
+        const int source = leaf.sources[i];
+        const InputDeclaration& input = leaf.declared().inputs[i];
+        if (source < 0 || !input.shape) continue;
+        const std::optional<Shape>& found = shapes_[static_cast<std::size_t>(source)];
+        if (found && found->size != input.shape->size)
+          throw_wrong_width(input.name, leaf.path, input.shape->size, found->size,
+                            wiring_.name_of(source));
+      }
+    }
+  }
+
+ private:
+  /// Whether the shape of a node has become known now.
+  bool look(int i) {
+    std::optional<Shape>& shape = shapes_[static_cast<std::size_t>(i)];
+    if (shape) return false;
+    shape = shape_of(i);
+    return shape.has_value();
+  }
+
+  std::optional<Shape> shape_of(int i) const {
+    const OutputDeclaration& output = wiring_.output_of(i);
+    if (output.shape) return output.shape;
+    std::vector<Shape> inputs;
+    for (const int source : wiring_.leaf_of(i).sources) {
+      if (source < 0 || !shapes_[static_cast<std::size_t>(source)]) return std::nullopt;
+      inputs.push_back(*shapes_[static_cast<std::size_t>(source)]);
+    }
+    const Shape shape = output.shape_rule ? output.shape_rule(inputs) : elementwise(inputs);
+    return shape.size > 0 ? std::optional(shape) : std::nullopt;
+  }
+
+  const Wiring& wiring_;
+  std::vector<std::optional<Shape>> shapes_;
+};
+
+}  // namespace
+
+void require_sound(const Diagram& diagram) {
+  const Wiring wiring(diagram);
+  const std::vector<int> order = Loops(wiring).order();
+  Widths(wiring, order).check();
+}
+
+}  // namespace saltus::detail

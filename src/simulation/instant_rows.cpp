@@ -1,0 +1,47 @@
+// Instant rows: the row before a pass, with the relations that fired.
+#include "saltus/simulation/detail/instant_rows.hpp"
+
+#include <algorithm>
+
+namespace saltus {
+
+void InstantRows::before(int jump, bool flipped) {
+  if (recorder_ == nullptr) return;
+  if (flipped) {
+    follow_flips();
+    recorder_->replace(present_->t, jump, machine_->x.data());
+  } else if (!recorder_->has_row(present_->t, jump)) {
+    recorder_->record(present_->t, jump, machine_->x.data());
+  }
+}
+
+/// Held signals follow the relations. Those that change at this time by themselves, because a time
+/// event is due, still have their values before it.
+void InstantRows::follow_flips() {
+  const bool due = present_->pass == 0 && !present_->actions.empty();
+  if (due) y_before_ = machine_->y;
+  machine_->evaluate_instant(present_->t);
+  if (due) put_back_what_does_not_follow();
+}
+
+void InstantRows::put_back_what_does_not_follow() {
+  const Plan& plan = machine_->plan();
+  follows_.assign(plan.nodes.size(), 0);
+  for (std::size_t k = 0; k < guards_->size(); ++k) {
+    const GuardGroup& group = plan.guard((*guards_)[k].group);
+    if (present_->now[k].fired_in_pass && !group.is_crossing())
+      follows_[static_cast<std::size_t>(group.index)] = 1;
+  }
+  for (const int i : plan.order) {
+    const Node& node = plan.node(i);
+    char& follows = follows_[static_cast<std::size_t>(i)];
+    follows = follows || std::ranges::any_of(node.needs, [&](int need) {
+                return follows_[static_cast<std::size_t>(need)] != 0;
+              });
+    if (follows || node.place.space != Space::y) continue;
+    machine_->y.segment(node.place.offset, node.place.size) =
+        y_before_.segment(node.place.offset, node.place.size);
+  }
+}
+
+}  // namespace saltus
