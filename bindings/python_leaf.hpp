@@ -77,6 +77,8 @@ class PythonLeaf final : public LeafSystem {
   };
 
   py::object call(int k, const At& at, Index out_size) const;
+  void call_reset(int k, const At& at, Next& next) const;
+  void call_update(int k, const At& at, Next& next) const;
   py::object vectorcall(const Function& function, const Frame& frame) const;
   py::list positional(const Function& function) const;
   [[noreturn]] void throw_raised(const Function& function, const Frame& frame) const;

@@ -38,6 +38,12 @@ EventLog EventLog::emptied() const {
   return log;
 }
 
+void EventLog::shorten(std::size_t n) {
+  if (n >= rows_.size()) return;
+  states_.resize(rows_[n].states);
+  rows_.resize(n);
+}
+
 bool EventLog::is_called(std::string_view full, std::string_view name) {
   return full == name || split(full).second == name;
 }

@@ -1,6 +1,7 @@
 // Run: the loop from instant to instant.
 #include "saltus/simulation/detail/run.hpp"
 
+#include "saltus/base/detail/forced_unwind.hpp"
 #include "saltus/simulation/detail/option_table.hpp"
 
 namespace saltus {
@@ -35,21 +36,28 @@ Run::Run(std::shared_ptr<const Plan> plan, SimulatorOptions options)
       guards_(machine_.plan()),
       instant_(machine_, guards_, options_, results_),
       calendar_(machine_.plan()),
-      method_(method_from(options_.ode_solver_method)),
-      chattering_(options_) {}
+      chattering_(options_) {
+  method_from(options_.ode_solver_method);  // an unknown one is refused here
+}
 
+/// A context that is refused leaves the run as it is.
 void Run::initialize(const Context& context) {
+  require_context_of(plan(), context);
+  if (context.continuation() != nullptr) instant_.fits(*context.continuation());
+  calendar_.check(context.time());
+  begin_ = {};  // no run, if a function of the model throws now
   machine_.load(context);
   begin_ = context;
   time_ = context.time();
   results_.time.clear(), results_.jump.clear();
   results_.statistics = {}, results_.message.clear();
-  results_.block.clear(), results_.cause = nullptr;
+  results_.block.clear(), results_.cause = nullptr, results_.status = Status::reached_end;
   start_recorder();
   results_.trajectory = {};
   if (options_.dense_output) results_.trajectory.start(machine_.shared_plan(), begin_, options_);
   calendar_.begin(time_, context.settled());
   begun_ = solver_started_ = over_ = false;
+  accepted_ = {.settled = context.settled()};
   next_save_ = 0, interrupt_ = {};
   chattering_.begin(time_, machine_.x);
   row_ = machine_.x;
@@ -73,11 +81,22 @@ Results Run::take_results() {
   return taken;
 }
 
-Status Run::advance_to(double t_end) {
+void Run::require_ready(double t_end) const {
+  if (begin_.modes().empty())
+    throw ModelError("advance_to: the run has no values yet; call initialize(context) first");
+  if (begun_ && results_.status == Status::failed) {
+    throw ModelError(text("t = ", time_,
+                          " s: this run has failed; initialize(results.context) "
+                          "goes on from its last accepted state"));
+  }
   if (!(t_end >= time_)) {
     throw ModelError(text("cannot run from t = ", time_, " s back to t = ", t_end,
                           " s; the end has to be later"));
   }
+}
+
+Status Run::advance_to(double t_end) {
+  require_ready(t_end);
   const auto start = std::chrono::steady_clock::now();
   interrupt_.asked = start;
   try {
@@ -88,6 +107,7 @@ Status Run::advance_to(double t_end) {
   } catch (const std::exception& error) {
     fail(error.what());
   } catch (...) {
+    detail::pass_end_of_thread();
     fail("a function of the model threw");
   }
   results_.statistics.wall_time +=
@@ -134,6 +154,11 @@ Status Run::begin(double t_end) {
   record(time_, machine_.x.data());
   if (options_.dense_output) results_.trajectory.open(time_, machine_, instant_.contacts());
   if (!resumes) return settle(StopReason::stop_time, t_end, true);
+  // A run that failed in an instant goes on with that instant.
+  const bool roots = instant_.finds_roots();
+  if (roots || calendar_.due(time_))
+    return settle(roots ? StopReason::root : StopReason::stop_time, t_end, false);
+  accepted_.place = Place::machine;
   last_instant_ = time_;
   return Status::reached_end;
 }
@@ -146,6 +171,8 @@ Status Run::step(double t_end) {
   StopReason reason = StopReason::stop_time;
   if (options_.dense_output) results_.trajectory.depart(present_state());
   move_to(t_stop, reason);
+  accepted_.settled = false;
+  accepted_.place = solver_started_ ? Place::solver : Place::machine;
   if (options_.dense_output) keep_step(from);
   for (const MonitorHit& hit : guards_.monitors) {
     solver_->interpolate(hit.t, row_.data());
@@ -166,8 +193,9 @@ void Run::move_to(double t_stop, StopReason& reason) {
   }
   if (!solver_started_) {
     if (!solver_)
-      solver_ = make_solver(plan().nx == 0 ? Method::dopri5 : method_, machine_, guards_,
-                            solver_options(options_));
+      solver_ =
+          make_solver(plan().nx == 0 ? Method::dopri5 : method_from(options_.ode_solver_method),
+                      machine_, guards_, solver_options(options_));
     solver_->restart(time_, machine_.x, {.first = true});
     solver_started_ = true;
   }
@@ -179,6 +207,7 @@ void Run::move_to(double t_stop, StopReason& reason) {
 /// more.
 Status Run::settle(StopReason reason, double t_end, bool at_start) {
   if (solver_started_) take_state();
+  if (accepted_.place == Place::solver) accepted_.place = Place::machine;
   ++results_.statistics.instants;
   last_instant_ = time_;
   results_.trajectory.instant();
@@ -187,8 +216,11 @@ Status Run::settle(StopReason reason, double t_end, bool at_start) {
   if (reason != StopReason::root && due_.empty() && !at_start)
     return Status::reached_end;  // only the end of a major step
   record(time_, machine_.x.data());
+  accepted_.rows = results_.time.size();
   const bool at_root = reason == StopReason::root, idle = at_root && chattering_.idle(machine_.x);
+  accepted_.in_instant = true;
   const Outcome outcome = instant_.run(time_, due_, t_end - time_, at_start);
+  accepted_ = {.place = Place::machine, .settled = true};
   if (outcome.restart && solver_started_)
     solver_->restart(time_, machine_.x, {.horizon = outcome.horizon, .flow = instant_.flow()});
   return after(outcome, {time_, at_root, t_end - begin_.time()}, idle);
@@ -226,6 +258,25 @@ void Run::fail(std::string message) {
   results_.status = Status::failed;
   results_.message = std::move(message);
   results_.cause = std::current_exception();
+  take_accepted();
+}
+
+/// Puts the last accepted state into the machine. An instant under way is undone with its rows.
+void Run::take_accepted() {
+  if (std::exchange(accepted_.in_instant, false)) {
+    instant_.undo();
+    if (recorder_) recorder_->shorten(accepted_.rows);
+  } else {
+    guards_.arm_again(guards_.fired_at_root);  // the instant at the end of the step has not begun
+  }
+  if (accepted_.place != Place::solver) return;
+  machine_.x = solver_->state();
+  try {
+    machine_.put_carried(time_, machine_.x.data());
+  } catch (...) {  // what failed is in the results; the state is that of the step
+    detail::pass_end_of_thread();
+    machine_.x = solver_->state();
+  }
 }
 
 Status Run::end(Status status, std::string message) {

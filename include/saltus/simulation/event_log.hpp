@@ -61,6 +61,8 @@ class EventLog {
   void begin(std::vector<std::string> names) { names_ = std::move(names), clear(); }
   void clear() { rows_.clear(), states_.clear(); }
   EventLog emptied() const;
+  /// Removes all events but the first n.
+  void shorten(std::size_t n);
   void add(Row row, const double* before, const double* after) {
     row.states = states_.size();
     states_.insert(states_.end(), before, before + row.width);

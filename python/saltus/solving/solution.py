@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from saltus.errors import ModelError
 from saltus.results import Results
 from saltus.results.record import KINDS, KeptRun, Record
 from saltus.system import System
@@ -134,7 +135,18 @@ class Solution(Results):
         return {"kind": "Solution", "guards": self._names}
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return Solution, (KeptRun.of(self._core), self.cause, None, self._names)
+        return Solution, (KeptRun.of(self._core), None, None, self._names), self._failure()
 
 
-KINDS["Solution"] = lambda run, header: Solution(run, names=header["guards"])
+def _loaded(run: KeptRun, header: dict[str, Any]) -> Solution:
+    names = header["guards"]
+    if names is not None and not (
+        isinstance(names, list) and all(isinstance(name, str) for name in names)
+    ):
+        raise ModelError(f"'guards' are {names!r}, expected names or null")
+    if "x" not in run.outputs or run.outputs["x"].ndim != 2:
+        raise ModelError("a solution has the state in the output 'x', a row for each time")
+    return Solution(run, names=names)
+
+
+KINDS["Solution"] = _loaded
