@@ -5,6 +5,7 @@
 #include "context_docs.hpp"
 #include "numbers.hpp"
 #include "saltus/model/detail/context_data.hpp"
+#include "saltus/model/detail/sound.hpp"
 #include "saltus/model/system.hpp"
 
 namespace saltus::python {
@@ -47,14 +48,17 @@ struct PythonTree {
 
 py::object data_of(const Context& context) { return detail::data_of<PythonTree>(context); }
 
-/// Data in another format has a missing key or a wrong type.
-Context from_data(const Context& blank, const py::dict& data) {
+/// Calls `read`. Data in another format has a missing key, a list that is too short or a wrong
+/// type: a ModelError.
+template <class Read>
+Context refusing_others(Read read) {
   try {
-    return detail::context_from<PythonTree>(blank, data);
+    return read();
   } catch (const py::error_already_set& error) {
-    if (!error.matches(PyExc_KeyError)) throw;
-    throw ModelError(text("a context needs ", error.what()));
-  } catch (const py::cast_error& error) {
+    if (!error.matches(PyExc_Exception)) throw;
+    const std::string what = error.what();
+    throw ModelError(text("a context is damaged: ", what.substr(0, what.find('\n'))));
+  } catch (const py::builtin_exception& error) {
     throw ModelError(text("a context holds something else than expected: ", error.what()));
   }
 }
@@ -97,11 +101,19 @@ std::shared_ptr<const Layout> layout_from(const py::tuple& data) {
     layout->systems.push_back({SystemId{r[0].cast<int>()}, r[1].cast<std::string>(),
                                r[2].cast<std::size_t>(), r[3].cast<std::size_t>()});
   }
+  detail::require_sound(*layout);
   return layout;
 }
 
-/// A context of a layout with all values zero, which `from_data` fills.
-Context blank_of(const std::shared_ptr<const Layout>& layout) { return Context::zero(layout); }
+/// The context that was pickled as (layout, data).
+Context from_state(const py::object& state) {
+  const auto parts = state.cast<py::tuple>();
+  if (parts.size() != 2)
+    throw ModelError(text("a context is damaged: it has ", parts.size(), " parts, expected 2"));
+  const auto layout = layout_from(parts[0].cast<py::tuple>());
+  const ContextValues values = detail::values_from<PythonTree>(*layout, parts[1].cast<py::dict>());
+  return Context::zero(layout).with_values(values);  // the sizes are those of the values
+}
 
 }  // namespace
 
@@ -116,9 +128,8 @@ void bind_context_saving(py::class_<Context>& context) {
           docs::to_json)
       .def(py::pickle(
           [](const Context& c) { return py::make_tuple(layout_data(c.layout()), data_of(c)); },
-          [](const py::tuple& state) {
-            return from_data(blank_of(layout_from(state[0].cast<py::tuple>())),
-                             state[1].cast<py::dict>());
+          [](const py::object& state) {
+            return refusing_others([&] { return from_state(state); });
           }));
 }
 
@@ -126,7 +137,10 @@ void bind_context_reading(py::module_& module) {
   module.def(
       "context_from_dict",
       [](const System& system, const py::dict& data) {
-        return from_data(system.create_context(), data);
+        const Context blank = system.create_context();
+        return refusing_others([&] {
+          return blank.with_values(detail::values_from<PythonTree>(blank.layout(), data));
+        });
       },
       py::arg("system"), py::arg("data"),
       "The context of `system` that Context.to_dict gave. Raises ModelError for other data.");

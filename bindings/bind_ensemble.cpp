@@ -62,7 +62,7 @@ bool ends_all(const Results& results) {
   try {
     std::rethrow_exception(results.cause);
   } catch (const py::error_already_set& error) {
-    const py::gil_scoped_acquire lock;
+    const Locked lock;
     return !PyErr_GivenExceptionMatches(error.type().ptr(), PyExc_Exception);
   } catch (...) {
     return false;
@@ -101,22 +101,24 @@ class Call {
       std::rethrow_exception(results.cause);
     }
     if (each_.is_none()) return;
-    const py::gil_scoped_acquire lock;
-    auto copy = std::make_shared<Results>(results);
-    copy->cause = nullptr;  // it would refer to the frames it went through
-    each_(run, copy, cause_of(results));
+    locked([&] {
+      auto copy = std::make_shared<Results>(results);
+      copy->cause = nullptr;  // it would refer to the frames it went through
+      each_(run, copy, cause_of(results));
+    });
   }
 
   /// Handles signals, and reports the number of finished runs.
   bool look(Index done) {
-    const py::gil_scoped_acquire lock;
-    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-    return !watch_.is_none() && watch_(done).cast<bool>();
+    return locked([&] {
+      if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+      return !watch_.is_none() && watch_(done).cast<bool>();
+    });
   }
 
   /// A thread keeps its interpreter state from one call of Python to the next.
   static void with_thread_state(const std::function<void()>& share) {
-    const py::gil_scoped_acquire lock;
+    const Locked lock;
     const Unlocked runs;
     share();
   }

@@ -17,9 +17,10 @@ namespace {
 
 /// Throws the exception of a signal handler, such as KeyboardInterrupt.
 bool check_signals() {
-  const py::gil_scoped_acquire lock;
-  if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-  return false;
+  return locked([] {
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+    return false;
+  });
 }
 
 /// Ctrl-C in a run ends the whole report, not only the run.
@@ -29,7 +30,7 @@ void check_run(const Results* results) {
   try {
     std::rethrow_exception(results->cause);
   } catch (py::error_already_set& error) {
-    const py::gil_scoped_acquire lock;
+    const Locked lock;
     if (!error.matches(PyExc_Exception)) throw;
   } catch (const std::exception&) {  // the row has the reason
   }

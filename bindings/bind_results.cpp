@@ -2,6 +2,7 @@
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
+#include "interpreter.hpp"
 #include "python_results.hpp"
 
 namespace saltus::python {
@@ -38,7 +39,7 @@ py::tuple at(const SharedResults& results, const std::vector<double>& times, boo
   std::vector<double> states;
   std::vector<std::vector<double>> signals(results->signals.size());
   {
-    const py::gil_scoped_release unlock;
+    const Unlocked unlock;
     DenseOutput dense(results->trajectory);
     for (const double t : times) {
       dense.move_to(t, left ? Side::left : Side::right);

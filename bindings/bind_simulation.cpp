@@ -76,19 +76,19 @@ class PythonSimulator {
     const auto now = std::chrono::steady_clock::now();
     if (now - reported_ < std::chrono::milliseconds(100)) return;
     reported_ = now;
-    const py::gil_scoped_acquire lock;
-    progress_(simulator_.time(), simulator_.results().statistics.events);
+    locked([&] { progress_(simulator_.time(), simulator_.results().statistics.events); });
   }
 
   /// Ctrl-C ends the run well; any other exception of a signal handler counts as an exception of
   /// the model.
   bool signal_arrived() {
-    const py::gil_scoped_acquire lock;
-    if (PyErr_CheckSignals() == 0) return false;
-    py::error_already_set error;
-    if (!error.matches(PyExc_KeyboardInterrupt)) throw error;
-    signalled_ = error.value();
-    return true;
+    return locked([&] {
+      if (PyErr_CheckSignals() == 0) return false;
+      py::error_already_set error;
+      if (!error.matches(PyExc_KeyboardInterrupt)) throw error;
+      signalled_ = error.value();
+      return true;
+    });
   }
 
   py::object signalled_ = py::none();

@@ -1,7 +1,10 @@
 // The interpreter lock during a run: released for the run, acquired for each call of Python.
 #pragma once
 
+#include <cxxabi.h>
+#include <chrono>
 #include <optional>
+#include <thread>
 #include <utility>
 
 #include "bindings.hpp"
@@ -11,11 +14,30 @@ namespace saltus::python {
 /// The thread's state in the interpreter while a run has released the lock; null otherwise.
 inline thread_local PyThreadState* resting = nullptr;
 
+/// Runs code of Python or waits for its lock. When the interpreter shuts down, it ends every other
+/// thread that does either by pthread_exit, from within. C++ cannot let that pass: a destructor on
+/// the way would need the lock again. So the thread waits for the end of the process, as Python
+/// 3.14 has it wait.
+template <class Work>
+decltype(auto) until_shutdown(Work work) {
+#ifdef __GLIBCXX__
+  try {
+    return work();
+  } catch (const abi::__forced_unwind&) {
+    for (;;) std::this_thread::sleep_for(std::chrono::hours(1));
+  }
+#else
+  return work();
+#endif
+}
+
 /// Releases the lock as long as it lives. A run inside a callback of another run releases it again.
 class Unlocked {
  public:
   Unlocked() : outer_(std::exchange(resting, nullptr)) { resting = PyEval_SaveThread(); }
-  ~Unlocked() { PyEval_RestoreThread(std::exchange(resting, outer_)); }
+  ~Unlocked() {
+    until_shutdown([this] { PyEval_RestoreThread(std::exchange(resting, outer_)); });
+  }
   Unlocked(const Unlocked&) = delete;
   Unlocked& operator=(const Unlocked&) = delete;
 
@@ -29,9 +51,9 @@ class Locked {
  public:
   Locked() {
     if (resting != nullptr && PyGILState_Check() == 0) {
-      PyEval_RestoreThread(mine_ = std::exchange(resting, nullptr));
+      until_shutdown([this] { PyEval_RestoreThread(mine_ = std::exchange(resting, nullptr)); });
     } else {
-      looked_up_.emplace();
+      until_shutdown([this] { looked_up_.emplace(); });
     }
   }
   ~Locked() {
@@ -44,5 +66,12 @@ class Locked {
   PyThreadState* mine_ = nullptr;
   std::optional<py::gil_scoped_acquire> looked_up_;
 };
+
+/// Calls `work`, which uses Python, under the lock. Every thread of a run uses Python in this way.
+template <class Work>
+decltype(auto) locked(Work work) {
+  const Locked lock;
+  return until_shutdown(work);
+}
 
 }  // namespace saltus::python

@@ -22,6 +22,7 @@ void* as_pointer(py::handle address) {
 }  // namespace
 
 int PythonLeaf::add(py::handle self, py::object callable, Function function) {
+  require_unused();  // a run that is under way refers to the functions
   self_ = self.ptr();
   if (py::isinstance(callable, py::module_::import("saltus.compiled").attr("Compiled"))) {
     function.compiled = reinterpret_cast<CompiledPointer>(as_pointer(callable.attr("address")));
@@ -52,19 +53,18 @@ bool PythonLeaf::has_parameter(std::string_view parameter) const {
 }
 
 int PythonLeaf::add_input(std::string port, std::optional<Shape> shape) {
-  vector_inputs_.push_back(shape && shape->vector);
+  const bool vector = shape && shape->vector;
+  const int input = declare_input_port({.name = std::move(port), .shape = shape});
+  vector_inputs_.push_back(vector);
   forget_frames();
-  return declare_input_port({.name = std::move(port), .shape = shape});
+  return input;
 }
 
 VectorFunction PythonLeaf::vector_function(int k) const {
   if (function(k).compiled) {
     return [this, k](const At& at, VectorRef out) { run_compiled(function(k), at, out.data()); };
   }
-  return [this, k](const At& at, VectorRef out) {
-    const Locked lock;
-    fill(k, at, out);
-  };
+  return [this, k](const At& at, VectorRef out) { locked([&] { fill(k, at, out); }); };
 }
 
 /// Python and C store a matrix row by row.
@@ -81,10 +81,7 @@ ResetMap PythonLeaf::reset_map(int k) const {
   if (function(k).compiled) {
     return [this, k](const At& at, Next& next) { reset_compiled(function(k), at, next); };
   }
-  return [this, k](const At& at, Next& next) {
-    const Locked lock;
-    write(k, call(k, at, 0), next);
-  };
+  return [this, k](const At& at, Next& next) { locked([&] { write(k, call(k, at, 0), next); }); };
 }
 
 namespace {

@@ -99,15 +99,17 @@ std::optional<py::array> PythonLeaf::sample(int k, std::vector<Shape> shapes,
 
 Shape PythonLeaf::shape_of(int k, std::span<const Shape> inputs) const {
   if (ShapesAsDeclared::active()) return {0, false};  // not known yet
-  const Locked lock;
-  constexpr std::array<Index, 1> known{0};
-  const auto found = sample(k, {inputs.begin(), inputs.end()}, known);
-  return !found || found->ndim() == 0 ? Shape::scalar() : Shape::of(found->size());
+  return locked([&] {
+    constexpr std::array<Index, 1> known{0};
+    const auto found = sample(k, {inputs.begin(), inputs.end()}, known);
+    return !found || found->ndim() == 0 ? Shape::scalar() : Shape::of(found->size());
+  });
 }
 
 /// Runs once, before anyone reads the declarations of this block: outputs get their final shapes.
 void PythonLeaf::finish_outputs() {
   const Locked lock;
+  const auto in_use = declarations().use;  // the functions called here must not declare
   constexpr std::array<Index, 7> guesses{0, 1, 2, 3, 4, 6, 12};
   const std::vector<Unfinished> now = std::exchange(unfinished_, {});
   // The declarations are this object's own; only the interface for the engine is const.

@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "interpreter.hpp"
 #include "numbers.hpp"
 #include "saltus/report/scene.hpp"
 
@@ -16,7 +17,7 @@ class HeldFunction {
  public:
   explicit HeldFunction(py::object function)
       : function_(new py::object(std::move(function)), [](py::object* held) {
-          const py::gil_scoped_acquire lock;
+          const Locked lock;
           delete held;
         }) {}
   const py::object& operator*() const { return *function_; }
@@ -30,12 +31,13 @@ inline std::function<double(double, const Eigen::VectorXd&)> row_function(py::ob
                                                                           std::string what) {
   return [held = HeldFunction(std::move(function)), what = std::move(what)](
              double t, const Eigen::VectorXd& row) {
-    const py::gil_scoped_acquire lock;
-    const Eigen::VectorXd value =
-        to_vector((*held)(t, read_only_array({row.size()}, row.data())), what);
-    if (value.size() != 1)
-      throw ModelError(text(what, ": expected one number, found ", value.size()));
-    return value[0];
+    return locked([&] {
+      const Eigen::VectorXd value =
+          to_vector((*held)(t, read_only_array({row.size()}, row.data())), what);
+      if (value.size() != 1)
+        throw ModelError(text(what, ": expected one number, found ", value.size()));
+      return value[0];
+    });
   };
 }
 

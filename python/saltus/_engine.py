@@ -11,6 +11,7 @@ import numpy as np
 from saltus import _core
 from saltus.errors import ModelError
 from saltus.options import SimulatorOptions
+from saltus.ports import core_port
 from saltus.system import OutputPort, System
 
 __all__ = ["PYTHON_ONLY", "core_context", "core_options", "ports_of"]
@@ -36,7 +37,7 @@ def ports_of(signals: Mapping[str, OutputPort] | None) -> list[tuple[str, System
                 f"recorded signal '{name}': expected a port, such as block.output_ports[0], "
                 f"found {port!r}"
             )
-    return [(name, port.system, port.index) for name, port in (signals or {}).items()]
+    return [(name, *core_port(port)) for name, port in (signals or {}).items()]
 
 
 def core_options(options: SimulatorOptions) -> _core.SimulatorOptions:

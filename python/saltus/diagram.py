@@ -6,6 +6,7 @@ from typing import overload
 
 from saltus import _core
 from saltus.errors import ModelError
+from saltus.ports import core_port
 from saltus.system import InputPort, OutputPort, System
 
 __all__ = ["Diagram", "DiagramBuilder"]
@@ -17,7 +18,7 @@ def _port(port: object, kind: type[OutputPort] | type[InputPort]) -> tuple[Syste
         wanted = wanted if isinstance(port, (InputPort, OutputPort)) else "a port"
         example = "input_ports[0]" if kind is InputPort else "output_ports[0]"
         raise ModelError(f"expected {wanted}, such as block.{example}, found {port!r}")
-    return port.system, port.index
+    return core_port(port)
 
 
 class Diagram(System, _core.Diagram):
@@ -130,7 +131,7 @@ class DiagramBuilder:
         Raises
         ------
         ModelError
-            If the input has a source already, or a block was not added.
+            If the input has a source already, a block was not added, or has no such port.
 
         Examples
         --------

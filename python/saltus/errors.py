@@ -89,6 +89,7 @@ class SimulationError(Error, RuntimeError):
         self.block = block
         self.results = results
 
-    def __reduce__(self) -> tuple[type, tuple[object, ...]]:
-        # Without this a copy, for example one from another process, would lose the fields.
-        return type(self), (str(self), self.time, self.block, self.results)
+    def __reduce__(self) -> tuple[type, tuple[object, ...], dict[str, object]]:
+        # Without this a copy, for example one from another process, would lose the fields. The
+        # results refer to this error as their cause, so they come after it, as its state.
+        return type(self), (str(self), self.time, self.block), dict(self.__dict__)

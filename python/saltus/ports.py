@@ -11,7 +11,10 @@ from saltus.errors import ModelError
 if TYPE_CHECKING:
     from saltus.system import System
 
-__all__ = ["InputPort", "OutputPort", "key_of"]
+__all__ = ["InputPort", "OutputPort", "core_port", "key_of"]
+
+LARGEST = 2**31 - 1
+"""the largest position that the engine can be asked for"""
 
 
 @dataclass(frozen=True)
@@ -85,6 +88,25 @@ def key_of(port: object) -> int | str:
     if isinstance(port, str):
         return port
     try:
-        return operator.index(port)  # type: ignore[arg-type]
+        position = operator.index(port)  # type: ignore[arg-type]
     except TypeError:
         raise ModelError(f"expected the position or the name of a port, found {port!r}") from None
+    if abs(position) > LARGEST:
+        raise ModelError(f"no port has the position {position}")
+    return position
+
+
+def core_port(port: OutputPort | InputPort) -> tuple[System, int]:
+    """The system and the position of a port in the form that the engine takes.
+
+    The fields of a port are public, so the position may be anything. The engine refuses a position
+    that the system does not have.
+    """
+    from saltus import _core
+
+    if not isinstance(port.system, _core.System):
+        raise ModelError(f"expected the port of a system, found one of {port.system!r}")
+    position = key_of(port.index)
+    if isinstance(position, str):
+        raise ModelError(f"expected the position of a port, found {position!r}")
+    return port.system, position

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import threading
 from collections.abc import Mapping
 from dataclasses import fields, replace
 from typing import Any
@@ -12,7 +13,7 @@ from saltus._engine import core_context, core_options
 from saltus._porting import OPTIONS, refuse
 from saltus._span import span_of
 from saltus.callbacks import Callbacks, planned
-from saltus.errors import ModelError, SimulationError
+from saltus.errors import Error, ModelError, SimulationError
 from saltus.options import SimulatorOptions
 from saltus.progress import reporter_of
 from saltus.results import Results
@@ -25,8 +26,11 @@ class Simulator:
     """A run that can be continued: `initialize(context)`, then `advance_to(t)` as often as you
     like.
 
-    In pieces or at once, the events are the same. One simulator serves one thread at a time; it can
-    be initialized again.
+    In pieces or at once, the events are the same. It can be initialized again.
+
+    One caller uses a simulator at a time. While it runs, each further call is an `Error` that
+    changes nothing, from one of its own callbacks and from another thread alike; only `time` may be
+    read.
 
     Parameters
     ----------
@@ -65,6 +69,8 @@ class Simulator:
         self.system = system  # the engine refers to it
         self._reporter = reporter_of(self.options.progress)
         self._options = core_options(self.options)
+        self._turn = threading.Lock()
+        self._user = 0  # the thread that has the turn
         self._make()
         self._failed: Results | None = None
 
@@ -92,6 +98,13 @@ class Simulator:
         With the context at the end of an earlier run, the new run continues that run. Raises
         ModelError for a context of another system.
         """
+        self._take_turn("initialize")
+        try:
+            self._initialize(context)
+        finally:
+            self._turn.release()
+
+    def _initialize(self, context: _core.Context) -> None:
         callbacks = self._callbacks
         if callbacks and (
             callbacks.traces.stale or callbacks.refresh(self._others) != self._version
@@ -99,6 +112,24 @@ class Simulator:
             self._make()
         self._core.initialize(core_context(context))
         self._failed = None
+
+    def _take_turn(self, call: str) -> None:
+        """The simulator belongs to this call until the lock is released."""
+        if not self._turn.acquire(blocking=False):
+            self._refuse(call)
+        self._user = threading.get_ident()
+
+    def _refuse(self, call: str) -> None:
+        own = self._user == threading.get_ident()
+        who = "by a callback of the run itself" if own else "while another thread uses it"
+        raise Error(
+            f"t = {self.time} s: {call} of a simulator was called {who}; expected one call at a "
+            "time: use a simulator of its own for each caller"
+        )
+
+    def _require_idle(self, call: str) -> None:
+        if self._turn.locked():
+            self._refuse(call)
 
     def advance_to(self, time: float) -> str:
         """Goes on to `time`, or to where the run ends before.
@@ -146,6 +177,16 @@ class Simulator:
         return self._advance(end, take=True)
 
     def _advance(self, time: float, take: bool) -> Results:
+        self._take_turn("advance_to")
+        try:
+            results, raised = self._advance_alone(time, take)
+        finally:
+            self._turn.release()
+        if self.options.throw and results.status not in ("reached_end", "terminal", "zeno_stop"):
+            self._raise(results, raised)
+        return results
+
+    def _advance_alone(self, time: float, take: bool) -> tuple[Results, BaseException | None]:
         if not take:  # simulate has made its traces just now
             self._follow_changes()
         try:
@@ -161,9 +202,7 @@ class Simulator:
         self._refuse_stale(results)
         if results.status in ("failed", "interrupted"):
             self._failed = results
-        if self.options.throw and results.status not in ("reached_end", "terminal", "zeno_stop"):
-            self._raise(results, raised)
-        return results
+        return results, raised
 
     def _refuse_stale(self, results: Results) -> None:
         """The last resort, behind the search for writers that comes before the run."""
@@ -214,12 +253,16 @@ class Simulator:
 
     @property
     def context(self) -> _core.Context:
-        """The present values."""
+        """The present values; after an error the last accepted ones, from which
+        `initialize` goes on.
+        """
+        self._require_idle("context")
         return self._core.context
 
     @property
     def results(self) -> Results:
         """The run since `initialize`, as a copy."""
+        self._require_idle("results")
         return self._failed or self._results(*self._core.results(False))
 
     def describe(self) -> str:
@@ -234,6 +277,7 @@ class Simulator:
         >>> print(saltus.Simulator(builder.build()).describe().splitlines()[0])
         plan: 1 block, 1 continuous and 0 discrete states
         """
+        self._require_idle("describe")
         return self._core.describe()
 
 

@@ -116,7 +116,7 @@ class System:
         """
         try:
             data = json.loads(text)
-        except json.JSONDecodeError as error:
+        except (ValueError, TypeError, RecursionError) as error:
             raise ModelError(f"a context in JSON: {error}") from None
         if not isinstance(data, dict):
             raise ModelError(f"a context in JSON: expected an object, found {type(data).__name__}")

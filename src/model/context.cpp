@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "saltus/model/detail/sound.hpp"
+
 namespace saltus {
 
 namespace detail {
@@ -35,6 +37,11 @@ Context Context::zero(std::shared_ptr<const Layout> layout) {
   return context;
 }
 
+const Layout& Context::layout() const {
+  static const Layout none;
+  return layout_ ? *layout_ : none;
+}
+
 int Context::mode() const {
   if (modes_.size() != 1)
     throw ModelError("mode(): this is the context of several blocks; take context[id] first");
@@ -52,6 +59,7 @@ Context Context::with_values(const ContextValues& values) const {
         text("modes: expected ", modes_.size(), " values, found ", values.modes.size()));
   }
   next.modes_ = values.modes, next.time_ = values.time, next.settled_ = values.settled;
+  if (values.continuation) detail::require_sound(*values.continuation);
   next.continuation_ = values.continuation;
   return next;
 }
@@ -87,10 +95,10 @@ Context Context::with_mode(int mode) const {
 std::pair<const Layout::Leaf*, const Layout::Parameter*> Context::find_parameter(
     std::string_view name) const {
   std::vector<std::string> known;
-  for (const auto& leaf : layout_->leaves) {
+  for (const auto& leaf : layout().leaves) {
     for (const auto& parameter : leaf.parameters) {
       const std::string full =
-          layout_->leaves.size() == 1 ? parameter.name : leaf.path + "." + parameter.name;
+          layout().leaves.size() == 1 ? parameter.name : leaf.path + "." + parameter.name;
       if (full == name) return {&leaf, &parameter};
       known.push_back(full);
     }
@@ -123,7 +131,7 @@ Eigen::VectorXd Context::parameter(std::string_view name) const {
 
 const Layout::Range& Context::range(SystemId id) const {
   std::vector<std::string> known;
-  for (const auto& system : layout_->systems) {
+  for (const auto& system : layout().systems) {
     if (system.id == id) return system;
     known.push_back(text(system.path, " (", system.id.value, ")"));
   }

@@ -3,6 +3,7 @@
 
 #include "saltus/model/detail/names.hpp"
 #include "saltus/model/detail/soundness.hpp"
+#include "saltus/model/leaf_system.hpp"
 
 namespace saltus {
 
@@ -26,6 +27,7 @@ void DiagramBuilder::add(std::shared_ptr<const System> block) {
 
 void DiagramBuilder::connect(OutputPort from, InputPort to) {
   require_mine(from.system);
+  from = from.system->output(from.index);
   require_free(to);
   sources_.emplace(std::pair(to.system, to.index), diagram_.wires_.size());
   diagram_.wires_.push_back({from, to});
@@ -42,6 +44,7 @@ int DiagramBuilder::export_input(InputPort port, std::string name) {
 
 int DiagramBuilder::export_output(OutputPort port, std::string name) {
   require_mine(port.system);
+  port = port.system->output(port.index);
   if (name.empty()) {
     name = text(name_of(port.system), "_",
                 port.system->output_names()[static_cast<std::size_t>(port.index)]);
@@ -72,6 +75,10 @@ Diagram DiagramBuilder::build(std::string name) {
   built.wires_ = std::move(diagram_.wires_);
   built.inputs_ = std::move(diagram_.inputs_);
   built.outputs_ = std::move(diagram_.outputs_);
+  for (const Diagram::Child& child : built.children_) {
+    const auto* leaf = dynamic_cast<const LeafSystem*>(&child.system->itself());
+    if (leaf != nullptr) built.uses_.push_back(leaf->declarations().use);
+  }
   return built;
 }
 
@@ -81,6 +88,8 @@ void DiagramBuilder::require_unspent() const {
 
 void DiagramBuilder::require_mine(const System* system) const {
   require_unspent();
+  if (system == nullptr)
+    throw ModelError("the port belongs to no block; take it from one, such as block.output()");
   if (!mine_.contains(system)) {
     throw ModelError(text("block '", system->name(),
                           "' was not added to this diagram; its blocks: ",
@@ -90,6 +99,7 @@ void DiagramBuilder::require_mine(const System* system) const {
 
 void DiagramBuilder::require_free(InputPort to) const {
   require_mine(to.system);
+  to = to.system->input(to.index);
   if (const std::string source = source_of(to); !source.empty()) {
     throw ModelError(text("input '", port_name(to), "' of block '", name_of(to.system),
                           "' already has a source, ", source, "; an input takes one"));

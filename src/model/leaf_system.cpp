@@ -45,20 +45,32 @@ void require_sound(const ZeroCrossing& c, const Declarations& declared, const st
 
 }  // namespace
 
-LeafSystem::LeafSystem(std::string name) : System(detail::without_dot(std::move(name), "block")) {}
+LeafSystem::LeafSystem(std::string name) : System(detail::without_dot(std::move(name), "block")) {
+  declared_.use = std::make_shared<char>();
+}
 LeafSystem::~LeafSystem() = default;
 LeafSystem::LeafSystem(LeafSystem&&) noexcept = default;
 LeafSystem& LeafSystem::operator=(LeafSystem&&) noexcept = default;
+
+void LeafSystem::require_unused() const {
+  if (declared_.use.use_count() <= 1) return;
+  throw ModelError(
+      text("block '", name(),
+           "' is in use by a simulator or a diagram, so it cannot declare more; declare everything "
+           "before they are made, or make a new block"));
+}
 
 void LeafSystem::declare_continuous_state(Index n, RightHandSide ode) {
   declare_continuous_state({.initial = Eigen::VectorXd::Zero(n), .ode = std::move(ode)});
 }
 
 void LeafSystem::declare_jacobian(MatrixFunction jacobian) {
+  require_unused();
   declared_.continuous.jacobian = std::move(jacobian);
 }
 
 void LeafSystem::declare_jacobian_sparsity(std::vector<MatrixEntry> entries) {
+  require_unused();
   declared_.continuous.sparsity = std::move(entries);
 }
 
@@ -89,6 +101,7 @@ void LeafSystem::collect(Structure& out, const std::string& path) const {
 }
 
 void LeafSystem::declare_continuous_state(ContinuousState state) {
+  require_unused();
   if (declared_.continuous.initial.size() > 0) {
     throw ModelError(
         text("block '", name(),
@@ -111,6 +124,7 @@ void LeafSystem::declare_continuous_state(ContinuousState state) {
 }
 
 void LeafSystem::declare_discrete_state(const Eigen::VectorXd& initial) {
+  require_unused();
   if (declared_.discrete.size() > 0) {
     throw ModelError(
         text("block '", name(),
@@ -121,12 +135,14 @@ void LeafSystem::declare_discrete_state(const Eigen::VectorXd& initial) {
 }
 
 void LeafSystem::declare_default_mode(int mode) {
+  require_unused();
   declared_.mode = mode;
   declared_.has_modes = true;
 }
 
 ParameterIndex LeafSystem::declare_dynamic_parameter(std::string parameter,
                                                      const Eigen::VectorXd& value) {
+  require_unused();
   detail::name_it(parameter, declared_.parameters, "parameter_", name());
   parameter = detail::without_dot(std::move(parameter), text("block '", name(), "': parameter"));
   detail::require_finite(value, text("block '", name(), "': parameter '", parameter, "'"));
@@ -138,6 +154,7 @@ ParameterIndex LeafSystem::declare_dynamic_parameter(std::string parameter,
 }
 
 int LeafSystem::declare_input_port(InputDeclaration input) {
+  require_unused();
   detail::name_it(input.name, declared_.inputs, "in_", name());
   input.name = detail::without_dot(std::move(input.name), text("block '", name(), "': input"));
   declared_.inputs.push_back(std::move(input));
@@ -145,6 +162,7 @@ int LeafSystem::declare_input_port(InputDeclaration input) {
 }
 
 int LeafSystem::declare_output_port(OutputDeclaration output) {
+  require_unused();
   detail::name_it(output.name, declared_.outputs, "out_", name());
   output.name = detail::without_dot(std::move(output.name), text("block '", name(), "': output"));
   take_formula(output.calc, output.formula, text("output '", output.name, "'"), name());
@@ -179,6 +197,7 @@ int LeafSystem::declare_mode_output(std::string port) {
 }
 
 int LeafSystem::declare_zero_crossing(ZeroCrossing crossing) {
+  require_unused();
   detail::name_it(crossing.name, declared_.zero_crossings, "zero_crossing_", name());
   take_formula(crossing.guard, crossing.formula, text("zero crossing '", crossing.name, "'"),
                name());
@@ -188,6 +207,7 @@ int LeafSystem::declare_zero_crossing(ZeroCrossing crossing) {
 }
 
 RelationIndex LeafSystem::declare_relation(Relation relation) {
+  require_unused();
   detail::name_it(relation.name, declared_.relations, "relation_", name());
   take_formula(relation.guard, relation.formula, text("relation '", relation.name, "'"), name());
   if (!relation.guard) {
@@ -198,6 +218,7 @@ RelationIndex LeafSystem::declare_relation(Relation relation) {
 }
 
 void LeafSystem::declare_edge_reset(EdgeReset reset) {
+  require_unused();
   detail::name_it(reset.name, declared_.edge_resets, "edge_reset_", name());
   if (!reset.reset_map) {
     throw ModelError(text("block '", name(), "': edge reset '", reset.name, "' has no reset map"));
@@ -207,6 +228,7 @@ void LeafSystem::declare_edge_reset(EdgeReset reset) {
 
 void LeafSystem::declare_periodic_update(ResetMap update, double period, double offset,
                                          std::string event) {
+  require_unused();
   detail::name_it(event, declared_.time_events, "periodic_", name());
   if (!(period > 0.0) || !std::isfinite(offset)) {
     throw ModelError(text("block '", name(), "': periodic update '", event, "': period ", period,
@@ -217,6 +239,7 @@ void LeafSystem::declare_periodic_update(ResetMap update, double period, double 
 }
 
 void LeafSystem::declare_one_shot(double time, ResetMap update, std::string event) {
+  require_unused();
   detail::name_it(event, declared_.time_events, "one_shot_", name());
   if (!std::isfinite(time))
     throw ModelError(text("block '", name(), "': time event '", event, "' at ", time, " s"));

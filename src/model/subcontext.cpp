@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "saltus/model/detail/sound.hpp"
+
 namespace saltus {
 
 namespace detail {
@@ -36,7 +38,7 @@ std::shared_ptr<const Layout> part_layout(const Layout& whole, const Layout::Ran
 
 }  // namespace detail
 
-using detail::extent, detail::part_layout;
+using detail::difference, detail::extent, detail::part_layout;
 
 Context Context::operator[](SystemId id) const {
   const Layout::Range& where = range(id);
@@ -68,6 +70,11 @@ Context Context::with_subcontext(SystemId id, const Context& part) const {
                           "': expected ", nx, " continuous and ", nz, " discrete states, ", np,
                           " parameters and ", leaves, " modes, found ", part.x_.size(), ", ",
                           part.z_.size(), ", ", part.p_.size(), " and ", part.modes_.size()));
+  }
+  const std::string other = difference(*part_layout(*layout_, where), part.layout(), false);
+  if (!other.empty()) {
+    throw ModelError(
+        text("with_subcontext: the context given is not one of '", where.path, "': ", other));
   }
   Context next = changed();
   next.x_.segment(x, nx) = part.x_;

@@ -21,7 +21,7 @@ void add_taps(Plan& plan, const RecordedSignals& signals) {
   for (const auto& [name, port] : signals) {
     if (port.system == nullptr)
       throw ModelError(text("recorded signal '", name, "' names no output port"));
-    const LeafPort source = port.system->output_source(port.index);
+    const LeafPort source = port.system->output_source(port.system->output(port.index).index);
     const auto leaf = numbers.find(source.leaf);
     if (!leaf) {
       throw ModelError(text("recorded signal '", name, "' belongs to block '", port.system->name(),

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "saltus/model/detail/sound.hpp"
 #include "saltus/plan/detail/flatten.hpp"
 
 namespace saltus {
@@ -54,15 +55,30 @@ void Machine::make_views() {
                       Inputs(&place_of_z_, 1, &bases_), nullptr));
 }
 
+namespace {
+
+/// The layout of the contexts of a plan's system.
+Layout layout_of(const Plan& plan) {
+  Layout layout;
+  for (const PlanLeaf& leaf : plan.leaves)
+    layout.leaves.push_back(
+        {leaf.path, leaf.x, leaf.nx, leaf.z, leaf.nz, leaf.p, leaf.np, leaf.declared().parameters});
+  return layout;
+}
+
+}  // namespace
+
+/// Sizes alone would take the mass of one block for the spring of another.
+void require_context_of(const Plan& plan, const Context& context) {
+  const std::string other = detail::difference(layout_of(plan), context.layout());
+  if (other.empty()) return;
+  throw ModelError(text("the context is not one of this system: ", other,
+                        "; create it with system.create_context()"));
+}
+
 void Memory::take(const Context& context) {
-  if (context.continuous_state().size() != plan_->nx ||
-      context.discrete_state().size() != plan_->nz || context.parameters().size() != plan_->np ||
-      context.modes().size() != plan_->leaves.size()) {
-    throw ModelError(text("the context is not one of this system: expected ", plan_->nx,
-                          " continuous and ", plan_->nz, " discrete states and ", plan_->np,
-                          " parameters, found ", context.continuous_state().size(), ", ",
-                          context.discrete_state().size(), " and ", context.parameters().size()));
-  }
+  if (known_ == nullptr || known_ != context.layout_) require_context_of(*plan_, context);
+  known_ = context.layout_;
   x = context.continuous_state();
   z = context.discrete_state();
   p = context.parameters();
@@ -129,13 +145,13 @@ void Machine::guard(const GuardCall& call, double t, double* g) {
 }
 
 Context Memory::save(const Context& like, double t,
-                     std::shared_ptr<const Continuation> continuation) const {
+                     std::shared_ptr<const Continuation> continuation, bool settled) const {
   Context context = like;
   context.x_ = x;
   context.z_ = z;
   context.modes_ = modes;
   context.time_ = t;
-  context.settled_ = true;
+  context.settled_ = settled;
   context.continuation_ = std::move(continuation);
   return context;
 }

@@ -15,6 +15,7 @@ void Edges::begin() {
 }
 
 void Edges::open() {
+  values_minus_ = values_;
   std::ranges::fill(carried_, 0);
   fired_.clear();
 }

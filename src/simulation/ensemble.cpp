@@ -8,7 +8,9 @@
 #include <mutex>
 #include <thread>
 
+#include "saltus/base/detail/forced_unwind.hpp"
 #include "saltus/plan/compile.hpp"
+#include "saltus/plan/detail/memory.hpp"
 
 namespace saltus {
 
@@ -39,10 +41,11 @@ class Ensemble::Share {
         std::function<bool(Index)> watch)
       : ensemble_(&ensemble), take_(&take), progress_(&progress), watch_(std::move(watch)) {}
 
-  void run() noexcept {
+  void run() {
     try {
       run_all();
     } catch (...) {
+      detail::pass_end_of_thread();
       progress_->fail();
     }
   }
@@ -68,6 +71,7 @@ class Ensemble::Share {
       ensemble_->write(values, run);
       simulator.initialize(values);
     } catch (...) {
+      detail::pass_end_of_thread();
       return (*take_)(run, refused(values));
     }
     simulator.advance_to(ensemble_->span_.end);
@@ -128,9 +132,7 @@ Ensemble::Ensemble(const System& system, Context base, TimeSpan span, SimulatorO
   options_.recorded_signals.clear();  // the plan has them
   options_.refinement.reset();
   options_.throw_errors = false;
-  if (base_.continuous_state().size() != plan_->nx || base_.discrete_state().size() != plan_->nz ||
-      base_.parameters().size() != plan_->np)
-    throw ModelError("ensemble: the context is not one of this system");
+  require_context_of(*plan_, base_);
   const Simulator checked(plan_, options_);
 }
 
@@ -197,6 +199,7 @@ Index Ensemble::run(const Take& take, const EnsembleOptions& how) const {
       try {
         if (how.watch && how.watch(progress.done)) progress.stop = true;
       } catch (...) {
+        detail::pass_end_of_thread();
         progress.fail();
       }
       lock.lock();

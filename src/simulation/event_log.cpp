@@ -54,6 +54,13 @@ EventLog EventLog::emptied() const {
   return log;
 }
 
+void EventLog::shorten(std::size_t n) {
+  if (n >= rows_.size()) return;
+  states_.resize(rows_[n].states);
+  rests_.resize(rows_[n].first_rest);
+  rows_.resize(n);
+}
+
 std::vector<bool> EventLog::called(std::string_view name) const {
   std::vector<bool> whole, own;
   for (const EventName& one : names_) {

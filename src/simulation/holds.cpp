@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 namespace saltus {
 
@@ -20,6 +21,7 @@ Holds::Holds(Machine& machine, const GuardSet& guards, const SimulatorOptions& o
   std::iota(states_.begin(), states_.end(), Index{0});
   add_guards(guards);
   add_edges();
+  changed_.reserve(of_guards_.size() + of_edges_.size());
 }
 
 std::span<const Index> Holds::whole(const PlanLeaf& leaf) const {
@@ -84,7 +86,32 @@ void Holds::begin() {
     for (Hold& hold : *holds) hold.monitor.forget();
   }
   count_ = 0;
+  open();
 }
+
+void Holds::open() {
+  for (Hold* hold : changed_) hold->changed = false;
+  changed_.clear();
+}
+
+void Holds::undo() {
+  for (Hold* hold : changed_) {
+    count_ += static_cast<int>(hold->before.holding) - static_cast<int>(hold->monitor.holding);
+    hold->monitor = hold->before;
+  }
+  open();
+}
+
+/// The monitor of a hold, to be changed. The first change in an instant keeps a copy.
+ZenoMonitor& Holds::changing(Hold& hold) {
+  if (!std::exchange(hold.changed, true)) {
+    hold.before = hold.monitor;
+    changed_.push_back(&hold);
+  }
+  return hold.monitor;
+}
+
+void Holds::fired(Hold& hold, double t) { changing(hold).fired(t); }
 
 bool Holds::kicked(const Hold& hold) const {
   return hold.monitor.holding && std::ranges::any_of(hold.states, [&](Index i) {
@@ -105,7 +132,7 @@ void Holds::come_to_rest(Hold& hold, double predicted, bool in_pass) {
                   .leaf = hold.leaf,
                   .predicted = predicted,
                   .entry = hold.entry});
-  hold.monitor.forget();
+  changing(hold).forget();
   if (kind == Kind::stop)
     present_->outcome.zeno_stop = true;
   else if (in_pass)
@@ -125,7 +152,7 @@ void Holds::throw_accumulation(const Hold& hold, double predicted) const {
 }
 
 void Holds::rest(Hold& hold, double predicted) {
-  hold.monitor.holding = true, ++count_;
+  changing(hold).holding = true, ++count_;
   for (const Index i : hold.states) machine_->resting().rest(i);
   present_->outcome.horizon = std::numeric_limits<double>::infinity();
   present_->outcome.restart = true;
@@ -139,7 +166,7 @@ void Holds::rest(Hold& hold, double predicted) {
 }
 
 void Holds::release(Hold& hold) {
-  hold.monitor.forget(), --count_;
+  changing(hold).forget(), --count_;
   for (const Index i : hold.states) machine_->resting().move(i);
   present_->outcome.restart = true;
   flow_->forget();
@@ -155,7 +182,7 @@ bool Holds::look_for_accumulation(Hold& hold) {
   for (std::size_t i = 0; i < hold.states.size(); ++i)
     gathered_[static_cast<Index>(i)] = next[hold.states[i]];
   if (!hold.monitor.on() || !hold.monitor.accumulates()) {
-    hold.monitor.remember(gathered_);
+    changing(hold).remember(gathered_);
     double& horizon = present_->outcome.horizon;
     if (const double gap = hold.monitor.gap(); std::isfinite(gap))
       horizon = std::min(horizon, std::max(thresholds::next_gap * gap, present_->least_time()));
@@ -188,6 +215,26 @@ std::vector<Continuation::Firings> Holds::save() const {
     for (const Hold& hold : *holds) firings.push_back(hold.monitor.save());
   }
   return firings;
+}
+
+bool Holds::fits(const Continuation& from) const {
+  if (from.firings.size() != of_guards_.size() + of_edges_.size()) return false;
+  auto firings = from.firings.begin();
+  for (const auto* holds : {&of_guards_, &of_edges_}) {
+    for (const Hold& hold : *holds) require_sound(hold, *firings++);
+  }
+  return true;
+}
+
+/// A firing that left other states than the hold has, or a hold where nothing can rest, comes from
+/// a damaged context.
+void Holds::require_sound(const Hold& hold, const Continuation::Firings& saved) const {
+  const bool whole = saved.after.empty() || saved.after.size() == hold.states.size();
+  const bool possible = hold.leaf >= 0 || (!saved.holding && saved.times.empty());
+  if (whole && possible) return;
+  throw ModelError(text("the continuation of the context is damaged: a guard with ",
+                        hold.states.size(), " states that may rest has ", saved.after.size(),
+                        " states after its last firing", possible ? "" : ", or rests"));
 }
 
 void Holds::load(const Continuation& from) {

@@ -12,8 +12,10 @@ void Instant::open(double t, const std::vector<int>& due, double longest) {
   journal_.open(t);
   flow_.open(t, longest);
   edges_.open();
+  holds_.open();
   std::swap(present_.firings, guards_->fired_at_root);
   guards_->fired_at_root.clear();
+  before_.guards = guards_->all(), before_.roots = present_.firings, before_.jump = jump_;
   for (const Firing& root : present_.firings) {
     const auto k = static_cast<std::size_t>(root.slot);
     GuardNow& now = present_.now[k];
@@ -139,7 +141,7 @@ void Instant::run_reset(const Action& action) {
   const auto index = static_cast<std::size_t>(action.index);
   const Effect effect = effect_of(action);
   Holds::Hold& hold = *effect.hold;
-  if (effect.any() && !action.carry) hold.monitor.fired(present_.t);
+  if (effect.any() && !action.carry) holds_.fired(hold, present_.t);
   const bool wrote = run_effect(effect, action.leaf, journal_.name_of(source));
   const bool last = action.cause == Cause::crossing && journal_.ends_run(index);
   present_.outcome.terminal = present_.outcome.terminal || last;

@@ -86,6 +86,26 @@ void Instant::resume(double t, Recorder* recorder, const Continuation& from, dou
   contacts_.load();
 }
 
+void Instant::undo() {
+  guards_->restore(before_.guards);
+  guards_->arm_again(before_.roots);
+  holds_.undo();
+  edges_.undo();
+  journal_.undo();
+  transition_.undo();
+  jump_ = before_.jump;
+}
+
+bool Instant::finds_roots() {
+  guards_->fired_at_root.clear();
+  for (const std::size_t k : guards_->active()) {
+    const Guard& guard = (*guards_)[k];
+    if (guard.monitor || guard.phase != Phase::armed || !guard.crossed(guards_->g[k])) continue;
+    guards_->fired_at_root.push_back({static_cast<int>(k), guard.side, false});
+  }
+  return !guards_->fired_at_root.empty();
+}
+
 void Instant::log_monitor(const MonitorHit& hit, const double* x) {
   journal_.note_monitor(hit, (*guards_)[static_cast<std::size_t>(hit.firing.slot)], jump_, x);
 }

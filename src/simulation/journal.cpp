@@ -54,6 +54,13 @@ void Journal::begin() {
 void Journal::open(double t) {
   t_ = t, events_ = 0;
   chain_.clear();
+  counts_minus_ = counts_, logged_ = results_->events.size();
+}
+
+void Journal::undo() {
+  counts_ = counts_minus_;
+  results_->statistics.events -= events_;
+  results_->events.shorten(logged_);
 }
 
 int Journal::source_of(Cause cause, int index) const {

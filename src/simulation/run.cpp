@@ -1,6 +1,7 @@
 // Run: the loop from instant to instant.
 #include "saltus/simulation/detail/run.hpp"
 
+#include "saltus/base/detail/forced_unwind.hpp"
 #include "saltus/simulation/detail/option_table.hpp"
 
 namespace saltus {
@@ -38,18 +39,24 @@ Run::Run(std::shared_ptr<const Plan> plan, SimulatorOptions options)
       major_(options_.max_major_step_length),
       chattering_(options_) {}
 
+/// A context that is refused leaves the run as it is.
 void Run::initialize(const Context& context) {
+  require_context_of(plan(), context);
+  if (context.continuation() != nullptr) instant_.fits(*context.continuation());
+  calendar_.check(context.time());
+  begin_ = {};  // no run, if a function of the model throws now
   machine_.load(context);
   begin_ = context;
   time_ = context.time();
   results_.time.clear(), results_.jump.clear();
   results_.statistics = {}, results_.message.clear();
-  results_.block.clear(), results_.cause = nullptr;
+  results_.block.clear(), results_.cause = nullptr, results_.status = Status::reached_end;
   start_recorder();
   results_.trajectory = {};
   if (options_.dense_output) results_.trajectory.start(machine_.shared_plan(), begin_, options_);
   calendar_.begin(time_, context.settled());
   begun_ = solver_started_ = over_ = false;
+  accepted_ = {.settled = context.settled()};
   next_save_ = 0, interrupt_ = {};
   chattering_.begin(time_, machine_.x);
   row_ = machine_.x;
@@ -73,11 +80,22 @@ Results Run::take_results() {
   return taken;
 }
 
-Status Run::advance_to(double t_end) {
+void Run::require_ready(double t_end) const {
+  if (begin_.modes().empty())
+    throw ModelError("advance_to: the run has no values yet; call initialize(context) first");
+  if (begun_ && results_.status == Status::failed) {
+    throw ModelError(text("t = ", time_,
+                          " s: this run has failed; initialize(results.context) "
+                          "goes on from its last accepted state"));
+  }
   if (!(t_end >= time_)) {
     throw ModelError(text("cannot run from t = ", time_, " s back to t = ", t_end,
                           " s; the end has to be later"));
   }
+}
+
+Status Run::advance_to(double t_end) {
+  require_ready(t_end);
   const auto start = std::chrono::steady_clock::now();
   interrupt_.asked = start;
   try {
@@ -88,6 +106,7 @@ Status Run::advance_to(double t_end) {
   } catch (const std::exception& error) {
     fail(error.what());
   } catch (...) {
+    detail::pass_end_of_thread();
     fail("a function of the model threw");
   }
   results_.statistics.wall_time +=
@@ -134,6 +153,11 @@ Status Run::begin(double t_end) {
   record(time_, machine_.x.data());
   if (options_.dense_output) results_.trajectory.open(time_, machine_, instant_.contacts());
   if (!resumes) return settle(StopReason::stop_time, t_end, true);
+  // A run that failed in an instant goes on with that instant.
+  const bool roots = instant_.finds_roots();
+  if (roots || calendar_.due(time_))
+    return settle(roots ? StopReason::root : StopReason::stop_time, t_end, false);
+  accepted_.place = Place::machine;
   major_.begin(time_);
   return Status::reached_end;
 }
@@ -145,6 +169,8 @@ Status Run::step(double t_end) {
   StopReason reason = StopReason::stop_time;
   if (options_.dense_output) results_.trajectory.depart(present_state());
   move_to(t_stop, reason);
+  accepted_.settled = false;
+  accepted_.place = solver_started_ ? Place::solver : Place::machine;
   if (options_.dense_output) keep_step(from);
   for (const MonitorHit& hit : guards_.monitors) {
     solver_->interpolate(hit.t, row_.data());
@@ -178,6 +204,7 @@ void Run::move_to(double t_stop, StopReason& reason) {
 /// more.
 Status Run::settle(StopReason reason, double t_end, bool at_start) {
   if (solver_started_) take_state();
+  if (accepted_.place == Place::solver) accepted_.place = Place::machine;
   ++results_.statistics.instants;
   results_.trajectory.instant();
   due_.clear();
@@ -185,8 +212,12 @@ Status Run::settle(StopReason reason, double t_end, bool at_start) {
   if (reason != StopReason::root && due_.empty() && !at_start)
     return Status::reached_end;  // only the end of a major step
   major_.begin(time_);
+  record(time_, machine_.x.data());
+  accepted_.rows = results_.time.size();
   const bool at_root = reason == StopReason::root, idle = at_root && chattering_.idle(machine_.x);
+  accepted_.in_instant = true;
   const Outcome outcome = instant_.run(time_, due_, t_end - time_, at_start);
+  accepted_ = {.place = Place::machine, .settled = true};
   if (outcome.restart && solver_started_)
     solver_->restart(time_, machine_.x, {.horizon = outcome.horizon, .flow = instant_.flow()});
   return after(outcome, {time_, at_root, t_end - begin_.time()}, idle);
@@ -223,6 +254,25 @@ void Run::fail(std::string message) {
   results_.status = Status::failed;
   results_.message = std::move(message);
   results_.cause = std::current_exception();
+  take_accepted();
+}
+
+/// Puts the last accepted state into the machine. An instant under way is undone with its rows.
+void Run::take_accepted() {
+  if (std::exchange(accepted_.in_instant, false)) {
+    instant_.undo();
+    if (recorder_) recorder_->shorten(accepted_.rows);
+  } else {
+    guards_.arm_again(guards_.fired_at_root);  // the instant at the end of the step has not begun
+  }
+  if (accepted_.place != Place::solver) return;
+  machine_.x = solver_->state();
+  try {
+    machine_.put_carried(time_, machine_.x.data());
+  } catch (...) {  // what failed is in the results; the state is that of the step
+    detail::pass_end_of_thread();
+    machine_.x = solver_->state();
+  }
 }
 
 Status Run::end(Status status, std::string message) {

@@ -46,11 +46,10 @@ void Run::keep_step(double from) {
 void Run::finish() {
   const bool at_instant =
       results_.status == Status::terminal || results_.status == Status::zeno_stop;
-  if (solver_started_ && !at_instant) take_state();
-  if (results_.status != Status::failed) record(time_, machine_.x.data());
-  if (options_.dense_output)
-    results_.trajectory.close(time_, machine_, instant_.contacts(),
-                              results_.status != Status::failed);
+  const bool whole = results_.status != Status::failed;
+  if (solver_started_ && !at_instant && whole) take_state();
+  if (whole) record(time_, machine_.x.data());
+  if (options_.dense_output) results_.trajectory.close(time_, machine_, instant_.contacts(), whole);
   results_.context = context();
   Statistics& s = results_.statistics;
   if (solver_started_) static_cast<SolverStatistics&>(s) = solver_->statistics();
@@ -64,9 +63,10 @@ void Run::finish() {
 
 Context Run::context() const {
   if (!begun_) return begin_;
-  const bool whole = results_.status != Status::failed;  // an error may leave an instant half done
-  return machine_.save(begin_, time_,
-                       whole ? std::make_shared<const Continuation>(instant_.save()) : nullptr);
+  if (results_.status == Status::failed && accepted_.place == Place::start) return begin_;
+  const bool settled = results_.status != Status::failed || accepted_.settled;
+  return machine_.save(begin_, time_, std::make_shared<const Continuation>(instant_.save()),
+                       settled);
 }
 
 std::string Run::describe() const {

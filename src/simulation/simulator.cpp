@@ -20,13 +20,28 @@ Simulator::~Simulator() = default;
 Simulator::Simulator(Simulator&&) noexcept = default;
 Simulator& Simulator::operator=(Simulator&&) noexcept = default;
 
-void Simulator::initialize(const Context& context) { run_->initialize(context); }
-Status Simulator::advance_to(double t_end) { return run_->advance_to(t_end); }
+void Simulator::initialize(const Context& context) {
+  const Turn turn = run_->claim("initialize");
+  run_->initialize(context);
+}
+Status Simulator::advance_to(double t_end) {
+  const Turn turn = run_->claim("advance_to");
+  return run_->advance_to(t_end);
+}
 double Simulator::time() const noexcept { return run_->time(); }
-Context Simulator::context() const { return run_->context(); }
+Context Simulator::context() const {
+  const Turn turn = run_->claim("context");
+  return run_->context();
+}
 const Results& Simulator::results() const noexcept { return run_->results(); }
-Results Simulator::take_results() { return run_->take_results(); }
+Results Simulator::take_results() {
+  const Turn turn = run_->claim("take_results");
+  return run_->take_results();
+}
 const Plan& Simulator::plan() const noexcept { return run_->plan(); }
-std::string Simulator::describe() const { return run_->describe(); }
+std::string Simulator::describe() const {
+  const Turn turn = run_->claim("describe");
+  return run_->describe();
+}
 
 }  // namespace saltus

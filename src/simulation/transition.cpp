@@ -11,6 +11,12 @@ void Transition::open() {
   pass_wrote_ = entered_ = restarts_ = false;
   effects_ = 0;
   x_minus_ = x_next_ = machine_->x, z_minus_ = machine_->z, y_minus_ = machine_->y;
+  modes_minus_ = machine_->modes;
+}
+
+void Transition::undo() {
+  machine_->x = x_minus_, machine_->z = z_minus_, machine_->y = y_minus_;
+  machine_->modes = modes_minus_;
 }
 
 void Transition::begin_pass() {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "linear/linear_system.hpp"
+#include "saltus/base/detail/forced_unwind.hpp"
 #include "saltus/solver/detail/guard_set.hpp"
 #include "saltus/solver/detail/thresholds.hpp"
 #include "sundials_compat.hpp"
@@ -90,6 +91,7 @@ class CvodeScene {
     try {
       return call();
     } catch (...) {
+      detail::pass_end_of_thread();
       error_ = std::current_exception();
       return -1;
     }

@@ -29,6 +29,7 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
         context_(sun::make_context()),
         y_(make_vector(n_, context_.get())),
         dky_(N_VClone(y_.get())),
+        x0_(n_),
         scene_(machine, guards),
         cvode_(CVodeCreate(method == CvodeMethod::adams ? CV_ADAMS : CV_BDF, context_.get())),
         starter_(machine, guards, options) {
@@ -65,7 +66,9 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
   friend StepSolver<CvodeSolver>;
 
   void begin(const Start& how) {
-    if (how.first) first_step_ = 0.0;
+    if (how.first) first_step_ = 0.0, tiny_steps_ = 0;
+    last_message_.clear();
+    x0_at_ = std::numeric_limits<double>::quiet_NaN();
     scene_.begin_at(t1_);
     // A multistep method begins with order 1, and with steps so short that order 1 is within the
     // tolerance. It would draw a flight hardly longer than these steps as a line that falls from
@@ -125,12 +128,15 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
     started_ = true;
   }
 
-  void undo() { t1_ = t0_; }
+  void undo() { t1_ = t0_, x1_ = x0_; }
 
   /// The guards at the end of the step, where CVODE has just looked at them.
   const double* end_guards() const { return starting_ ? nullptr : scene_.guards_at(t1_); }
 
   void step(double t_stop) {
+    // Steps within a rounding of the time add up to none: the first state at a time is the one that
+    // a failure leaves, as in the rows.
+    if (t1_ != x0_at_) x0_ = x1_, x0_at_ = t1_;
     if (starting_ && t1_ >= starter_until_) start_cvode();
     const double shortest = std::max(
         thresholds::cvode_roundings * thresholds::eps * std::max(std::abs(t_stop), std::abs(t1_)),
@@ -219,7 +225,9 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
   sun::Context context_;
   sun::Vector y_, dky_;
   sun::Nonlinear nonlinear_;
-  CvodeScene scene_;  // it needs the context, and CVODE needs it
+  Eigen::VectorXd x0_;  // the state before the step
+  double x0_at_ = 0.0;  // [s]
+  CvodeScene scene_;    // it needs the context, and CVODE needs it
   sun::Cvode cvode_;
   RungeKutta<Dopri5> starter_;
   bool started_ = false, starting_ = false;

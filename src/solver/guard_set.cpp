@@ -31,7 +31,7 @@ void GuardSet::add(const GuardTraits& traits, bool active) {
 void GuardSet::clear() {
   ++version_;
   some_beyond = false;
-  fired_at_root.clear(), beside_root.clear(), monitors.clear(), active_.clear();
+  fired_at_root.clear(), beside_root.clear(), monitors.clear(), active_.clear(), kept_.clear();
   for (Guard& guard : guards_) {
     const GuardTraits traits = guard;
     guard = {};
@@ -62,6 +62,14 @@ void GuardSet::leave_rest(std::size_t k) {
   Guard& guard = guards_[k];
   if (guard.phase == Phase::resting) guard.phase = Phase::waiting;
   if (guard.phase == Phase::carried) guard.phase = Phase::armed;
+}
+
+void GuardSet::arm_again(const std::vector<Firing>& fired) {
+  for (const Firing& firing : fired) {
+    const auto k = static_cast<std::size_t>(firing.slot);
+    set(k, Phase::armed, firing.from, 0.0);
+    if (k < kept_.size()) guards_[k].base = kept_[k].base;  // the value before the root
+  }
 }
 
 std::vector<Continuation::Guard> GuardSet::save() const {

@@ -5,6 +5,7 @@
 #include <optional>
 #include <random>
 
+#include "saltus/base/detail/forced_unwind.hpp"
 #include "saltus/solver/detail/find_places.hpp"
 #include "saltus/solver/detail/thresholds.hpp"
 
@@ -31,6 +32,7 @@ bool tried(Call call, std::string& message) {
   } catch (const std::exception& error) {
     what = error.what();
   } catch (...) {
+    detail::pass_end_of_thread();
     what = "something that is no std::exception";
   }
   message = what.substr(0, what.find('\n'));

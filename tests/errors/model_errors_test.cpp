@@ -51,8 +51,8 @@ TEST_CASE("a context of another system is refused", "[errors]") {
   const Leaf other("other", [](Leaf& l) { declare_ramp(l); });
   CHECK(contains(
       message<ModelError>([&] { simulate(*scene.system, other.create_context(), {0.0, 1.0}); }),
-      "the context is not one of this system: expected 2 continuous and 0 discrete states and 2 "
-      "parameters, found 1, 0 and 0"));
+      "the context is not one of this system: expected block 'ball', found 'other'; create it with "
+      "system.create_context()"));
 }
 
 TEST_CASE("a recorded signal that is unknown, foreign or named twice is refused", "[errors]") {

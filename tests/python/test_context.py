@@ -136,3 +136,36 @@ def test_context_of_another_system_is_refused():
         saltus.simulate(ball, sine.create_context(), (0.0, 1.0))
     with pytest.raises(saltus.ModelError, match="no system with id"):
         ball.create_context()[sine]
+
+
+def parameter_block(name, parameter):
+    block = saltus.LeafSystem(name=name)
+    block.declare_dynamic_parameter(parameter, 1.0)
+    block.declare_continuous_state([0.0], ode=lambda t, s, **p: [next(iter(p.values()))])
+    return block
+
+
+@pytest.mark.parametrize("name, parameter", [("a", "spring"), ("b", "mass"), ("b", "spring")])
+def test_6_7_a_context_of_another_system_of_the_same_size_is_refused(name, parameter):
+    a, other = parameter_block("a", "mass"), parameter_block(name, parameter).create_context()
+    message = "the context is not one of this system"
+    with pytest.raises(saltus.ModelError, match=message):
+        saltus.simulate(a, other, (0, 1))
+    with pytest.raises(saltus.ModelError, match=message):
+        saltus.Simulator(a).initialize(other)
+    with pytest.raises(saltus.ModelError, match=message):
+        saltus.sweep(a, {"mass": [1.0, 2.0]}, (0, 1), context=other)
+    same = parameter_block("a", "mass").create_context()  # other objects, the same structure
+    assert saltus.simulate(a, same, (0, 1)).status == "reached_end"
+
+
+def test_6_7_a_refused_context_leaves_the_simulator_as_it_was():
+    a = parameter_block("a", "mass")
+    simulator = saltus.Simulator(a)
+    simulator.initialize(a.create_context())
+    simulator.advance_to(0.5)
+    before = simulator.context
+    with pytest.raises(saltus.ModelError):
+        simulator.initialize(parameter_block("a", "spring").create_context())
+    assert simulator.context == before
+    assert simulator.advance_to(1.0) == "reached_end"

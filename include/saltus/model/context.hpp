@@ -64,8 +64,8 @@ class Context {
   const Eigen::VectorXd& discrete_state() const noexcept { return z_; }
   const Eigen::VectorXd& parameters() const noexcept { return p_; }
   const std::vector<int>& modes() const noexcept { return modes_; }
-  int mode() const;  ///< of a context of one leaf
-  const Layout& layout() const { return *layout_; }
+  int mode() const;              ///< of a context of one leaf
+  const Layout& layout() const;  ///< empty for a context that no system made
 
   /// True where the events at exactly `time()` have happened already: a run that ended here.
   bool settled() const noexcept { return settled_; }
@@ -74,6 +74,7 @@ class Context {
 
   /// Everything that changes, for saving; and a context of this layout with saved values.
   ContextValues values() const { return {time_, x_, z_, p_, modes_, settled_, continuation_}; }
+  /// It throws ModelError for a continuation with impossible values too.
   Context with_values(const ContextValues& values) const;
 
   Context with_time(double t) const;

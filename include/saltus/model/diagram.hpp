@@ -54,6 +54,7 @@ class Diagram final : public System {
   std::vector<Wire> wires_;
   std::vector<ExportedInput> inputs_;
   std::vector<ExportedOutput> outputs_;
+  std::vector<std::shared_ptr<const void>> uses_;  // of its leaves, see Declarations
 };
 
 }  // namespace saltus

@@ -47,6 +47,9 @@ struct Declarations {
   std::vector<ZeroCrossing> zero_crossings;
   std::vector<EdgeReset> edge_resets;
   std::vector<TimeEvent> time_events;
+  /// Held by everybody who refers to these declarations or to a copy: the leaf itself, plans,
+  /// diagrams. While others hold it, each declare_* throws ModelError and changes nothing.
+  std::shared_ptr<const void> use = {};
 };
 
 class LeafSystem : public System {
@@ -71,6 +74,9 @@ class LeafSystem : public System {
   LeafPort input_target(int index) const override;
 
  protected:
+  /// Throws ModelError while others refer to the declarations.
+  void require_unused() const;
+
   /// Declares n continuous states that start at zero, or at the given values; xdot = ode(at).
   void declare_continuous_state(Index n, RightHandSide ode);
   void declare_continuous_state(ContinuousState state);

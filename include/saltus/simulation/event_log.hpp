@@ -76,6 +76,8 @@ class EventLog {
   void begin(std::vector<EventName> names) { names_ = std::move(names), clear(); }
   void clear() { rows_.clear(), states_.clear(), rests_.clear(); }
   EventLog emptied() const;
+  /// Removes all events but the first n.
+  void shorten(std::size_t n);
   /// `rests` are the entries of x that rest; the block's begin at `first`.
   void add(Row row, const double* before, const double* after, std::span<const Index> rests = {},
            Index first = 0) {

@@ -11,8 +11,13 @@ namespace saltus {
 
 class Run;
 
-/// Advances a context of a system from instant to instant. The system must outlive it. One
-/// simulator serves one thread. It can be initialized again and keeps its memory.
+/// Advances a context of a system from instant to instant. The system must outlive it. It can be
+/// initialized again and keeps its memory.
+///
+/// One caller uses a simulator at a time. While a call is under way, each further call of
+/// initialize, advance_to, context, take_results or describe throws Error and changes nothing: a
+/// call from a callback of the run, and a call from another thread. time() and results() may be
+/// read in the thread of the run only.
 class Simulator {
  public:
   /// Throws ModelError for an impossible system or option.
@@ -25,12 +30,14 @@ class Simulator {
   Simulator& operator=(Simulator&&) noexcept;
 
   /// Begins a run at the context's time. A context from the end of a run continues that run. Throws
-  /// ModelError if the context does not belong to this system.
+  /// ModelError, and changes nothing, if the context does not belong to this system or is damaged.
   void initialize(const Context& context);
 
   /// Continues to t_end [s], or to an earlier end of the run. A run in pieces has the same events
   /// as a run at once. Throws SimulationError with the partial results attached, or the exception
-  /// of a user's function, unless the option throw_errors is off.
+  /// of a user's function, unless the option throw_errors is off. After an error results().context
+  /// is the last accepted state, to the bit; initialize with it continues the run from there, and
+  /// advance_to without it throws ModelError.
   Status advance_to(double t_end);
 
   double time() const noexcept;

@@ -247,7 +247,11 @@ class Results:
         return {"kind": "Results"}
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return Results, (KeptRun.of(self._core), self.cause)
+        return Results, (KeptRun.of(self._core),), self._failure()
+
+    def _failure(self) -> dict[str, Any]:
+        """The state of a pickle: its cause may refer back to these results."""
+        return {"cause": self.cause, "message": self.message}
 
     def __repr__(self) -> str:
         return as_text(self)

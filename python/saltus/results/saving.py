@@ -6,7 +6,7 @@ beside it. Nothing in it is ever executed, so a file of unknown origin is safe t
 
 from __future__ import annotations
 
-import math
+import errno
 import os
 from os import PathLike, fspath
 from typing import TYPE_CHECKING, Any
@@ -15,6 +15,7 @@ import numpy as np
 
 from saltus import _core
 from saltus.errors import ModelError
+from saltus.results.header import checked_arrays, checked_events, checked_statistics, strings, text
 from saltus.results.record import KINDS, KeptRun
 
 if TYPE_CHECKING:
@@ -123,8 +124,10 @@ def load_results(path: str | PathLike[str]) -> Results:
             raise ModelError(f"expected the format '{FORMAT}', found '{header['format']}'")
         results: Results = KINDS[header["kind"]](_kept(header, arrays), header)
         return results
-    except OSError:
-        raise
+    except OSError as error:
+        if error.errno != errno.EINVAL:  # else a damaged file names a place before its beginning
+            raise
+        reason = str(error)
     except (zipfile.BadZipFile, ModelError, EOFError, KeyError) as error:
         reason = f"it has no {error}" if isinstance(error, KeyError) else str(error)
     except Exception as error:  # whatever a damaged file sets off
@@ -135,41 +138,21 @@ def load_results(path: str | PathLike[str]) -> Results:
 
 
 def _kept(header: dict[str, Any], arrays: dict[str, np.ndarray]) -> KeptRun:
-    outputs = {name: arrays[f"output {i}"] for i, name in enumerate(header["outputs"])}
-    rows = len(arrays["time"])
-    for name, array in [("jump", arrays["jump"]), *outputs.items()]:
-        if len(array) != rows:
-            raise ModelError(f"'{name}' has {len(array)} rows, 'time' has {rows}")
-    statistics = header["statistics"]
-    statistics["stretches"] = [tuple(part) for part in statistics["stretches"]]
+    outputs = checked_arrays(strings("'outputs'", header["outputs"]), arrays)
+    if header["status"] not in _core.status_names():
+        raise ModelError(f"the status is {str(header['status'])[:60]}")
     return KeptRun(
         time=arrays["time"],
         jump=arrays["jump"],
         outputs=outputs,
         context=_context(header["context"]),
         status=header["status"],
-        message=header["message"],
-        block=header["block"],
-        statistics=statistics,
-        events=_events(header["events"], arrays),
-        event_names=header["event_names"],
+        message=text("'message'", header["message"]),
+        block=text("'block'", header["block"]),
+        statistics=checked_statistics(header["statistics"]),
+        events=checked_events(header["events"], arrays),
+        event_names=strings("'event_names'", header["event_names"]),
     )
-
-
-def _events(rows: list[list[Any]], arrays: dict[str, np.ndarray]) -> list[tuple[Any, ...]]:
-    times, predicted = arrays["event time"].tolist(), arrays["event predicted"].tolist()
-    states, events, at = arrays["event states"], [], 0
-    for t, p, (jump, kind, direction, block, name, entry, width) in zip(
-        times, predicted, rows, strict=True
-    ):
-        middle, end = at + width, at + 2 * width
-        p = math.nan if math.isnan(p) else p
-        change = states[at:middle].copy(), states[middle:end].copy()
-        events.append((t, jump, kind, direction, block, name, p, *change, entry))
-        at = end
-    if at != len(states):
-        raise ModelError(f"expected {at} numbers of events, found {len(states)}")
-    return events
 
 
 def _context(data: dict[str, Any]) -> _core.Context:

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from saltus.errors import ModelError
 from saltus.results import Results
 from saltus.results.record import FIRINGS, KINDS, KeptRun, Record
 from saltus.system import System
@@ -141,9 +142,24 @@ class Solution(Results):
 
     def __reduce__(self) -> tuple[Any, ...]:
         kept = KeptRun.of(self._core)
-        return Solution, (kept, self.cause, None, self._names, None, self._fixed_jacobian)
+        return (
+            Solution,
+            (kept, None, None, self._names, None, self._fixed_jacobian),
+            self._failure(),
+        )
 
 
-KINDS["Solution"] = lambda run, header: Solution(
-    run, names=header["guards"], fixed_jacobian=bool(header.get("fixed_jacobian", False))
-)
+def _loaded(run: KeptRun, header: dict[str, Any]) -> Solution:
+    names = header["guards"]
+    if names is not None and not (
+        isinstance(names, list) and all(isinstance(name, str) for name in names)
+    ):
+        raise ModelError(f"'guards' are {names!r}, expected names or null")
+    if "x" not in run.outputs or run.outputs["x"].ndim != 2:
+        raise ModelError("a solution has the state in the output 'x', a row for each time")
+    return Solution(
+        run, names=names, fixed_jacobian=bool(header.get("fixed_jacobian", False))
+    )
+
+
+KINDS["Solution"] = _loaded

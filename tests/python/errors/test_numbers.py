@@ -70,3 +70,32 @@ def test_a_list_that_holds_itself_is_no_number():
     endless.append(endless)
     with pytest.raises(saltus.ModelError, match="expected numbers, found a list"):
         Spring(lambda k: k).create_context().with_parameter("k", endless)
+
+
+@pytest.mark.parametrize(
+    "period, offset, begin",
+    [
+        (1.0, -1e300, 0.0),
+        (0.3, 0.0, 2.0**63),
+        (1e-300, -1.0, 0.0),
+        (1.0, -1e308, 1e308),
+        (1e-20, 0.0, 1.0),
+    ],
+)
+def test_6_8_ticks_that_cannot_be_told_apart_are_refused(period, offset, begin):
+    block = saltus.LeafSystem(name="block")
+    block.declare_discrete_state(default_value=[0.0])
+    block.declare_periodic_update(lambda t, s: s.discrete_state + 1, period=period, offset=offset)
+    with pytest.raises(saltus.ModelError, match="cannot be told apart"):
+        saltus.simulate(block, block.create_context(), (begin, begin + 1.0))
+    late = block.context_from_json(block.create_context(begin).to_json())
+    with pytest.raises(saltus.ModelError, match="cannot be told apart"):
+        saltus.Simulator(block).initialize(late)
+
+
+def test_6_8_a_pulse_that_began_too_long_ago_is_refused():
+    from saltus.library import Pulse
+
+    pulse = Pulse(period=1.0, phase_delay=-1e308)
+    with pytest.raises(saltus.ModelError, match="cannot be told apart"):
+        saltus.simulate(pulse, pulse.create_context(), (0, 1))

@@ -148,8 +148,8 @@ def test_6_1_a_context_that_is_no_context_or_of_another_system_is_refused(system
         assert refused(run) == message
     other = saltus.LeafSystem(name="other").create_context()
     assert refused(lambda: saltus.simulate(system, other, (0.0, 1.0))) == (
-        "the context is not one of this system: expected 1 continuous and 1 discrete states and 0 "
-        "parameters, found 0, 0 and 0"
+        f"the context is not one of this system: expected block '{system.name}', found 'other'; "
+        "create it with system.create_context()"
     )
     check_works(system)
 

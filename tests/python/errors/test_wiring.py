@@ -273,3 +273,48 @@ def test_6_1_build_calls_no_function_of_a_user():
     assert not calls
     built.create_context()
     assert calls
+
+
+OUT_OF_RANGE = [1, 7, -1, -2, 2**31, 2**62, 2**70]
+"""positions that a block with one port does not have; the fields of a port are public"""
+OTHERS = ["out", None, 0.5]
+
+
+@pytest.mark.parametrize("index", [*OUT_OF_RANGE, *OTHERS])
+def test_6_1_a_port_that_the_block_does_not_have_is_refused_where_it_is_used(index):
+    g, h = Constant(1.0, name="g"), Gain(1.0, name="h")
+    builder = diagram(blocks=[g, h])
+    from_nowhere, to_nowhere = saltus.OutputPort(g, index), saltus.InputPort(h, index)
+    refused(lambda: builder.connect(from_nowhere, h.input()))
+    refused(lambda: builder.connect(g.output(), to_nowhere))
+    refused(lambda: builder.export_output(from_nowhere))
+    refused(lambda: builder.export_output(from_nowhere, "y"))
+    refused(lambda: builder.export_input(to_nowhere))
+    refused(lambda: builder.export_input(to_nowhere, "u"))
+    builder.connect(g.output(), h.input())  # as if nothing had been
+    built = builder.build()
+    recorded = {"y": saltus.OutputPort(h, index)}
+    refused(
+        lambda: saltus.simulate(built, built.create_context(), (0, 1), recorded_signals=recorded)
+    )
+    refused(lambda: built.to_dot(recorded_signals=recorded))
+
+
+def test_6_1_a_port_that_the_block_does_not_have_is_named_with_those_it_has():
+    g, h = Constant(1.0, name="g"), Gain(1.0, name="h")
+    builder = diagram(blocks=[g, h])
+    message = refused(lambda: builder.connect(saltus.OutputPort(g, 1), h.input()))
+    assert message == "block 'g' has no output 1: it has 1 ('out')"
+    message = refused(lambda: builder.connect(saltus.OutputPort("g", 0), h.input()))
+    assert message == "expected the port of a system, found one of 'g'"
+
+
+@pytest.mark.parametrize("index", OUT_OF_RANGE)
+def test_6_1_a_port_that_a_diagram_does_not_have_is_refused(index):
+    inner = diagram(blocks=[Gain(1.0, name="gain")])
+    inner.export_input(inner._children["gain"].input(), "u")
+    inner.export_output(inner._children["gain"].output(), "y")
+    nested, one = inner.build("nested"), Constant(1.0, name="one")
+    outer = diagram(blocks=[nested, one])
+    refused(lambda: outer.connect(one.output(), saltus.InputPort(nested, index)))
+    refused(lambda: outer.export_output(saltus.OutputPort(nested, index)))

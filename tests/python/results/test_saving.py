@@ -1,7 +1,11 @@
 """Results in files, and in other processes."""
 
+import copy
+import json
+import multiprocessing
 import pickle
 import zipfile
+from concurrent.futures import ProcessPoolExecutor
 
 import numpy as np
 import pytest
@@ -171,3 +175,86 @@ def test_any_other_name_is_taken_as_it_is(name, tmp_path):
     solution = saltus.solve(lambda t, x: -x, (0, 1), [1.0])
     solution.save(tmp_path / name)
     same(saltus.load_results(tmp_path / name), solution)
+def blow_up(t, x):
+    return x**2
+
+
+@pytest.mark.parametrize("copied", [lambda e: pickle.loads(pickle.dumps(e)), copy.deepcopy])
+def test_an_error_that_is_the_cause_in_its_own_results(copied):
+    with pytest.raises(saltus.SimulationError) as caught:
+        saltus.solve(blow_up, (0, 2), [1.0])
+    error = caught.value
+    assert error.results.cause is error
+    again = copied(error)
+    assert (str(again), again.time, again.block) == (str(error), error.time, error.block)
+    assert again.results.cause is again  # one error, as before
+    same(again.results, error.results)
+    results = copied(error.results)
+    assert results.cause.results is results
+    assert results.message == error.results.message
+
+
+def test_a_process_pool_hands_an_error_over():
+    with ProcessPoolExecutor(1, mp_context=multiprocessing.get_context("spawn")) as pool:
+        with pytest.raises(saltus.SimulationError) as caught:
+            pool.submit(saltus.solve, blow_up, (0, 2), [1.0]).result()
+    assert caught.value.results.status == "failed"
+    assert caught.value.results.cause is caught.value
+
+
+def forged(path, tmp_path, change):
+    with np.load(path) as parts:
+        arrays = {name: parts[name] for name in parts.files}
+    header = json.loads(arrays["header"].tobytes())
+    change(header)
+    arrays["header"] = np.frombuffer(json.dumps(header).encode(), dtype=np.uint8)
+    np.savez(tmp_path / "forged.npz", **arrays)
+    with pytest.raises(saltus.ModelError, match=r"expected a file of Results\.save"):
+        saltus.load_results(tmp_path / "forged.npz")
+
+
+@pytest.mark.parametrize("value", [2147483647, 5, 1, -1, 2**62, -(2**62), 2**63, 1e300, "0", None])
+@pytest.mark.parametrize("entry", [1, 2, 3, 4, 5, 6])
+def test_6_7_no_offset_or_size_of_a_file_is_used_unchecked(entry, value, tmp_path):
+    _, results = ball_run()
+    results.save(tmp_path / "ball.npz")
+    if results.context.__getstate__()[0][0][0][entry] == value:
+        return
+
+    def change(header):
+        header["context"]["layout"][0][0][entry] = value
+
+    forged(tmp_path / "ball.npz", tmp_path, change)
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        lambda h: h["context"]["layout"][0][0][7][0].__setitem__(1, 9),  # place of a parameter
+        lambda h: h["context"]["layout"][0][0][7][0].__setitem__(2, -1),  # size of a parameter
+        lambda h: h["context"]["layout"][1][0].__setitem__(2, 5),  # first block of a system
+        lambda h: h["context"]["layout"][1][0].__setitem__(3, 2**40),  # last block of a system
+        lambda h: h["context"]["layout"][0].append(h["context"]["layout"][0][0]),
+        lambda h: h["context"]["values"]["blocks"].clear(),
+        lambda h: h["context"]["values"]["continuation"].__setitem__("counts", [-1]),
+        lambda h: h["context"]["values"]["continuation"]["guards"][0].__setitem__(0, 5),
+        lambda h: h.__setitem__("status", "fine"),
+        lambda h: h.__setitem__("message", 1),
+        lambda h: h.__setitem__("outputs", {"state": 0}),
+        lambda h: h["outputs"].append("state"),
+        lambda h: h["events"][0].__setitem__(6, -1),
+        lambda h: h["events"][0].__setitem__(6, 2**70),
+        lambda h: h["events"][0].__setitem__(1, "bang"),
+        lambda h: h["events"][0].__setitem__(2, 40),
+        lambda h: h["events"].pop(),
+        lambda h: h["statistics"].pop("steps"),
+        lambda h: h["statistics"].__setitem__("steps", "many"),
+        lambda h: h["statistics"].__setitem__("stretches", [1]),
+        lambda h: h.__setitem__("kind", "Solution"),
+        lambda h: h.__setitem__("kind", ["Results"]),
+    ],
+)
+def test_6_7_a_forged_field_of_a_file_is_refused(change, tmp_path):
+    _, results = ball_run()
+    results.save(tmp_path / "ball.npz")
+    forged(tmp_path / "ball.npz", tmp_path, change)

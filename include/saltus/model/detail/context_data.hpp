@@ -156,31 +156,38 @@ typename Tree::Value data_of(const Context& context) {
   return data;
 }
 
-/// Copies numbers to their place among the values of all leaves.
-inline void fill(Eigen::Ref<Eigen::VectorXd> place, const std::vector<double>& numbers,
-                 const char* key, const std::string& path) {
-  if (static_cast<Index>(numbers.size()) != place.size()) {
-    throw ModelError(text("block '", path, "': expected ", place.size(), " numbers under '", key,
-                          "', found ", numbers.size()));
-  }
-  std::ranges::copy(numbers, place.begin());
+inline void require_size(std::size_t found, Index expected, const char* key,
+                         const std::string& path) {
+  if (static_cast<Index>(found) == expected) return;
+  throw ModelError(
+      text("block '", path, "': expected ", expected, " numbers under '", key, "', found ", found));
 }
 
-inline void fill(ContextValues& v, const Layout::Leaf& leaf, const BlockData& data) {
+/// Throws ModelError if the values of a leaf are not as many as its layout says.
+inline void require_values(const Layout::Leaf& leaf, const BlockData& data) {
   if (data.block != leaf.path)
     throw ModelError(text("expected block '", leaf.path, "', found '", data.block, "'"));
-  fill(v.continuous_state.segment(leaf.x, leaf.nx), data.continuous_state, "continuous_state",
-       leaf.path);
-  fill(v.discrete_state.segment(leaf.z, leaf.nz), data.discrete_state, "discrete_state", leaf.path);
-  fill(v.parameters.segment(leaf.p, leaf.np), data.parameters, "parameters", leaf.path);
+  require_size(data.continuous_state.size(), leaf.nx, "continuous_state", leaf.path);
+  require_size(data.discrete_state.size(), leaf.nz, "discrete_state", leaf.path);
+  require_size(data.parameters.size(), leaf.np, "parameters", leaf.path);
 }
 
-/// The context with the layout of `blank` that data_of gave. Throws ModelError for data of another
-/// format and for a context of other blocks.
+/// The numbers of all leaves, one after the other.
+inline Eigen::VectorXd joined(const std::vector<BlockData>& blocks,
+                              std::vector<double> BlockData::*numbers) {
+  std::vector<double> all;
+  for (const BlockData& block : blocks)
+    all.insert(all.end(), (block.*numbers).begin(), (block.*numbers).end());
+  return Eigen::Map<const Eigen::VectorXd>(all.data(), static_cast<Index>(all.size()));
+}
+
+/// The values for a sound layout that data_of gave. Throws ModelError for data of another format
+/// and for a context of other blocks. The memory it takes is that of the data, whatever the sizes
+/// in the layout.
 template <class Tree>
-Context context_from(const Context& blank, const typename Tree::Value& data) {
-  const auto& leaves = blank.layout().leaves;
-  ContextValues v = blank.values();
+ContextValues values_from(const Layout& layout, const typename Tree::Value& data) {
+  const auto& leaves = layout.leaves;
+  ContextValues v;
   const auto format = Tree::template get<typename Tree::Value>(data, "format");
   if (!Tree::is(format, context_format))
     throw ModelError(text("expected format '", context_format, "', found ", Tree::shown(format)));
@@ -191,16 +198,20 @@ Context context_from(const Context& blank, const typename Tree::Value& data) {
   }
   v.time = Tree::template get<double>(data, "time");
   v.settled = Tree::template get<bool>(data, "settled");
+  std::vector<BlockData> all;
   for (std::size_t i = 0; i < leaves.size(); ++i) {
-    const auto block = read<Tree, BlockData>(blocks[i]);
-    fill(v, leaves[i], block);
-    v.modes[i] = block.mode;
+    all.push_back(read<Tree, BlockData>(blocks[i]));
+    require_values(leaves[i], all.back());
+    v.modes.push_back(all.back().mode);
   }
+  v.continuous_state = joined(all, &BlockData::continuous_state);
+  v.discrete_state = joined(all, &BlockData::discrete_state);
+  v.parameters = joined(all, &BlockData::parameters);
   if (Tree::has(data, "continuation")) {
     v.continuation = std::make_shared<const Continuation>(
         read<Tree, Continuation>(Tree::template get<typename Tree::Value>(data, "continuation")));
   }
-  return blank.with_values(v);
+  return v;
 }
 
 }  // namespace saltus::detail

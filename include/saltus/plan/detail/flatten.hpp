@@ -49,12 +49,12 @@ inline void add_nodes(Plan& plan, PlanLeaf& leaf) {
 /// before: those of the leaf itself.
 using Replacements = std::vector<std::shared_ptr<const Declarations>>;
 
-/// The declarations of a leaf in the plan. Those of the leaf itself are not owned.
+/// The declarations of a leaf in the plan. Those of the leaf itself are in use, but not owned.
 inline std::shared_ptr<const Declarations> declarations_of(const LeafSystem& leaf,
                                                            std::size_t number,
                                                            const Replacements& replacements) {
   if (number < replacements.size() && replacements[number]) return replacements[number];
-  return {std::shared_ptr<void>(), &leaf.declarations()};
+  return {leaf.declarations().use, &leaf.declarations()};
 }
 
 /// Adds the leaves, with their places in the flat arrays, and their nodes.

@@ -23,6 +23,9 @@ class Values {
   Bases bases_{};
 };
 
+/// Throws ModelError, with the first difference, unless the context is one of the plan's system.
+void require_context_of(const Plan& plan, const Context& context);
+
 /// x, z, p, modes and signals y of a plan. Threads share a plan; each has its own memory. Nothing
 /// in this class allocates after construction.
 class Memory {
@@ -31,9 +34,9 @@ class Memory {
   Memory(const Memory&) = delete;  // views point into it
   Memory& operator=(const Memory&) = delete;
 
-  /// The present values, as a context of the same layout.
-  Context save(const Context& like, double t,
-               std::shared_ptr<const Continuation> continuation) const;
+  /// The present values, as a context of the same layout. `settled`: the events at t have happened.
+  Context save(const Context& like, double t, std::shared_ptr<const Continuation> continuation,
+               bool settled = true) const;
 
   /// The places of the present values.
   Values values() const { return Values({x.data(), z.data(), p.data(), y.data()}); }
@@ -54,6 +57,9 @@ class Memory {
   void take(const Context& context);
 
   std::shared_ptr<const Plan> plan_;
+
+ private:
+  std::shared_ptr<const Layout> known_;  // a layout that was found to be that of the plan
 };
 
 }  // namespace saltus

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <concepts>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -18,16 +19,17 @@ class Calendar {
  public:
   explicit Calendar(const Plan& plan) : plan_(&plan), tick_(plan.schedule.size(), 0) {}
 
+  /// Throws ModelError for a schedule whose ticks at t cannot be told apart.
+  void check(double t) const {
+    for (std::size_t i = 0; i < tick_.size(); ++i) ticks_before(i, t);
+  }
+
   /// The next tick of each schedule becomes the first tick at or after t. If the instant at t is
-  /// settled already, it becomes the first tick after t.
+  /// settled already, it becomes the first tick after t. Throws as `check` does.
   void begin(double t, bool settled) {
     for (std::size_t i = 0; i < tick_.size(); ++i) {
-      const ScheduledEvent& event = plan_->schedule[i];
-      tick_[i] = 0;
-      if (std::isfinite(event.period)) {
-        tick_[i] = std::max<std::int64_t>(
-            0, static_cast<std::int64_t>(std::floor((t - event.offset) / event.period)) - 1);
-      }
+      tick_[i] = std::max<std::int64_t>(0, ticks_before(i, t) - 1);
+      // At most four rounds: the number of ticks is right to one, and ticks are apart.
       while (time_of(i) < t - slack(t) || (settled && time_of(i) <= t + slack(t))) ++tick_[i];
     }
   }
@@ -50,6 +52,7 @@ class Calendar {
       if (time_of(i) <= t + slack(t)) {
         due.push_back(static_cast<int>(i));
         ++tick_[i];
+        require_apart<SimulationError>(i, t);
       }
     }
   }
@@ -66,6 +69,38 @@ class Calendar {
     if (tick_[i] == 0) return event.offset;
     return std::isfinite(event.period) ? event.offset + static_cast<double>(tick_[i]) * event.period
                                        : infinite;
+  }
+
+  /// The number of ticks before t, right to one; negative before the offset.
+  std::int64_t ticks_before(std::size_t i, double t) const {
+    const ScheduledEvent& event = plan_->schedule[i];
+    if (!std::isfinite(event.period) || t < event.offset) return 0;
+    const double ticks = std::floor((t - event.offset) / event.period);
+    // Beyond 2^53 a double does not tell tick k from tick k + 1.
+    if (!(ticks < 0x1p53)) throw_not_apart<ModelError>(i, t);
+    require_apart<ModelError>(i, t);
+    return static_cast<std::int64_t>(ticks);
+  }
+
+  /// A tick that is within rounding of the next one would be due at once, again and again.
+  template <class Kind>
+  void require_apart(std::size_t i, double t) const {
+    const ScheduledEvent& event = plan_->schedule[i];
+    if (event.period <= std::max(slack(t), slack(event.offset))) throw_not_apart<Kind>(i, t);
+  }
+
+  template <class Kind>
+  [[noreturn]] void throw_not_apart(std::size_t i, double t) const {
+    const ScheduledEvent& event = plan_->schedule[i];
+    const std::string what = text(
+        "t = ", t, " s: the ticks of '", event.name, "', period ", event.period,
+        " s from t = ", event.offset,
+        " s, cannot be told apart here; expected a period longer than the rounding of the time "
+        "and of the offset; choose a longer period, or an offset near the run");
+    if constexpr (std::same_as<Kind, SimulationError>)
+      throw SimulationError(what, t, plan_->leaf(event.leaf).path);
+    else
+      throw ModelError(what);
   }
 
   const Plan* plan_;

@@ -17,6 +17,8 @@ class Edges {
   void begin();
   /// An instant begins: nothing has fired yet.
   void open();
+  /// The signals were last looked at before the instant.
+  void undo() { values_ = values_minus_; }
 
   struct Look {
     bool now = false;    ///< the signal
@@ -47,7 +49,7 @@ class Edges {
   const EdgeWatch& edge(std::size_t e) const { return machine_->plan().edges[e]; }
 
   const Machine* machine_;
-  std::vector<char> values_, carried_;
+  std::vector<char> values_, values_minus_, carried_;
   std::vector<int> fired_;
 };
 

@@ -21,6 +21,8 @@ class Holds {
     Index entry = 0;
     OnZeno on_zeno = {};
     std::span<const Index> states = {};  ///< entries of x that rest
+    ZenoMonitor before{};                ///< the monitor before the instant, once it has changed
+    bool changed = false;                ///< in this instant
   };
 
   Holds(Machine& machine, const GuardSet& guards, const SimulatorOptions& options, Flow& flow,
@@ -28,6 +30,10 @@ class Holds {
 
   /// A run begins: nothing rests.
   void begin();
+  /// An instant begins: no monitor has changed yet.
+  void open();
+  /// The monitors are as before the instant.
+  void undo();
 
   Hold& of_guard(std::size_t k) { return of_guards_[k]; }
   const Hold& of_guard(std::size_t k) const { return of_guards_[k]; }
@@ -37,6 +43,8 @@ class Holds {
   /// Whether the present pass, not yet committed, has written the states that rest.
   bool kicked(const Hold& hold) const;
 
+  /// Notes a firing at t.
+  void fired(Hold& hold, double t);
   /// Acts on a Zeno point as the author of the guard chose: its firings accumulate, or its flow
   /// leads straight back. `in_pass`: the modes to come may still be written.
   void come_to_rest(Hold& hold, double predicted, bool in_pass);
@@ -49,9 +57,8 @@ class Holds {
 
   /// Saves the last firings of each monitor, which a continued run needs.
   std::vector<Continuation::Firings> save() const;
-  bool fits(const Continuation& from) const {
-    return from.firings.size() == of_guards_.size() + of_edges_.size();
-  }
+  /// Throws ModelError where their number fits and their states do not.
+  bool fits(const Continuation& from) const;
   void load(const Continuation& from);
 
  private:
@@ -60,6 +67,8 @@ class Holds {
   std::span<const Index> whole(const PlanLeaf& leaf) const;
   std::span<const Index> choose(const PlanLeaf& leaf, const std::vector<int>& entries);
   bool steers(const ZeroCrossing& crossing, int leaf) const;
+  ZenoMonitor& changing(Hold& hold);
+  void require_sound(const Hold& hold, const Continuation::Firings& saved) const;
   void rest(Hold& hold, double predicted);
   [[noreturn]] void throw_accumulation(const Hold& hold, double predicted) const;
 
@@ -72,8 +81,9 @@ class Holds {
   std::vector<Index> states_;              // all entries of x; a leaf rests with its part of them
   std::deque<std::vector<Index>> chosen_;  // the states of guards that rest with a part of a leaf
   std::vector<Hold> of_guards_, of_edges_;
-  Eigen::VectorXd gathered_;  // the states of one hold
-  int count_ = 0;             // present holds
+  Eigen::VectorXd gathered_;    // the states of one hold
+  int count_ = 0;               // present holds
+  std::vector<Hold*> changed_;  // in this instant
 };
 
 }  // namespace saltus

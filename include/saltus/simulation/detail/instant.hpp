@@ -40,6 +40,13 @@ class Instant {
   /// `longest` [s] is the time to the end of the run.
   Outcome run(double t, const std::vector<int>& due, double longest, bool at_start = false);
 
+  /// Undoes the instant under way, whose effects failed: guards, holds, signals, events and values
+  /// are as before it, and the guards that fired will fire again.
+  void undo();
+  /// After `resume`: the guards that fire at once, as after an instant that was undone, are among
+  /// the guards that fired at the root. False if there are none.
+  bool finds_roots();
+
   /// Logs the crossing of a monitor, which changes nothing, at the state x.
   void log_monitor(const MonitorHit& hit, const double* x);
 
@@ -50,6 +57,12 @@ class Instant {
   const Journal& journal() const noexcept { return journal_; }
 
  private:
+  /// What an instant changes, before it; values are in the transition.
+  struct Before {
+    std::vector<Guard> guards = {};
+    std::vector<Firing> roots = {};
+    int jump = 0;
+  };
   struct Effect {
     const ResetMap* map;
     const int* end_mode;  // null: none
@@ -95,6 +108,7 @@ class Instant {
   Relations relations_;
   CrossingArming crossings_;
   int jump_ = 0;
+  Before before_;
 };
 
 }  // namespace saltus

@@ -25,6 +25,8 @@ class Journal {
   void begin();
   /// An instant begins: its chain of causes is empty.
   void open(double t);
+  /// Forgets the events of this instant.
+  void undo();
   /// Events noted from now on belong to the pass that makes the jump count `jump`.
   void at_jump(int jump) noexcept { jump_ = jump; }
 
@@ -75,9 +77,11 @@ class Journal {
   double t_ = 0.0;
   int jump_ = 0, events_ = 0;
   int last_source_ = -1;
-  std::vector<std::int64_t> counts_;   // events of each source, in this run
-  std::vector<std::int64_t> earlier_;  // firings of each guard before this run
-  std::vector<int> chain_;             // sources of the events of this instant
+  std::vector<std::int64_t> counts_;        // events of each source, in this run
+  std::vector<std::int64_t> counts_minus_;  // before this instant
+  std::size_t logged_ = 0;                  // events in the log before this instant
+  std::vector<std::int64_t> earlier_;       // firings of each guard before this run
+  std::vector<int> chain_;                  // sources of the events of this instant
 };
 
 }  // namespace saltus

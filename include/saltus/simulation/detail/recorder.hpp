@@ -45,6 +45,11 @@ class Recorder {
     record(t, jump, x);
   }
 
+  /// Removes all rows but the first n.
+  void shorten(std::size_t n) {
+    while (results_->time.size() > n) drop();
+  }
+
   bool has_row(double t, int jump) const {
     return !results_->time.empty() && results_->time.back() == t && results_->jump.back() == jump;
   }

@@ -12,6 +12,7 @@
 #include "saltus/simulation/detail/chattering.hpp"
 #include "saltus/simulation/detail/instant.hpp"
 #include "saltus/simulation/detail/major_steps.hpp"
+#include "saltus/simulation/detail/turn.hpp"
 #include "saltus/solver/detail/choose.hpp"
 
 namespace saltus {
@@ -33,8 +34,23 @@ class Run {
   const Plan& plan() const noexcept { return machine_.plan(); }
   const SimulatorOptions& options() const noexcept { return options_; }
   std::string describe() const;
+  /// Claims the run for a call of `what`.
+  Turn claim(std::string_view what) const { return Turn(caller_, time_, what); }
 
  private:
+  /// The last accepted state, which a failure leaves.
+  struct Accepted {
+    enum class Place {
+      start,    ///< the context that the run began with
+      machine,  ///< the machine
+      solver    ///< the solver, since the end of its last step
+    };
+    Place place = Place::start;
+    bool settled = false;     ///< the events at its time have happened
+    bool in_instant = false;  ///< an instant is under way
+    std::size_t rows = 0;     ///< before the last instant
+  };
+  using Place = Accepted::Place;
   void start_recorder();
   Status run_to(double t_end);
   Status begin(double t_end);
@@ -50,6 +66,8 @@ class Run {
   Status end(Status status, std::string message = {});
   void fail(std::string message);
   void finish();
+  void take_accepted();
+  void require_ready(double t_end) const;
   /// The solver's state, or the machine's while no solver is at work.
   const Eigen::VectorXd& present_state() const {
     return solver_started_ ? solver_->state() : machine_.x;
@@ -72,6 +90,8 @@ class Run {
   Context begin_;
   double time_ = 0.0;
   bool begun_ = false, solver_started_ = false, over_ = false;
+  Accepted accepted_;
+  mutable Caller caller_{};
   std::vector<int> due_;
   std::size_t next_save_ = 0;
   Chattering chattering_;

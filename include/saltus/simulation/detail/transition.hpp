@@ -17,6 +17,8 @@ class Transition {
 
   /// The instant begins: the present values are x-, z-, y-.
   void open();
+  /// The present values become x-, z-, y- again, and the modes those before the instant.
+  void undo();
   /// A pass begins: the values to come are the present ones.
   void begin_pass();
 
@@ -60,7 +62,7 @@ class Transition {
  private:
   Machine* machine_;
   Eigen::VectorXd x_minus_, z_minus_, y_minus_, x_next_, z_next_;
-  std::vector<int> modes_next_, modes_before_;
+  std::vector<int> modes_next_, modes_before_, modes_minus_;
   bool pass_wrote_ = false, entered_ = false, restarts_ = false;
   int effects_ = 0;
 };

@@ -135,11 +135,11 @@ class AutoSolver final : public Solver {
   }
 
   void change(double t, bool stiff) {
+    if (stiff && !bdf_) bdf_ = make_cvode(*machine_, *guards_, options_, CvodeMethod::bdf);
     past_.push_back(present());
     past_.back().end = t;
     begun_ = t;
     stiff_ = stiff;
-    if (stiff && !bdf_) bdf_ = make_cvode(*machine_, *guards_, options_, CvodeMethod::bdf);
     steps_before_ = now().statistics().steps;
   }
 

@@ -72,6 +72,18 @@ class GuardSet {
   bool fits(const Continuation& from) const { return from.guards.size() == guards_.size(); }
   void load(const Continuation& from);
 
+  /// Remembers the records before a step is searched; `restore` undoes what was written since.
+  void keep() { kept_ = guards_; }
+  void restore() {
+    fired_at_root.clear();
+    restore(kept_);
+  }
+  /// Sets all records to those of an earlier copy.
+  void restore(const std::vector<Guard>& records) { ++version_, guards_ = records; }
+  /// Arms guards that fired at the last root again on the sides they came from, so that they fire
+  /// at their present values.
+  void arm_again(const std::vector<Firing>& fired);
+
   // --- written by the locator
 
   /// Follows the side after a look at which the guard did not fire.
@@ -106,7 +118,7 @@ class GuardSet {
     guard.phase = phase, guard.side = static_cast<signed char>(side), guard.error = error;
   }
 
-  std::vector<Guard> guards_;
+  std::vector<Guard> guards_, kept_;
   std::vector<std::size_t> active_;
   std::int64_t version_ = 0;
 };

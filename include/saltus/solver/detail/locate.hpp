@@ -52,11 +52,24 @@ class Locator : private CrowdLocator {
   double offset() const noexcept { return root_; }
 
  private:
-  /// `find` with looks inside the step, piece by piece; high_ has the guards at its end. It is a
-  /// function of its own because most steps need only the rest of `find`.
+  /// `find` with looks inside the step. It is a function of its own because most steps need only
+  /// the rest of `find`. If a look throws, the guards are as before.
   template <class Interpolate>
   [[gnu::noinline]] bool find_inside(double from, double to, const double* end, bool needless,
                                      const Interpolate& interpolate) {
+    guards_->keep();
+    try {
+      return find_in_pieces(from, to, end, needless, interpolate);
+    } catch (...) {
+      guards_->restore();
+      throw;
+    }
+  }
+
+  /// `find` piece by piece; high_ has the guards at the end of the step.
+  template <class Interpolate>
+  bool find_in_pieces(double from, double to, const double* end, bool needless,
+                      const Interpolate& interpolate) {
     // If the look was not needed, the next one comes later: after 7 steps, 15, 31, then 63.
     patience_ = needless && skipped_ > 0 ? std::min(2 * patience_ + 1, thresholds::most_patience)
                                          : thresholds::least_patience;

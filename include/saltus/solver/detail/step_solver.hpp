@@ -9,7 +9,7 @@ namespace saltus {
 
 /// A method derives from this class and provides four functions:
 ///   begin(start)       start at (t1_, x1_)
-///   undo()             restore t1_ and x1_ after a step that threw
+///   undo()             restore t1_ and x1_ after a step that threw, or whose guards threw
 ///   step(t_stop)       go from t1_ to a new t1_ <= t_stop; set x1_ to the state there and length_
 ///                      to the size of the step
 ///   inside_step(u, x)  the state at offset u from the beginning of the step, 0 <= u <= length_
@@ -25,7 +25,8 @@ class StepSolver : public Interface {
         n_(machine.plan().nx),
         x1_(n_),
         locator_(machine, guards),
-        state_(n_) {}
+        state_(n_),
+        next_state_(n_) {}
 
   void restart(double t, const Eigen::VectorXd& x, const Start& start) final {
     if (start.first)
@@ -43,19 +44,12 @@ class StepSolver : public Interface {
   StopReason advance(double t_stop) final {
     guards_->monitors.clear();
     if (delivered_) take_step(t_stop);
-    const auto inside = [this](double u, double* x) { self().inside_step(u, x); };
-    if (!guards_->active().empty() &&
-        locator_.find(t0_, offset_, length_, x1_.data(),
-                      offset_ == 0.0 ? self().end_guards() : nullptr, inside)) {
-      offset_ = locator_.offset();
-      delivered_ = offset_ >= length_;
-      time_ = delivered_ ? t1_ : t0_ + offset_;
-      if (!delivered_) self().inside_step(offset_, state_.data());
-      return StopReason::root;
+    try {
+      return deliver(t_stop);
+    } catch (...) {
+      take_back();
+      throw;
     }
-    delivered_ = true;
-    time_ = t1_;
-    return t1_ >= t_stop ? StopReason::stop_time : StopReason::step;
   }
 
   void interpolate(double t, double* x) final {
@@ -100,6 +94,42 @@ class StepSolver : public Interface {
  private:
   Method& self() { return static_cast<Method&>(*this); }
 
+  /// Delivers the step to its first root, or to its end.
+  StopReason deliver(double t_stop) {
+    const auto inside = [this](double u, double* x) { self().inside_step(u, x); };
+    if (!guards_->active().empty() &&
+        locator_.find(t0_, offset_, length_, x1_.data(),
+                      offset_ == 0.0 ? self().end_guards() : nullptr, inside)) {
+      const double root = locator_.offset();
+      if (root < length_) read_root(root);
+      offset_ = root;
+      delivered_ = root >= length_;
+      time_ = delivered_ ? t1_ : t0_ + root;
+      return StopReason::root;
+    }
+    delivered_ = true;
+    time_ = t1_;
+    return t1_ >= t_stop ? StopReason::stop_time : StopReason::step;
+  }
+
+  void read_root(double root) {
+    try {
+      self().inside_step(root, next_state_.data());
+    } catch (...) {
+      guards_->restore();
+      throw;
+    }
+    state_.swap(next_state_);
+  }
+
+  /// A look inside the step threw: time and state are again those before `advance`. At a root in
+  /// the step they have not changed.
+  void take_back() {
+    if (offset_ != 0.0) return;
+    self().undo();
+    delivered_ = true;
+  }
+
   void take_step(double t_stop) {
     t0_ = t1_;
     try {
@@ -116,6 +146,7 @@ class StepSolver : public Interface {
   double time_ = 0.0, offset_ = 0.0, run_begun_ = 0.0;
   bool delivered_ = true;  // the last step is delivered to its end
   Eigen::VectorXd state_;  // the state at a root inside the last step
+  Eigen::VectorXd next_state_;
 };
 
 }  // namespace saltus

@@ -1,0 +1,125 @@
+// The checks of layouts and continuations that come from outside, and the comparison of layouts.
+#include "saltus/model/detail/sound.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+
+namespace saltus::detail {
+
+namespace {
+
+/// A place among the values of one kind, and the place after it. The sum cannot overflow: both
+/// numbers were found to be at most `most`.
+constexpr Index most = std::numeric_limits<Index>::max() / 4;
+
+void require_place(Index offset, Index size, Index& next, const std::string& of) {
+  if (offset != next || size < 0 || size > most || next > most) {
+    throw ModelError(text("the layout of a context is damaged: ", of, " has ", size,
+                          " values from place ", offset, ", expected them from place ", next));
+  }
+  next += size;
+}
+
+void require(bool sound, std::string_view what) {
+  if (!sound) throw ModelError(text("the continuation of a context is damaged: ", what));
+}
+
+template <class Numbers>
+bool all_finite(const Numbers& numbers) {
+  return std::ranges::all_of(numbers, [](double number) { return std::isfinite(number); });
+}
+
+void require_sound(const Continuation::Guard& guard) {
+  require(guard.side >= -1 && guard.side <= 1,
+          text("a guard on side ", guard.side, "; expected -1, 0 or 1"));
+  // A firing may also come from lifting off: 2.
+  require(guard.from >= -1 && guard.from <= 2,
+          text("a guard that came from ", guard.from, "; expected -1 to 2"));
+  require(guard.band >= 0.0, text("a guard with error ", guard.band));
+  require(!std::isnan(guard.base), text("a guard with base ", guard.base));
+}
+
+void require_sound(const Continuation::Firings& firings) {
+  require(firings.times.size() <= 4,
+          text(firings.times.size(), " times of firings; expected at most 4"));
+  require(all_finite(firings.times) && all_finite(firings.after), "a firing that is not finite");
+  require(std::ranges::is_sorted(firings.times, std::greater<>()),
+          "times of firings that are not from late to early");
+}
+
+std::string counts(const Layout::Leaf& leaf) {
+  return text(leaf.nx, " continuous and ", leaf.nz, " discrete states, ", leaf.np, " parameters");
+}
+
+std::string names(const Layout::Leaf& leaf) {
+  std::string all;
+  for (const Layout::Parameter& parameter : leaf.parameters) {
+    const std::string size = parameter.size == 1 ? "" : text("[", parameter.size, "]");
+    all += text(all.empty() ? "'" : ", '", parameter.name, size, "'");
+  }
+  return all.empty() ? "none" : all;
+}
+
+bool same_parameters(const Layout::Leaf& a, const Layout::Leaf& b) {
+  const auto same = [](const Layout::Parameter& one, const Layout::Parameter& other) {
+    return one.name == other.name && one.size == other.size;
+  };
+  return std::ranges::equal(a.parameters, b.parameters, same);
+}
+
+}  // namespace
+
+void require_sound(const Layout& layout) {
+  Index x = 0, z = 0, p = 0;
+  for (const Layout::Leaf& leaf : layout.leaves) {
+    const std::string of = text("block '", leaf.path, "'");
+    require_place(leaf.x, leaf.nx, x, of);
+    require_place(leaf.z, leaf.nz, z, of);
+    require_place(leaf.p, leaf.np, p, of);
+    Index within = 0;
+    for (const Layout::Parameter& parameter : leaf.parameters)
+      require_place(parameter.offset, parameter.size, within,
+                    text("parameter '", parameter.name, "' of ", of));
+    if (within == leaf.np) continue;
+    throw ModelError(text("the layout of a context is damaged: ", of, " has ", leaf.np,
+                          " parameters, its names are of ", within));
+  }
+  for (const Layout::Range& range : layout.systems) {
+    if (range.first <= range.last && range.last <= layout.leaves.size()) continue;
+    throw ModelError(text("the layout of a context is damaged: system '", range.path,
+                          "' has blocks ", range.first, " to ", range.last, " of ",
+                          layout.leaves.size()));
+  }
+}
+
+void require_sound(const Continuation& c) {
+  require(c.jump >= 0 && c.jump <= std::numeric_limits<int>::max() / 2,
+          text("jump ", c.jump, "; expected a count"));
+  for (const double truth : c.relations)
+    require(truth == 0.0 || truth == 1.0, text("a relation that is ", truth));
+  for (const Continuation::Guard& guard : c.guards) require_sound(guard);
+  for (const Continuation::Firings& firings : c.firings) require_sound(firings);
+  for (const int edge : c.edges) require(edge == 0 || edge == 1, text("an edge that is ", edge));
+  for (const std::int64_t count : c.counts)
+    require(count >= 0 && count <= std::numeric_limits<std::int64_t>::max() / 2,
+            text("a count of ", count));
+}
+
+std::string difference(const Layout& expected, const Layout& found, bool paths) {
+  const std::size_t n = expected.leaves.size();
+  if (found.leaves.size() != n) return text("expected ", n, " blocks, found ", found.leaves.size());
+  for (std::size_t i = 0; i < n; ++i) {
+    const Layout::Leaf &a = expected.leaves[i], &b = found.leaves[i];
+    if ((paths || n > 1) && a.path != b.path)
+      return text("expected block '", a.path, "', found '", b.path, "'");
+    if (a.nx != b.nx || a.nz != b.nz || a.np != b.np)
+      return text("block '", a.path, "': expected ", counts(a), ", found ", counts(b));
+    if (!same_parameters(a, b))
+      return text("block '", a.path, "': expected the parameters ", names(a), ", found ", names(b));
+  }
+  return {};
+}
+
+}  // namespace saltus::detail
