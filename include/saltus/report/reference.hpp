@@ -122,7 +122,7 @@ inline std::optional<ReferenceRun> reference_run(const Scene& scene, const std::
       return ReferenceRun{method, options.rtol, options.atol,
                           answer_of(scene, results, guard_names(scene, options))};
     }
-    reasons += text("\n  ", method, ", rtol ", options.rtol, ": ",
+    reasons += text("\n  ", method, ", rtol ", options.rtol.smallest(), ": ",
                     results.message.empty()
                         ? text(to_string(results.status), " at t = ", results.context.time(), " s")
                         : results.message);

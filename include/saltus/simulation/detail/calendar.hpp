@@ -13,7 +13,7 @@
 namespace saltus {
 
 /// The times of all scheduled events. Tick k of a schedule is at offset + k period, computed from
-/// the integer k: 1000 periods of 1/3 s are 1000 ticks.
+/// the integer k: 1000 periods of 1/3 s are 1000 ticks. Tick k of a list is its time k.
 class Calendar {
  public:
   explicit Calendar(const Plan& plan) : plan_(&plan), tick_(plan.schedule.size(), 0) {}
@@ -24,7 +24,9 @@ class Calendar {
     for (std::size_t i = 0; i < tick_.size(); ++i) {
       const ScheduledEvent& event = plan_->schedule[i];
       tick_[i] = 0;
-      if (std::isfinite(event.period)) {
+      if (!event.times.empty()) {
+        tick_[i] = std::ranges::lower_bound(event.times, t - slack(t)) - event.times.begin();
+      } else if (std::isfinite(event.period)) {
         tick_[i] = std::max<std::int64_t>(
             0, static_cast<std::int64_t>(std::floor((t - event.offset) / event.period)) - 1);
       }
@@ -63,6 +65,8 @@ class Calendar {
 
   double time_of(std::size_t i) const {
     const ScheduledEvent& event = plan_->schedule[i];
+    if (tick_[i] >= event.ticks) return infinite;
+    if (!event.times.empty()) return event.times[static_cast<std::size_t>(tick_[i])];
     if (tick_[i] == 0) return event.offset;
     return std::isfinite(event.period) ? event.offset + static_cast<double>(tick_[i]) * event.period
                                        : infinite;
