@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+import math
 from collections.abc import Callable, Sequence
 from typing import Any
 
@@ -13,6 +14,7 @@ from saltus._core import numbers
 from saltus._wrapped import wrapping
 from saltus.errors import ModelError
 from saltus.leaf_system import LeafSystem
+from saltus.solving.form import Form
 from saltus.solving.guard import Guard
 
 __all__ = ["SolvedSystem", "arguments_of", "state_of", "times_of"]
@@ -21,7 +23,7 @@ Function = Callable[..., Any]
 
 
 class SolvedSystem(LeafSystem):
-    """dx/dt = f(t, x, *args) with guards; its output 'x' is the state.
+    """dx/dt = f(t, x, *args) with guards; its output 'x' is the state, in the engine's form.
 
     Every callback is a closure over the user's function and `args`, and does nothing but call it.
     """
@@ -35,22 +37,27 @@ class SolvedSystem(LeafSystem):
         guards: Sequence[Guard],
         jacobian: Function | ArrayLike | None,
         jacobian_sparsity: Any,
+        vectorized: bool,
+        form: Form,
     ):
         super().__init__(name="solve")
+        self._form = form
+        flow = _flow(_one_column(f) if vectorized else f, form, x0, args)
         self.declare_continuous_state(
-            default_value=x0,
-            ode=_checked(_flow(f, len(x0), args), f, begin, x0),
-            jacobian=_jacobian(jacobian, len(x0), args),
-            jacobian_sparsity=jacobian_sparsity,
+            default_value=form.flat(x0),
+            ode=wrapping(f, _checked(flow, f, begin, x0, form)),
+            jacobian=_jacobian(jacobian, len(x0), form, args),
+            jacobian_sparsity=form.places(jacobian_sparsity),
         )
         self.declare_continuous_state_output(name="x")
         for number, guard in enumerate(guards):
             self._declare_guard(guard, guard.named(number), args)
 
     def _declare_guard(self, guard: Guard, name: str, args: tuple[Any, ...]) -> None:
+        reset = guard.reset
         self.declare_zero_crossing(
-            guard=_value(guard.guard, args),
-            reset_map=None if guard.reset is None else _reset(guard.reset, name, args),
+            guard=wrapping(guard.guard, self._form.value(guard.guard, args)),
+            reset_map=None if reset is None else _reset(reset, name, self._form, args),
             name=name,
             direction=guard.engine_direction,
             terminal=bool(guard.terminal),
@@ -61,28 +68,33 @@ class SolvedSystem(LeafSystem):
         )
 
 
-def _value(function: Function, args: tuple[Any, ...]) -> Function:
-    return wrapping(function, lambda time, state: function(time, state.continuous_state, *args))
+def _one_column(f: Function) -> Function:
+    """f(t, x) of one state from SciPy's f(t, x) of k states, the columns of x."""
+    if not callable(f):
+        return f  # which is refused
+    return lambda t, x, *args: np.reshape(f(t, x[:, None], *args), -1)
 
 
-def _flow(f: Function, size: int, args: tuple[Any, ...]) -> Function:
+def _flow(f: Function, form: Form, x0: np.ndarray, args: tuple[Any, ...]) -> Function:
+    """dx/ds of the engine's state as a callback."""
     if not callable(f):
         raise ModelError(f"solve: f: expected a function f(t, x), found {f!r}")
     if not _takes_out(f, len(args)):
-        return _value(f, args)
+        return form.flow(f, args)
+    size, kind = len(x0), complex if form.is_complex else float
 
     def in_place(time: float, state: Any) -> Any:
-        out = np.zeros(size)
-        returned = f(time, state.continuous_state, out, *args)
+        out = np.zeros(size, kind)
+        returned = f(form.time(time), form.state(state.continuous_state), out, *args)
         if returned is not None:
             raise ModelError(
                 f"solve: f takes one argument more than (t, x{', *args' if args else ''}), so it "
                 "is called as f(t, x, out), to fill out and return nothing; it returned "
                 f"{returned!r}. Is a parameter missing in args=(...)?"
             )
-        return out
+        return form.rate(out)
 
-    return wrapping(f, in_place)
+    return in_place
 
 
 def _takes_out(f: Function, extra: int) -> bool:
@@ -105,16 +117,21 @@ def _takes_out(f: Function, extra: int) -> bool:
     return needed == 3 + extra
 
 
-def _checked(flow: Function, f: Function, begin: float, x0: np.ndarray) -> Function:
+def _checked(flow: Function, f: Function, begin: float, x0: np.ndarray, form: Form) -> Function:
     """Calls f once, so that the message about a wrong shape speaks of f and not of the engine."""
 
     class Start:
-        continuous_state = x0.copy()
+        continuous_state = form.flat(x0).copy()
 
     Start.continuous_state.flags.writeable = False
-    returned = flow(begin, Start)
-    found = np.shape(returned)
-    if found != x0.shape and np.size(returned) != x0.size:
+    returned = flow(form.time(begin), Start)
+    if np.iscomplexobj(returned) and not form.is_complex:
+        raise ModelError(
+            "solve: f returned complex numbers for a real x0; make x0 complex, such as "
+            "np.array(x0, dtype=complex)"
+        )
+    found = (np.size(returned) // 2,) if form.is_complex else np.shape(returned)
+    if found != x0.shape and math.prod(found) != x0.size:
         name = getattr(f, "__name__", "f")
         raise ModelError(
             f"solve: {name}(t, x) returned shape {found}, expected {x0.shape}, one number for each "
@@ -123,59 +140,81 @@ def _checked(flow: Function, f: Function, begin: float, x0: np.ndarray) -> Funct
     return flow
 
 
-def _reset(reset: Function, name: str, args: tuple[Any, ...]) -> Function:
+def _reset(reset: Function, name: str, form: Form, args: tuple[Any, ...]) -> Function:
     def reset_map(time: float, state: Any) -> Any:
-        after = reset(time, state.continuous_state.copy(), *args)
+        after = reset(form.time(time), form.state(state.continuous_state.copy()), *args)
         if after is None:
             raise ModelError(f"solve: the reset of '{name}' returned None; return the new state")
-        return state.with_continuous_state(after)
+        return state.with_continuous_state(form.flat(after) if form.is_complex else after)
 
     return wrapping(reset, reset_map)
 
 
 def _jacobian(
-    jacobian: Function | ArrayLike | None, size: int, args: tuple[Any, ...]
+    jacobian: Function | ArrayLike | None, size: int, form: Form, args: tuple[Any, ...]
 ) -> Function | None:
     if jacobian is None:
         return None
     if callable(jacobian):
-        return _value(jacobian, args)
-    matrix = np.array(jacobian, dtype=float)
+        return wrapping(jacobian, form.matrix(jacobian, args, size))
+    given = jacobian.toarray() if hasattr(jacobian, "toarray") else np.asarray(jacobian)
+    if np.iscomplexobj(given) and not form.is_complex:
+        raise ModelError("solve: jacobian: expected real numbers, as in x0, found complex ones")
+    matrix = np.array(given, dtype=complex if form.is_complex else float)
     if matrix.shape != (size, size):
         raise ModelError(f"solve: jacobian: expected shape {(size, size)}, found {matrix.shape}")
-    return lambda time, state: matrix
+    return form.matrix(lambda t, x: matrix, (), size)
 
 
 def state_of(x0: ArrayLike) -> np.ndarray:
-    """The state at the beginning: a vector, or a number."""
-    start = numbers(x0, "solve: x0")
+    """The state at the beginning: a vector, or a number; complex if one of its numbers is."""
+    start = np.array(x0) if _is_complex(x0) else np.array(numbers(x0, "solve: x0"))
     if start.ndim > 1:
         raise ModelError(f"solve: x0: expected shape (n,), found {start.shape}; flatten it")
-    return np.array(start).reshape(-1)
+    start = start.reshape(-1)
+    for i in np.flatnonzero(~np.isfinite(start))[:1]:
+        raise ModelError(
+            f"solve: x0: entry {i} is {start[i]}; give a finite value. All components of the "
+            "initial state `y0` must be finite."
+        )
+    return start
+
+
+def _is_complex(x0: ArrayLike) -> bool:
+    try:
+        return np.array(x0).dtype.kind == "c"
+    except ValueError:  # a ragged list, which is refused
+        return False
 
 
 def arguments_of(args: Any) -> tuple[Any, ...]:
     """The arguments as a tuple. A forgotten comma, args=(k), is an error with advice."""
     try:
-        return tuple(args)
+        return () if args is None else tuple(args)
     except TypeError:
-        raise ModelError(
+        raise _WrongKind(
             f"solve: args: expected a tuple, found {args!r}; for one argument write "
-            f"args=({args!r},)"
+            f"args=({args!r},). Supplied 'args' cannot be unpacked."
         ) from None
 
 
-def times_of(t_eval: ArrayLike, begin: float, end: float) -> list[float]:
-    """[s] where rows are wanted."""
+class _WrongKind(ModelError, TypeError):
+    """An error of the caller that Python, and SciPy, call a TypeError."""
+
+
+def times_of(t_eval: ArrayLike, begin: float, end: float, form: Form) -> list[float]:
+    """[s] where rows are wanted, as the engine counts them."""
     try:
         times = np.array(t_eval, dtype=float)
     except (TypeError, ValueError):
         raise ModelError(f"solve: t_eval: expected times in seconds, found {t_eval!r}") from None
     if times.ndim != 1 or times.size == 0:
         raise ModelError(f"solve: t_eval: expected some times, found shape {times.shape}")
-    if not (np.all(np.diff(times) > 0) and begin <= times[0] and times[-1] <= end):
+    forward = form.time(times)
+    within = form.time(begin) <= forward[0] and forward[-1] <= form.time(end)
+    if not (within and np.all(np.diff(forward) > 0)):
         raise ModelError(
-            f"solve: t_eval: expected increasing times within t_span, {begin:g} s to {end:g} s, "
-            f"found {np.array2string(times, threshold=8)}"
+            f"solve: t_eval: expected {'decreasing' if form.backward else 'increasing'} times "
+            f"within t_span, {begin:g} s to {end:g} s, found {np.array2string(times, threshold=8)}"
         )
-    return [float(t) for t in times]
+    return [float(s) for s in forward]
