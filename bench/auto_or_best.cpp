@@ -33,7 +33,7 @@ double compare(bench::Sheet& sheet, const std::string& name) {
   };
   add(saltus::Method::automatic);
   if (methods.empty()) {
-    sheet.add({{"scene", name}, {"rtol", scene.options.rtol}, {"auto chose", "failed"}});
+    sheet.add({{"scene", name}, {"rtol", scene.options.rtol.smallest()}, {"auto chose", "failed"}});
     return std::numeric_limits<double>::infinity();
   }
   for (saltus::Method method : scene.methods)
@@ -45,7 +45,7 @@ double compare(bench::Sheet& sheet, const std::string& name) {
     if (best == 0 || times[i].ratio < times[best].ratio) best = i;
   const double ratio = best == 0 ? 0.0 : 1.0 / times[best].ratio;
   sheet.add({{"scene", name},
-             {"rtol", scene.options.rtol},
+             {"rtol", scene.options.rtol.smallest()},
              {"auto chose", runners[0]->statistics().method.substr(0, 40)},
              {"best", best == 0 ? "none" : to_string(methods[best])},
              {"auto [us]", times[0].time * 1e6},

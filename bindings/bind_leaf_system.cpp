@@ -200,6 +200,19 @@ void bind_leaf_system(py::module_& module) {
                  update_of(self, std::move(callback), "periodic update", "periodic_", name), period,
                  offset, name);
            })
+      .def("declare_time_event",
+           [](py::handle self, py::object callback, std::optional<double> period, double offset,
+              std::optional<std::vector<double>> times, double end,
+              std::optional<std::int64_t> count, const std::string& name) {
+             TimeEvent event{.name = name,
+                             .offset = offset,
+                             .times = std::move(times),
+                             .end = end,
+                             .count = count};
+             if (period) event.period = *period;
+             event.update = update_of(self, std::move(callback), "time event", "time_event_", name);
+             leaf_of(self).declare_time_event(std::move(event));
+           })
       .def("declare_one_shot", [](py::handle self, py::object callback, double time,
                                   const std::string& name) {
         leaf_of(self).declare_one_shot(

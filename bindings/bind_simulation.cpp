@@ -1,11 +1,14 @@
 // Simulator and its options. The interpreter lock is released for a whole run.
 #include <chrono>
+#include <variant>
+#include <vector>
 
 #include <pybind11/functional.h>
 #include <pybind11/stl.h>
 
 #include "interpreter.hpp"
 #include "names.hpp"
+#include "numbers.hpp"
 #include "python_results.hpp"
 #include "saltus/simulation/detail/option_table.hpp"
 #include "saltus/simulation/simulator.hpp"
@@ -104,13 +107,42 @@ void set_recorded_signals(SimulatorOptions& options, const std::vector<NamedPort
     options.recorded_signals.push_back({name, {system, index}});
 }
 
+/// A number, or an array of one number for each state.
+Tolerance tolerance_from(py::handle value, const char* name) {
+  const Array numbers = to_array(value, text("option ", name));
+  if (numbers.ndim() == 0) return *numbers.data();
+  if (numbers.ndim() == 1)
+    return std::vector<double>(numbers.data(), numbers.data() + numbers.size());
+  throw ModelError(text("option ", name, ": expected one number, or a list of one number for each ",
+                        "continuous state; found an array of ", numbers.ndim(), " dimensions"));
+}
+
+void bind_tolerance(py::class_<SimulatorOptions>& options,
+                    const detail::Option<Tolerance>& option) {
+  const auto member = option.member;
+  options.def_property(
+      option.name,
+      [member](const SimulatorOptions& o) -> std::variant<double, std::vector<double>> {
+        const Tolerance& tolerance = o.*member;
+        if (tolerance.by_state()) return tolerance.each();
+        return tolerance.smallest();
+      },
+      [member, name = option.name](SimulatorOptions& o, py::handle value) {
+        o.*member = tolerance_from(value, name);
+      });
+}
+
 }  // namespace
 
 void bind_simulation(py::module_& module) {
   py::class_<SimulatorOptions> options(module, "SimulatorOptions");
   options.def(py::init<>()).def("set_recorded_signals", &set_recorded_signals);
-  detail::for_each_option(
-      [&](const auto& option) { options.def_readwrite(option.name, option.member); });
+  detail::for_each_option([&]<class T>(const detail::Option<T>& option) {
+    if constexpr (std::is_same_v<T, Tolerance>)
+      bind_tolerance(options, option);
+    else
+      options.def_readwrite(option.name, option.member);
+  });
 
   py::class_<PythonSimulator>(module, "Simulator")
       .def(py::init<const System&, SimulatorOptions, py::object, const py::object&>())

@@ -43,6 +43,7 @@ class PythonLeaf final : public LeafSystem {
   using LeafSystem::declare_output_port;
   using LeafSystem::declare_periodic_update;
   using LeafSystem::declare_relation;
+  using LeafSystem::declare_time_event;
   using LeafSystem::declare_zero_crossing;
 
   void set_state_dimensions(Dimensions x) { x_dimensions_ = std::move(x), forget_frames(); }

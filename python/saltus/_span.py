@@ -9,9 +9,9 @@ from saltus.errors import ModelError
 __all__ = ["span_of"]
 
 
-def span_of(where: str, t_span: object, backward: str = "") -> tuple[float, float]:
-    """(begin, end) [s] with begin <= end. ModelError, which begins with `where`, for all else;
-    `backward` is what it adds for an end before the begin.
+def span_of(where: str, t_span: object, backward: bool = False) -> tuple[float, float]:
+    """(begin, end) [s] with begin <= end, or in any order with `backward`. ModelError, which begins
+    with `where`, for all else.
     """
     try:
         given: tuple[Any, ...] = tuple(t_span)  # type: ignore[arg-type]
@@ -22,8 +22,6 @@ def span_of(where: str, t_span: object, backward: str = "") -> tuple[float, floa
         raise ModelError(
             f"{where}: expected a span (begin, end) in seconds, found {t_span!r}"
         ) from None
-    if not end >= begin:
-        raise ModelError(
-            f"{where}: expected a span with begin <= end, found {begin} s to {end} s{backward}"
-        )
+    if not (end >= begin or (backward and end < begin)):
+        raise ModelError(f"{where}: expected a span with begin <= end, found {begin} s to {end} s")
     return begin, end

@@ -8,6 +8,9 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, fields
 from typing import Any
 
+import numpy as np
+from numpy.typing import ArrayLike
+
 from saltus._porting import OPTIONS, refuse
 from saltus.progress import Progress
 from saltus.system import OutputPort
@@ -49,12 +52,13 @@ class SimulatorOptions:
     'auto'
     """
 
-    rtol: float = 1e-6
+    rtol: ArrayLike = 1e-6
     """relative tolerance of a minor step: the root mean square over the states of error / (atol +
-    rtol |x|) stays below 1
+    rtol |x|) stays below 1. One number for all states, or one for each continuous state, in the
+    order of the context
     """
-    atol: float = 1e-8
-    """absolute tolerance, in the unit of the states"""
+    atol: ArrayLike = 1e-8
+    """absolute tolerance, in the unit of the states; one number, or one for each"""
     ode_solver_method: str = "auto"
     """'auto' (dopri5 or dop853 by tolerance, BDF while the scene is stiff), 'dopri5', 'dop853',
     'adams', 'bdf'; also 'rk45', 'RK45', 'DOP853', 'non-stiff', 'stiff', 'BDF'
@@ -75,6 +79,8 @@ class SimulatorOptions:
     min_minor_step_size: float | None = 0.0
     """[s] bounds of a solver step. Rarely of use: the tolerance chooses the step"""
     max_minor_step_size: float | None = math.inf
+    first_step: float | None = None
+    """[s] the first solver step of the run that is tried; None: the tolerance chooses it"""
     zeno_tolerance: float = 1e-6
     """[s] A guard whose firings follow each other this closely, with shrinking gaps, comes to rest:
     a Zeno hold. 0 switches the monitor off
@@ -116,3 +122,10 @@ class SimulatorOptions:
     """asked about every 20 ms; True ends the run with the status 'interrupted'. Ctrl-C does so
     anyway
     """
+
+    def __post_init__(self) -> None:
+        for name in ("rtol", "atol"):
+            tolerance = getattr(self, name)
+            if isinstance(tolerance, (list, np.ndarray)) and np.ndim(tolerance) == 1:
+                # a copy that compares and hashes by value, as the options do
+                object.__setattr__(self, name, tuple(tolerance))

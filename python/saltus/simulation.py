@@ -234,11 +234,11 @@ class Simulator:
 
     def _raise(self, results: Results, error: BaseException | None) -> None:
         if error is None:
-            error = SimulationError(results.message, results.context.time, results.block)
+            error = SimulationError(results.message, results._ended_at, results.block)
         with contextlib.suppress(AttributeError):  # a class with slots has no room for it
             error.results = results  # type: ignore[attr-defined]
         if hasattr(error, "add_note") and not isinstance(error, (SimulationError, ModelError)):
-            error.add_note(f"in a run, at t = {results.context.time} s; `.results` is what it did")
+            error.add_note(f"in a run, at t = {results._ended_at} s; `.results` is what it did")
         if isinstance(error, KeyboardInterrupt) and not error.args:
             error.args = (f"{results.message}; its attribute results has what was computed",)
         try:

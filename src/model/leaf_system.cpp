@@ -234,7 +234,7 @@ void LeafSystem::declare_periodic_update(ResetMap update, double period, double 
     throw ModelError(text("block '", name(), "': periodic update '", event, "': period ", period,
                           " s, offset ", offset, " s; expected period > 0 and a finite offset"));
   }
-  declared_.time_events.push_back(
+  declare_time_event(
       {.name = std::move(event), .update = std::move(update), .period = period, .offset = offset});
 }
 
@@ -243,8 +243,14 @@ void LeafSystem::declare_one_shot(double time, ResetMap update, std::string even
   detail::name_it(event, declared_.time_events, "one_shot_", name());
   if (!std::isfinite(time))
     throw ModelError(text("block '", name(), "': time event '", event, "' at ", time, " s"));
-  declared_.time_events.push_back(
-      {.name = std::move(event), .update = std::move(update), .offset = time});
+  declare_time_event({.name = std::move(event), .update = std::move(update), .offset = time});
+}
+
+void LeafSystem::declare_time_event(TimeEvent event) {
+  detail::name_it(event.name, declared_.time_events, "time_event_", name());
+  if (const std::string fault = event.fault(); !fault.empty())
+    throw ModelError(text("block '", name(), "': time event '", event.name, "': ", fault));
+  declared_.time_events.push_back(std::move(event));
 }
 
 }  // namespace saltus

@@ -175,8 +175,13 @@ void add_schedule(Plan& plan) {
   for (std::size_t l = 0; l < plan.leaves.size(); ++l) {
     const auto& events = plan.leaves[l].declared().time_events;
     for (std::size_t i = 0; i < events.size(); ++i) {
-      plan.schedule.push_back({static_cast<int>(l), static_cast<int>(i), events[i].period,
-                               events[i].offset, text(plan.leaves[l].path, ".", events[i].name)});
+      plan.schedule.push_back({.leaf = static_cast<int>(l),
+                               .index = static_cast<int>(i),
+                               .period = events[i].period,
+                               .offset = events[i].offset,
+                               .name = text(plan.leaves[l].path, ".", events[i].name),
+                               .ticks = events[i].ticks(),
+                               .times = events[i].times.value_or(std::vector<double>{})});
     }
     if (plan.leaves[l].nx > 0) plan.odes.push_back(static_cast<int>(l));
   }

@@ -15,7 +15,7 @@ void Chattering::begin(double t, const Eigen::VectorXd& x) {
 
 bool Chattering::idle(const Eigen::VectorXd& x) const {
   for (Eigen::Index i = 0; i < at_root_.size(); ++i) {
-    const double tolerance = atol_ + rtol_ * std::abs(x[i]);
+    const double tolerance = atol_[i] + rtol_[i] * std::abs(x[i]);
     if (!(std::abs(x[i] - at_root_[i]) <= tolerance)) return false;
   }
   return true;

@@ -9,7 +9,8 @@
 namespace saltus {
 
 Contacts::Contacts(Machine& machine, const SimulatorOptions& options)
-    : machine_(&machine), absolute_(options.atol / options.rtol) {
+    : machine_(&machine), absolute_(machine.plan().nx) {
+  for (Index i = 0; i < absolute_.size(); ++i) absolute_[i] = options.atol[i] / options.rtol[i];
   for (auto* v :
        {&original_, &begun_, &once_, &twice_, &trial_, &f_, &f1_, &slow_, &stood_, &later_})
     v->setZero(machine.plan().nx);
@@ -130,7 +131,7 @@ void Contacts::choose_look_ahead(SurfaceContact& contact, double t, const double
   // its sign. The time is as small as the square root of that movement.
   double d = look_ahead_of_run * longest;
   for (const Index i : contact.states) {
-    const double bend = std::abs(f1_[i] - f_[i]) / brief, size = std::abs(x[i]) + absolute_;
+    const double bend = std::abs(f1_[i] - f_[i]) / brief, size = std::abs(x[i]) + absolute_[i];
     if (bend > 0.0) d = std::min(d, std::sqrt(visible_lift * size / bend));
   }
   contact.look_ahead = std::max(d, brief);
@@ -146,7 +147,7 @@ bool Contacts::moves(const SurfaceContact& contact, double t, const double* x, d
     if (!settle(contact, t + d, later_.data())) return false;
     for (const Index i : contact.states) {
       if (std::abs(later_[i] - stood_[i]) >
-          moved_roundings * eps * (std::abs(stood_[i]) + absolute_))
+          moved_roundings * eps * (std::abs(stood_[i]) + absolute_[i]))
         return true;
     }
     const double change = std::abs(lift(contact, t + d, later_.data()) - lifted);

@@ -3,6 +3,7 @@
 
 #include "saltus/base/detail/forced_unwind.hpp"
 #include "saltus/simulation/detail/option_table.hpp"
+#include "width.hpp"
 
 namespace saltus {
 
@@ -14,13 +15,23 @@ SimulatorOptions checked(SimulatorOptions options) {
   return options;
 }
 
-SolverOptions solver_options(const SimulatorOptions& options) {
-  return {options.rtol,
-          options.atol,
-          options.min_minor_step_size,
-          options.max_minor_step_size,
-          options.linear_solver,
-          options.find_sparsity};
+SimulatorOptions checked_for(const Plan& plan, SimulatorOptions options) {
+  options = checked(std::move(options));
+  require_widths(options, plan);
+  return options;
+}
+
+SolverOptions solver_options(const SimulatorOptions& options, Index n) {
+  SolverOptions out{options.rtol,
+                    options.atol,
+                    options.min_minor_step_size,
+                    options.max_minor_step_size,
+                    options.linear_solver,
+                    options.find_sparsity};
+  out.first_step = options.first_step.value_or(0.0);
+  if (n > 0 && (options.rtol.by_state() || options.atol.by_state()))
+    out.rtols = each_of(options.rtol, n), out.atols = each_of(options.atol, n);
+  return out;
 }
 
 }  // namespace
@@ -31,7 +42,7 @@ Run::Run(const System& system, SimulatorOptions options)
 }
 
 Run::Run(std::shared_ptr<const Plan> plan, SimulatorOptions options)
-    : options_(checked(std::move(options))),
+    : options_(checked_for(*plan, std::move(options))),
       machine_(std::move(plan)),
       guards_(machine_.plan()),
       instant_(machine_, guards_, options_, results_),
@@ -192,7 +203,7 @@ void Run::move_to(double t_stop, StopReason& reason) {
   if (!solver_started_) {
     if (!solver_)
       solver_ = make_solver(plan().nx == 0 ? Method::dopri5 : options_.ode_solver_method, machine_,
-                            guards_, solver_options(options_));
+                            guards_, solver_options(options_, plan().nx));
     solver_->restart(time_, machine_.x, {.first = true});
     solver_started_ = true;
   }

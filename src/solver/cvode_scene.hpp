@@ -37,6 +37,18 @@ class CvodeScene {
     if (error_) std::rethrow_exception(std::exchange(error_, nullptr));
   }
 
+  /// Gives `weights` its tolerances, which have to outlive this scene.
+  void weigh_by(const SolverOptions& options) { options_ = &options; }
+  /// CVODE's weights of the error, one over the tolerance of each state.
+  static int weights(N_Vector x, N_Vector out, void* user) {
+    const SolverOptions& options = *static_cast<const CvodeScene*>(user)->options_;
+    const double* state = N_VGetArrayPointer(x);
+    double* weight = N_VGetArrayPointer(out);
+    for (Index i = 0; i < N_VGetLength(x); ++i)
+      weight[i] = 1.0 / options.tolerance(i, std::abs(state[i]));
+    return 0;
+  }
+
   // --- the linear systems of BDF
 
   void make_linear(const SolverOptions& options, double t, const double* x) {
@@ -148,6 +160,7 @@ class CvodeScene {
 
   Machine* machine_;
   GuardSet* guards_;
+  const SolverOptions* options_ = nullptr;
   std::exception_ptr error_;
   std::optional<LinearSystem> linear_;
   std::vector<int> directions_;  // of all guards; empty without root-finding

@@ -32,7 +32,7 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
         x0_(n_),
         scene_(machine, guards),
         cvode_(CVodeCreate(method == CvodeMethod::adams ? CV_ADAMS : CV_BDF, context_.get())),
-        starter_(machine, guards, options) {
+        starter_(machine, guards, without_first_step(options)) {
     if (!cvode_ || !y_ || !dky_) throw Error("SUNDIALS: out of memory");
     hook_ = {
         [](const char* message, void* self) { static_cast<CvodeSolver*>(self)->note(message); },
@@ -82,6 +82,12 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
       start_cvode(how.first);
   }
 
+  /// The starter begins stretches inside a run.
+  static SolverOptions without_first_step(SolverOptions options) {
+    options.first_step = 0.0;
+    return options;
+  }
+
   static N_Vector make_vector(Index n, SUNContext context) {
     N_Vector vector = N_VNew_Serial(static_cast<sunindextype>(n), context);
     if (vector == nullptr) throw Error("SUNDIALS: out of memory");
@@ -105,6 +111,8 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
       if (!first) add_counts(statistics_);
       if (CVodeReInit(cvode_.get(), t1_, y_.get()) < 0) fail(t1_);
     }
+    if (options_.first_step > 0.0)
+      CVodeSetInitStep(cvode_.get(), first ? options_.first_step : 0.0);
     scene_.aim(cvode_.get());
   }
 
@@ -112,7 +120,7 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
     void* cvode = cvode_.get();
     if (CVodeInit(cvode, CvodeScene::right_hand_side, t1_, y_.get()) < 0) fail(t1_);
     CVodeSetUserData(cvode, &scene_);
-    CVodeSStolerances(cvode, options_.rtol, options_.atol);
+    set_tolerances();
     CVodeSetMaxHnilWarns(cvode, -1);
     CVodeSetMaxConvFails(cvode, thresholds::convergence_failures);
     if (options_.min_step > 0.0) CVodeSetMinStep(cvode, options_.min_step);
@@ -126,6 +134,23 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
     }
     scene_.watch_guards(cvode);
     started_ = true;
+  }
+
+  /// CVODE's own weights for one rtol and one atol for all states or one for each; a weight function
+  /// where rtol differs from state to state.
+  void set_tolerances() {
+    void* cvode = cvode_.get();
+    if (options_.rtols.empty()) {
+      CVodeSStolerances(cvode, options_.rtol, options_.atol);
+    } else if (std::ranges::all_of(options_.rtols, [&](double r) { return r == options_.rtol; })) {
+      const sun::Vector atol(N_VClone(y_.get()));
+      if (!atol) throw Error("SUNDIALS: out of memory");
+      std::ranges::copy(options_.atols, N_VGetArrayPointer(atol.get()));
+      CVodeSVtolerances(cvode, options_.rtol, atol.get());  // CVODE copies it
+    } else {
+      scene_.weigh_by(options_);
+      CVodeWFtolerances(cvode, CvodeScene::weights);
+    }
   }
 
   void undo() { t1_ = t0_, x1_ = x0_; }
@@ -215,7 +240,7 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
         text("t = ", t, " s: CVODE (", method(), ") cannot go on, step ", h, " s: ", last_message_,
              "; the solution blows up in finite time, has a jump that no guard announces, or the "
              "tolerance cannot be met; block '",
-             block, "' moves fastest; rtol = ", options_.rtol, ", atol = ", options_.atol),
+             block, "' moves fastest; ", words_of_tolerances(options_)),
         t, block);
   }
 

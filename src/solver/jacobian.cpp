@@ -96,7 +96,7 @@ double Jacobian::least_increment(const double* x, const double* xdot, const Incr
   const Index n = x_.size();
   double sum = 0.0;
   for (Index i = 0; i < n; ++i) {
-    const double scaled = xdot[i] / (by.rtol * std::abs(x[i]) + by.atol);
+    const double scaled = xdot[i] / by.tolerance(i, std::abs(x[i]));
     sum += scaled * scaled;
   }
   const double norm = std::sqrt(sum / static_cast<double>(n));
@@ -105,9 +105,9 @@ double Jacobian::least_increment(const double* x, const double* xdot, const Incr
   return least > 0.0 && std::isfinite(least) ? least : 1.0;
 }
 
-double Jacobian::increment(double x, double least, const Increments& by) const {
+double Jacobian::increment(Index j, double x, double least, const Increments& by) const {
   const double size = std::abs(x);
-  return std::max(std::sqrt(eps) * size, least * (by.rtol * size + by.atol));
+  return std::max(std::sqrt(eps) * size, least * by.tolerance(j, size));
 }
 
 bool Jacobian::differences(double t, const double* x, const double* xdot, const Increments& by,
@@ -117,7 +117,7 @@ bool Jacobian::differences(double t, const double* x, const double* xdot, const 
   for (Index colour = 0; colour < colours(); ++colour) {
     for (const int j : colouring_.of(colour)) {
       const double before = x_[j];
-      x_[j] += increment(before, least, by);
+      x_[j] += increment(j, before, least, by);
       moved_[j] = before;
     }
     machine_->flow(t, x_.data(), f_.data());
@@ -142,7 +142,7 @@ bool Jacobian::explains(double t, const double* x, const double* xdot, const Inc
   xdot = begin_at(t, x, xdot);
   moved_ = x_;
   const double size = std::min(1.0, std::sqrt(eps) / by.rtol);
-  const auto tolerance = [&](Index j) { return by.rtol * std::abs(moved_[j]) + by.atol; };
+  const auto tolerance = [&](Index j) { return by.tolerance(j, std::abs(moved_[j])); };
   for (Index j = 0; j < x_.size(); ++j) {
     const std::uint64_t bits = random_();
     const double part = 0.5 + 0.5 * std::ldexp(static_cast<double>(bits >> 11), -53);
@@ -213,7 +213,7 @@ bool Jacobian::mend(const Own& own, double t, const double* x, const double* xdo
     if (first_mended_.empty()) first_mended_ = text_of(bad, leaf, t);
     if (std::exchange(column, bad.column) != bad.column) {
       const double before = x_[column];
-      x_[column] += increment(before, least, by);
+      x_[column] += increment(column, before, least, by);
       moved = x_[column] - before;  // the rounded increment
       ode_of(leaf, t, f_);
       x_[column] = before;

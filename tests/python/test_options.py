@@ -78,7 +78,7 @@ def test_overrides_win_over_options_and_change_neither():
             "Simulator: no option 'results_options': say save_at=[...] for rows at chosen times",
         ),
         ({"rtol": 0.0}, "option rtol: expected a positive number, found 0"),
-        ({"rtol": "small"}, "option rtol: expected float, found 'small'"),
+        ({"rtol": "small"}, "option rtol: expected numbers, found 'small'"),
         ({"atol": math.nan}, "option atol: expected a positive number, found nan"),
         (
             {"max_major_steps": 0},

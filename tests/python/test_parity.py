@@ -100,6 +100,10 @@ PAIRS = {
         members("model/event.hpp", "EdgeReset"),
         arguments(Leaf.declare_edge_reset),
     ),
+    "declare_time_event": (
+        members("model/event.hpp", "TimeEvent"),
+        arguments(Leaf.declare_time_event),
+    ),
     "DiagramBuilder": (
         methods("model/diagram_builder.hpp", "DiagramBuilder"),
         public(saltus.DiagramBuilder),

@@ -279,20 +279,15 @@ def test_guards_in_a_loop_have_names_of_their_own():
     [
         ({"rtoll": 1e-3}, "solve: unknown option 'rtoll'; did you mean 'rtol'"),
         ({"jac": None}, "no option 'jac': it is called jacobian here"),
-        ({"first_step": 0.1}, "no option 'first_step': the engine chooses"),
         ({"y0": [1.0]}, "no option 'y0': the initial state is the third argument, x0"),
         ({"save_at": [1.0]}, "no option 'save_at': it is called t_eval here"),
-        ({"vectorized": True}, "no option 'vectorized': f is called with one state at a time"),
-        ({"method": "LSODA"}, "there is no method 'LSODA': take method='auto'"),
-        ({"method": "Radau"}, "there is no method 'Radau': take method='bdf'"),
         ({"method": "dopri"}, "did you mean 'dopri5'"),
         ({"x0": [[1.0, 2.0]]}, r"x0: expected shape \(n,\), found \(1, 2\)"),
         ({"x0": ["1", 2]}, r"x0: expected numbers, found a list whose entry \[0\] is '1' \(str\)"),
-        ({"x0": [1j, 0]}, r"x0: expected numbers, found a list whose entry \[0\] is 1j"),
         ({"x0": [1.0, 0.0, 0.0]}, r"fall\(t, x\) returned shape \(2,\), expected \(3,\)"),
         (
-            {"t_span": (1.0, 0.0)},
-            "t_span: expected a span with begin <= end, found 1.0 s to 0.0 s; to go",
+            {"t_span": (1.0, np.nan)},
+            "t_span: expected a span with begin <= end, found 1.0 s to nan s",
         ),
         ({"t_span": 3.0}, r"t_span: expected a span \(begin, end\) in seconds, found 3.0"),
         ({"t_eval": [0.5, 0.2]}, "t_eval: expected increasing times within t_span"),
@@ -304,7 +299,7 @@ def test_guards_in_a_loop_have_names_of_their_own():
         ({"events": 3}, r"events: expected Guard\(...\) or a function"),
         ({"events": [height, 4]}, "or a list of them, found 4"),
         ({"jacobian": np.eye(3)}, r"jacobian: expected shape \(2, 2\), found \(3, 3\)"),
-        ({"atol": [1e-6, 1e-8]}, "option atol: expected"),
+        ({"atol": [1e-6, 1e-8, 1e-8]}, "atol: expected a number, or 2 numbers"),
     ],
 )
 def test_bad_input(call, message):

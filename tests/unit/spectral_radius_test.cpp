@@ -8,7 +8,7 @@ using namespace support;
 
 namespace {
 
-constexpr SolverOptions options{.rtol = 1e-6, .atol = 1e-12};
+const SolverOptions options{.rtol = 1e-6, .atol = 1e-12};
 
 /// xdot = A x, or xdot = f(x), from x0.
 struct Flow {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <string>
@@ -183,13 +184,23 @@ struct EdgeReset {
 };
 
 /// An exact stop at `offset + k period`, k = 0, 1, ...; a single stop at `offset` if the period is
-/// infinite. Ticks are counted by integers, so 1000 periods of 1/3 s are 1000 ticks.
+/// infinite; or a stop at each of `times`. Ticks are counted by integers, so 1000 periods of 1/3 s
+/// are 1000 ticks.
 struct TimeEvent {
   std::string name = {};
   ResetMap update = {};  ///< optional: without it held outputs are evaluated again
   double period = std::numeric_limits<double>::infinity();  ///< [s]
   double offset = 0.0;                                      ///< [s]
   std::optional<std::vector<int>> inputs = {};  ///< the inputs the update reads; all if not given
+  /// [s] In place of period and offset: increasing times.
+  std::optional<std::vector<double>> times = {};
+  double end = std::numeric_limits<double>::infinity();  ///< [s] the last tick is not after it
+  std::optional<std::int64_t> count = {};  ///< the number of ticks, from the first one on
+
+  /// The number of ticks; the largest number of its type if they do not end.
+  std::int64_t ticks() const;
+  /// What is wrong with it, in words; empty if nothing is.
+  std::string fault() const;
 };
 
 }  // namespace saltus

@@ -113,6 +113,10 @@ class LeafSystem : public System {
   /// Calls `update` at offset + k period, k = 0, 1, ...; period and offset in seconds, period > 0.
   void declare_periodic_update(ResetMap update, double period, double offset = 0.0,
                                std::string name = {});
+  /// Calls an update at the times of the event: in a period, at a list of times, or once; with an
+  /// end or a count. Throws ModelError for times that do not increase, a period that is not
+  /// positive, a count below 1, or both times and a period.
+  void declare_time_event(TimeEvent event);
   /// Calls `update` once, at `time` [s]. Without update: an exact stop at which held outputs are
   /// evaluated again.
   void declare_one_shot(double time, ResetMap update = {}, std::string name = {});

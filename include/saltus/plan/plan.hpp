@@ -3,6 +3,8 @@
 #pragma once
 
 #include <concepts>
+#include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -78,6 +80,8 @@ struct ScheduledEvent {
   int index = -1;  // time event of the leaf
   double period = 0.0, offset = 0.0;
   std::string name = {};
+  std::int64_t ticks = std::numeric_limits<std::int64_t>::max();
+  std::vector<double> times = {};  // of its ticks, in place of period and offset
 };
 
 struct Tap {

@@ -122,7 +122,7 @@ inline std::optional<ReferenceRun> reference_run(const Scene& scene, Method meth
       return ReferenceRun{std::string(to_string(method)), options.rtol, options.atol,
                           answer_of(scene, results, guard_names(scene, options))};
     }
-    reasons += text("\n  ", to_string(method), ", rtol ", options.rtol, ": ",
+    reasons += text("\n  ", to_string(method), ", rtol ", options.rtol.smallest(), ": ",
                     results.message.empty()
                         ? text(to_string(results.status), " at t = ", results.context.time(), " s")
                         : results.message);

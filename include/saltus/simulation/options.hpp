@@ -11,14 +11,16 @@
 #include "saltus/plan/refinement.hpp"
 #include "saltus/solver/linear_solver.hpp"
 #include "saltus/solver/method.hpp"
+#include "saltus/solver/tolerance.hpp"
 
 namespace saltus {
 
 struct SimulatorOptions {
   /// Relative and absolute tolerance of a minor step: the root mean square over the states of
-  /// error / (atol + rtol |x|) stays below 1.
-  double rtol = 1e-6;
-  double atol = 1e-8;
+  /// error / (atol + rtol |x|) stays below 1. Each is one number for all states, or one for each
+  /// continuous state of the system, in the order of the context.
+  Tolerance rtol = 1e-6;
+  Tolerance atol = 1e-8;
 
   /// The method that advances the states: `automatic` takes dopri5 or dop853 by tolerance, and bdf
   /// while the scene is stiff. A name is converted by method_from("bdf").
@@ -41,6 +43,9 @@ struct SimulatorOptions {
   /// [s] Bounds of a solver step. They are rarely useful, because the tolerance chooses the step.
   double min_minor_step_size = 0.0;
   double max_minor_step_size = std::numeric_limits<double>::infinity();
+  /// [s] The first solver step of the run that is tried; a step that misses the tolerance is
+  /// shortened. Empty: the tolerance chooses it.
+  std::optional<double> first_step = {};
 
   /// [s] If the firings of a guard follow each other within this time, with shrinking gaps, the
   /// guard comes to rest in a Zeno hold. 0 switches the monitor off. Flights lower than atol cannot

@@ -9,6 +9,9 @@ from __future__ import annotations
 import argparse
 from dataclasses import replace
 
+import numpy as np
+from numpy.typing import ArrayLike
+
 from saltus import _core
 from saltus._porting import OPTIONS, refuse
 from saltus.cli.scene_of import Chosen, chosen_scene
@@ -47,7 +50,7 @@ def _facts(chosen: Chosen, options: SimulatorOptions) -> list[tuple[str, str]]:
         facts.append(("parameters", _listed(chosen.scene.parameters)))
     names = [n for n in _core.entry_names(chosen.context) if n.rpartition(".")[2] != "mode"]
     facts.append(("values", ", ".join(names) or "none"))
-    facts.append(("tolerances", f"rtol {options.rtol:g}, atol {options.atol:g}"))
+    facts.append(("tolerances", f"rtol {_shown(options.rtol)}, atol {_shown(options.atol)}"))
     facts.append(("recorded", ", ".join(options.recorded_signals or {}) or "nothing"))
     if chosen.scene is not None:
         facts.append(("methods", ", ".join(chosen.scene.methods)))
@@ -55,6 +58,11 @@ def _facts(chosen: Chosen, options: SimulatorOptions) -> list[tuple[str, str]]:
         if chosen.scene.invariants:
             facts.append(("invariants", ", ".join(chosen.scene.invariants)))
     return facts
+
+
+def _shown(tolerance: ArrayLike) -> str:
+    """A number, or one for each state."""
+    return ", ".join(f"{number:g}" for number in np.atleast_1d(np.asarray(tolerance, dtype=float)))
 
 
 def _listed(values: dict[str, float]) -> str:

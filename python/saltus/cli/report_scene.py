@@ -11,6 +11,8 @@ import math
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from saltus.cli.files import require_picture, require_suffix
 from saltus.cli.scene_of import Chosen, chosen_scene
 from saltus.cli.settings import add_scene, settings_of
@@ -94,7 +96,7 @@ def _table(scene: Chosen, how: dict[str, Any]) -> WorkPrecision:
         scene.context,
         scene.required_span(),
         recorded_signals=options.recorded_signals or None,
-        atol_over_rtol=options.atol / options.rtol,
+        atol_over_rtol=float(np.min(options.atol) / np.min(options.rtol)),
         **how,
     )
 

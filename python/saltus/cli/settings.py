@@ -34,9 +34,17 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         "--t-end", type=float, metavar="T", help="[s] that of the scene if not said"
     )
     parser.add_argument("--method", metavar="NAME", help="auto, dopri5, dop853, adams or bdf")
-    parser.add_argument("--rtol", type=float, help="relative tolerance of a step")
     parser.add_argument(
-        "--atol", type=float, help="absolute tolerance; rtol/100 if only rtol is said"
+        "--rtol",
+        type=_tolerance,
+        metavar="TOL",
+        help="relative tolerance of a step: a number, or one for each state: 1e-6,1e-9",
+    )
+    parser.add_argument(
+        "--atol",
+        type=_tolerance,
+        metavar="TOL",
+        help="absolute tolerance, likewise; rtol/100 if only rtol is said",
     )
     parser.add_argument("--zeno-tolerance", type=float, metavar="T", help="[s] 0: no Zeno holds")
     parser.add_argument(
@@ -57,9 +65,15 @@ def options_of(chosen: argparse.Namespace) -> dict[str, Any]:
         "zeno_tolerance": chosen.zeno_tolerance,
     }
     if chosen.rtol is not None and chosen.atol is None:
-        options["atol"] = chosen.rtol / 100.0
+        by_state = isinstance(chosen.rtol, list)
+        options["atol"] = [r / 100.0 for r in chosen.rtol] if by_state else chosen.rtol / 100.0
     said = {name: value for name, value in options.items() if value is not None}
     return said | settings_of(chosen.option, "--option")
+
+
+def _tolerance(text: str) -> float | list[float]:
+    numbers = [float(part) for part in text.split(",")]
+    return numbers if len(numbers) > 1 else numbers[0]
 
 
 def settings_of(settings: list[str], flag: str = "--set") -> dict[str, Any]:

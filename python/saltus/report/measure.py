@@ -67,7 +67,8 @@ def work_precision(
     rtols
         Relative tolerances, each a row for each method.
     atol_over_rtol
-        `atol` is this times each rtol; by default the ratio of the options.
+        `atol` is this times each rtol; by default the ratio of the options, of the smallest ones
+        where each state has its own.
     recorded_signals
         The signals of a row; by default the first output.
     exact

@@ -86,13 +86,18 @@ class Results:
         self.cause = raised if core.status == "failed" else None
         self.message = core.message
         if self.cause is not None and not isinstance(self.cause, Error):  # it says no more
-            self.message = f"t = {core.context.time} s: {type(raised).__name__}: {raised}"
+            self.message = f"t = {self._ended_at} s: {type(raised).__name__}: {raised}"
         self.statistics = Statistics(**core.statistics)
 
     @property
     def stats(self) -> Statistics:
         """The same as `statistics`."""
         return self.statistics
+
+    @property
+    def _ended_at(self) -> float:
+        """[s] The time of the end, also where nothing was recorded."""
+        return self.context.time
 
     @property
     def dense(self) -> bool:

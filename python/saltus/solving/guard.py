@@ -36,11 +36,11 @@ class Guard:
         r(t, x, *args) returns the state after the event from `x`, a copy of that before it.
         Without it, and if it is not terminal, the event is only logged.
     direction : {'both', 'falling', 'rising'} or number
-        Falling: from above zero to it. The engine's own names ('positive_then_non_positive', ...)
-        and numbers with SciPy's signs are understood too.
+        Falling: from above zero to it, along the run. The engine's own names
+        ('positive_then_non_positive', ...) and numbers with SciPy's signs are understood too.
     name : str, optional
         Its name in the event log and in messages; by default the function's, or 'event_0', ...
-    terminal : bool or int
+    terminal : bool or int, optional
         Whether it ends the run, after its reset; n: when it happens the n-th time.
     max_count : int
         The same n, for ``terminal=True``.
@@ -70,7 +70,7 @@ class Guard:
     reset: Callable[..., ArrayLike] | None = None
     direction: str | float = "both"
     name: str | None = None
-    terminal: bool | int = False
+    terminal: bool | int | None = False
     max_count: int = 1
     zeno_tolerance: float | None = None
     on_zeno: str = "hold"
@@ -105,7 +105,7 @@ class Guard:
     def engine_count(self) -> int:
         """At which firing it ends the run, if it is terminal."""
         try:
-            number = operator.index(self.terminal)
+            number = 0 if self.terminal is None else operator.index(self.terminal)
         except TypeError:
             raise ModelError(
                 f"Guard: terminal: expected True, False or a count, found {self.terminal!r}"
@@ -153,5 +153,19 @@ def _as_guard(event: Any) -> Guard:
     return Guard(
         event,
         direction=getattr(event, "direction", "both"),
-        terminal=getattr(event, "terminal", False),
+        terminal=_terminal_of(event),
+    )
+
+
+def _terminal_of(event: Callable[..., Any]) -> Any:
+    terminal = getattr(event, "terminal", None)
+    try:
+        if terminal is None or operator.index(terminal) >= 0:
+            return terminal
+    except TypeError:
+        pass
+    name = getattr(event, "__name__", repr(event))
+    raise ModelError(
+        f"events: The `terminal` attribute of '{name}': expected None, True, False or a count, "
+        f"found {terminal!r}"
     )

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
+from dataclasses import dataclass
+from os import PathLike
 from typing import Any
 
 import numpy as np
@@ -11,6 +13,9 @@ from numpy.typing import ArrayLike
 from saltus.errors import ModelError
 from saltus.results import Results
 from saltus.results.record import FIRINGS, KINDS, KeptRun, Record
+from saltus.results.saving import save
+from saltus.solving.form import PLAIN, Form
+from saltus.solving.formed import formed
 from saltus.system import System
 
 __all__ = ["Solution"]
@@ -21,6 +26,19 @@ WELL = {
     "terminal": "a terminal event ended the run",
     "zeno_stop": "events accumulated, and their guard says to stop there",
 }
+
+
+@dataclass(frozen=True)
+class Known:
+    """What a solution knows of the call of `solve` that made it."""
+
+    names: list[str] | None = None
+    """of the events; None if there is no argument `events`"""
+    form: Form = PLAIN
+    constant_jacobian: bool = False
+
+
+UNKNOWN = Known()
 
 
 class Solution(Results):
@@ -36,8 +54,8 @@ class Solution(Results):
     t_events : list of ndarray, or None
         [s] for each guard of `events` when it fired.
     y_events : list of ndarray, or None
-        For each guard the states before its events, shape (count, n); those after them are in
-        `events`.
+        For each guard the states before its events, shape (count, n), or (0,) as SciPy has it if
+        there is none; those after them are in `events`.
     sol : callable, or None
         With ``dense_output=True``: ``sol(t)`` is the state, shape (n,) or (n, len(t)).
     success : bool
@@ -45,9 +63,11 @@ class Solution(Results):
     message : str
         How the run ended, in words.
     nfev, njev, nlu : int
-        Calls of `f` and `jacobian`, and factorisations.
+        Calls of `f`, Jacobians computed (0 if a constant one was given), and factorisations.
     system : LeafSystem
-        The system of the run; `saltus.simulate` runs it too. None after loading from a file.
+        The system of the run; `saltus.simulate` runs it too. None after loading from a file. It
+        and `context` have the engine's form: times s = -t for a run back in time, and the real and
+        imaginary parts of complex states.
 
     Examples
     --------
@@ -62,14 +82,14 @@ class Solution(Results):
         core: Record,
         raised: BaseException | None = None,
         asks: Any = None,
-        names: Sequence[str] | None = None,
+        known: Known = UNKNOWN,
         system: System | None = None,
         fixed_jacobian: bool = False,
     ):
-        super().__init__(core, raised, asks)
+        self._known = known
+        self._engine = core
+        super().__init__(formed(core, known.form), raised, asks)
         self.system = system
-        self._fixed_jacobian = fixed_jacobian  # a matrix, so that no Jacobian was computed
-        self._names = None if names is None else list(names)
         self.message = self.message or WELL.get(self.status, "")
 
     @property
@@ -83,6 +103,12 @@ class Solution(Results):
         return np.transpose(self.outputs["x"])
 
     @property
+    def _ended_at(self) -> float:
+        """[s] The time of the end, also where nothing was recorded."""
+        t: float = self._known.form.time(self.context.time)
+        return t
+
+    @property
     def success(self) -> bool:
         """Whether the run came to its end."""
         return self.status in WELL
@@ -90,19 +116,16 @@ class Solution(Results):
     @property
     def t_events(self) -> list[np.ndarray] | None:
         """[s] The times of each event, in the order of `events`; None without events."""
-        if self._names is None:
+        if self._known.names is None:
             return None
-        return [self._times(name) for name in self._names]
+        return [self._times(name) for name in self._known.names]
 
     @property
     def y_events(self) -> list[np.ndarray] | None:
         """The states at each event; None without events."""
-        if self._names is None:
+        if self._known.names is None:
             return None
-        n = self.outputs["x"].shape[1]
-        return [
-            np.array([e.before for e in self._fired(name)]).reshape(-1, n) for name in self._names
-        ]
+        return [np.array([e.before for e in self._fired(name)]) for name in self._known.names]
 
     @property
     def sol(self) -> Callable[[ArrayLike], np.ndarray] | None:
@@ -117,7 +140,7 @@ class Solution(Results):
     @property
     def njev(self) -> int:
         """Jacobians computed; 0 if `jacobian` was a matrix."""
-        return 0 if self._fixed_jacobian else self.statistics.jacobian_calls
+        return 0 if self._known.constant_jacobian else self.statistics.jacobian_calls
 
     @property
     def nlu(self) -> int:
@@ -125,31 +148,42 @@ class Solution(Results):
         return self.statistics.linear_setups
 
     def _times(self, name: str) -> np.ndarray:
-        return self.events.times(f"{BLOCK}.{name}")  # a guard's own name may look like a path
+        form = self._known.form
+        times = self.events.times(f"{BLOCK}.{name}")  # a guard's own name may look like a path
+        in_order: np.ndarray = form.time(np.sort(form.time(times)))
+        return in_order
 
     def _fired(self, name: str) -> list[Any]:
         return [e for e in self.events if e.name == name and e.kind in FIRINGS]
 
     def _state_at(self, t: ArrayLike) -> np.ndarray:
+        begin, end = self.span
+        if begin == end:  # the state of a run of no length, at any time
+            t = np.full(np.shape(t), begin)
         return np.moveaxis(self(t).continuous_state, -1, 0)
 
+    def save(self, path: str | PathLike[str]) -> None:
+        save(KeptRun.of(self._engine), path, self._kind())
+
+    save.__doc__ = Results.save.__doc__
+
     def _kind(self) -> dict[str, Any]:
+        known = self._known
         return {
             "kind": "Solution",
-            "guards": self._names,
-            "fixed_jacobian": self._fixed_jacobian,
+            "guards": known.names,
+            "backward": known.form.backward,
+            "complex": known.form.is_complex,
+            "constant_jacobian": known.constant_jacobian,
         }
 
     def __reduce__(self) -> tuple[Any, ...]:
-        kept = KeptRun.of(self._core)
-        return (
-            Solution,
-            (kept, None, None, self._names, None, self._fixed_jacobian),
-            self._failure(),
-        )
+        kept = KeptRun.of(self._engine)
+        return Solution, (kept, None, None, self._known), self._failure()
 
 
 def _loaded(run: KeptRun, header: dict[str, Any]) -> Solution:
+    """The solution in a file; a file of an earlier version says nothing of its form."""
     names = header["guards"]
     if names is not None and not (
         isinstance(names, list) and all(isinstance(name, str) for name in names)
@@ -157,9 +191,8 @@ def _loaded(run: KeptRun, header: dict[str, Any]) -> Solution:
         raise ModelError(f"'guards' are {names!r}, expected names or null")
     if "x" not in run.outputs or run.outputs["x"].ndim != 2:
         raise ModelError("a solution has the state in the output 'x', a row for each time")
-    return Solution(
-        run, names=names, fixed_jacobian=bool(header.get("fixed_jacobian", False))
-    )
+    form = Form(bool(header.get("backward")), bool(header.get("complex")))
+    return Solution(run, known=Known(names, form, bool(header.get("constant_jacobian"))))
 
 
 KINDS["Solution"] = _loaded

@@ -12,12 +12,15 @@ from numpy.typing import ArrayLike
 from saltus._core import Context
 from saltus._porting import OPTIONS, refuse
 from saltus._span import span_of
-from saltus.errors import ModelError
+from saltus.errors import ModelError, SimulationError
 from saltus.results.record import Record
-from saltus.simulation import Simulator, SimulatorOptions
+from saltus.simulation import Results, Simulator, SimulatorOptions
+from saltus.solving.form import form_of
+from saltus.solving.formed import formed
 from saltus.solving.guard import Guard, guards_of
-from saltus.solving.solution import Solution
+from saltus.solving.solution import Known, Solution
 from saltus.solving.solved_system import SolvedSystem, arguments_of, state_of, times_of
+from saltus.solving.tolerances import first_step_of, tolerances_of
 
 __all__ = ["solve"]
 
@@ -28,22 +31,25 @@ HINTS = OPTIONS | {
     "jac_sparsity": "it is called jacobian_sparsity here",
     "lband": "say with jacobian_sparsity which entries may differ from zero",
     "uband": "say with jacobian_sparsity which entries may differ from zero",
-    "first_step": "the engine chooses the first step by the tolerance; leave it out",
     "min_step": "it is called min_minor_step_size here, and rarely of use",
     "max_minor_step_size": "it is called max_step here",
     "ode_solver_method": "it is called method here",
     "save_at": "it is called t_eval here",
     "event_rows": "with t_eval there are rows at those times only, else at events too",
     "recorded_signals": "the state is recorded as 'x'; for other signals write a LeafSystem",
-    "vectorized": "f is called with one state at a time; leave it out",
 }
-METHODS = {
-    "RK23": "take method='dopri5', or 'auto', with a larger rtol",
-    "Radau": "take method='bdf', or 'auto'",
-    "LSODA": "take method='auto': it changes between stiff and not by itself",
-}
-BACKWARD = "; to go back in time, solve dx/ds = -f(-s, x) from -begin to -end"
-OWN = ("method", "args", "t_eval", "max_step", "jacobian", "jacobian_sparsity", "events")
+METHODS = {"RK23": "dopri5", "Radau": "bdf", "LSODA": "auto"}
+"""methods of SciPy that are not here, and those that do their work"""
+OWN = (
+    "method",
+    "args",
+    "t_eval",
+    "max_step",
+    "vectorized",
+    "jacobian",
+    "jacobian_sparsity",
+    "events",
+)
 
 
 def solve(
@@ -53,12 +59,14 @@ def solve(
     *,
     events: Guard | Callable[..., Any] | Sequence[Guard | Callable[..., Any]] | None = None,
     method: str = "auto",
-    rtol: float = 1e-6,
-    atol: float = 1e-8,
-    args: Sequence[Any] = (),
+    rtol: ArrayLike = 1e-6,
+    atol: ArrayLike = 1e-8,
+    args: Sequence[Any] | None = (),
     t_eval: ArrayLike | None = None,
     dense_output: bool = False,
+    first_step: float | None = None,
     max_step: float = np.inf,
+    vectorized: bool = False,
     jacobian: Callable[..., ArrayLike] | ArrayLike | None = None,
     jacobian_sparsity: Any = None,
     progress: Any = False,
@@ -77,24 +85,33 @@ def solve(
         ``f(t, x, *args)`` returns dx/dt, n numbers in units of x per second; or
         ``f(t, x, out, *args)`` writes them to `out` and returns nothing. `x` is read-only.
     t_span : (float, float)
-        [s] begin and end.
+        [s] begin and end. With an end before the begin the run goes back in time; directions of
+        events are those along the run.
     x0 : array_like, shape (n,), or a number
-        The state at the beginning.
+        The state at the beginning. A complex one is run as 2n real states, its real and imaginary
+        parts, each within the tolerances; then `f` returns complex numbers, and guards real ones.
     events : Guard or callable, or a list of them, optional
         A plain ``g(t, x, *args)``, perhaps with SciPy's attributes `terminal` and `direction`, is
         logged where it is zero; `Guard` says more, such as a reset.
     method : str
-        'auto', 'dopri5' ('RK45'), 'dop853' ('DOP853'), 'adams' or 'bdf' ('BDF').
-    rtol, atol : float
-        Relative and absolute tolerance of a step.
+        'auto', 'dopri5' ('RK45'), 'dop853' ('DOP853'), 'adams' or 'bdf' ('BDF'). SciPy's 'RK23'
+        is run by 'dopri5', 'Radau' by 'bdf' and 'LSODA' by 'auto'.
+    rtol, atol : float or array_like, shape (n,)
+        Relative and absolute tolerance of a step, for all states or for each. A relative one below
+        1e-15 is raised to that, with a warning.
     args : sequence
         Handed on to `f`, `jacobian`, guards and resets.
     t_eval : array_like, optional
-        [s] increasing times; then there are rows at these only, at an event that after it.
+        [s] times in the order of the run; then there are rows at these only, at an event that
+        after it.
     dense_output : bool
         Keep the interpolants of the solver: then ``solution(t)`` and ``solution.sol(t)`` work.
+    first_step : float, optional
+        [s] the first step that is tried; by default the tolerance chooses it.
     max_step : float
         [s] longest step of the solver.
+    vectorized : bool
+        Whether `f` takes states as columns, ``f(t, x)`` with `x` of shape (n, k); it gets one.
     jacobian : callable or array_like, optional
         ``jacobian(t, x, *args)``, or a constant, the n by n matrix df/dx; for stiff methods.
     jacobian_sparsity : optional
@@ -130,62 +147,72 @@ def solve(
     >>> solution.status, solution.y[:, -1].tolist()
     ('reached_end', [0.0, 0.0])
     """
-    _refuse(method, options)
-    begin, end = span_of("solve: t_span", t_span, BACKWARD)
+    _refuse(options)
+    begin, end = span_of("solve: t_span", t_span, backward=True)
+    start = state_of(x0)
     guards = None if events is None else guards_of(events)
-    if np.isinf(end) and not any(guard.terminal for guard in guards or []):
-        raise ModelError(
-            "solve: t_span: the end is infinite, and no event is terminal to end the run"
-        )
+    if np.isinf(end) and start.size:
+        _require_terminal(guards or [])
+    form = form_of(end < begin, start.dtype.kind == "c")
     system = SolvedSystem(
-        f, begin, state_of(x0), arguments_of(args), guards or [], jacobian, jacobian_sparsity
+        f,
+        begin,
+        start,
+        arguments_of(args),
+        guards or [],
+        jacobian,
+        jacobian_sparsity,
+        vectorized,
+        form,
     )
     settings: dict[str, Any] = {
         **options,
-        "rtol": rtol,
-        "atol": atol,
-        "ode_solver_method": method,
+        **tolerances_of(rtol, atol, start.size, form),
+        "ode_solver_method": METHODS.get(method, method),
         "dense_output": dense_output,
+        "first_step": first_step_of(first_step, abs(end - begin)),
         "max_minor_step_size": max_step,
         "progress": progress,
     }
+    if form.is_complex:
+        settings.setdefault("python", "called")  # there are no complex expressions
     if t_eval is not None:
-        settings |= {"save_at": times_of(t_eval, begin, end), "event_rows": False}
+        settings |= {"save_at": times_of(t_eval, begin, end, form), "event_rows": False}
     names = None if guards is None else [guard.named(i) for i, guard in enumerate(guards)]
-    return _run(system, begin, end, settings, names)
+    known = Known(names, form, jacobian is not None and not callable(jacobian))
+    simulator = _SolveSimulator(system, known, settings)
+    return simulator.solution(system.create_context(form.time(begin)), form.time(end))
 
 
-def _refuse(method: object, options: Mapping[str, Any]) -> None:
+def _require_terminal(guards: Sequence[Guard]) -> None:
+    if not any(guard.terminal for guard in guards):
+        raise ModelError(
+            "solve: t_span: the end is infinite, and no event is terminal to end the run"
+        )
+
+
+def _refuse(options: Mapping[str, Any]) -> None:
     """Raises ModelError for an unknown name, with the nearest name or with advice."""
     known = [field.name for field in fields(SimulatorOptions) if field.name not in HINTS]
     refuse("solve", options, [*OWN, *known], HINTS)
-    if isinstance(method, str) and method in METHODS:
-        raise ModelError(f"solve: there is no method '{method}': {METHODS[method]}")
-
-
-def _run(
-    system: SolvedSystem,
-    begin: float,
-    end: float,
-    settings: Mapping[str, Any],
-    names: Sequence[str] | None,
-) -> Solution:
-    simulator = _SolveSimulator(system, names, settings)
-    return simulator.solution(system.create_context(begin), end)
 
 
 class _SolveSimulator(Simulator):
     """A simulator whose runs end in a `Solution`."""
 
-    def __init__(
-        self, system: SolvedSystem, names: Sequence[str] | None, settings: Mapping[str, Any]
-    ):
+    def __init__(self, system: SolvedSystem, known: Known, settings: Mapping[str, Any]):
         super().__init__(system, recorded_signals={"x": system.output("x")}, **settings)
-        self._names = names
+        self._known = known
 
     def _outcome(self, core: Record, raised: BaseException | None, asks: Any) -> Solution:
-        assert isinstance(self.system, SolvedSystem)
-        return Solution(core, raised, asks, self._names, self.system, self.system.fixed_jacobian)
+        if self._known.form.backward and isinstance(raised, SimulationError):  # it counts s
+            t = self._known.form.time(raised.time)
+            raised = SimulationError(formed(core, self._known.form).message, t, raised.block)
+        return Solution(core, raised, asks, self._known, self.system)
+
+    def _raise(self, results: Results, error: BaseException | None) -> None:
+        own = self._known.form.backward and isinstance(error, SimulationError)
+        super()._raise(results, results.cause if own else error)
 
     def solution(self, context: Context, end: float) -> Solution:
         solution = self._run(context, end)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 import inspect
+import math
 from collections.abc import Callable, Sequence
 from types import SimpleNamespace
 from typing import Any
@@ -16,6 +17,7 @@ from saltus._wrapped import wrapping
 from saltus.calling import refuse_writing
 from saltus.errors import ModelError
 from saltus.leaf_system import LeafSystem
+from saltus.solving.form import PLAIN, Form
 from saltus.solving.guard import Guard
 from saltus.solving.solution import BLOCK
 
@@ -25,7 +27,7 @@ Function = Callable[..., Any]
 
 
 class SolvedSystem(LeafSystem):
-    """dx/dt = f(t, x, *args) with guards; its output 'x' is the state.
+    """dx/dt = f(t, x, *args) with guards; its output 'x' is the state, in the engine's form.
 
     Every callback is a closure over the user's function and `args`, and does nothing but call it.
     """
@@ -39,22 +41,26 @@ class SolvedSystem(LeafSystem):
         guards: Sequence[Guard],
         jacobian: Function | ArrayLike | None,
         jacobian_sparsity: Any,
+        vectorized: bool,
+        form: Form,
     ):
         super().__init__(name=BLOCK)
-        self.fixed_jacobian = jacobian is not None and not callable(jacobian)
+        self._form = form
+        flow = _flow(_one_column(f) if vectorized else f, form, x0, args)
         self.declare_continuous_state(
-            default_value=x0,
-            ode=_checked(_flow(f, len(x0), args), f, begin, x0),
-            **_derivatives(jacobian, jacobian_sparsity, len(x0), args),
+            default_value=form.flat(x0),
+            ode=wrapping(f, _checked(flow, f, begin, x0, form)),
+            **_derivatives(jacobian, jacobian_sparsity, len(x0), form, args),
         )
         self.declare_continuous_state_output(name="x")
         for number, guard in enumerate(guards):
             self._declare_guard(guard, guard.named(number), args)
 
     def _declare_guard(self, guard: Guard, name: str, args: tuple[Any, ...]) -> None:
+        reset = guard.reset
         self.declare_zero_crossing(
-            guard=_value(guard.guard, args),
-            reset_map=None if guard.reset is None else _reset(guard.reset, name, args),
+            guard=wrapping(guard.guard, self._form.value(guard.guard, args)),
+            reset_map=None if reset is None else _reset(reset, name, self._form, args),
             name=name,
             direction=guard.engine_direction,
             terminal=bool(guard.terminal),
@@ -65,28 +71,33 @@ class SolvedSystem(LeafSystem):
         )
 
 
-def _value(function: Function, args: tuple[Any, ...]) -> Function:
-    return wrapping(function, lambda time, state: function(time, state.continuous_state, *args))
+def _one_column(f: Function) -> Function:
+    """f(t, x) of one state from SciPy's f(t, x) of k states, the columns of x."""
+    if not callable(f):
+        return f  # which is refused
+    return lambda t, x, *args: np.reshape(f(t, x[:, None], *args), -1)
 
 
-def _flow(f: Function, size: int, args: tuple[Any, ...]) -> Function:
+def _flow(f: Function, form: Form, x0: np.ndarray, args: tuple[Any, ...]) -> Function:
+    """dx/ds of the engine's state as a callback."""
     if not callable(f):
         raise ModelError(f"solve: f: expected a function f(t, x), found {f!r}")
     if not _takes_out(f, len(args)):
-        return _value(f, args)
+        return form.flow(f, args)
+    size, kind = len(x0), complex if form.is_complex else float
 
     def in_place(time: float, state: Any) -> Any:
-        out = np.zeros(size)
-        returned = f(time, state.continuous_state, out, *args)
+        out = np.zeros(size, kind)
+        returned = f(form.time(time), form.state(state.continuous_state), out, *args)
         if returned is not None:
             raise ModelError(
                 f"solve: f takes one argument more than (t, x{', *args' if args else ''}), so it "
                 "is called as f(t, x, out), to fill out and return nothing; it returned "
                 f"{returned!r}. Is a parameter missing in args=(...)?"
             )
-        return out
+        return form.rate(out)
 
-    return wrapping(f, in_place)
+    return in_place
 
 
 def _takes_out(f: Function, extra: int) -> bool:
@@ -109,20 +120,25 @@ def _takes_out(f: Function, extra: int) -> bool:
     return needed == 3 + extra
 
 
-def _checked(flow: Function, f: Function, begin: float, x0: np.ndarray) -> Function:
+def _checked(flow: Function, f: Function, begin: float, x0: np.ndarray, form: Form) -> Function:
     """Calls f once, so that the message about a wrong shape speaks of f and not of the engine."""
 
     class Start:
-        continuous_state = x0.copy()
+        continuous_state = form.flat(x0).copy()
 
     Start.continuous_state.flags.writeable = False
     try:
-        returned = flow(begin, Start)
+        returned = flow(form.time(begin), Start)
     except ValueError as error:
         refuse_writing(f"solve: {getattr(f, '__name__', 'f')}", error, error.__traceback__)
         raise
-    found = np.shape(returned)
-    if found != x0.shape and np.size(returned) != x0.size:
+    if np.iscomplexobj(returned) and not form.is_complex:
+        raise ModelError(
+            "solve: f returned complex numbers for a real x0; make x0 complex, such as "
+            "np.array(x0, dtype=complex)"
+        )
+    found = (np.size(returned) // 2,) if form.is_complex else np.shape(returned)
+    if found != x0.shape and math.prod(found) != x0.size:
         name = getattr(f, "__name__", "f")
         raise ModelError(
             f"solve: {name}(t, x) returned shape {found}, expected {x0.shape}, one number for each "
@@ -139,76 +155,107 @@ def _label(name: str) -> SimpleNamespace:
     return SimpleNamespace(name=name)
 
 
-def _reset(reset: Function, name: str, args: tuple[Any, ...]) -> Function:
+def _reset(reset: Function, name: str, form: Form, args: tuple[Any, ...]) -> Function:
     label = _label(name)
 
     def reset_map(time: float, state: Any) -> Any:
-        after = reset(time, state.continuous_state.copy(), *args)
+        after = reset(form.time(time), form.state(state.continuous_state.copy()), *args)
         if after is None:
             raise ModelError(
                 f"solve: the reset of '{label.name}' returned None; return the new state"
             )
-        return after
+        return form.flat(after) if form.is_complex else after
 
     return wrapping(reset, reset_map)
 
 
-def _derivatives(jacobian: Any, sparsity: Any, size: int, args: tuple[Any, ...]) -> dict[str, Any]:
+def _derivatives(
+    jacobian: Any, sparsity: Any, size: int, form: Form, args: tuple[Any, ...]
+) -> dict[str, Any]:
     """The Jacobian as arguments of `declare_continuous_state`. What SciPy takes: a function or a
     matrix, dense or sparse; the places of a sparse one are its sparsity.
     """
-    if jacobian is None or callable(jacobian):
-        function = None if jacobian is None else _value(jacobian, args)
-        return {"jacobian": function, "jacobian_sparsity": sparsity}
-    if hasattr(jacobian, "tocoo"):
-        matrix = jacobian.tocoo(copy=True)
+    places = form.places(sparsity)
+    if jacobian is None:
+        return {"jacobian": None, "jacobian_sparsity": places}
+    if callable(jacobian):
+        function = wrapping(jacobian, form.matrix(jacobian, args, size))
+        return {"jacobian": function, "jacobian_sparsity": places}
+    sparse = hasattr(jacobian, "tocoo")
+    given = jacobian if sparse else _dense(jacobian)
+    kind = given.dtype.kind
+    if kind == "c" and not form.is_complex:
+        raise ModelError("solve: jacobian: expected real numbers, as in x0, found complex ones")
+    if given.shape != (size, size):
+        raise ModelError(f"solve: jacobian: expected shape {(size, size)}, found {given.shape}")
+    if sparse and sparsity is None and form == PLAIN:
+        matrix = given.tocoo(copy=True)
         matrix.sum_duplicates()
-    else:
-        matrix = np.array(numbers(jacobian, "solve: jacobian"))
-    if matrix.shape != (size, size):
-        raise ModelError(f"solve: jacobian: expected shape {(size, size)}, found {matrix.shape}")
-    if not hasattr(matrix, "tocoo"):
-        return {"jacobian": lambda time, state: matrix, "jacobian_sparsity": sparsity}
-    if sparsity is not None:
-        dense = matrix.toarray()
-        return {"jacobian": lambda time, state: dense, "jacobian_sparsity": sparsity}
-    values = np.array(matrix.data, dtype=float)
-    return {
-        "jacobian_sparsity": (matrix.row.tolist(), matrix.col.tolist()),
-        "sparse_jacobian": lambda time, state: values,
-    }
+        values = np.array(matrix.data, dtype=float)
+        return {
+            "jacobian_sparsity": (matrix.row.tolist(), matrix.col.tolist()),
+            "sparse_jacobian": lambda time, state: values,
+        }
+    dense = np.array(given.toarray() if sparse else given)
+    dense = dense.astype(complex if form.is_complex else float)
+    function = form.matrix(lambda t, x: dense, (), size)
+    return {"jacobian": function, "jacobian_sparsity": places}
+
+
+def _dense(jacobian: ArrayLike) -> np.ndarray:
+    given = np.asarray(jacobian)
+    return given if given.dtype.kind == "c" else np.array(numbers(jacobian, "solve: jacobian"))
 
 
 def state_of(x0: ArrayLike) -> np.ndarray:
-    """The state at the beginning: a vector, or a number."""
-    start = numbers(x0, "solve: x0")
+    """The state at the beginning: a vector, or a number; complex if one of its numbers is."""
+    start = np.array(x0) if _is_complex(x0) else np.array(numbers(x0, "solve: x0"))
     if start.ndim > 1:
         raise ModelError(f"solve: x0: expected shape (n,), found {start.shape}; flatten it")
-    return np.array(start).reshape(-1)
+    start = start.reshape(-1)
+    for i in np.flatnonzero(~np.isfinite(start))[:1]:
+        raise ModelError(
+            f"solve: x0: entry {i} is {start[i]}; give a finite value. All components of the "
+            "initial state `y0` must be finite."
+        )
+    return start
+
+
+def _is_complex(x0: ArrayLike) -> bool:
+    try:
+        return np.array(x0).dtype.kind == "c"
+    except ValueError:  # a ragged list, which is refused
+        return False
 
 
 def arguments_of(args: Any) -> tuple[Any, ...]:
     """The arguments as a tuple. A forgotten comma, args=(k), is an error with advice."""
     try:
-        return tuple(args)
+        return () if args is None else tuple(args)
     except TypeError:
-        raise ModelError(
+        raise _WrongKind(
             f"solve: args: expected a tuple, found {args!r}; for one argument write "
-            f"args=({args!r},)"
+            f"args=({args!r},). Supplied 'args' cannot be unpacked."
         ) from None
 
 
-def times_of(t_eval: ArrayLike, begin: float, end: float) -> list[float]:
-    """[s] where rows are wanted."""
+class _WrongKind(ModelError, TypeError):
+    """An error of the caller that Python, and SciPy, call a TypeError."""
+
+
+def times_of(t_eval: ArrayLike, begin: float, end: float, form: Form) -> list[float]:
+    """[s] where rows are wanted, as the engine counts them."""
     try:
         times = np.array(t_eval, dtype=float)
     except (TypeError, ValueError):
         raise ModelError(f"solve: t_eval: expected times in seconds, found {t_eval!r}") from None
     if times.ndim != 1 or times.size == 0:
         raise ModelError(f"solve: t_eval: expected some times, found shape {times.shape}")
-    if not (np.all(np.diff(times) > 0) and begin <= times[0] and times[-1] <= end):
+    forward = form.time(times)
+    within = form.time(begin) <= forward[0] and forward[-1] <= form.time(end)
+    if not (within and np.all(np.diff(forward) > 0)):
         raise ModelError(
-            f"solve: t_eval: expected increasing times within t_span, {begin:g} s to {end:g} s, "
-            f"found {np.array2string(times, threshold=8)}"
+            f"solve: t_eval: expected {'decreasing' if form.backward else 'increasing'} times "
+            f"within t_span, {begin:g} s to {end:g} s, found {np.array2string(times, threshold=8)}"
         )
-    return [float(t) for t in times]
+    return [float(s) for s in forward]

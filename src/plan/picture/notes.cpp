@@ -1,4 +1,5 @@
 // The small print of a block.
+#include <algorithm>
 #include <cmath>
 
 #include "parts.hpp"
@@ -25,12 +26,27 @@ const char* arrow(Direction direction) {
 
 std::string counted(Index n, const char* what) { return text(n, " ", what, n == 1 ? "" : "s"); }
 
+std::string words_of_times(const std::vector<double>& times) {
+  constexpr std::size_t most = 4;
+  std::string out = "at t = ";
+  for (std::size_t i = 0; i < std::min(most, times.size()); ++i)
+    out += text(i == 0 ? "" : ", ", times[i]);
+  return times.empty() ? "never" : out + (times.size() > most ? ", ... s" : " s");
+}
+
+std::string words_of_end(const TimeEvent& event) {
+  std::string out = std::isfinite(event.end) ? text(" to t = ", event.end, " s") : std::string();
+  if (event.count) out += text(", ", *event.count, " at most");
+  return out;
+}
+
 std::string words_of(const TimeEvent& event) {
   const std::string name = event.name.empty() ? std::string() : event.name + " ";
+  if (event.times) return text(name, words_of_times(*event.times), words_of_end(event));
   if (std::isinf(event.period)) return text(name, "at t = ", event.offset, " s");
   const std::string from =
       event.offset != 0.0 ? text(" from t = ", event.offset, " s") : std::string();
-  return text(name, "every ", event.period, " s", from);
+  return text(name, "every ", event.period, " s", from, words_of_end(event));
 }
 
 }  // namespace

@@ -110,7 +110,10 @@ void LinearSystem::refresh_often() {
 }
 
 Increments LinearSystem::increments() const {
-  Increments by{options_.rtol, options_.atol, 0.0};
+  Increments by{.rtol = options_.rtol,
+                .atol = options_.atol,
+                .rtols = options_.each_rtol(),
+                .atols = options_.each_atol()};
   CVodeGetCurrentStep(cvode_, &by.h);
   return by;
 }

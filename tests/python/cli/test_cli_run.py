@@ -35,6 +35,20 @@ def test_a_scene_of_the_shelf(capsys):
     assert "ball.bounce 6" in out
 
 
+def test_a_tolerance_of_each_state(capsys):
+    found = summary(capsys, "bouncing-ball", "--rtol", "1e-9,1e-8", "--atol", "1e-11,1e-10")
+    alone = saltus.scene("bouncing-ball").simulate(rtol=[1e-9, 1e-8], atol=[1e-11, 1e-10])
+    assert found["cost"]["steps"] == alone.statistics.steps
+    only_rtol = summary(capsys, "bouncing-ball", "--rtol", "1e-9,1e-9")
+    assert (
+        only_rtol["cost"]["steps"]
+        == (summary(capsys, "bouncing-ball", "--rtol", "1e-9")["cost"]["steps"])
+    )
+    code, _, err = run(capsys, "bouncing-ball", "--atol", "1e-9,1e-9,1e-9")
+    assert code != 0
+    assert "option atol: expected one number, or 2 numbers" in err
+
+
 def test_json_is_what_simulate_gives(capsys):
     found = summary(capsys, "bouncing-ball", "--rtol", "1e-9")
     alone = saltus.scene("bouncing-ball").simulate(rtol=1e-9, atol=1e-11)

@@ -14,7 +14,7 @@
 namespace saltus {
 
 /// The times of all scheduled events. Tick k of a schedule is at offset + k period, computed from
-/// the integer k: 1000 periods of 1/3 s are 1000 ticks.
+/// the integer k: 1000 periods of 1/3 s are 1000 ticks. Tick k of a list is its time k.
 class Calendar {
  public:
   explicit Calendar(const Plan& plan) : plan_(&plan), tick_(plan.schedule.size(), 0) {}
@@ -28,7 +28,10 @@ class Calendar {
   /// settled already, it becomes the first tick after t. Throws as `check` does.
   void begin(double t, bool settled) {
     for (std::size_t i = 0; i < tick_.size(); ++i) {
-      tick_[i] = std::max<std::int64_t>(0, ticks_before(i, t) - 1);
+      const ScheduledEvent& event = plan_->schedule[i];
+      tick_[i] = event.times.empty()
+                     ? std::max<std::int64_t>(0, ticks_before(i, t) - 1)
+                     : std::ranges::lower_bound(event.times, t - slack(t)) - event.times.begin();
       // At most four rounds: the number of ticks is right to one, and ticks are apart.
       while (time_of(i) < t - slack(t) || (settled && time_of(i) <= t + slack(t))) ++tick_[i];
     }
@@ -66,6 +69,8 @@ class Calendar {
 
   double time_of(std::size_t i) const {
     const ScheduledEvent& event = plan_->schedule[i];
+    if (tick_[i] >= event.ticks) return infinite;
+    if (!event.times.empty()) return event.times[static_cast<std::size_t>(tick_[i])];
     if (tick_[i] == 0) return event.offset;
     return std::isfinite(event.period) ? event.offset + static_cast<double>(tick_[i]) * event.period
                                        : infinite;

@@ -53,7 +53,7 @@ class Chattering {
     return true;
   }
 
-  double rtol_, atol_;
+  Tolerance rtol_, atol_;
   Series stuck_;       // a guard at rest without a Zeno monitor fires again
   Series fluttering_;  // both sides of a relation lead back to its surface
   Series roots_;       // roots

@@ -78,7 +78,7 @@ class Contacts final : public Carrier {
   double guard_after(const SurfaceContact& contact, double t, const double* x, double d);
 
   Machine* machine_;
-  double absolute_;                      // a state below this size counts as zero
+  Eigen::VectorXd absolute_;             // a state below this size counts as zero
   std::vector<SurfaceContact> of_slot_;  // made once, so that a hold allocates nothing
   std::vector<int> present_;             // slots
   Eigen::VectorXd original_, begun_, once_, twice_, trial_, f_, f1_, slow_, stood_, later_, z_, g_;

@@ -61,6 +61,8 @@ class Departure {
   /// Error of a guard at the point of departure if the states are wrong by thirty tolerances.
   double tolerance(Index slot) {
     using namespace thresholds;
+    if (rtol_.by_state() || atol_.by_state())
+      return lift_off_tolerances * moved_by_tolerances(slot);
     return lift_off_tolerances * (rounding(slot) * rtol_ / (state_roundings * eps) + atol_);
   }
 
@@ -142,15 +144,30 @@ class Departure {
 
   double largest_move() const { return move_.size() > 0 ? move_.cwiseAbs().maxCoeff() : 0.0; }
 
-  /// Disturbs each state with a weight. The weights have no pattern, so that terms which cancel in
-  /// a guard do not cancel in the disturbance.
-  static void disturb(Eigen::VectorXd& x) {
+  /// Calls move(i, weight) for each state. The weights, from 0.5 to 1 of either sign, have no
+  /// pattern, so that terms which cancel in a guard do not cancel in the disturbance.
+  template <class Move>
+  static void disturb_by(Index n, Move move) {
     double weight = 0.618;
-    for (double& value : x) {
-      value *= 1.0 + amount * (weight < 0.5 ? -0.5 - weight : weight);
+    for (Index i = 0; i < n; ++i) {
+      move(i, weight < 0.5 ? -0.5 - weight : weight);
       weight += 0.618033988749895;
       if (weight >= 1.0) weight -= 1.0;
     }
+  }
+  static void disturb(Eigen::VectorXd& x) {
+    disturb_by(x.size(), [&](Index i, double weight) { x[i] *= 1.0 + amount * weight; });
+  }
+
+  /// How far a guard at the point of departure moves if each state moves by its own tolerance.
+  double moved_by_tolerances(Index slot) {
+    const double before = g0(slot);
+    trial_ = *x_;
+    disturb_by(trial_.size(), [&](Index i, double weight) {
+      trial_[i] += weight * (rtol_[i] * std::abs(trial_[i]) + atol_[i]);
+    });
+    machine_->guards(t_, trial_.data(), g_disturbed_.data());
+    return std::abs(g_disturbed_[slot] - before) + rounding(slot);
   }
 
   /// [s] in which the fastest of all states moves by its tolerance. It is the time scale if the
@@ -158,7 +175,7 @@ class Departure {
   double quickest() const {
     double time = std::numeric_limits<double>::infinity();
     for (Index i = 0; i < f_.size(); ++i)
-      time = std::min(time, (rtol_ * std::abs((*x_)[i]) + atol_) / std::abs(f_[i]));
+      time = std::min(time, (rtol_[i] * std::abs((*x_)[i]) + atol_[i]) / std::abs(f_[i]));
     return time;
   }
 
@@ -171,7 +188,7 @@ class Departure {
     for (int leaf : group.leaves) {
       const PlanLeaf& of = machine_->plan().leaves[static_cast<std::size_t>(leaf)];
       for (Index i = of.x; i < of.x + of.nx; ++i) {
-        const double time = (rtol_ * std::abs((*x_)[i]) + atol_) / std::abs(f_[i]);
+        const double time = (rtol_[i] * std::abs((*x_)[i]) + atol_[i]) / std::abs(f_[i]);
         if (!(time <= thresholds::slow_state_of_run * longest_)) continue;
         d = moved ? std::min(d, time) : time;
         moved = true;
@@ -257,7 +274,8 @@ class Departure {
   }
 
   Machine* machine_;
-  double rtol_, atol_, longest_step_;
+  Tolerance rtol_, atol_;
+  double longest_step_;
   double t_ = 0.0, longest_ = 0.0;
   const Eigen::VectorXd* x_ = nullptr;
   bool fine_ = false;       // follow the flow with order 4

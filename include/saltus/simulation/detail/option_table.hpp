@@ -3,6 +3,7 @@
 // Python gives them in another form.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <string_view>
 #include <tuple>
@@ -27,10 +28,21 @@ inline Expected positive(double value) {
   return unless(value > 0.0 && std::isfinite(value), "a positive number");
 }
 
+inline Expected positive(const Tolerance& tolerance) {
+  if (!tolerance.by_state()) return positive(tolerance.smallest());
+  return unless(std::ranges::all_of(tolerance.each(), [](double t) { return positive(t).empty(); }),
+                "positive numbers");
+}
+
 inline Expected rule_of_rtol(const SimulatorOptions& o) {
   const Expected expected = positive(o.rtol);
   if (!expected.empty()) return expected;
-  return unless(o.rtol >= 1e-15, "at least 1e-15: a double has no more digits");
+  return unless(o.rtol.smallest() >= 1e-15, "at least 1e-15: a double has no more digits");
+}
+
+inline Expected rule_of_first_step(const SimulatorOptions& o) {
+  return unless(!o.first_step || (*o.first_step > 0.0 && std::isfinite(*o.first_step)),
+                "a time > 0 s, or none");
 }
 
 inline const std::tuple option_table{
@@ -57,6 +69,7 @@ inline const std::tuple option_table{
              return unless(o.max_minor_step_size > o.min_minor_step_size,
                            "more than min_minor_step_size");
            }},
+    Option{"first_step", &SimulatorOptions::first_step, rule_of_first_step},
     Option{"zeno_tolerance", &SimulatorOptions::zeno_tolerance,
            +[](const SimulatorOptions& o) {
              return unless(o.zeno_tolerance >= 0.0, "a time >= 0 s");
@@ -85,8 +98,18 @@ std::string shown(const T& value) {
   if constexpr (std::is_arithmetic_v<T>) return text(value);
   return {};
 }
-inline std::string shown(const std::optional<std::int64_t>& value) {
-  return value ? text(*value) : "none";
+template <class T>
+std::string shown(const std::optional<T>& value) {
+  if constexpr (std::is_arithmetic_v<T>) return value ? text(*value) : "none";
+  return {};
+}
+inline std::string shown(const Tolerance& tolerance) {
+  if (!tolerance.by_state()) return text(tolerance.smallest());
+  constexpr std::size_t most = 6;
+  std::string out = "[";
+  for (std::size_t i = 0; i < std::min(most, tolerance.each().size()); ++i)
+    out += text(i == 0 ? "" : ", ", tolerance.each()[i]);
+  return out + (tolerance.each().size() > most ? ", ...]" : "]");
 }
 
 inline void refuse_times(const std::vector<double>& times) {

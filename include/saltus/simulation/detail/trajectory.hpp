@@ -108,7 +108,7 @@ class Trajectory {
 
   std::shared_ptr<const Plan> plan_;
   Context start_;
-  double rtol_ = 1e-6, atol_ = 1e-8;
+  Tolerance rtol_ = 1e-6, atol_ = 1e-8;
   Index size_ = 0;
   std::vector<int> held_nodes_;
   std::vector<Piece> pieces_;

@@ -14,6 +14,7 @@ namespace saltus::detail {
 struct Attempt {
   double t0, t1, h;  // [s]
   double rtol, atol;
+  const double *rtols = nullptr, *atols = nullptr;  // of each state; null: one for all
 };
 
 /// A step on the memory of a stepper. It reads x0 and k[0] = f(t0, x0), and computes x1 and all
@@ -91,12 +92,21 @@ class ExplicitStep {
 
   /// The method's error from the mean squares of estimate / (atol + rtol max(|x0|, |x1|)).
   double error(const Attempt& a) const {
+    if (a.rtols != nullptr) {
+      return error_in(a.h, [&a](Index i, const Lane<W>& largest) -> Lane<W> {
+        return load<W>(a.atols + i) + load<W>(a.rtols + i) * largest;
+      });
+    }
+    return error_in(
+        a.h, [&a](Index, const Lane<W>& largest) -> Lane<W> { return a.atol + a.rtol * largest; });
+  }
+  template <class Tolerance>
+  [[gnu::always_inline]] double error_in(double h, const Tolerance& tolerance) const {
     if (size() == 0) return 0.0;
     std::array<double, estimates> squares{};
     for_lanes<W, N>(size(), [&](Index i) {
       const Lane<W> largest = larger(load<W>(x0_ + i), load<W>(x1_ + i));
-      add_squares(a.h, a.atol + a.rtol * largest, k_ + i, squares,
-                  std::make_index_sequence<estimates>{});
+      add_squares(h, tolerance(i, largest), k_ + i, squares, std::make_index_sequence<estimates>{});
     });
     for (double& square : squares) square /= static_cast<double>(size());
     const double found = Method::error(squares);

@@ -13,7 +13,13 @@ namespace saltus {
 /// How far a difference moves a state.
 struct Increments {
   double rtol = 1e-6, atol = 1e-8;
-  double h = 0.0;  ///< [s] the step the Jacobian is for
+  double h = 0.0;                                   ///< [s] the step the Jacobian is for
+  const double *rtols = nullptr, *atols = nullptr;  ///< of each state; null: one for all
+
+  /// The error of state j that counts as one, where the state has this size.
+  double tolerance(Index j, double size) const {
+    return rtols == nullptr ? rtol * size + atol : rtols[j] * size + atols[j];
+  }
 };
 
 /// Each run has its own Jacobian. No function allocates after construction.
@@ -75,7 +81,7 @@ class Jacobian {
   void move_by_values(const double* values);
   const double* begin_at(double t, const double* x, const double* xdot);
   double least_increment(const double* x, const double* xdot, const Increments& by) const;
-  double increment(double x, double least, const Increments& by) const;
+  double increment(Index j, double x, double least, const Increments& by) const;
   bool take(const Own& own, double t, const double* x, const double* xdot, const Increments& by,
             double* out);
   bool mend(const Own& own, double t, const double* x, const double* xdot, const Increments& by);

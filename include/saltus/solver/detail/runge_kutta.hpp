@@ -72,7 +72,10 @@ class RungeKutta final : public StepSolver<RungeKutta<Method, N>, OneStepSolver>
   double* stage(std::size_t i) { return k_.data() + static_cast<Index>(i) * size(); }
 
   void begin(const Start& start) {
-    if (start.first || start.handover) h_ = 0.0, controller_ = controller();
+    if (start.first || start.handover) {
+      h_ = start.first ? options_.first_step : 0.0;
+      controller_ = controller();
+    }
     if (start.flow != nullptr)
       std::copy_n(start.flow->data(), size(), stage(last));
     else
@@ -118,7 +121,8 @@ class RungeKutta final : public StepSolver<RungeKutta<Method, N>, OneStepSolver>
   /// Computes all stages of a step to t1. Returns the scaled error, infinite if a value is not
   /// finite.
   double try_step(double h, double t1) {
-    const detail::Attempt attempt{t0_, t1, h, options_.rtol, options_.atol};
+    const detail::Attempt attempt{
+        t0_, t1, h, options_.rtol, options_.atol, options_.each_rtol(), options_.each_atol()};
     t1_ = t1;
     const detail::MethodKernels* steps = compiled();
     const double error = steps != nullptr
@@ -179,9 +183,15 @@ class RungeKutta final : public StepSolver<RungeKutta<Method, N>, OneStepSolver>
     detail::for_lanes<W, N>(size(), [&](Index i) {
       const Lane largest =
           detail::larger(detail::load<W>(x0_.data() + i), detail::load<W>(x1_.data() + i));
-      sum += detail::sum_of_squares(Lane(value(i) / (options_.atol + options_.rtol * largest)));
+      sum += detail::sum_of_squares(Lane(value(i) / tolerance(i, largest)));
     });
     return std::sqrt(sum / static_cast<double>(size()));
+  }
+  /// The tolerance of a lane of states of this size.
+  Lane tolerance(Index i, const Lane& size) const {
+    if (options_.rtols.empty()) return options_.atol + options_.rtol * size;
+    return detail::load<W>(options_.each_atol() + i) +
+           detail::load<W>(options_.each_rtol() + i) * size;
   }
 
   /// Whether the error of the dense output is above what is allowed. It is not if its last term

@@ -21,12 +21,23 @@ enum class StopReason {
 
 /// The settings of a solver.
 struct SolverOptions {
-  double rtol = 1e-6;
+  double rtol = 1e-6;  ///< the smallest, if each state has its own
   double atol = 1e-8;
   double min_step = 0.0;                                      ///< [s]
   double max_step = std::numeric_limits<double>::infinity();  ///< [s]
   LinearSolver linear_solver = LinearSolver::automatic;       ///< of BDF
   bool find_sparsity = true;                                  ///< see Probe
+  double first_step = 0.0;                                    ///< [s] 0: chosen by the tolerance
+  std::vector<double> rtols = {}, atols = {};                 ///< of each state; empty: one for all
+
+  const double* each_rtol() const { return rtols.empty() ? nullptr : rtols.data(); }
+  const double* each_atol() const { return atols.empty() ? nullptr : atols.data(); }
+  /// The error of state i that counts as one, where the state has this size.
+  double tolerance(Index i, double size) const {
+    if (rtols.empty()) return atol + rtol * size;
+    const auto k = static_cast<std::size_t>(i);
+    return atols[k] + rtols[k] * size;
+  }
 };
 
 /// How a stretch begins.

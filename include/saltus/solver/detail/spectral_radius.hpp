@@ -20,7 +20,7 @@ class SpectralRadius {
  public:
   SpectralRadius(Machine& machine, const SolverOptions& options)
       : machine_(&machine),
-        floor_(options.atol / options.rtol),
+        floor_(floor_of(options, machine.plan().nx)),
         direction_(Eigen::VectorXd::Zero(machine.plan().nx)),
         f_(direction_),
         moved_(direction_),
@@ -31,7 +31,7 @@ class SpectralRadius {
   double operator()(double t, const Eigen::VectorXd& x) {
     if (x.size() == 0) return 0.0;
     const double small = std::sqrt(thresholds::eps);
-    scale_ = x.cwiseAbs().array() + floor_;
+    scale_ = x.cwiseAbs() + floor_;
     for (Index i = 0; i < x.size(); ++i)
       direction_[i] += thresholds::other_directions * std::cos(static_cast<double>(i + 1));
     direction_.normalize();
@@ -56,9 +56,14 @@ class SpectralRadius {
   void forget() { direction_.setZero(); }
 
  private:
+  /// atol / rtol of each state.
+  static Eigen::VectorXd floor_of(const SolverOptions& options, Index n) {
+    if (options.rtols.empty()) return Eigen::VectorXd::Constant(n, options.atol / options.rtol);
+    return VectorView(options.each_atol(), n).cwiseQuotient(VectorView(options.each_rtol(), n));
+  }
+
   Machine* machine_;
-  double floor_;
-  Eigen::VectorXd direction_, f_, moved_, scale_, point_;
+  Eigen::VectorXd floor_, direction_, f_, moved_, scale_, point_;
 };
 
 }  // namespace saltus

@@ -57,7 +57,7 @@ inline double first_step(Machine& machine, double t, const Eigen::VectorXd& x, c
   const auto norm = [&](auto value) {
     double sum = 0.0;
     for (Index i = 0; i < n; ++i) {
-      const double e = value(i) / (options.atol + options.rtol * std::abs(x[i]));
+      const double e = value(i) / options.tolerance(i, std::abs(x[i]));
       sum += e * e;
     }
     return n > 0 ? std::sqrt(sum / static_cast<double>(n)) : 0.0;
@@ -110,6 +110,16 @@ inline void require_finite_near(Machine& machine, double t, double h, const doub
     throw_not_finite(machine, t, there.data(), ahead);
 }
 
+/// The tolerances, for messages.
+inline std::string words_of_tolerances(const SolverOptions& options) {
+  const auto words = [](const char* name, double all, const std::vector<double>& each) {
+    if (each.empty()) return text(name, " = ", all);
+    return text(name, " from ", all, " to ", *std::ranges::max_element(each));
+  };
+  return text(words("rtol", options.rtol, options.rtols), ", ",
+              words("atol", options.atol, options.atols));
+}
+
 /// The block whose state moves fastest, in tolerances: the block in which a solution blows up.
 inline std::string fastest_block(Machine& machine, double t, const double* x,
                                  const SolverOptions& options) {
@@ -119,7 +129,7 @@ inline std::string fastest_block(Machine& machine, double t, const double* x,
   double most = -1.0;
   for (const PlanLeaf& leaf : machine.plan().leaves) {
     for (Index i = leaf.x; i < leaf.x + leaf.nx; ++i) {
-      const double speed = std::abs(f[i]) / (options.atol + options.rtol * std::abs(x[i]));
+      const double speed = std::abs(f[i]) / options.tolerance(i, std::abs(x[i]));
       if (speed > most) most = speed, block = leaf.path;
     }
   }
@@ -141,7 +151,7 @@ inline std::string fastest_block(Machine& machine, double t, const double* x,
       text("t = ", t, " s: the step size underflows (", h,
            " s): the solution blows up in finite time, has a jump that no guard announces, or the "
            "tolerance cannot be met; block '",
-           block, "' moves fastest; rtol = ", options.rtol, ", atol = ", options.atol),
+           block, "' moves fastest; ", words_of_tolerances(options)),
       t, block);
 }
 

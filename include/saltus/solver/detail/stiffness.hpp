@@ -60,8 +60,14 @@ class StiffnessTest {
 
   /// |f1 - f0| / |f1|, in units of the tolerance.
   double turned(VectorView x1, VectorView f0, VectorView f1) const {
-    const auto weight = (options_.atol + options_.rtol * x1.array().abs()).inverse();
-    return ((f1 - f0).array() * weight).matrix().norm() / (f1.array() * weight).matrix().norm();
+    const auto ratio = [&](const auto& weight) {
+      return ((f1 - f0).array() * weight).matrix().norm() / (f1.array() * weight).matrix().norm();
+    };
+    const auto size = x1.array().abs();
+    if (options_.rtols.empty()) return ratio((options_.atol + options_.rtol * size).inverse());
+    const auto each = [&](const double* tolerances) { return VectorView(tolerances, x1.size()); };
+    const VectorView rtol = each(options_.each_rtol()), atol = each(options_.each_atol());
+    return ratio((atol.array() + rtol.array() * size).inverse());
   }
 
   double stability_, smooth_;

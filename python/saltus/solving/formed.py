@@ -1,0 +1,85 @@
+"""`Formed`: the record of a run with the times and the states of the user."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from saltus import _core
+from saltus.results.record import Columns, Record
+from saltus.solving.form import Form
+
+__all__ = ["formed"]
+
+
+def formed(record: Record, form: Form) -> Record:
+    """The record of a run in that form, as its user sees it."""
+    return record if form.plain else Formed(record, form)
+
+
+class Formed:
+    """A record whose run goes back in time, or whose state is complex. Its context is that of the
+    engine.
+    """
+
+    def __init__(self, record: Record, form: Form):
+        self._record = record
+        self._form = form
+        self.time: np.ndarray = form.time(record.time)
+        self.jump: np.ndarray = record.jump
+        self.outputs: Columns = self._states(record.outputs)
+        self.context: _core.Context = record.context
+        self.status: str = record.status
+        self.block: str = record.block
+        self.event_count: int = record.event_count
+        self.event_names: list[str] = record.event_names
+        self.dense: bool = record.dense
+
+    @property
+    def message(self) -> str:
+        """The engine's message counts s."""
+        message = self._record.message
+        if not (self._form.backward and message):
+            return message
+        t = self._form.time(self._record.context.time)
+        return f"t = {t} s, on the way back (below, t is -1 times that): {message}"
+
+    @property
+    def statistics(self) -> dict[str, Any]:
+        counts = dict(self._record.statistics)
+        counts["stretches"] = [
+            (method, self._form.time(begin), self._form.time(end), steps)
+            for method, begin, end, steps in counts["stretches"]
+        ]
+        return counts
+
+    @property
+    def span(self) -> tuple[float, float]:
+        begin, end = self._record.span
+        return self._form.time(begin), self._form.time(end)
+
+    @property
+    def joints(self) -> np.ndarray:
+        joints: np.ndarray = self._form.time(self._record.joints)
+        return joints
+
+    def event(self, index: int, /) -> tuple[Any, ...]:
+        t, jump, kind, direction, block, name, predicted, before, after, entry = self._record.event(
+            index
+        )
+        change = self._form.state(before), self._form.state(after)
+        t, predicted = self._form.time(t), self._form.time(predicted)
+        return t, jump, kind, direction, block, name, predicted, *change, entry
+
+    def event_times(self, name: str, kind: str, /) -> np.ndarray:
+        times: np.ndarray = self._form.time(self._record.event_times(name, kind))
+        return times
+
+    def at(self, times: Sequence[float], left: bool, /) -> tuple[np.ndarray, Columns]:
+        state, outputs = self._record.at([self._form.time(t) for t in times], left)
+        return self._form.state(state), self._states(outputs)
+
+    def _states(self, columns: Columns) -> Columns:
+        return {name: self._form.state(column) for name, column in columns.items()}
