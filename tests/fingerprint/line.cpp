@@ -125,7 +125,7 @@ std::string refused(const std::string& message) {
   return "-\t-\t-\t-\t-\t" + hash.text() + "\trefused";
 }
 
-void write(const std::string& scene, saltus::Method method, const std::string& parts) {
+void write(const std::string& scene, const std::string& method, const std::string& parts) {
   ++written;
   const char* name = std::getenv("SALTUS_FINGERPRINT");
   if (name == nullptr) return;

@@ -22,7 +22,7 @@ std::string parts(const saltus::Results& results, const Seen& seen = {});
 std::string refused(const std::string& message);
 
 /// Appends a line to the file that SALTUS_FINGERPRINT names, if it names one.
-void write(const std::string& scene, saltus::Method method, const std::string& parts);
+void write(const std::string& scene, const std::string& method, const std::string& parts);
 
 /// As long as it lives, each run is a line of this scene and this method. Without one, a line has
 /// the name of the running test and the number of the run in it.
