@@ -46,7 +46,7 @@ double run(Index n, Form form, std::int64_t& guard_calls) {
   const Context context = ruler.create_context();
   double best = std::numeric_limits<double>::infinity();
   for (int i = 0; i < (n > 4000 ? 1 : 3); ++i) {
-    Simulator simulator(ruler, {.rtol = 1e-6, .atol = 1e-8, .ode_solver_method = "dopri5"});
+    Simulator simulator(ruler, {.rtol = 1e-6, .atol = 1e-8, .ode_solver_method = Method::dopri5});
     const auto start = std::chrono::steady_clock::now();
     simulator.initialize(context);
     simulator.advance_to(1.0);

@@ -72,8 +72,10 @@ py::tuple event(const Results& results, std::size_t i) {
   if (i >= results.events.size())
     throw py::index_error(text("event ", i, " of ", results.events.size()));
   const Event e = results.events[i];
+  py::tuple rests(e.rests.size());
+  for (std::size_t k = 0; k < e.rests.size(); ++k) rests[k] = e.rests[k];
   return py::make_tuple(e.time, e.jump, to_string(e.kind), e.direction, e.block, e.name,
-                        e.predicted, copy_of(e.before), copy_of(e.after), e.entry);
+                        e.predicted, copy_of(e.before), copy_of(e.after), e.entry, rests);
 }
 
 /// Without a kind: of all events that fired.

@@ -108,7 +108,7 @@ TEST_CASE("4.4 without `holds` all of the leaf rests", "[semantics]") {
 
 TEST_CASE("2.1 a vector of guards that only ends the run says in the log which one did",
           "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const Index which = GENERATE(0, 1, 3);
   const int max_count = GENERATE(1, 2);
   INFO("method " << method << ", guard " << which << ", max_count " << max_count);

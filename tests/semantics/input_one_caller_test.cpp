@@ -41,7 +41,7 @@ const std::vector<std::pair<std::string, std::function<void(Simulator&, const Co
 }  // namespace
 
 TEST_CASE("6.6 a call from a callback of the run is an error and changes nothing", "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   for (const auto& [name, call] : calls) {
     INFO("method " << method << ", " << name);
     Calling calling;

@@ -68,7 +68,7 @@ TEST_CASE("3.9 max_count below 1, or on a guard that is not terminal, is refused
 }
 
 TEST_CASE("3.9 firings of one vector of guards at one time are counted one by one", "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const int max_count = GENERATE(1, 2, 3);
   INFO("method " << method << ", max_count " << max_count);
   const Leaf leaf("leaf", [=](Leaf& l) {

@@ -50,7 +50,7 @@ struct Fragile {
   }
 };
 
-SimulatorOptions recorded(const Leaf& leaf, const char* method) {
+SimulatorOptions recorded(const Leaf& leaf, Method method) {
   return {.ode_solver_method = method,
           .recorded_signals = {{"y", leaf.output("y")}, {"z", leaf.output("z")}},
           .throw_errors = false};
@@ -78,7 +78,7 @@ std::vector<std::string> joined(std::vector<std::string> first,
 
 TEST_CASE("5.6a a function that throws leaves a state of the unbroken run, to the bit",
           "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const Where where = GENERATE(from_range(functions));
   const double since = GENERATE(0.0, 0.6, 0.7, 1.3);  // first step, later, after an event, later
   INFO("method " << method << ", function " << static_cast<int>(where) << ", since " << since);
@@ -96,7 +96,7 @@ TEST_CASE("5.6a a function that throws leaves a state of the unbroken run, to th
 }
 
 TEST_CASE("5.6a a value that is not finite leaves the last row", "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const Where where = GENERATE(Where::ode, Where::guard, Where::reset, Where::update);
   const double since = GENERATE(0.0, 0.6, 0.7, 1.3);
   INFO("method " << method << ", function " << static_cast<int>(where) << ", since " << since);
@@ -108,7 +108,7 @@ TEST_CASE("5.6a a value that is not finite leaves the last row", "[semantics]") 
 }
 
 TEST_CASE("5.6a a run that failed goes on from its context as the unbroken run", "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const Where where = GENERATE(from_range(functions));
   const double since = GENERATE(0.0, 0.6, 0.7, 1.3);
   const bool throws = GENERATE(true, false);
@@ -134,7 +134,7 @@ TEST_CASE("5.6a a run that failed goes on from its context as the unbroken run",
 }
 
 TEST_CASE("5.6a an instant that fails in its second pass is undone as a whole", "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   bool broken = true;
   // The first reset carries the second guard across zero; its reset fails.
@@ -170,7 +170,7 @@ TEST_CASE("5.6a an instant that fails in its second pass is undone as a whole", 
 }
 
 TEST_CASE("5.6a a hold, a count and a mode go on after a failure", "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const double since = GENERATE(0.5, 3.0);  // while it bounces, and at rest
   INFO("method " << method << ", since " << since);
   bool broken = true;
@@ -209,7 +209,7 @@ TEST_CASE("5.6a a hold, a count and a mode go on after a failure", "[semantics]"
 TEST_CASE("5.6a after a failure advance_to asks for initialize", "[semantics]") {
   Fragile fragile{Where::ode, 0.5};
   const Leaf leaf = fragile.leaf();
-  Simulator simulator(leaf, recorded(leaf, "dopri5"));
+  Simulator simulator(leaf, recorded(leaf, Method::dopri5));
   CHECK(contains(message<ModelError>([&] { simulator.advance_to(1.0); }), "call initialize"));
   simulator.initialize(leaf.create_context());
   simulator.advance_to(2.0);

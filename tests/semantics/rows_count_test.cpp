@@ -82,7 +82,7 @@ TEST_CASE("5.4 statistics are summed across restarts", "[semantics]") {
 }
 
 TEST_CASE("5.1 a guard that only ends the run leaves one row and is no jump", "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   const Leaf leaf("leaf", [=](Leaf& l) {
     declare_ramp(l);
@@ -100,7 +100,7 @@ TEST_CASE("5.1 a guard that only ends the run leaves one row and is no jump", "[
 
 TEST_CASE("5.1 in the row before a pass a trigger that fired is true, in the one after it false",
           "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const Scene scene = blocks(GENERATE(from_range(contacts)), {.e = 0.8});
   INFO(scene.form << ", method " << method);
   const System& touches = dynamic_cast<const Diagram&>(*scene.system)["touches"];

@@ -42,7 +42,7 @@ TEST_CASE("n equal tolerances are one, to the bit, by every method", "[tolerance
   for (const Index n : {1, 2, 4}) {
     const Leaf leaf = decays(Eigen::VectorXd::LinSpaced(n, 1.0, 50.0));
     const auto size = static_cast<std::size_t>(n);
-    for (const char* method : methods) {
+    for (const Method method : methods) {
       INFO(method << ", " << n);
       SimulatorOptions options{.rtol = 1e-7, .atol = 1e-9};
       options.ode_solver_method = method;
@@ -61,7 +61,7 @@ TEST_CASE("n equal tolerances are one, to the bit, by every method", "[tolerance
 
 TEST_CASE("a wide tolerance of one state saves its steps, by every method", "[tolerance]") {
   const Leaf leaf = decays(vec({1.0, 200.0}));
-  for (const char* method : {"dopri5", "dop853", "adams"}) {  // stability bounds no step of bdf
+  for (const Method method : {Method::dopri5, Method::dop853, Method::adams}) {  // stability bounds no step of bdf
     INFO(method);
     SimulatorOptions tight{.rtol = 1e-9, .atol = 1e-11};
     tight.ode_solver_method = method;
@@ -96,7 +96,7 @@ TEST_CASE("a width that is not that of the states is refused, with the blocks", 
 
 TEST_CASE("the first step is as long as the option says, by every method", "[tolerance]") {
   const Leaf leaf = decays(vec({1.0}));
-  for (const char* method : methods) {
+  for (const Method method : methods) {
     INFO(method);
     SimulatorOptions options{.first_step = 1e-5};
     options.ode_solver_method = method;

@@ -55,6 +55,8 @@ class Event(NamedTuple):
     """and after it"""
     entry: int
     """which guard of a vector of them fired; 0 if there is one"""
+    rests: tuple[int, ...] = ()
+    """the entries of the block's continuous state that rest from a 'zeno_enter' on"""
 
 
 class EventLog(Sequence[Event]):

@@ -16,8 +16,8 @@ from saltus.results.statistics import Statistics
 __all__ = ["checked_arrays", "checked_events", "checked_statistics", "strings", "text"]
 
 KINDS = ("zero_crossing", "time", "zeno_enter", "zeno_release", "terminal")
-EVENT = 7
-"""jump, kind, direction, block, name, entry, number of states"""
+EVENT = 8
+"""jump, kind, direction, block, name, entry, number of states, entries that rest"""
 
 
 def refuse(what: str, expected: str, found: object) -> NoReturn:
@@ -97,10 +97,12 @@ def checked_statistics(found: Any) -> dict[str, Any]:
     return {name: reads.get(name, count)(name, found[name]) for name in names}
 
 
-def _row(row: Any) -> tuple[int, str, int, str, str, int, int]:
-    if not isinstance(row, list) or len(row) != EVENT:
+def _row(row: Any) -> tuple[int, str, int, str, str, int, int, tuple[int, ...]]:
+    if isinstance(row, list) and len(row) == EVENT - 1:  # of an earlier version
+        row = [*row, []]
+    if not isinstance(row, list) or len(row) != EVENT or not isinstance(row[-1], list):
         raise ModelError(f"an event: expected {EVENT} entries, found {str(row)[:60]}")
-    jump, kind, direction, block, name, entry, width = row
+    jump, kind, direction, block, name, entry, width, rests = row
     if kind not in KINDS:
         raise ModelError(f"an event is of kind {str(kind)[:60]}{_core.known_names('', KINDS)}")
     what = "an event"
@@ -114,6 +116,7 @@ def _row(row: Any) -> tuple[int, str, int, str, str, int, int]:
         text(what, name),
         count(what, entry),
         count(what, width),
+        tuple(count(what, i, 0) for i in rests),
     )
 
 
@@ -126,15 +129,15 @@ def checked_events(rows: Any, arrays: dict[str, np.ndarray]) -> list[tuple[Any, 
     times, predicted = arrays["event time"].tolist(), arrays["event predicted"].tolist()
     read = [_row(row) for row in rows]
     states, events, at = arrays["event states"], [], 0
-    expected = 2 * sum(row[-1] for row in read)
+    expected = 2 * sum(row[6] for row in read)
     if expected != len(states):
         raise ModelError(f"expected {expected} numbers of events, found {len(states)}")
-    for t, p, (jump, kind, direction, block, name, entry, width) in zip(
+    for t, p, (jump, kind, direction, block, name, entry, width, rests) in zip(
         times, predicted, read, strict=True
     ):
         middle, end = at + width, at + 2 * width
         p = math.nan if math.isnan(p) else p
         change = states[at:middle].copy(), states[middle:end].copy()
-        events.append((t, jump, kind, direction, block, name, p, *change, entry))
+        events.append((t, jump, kind, direction, block, name, p, *change, entry, rests))
         at = end
     return events

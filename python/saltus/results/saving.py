@@ -63,7 +63,7 @@ def save(run: KeptRun, path: str | PathLike[str], kind: dict[str, Any]) -> None:
         "message": run.message,
         "block": run.block,
         "statistics": run.statistics,
-        "events": [[*e[1:6], e[9], len(e[7])] for e in run.events],
+        "events": [[*e[1:6], e[9], len(e[7]), list(e[10])] for e in run.events],
         "event_names": run.event_names,
         "context": {"layout": layout, "values": values},
     }

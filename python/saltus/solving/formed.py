@@ -66,12 +66,12 @@ class Formed:
         return joints
 
     def event(self, index: int, /) -> tuple[Any, ...]:
-        t, jump, kind, direction, block, name, predicted, before, after, entry = self._record.event(
-            index
+        t, jump, kind, direction, block, name, predicted, before, after, *rest = (
+            self._record.event(index)
         )
         change = self._form.state(before), self._form.state(after)
         t, predicted = self._form.time(t), self._form.time(predicted)
-        return t, jump, kind, direction, block, name, predicted, *change, entry
+        return t, jump, kind, direction, block, name, predicted, *change, *rest
 
     def event_times(self, name: str, kind: str, /) -> np.ndarray:
         times: np.ndarray = self._form.time(self._record.event_times(name, kind))

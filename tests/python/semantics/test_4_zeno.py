@@ -190,3 +190,30 @@ def test_4_7_chattering_says_where_how_often_and_what_helps():
     assert len(caught.value.results.events) < 5000
     for word in ("of block 'block'", "times in", "hysteresis", "zeno_tolerance"):
         assert word in str(caught.value)
+
+
+def beside(time, state):
+    """A ball, and a state that has nothing to do with it."""
+    return [state.continuous_state[1], -10.0, 0.37]
+
+
+@pytest.mark.parametrize("python", ["traced", "called"])
+def test_4_4_a_hold_stops_what_a_traced_guard_and_its_reset_touch(python, tmp_path):
+    ball = saltus.LeafSystem(name="ball")
+    ball.declare_continuous_state([1.0, 0.0, 0.0], ode=beside)
+    ball.declare_zero_crossing(
+        lambda t, s: s.continuous_state[0],
+        lambda t, s: s.with_continuous_state(
+            [0.0, -0.5 * s.continuous_state[1], s.continuous_state[2]]
+        ),
+        name="bounce",
+        direction="falling",
+    )
+    results = saltus.simulate(ball, ball.create_context(), (0, 9.5), python=python)
+    hold = next(e for e in results.events if e.kind == "zeno_enter")
+    assert hold.rests == ((0, 1) if python == "traced" else (0, 1, 2))
+    flown = 9.5 if python == "traced" else hold.time
+    assert results.context.continuous_state[2] == pytest.approx(0.37 * flown, rel=1e-6)
+    results.save(tmp_path / "ball.npz")
+    again = saltus.load_results(tmp_path / "ball.npz")
+    assert [e.rests for e in again.events] == [e.rests for e in results.events]
