@@ -36,7 +36,8 @@ Run::Run(std::shared_ptr<const Plan> plan, SimulatorOptions options)
       instant_(machine_, guards_, options_, results_),
       calendar_(machine_.plan()),
       method_(method_from(options_.ode_solver_method)),
-      chattering_(options_) {}
+      chattering_(options_),
+      crawl_(machine_) {}
 
 void Run::initialize(const Context& context) {
   machine_.load(context);
@@ -51,7 +52,7 @@ void Run::initialize(const Context& context) {
   calendar_.begin(time_, context.settled());
   begun_ = solver_started_ = over_ = false;
   next_save_ = 0, interrupt_ = {};
-  chattering_.begin(time_, machine_.x);
+  chattering_.begin(time_, machine_.x), crawl_.begin(time_);
   row_ = machine_.x;
 }
 
@@ -153,6 +154,8 @@ Status Run::step(double t_end) {
     instant_.log_monitor(hit, row_.data());
   }
   record_step(from);
+  if (solver_started_ && crawl_.found(time_, solver_->state(), t_end - begin_.time()))
+    return end_crawl();
   if (reason == StopReason::step) return Status::reached_end;
   return settle(reason, t_end, false);
 }
@@ -211,6 +214,22 @@ Status Run::end_chattering() {
                   time_ - chattering_.found().since,
                   " s: time does not advance. Give it hysteresis, a zeno_tolerance above 0 s, or a "
                   "mode of its own for the motion along the switching surface"));
+}
+
+Status Run::end_crawl() {
+  const Crawl::Jump& jump = crawl_.jump();
+  const PlanLeaf& leaf = *std::ranges::find_if(plan().leaves, [&](const PlanLeaf& each) {
+    return each.x <= jump.state && jump.state < each.x + each.nx;
+  });
+  results_.block = leaf.path;
+  return end(Status::chattering,
+             text("t = ", time_, " s: ", jump.steps, " steps took ", jump.took,
+                  " s, because the derivative of state x[", jump.state - leaf.x, "] of block '",
+                  leaf.path, "' jumps from ", jump.below, " to ", jump.above, " where x[",
+                  jump.state - leaf.x, "] = ", jump.at,
+                  ": the solution slides along the jump, and no step passes it. Write the branch "
+                  "as a relation or as two modes with a guard each, with a mode of its own for the "
+                  "motion along the jump, or make it steep but continuous"));
 }
 
 bool Run::interrupted() {
