@@ -27,6 +27,7 @@ struct SolverOptions {
   double max_step = std::numeric_limits<double>::infinity();  ///< [s]
   LinearSolver linear_solver = LinearSolver::automatic;       ///< of BDF
   bool find_sparsity = true;                                  ///< see Probe
+  int highest_order = 5;                                      ///< of BDF
 };
 
 /// How a stretch begins.
