@@ -6,6 +6,7 @@
 #include <limits>
 #include <string>
 
+#include "corrector.hpp"
 #include "cvode_scene.hpp"
 #include "saltus/solver/detail/dopri5.hpp"
 #include "saltus/solver/detail/runge_kutta.hpp"
@@ -131,6 +132,7 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
     if (method_ == CvodeMethod::adams) {
       nonlinear_.reset(SUNNonlinSol_FixedPoint(y_.get(), 0, context_.get()));
       CVodeSetNonlinearSolver(cvode, nonlinear_.get());
+      corrector_.attach(nonlinear_.get());
     } else {
       CVodeSetMaxOrd(cvode, options_.highest_order);
       scene_.make_linear(options_, t1_, x1_.data());
@@ -239,6 +241,7 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
   sun::Context context_;
   sun::Vector y_, dky_;
   sun::Nonlinear nonlinear_;
+  sun::Corrector corrector_;  // CVODE keeps its address
   CvodeScene scene_;          // it needs the context, and CVODE needs it
   sun::Cvode cvode_;
   RungeKutta<Dopri5> starter_;
