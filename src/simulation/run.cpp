@@ -48,7 +48,8 @@ Run::Run(std::shared_ptr<const Plan> plan, SimulatorOptions options)
       instant_(machine_, guards_, options_, results_),
       calendar_(machine_.plan()),
       major_(options_.max_major_step_length),
-      chattering_(options_) {}
+      chattering_(options_),
+      crawl_(machine_) {}
 
 /// A context that is refused leaves the run as it is.
 void Run::initialize(const Context& context) {
@@ -69,7 +70,7 @@ void Run::initialize(const Context& context) {
   begun_ = solver_started_ = over_ = false;
   accepted_ = {.settled = context.settled()};
   next_save_ = 0, interrupt_ = {};
-  chattering_.begin(time_, machine_.x);
+  chattering_.begin(time_, machine_.x), crawl_.begin(time_);
   row_ = machine_.x;
 }
 
@@ -189,6 +190,8 @@ Status Run::step(double t_end) {
     instant_.log_monitor(hit, row_.data());
   }
   record_step(from);
+  if (solver_started_ && crawl_.found(time_, solver_->state(), t_end - begin_.time()))
+    return end_crawl();
   if (reason == StopReason::step) return Status::reached_end;
   return settle(reason, t_end, false);
 }
@@ -250,6 +253,22 @@ Status Run::end_chattering() {
                   chattering_.found().count, " times in ", time_ - chattering_.found().since,
                   " s: time does not advance. Give it hysteresis, a zeno_tolerance above 0 s, or a "
                   "mode of its own for the motion along the switching surface"));
+}
+
+Status Run::end_crawl() {
+  const Crawl::Jump& jump = crawl_.jump();
+  const PlanLeaf& leaf = *std::ranges::find_if(plan().leaves, [&](const PlanLeaf& each) {
+    return each.x <= jump.state && jump.state < each.x + each.nx;
+  });
+  results_.block = leaf.path;
+  return end(Status::chattering,
+             text("t = ", time_, " s: ", jump.steps, " steps took ", jump.took,
+                  " s, because the derivative of state x[", jump.state - leaf.x, "] of block '",
+                  leaf.path, "' jumps from ", jump.below, " to ", jump.above, " where x[",
+                  jump.state - leaf.x, "] = ", jump.at,
+                  ": the solution slides along the jump, and no step passes it. Write the branch "
+                  "as a relation or as two modes with a guard each, with a mode of its own for the "
+                  "motion along the jump, or make it steep but continuous"));
 }
 
 bool Run::interrupted() {

@@ -92,3 +92,23 @@ TEST_CASE("4.7 switching that accumulates is not slipped through where no monito
   });
   chatters(tanks, method, 0.0);
 }
+
+TEST_CASE(
+    "4.7 a solution that slides along a jump of its derivative ends as chattering, without a "
+    "guard",
+    "[semantics]") {
+  const auto* method = GENERATE(from_range(methods));
+  // Dry friction, at rest while the force is below 1.
+  const Leaf block("block", [](Leaf& l) {
+    l.declare_continuous_state(
+        {.initial = vec({0.0, 0.0}), .ode = [](const At& at, VectorRef xdot) {
+           const double v = at.x[1], sign = v > 0.0 ? 1.0 : v < 0.0 ? -1.0 : 0.0;
+           xdot << v, 1.2 * std::sin(at.time) - sign;
+         }});
+  });
+  const auto results = simulate(block, block.create_context(), {0.0, 1.0},
+                                {.rtol = 1e-6, .ode_solver_method = method, .throw_errors = false});
+  CHECK(results.status == Status::chattering);
+  CHECK(results.statistics.steps < 4000);
+  CHECK(contains(results.message, "state x[1] of block 'block' jumps from"));
+}

@@ -11,7 +11,8 @@ namespace {
 /// Steps of one state as they would come from a method whose stability ends at 3.
 class Steps {
  public:
-  explicit Steps(double rtol = 1e-6) : test_(3.0, 6.0, {.rtol = rtol, .atol = rtol}) {}
+  explicit Steps(double rtol = 1e-6)
+      : test_({3.0, 0.9, 1200.0}, 6.0, {.rtol = rtol, .atol = rtol}) {}
 
   /// A step with this h |lambda|, in which the derivative turns by this part of itself.
   void see(double reach, double turn, double distance = 1e-3) {
@@ -22,7 +23,7 @@ class Steps {
     for (int i = 0; i < times; ++i) see(reach, turn);
   }
   bool detected() const { return test_.detected(); }
-  void forget() { test_.forget(); }
+  void forget() { test_.forget(true); }
 
  private:
   static VectorView view(const double& value) { return {&value, 1}; }

@@ -10,6 +10,7 @@
 
 #include "saltus/simulation/detail/calendar.hpp"
 #include "saltus/simulation/detail/chattering.hpp"
+#include "saltus/simulation/detail/crawl.hpp"
 #include "saltus/simulation/detail/instant.hpp"
 #include "saltus/simulation/detail/major_steps.hpp"
 #include "saltus/simulation/detail/turn.hpp"
@@ -63,6 +64,7 @@ class Run {
   void keep_step(double from);
   bool interrupted();
   Status end_chattering();
+  Status end_crawl();
   Status end(Status status, std::string message = {});
   void fail(std::string message);
   void finish();
@@ -95,6 +97,7 @@ class Run {
   std::vector<int> due_;
   std::size_t next_save_ = 0;
   Chattering chattering_;
+  Crawl crawl_;
   Eigen::VectorXd row_;  // a state inside the last step
   struct {
     std::int64_t ticks = 0;  // minor steps

@@ -119,6 +119,24 @@ inline constexpr double root_rounding = 1e6 * eps;
 inline constexpr std::int64_t idle_roots = 10'000;
 inline constexpr double idle_share = 1e-7;
 
+// --- crawling along a jump of a derivative: crawl.cpp (tests/laws/crawl_test.cpp)
+
+/// [steps] of the first window. A jump that is passed costs some forty steps.
+inline constexpr std::int64_t crawl_window = 1000;
+/// [of the run] A window that took more is no crawl: the run would have less than 4000 steps.
+inline constexpr double crawl_share = 0.25;
+/// [mean steps of the window] How far the looks go: the error allows a step some ten tolerances
+/// across a jump, and the steps that precede it ten times the mean.
+inline constexpr double crawl_ahead = 8.0;
+/// [steps] that are compared, and those of them in which a derivative must change its sign. A
+/// solution that passes a jump now and then is so near to it in one of forty; one that slides, in
+/// nearly all.
+inline constexpr int crawl_compared = 32;
+inline constexpr int crawl_reversals = 16;
+/// [halvings] They take the ends of a step to neighbouring numbers, or, where the jump is at zero,
+/// to 1e-60 of the step.
+inline constexpr int crawl_halvings = 200;
+
 // --- journal and calendar
 
 /// [causes] that a chain remembers: four times the default of max_passes.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <string>
 #include <utility>
@@ -59,8 +60,9 @@ class AutoSolver final : public Solver {
 
   const SolverStatistics& statistics() const override {
     sum_ = explicit_->statistics();
-    if (bdf_) {
-      const SolverStatistics& more = bdf_->statistics();
+    for (const auto& each : bdf_) {
+      if (!each) continue;
+      const SolverStatistics& more = each->statistics();
       sum_.steps += more.steps, sum_.rejected += more.rejected;
       sum_.restarts += more.restarts, sum_.linear_setups += more.linear_setups;
       sum_.linear_solver = more.linear_solver;
@@ -85,12 +87,25 @@ class AutoSolver final : public Solver {
   }
 
  private:
-  Solver& now() { return stiff_ ? *bdf_ : static_cast<Solver&>(*explicit_); }
-  const Solver& now() const { return stiff_ ? static_cast<const Solver&>(*bdf_) : *explicit_; }
+  /// The damping ratio up to which a part oscillates: its bound by stability is nearer to that of
+  /// the imaginary axis (dopri5: 1.0, 1.4, 1.9, 2.7, 3.2 at ratios 0, 0.001, 0.01, 0.1, 0.3).
+  static constexpr double swings = 0.3;
+  /// The forms of BDF. Order 3 is stable from 4 degrees off the imaginary axis, order 2 on it
+  /// (Hairer, Wanner II, p. 251, (2.7)): from a damping ratio of 0.07.
+  static constexpr std::array highest_order{5, 3, 2};
+  static constexpr double damped_for_order_3 = 0.07;
+  static constexpr double tightest_for_order_2 = 1e-7;
+  static constexpr double beyond_instability = 30.0;  // h |lambda|
+  static constexpr double rounding = 1e-3;            ///< of a damping ratio by differences
+
+  Solver& now() { return stiff_ ? *bdf_[form_] : static_cast<Solver&>(*explicit_); }
+  const Solver& now() const {
+    return stiff_ ? static_cast<const Solver&>(*bdf_[form_]) : *explicit_;
+  }
   bool now_at_step_end() const { return now().at_step_end(); }
 
   void begin_run(double t) {
-    stiff_ = false, bdf_.reset(), radius_.forget();
+    stiff_ = false, bdf_ = {}, form_ = 0, beyond_ = beyond_instability, radius_.forget();
     past_.clear(), begun_ = t, steps_before_ = 0;
     longest_ = window_ = 0.0, patience_ = thresholds::first_checks;
   }
@@ -99,27 +114,66 @@ class AutoSolver final : public Solver {
 
   /// Changes to the other method at the end of a step, if a change is due.
   void choose() {
-    const bool stiff = stiff_ ? !not_stiff_again() : explicit_->looks_stiff() || collapsed();
+    const bool stiff = stiff_ ? !not_stiff_again() : looks_stiff() || oscillates_beside();
     if (stiff == stiff_) return;
     const double t = now().time();
     handed_over_ = now().state();
     if (stiff && steps_ < thresholds::short_stretch && !past_.empty())
       patience_ = std::min(2 * patience_, thresholds::most_checks);
+    const bool in_vain = stiff_ && hardly_damped_;
     change(t, stiff);
     forget_steps(), before_ = 0.0;
     now().restart(t, handed_over_, {.handover = true});
+    if (in_vain) explicit_->stiffness().put_off(4), beyond_ *= 4.0;
+  }
+
+  bool looks_stiff() {
+    StiffnessTest& test = explicit_->stiffness();
+    if (test.detected()) {
+      const double rate = radius_(explicit_->time(), explicit_->state());
+      const bool sure = radius_.damping() > swings || test.by_smoothness() || test.oscillates(rate);
+      if (sure && choose_form(rate)) return true;
+      test.forget(false);
+    }
+    form_ = 0, hardly_damped_ = false;
+    return collapsed();
   }
 
   /// Whether stability makes the first step after a restart a hundred times shorter than the steps
-  /// before. Then the scene is stiff, without a wait for fifteen such steps. The error bounds the
-  /// first step of a new oscillation too, but far below the bound by stability.
+  /// before. Then the scene is stiff, without a wait for fifteen such steps. A fast part that
+  /// oscillates was set going by what restarted it (a contact): it is the solution, and the error
+  /// bounds its steps.
   bool collapsed() {
     if (!unchecked_ || steps_ == 0) return false;
     unchecked_ = false;
     if (!(longest_ < thresholds::collapse * before_)) return false;
     const double radius = radius_(explicit_->time(), explicit_->state());
-    return radius * before_ > thresholds::far_beyond_stability * explicit_->stability() &&
+    return radius_.damping() > 0.9 && radius * before_ > thresholds::far_beyond_stability * explicit_->stability() &&
            radius * longest_ > thresholds::least_reach;
+  }
+
+  /// Whether stability bounds the steps beside a fast oscillation that is hardly damped. BDF would
+  /// damp one that grows.
+  bool oscillates_beside() {
+    StiffnessTest& test = explicit_->stiffness();
+    if (!test.may_oscillate()) return false;
+    const double rate = radius_(explicit_->time(), explicit_->state());
+    const bool beside = radius_.damping() > -rounding && radius_.damping() <= swings;
+    if (beside && test.oscillates(rate) && choose_form(rate)) return true;
+    test.put_off(2);
+    return false;
+  }
+
+  /// Chooses the form of BDF that is stable for a part of this rate; false if there is none. At a
+  /// tight tolerance order 2 takes too many steps, and the explicit method hardly excites the part:
+  /// only steps of order 5 that are beyond its instability, h |lambda| up to 5, are tried.
+  bool choose_form(double rate) {
+    const double damping = radius_.damping();
+    const bool beyond = rate * explicit_->stiffness().step_of_bdf() > beyond_;
+    hardly_damped_ = damping <= swings;
+    form_ = damping > swings ? 0 : damping > damped_for_order_3 ? 1 : 2;
+    if (form_ == 2 && options_.rtol < tightest_for_order_2) form_ = 0;
+    return form_ != 0 || damping > swings || beyond;
   }
 
   /// Whether the scene is not stiff any more. It is checked every fifty steps of BDF, except after
@@ -128,14 +182,19 @@ class AutoSolver final : public Solver {
     if (steps_ == 0 || steps_ % thresholds::check_every != 0) return false;
     window_ = std::exchange(longest_, 0.0);
     if (steps_ < thresholds::short_stretch) return false;
-    not_stiff_ = radius_(bdf_->time(), bdf_->state()) * window_ < thresholds::stable_reach
+    not_stiff_ = radius_(now().time(), now().state()) * window_ < thresholds::stable_reach
                      ? not_stiff_ + 1
                      : 0;
-    return not_stiff_ >= patience_;
+    // Low orders need some hundred steps to damp what the errors have made of a fast oscillation.
+    return not_stiff_ >= (form_ != 0 ? std::max(patience_, 8) : patience_);
   }
 
   void change(double t, bool stiff) {
-    if (stiff && !bdf_) bdf_ = make_cvode(*machine_, *guards_, options_, CvodeMethod::bdf);
+    if (stiff && !bdf_[form_]) {
+      SolverOptions options = options_;
+      options.highest_order = highest_order[form_];
+      bdf_[form_] = make_cvode(*machine_, *guards_, options, CvodeMethod::bdf);
+    }
     past_.push_back(present());
     past_.back().end = t;
     begun_ = t;
@@ -151,7 +210,10 @@ class AutoSolver final : public Solver {
   GuardSet* guards_;
   SolverOptions options_;
   std::unique_ptr<OneStepSolver> explicit_;
-  std::unique_ptr<Solver> bdf_;
+  std::array<std::unique_ptr<Solver>, 3> bdf_;  // in the forms of highest_order
+  std::size_t form_ = 0;
+  bool hardly_damped_ = false;  // the part for which the form was chosen
+  double beyond_ = beyond_instability;
   SpectralRadius radius_;
   bool stiff_ = false;
   double longest_ = 0.0;   // [s] longest step since the last restart, change of method or check

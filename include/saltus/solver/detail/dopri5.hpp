@@ -17,6 +17,8 @@ struct Dopri5 {
   static constexpr std::size_t rows = stages;  ///< the dense output is free
   static constexpr double error_order = 5.0;
   static constexpr double stability = 3.25;  ///< Hairer, Wanner II, p. 22: detection threshold
+  /// |R(iy)| > 1 from y = 1.0 on; the error estimate of exp(iy) is 1 / 1200 there.
+  static constexpr double imaginary = 1.0, amplitude = 1200.0;
   static constexpr double beta = 0.04, shortest = 0.2, longest = 10.0;  ///< of the code DOPRI5
 
   static constexpr std::array<double, stages> c{0.0, 1.0 / 5, 3.0 / 10, 4.0 / 5, 8.0 / 9, 1.0, 1.0};

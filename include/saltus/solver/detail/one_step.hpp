@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "saltus/solver/detail/solver.hpp"
+#include "saltus/solver/detail/stiffness.hpp"
 
 namespace saltus {
 
@@ -11,8 +12,8 @@ class OneStepSolver : public Solver {
  public:
   /// Tests for stiffness from now on.
   virtual void watch_stiffness() = 0;
-  /// Whether the last steps were bounded by stability rather than by accuracy.
-  virtual bool looks_stiff() const = 0;
+  /// What the last steps have shown.
+  virtual StiffnessTest& stiffness() = 0;
   /// h |lambda| beyond which stability bounds the step.
   virtual double stability() const = 0;
 };

@@ -29,7 +29,8 @@ class RungeKutta final : public StepSolver<RungeKutta<Method, N>, OneStepSolver>
         k_(n_),
         dense_(n_),
         halves_(n_),
-        stiff_(Method::stability, static_cast<double>(last), options) {}
+        stiff_({Method::stability, Method::imaginary, Method::amplitude}, static_cast<double>(last),
+               options) {}
 
   void inside_step(double u, double* x) {
     if (!dense_ready_) prepare_dense();
@@ -50,7 +51,7 @@ class RungeKutta final : public StepSolver<RungeKutta<Method, N>, OneStepSolver>
   }
 
   void watch_stiffness() override { watches_stiffness_ = true; }
-  bool looks_stiff() const override { return stiff_.detected(); }
+  StiffnessTest& stiffness() override { return stiff_; }
   double stability() const override { return Method::stability; }
 
  private:
@@ -82,7 +83,7 @@ class RungeKutta final : public StepSolver<RungeKutta<Method, N>, OneStepSolver>
       machine_->derivative(t1_, x1_.data(), stage(last));
     dense_ready_ = false;
     horizon_ = start.horizon;
-    stiff_.forget();
+    stiff_.forget(start.first);
   }
 
   void undo() { x1_ = x0_, t1_ = t0_; }

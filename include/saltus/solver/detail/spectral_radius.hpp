@@ -1,4 +1,4 @@
-// The spectral radius of the Jacobian of a scene, without a Jacobian: the rate of its fastest part.
+// The fastest part of a scene, without a Jacobian: its rate, and whether it oscillates.
 #pragma once
 
 #include <cmath>
@@ -16,6 +16,10 @@ namespace saltus {
 /// each state, which changes no eigenvalue. It takes three iterations from the direction found
 /// last, with a small part of every other direction. They give the order of magnitude, which is
 /// enough to choose a method. They cost four calls of the right-hand side.
+///
+/// A pair of complex eigenvalues turns v for ever, and one growth depends on where v is. So the
+/// last three vectors are fitted by J^2 v = a J v + b v, whose roots are the pair (Y. Saad,
+/// "Numerical Methods for Large Eigenvalue Problems", 1992, IV.1).
 class SpectralRadius {
  public:
   SpectralRadius(Machine& machine, const SolverOptions& options)
@@ -25,7 +29,9 @@ class SpectralRadius {
         f_(direction_),
         moved_(direction_),
         scale_(direction_),
-        point_(direction_) {}
+        point_(direction_),
+        last_(direction_),
+        before_last_(direction_) {}
 
   /// |lambda| [1/s] at (t, x); infinite where f is not finite nearby.
   double operator()(double t, const Eigen::VectorXd& x) {
@@ -37,7 +43,9 @@ class SpectralRadius {
     direction_.normalize();
     machine_->derivative(t, x.data(), f_.data());
     double growth = 0.0;
+    damping_ = 1.0;
     for (int k = 0; k < thresholds::power_iterations; ++k) {
+      before_last_.swap(last_), last_ = direction_, growth_before_ = growth;
       point_ = x + small * scale_.cwiseProduct(direction_);
       machine_->derivative(t, point_.data(), moved_.data());
       direction_ = (moved_ - f_).cwiseQuotient(scale_) / small;
@@ -49,8 +57,11 @@ class SpectralRadius {
       }
       direction_ /= growth;
     }
-    return growth;
+    return oscillation(growth);
   }
+
+  /// The damping ratio of the part found last, -Re lambda / |lambda|; 1 if lambda is real.
+  double damping() const noexcept { return damping_; }
 
   /// Forgets the direction, so that later results do not depend on earlier calls.
   void forget() { direction_.setZero(); }
@@ -62,8 +73,25 @@ class SpectralRadius {
     return VectorView(options.each_atol(), n).cwiseQuotient(VectorView(options.each_rtol(), n));
   }
 
+  /// |lambda| of the pair that turned the last vectors, or the growth if they turned by a rounding
+  /// only, or by two real eigenvalues.
+  double oscillation(double growth) {
+    const double overlap = before_last_.dot(last_);
+    const double turned = 1.0 - overlap * overlap;
+    if (turned < 1e-6) return growth;
+    // growth growth_before direction_ = a growth_before last_ + b before_last_
+    const double p = growth * direction_.dot(last_), q = growth * direction_.dot(before_last_);
+    const double a = (p - overlap * q) / turned;
+    const double b = growth_before_ * (q - overlap * p) / turned;
+    if (!(0.25 * a * a + b < 0.0)) return growth;
+    damping_ = -0.5 * a / std::sqrt(-b);
+    return std::sqrt(-b);
+  }
+
   Machine* machine_;
+  double damping_ = 1.0, growth_before_ = 0.0;
   Eigen::VectorXd floor_, direction_, f_, moved_, scale_, point_;
+  Eigen::VectorXd last_, before_last_;  // directions
 };
 
 }  // namespace saltus

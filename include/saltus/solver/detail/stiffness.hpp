@@ -1,6 +1,7 @@
 // Stiffness for an explicit method: whether stability, not the solution, bounds the step.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "saltus/solver/detail/solver.hpp"
@@ -8,7 +9,14 @@
 
 namespace saltus {
 
-/// Tests for two signs of stiffness, from values that a step computes anyway.
+/// The numbers of a method that the test needs.
+struct StabilityBounds {
+  double real;  ///< h |lambda| beyond which stability bounds the step, on the negative real axis
+  double imaginary;  ///< the same on the imaginary axis
+  double amplitude;  ///< [tolerances] of an oscillation whose steps there have an error of 1
+};
+
+/// Tests for three signs of stiffness, from values that a step computes anyway.
 ///
 /// h |f(x1) - f(X)| / |x1 - X| estimates h |lambda|; X is the argument of the last stage but one,
 /// also at t + h. Beyond `stability` it bounds the step (L. F. Shampine; Hairer, Wanner II, p. 21,
@@ -26,17 +34,51 @@ namespace saltus {
 ///
 /// The scene is called stiff after fifteen such steps, with at most five other steps in a row
 /// between them.
+///
+/// On the imaginary axis stability bounds the steps at h |lambda| = 1 already with dopri5. A fast
+/// mode that the solution does not excite is then excited by the errors, up to as many tolerances
+/// as the error estimate lets pass: some hundred with dopri5. An oscillation of the solution itself
+/// is larger, up to 1 / rtol tolerances, and accuracy keeps its steps shorter. One step tells h
+/// |lambda| of an oscillation to a factor only, which depends on the phase. So fifteen steps that
+/// may be at the bound, counted in the same way, ask for a better value of |lambda|; with it the
+/// size of the oscillation decides.
 class StiffnessTest {
  public:
   /// `calls`: calls of the right-hand side in a step.
-  StiffnessTest(double stability, double calls, const SolverOptions& options)
-      : stability_(stability),
-        smooth_(thresholds::saved_calls * calls / thresholds::bdf_calls * thresholds::bdf_step *
-                std::pow(options.rtol, 1.0 / 6.0)),
+  StiffnessTest(const StabilityBounds& bounds, double calls, const SolverOptions& options)
+      : stability_(bounds.real),
+        turning_(bounds.imaginary),
+        amplitude_(std::min(bounds.amplitude, part_of_solution / options.rtol)),
+        bdf_per_turn_(thresholds::bdf_step * std::pow(options.rtol, 1.0 / 6.0)),
+        smooth_(thresholds::saved_calls * calls / thresholds::bdf_calls * bdf_per_turn_),
         options_(options) {}
 
   bool detected() const noexcept { return stiff_ >= thresholds::stiff_steps; }
-  void forget() noexcept { stiff_ = calm_ = 0; }
+  /// |lambda| [1/s] of the fastest part, as the last step has shown it; 0 before a step.
+  double rate() const noexcept { return rate_; }
+  /// At a restart, and at the begin of a run.
+  void forget(bool run) noexcept {
+    stiff_ = calm_ = smooth_steps_ = 0, rate_ = 0.0;
+    if (run) wanted_ = thresholds::stiff_steps;
+    watch_anew();
+  }
+
+  /// Whether a fast oscillation may bound the steps by stability.
+  bool may_oscillate() const noexcept { return long_ >= wanted_; }
+  /// Whether it does, if its rate is |lambda| [1/s]: by the mean of the steps since the first of
+  /// them, and by the mean change of the derivative in them.
+  bool oscillates(double rate) const noexcept {
+    return rate * span_ > turning_ * looks_ && swing_ < amplitude_ * rate * long_;
+  }
+  /// Whether Petzold's rule called most of the stiff steps so. It does not depend on a phase.
+  bool by_smoothness() const noexcept { return 2 * smooth_steps_ >= stiff_; }
+  /// The step of BDF by Petzold's rule [s], after a step that was stiff by it.
+  double step_of_bdf() const noexcept { return bdf_step_; }
+  /// It does not, or BDF found no longer steps. The next question comes after `times` as many steps.
+  void put_off(int times) noexcept {
+    wanted_ = std::min(times * wanted_, latest);
+    watch_anew();
+  }
 
   /// Looks at a step of size h to x1, with f at both ends, and f at (t + h, x), where x is another
   /// approximation of x1.
@@ -44,35 +86,57 @@ class StiffnessTest {
     if (stiff_step(h, x1, x, f, f0, f1))
       ++stiff_, calm_ = 0;
     else if (++calm_ == thresholds::other_steps)
-      stiff_ = 0;
+      stiff_ = smooth_steps_ = 0;
+    count_long(h, x1, f0, f1);
   }
 
  private:
+  static constexpr int latest = 100000;  // steps
+
+  /// The part of a state's size up to which an oscillation may be of the errors.
+  static constexpr double part_of_solution = 0.3;
+
+  void count_long(double h, VectorView x1, VectorView f0, VectorView f1) {
+    ++looks_, span_ += h;
+    if (h * rate_ > turning_)
+      ++long_, others_ = 0, swing_ += in_tolerances(f1 - f0, x1);
+    else if (++others_ == thresholds::other_steps)
+      watch_anew();
+  }
+  void watch_anew() noexcept { long_ = others_ = looks_ = 0, span_ = swing_ = 0.0; }
+
   bool stiff_step(double h, VectorView x1, VectorView x, VectorView f, VectorView f0,
-                  VectorView f1) const {
+                  VectorView f1) {
     const double distance = (x1 - x).norm();
     if (!(distance > 0.0)) return false;
-    const double reach = h * (f1 - f).norm() / distance;  // h |lambda|
-    if (reach > stability_) return true;
-    return reach > thresholds::least_reach &&
-           turned(x1, f0, f1) < std::min(smooth_, thresholds::smooth_turn * reach);
+    rate_ = (f1 - f).norm() / distance;
+    const double reach = h * rate_;
+    if (!(reach > thresholds::least_reach)) return false;
+    const double turned = in_tolerances(f1 - f0, x1) / in_tolerances(f1, x1);
+    const bool smooth = turned < std::min(smooth_, thresholds::smooth_turn * reach);
+    if (smooth) ++smooth_steps_, bdf_step_ = bdf_per_turn_ * h / turned;
+    return smooth || reach > stability_;
   }
 
-  /// |f1 - f0| / |f1|, in units of the tolerance.
-  double turned(VectorView x1, VectorView f0, VectorView f1) const {
-    const auto ratio = [&](const auto& weight) {
-      return ((f1 - f0).array() * weight).matrix().norm() / (f1.array() * weight).matrix().norm();
-    };
+  /// |value| in units of the tolerance.
+  template <class Value>
+  double in_tolerances(const Value& value, VectorView x1) const {
     const auto size = x1.array().abs();
-    if (options_.rtols.empty()) return ratio((options_.atol + options_.rtol * size).inverse());
-    const auto each = [&](const double* tolerances) { return VectorView(tolerances, x1.size()); };
-    const VectorView rtol = each(options_.each_rtol()), atol = each(options_.each_atol());
-    return ratio((atol.array() + rtol.array() * size).inverse());
+    if (options_.rtols.empty())
+      return (value.array() / (options_.atol + options_.rtol * size)).matrix().norm();
+    const VectorView rtol(options_.each_rtol(), x1.size()), atol(options_.each_atol(), x1.size());
+    return (value.array() / (atol.array() + rtol.array() * size)).matrix().norm();
   }
 
-  double stability_, smooth_;
+  double stability_, turning_, amplitude_, bdf_per_turn_, smooth_;
   SolverOptions options_;
-  int stiff_ = 0, calm_ = 0;
+  int stiff_ = 0, calm_ = 0, smooth_steps_ = 0;
+  double rate_ = 0.0;
+  int long_ = 0, others_ = 0, looks_ = 0;  // steps beyond turning_, others in a row, all of them
+  int wanted_ = thresholds::stiff_steps;
+  double span_ = 0.0;      // [s] of all of them
+  double swing_ = 0.0;     // sum of |f1 - f0| [tolerances / s] of the first
+  double bdf_step_ = 0.0;  // [s]
 };
 
 }  // namespace saltus

@@ -19,7 +19,7 @@ namespace saltus {
 /// - error(squares): the error, from the mean squares of the estimates
 /// - error_order: the error shrinks as h^error_order
 /// - d[m][j]: dense output of degree 3 + m, h sum_j d[m][j] k_j
-/// - stability: h |lambda| beyond which stability, not accuracy, bounds the step
+/// - stability, imaginary, amplitude: see StabilityBounds
 /// - defect_at, defect_share, last_term_share: if its dense output is to be checked, see Halves
 /// - beta, shortest, longest: of the step size control, see StepController
 template <class T>
@@ -33,6 +33,8 @@ concept Tableau = requires {
   { T::error({}) } -> std::convertible_to<double>;
   T::error_order;
   T::stability;
+  T::imaginary;
+  T::amplitude;
   T::beta;
   T::shortest;
   T::longest;

@@ -154,8 +154,6 @@ inline constexpr double start_horizons = 4.0;
 /// [eps |t|] and [s]: CVODE takes no step within a few roundings of the time, nor below the least
 /// double of full precision.
 inline constexpr double cvode_roundings = 64.0, cvode_shortest = 1e-290;
-/// [steps] of at most `least_step_roundings` in a row, which CVODE would go on with.
-inline constexpr int tiny_steps = 100;
 /// [steps] of order 1 after CVODE's start.
 inline constexpr int coarse_steps = 2;
 /// [failures] of Newton's iteration in one step; CVODE's own ten are too few for a stiff contact.

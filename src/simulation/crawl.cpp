@@ -1,0 +1,74 @@
+#include "saltus/simulation/detail/crawl.hpp"
+
+#include <cmath>
+
+#include "saltus/simulation/detail/thresholds.hpp"
+#include "saltus/solver/detail/guard.hpp"
+
+namespace saltus {
+
+void Crawl::begin(double t) {
+  window_ = thresholds::crawl_window;
+  steps_ = 0, since_ = t, looking_ = false;
+}
+
+/// A window is full: the looks ahead start if it took little time.
+bool Crawl::start(double t, const Eigen::VectorXd& x, double length_of_run) {
+  const double took = t - since_;
+  if (took < thresholds::crawl_share * length_of_run) {
+    looking_ = true, compared_ = reversals_ = 0;
+    ahead_ = thresholds::crawl_ahead * took / static_cast<double>(steps_);
+    for (auto* each : {&to_, &f_from_, &f_to_, &middle_, &f_}) each->resize(x.size());
+  } else {
+    steps_ = 0, since_ = t;
+  }
+  return false;
+}
+
+bool Crawl::compare(double t, const Eigen::VectorXd& x) {
+  machine_->derivative(t, x.data(), f_from_.data());
+  to_ = x + ahead_ * f_from_;
+  machine_->derivative(t, to_.data(), f_to_.data());
+  ++compared_;
+  const Index state = reverses();
+  if (state >= 0) ++reversals_;
+  if (state >= 0 && reversals_ >= thresholds::crawl_reversals && jumps(t, x, state)) {
+    jump_.steps = steps_ + compared_, jump_.took = t - since_;
+    return true;
+  }
+  if (compared_ >= thresholds::crawl_compared) {
+    window_ *= 2;
+    steps_ = 0, since_ = t, looking_ = false;
+  }
+  return false;
+}
+
+Index Crawl::reverses() const {
+  Index most = -1;
+  double size = 0.0;
+  for (Index i = 0; i < f_to_.size(); ++i) {
+    const double change = std::abs(f_to_[i] - f_from_[i]);
+    if (sign_of(f_from_[i]) * sign_of(f_to_[i]) < 0 && change > size) most = i, size = change;
+  }
+  return most;
+}
+
+/// Bisects the way from x to the state ahead, at time t, until its ends are neighbours.
+bool Crawl::jumps(double t, const Eigen::VectorXd& x, Index state) {
+  const double whole = std::abs(f_to_[state] - f_from_[state]);
+  Eigen::VectorXd low = x, high = to_;
+  double below = f_from_[state], above = f_to_[state];
+  for (int halving = 0; halving < thresholds::crawl_halvings; ++halving) {
+    middle_ = low + 0.5 * (high - low);
+    if (middle_ == low || middle_ == high) break;
+    machine_->derivative(t, middle_.data(), f_.data());
+    const bool lower = sign_of(f_[state]) == sign_of(below);
+    (lower ? low : high) = middle_;
+    (lower ? below : above) = f_[state];
+    if (std::abs(above - below) < 0.5 * whole) return false;  // it changes gradually
+  }
+  jump_ = {.state = state, .at = high[state], .below = below, .above = above};
+  return true;
+}
+
+}  // namespace saltus
