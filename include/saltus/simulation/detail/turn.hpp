@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <string>
 #include <string_view>
 #include <thread>
 
@@ -16,11 +17,13 @@ using Caller = std::atomic<std::thread::id>;
 /// a call of another thread, or a call that led here through a callback.
 class Turn {
  public:
-  Turn(Caller& caller, double t, std::string_view what) : caller_(&caller) {
+  Turn(Caller& caller, const double& t, std::string_view what) : caller_(&caller) {
     std::thread::id found{};
     const std::thread::id mine = std::this_thread::get_id();
     if (caller.compare_exchange_strong(found, mine)) return;
-    throw Error(text("t = ", t, " s: ", what, " was called ",
+    // Only the thread of the run may read its time.
+    const std::string when = found == mine ? text("t = ", t, " s: ") : "";
+    throw Error(text(when, what, " was called ",
                      found == mine ? "by a callback of the run itself"
                                    : "while another thread uses the simulator",
                      "; expected one call at a time: use a simulator of its own for each caller"));
