@@ -35,7 +35,7 @@ Leaf across() {
   });
 }
 
-Results run(const Leaf& leaf, double t_end, const char* method, double rtol = 1e-6) {
+Results run(const Leaf& leaf, double t_end, Method method, double rtol = 1e-6) {
   return simulate(
       leaf, leaf.create_context(), {0.0, t_end},
       {.rtol = rtol, .atol = 1e-3 * rtol, .ode_solver_method = method, .throw_errors = false});
@@ -47,7 +47,7 @@ TEST_CASE(
     "a solution that slides along a jump of its derivative ends as chattering, by every "
     "method",
     "[laws][crawl]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const double rtol = GENERATE(1e-4, 1e-6, 1e-9);
   const auto ends = [&](const Leaf& leaf, const char* name) {
     const auto results = run(leaf, 10.0, method, rtol);
@@ -69,7 +69,7 @@ TEST_CASE(
 }
 
 TEST_CASE("a jump that is passed, in the state or in time, is no chattering", "[laws][crawl]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const auto reaches = [&](const Leaf& leaf, double t_end, const char* name) {
     const auto results = run(leaf, t_end, method);
     INFO(name << ", " << method << ": " << results.message);
@@ -88,7 +88,7 @@ TEST_CASE("a jump that is passed, in the state or in time, is no chattering", "[
 }
 
 TEST_CASE("a steep derivative is no jump", "[laws][crawl]") {
-  const auto* method = GENERATE("dopri5", "dop853", "auto", "bdf");
+  const auto method = GENERATE(Method::dopri5, Method::dop853, Method::automatic, Method::bdf);
   const double width = GENERATE(1e-2, 1e-4, 1e-6);
   // dopri5 takes 1 / (3 width) steps for each second; its derivative changes sign in each of them.
   const Leaf leaf = leaf_of(vec({0.0, 0.0}), [=](const At& at, VectorRef xdot) {
@@ -100,7 +100,7 @@ TEST_CASE("a steep derivative is no jump", "[laws][crawl]") {
 }
 
 TEST_CASE("short steps of a scene without a jump are no chattering", "[laws][crawl]") {
-  const auto* method = GENERATE("dopri5", "adams");
+  const auto method = GENERATE(Method::dopri5, Method::adams);
   // 30 000 steps at the limit of stability, in each of which the derivative changes sign.
   const Leaf leaf = leaf_of(vec({1.0}), [](const At& at, VectorRef xdot) {
     xdot[0] = 1e5 * (std::cos(at.time) - at.x[0]);

@@ -75,7 +75,7 @@ std::vector<double> hits(double stiffness, std::size_t count) {
   return times;
 }
 
-Results run(const Leaf& leaf, double t_end, const char* method, double rtol, double atol) {
+Results run(const Leaf& leaf, double t_end, Method method, double rtol, double atol) {
   return simulate(leaf, leaf.create_context(), {0.0, t_end},
                   {.rtol = rtol, .atol = atol, .ode_solver_method = method});
 }
@@ -102,7 +102,7 @@ TEST_CASE(
   const double w = GENERATE(30.0, 1000.0), d = GENERATE(0.0, 0.1, 1.0, 10.0);
   const double rtol = GENERATE(1e-3, 1e-4, 1e-6, 1e-8, 1e-10);
   const Leaf leaf = beside(w, d);
-  const auto results = run(leaf, 30.0, "auto", rtol, rtol);
+  const auto results = run(leaf, 30.0, Method::automatic, rtol, rtol);
   INFO("mode -" << d << " +- " << w << "i, rtol " << rtol << ": " << calls(results) << " calls, "
                 << results.statistics.method);
   CHECK(error_beside(results, rtol) < 10.0);
@@ -112,7 +112,7 @@ TEST_CASE("auto does not step at the pace of a fast mode that is not excited", "
   const double w = GENERATE(1e3, 1e4, 1e5), d = GENERATE(0.1, 1.0, 10.0);
   const double rtol = GENERATE(1e-3, 1e-4, 1e-6);
   const Leaf leaf = beside(w, d);
-  const auto results = run(leaf, 30.0, "auto", rtol, rtol);
+  const auto results = run(leaf, 30.0, Method::automatic, rtol, rtol);
   INFO("mode -" << d << " +- " << w << "i, rtol " << rtol << ": " << results.statistics.method);
   // An explicit method needs 4.3 calls for each radian, 130 000 at w = 1000. Order 2 needs 30 s /
   // (rtol^(1/3) s), 3000 steps of 1.7 calls at rtol 1e-6.
@@ -123,7 +123,7 @@ TEST_CASE("auto stays explicit where the solution itself oscillates, slow or fas
           "[laws][auto]") {
   const double rtol = GENERATE(1e-3, 1e-4, 1e-6, 1e-8, 1e-10);
   const auto stays = [&](const Leaf& leaf, double t_end) {
-    const auto results = run(leaf, t_end, "auto", rtol, 1e-3 * rtol);
+    const auto results = run(leaf, t_end, Method::automatic, rtol, 1e-3 * rtol);
     INFO(leaf.name() << " to " << t_end << " s, rtol " << rtol << ": "
                      << results.statistics.method);
     CHECK(explicit_only(results));
@@ -136,7 +136,7 @@ TEST_CASE("auto stays explicit in a contact without damping, and is as exact as 
           "[laws][auto]") {
   const double stiffness = GENERATE(1e5, 1e7, 1e9), rtol = GENERATE(1e-4, 1e-6, 1e-10);
   const Leaf leaf = contact(stiffness);
-  const auto results = run(leaf, 4.0, "auto", rtol, 1e-3 * rtol);
+  const auto results = run(leaf, 4.0, Method::automatic, rtol, 1e-3 * rtol);
   INFO("stiffness " << stiffness << ", rtol " << rtol << ": " << results.statistics.method);
   CHECK(explicit_only(results));
   const auto found = results.events.times("hit");
@@ -153,7 +153,7 @@ TEST_CASE("adams beside a fast mode that is not excited is not carried away by i
   const double w = GENERATE(30.0, 1000.0), d = GENERATE(0.0, 0.1, 1.0);
   const double rtol = GENERATE(1e-4, 1e-6, 1e-8);
   const Leaf leaf = beside(w, d);
-  const auto results = run(leaf, 30.0, "adams", rtol, rtol);
+  const auto results = run(leaf, 30.0, Method::adams, rtol, rtol);
   INFO("mode -" << d << " +- " << w << "i, rtol " << rtol);
   // Orders above 2 are unstable on the imaginary axis, so that some tens of tolerances remain, 60 at
   // worst; CVODE's own test left 20 000.

@@ -53,7 +53,7 @@ Leaf van_der_pol(double mu) {
 
 TEST_CASE("a stiff flight after a reset is BDF's, whatever the tolerance and the number of states",
           "[laws][bdf]") {
-  const auto* method = GENERATE("bdf", "auto");
+  const auto method = GENERATE(Method::bdf, Method::automatic);
   const double rtol = GENERATE(1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8);
   const Index n = GENERATE(49, 199);
   const Leaf rod = reheated_rod(n);
@@ -71,13 +71,13 @@ TEST_CASE("BDF passes jumps that take some roundings of the time", "[laws][bdf]"
   const double rtol = GENERATE(1e-8, 1e-10, 1e-12);
   const Leaf leaf = van_der_pol(1e6);  // jumps of 1e-6 s at t = 8e5 s
   const auto results = simulate(leaf, leaf.create_context(), {0.0, 1.2e6},
-                                {.rtol = rtol, .atol = 1e-2 * rtol, .ode_solver_method = "bdf"});
+                                {.rtol = rtol, .atol = 1e-2 * rtol, .ode_solver_method = Method::bdf});
   CHECK(results.status == Status::reached_end);
   CHECK(results.context.continuous_state()[0] < -1.0);  // it has jumped
 }
 
 TEST_CASE("a run without an end stops at its terminal event, by every method", "[laws]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   const double start = GENERATE(0.0, 1e6);  // [s]
   const Leaf ball("ball", [](Leaf& l) {
     l.declare_continuous_state(
@@ -98,7 +98,7 @@ TEST_CASE("a run without an end stops at its terminal event, by every method", "
 }
 
 TEST_CASE("a stiff run without an end stops at its terminal event", "[laws]") {
-  const auto* method = GENERATE("bdf", "auto");
+  const auto method = GENERATE(Method::bdf, Method::automatic);
   // x0 follows cos t at a rate of 1e6; x1' = 1 / 1000.
   const Leaf leaf("leaf", [](Leaf& l) {
     l.declare_continuous_state(

@@ -97,7 +97,7 @@ TEST_CASE(
     "4.7 a solution that slides along a jump of its derivative ends as chattering, without a "
     "guard",
     "[semantics]") {
-  const auto* method = GENERATE(from_range(methods));
+  const auto method = GENERATE(from_range(methods));
   // Dry friction, at rest while the force is below 1.
   const Leaf block("block", [](Leaf& l) {
     l.declare_continuous_state(
