@@ -272,10 +272,10 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
   sun::Context context_;
   sun::Vector y_, dky_;
   sun::Nonlinear nonlinear_;
-  Eigen::VectorXd x0_;          // the state before the step
-  double x0_at_ = 0.0;          // [s]
-  sun::Corrector corrector_;    // CVODE keeps its address
-  CvodeScene scene_;            // it needs the context, and CVODE needs it
+  Eigen::VectorXd x0_;        // the state before the step
+  double x0_at_ = 0.0;        // [s]
+  sun::Corrector corrector_;  // CVODE keeps its address
+  CvodeScene scene_;          // it needs the context, and CVODE needs it
   sun::Cvode cvode_;
   RungeKutta<Dopri5> starter_;
   bool started_ = false, starting_ = false;

@@ -70,8 +70,9 @@ TEST_CASE("a stiff flight after a reset is BDF's, whatever the tolerance and the
 TEST_CASE("BDF passes jumps that take some roundings of the time", "[laws][bdf]") {
   const double rtol = GENERATE(1e-8, 1e-10, 1e-12);
   const Leaf leaf = van_der_pol(1e6);  // jumps of 1e-6 s at t = 8e5 s
-  const auto results = simulate(leaf, leaf.create_context(), {0.0, 1.2e6},
-                                {.rtol = rtol, .atol = 1e-2 * rtol, .ode_solver_method = Method::bdf});
+  const auto results =
+      simulate(leaf, leaf.create_context(), {0.0, 1.2e6},
+               {.rtol = rtol, .atol = 1e-2 * rtol, .ode_solver_method = Method::bdf});
   CHECK(results.status == Status::reached_end);
   CHECK(results.context.continuous_state()[0] < -1.0);  // it has jumped
 }

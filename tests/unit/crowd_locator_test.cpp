@@ -103,7 +103,8 @@ TEST_CASE("a crowd that crosses twice in a piece fires twice", "[crowd_locator]"
   std::vector<Function> valleys;
   for (const double level : levels(40))
     valleys.push_back([=](double x) { return (x - level) * (x - level) - 1e-3; });
-  const Results results = run(*monitors(valleys, 0.0, Direction::crosses_zero), Method::dopri5, 1.2);
+  const Results results =
+      run(*monitors(valleys, 0.0, Direction::crosses_zero), Method::dopri5, 1.2);
   // sqrt(1e-3) = 0.03 on either side of each level; those below 0.03 begin inside their valley.
   const auto begun_inside =
       std::ranges::count_if(levels(40), [](double l) { return l * l < 1e-3; });

@@ -61,7 +61,8 @@ TEST_CASE("n equal tolerances are one, to the bit, by every method", "[tolerance
 
 TEST_CASE("a wide tolerance of one state saves its steps, by every method", "[tolerance]") {
   const Leaf leaf = decays(vec({1.0, 200.0}));
-  for (const Method method : {Method::dopri5, Method::dop853, Method::adams}) {  // stability bounds no step of bdf
+  for (const Method method :
+       {Method::dopri5, Method::dop853, Method::adams}) {  // stability bounds no step of bdf
     INFO(method);
     SimulatorOptions tight{.rtol = 1e-9, .atol = 1e-11};
     tight.ode_solver_method = method;

@@ -66,8 +66,8 @@ class Formed:
         return joints
 
     def event(self, index: int, /) -> tuple[Any, ...]:
-        t, jump, kind, direction, block, name, predicted, before, after, *rest = (
-            self._record.event(index)
+        t, jump, kind, direction, block, name, predicted, before, after, *rest = self._record.event(
+            index
         )
         change = self._form.state(before), self._form.state(after)
         t, predicted = self._form.time(t), self._form.time(predicted)

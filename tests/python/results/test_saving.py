@@ -175,6 +175,8 @@ def test_any_other_name_is_taken_as_it_is(name, tmp_path):
     solution = saltus.solve(lambda t, x: -x, (0, 1), [1.0])
     solution.save(tmp_path / name)
     same(saltus.load_results(tmp_path / name), solution)
+
+
 def blow_up(t, x):
     return x**2
 

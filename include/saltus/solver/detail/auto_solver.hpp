@@ -148,7 +148,8 @@ class AutoSolver final : public Solver {
     unchecked_ = false;
     if (!(longest_ < thresholds::collapse * before_)) return false;
     const double radius = radius_(explicit_->time(), explicit_->state());
-    return radius_.damping() > 0.9 && radius * before_ > thresholds::far_beyond_stability * explicit_->stability() &&
+    return radius_.damping() > 0.9 &&
+           radius * before_ > thresholds::far_beyond_stability * explicit_->stability() &&
            radius * longest_ > thresholds::least_reach;
   }
 

@@ -222,7 +222,8 @@ class Locator : private CrowdLocator {
     return guard.phase == Phase::armed && !guard.monitor && !guard.jumps &&
            (guard.direction == Direction::positive_then_non_positive ||
             guard.direction == Direction::negative_then_non_negative) &&
-           std::abs(high_[k]) <= thresholds::root_noise * std::abs(high_[k] - low_[k]) && !guard.crossed(high_[k]);
+           std::abs(high_[k]) <= thresholds::root_noise * std::abs(high_[k] - low_[k]) &&
+           !guard.crossed(high_[k]);
   }
 
   [[noreturn]] void throw_not_finite(std::size_t k, double t) const {

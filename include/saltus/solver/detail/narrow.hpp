@@ -120,7 +120,8 @@ class Narrower {
       const double jump = std::abs(high_[k] - low_[k]), change = std::abs(high_[k] - guards_->g[k]);
       const bool jumps = jump * begun > thresholds::jump_steepness * last * std::max(change, jump);
       jump_[k] = jumps ? jump : 0.0;
-      noise_[k] = jumps ? 0.0 : thresholds::root_noise * std::max(std::abs(low_[k]), std::abs(high_[k]));
+      noise_[k] =
+          jumps ? 0.0 : thresholds::root_noise * std::max(std::abs(low_[k]), std::abs(high_[k]));
     }
   }
 
