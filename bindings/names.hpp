@@ -14,9 +14,9 @@ template <class Choice, Choice (*from)(std::string_view)>
 struct NamedChoice {
   PYBIND11_TYPE_CASTER(Choice, pybind11::detail::const_name("str"));
 
-  bool load(pybind11::handle name, bool) {
-    if (!pybind11::isinstance<pybind11::str>(name)) return false;
-    value = from(pybind11::cast<std::string>(name));
+  bool load(pybind11::handle given, bool) {
+    if (!pybind11::isinstance<pybind11::str>(given)) return false;
+    value = from(pybind11::cast<std::string>(given));
     return true;
   }
   static pybind11::handle cast(Choice choice, pybind11::return_value_policy, pybind11::handle) {

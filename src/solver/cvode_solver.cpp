@@ -25,9 +25,11 @@ namespace {
 /// [time constants of the fastest part] A flight of more is left to BDF. An explicit method would
 /// need more than 60 steps for it at its limit of stability, 3.25; BDF starts in 13 to 27.
 constexpr double stiff_flight = 200.0;
-/// [steps in a row] in which the time did not change, as t + h == t. CVODE itself would go on; on
-/// the way to a pole the steps shrink by a part each, so the time stops for good.
-constexpr int most_still_steps = 100;
+/// [steps] that have to advance by as many roundings of the time, if each is shorter than
+/// `short_step` of them. CVODE itself would go on where no time is left, before a pole or a derivative
+/// that is not finite. The jumps of Van der Pol with mu = 1e6 take steps of ten roundings.
+constexpr int watched_steps = 100;
+constexpr double short_step = 16.0;
 
 class CvodeSolver final : public StepSolver<CvodeSolver> {
  public:
@@ -75,7 +77,7 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
   friend StepSolver<CvodeSolver>;
 
   void begin(const Start& how) {
-    if (how.first) first_step_ = 0.0, still_steps_ = 0;
+    if (how.first) first_step_ = 0.0, short_steps_ = 0;
     last_message_.clear();
     x0_at_ = std::numeric_limits<double>::quiet_NaN();
     scene_.begin_at(t1_);
@@ -222,10 +224,22 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
     ++steps_;
     t1_ = flag == CV_TSTOP_RETURN ? t_stop : t;
     length_ = t1_ - t0_;
-    still_steps_ = length_ > 0.0 ? 0 : still_steps_ + 1;
-    if (still_steps_ > most_still_steps)
-      throw_step_too_small(*machine_, t0_, length_, x1_.data(), options_);
+    require_progress();
     std::copy_n(N_VGetArrayPointer(y_.get()), n_, x1_.data());
+  }
+
+  /// Throws if the last steps were so short that the time hardly advanced.
+  void require_progress() {
+    const double rounding = std::numeric_limits<double>::epsilon() * std::abs(t0_);
+    if (length_ > short_step * rounding) {
+      short_steps_ = 0, advanced_ = 0.0;
+      return;
+    }
+    advanced_ += length_;
+    if (++short_steps_ < watched_steps) return;
+    if (advanced_ < watched_steps * rounding || advanced_ == 0.0)
+      throw_step_too_small(*machine_, t0_, length_, x1_.data(), options_);
+    short_steps_ = 0, advanced_ = 0.0;
   }
 
   /// Whether a guard that was at zero when this stretch began may have a false root, because it was
@@ -280,8 +294,9 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
   RungeKutta<Dopri5> starter_;
   bool started_ = false, starting_ = false;
   double first_step_ = 0.0, starter_until_ = 0.0;
-  int steps_ = 0;        // CVODE's steps since its start
-  int still_steps_ = 0;  // steps in a row in which t did not change
+  int steps_ = 0;          // CVODE's steps since its start
+  int short_steps_ = 0;    // in a row
+  double advanced_ = 0.0;  // [s] by them
   mutable SolverStatistics sum_;
 };
 

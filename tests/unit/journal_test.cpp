@@ -115,7 +115,7 @@ TEST_CASE("firings are counted by name; a rest and a release are no firings", "[
   CHECK(run.journal.counts() == expected);
   CHECK(run.journal.events() == 5);
   CHECK(run.results.statistics.events == 5);
-  CHECK(run.journal.last_event() == "leaf.last");
+  CHECK(run.journal.last_event().full() == "leaf.last");
 }
 
 TEST_CASE("the events of an instant are counted anew, those of the run go on", "[journal]") {
@@ -127,7 +127,7 @@ TEST_CASE("the events of an instant are counted anew, those of the run go on", "
   CHECK(run.results.events[1].time == 3.0);
   run.journal.begin();
   CHECK(run.journal.counts().empty());
-  CHECK(run.journal.last_event().empty());
+  CHECK(run.journal.last_event().event.empty());
   CHECK(run.results.events.empty());
 }
 

@@ -27,7 +27,7 @@ class Crawl {
   void begin(double t);
   /// After a step to (t, x). Returns true if the derivative jumps where the solution is.
   bool found(double t, const Eigen::VectorXd& x, double length_of_run) {
-    return looking_ ? compare(t, x) : ++steps_ >= window_ && start(t, x, length_of_run);
+    return looking_ ? compare(t, x) : ++steps_ >= window_ && start(t, length_of_run);
   }
 
   /// The jump: which state, its derivative on both sides, the steps counted, and the time they took.
@@ -40,7 +40,8 @@ class Crawl {
   const Jump& jump() const noexcept { return jump_; }
 
  private:
-  bool start(double t, const Eigen::VectorXd& x, double length_of_run);
+  bool start(double t, double length_of_run);
+  bool found_at(double t, const Eigen::VectorXd& x, Eigen::VectorXd& f);
   bool compare(double t, const Eigen::VectorXd& x);
   /// The state whose derivative has different signs here and ahead, and changes most; -1 if none.
   Index reverses() const;
@@ -52,7 +53,7 @@ class Crawl {
   double since_ = 0.0;    // [s] begin of the window
   double ahead_ = 0.0;    // [s] how far the looks go
   bool looking_ = false;  // steps are compared
-  Eigen::VectorXd to_, f_from_, f_to_, middle_, f_;
+  Eigen::VectorXd low_, high_, middle_, f_from_, f_to_, f_;
   Jump jump_;
 };
 

@@ -79,13 +79,13 @@ class SpectralRadius {
     const double overlap = before_last_.dot(last_);
     const double turned = 1.0 - overlap * overlap;
     if (turned < 1e-6) return growth;
-    // growth growth_before direction_ = a growth_before last_ + b before_last_
-    const double p = growth * direction_.dot(last_), q = growth * direction_.dot(before_last_);
+    // In units of the growth: direction_ = a last_ + b (growth / growth_before) before_last_.
+    const double p = direction_.dot(last_), q = direction_.dot(before_last_);
     const double a = (p - overlap * q) / turned;
-    const double b = growth_before_ * (q - overlap * p) / turned;
+    const double b = growth_before_ / growth * (q - overlap * p) / turned;
     if (!(0.25 * a * a + b < 0.0)) return growth;
     damping_ = -0.5 * a / std::sqrt(-b);
-    return std::sqrt(-b);
+    return growth * std::sqrt(-b);
   }
 
   Machine* machine_;
