@@ -215,7 +215,7 @@ class Simulator:
             self.time,
             "",
         )
-        error.results = results  # type: ignore[attr-defined]
+        error.results = results
         raise error
 
     def _outcome(self, core: _core.Results, raised: BaseException | None, asks: Any) -> Results:

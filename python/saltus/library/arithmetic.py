@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -17,7 +19,7 @@ __all__ = ["Abs", "Adder", "Gain", "Offset", "Product", "Saturate"]
 def _operators(block: str, usual: str, n_in: object, operators: object) -> str:
     """One operator an input; `usual` for each where only their number is said."""
     given = [value for value in (n_in, operators) if value is not None] or [2]
-    counts = [len(v) if isinstance(v, str) else v for v in given]
+    counts: list[Any] = [len(v) if isinstance(v, str) else v for v in given]
     for count in counts:
         if not isinstance(count, (int, np.integer)) or isinstance(count, bool) or count < 1:
             raise ModelError(
@@ -32,7 +34,7 @@ def _operators(block: str, usual: str, n_in: object, operators: object) -> str:
     signs = [v for v in given if isinstance(v, str)]
     if len(set(signs)) > 1:
         raise ModelError(f"block '{block}': operators {signs[0]!r} and {signs[1]!r}; say them once")
-    return signs[0] if signs else usual * int(counts[0])
+    return signs[0] if signs else usual * counts[0]
 
 
 class Gain(Block, _core.Gain):

@@ -73,7 +73,7 @@ class Formed:
         t, predicted = self._form.time(t), self._form.time(predicted)
         return t, jump, kind, direction, block, name, predicted, *change, *rest
 
-    def event_times(self, name: str, kind: str, /) -> np.ndarray:
+    def event_times(self, name: str, kind: str | None, /) -> np.ndarray:
         times: np.ndarray = self._form.time(self._record.event_times(name, kind))
         return times
 

@@ -182,7 +182,7 @@ def _derivatives(
         function = wrapping(jacobian, form.matrix(jacobian, args, size))
         return {"jacobian": function, "jacobian_sparsity": places}
     sparse = hasattr(jacobian, "tocoo")
-    given = jacobian if sparse else _dense(jacobian)
+    given: Any = jacobian if sparse else _dense(jacobian)
     kind = given.dtype.kind
     if kind == "c" and not form.is_complex:
         raise ModelError("solve: jacobian: expected real numbers, as in x0, found complex ones")

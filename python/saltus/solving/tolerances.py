@@ -53,4 +53,4 @@ def first_step_of(first_step: float | None, length: float) -> float | None:
             f"solve: first_step: expected a time > 0 s within t_span, {length:g} s long; found "
             f"{first_step!r}"
         )
-    return first_step
+    return float(first_step)  # type: ignore[arg-type]

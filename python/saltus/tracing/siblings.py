@@ -9,7 +9,8 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
-from saltus.tracing.kept import call_of, start_of
+from saltus._wrapped import OWNER
+from saltus.tracing.kept import call_of, find, start_of
 from saltus.tracing.replay import Replay
 from saltus.tracing.signature import Refused, Signature, Traced
 from saltus.tracing.tracing import trace
@@ -36,6 +37,9 @@ class Siblings:
         """
         if getattr(signature.function, "__code__", None) is None:
             return trace(signature)
+        kept = find(signature) if _is_wrapper(signature) else None
+        if kept is not None:
+            return kept  # not noted: it may have been made for another wrapper
         made = self._made.setdefault(call_of(signature), [])
         found = self._found(made, signature)
         if found is None:
@@ -65,3 +69,12 @@ class Siblings:
             for other, outcome in made
             if isinstance(outcome, Traced)
         )
+
+
+def _is_wrapper(signature: Signature) -> bool:
+    """Whether the function is made anew for each run, to call one of the user's.
+
+    A kept trace may be that of an earlier wrapper. Its reads are of that one's variables, so they
+    cannot be compared with the reads of another wrapper of this run.
+    """
+    return OWNER in getattr(signature.function, "__dict__", {})

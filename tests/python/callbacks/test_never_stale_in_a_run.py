@@ -171,7 +171,7 @@ def test_explain_names_the_value_and_its_writer():
     block = Both("b", PLACES["attribute"](), "update", "ode")
     (ode,) = (c for c in block.explain() if c.callback == "ode")
     assert ode.runs == "called"
-    assert "reads place.u, which the periodic update of 'b' may write" in ode.reason
+    assert "reads place.u, which the periodic update 'periodic_0' of 'b' may write" in ode.reason
 
 
 def test_explain_says_when_it_cannot_know():

@@ -156,7 +156,8 @@ def damage_array(array: np.ndarray, draw: random.Random) -> np.ndarray:
     if kind == 0:
         return array[: draw.randrange(len(array) + 1)]
     if kind == 1:
-        return array.astype(draw.choice([np.int32, np.float32, np.complex128, "U4", bool]))
+        with np.errstate(invalid="ignore", over="ignore"):  # the damage is wanted
+            return array.astype(draw.choice([np.int32, np.float32, np.complex128, "U4", bool]))
     if kind == 2:
         return array.reshape(draw.choice([(1, -1), (-1, 1)]))
     if kind == 3:

@@ -169,3 +169,30 @@ def test_a_thousand_leaves_are_ready_in_two_seconds():
     simulator = saltus.Simulator(diagram)
     simulator.initialize(diagram.create_context())
     assert time.process_time() - begin < 2.0
+
+
+@pytest.mark.parametrize("shared", [False, True])
+def test_the_events_of_a_second_solve_are_those_of_the_first(shared):
+    """Wrappers of different functions have one code; a kept trace belongs to one of them."""
+
+    def up(t, x):
+        return [x[0] - 1.0]
+
+    def down(t, x):
+        return [x[0] + 1.0]
+
+    def go():
+        high = saltus.Guard(lambda t, x: x[0] - 0.75, up, "rising", "high")
+        low = saltus.Guard(lambda t, x: 0.75 + x[0], down, "falling", "low")
+        return [high, low]
+
+    events = go()
+    found = []
+    for _ in range(3):
+        solution = saltus.solve(
+            lambda t, x: [1.0], (0, 3), [0.0], events=events if shared else go()
+        )
+        found.append([times.tolist() for times in solution.t_events])
+        assert found[-1][1] == []
+        assert len(found[-1][0]) == 3
+    assert found[0] == found[1] == found[2]

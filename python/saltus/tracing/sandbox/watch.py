@@ -95,7 +95,8 @@ class AttributeOf:
 def _moved_get(get: Get, move: Callable[[Any], Any]) -> Get:
     """The same look at another object."""
     if isinstance(get, AttributeOf):
-        return get.moved(move)
+        moved_attribute: Get = get.moved(move)
+        return moved_attribute
     mapping = getattr(get, "__self__", None)
     if mapping is None:
         return get
