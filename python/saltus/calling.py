@@ -10,6 +10,8 @@ from typing import Any
 
 from saltus.errors import ModelError
 
+__all__ = ["refuse_signature", "refuse_writing"]
+
 NAMED = (inspect.Parameter.POSITIONAL_OR_KEYWORD, inspect.Parameter.KEYWORD_ONLY)
 
 

@@ -6,6 +6,7 @@ import operator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from saltus import _core
 from saltus.errors import ModelError
 
 if TYPE_CHECKING:
@@ -102,8 +103,6 @@ def core_port(port: OutputPort | InputPort) -> tuple[System, int]:
     The fields of a port are public, so the position may be anything. The engine refuses a position
     that the system does not have.
     """
-    from saltus import _core
-
     if not isinstance(port.system, _core.System):
         raise ModelError(f"expected the port of a system, found one of {port.system!r}")
     position = key_of(port.index)

@@ -11,7 +11,7 @@ import numpy as np
 from saltus import _core
 from saltus.errors import ModelError
 
-__all__ = ["FIRINGS", "KINDS", "KeptRun", "Record"]
+__all__ = ["FIRINGS", "KINDS", "Columns", "KeptRun", "Record"]
 
 FIRINGS = ("zero_crossing", "terminal", "time")
 """kinds of events that say that a guard or a clock fired"""

@@ -18,7 +18,7 @@ from saltus.solving.form import PLAIN, Form
 from saltus.solving.formed import formed
 from saltus.system import System
 
-__all__ = ["Solution"]
+__all__ = ["BLOCK", "Known", "Solution"]
 
 BLOCK = "solve"  # the name of the block that `solve` makes
 WELL = {
