@@ -92,20 +92,6 @@ Results Run::take_results() {
   return taken;
 }
 
-void Run::require_ready(double t_end) const {
-  if (begin_.modes().empty())
-    throw ModelError("advance_to: the run has no values yet; call initialize(context) first");
-  if (begun_ && results_.status == Status::failed) {
-    throw ModelError(text("t = ", time_,
-                          " s: this run has failed; initialize(results.context) "
-                          "goes on from its last accepted state"));
-  }
-  if (!(t_end >= time_)) {
-    throw ModelError(text("cannot run from t = ", time_, " s back to t = ", t_end,
-                          " s; the end has to be later"));
-  }
-}
-
 Status Run::advance_to(double t_end) {
   require_ready(t_end);
   const auto start = std::chrono::steady_clock::now();
@@ -243,73 +229,6 @@ Status Run::after(const Outcome& outcome, const Chattering::Seen& seen, bool idl
   if (outcome.zeno_stop) return end(Status::zeno_stop);
   if (chattering_.chatters(outcome, seen, idle, machine_.x)) return end_chattering();
   return Status::reached_end;
-}
-
-Status Run::end_chattering() {
-  const EventName name = instant_.journal().last_event();
-  results_.block = name.block;
-  return end(Status::chattering,
-             text("t = ", time_, " s: guard '", name.event, "' of block '", name.block, "' fired ",
-                  chattering_.found().count, " times in ", time_ - chattering_.found().since,
-                  " s: time does not advance. Give it hysteresis, a zeno_tolerance above 0 s, or a "
-                  "mode of its own for the motion along the switching surface"));
-}
-
-Status Run::end_crawl() {
-  const Crawl::Jump& jump = crawl_.jump();
-  const PlanLeaf& leaf = *std::ranges::find_if(plan().leaves, [&](const PlanLeaf& each) {
-    return each.x <= jump.state && jump.state < each.x + each.nx;
-  });
-  results_.block = leaf.path;
-  return end(Status::chattering,
-             text("t = ", time_, " s: ", jump.steps, " steps took ", jump.took,
-                  " s, because the derivative of state x[", jump.state - leaf.x, "] of block '",
-                  leaf.path, "' jumps from ", jump.below, " to ", jump.above, " where x[",
-                  jump.state - leaf.x, "] = ", jump.at,
-                  ": the solution slides along the jump, and no step passes it. Write the branch "
-                  "as a relation or as two modes with a guard each, with a mode of its own for the "
-                  "motion along the jump, or make it steep but continuous"));
-}
-
-bool Run::interrupted() {
-  if (!options_.interrupt) return false;
-  const auto now = std::chrono::steady_clock::now();
-  if (now - interrupt_.asked < std::chrono::milliseconds(20)) return false;
-  interrupt_.asked = now;
-  return options_.interrupt();
-}
-
-/// Ends the run with an error. Called in a handler: the present exception is the cause.
-void Run::fail(std::string message) {
-  results_.status = Status::failed;
-  results_.message = std::move(message);
-  results_.cause = std::current_exception();
-  take_accepted();
-}
-
-/// Puts the last accepted state into the machine. An instant under way is undone with its rows.
-void Run::take_accepted() {
-  if (std::exchange(accepted_.in_instant, false)) {
-    instant_.undo();
-    if (recorder_) recorder_->shorten(accepted_.rows);
-  } else {
-    guards_.arm_again(guards_.fired_at_root);  // the instant at the end of the step has not begun
-  }
-  if (accepted_.place != Place::solver) return;
-  machine_.x = solver_->state();
-  try {
-    machine_.put_carried(time_, machine_.x.data());
-  } catch (...) {  // what failed is in the results; the state is that of the step
-    detail::pass_end_of_thread();
-    machine_.x = solver_->state();
-  }
-}
-
-Status Run::end(Status status, std::string message) {
-  over_ = true;
-  results_.status = status;
-  results_.message = std::move(message);
-  return status;
 }
 
 }  // namespace saltus
