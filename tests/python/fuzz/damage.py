@@ -147,7 +147,7 @@ def damage_fields(tree: Any, draw: random.Random) -> Any:
         elif kind == 3 and isinstance(container[key], (int, float)):
             container[key] += draw.choice([-1, 1, 0.5])
         else:
-            container[key] = draw.choice(NASTY)
+            container[key] = copy.deepcopy(draw.choice(NASTY))
     return damaged
 
 
