@@ -26,7 +26,7 @@ class Narrower {
   Narrower(Machine& machine, GuardSet& guards)
       : machine_(&machine), guards_(&guards), x_(static_cast<std::size_t>(machine.plan().nx)) {
     const auto slots = static_cast<std::size_t>(machine.plan().guard_slots);
-    for (auto* values : {&low_, &high_, &middle_, &third_, &noise_, &jump_})
+    for (auto* values : {&low_, &high_, &middle_, &third_, &noise_, &jump_, &begun_})
       values->assign(slots, 1.0);
     crossed_.reserve(slots), limits_.reserve(slots);
   }
@@ -68,7 +68,7 @@ class Narrower {
   /// third_at_, another look nearby; third_at_ is infinite if there is none.
   template <class Interpolate>
   double narrow(double low, double high, const Interpolate& interpolate) {
-    low_ = guards_->g;
+    low_ = guards_->g, begun_ = high_;
     const double begun = high - low;
     int kept = 0;   // looks in a row that kept the low (> 0) or the high (< 0) end
     int zeros = 0;  // looks in a row with exact zeros only: a plateau is halved to its beginning
@@ -103,6 +103,7 @@ class Narrower {
   std::vector<double> low_, high_, middle_, third_;
   double third_at_ = 0.0;
   std::vector<double> noise_;  // of guards near their root, by the rounding of interpolants
+  std::vector<double> begun_;  // guards at the high end of the whole interval
   std::vector<double> jump_;   // of guards that seem to jump at their root, otherwise 0
   std::vector<std::size_t> crossed_;
   std::vector<std::pair<double, double>> limits_;  // of the active guards
@@ -117,7 +118,8 @@ class Narrower {
   /// has no noise: it is `jump_steepness` times as steep there as in the whole interval.
   void note_ends(double last, double begun) {
     for (const std::size_t k : crossed_) {
-      const double jump = std::abs(high_[k] - low_[k]), change = std::abs(high_[k] - guards_->g[k]);
+      const double jump = std::abs(high_[k] - low_[k]);
+      const double change = std::abs(begun_[k] - guards_->g[k]);
       const bool jumps = jump * begun > thresholds::jump_steepness * last * std::max(change, jump);
       jump_[k] = jumps ? jump : 0.0;
       noise_[k] =
