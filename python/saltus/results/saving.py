@@ -125,7 +125,8 @@ def load_results(path: str | PathLike[str]) -> Results:
         results: Results = KINDS[header["kind"]](_kept(header, arrays), header)
         return results
     except OSError as error:
-        if error.errno != errno.EINVAL:  # else a damaged file names a place before its beginning
+        # A place before the beginning of the file, or a damaged stream, which has no number.
+        if error.errno not in (None, errno.EINVAL):
             raise
         reason = str(error)
     except (zipfile.BadZipFile, ModelError, EOFError, KeyError) as error:

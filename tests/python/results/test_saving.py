@@ -260,3 +260,21 @@ def test_6_7_a_forged_field_of_a_file_is_refused(change, tmp_path):
     _, results = ball_run()
     results.save(tmp_path / "ball.npz")
     forged(tmp_path / "ball.npz", tmp_path, change)
+
+
+@pytest.mark.parametrize("kind", [zipfile.ZIP_DEFLATED, zipfile.ZIP_BZIP2, zipfile.ZIP_LZMA])
+def test_6_7_a_damaged_stream_of_any_compression_is_refused(kind, tmp_path):
+    path = tmp_path / "run.npz"
+    saltus.solve(lambda t, x: -x, (0, 1), [1.0]).save(path)
+    with zipfile.ZipFile(path) as parts:
+        contents = {name: parts.read(name) for name in parts.namelist()}
+    with zipfile.ZipFile(path, "w", kind) as parts:
+        for name, content in contents.items():
+            parts.writestr(name, content)
+    assert saltus.load_results(path).status == "reached_end"  # it is sound before
+    damaged = bytearray(path.read_bytes())
+    begin = 30 + len(next(iter(contents))) + 8  # of the first stream, after its header
+    damaged[begin : begin + 12] = bytes(range(200, 212))
+    path.write_bytes(damaged)
+    with pytest.raises(saltus.ModelError, match=r"expected a file of Results\.save"):
+        saltus.load_results(path)
