@@ -5,7 +5,7 @@
 #include <optional>
 #include <unordered_map>
 
-#include "saltus/model/detail/wiring_errors.hpp"
+#include "saltus/model/detail/feedthrough_order.hpp"
 
 namespace saltus::detail {
 
@@ -94,60 +94,6 @@ class Wiring {
   std::size_t outputs_ = 0;
 };
 
-/// Visits each node after the nodes it needs, depth first; a node that needs itself ends a loop.
-class Loops {
- public:
-  explicit Loops(const Wiring& wiring) : wiring_(wiring), mark_(wiring.size(), Mark::fresh) {}
-
-  std::vector<int> order() {
-    for (std::size_t i = 0; i < mark_.size(); ++i) {
-      enter(static_cast<int>(i));
-      while (!path_.empty()) go_on();
-    }
-    return std::move(order_);
-  }
-
- private:
-  enum class Mark : char { fresh, open, done };
-  struct Open {
-    int node;
-    std::vector<int> left;  // of the nodes it needs
-  };
-
-  void enter(int i) {
-    Mark& mark = mark_[static_cast<std::size_t>(i)];
-    if (mark == Mark::done) return;
-    if (mark == Mark::open) throw_loop(i);
-    mark = Mark::open;
-    path_.push_back({i, wiring_.needs(i)});
-    std::ranges::reverse(path_.back().left);
-  }
-
-  void go_on() {
-    Open& last = path_.back();
-    if (!last.left.empty()) {
-      const int next = last.left.back();
-      last.left.pop_back();
-      return enter(next);
-    }
-    mark_[static_cast<std::size_t>(last.node)] = Mark::done;
-    order_.push_back(last.node);
-    path_.pop_back();
-  }
-
-  [[noreturn]] void throw_loop(int start) const {
-    std::vector<std::string> loop;
-    for (auto it = std::ranges::find(path_, start, &Open::node); it != path_.end(); ++it)
-      loop.push_back(wiring_.name_of(it->node));
-    throw_algebraic_loop(loop);
-  }
-
-  const Wiring& wiring_;
-  std::vector<Mark> mark_;
-  std::vector<Open> path_;  // from reader to read node
-  std::vector<int> order_;
-};
-
 /// The shapes of all nodes as far as they are known. A rule that gives no entries does not know yet.
 class Widths {
  public:
@@ -202,7 +148,9 @@ class Widths {
 
 void require_sound(const Diagram& diagram) {
   const Wiring wiring(diagram);
-  const std::vector<int> order = Loops(wiring).order();
+  const auto needs = [&](int i) { return wiring.needs(i); };
+  const auto name = [&](int i) { return wiring.name_of(i); };
+  const std::vector<int> order = FeedthroughOrder(wiring.size(), needs, name).run();
   Widths(wiring, order).check();
 }
 

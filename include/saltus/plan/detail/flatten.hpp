@@ -197,7 +197,7 @@ inline void add_shapes(Plan& plan) {
   Shaping(plan).run();
   for (Node& node : plan.nodes) {
     if (!node.shaped) {
-      Ordering(plan).run();  // more often the cause is an algebraic loop: this throws with its path
+      order_of(plan);  // more often the cause is an algebraic loop: this throws with its path
       throw ModelError(text("the width of output '", plan.name_of(node),
                             "' depends on itself around a loop; put a block of known width, for "
                             "example an Integrator "
