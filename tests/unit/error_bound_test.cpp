@@ -15,7 +15,7 @@ TEST_CASE("The error bound before the flow is asked") {
   const ErrorFacts fired{.g = -2e-16, .location = 4e-16, .fired = true};
   ErrorFacts left = fired, jumped = fired;
   left.left_error = true;
-  jumped.jumped = jumped.left_error = true, jumped.location = 0.0, jumped.g = -1.0;
+  jumped.location = location_error(-1.0, true), jumped.g = -1.0;
   CHECK(error_so_far(fired) == 4e-16);
   CHECK(error_so_far(left) == 1.01 * 2e-16);
   CHECK(error_so_far(jumped) == 0.0);

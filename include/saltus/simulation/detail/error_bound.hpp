@@ -24,33 +24,29 @@
 namespace saltus {
 
 /// The term by location of a guard with this value at its root.
-constexpr double location_error(double g_at_root, bool jumped) {
-  return jumped ? 0.0 : thresholds::location_error * (g_at_root < 0.0 ? -g_at_root : g_at_root);
+inline double location_error(double g_at_root, bool jumped) {
+  return jumped ? 0.0 : thresholds::location_error * std::abs(g_at_root);
 }
 
 /// What is known of the error of a guard before the flow is asked.
 struct ErrorFacts {
-  double g = 0.0;           ///< its value
-  double location = 0.0;    ///< the term by location, of a guard that fired
-  bool fired = false;       ///< in this instant
-  bool jumped = false;      ///< at its root
-  bool left_error = false;  ///< it fired on leaving its error: it was not clearly off zero before
+  double g = 0.0;               ///< its value
+  double location = 0.0;        ///< the term by location, of a guard that fired; 0 where it jumped
+  bool fired = false;           ///< in this instant
+  bool left_error = false;      ///< it fired on leaving its error, and did not jump
   bool counts_as_zero = false;  ///< it waits, its mode was entered, or a commit put it at zero
 };
 
 /// The bound before the flow is asked.
 ///
-///     fired, jumped                   0
-///     fired, was clearly off zero     location
+///     fired, was clearly off zero     location: 0 where it jumped
 ///     fired on leaving its error      its value, and one part in a hundred for the rounding of the
 ///                                     reset: bounds made from bounds would grow without end
 ///     counts as zero                  its value
 ///     otherwise                       0
-constexpr double error_so_far(const ErrorFacts& facts) {
-  const double value = facts.g < 0.0 ? -facts.g : facts.g;
-  if (facts.fired) {
-    return facts.left_error && !facts.jumped ? thresholds::kept_error * value : facts.location;
-  }
+inline double error_so_far(const ErrorFacts& facts) {
+  const double value = std::abs(facts.g);
+  if (facts.fired) return facts.left_error ? thresholds::kept_error * value : facts.location;
   return facts.counts_as_zero ? value : 0.0;
 }
 

@@ -52,7 +52,6 @@ struct GuardNow {
   bool fired_in_pass = false;  ///< it fired in this pass
   bool frozen = false;         ///< a relation: it keeps its side through this instant
   bool turned = false;         ///< a relation: its side changed when it was read again
-  bool jumped = false;         ///< its value jumped across zero at the root
   bool put_at_zero = false;    ///< the last commit moved it to zero, within its error
 };
 
@@ -86,7 +85,6 @@ struct Present {
     return saltus::error_so_far({.g = g[k],
                                  .location = now[k].location,
                                  .fired = now[k].fired,
-                                 .jumped = now[k].jumped,
                                  .left_error = !std::isnan(now[k].flight),
                                  .counts_as_zero = counts_as_zero});
   }
