@@ -10,7 +10,7 @@ from types import FunctionType, SimpleNamespace
 import numpy as np
 import pytest
 import saltus
-from saltus.tracing import Refused, Traced, trace, tracing
+from saltus.tracing import Refused, Traced, trace
 from tracing_cases import signature
 
 RATE = 2.0
@@ -33,20 +33,6 @@ def end(f, x0=(1.0,), **options):
 
 def end_anew(f, *arguments, **options):
     return end(fresh(f), *arguments, **options)
-
-
-@pytest.fixture
-def made(monkeypatch):
-    """One entry for each function that is traced, not looked up."""
-    calls = []
-
-    class Counted(tracing.Sandbox):
-        def __init__(self):
-            calls.append(1)
-            super().__init__()
-
-    monkeypatch.setattr(tracing, "Sandbox", Counted)
-    return calls
 
 
 def ball():

@@ -6,24 +6,10 @@ import time
 import numpy as np
 import pytest
 import saltus
-from saltus.tracing import Siblings, Traced, tracing
+from saltus.tracing import Siblings, Traced
 from tracing_cases import signature
 
 COUNT = 60
-
-
-@pytest.fixture
-def made(monkeypatch):
-    """One entry for each function that is traced, not looked up."""
-    calls = []
-
-    class Counted(tracing.Sandbox):
-        def __init__(self):
-            calls.append(1)
-            super().__init__()
-
-    monkeypatch.setattr(tracing, "Sandbox", Counted)
-    return calls
 
 
 class Cell(saltus.LeafSystem):
