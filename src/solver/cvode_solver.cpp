@@ -26,10 +26,9 @@ namespace {
 /// need more than 60 steps for it at its limit of stability, 3.25; BDF starts in 13 to 27.
 constexpr double stiff_flight = 200.0;
 /// [steps] that have to advance by as many roundings of the time, if each is shorter than
-/// `short_step` of them. CVODE itself would go on where no time is left, before a pole or a derivative
+/// `least_step_roundings` of them. CVODE itself would go on where no time is left, before a pole or a derivative
 /// that is not finite. The jumps of Van der Pol with mu = 1e6 take steps of ten roundings.
 constexpr int watched_steps = 100;
-constexpr double short_step = 16.0;
 
 class CvodeSolver final : public StepSolver<CvodeSolver> {
  public:
@@ -230,8 +229,8 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
 
   /// Throws if the last steps were so short that the time hardly advanced.
   void require_progress() {
-    const double rounding = std::numeric_limits<double>::epsilon() * std::abs(t0_);
-    if (length_ > short_step * rounding) {
+    const double rounding = thresholds::eps * std::abs(t0_);
+    if (length_ > thresholds::least_step_roundings * rounding) {
       short_steps_ = 0, advanced_ = 0.0;
       return;
     }

@@ -129,8 +129,8 @@ inline constexpr double crawl_share = 0.25;
 /// across a jump, and the steps that precede it ten times the mean.
 inline constexpr double crawl_ahead = 8.0;
 /// [steps] that are compared, and those of them in which a derivative must change its sign. A
-/// solution that passes a jump now and then is so near to it in one of forty; one that slides, in
-/// nearly all.
+/// solution that passes a jump now and then is so near to it in one of forty steps. A solution that
+/// slides along a jump is so near in nearly all.
 inline constexpr int crawl_compared = 32;
 inline constexpr int crawl_reversals = 16;
 /// [halvings] They take the ends of a step to neighbouring numbers, or, where the jump is at zero,

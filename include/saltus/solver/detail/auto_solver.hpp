@@ -153,8 +153,8 @@ class AutoSolver final : public Solver {
            radius * longest_ > thresholds::least_reach;
   }
 
-  /// Whether stability bounds the steps beside a fast oscillation that is hardly damped. BDF would
-  /// damp one that grows.
+  /// Whether stability bounds the steps beside a fast oscillation that is hardly damped. An
+  /// oscillation that grows does not count, because BDF would damp it.
   bool oscillates_beside() {
     StiffnessTest& test = explicit_->stiffness();
     if (!test.may_oscillate()) return false;

@@ -26,7 +26,7 @@ class CrowdLocator : protected Glance {
   enum class Crowd {
     located,   ///< from a few looks for all of them
     too_wide,  ///< not at all: a shorter interval is needed
-    mixed      ///< not at all: there is another guard, or one that is no smooth function of time
+    mixed      ///< not at all: a guard is no monitor, or no smooth function of time
   };
 
   /// Locates the crossings of many monitors together. crossed_ and high_ are those at `to`.

@@ -74,12 +74,13 @@ struct Guard : GuardTraits {
   /// early by the whole error, or would be repeated at once.
   bool waits() const noexcept { return at_zero() || error > 0.0; }
 
-  /// Whether it has one direction, and is on its firing side.
-  bool is_beyond() const noexcept {
-    return (direction == Direction::positive_then_non_positive ||
-            direction == Direction::negative_then_non_negative) &&
-           side == firing_side(direction);
+  /// Whether it fires in one direction only: the other side of zero is its armed side.
+  bool has_one_direction() const noexcept {
+    return direction == Direction::positive_then_non_positive ||
+           direction == Direction::negative_then_non_negative;
   }
+  /// Whether it has one direction, and is on its firing side.
+  bool is_beyond() const noexcept { return has_one_direction() && side == firing_side(direction); }
 
   /// Whether it fires at this value.
   bool crossed(double value) const {

@@ -220,8 +220,7 @@ class Locator : private CrowdLocator {
   bool is_beside_root(std::size_t k) const {
     const Guard& guard = (*guards_)[k];
     return guard.phase == Phase::armed && !guard.monitor && !guard.jumps &&
-           (guard.direction == Direction::positive_then_non_positive ||
-            guard.direction == Direction::negative_then_non_negative) &&
+           guard.has_one_direction() &&
            std::abs(high_[k]) <= thresholds::root_noise * std::abs(high_[k] - low_[k]) &&
            !guard.crossed(high_[k]);
   }
