@@ -1,4 +1,4 @@
-// LeafSystem: the functions with which python/saltus/leaf_system.py declares blocks.
+// LeafSystem: the functions with which python/saltus/leaf_system/ declares blocks.
 #include <pybind11/stl.h>
 
 #include "made.hpp"

@@ -6,7 +6,7 @@ namespace saltus::python {
 
 namespace {
 
-/// The options of one zero crossing, as python/saltus/leaf_system.py passes them. Messages name the
+/// The options of one zero crossing, as python/saltus/leaf_system/guards.py passes them. Messages name the
 /// block, the zero crossing and the option.
 class Options {
  public:
