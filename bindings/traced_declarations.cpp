@@ -5,6 +5,7 @@
 
 #include "saltus/model/detail/names.hpp"
 #include "taped.hpp"
+#include "traced_formula.hpp"
 
 namespace saltus::python {
 
@@ -53,6 +54,10 @@ class Writer {
   void note_touches(ZeroCrossing& crossing, int index);
   std::optional<Slot> slot_of(Role role, int index) const;
   VectorFunction taped(const Slot& slot) const { return python::taped(original_, slot); }
+  /// The formula, where the author of the block allows one; otherwise empty.
+  Formula formula(const Slot& slot) const {
+    return original_.function(slot->function).formula ? formula_of(slot->tape) : Formula();
+  }
 
   const PythonLeaf& original_;
   const std::vector<Slot>& slots_;
@@ -86,6 +91,7 @@ void Writer::put(const Slot& slot) {
       return;
     case Role::guard:
       crossing().guard = taped(slot);
+      crossing().formula = formula(slot);
       return;
     case Role::reset_map:
       crossing().reset_map = taped_reset(original_, slot, crossing().reset_map);
@@ -107,6 +113,7 @@ void Writer::put(const Slot& slot) {
 void Writer::put_ode(const Slot& slot) {
   ContinuousState& state = declared_.continuous;
   state.ode = taped(slot);
+  state.formula = formula(slot);
   state.reads = slot->tape.reads();
   state.inputs = inputs_of(original_, slot);
   if (state.jacobian || state.sparse_jacobian || !slot->jacobian) return;
@@ -127,7 +134,7 @@ void Writer::put_output(const Slot& slot) {
   if (output.boolean && slot->relations && output.reads == found)
     put_relations(slot, output);
   else
-    output.calc = taped(slot);
+    output.calc = taped(slot), output.formula = formula(slot);
 }
 
 /// A relation that Python declares: its guard as a tape.
@@ -135,6 +142,7 @@ void Writer::put_relation(const Slot& slot) {
   auto& relation =
       declared_.relations[static_cast<std::size_t>(original_.function(slot->function).index)];
   relation.guard = taped(slot);
+  relation.formula = formula(slot);
   relation.reads = slot->tape.reads();
   relation.inputs = inputs_of(original_, slot);
 }

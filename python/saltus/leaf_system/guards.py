@@ -35,6 +35,7 @@ class DeclaresGuards(_core.LeafSystem):
         at_start: str = "auto",
         on_zeno: str | int = "hold",
         holds: Sequence[Sequence[int]] | None = None,
+        formula: bool = False,
     ) -> None:
         """An event where g = guard(time, state, *inputs, **parameters), a smooth number in any
         unit, reaches zero or crosses it. A truth is a guard, too, with the positive side where it
@@ -60,6 +61,7 @@ class DeclaresGuards(_core.LeafSystem):
         - `holds` lists, for each of the `size` guards, the positions in the continuous state that
           rest on a hold, such as [[0, 1]]; without it all do.
         - `zeno_tolerance` [s] overrides that of the simulator options, 0 switches the monitor off.
+        - `formula` is as for `declare_output_port`, for the guard.
 
         A ModelError for a name declared twice, an unknown direction, `at_start` or `on_zeno` (with
         the nearest name), a `size` or `max_count` below 1, a `max_count` without `terminal`, a
@@ -76,6 +78,7 @@ class DeclaresGuards(_core.LeafSystem):
             "on_zeno": on_zeno,
             "zeno_tolerance": zeno_tolerance,
             "holds": holds,
+            "formula": bool(formula),
             "inputs": inputs_of(requires_inputs),
         }
         super().declare_zero_crossing(
@@ -91,6 +94,7 @@ class DeclaresGuards(_core.LeafSystem):
         requires_inputs: RequiresInputs = True,
         size: int = 1,
         reads: Iterable[str] = EVERYTHING,
+        formula: bool = False,
     ) -> int:
         """A truth with a smooth guard: true while g = guard(time, state, *inputs, **parameters) is
         positive. Returns its position in `state.relations`.
@@ -98,7 +102,7 @@ class DeclaresGuards(_core.LeafSystem):
         The engine locates the zeros of the guard and holds the truth between them, so a derivative
         may jump with the truth. `true_at_zero` is the truth for g = 0 where no side is known yet.
         With `size` n the guard returns n numbers, and the truth is a read-only array of 0 and 1 in
-        place of a bool. `reads` is as for `declare_output_port`. An output that reads
+        place of a bool. `reads`, `formula` are as for `declare_output_port`. An output that reads
         `state.relations` is declared after the relation. A callback that reads them is called, not
         traced; the guard itself is traced.
 
@@ -129,6 +133,7 @@ class DeclaresGuards(_core.LeafSystem):
             size,
             inputs_of(requires_inputs),
             list(reads),
+            bool(formula),
         )
 
     @refusing

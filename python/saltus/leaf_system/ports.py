@@ -39,6 +39,7 @@ class DeclaresPorts(_core.LeafSystem):
         default_value: ArrayLike | None = None,
         boolean: bool | None = None,
         reads: Iterable[str] = EVERYTHING,
+        formula: bool = False,
     ) -> int:
         """An output, y = callback(time, state, *inputs, **parameters), called out_0, out_1, ... if
         not said; returns its position.
@@ -49,6 +50,13 @@ class DeclaresPorts(_core.LeafSystem):
         and held in between. `reads` says what it depends on, of 'time', 'continuous_state',
         'discrete_state', 'mode', 'inputs': what reads neither time nor a continuous state is
         computed at events only, not at every stage of the solver.
+
+        With `formula` a run may compute the trace of the callback together with those of the blocks
+        around it, to the same bits. Where the others make a finite number of an inf or nan of the
+        callback, as of 1/0, nothing raises or warns then. In a `Simulator` the formula is that of
+        the whole run: if an attribute that it reads changes between two pieces, the next piece is a
+        `ModelError`. A callback that is not traced, that reads a discrete state or the mode, or
+        that returns more than 16 numbers remains a call.
         """
         inputs = inputs_of(requires_inputs)
         return super().declare_output_port(
@@ -59,6 +67,7 @@ class DeclaresPorts(_core.LeafSystem):
             boolean,
             list(reads),
             _core.Convention.state,
+            bool(formula),
         )
 
     @refusing

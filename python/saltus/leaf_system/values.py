@@ -30,6 +30,7 @@ class DeclaresValues(_core.LeafSystem):
         jacobian: Callable[..., ArrayLike] | None = None,
         jacobian_sparsity: Any = None,
         sparse_jacobian: Callable[..., ArrayLike] | None = None,
+        formula: bool = False,
     ) -> None:
         """The continuous state x, with dx/dt = ode(time, state, *inputs, **parameters), in units of
         x per second.
@@ -44,6 +45,8 @@ class DeclaresValues(_core.LeafSystem):
         a stiff method then needs neither memory nor calls for the others. Name too many rather than
         too few. `sparse_jacobian` gives the values there, in that order (for a matrix that of its
         `nonzero()`).
+
+        `formula` is as for `declare_output_port`.
         """
         what = f"block '{self.name}': continuous state"
         initial = initial_of(what, shape, default_value)
@@ -57,6 +60,7 @@ class DeclaresValues(_core.LeafSystem):
             callback_of(jacobian),
             places,
             callback_of(sparse_jacobian),
+            bool(formula),
         )
 
     @refusing
