@@ -20,14 +20,16 @@ inline constexpr double step_safety = 0.9;
 /// formula). tests/unit/step_size_test.cpp
 inline constexpr double beta_of_exponent = 0.75;
 /// [log2 of tolerances] The controller remembers no error below 1e-4 (the code DOPRI5).
+/// tests/unit/step_size_test.cpp
 inline constexpr double least_remembered = -13.287712379549449;
 /// [tolerances] Below this error both powers together exceed the longest factor, so log2 is not
-/// computed.
+/// computed. That holds up to 1e-8: tests/unit/step_size_test.cpp
 inline constexpr double negligible_error = 1e-9;
-/// [1] Bounds of the factor after a rejection. The codes shorten to a tenth at most; after a change
-/// of mode a thousandth may be right, which an error of 1e10 shows.
-inline constexpr double shortest_retry = 1e-3, longest_retry = 0.9;
+/// [1] The least factor after a rejection. The codes shorten to a tenth at most; after a change of
+/// mode a thousandth may be right, which an error of 1e10 shows. tests/unit/step_size_test.cpp
+inline constexpr double shortest_retry = 1e-3;
 /// [1] The factor after an error that is not finite: the codes' most cautious.
+/// tests/unit/step_size_test.cpp
 inline constexpr double blind_retry = 0.1;
 /// [eps |t|] A shorter step is an underflow: its twelve stages would hardly be different times.
 inline constexpr double least_step_roundings = 16.0;
@@ -35,24 +37,25 @@ inline constexpr double least_step_roundings = 16.0;
 // --- the first step: step_size.hpp (Hairer, Norsett, Wanner I, p. 169)
 
 /// [tolerances] States that move by less until the end of the run rest.
+/// tests/unit/step_size_test.cpp
 inline constexpr double resting_change = 1e-5;
-/// [of the run] Length of the trial step of states that rest.
+/// [of the run] Length of the trial step of states that rest. tests/unit/step_size_test.cpp
 inline constexpr double resting_step = 1e-3;
 /// [1] The trial step changes the states by this part; the first step's error is this part of a
-/// tolerance.
+/// tolerance. tests/unit/step_size_test.cpp
 inline constexpr double first_change = 0.01;
-/// [trial steps] The time in which the states change by themselves: 1 / first_change.
-inline constexpr double time_of_change = 100.0;
-/// [tolerances] A smaller slope and curvature bound no step.
-inline constexpr double no_curvature = 1e-15;
-/// [eps |t|] The least first step, as CVODE's.
+/// [trial steps] The time in which the states change by themselves.
+inline constexpr double time_of_change = 1.0 / first_change;
+/// [eps |t|] The least first step, as CVODE's. tests/unit/step_size_test.cpp
 inline constexpr double first_step_roundings = 100.0;
 
 // --- when no step is small enough: step_size.hpp
 
 /// [steps] and [eps |t|]: a value that is not finite within the larger of these ahead is the cause.
+/// tests/unit/step_size_test.cpp
 inline constexpr double ahead_steps = 16.0, ahead_roundings = 64.0;
 /// [min_minor_step_size] A step of this length is at the lower bound, but for rounding.
+/// tests/unit/step_size_test.cpp
 inline constexpr double at_min_step = 1.01;
 
 // --- dense output of dop853: runge_kutta.hpp
