@@ -1,4 +1,4 @@
-// LeafSystem: the functions with which python/saltus/leaf_system.py declares blocks.
+// LeafSystem: the functions with which python/saltus/leaf_system/ declares blocks.
 #include <pybind11/stl.h>
 
 #include "made.hpp"
@@ -40,13 +40,15 @@ using Places = std::vector<std::pair<Index, Index>>;
 
 void declare_continuous_state(py::handle self, py::handle initial, py::object ode,
                               const InputList& inputs, py::object jacobian,
-                              const std::optional<Places>& sparsity, py::object sparse_jacobian) {
+                              const std::optional<Places>& sparsity, py::object sparse_jacobian,
+                              bool formula) {
   PythonLeaf& leaf = leaf_of(self);
   const Array values = to_array(initial, text("block '", leaf.name(), "': continuous state"));
   ContinuousState state{.initial = as_vector(values), .inputs = inputs};
   if (!ode.is_none())
     state.ode = leaf.vector_function(
-        leaf.add(self, std::move(ode), {.inputs = inputs, .what = "ode", .role = Role::ode}));
+        leaf.add(self, std::move(ode),
+                 {.inputs = inputs, .what = "ode", .role = Role::ode, .formula = formula}));
   if (!jacobian.is_none()) {
     state.jacobian = leaf.matrix_function(leaf.add(
         self, std::move(jacobian), {.inputs = inputs, .what = "jacobian", .role = Role::jacobian}));
@@ -90,7 +92,8 @@ Reads reads_of(const PythonLeaf& leaf, const std::string& what,
 }
 
 int declare_relation(py::handle self, py::object guard, std::string name, bool true_at_zero,
-                     Index size, const InputList& inputs, const std::vector<std::string>& reads) {
+                     Index size, const InputList& inputs, const std::vector<std::string>& reads,
+                     bool formula) {
   PythonLeaf& leaf = leaf_of(self);
   const int index = count_of(leaf.declarations().relations);
   const std::string what = text("relation '", name.empty() ? text("relation_", index) : name, "'");
@@ -104,16 +107,19 @@ int declare_relation(py::handle self, py::object guard, std::string name, bool t
                     .reads = reads_of(leaf, what, reads),
                     .inputs = inputs,
                     .formula = {}};
-  relation.guard = leaf.vector_function(leaf.add(
-      self, std::move(guard),
-      {.inputs = inputs, .what = text("guard of ", what), .role = Role::relation, .index = index}));
+  relation.guard = leaf.vector_function(leaf.add(self, std::move(guard),
+                                                 {.inputs = inputs,
+                                                  .what = text("guard of ", what),
+                                                  .role = Role::relation,
+                                                  .formula = formula,
+                                                  .index = index}));
   return leaf.declare_relation(std::move(relation)).value;
 }
 
 int declare_output_port(py::handle self, py::object function, std::string name,
                         const InputList& inputs, const std::optional<Dimensions>& shape,
                         std::optional<bool> boolean, const std::vector<std::string>& reads,
-                        Convention convention) {
+                        Convention convention, bool formula) {
   PythonLeaf& leaf = leaf_of(self);
   const std::string what =
       text("output '", name.empty() ? text("out_", leaf.output_names().size()) : name, "'");
@@ -124,6 +130,7 @@ int declare_output_port(py::handle self, py::object function, std::string name,
                                    .inputs = inputs,
                                    .what = what,
                                    .role = Role::output,
+                                   .formula = formula,
                                    .index = count_of(leaf.declarations().outputs)}),
                          shape_from(shape), boolean, all);
 }

@@ -1,4 +1,4 @@
-// What python/saltus/callbacks.py makes traces with.
+// What python/saltus/callbacks/ makes traces with.
 #include <array>
 #include <atomic>
 

@@ -1,4 +1,4 @@
-// A Python block as python/saltus/callbacks.py sees it.
+// A Python block as python/saltus/callbacks/ sees it.
 #pragma once
 
 #include "numbers.hpp"

@@ -57,6 +57,7 @@ struct Function {
   InputList inputs = {};
   std::string what = {};  // names it in messages
   Role role = Role::output;
+  bool formula = false;           // a plan may compute it together with its neighbours
   int index = 0;                  // of the declaration it belongs to, among those of its kind
   bool in_place = false;          // it fills an array called `out`
   CompiledPointer compiled = {};  // in place of Python

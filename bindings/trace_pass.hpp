@@ -39,7 +39,7 @@ class TracePass final : public Refinement {
   py::object trace_block_;
 };
 
-/// The pass for the object `callbacks` of python/saltus/callbacks.py. Null, which leaves the system
+/// The pass for the object `callbacks` of python/saltus/callbacks/. Null, which leaves the system
 /// as it declares itself, if that is None or there is no Python block.
 std::shared_ptr<TracePass> trace_pass(const py::object& callbacks);
 

@@ -1,58 +1,19 @@
 #include "traced_declarations.hpp"
 
-#include "saltus/model/detail/names.hpp"
-
-#include <cmath>
-#include <map>
 #include <optional>
 #include <utility>
+
+#include "saltus/model/detail/names.hpp"
+#include "taped.hpp"
+#include "traced_formula.hpp"
 
 namespace saltus::python {
 
 namespace {
 
-/// The mode among what a tape gives; empty if it is no mode.
-std::optional<int> as_mode(double value) {
-  if (value != std::nearbyint(value) || std::abs(value) > 1e9) return std::nullopt;
-  return static_cast<int>(value);
-}
-
-/// A reset map or update: x+, z+, mode+ one after the other, of those it writes. What is not finite
-/// is left to the function itself, which may raise.
-ResetMap taped_reset(const PythonLeaf& leaf, Slot slot, ResetMap called) {
-  return [&leaf, slot = std::move(slot), called = std::move(called)](const At& at, Next& next) {
-    const Trace& trace = *slot;
-    Eigen::VectorXd values(trace.tape.size());
-    trace.tape.evaluate(at, values.data());
-    const auto mode = trace.wrote_mode ? as_mode(values[values.size() - 1]) : 0;
-    if (!values.allFinite() || !mode) return called(leaf, at, next);
-    const Index nx = trace.wrote_x ? at.x.size() : 0;
-    if (trace.wrote_x) next.set_continuous_state(values.head(nx));
-    if (trace.wrote_z) next.set_discrete_state(values.segment(nx, at.z.size()));
-    if (trace.wrote_mode) next.set_mode(*mode);
-  };
-}
-
 /// Entry k of a tape.
 tape::Tape entry_of(const tape::Tape& tape, std::size_t k) {
   return {tape.graph(), std::span(tape.outputs()).subspan(k, 1)};
-}
-
-/// The same matrix with these entries: zero where it has none, without those it has beyond.
-tape::Jacobian at_places(const tape::Jacobian& jacobian, const std::vector<MatrixEntry>& places) {
-  std::map<std::pair<Index, Index>, tape::Node> known;
-  for (std::size_t i = 0; i < jacobian.entries.size(); ++i) {
-    known.emplace(std::pair(jacobian.entries[i].row, jacobian.entries[i].column),
-                  jacobian.values.outputs()[i]);
-  }
-  tape::Graph graph = jacobian.values.graph();
-  const tape::Node zero = graph.constant(0.0);
-  std::vector<tape::Node> values;
-  for (const auto& [row, column] : places) {
-    const auto found = known.find({row, column});
-    values.push_back(found == known.end() ? zero : found->second);
-  }
-  return {places, tape::Tape(graph, values)};
 }
 
 /// The entries of x+ that are not the same entry of x: the first n values of the tape are x+.
@@ -92,7 +53,11 @@ class Writer {
   void narrow_inputs(ZeroCrossing& crossing, int index);
   void note_touches(ZeroCrossing& crossing, int index);
   std::optional<Slot> slot_of(Role role, int index) const;
-  VectorFunction taped(const Slot& slot) const;
+  VectorFunction taped(const Slot& slot) const { return python::taped(original_, slot); }
+  /// The formula, where the author of the block allows one; otherwise empty.
+  Formula formula(const Slot& slot) const {
+    return original_.function(slot->function).formula ? formula_of(slot->tape) : Formula();
+  }
 
   const PythonLeaf& original_;
   const std::vector<Slot>& slots_;
@@ -126,42 +91,29 @@ void Writer::put(const Slot& slot) {
       return;
     case Role::guard:
       crossing().guard = taped(slot);
+      crossing().formula = formula(slot);
       return;
     case Role::reset_map:
       crossing().reset_map = taped_reset(original_, slot, crossing().reset_map);
       return;
     case Role::relation:
       return put_relation(slot);
+    case Role::jacobian:
+      declared_.continuous.jacobian = taped_matrix(original_, slot);
+      return;
     case Role::edge_reset: {
       EdgeReset& edge = declared_.edge_resets[static_cast<std::size_t>(function.index)];
       edge.reset_map = taped_reset(original_, slot, edge.reset_map);
       edge.inputs = inputs_of(original_, slot);
       return;
     }
-    case Role::jacobian:
-      declared_.continuous.jacobian = [rows = taped(slot), &leaf = original_](const At& at,
-                                                                              MatrixRef out) {
-        Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> values(out.rows(),
-                                                                                      out.cols());
-        rows(leaf, at, VectorRef(values.data(), values.size()));
-        out = values;
-      };
   }
-}
-
-/// A function that runs the tape. What is not finite is left to the function itself, which may
-/// raise, or warn.
-VectorFunction Writer::taped(const Slot& slot) const {
-  return [slot, called = original_.vector_function(slot->function), &leaf = original_](
-             const At& at, VectorRef out) {
-    slot->tape.evaluate(at, out.data());
-    if (!out.allFinite()) called(leaf, at, out);
-  };
 }
 
 void Writer::put_ode(const Slot& slot) {
   ContinuousState& state = declared_.continuous;
   state.ode = taped(slot);
+  state.formula = formula(slot);
   state.reads = slot->tape.reads();
   state.inputs = inputs_of(original_, slot);
   if (state.jacobian || state.sparse_jacobian || !slot->jacobian) return;
@@ -182,7 +134,7 @@ void Writer::put_output(const Slot& slot) {
   if (output.boolean && slot->relations && output.reads == found)
     put_relations(slot, output);
   else
-    output.calc = taped(slot);
+    output.calc = taped(slot), output.formula = formula(slot);
 }
 
 /// A relation that Python declares: its guard as a tape.
@@ -190,6 +142,7 @@ void Writer::put_relation(const Slot& slot) {
   auto& relation =
       declared_.relations[static_cast<std::size_t>(original_.function(slot->function).index)];
   relation.guard = taped(slot);
+  relation.formula = formula(slot);
   relation.reads = slot->tape.reads();
   relation.inputs = inputs_of(original_, slot);
 }
@@ -268,37 +221,12 @@ void Writer::note_touches(ZeroCrossing& crossing, int index) {
   crossing.touches = std::move(touches);
 }
 
-/// Whether a plan made with the old trace computes all that the new one needs.
-bool fits(const PythonLeaf& leaf, const Trace& old, const Trace& now) {
-  if (old.function != now.function) return false;
-  if (old.serial == now.serial) return true;
-  for (int k = 0; k < count_of(leaf.declarations().inputs); ++k)
-    if (now.tape.reads_input(k) && !old.tape.reads_input(k)) return false;
-  const Role role = leaf.function(now.function).role;
-  if (role != Role::output && role != Role::relation) return true;
-  const bool slower = (old.tape.reads() | now.tape.reads()) == old.tape.reads();
-  return slower && !old.relations && !now.relations;
-}
-
 }  // namespace
 
 std::shared_ptr<const Declarations> traced_declarations(const PythonLeaf& leaf,
                                                         const std::vector<Shape>& outputs,
                                                         const std::vector<Slot>& slots) {
   return std::make_shared<const Declarations>(Writer(leaf, slots).write(outputs));
-}
-
-bool replace_traces(const PythonLeaf& leaf, const std::vector<Slot>& slots,
-                    std::span<const Trace> traces) {
-  const auto fit = [&](const Slot& slot, const Trace& now) { return fits(leaf, *slot, now); };
-  if (!std::ranges::equal(slots, traces, fit)) return false;
-  for (std::size_t i = 0; i < traces.size(); ++i) {
-    Trace now = traces[i];
-    if (now.jacobian && slots[i]->jacobian)
-      now.jacobian = at_places(*now.jacobian, slots[i]->jacobian->entries);
-    *slots[i] = std::move(now);
-  }
-  return true;
 }
 
 }  // namespace saltus::python

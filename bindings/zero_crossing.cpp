@@ -6,7 +6,7 @@ namespace saltus::python {
 
 namespace {
 
-/// The options of one zero crossing, as python/saltus/leaf_system.py passes them. Messages name the
+/// The options of one zero crossing, as python/saltus/leaf_system/guards.py passes them. Messages name the
 /// block, the zero crossing and the option.
 class Options {
  public:
@@ -99,14 +99,16 @@ void declare_zero_crossing(py::handle self, py::object guard, py::object reset_m
   auto& leaf = self.cast<PythonLeaf&>();
   const std::string called =
       name.empty() ? text("zero_crossing_", leaf.declarations().zero_crossings.size()) : name;
-  ZeroCrossing crossing =
-      read(Options(given, text("block '", leaf.name(), "': zero crossing '", called, "': ")));
+  const Options options(given, text("block '", leaf.name(), "': zero crossing '", called, "': "));
+  ZeroCrossing crossing = read(options);
+  const bool formula = options.get<bool>("formula", "True or False");
   crossing.name = std::move(name);
   const auto add = [&](py::object function, std::string_view what, Role role) {
     return leaf.add(self, std::move(function),
                     {.inputs = crossing.inputs,
                      .what = text(what, " of '", called, "'"),
                      .role = role,
+                     .formula = role == Role::guard && formula,
                      .index = count_of(leaf.declarations().zero_crossings)});
   };
   crossing.guard = leaf.vector_function(add(std::move(guard), "guard", Role::guard));

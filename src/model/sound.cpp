@@ -37,7 +37,7 @@ void require_sound(const Continuation::Guard& guard) {
   // A firing may also come from lifting off: 2.
   require(guard.from >= -1 && guard.from <= 2,
           text("a guard that came from ", guard.from, "; expected -1 to 2"));
-  require(guard.band >= 0.0, text("a guard with error ", guard.band));
+  require(guard.error >= 0.0, text("a guard with error ", guard.error));
   require(!std::isnan(guard.base), text("a guard with base ", guard.base));
 }
 

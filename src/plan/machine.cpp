@@ -24,10 +24,11 @@ bool reads_states(const PlanLeaf& leaf) {
 
 }  // namespace
 
-Machine::Machine(std::shared_ptr<const Plan> plan) : Memory(std::move(plan)), resting_(*plan_) {
-  bases_ = {x.data(), z.data(), p.data(), y.data()};
-  make_views();
-  calls_ = Calls(*plan_, views_);
+Machine::Machine(std::shared_ptr<const Plan> plan)
+    : Memory(std::move(plan)),
+      arguments_(*this),
+      calls_(*plan_, arguments_.views()),
+      resting_(*plan_) {
   if (calls_.odes.size() == 1 && calls_.derivatives.empty() && plan_->nx == calls_.odes[0].size)
     lone_ode_ = &calls_.odes.front();
   if (lone_ode_ != nullptr && !reads_states(plan_->leaf(lone_ode_->leaf))) {
@@ -35,24 +36,6 @@ Machine::Machine(std::shared_ptr<const Plan> plan) : Memory(std::move(plan)), re
     if (ode.steps != nullptr && lone_ode_->function == &ode.function) inlined_ = &ode;
   }
   select_guards();
-}
-
-/// The arguments of each leaf, and those of a function over the whole machine: see fuse.hpp.
-void Machine::make_views() {
-  for (const PlanLeaf& leaf : plan_->leaves) {
-    for (int node : leaf.relations) relation_values_.push_back(signal(node));
-  }
-  const double* const* relations = relation_values_.data();
-  for (const PlanLeaf& leaf : plan_->leaves) {
-    const Inputs inputs(leaf.input_places.data(), static_cast<int>(leaf.input_places.size()),
-                        &bases_);
-    views_.push_back(At(0.0, {x.data() + leaf.x, leaf.nx}, {z.data() + leaf.z, leaf.nz},
-                        {p.data() + leaf.p, leaf.np}, 0, inputs, relations));
-    relations += leaf.relations.size();
-  }
-  place_of_z_ = {Space::z, 0, plan_->nz};
-  views_.push_back(At(0.0, {x.data(), plan_->nx}, {y.data(), plan_->ny}, {p.data(), plan_->np}, 0,
-                      Inputs(&place_of_z_, 1, &bases_), nullptr));
 }
 
 namespace {
@@ -110,36 +93,36 @@ void Machine::carried_guards(double t, const double* state, double* g) {
 
 void Machine::flow(double t, const double* state, double* xdot) {
   ++rhs_calls;
-  run(calls_.derivatives, t, state);
+  const Seen seen = run(calls_.derivatives, t, state);
   if (resting_.any()) {
-    for (const Call& ode : calls_.odes) ode_with_rest(ode, t, xdot);
+    for (const Call& ode : calls_.odes) ode_with_rest(ode, seen, t, xdot);
     return;
   }
-  for (const Call& ode : calls_.odes) ode_of(ode, t, xdot);
+  for (const Call& ode : calls_.odes) ode_of(ode, seen, t, xdot);
 }
 
 void Machine::guards_at(double t, const double* state, double* g) {
   ++guard_calls;
-  run(calls_.guard_needs, t, state);
-  if (calls_.fused_guards) guard(*calls_.fused_guards, t, g);
-  for (int i : called_) guard(calls_.guards[static_cast<std::size_t>(i)], t, g);
+  const Seen seen = run(calls_.guard_needs, t, state);
+  if (calls_.fused_guards) guard(*calls_.fused_guards, seen, t, g);
+  for (int i : called_) guard(calls_.guards[static_cast<std::size_t>(i)], seen, t, g);
 }
 
-void Machine::ode_with_rest(const Call& ode, double t, double* xdot) {
+void Machine::ode_with_rest(const Call& ode, Seen seen, double t, double* xdot) const {
   VectorRef out(xdot + ode.x, ode.size);
   if (resting_.of_leaf(ode.leaf) == ode.size) {
     out.setZero();
     return;
   }
-  ode_of(ode, t, xdot);
+  ode_of(ode, seen, t, xdot);
   for (Index i = 0; i < ode.size; ++i) {
     if (resting_.rests(ode.x + i)) out[i] = 0.0;
   }
 }
 
-void Machine::guard(const GuardCall& call, double t, double* g) {
+void Machine::guard(const GuardCall& call, Seen seen, double t, double* g) {
   const VectorRef out(g + call.slot, call.width);
-  (*call.function)(*call.system, seen_by(call, t), out);
+  (*call.function)(*call.system, seen.at(call, t), out);
   if (!call.opaque) return;
   for (double& value : VectorRef(out)) value = value != 0.0 ? 1.0 : -1.0;
 }

@@ -34,11 +34,11 @@ Index first_not_finite(const VectorView& values) {
 }  // namespace
 
 std::optional<NotFinite> Machine::not_finite(double t, const double* state) {
-  bases_[0] = carried(t, state);
+  const Seen seen = arguments_.of(carried(t, state));
   for (std::size_t k = 0; k < calls_.needs_of_derivatives.size(); ++k) {
     const OutputCall& call = calls_.needs_of_derivatives[k];
     const VectorRef out(y.data() + call.to, call.width);
-    (*call.function)(*call.system, seen_by(call, t), out);
+    (*call.function)(*call.system, seen.at(call, t), out);
     const PlanLeaf& leaf = plan_->leaves[call.leaf];
     if (const Index i = first_not_finite({out.data(), out.size()}); i < out.size()) {
       const std::string name = plan_->name_of(plan_->node(plan_->derivatives[k]));
@@ -48,7 +48,7 @@ std::optional<NotFinite> Machine::not_finite(double t, const double* state) {
   }
   Eigen::VectorXd xdot(plan_->nx);
   for (const Call& ode : calls_.single_odes) {
-    ode_with_rest(ode, t, xdot.data());
+    ode_with_rest(ode, seen, t, xdot.data());
     const PlanLeaf& leaf = plan_->leaves[ode.leaf];
     const VectorView own(xdot.data() + ode.x, ode.size);
     if (const Index i = first_not_finite(own); i < own.size()) {

@@ -35,10 +35,10 @@ struct Ensemble::Progress {
 };
 
 /// The work of one thread.
-class Ensemble::Share {
+class Ensemble::Worker {
  public:
-  Share(const Ensemble& ensemble, const Take& take, Progress& progress,
-        std::function<bool(Index)> watch)
+  Worker(const Ensemble& ensemble, const Take& take, Progress& progress,
+         std::function<bool(Index)> watch)
       : ensemble_(&ensemble), take_(&take), progress_(&progress), watch_(std::move(watch)) {}
 
   void run() {
@@ -181,11 +181,11 @@ Index Ensemble::run(const Take& take, const EnsembleOptions& how) const {
   const Index threads = std::min(how.threads == 0 ? cores : Index{how.threads}, size_);
   Progress progress;
   if (threads <= 1) {
-    Share(*this, take, progress, how.watch).run();
+    Worker(*this, take, progress, how.watch).run();
   } else {
-    const auto share = [&] { Share(*this, take, progress, {}).run(); };
+    const auto runs = [&] { Worker(*this, take, progress, {}).run(); };
     const auto work = [&] {
-      how.around ? how.around(share) : share();
+      how.around ? how.around(runs) : runs();
       const std::lock_guard lock(progress.mutex);
       --progress.working;
       progress.ended.notify_one();

@@ -72,88 +72,28 @@ void Instant::turn_beside_root() {
 /// Collects the actions of the next pass. False if there is nothing to do.
 bool Instant::collect() {
   journal_.at_jump(jump_ + 1);
-  const bool let_go = take_contacts();
-  const bool flipped = flip_relations();
+  const bool let_go = collector_.take_contacts();
+  const bool flipped = collector_.flip_relations();
   rows_.before(jump_, flipped);
   machine_->evaluate_instant(present_.t);
-  const bool released = collect_edges() || let_go;
-  collect_crossings();
-  present_.changes =
-      flipped || released || (present_.pass == 0 && transition_.held_outputs_changed()) ||
-      std::ranges::any_of(present_.actions, [this](const Action& action) { return acts(action); });
+  const bool released = collector_.collect_edges() || let_go;
+  collector_.collect_crossings();
+  present_.changes = flipped || released ||
+                     (present_.pass == 0 && transition_.held_outputs_changed()) ||
+                     collector_.acts();
   if (!present_.changes) journal_.at_jump(jump_);
-  note_passive();
+  collector_.note_passive();
   return present_.changes || !present_.actions.empty();
-}
-
-/// Whether an action counts as a change. A guard that only ends the run does not. A time event does:
-/// whether held signals follow it must not depend on which of them are recorded.
-bool Instant::acts(const Action& action) const {
-  return action.cause != Cause::crossing ||
-         plan().crossing_of(plan().guard(action.index)).has_effect();
 }
 
 void Instant::run_pass() {
   transition_.begin_pass();
-  for (const Action& action : present_.actions) run_action(action);
+  for (const Action& action : present_.actions) effects_.run(action);
   present_.actions.clear();
   commit();
   relations_.read_again();
   find_next();
   if (present_.changes) rows_.after(++jump_);
-}
-
-void Instant::run_action(const Action& action) {
-  if (action.cause == Cause::zeno) return transition_.enter_mode(action.leaf, action.from);
-  journal_.cause(journal_.source_of(action.cause, action.index));
-  action.cause == Cause::time ? run_update(action) : run_reset(action);
-}
-
-void Instant::run_update(const Action& action) {
-  const int source = journal_.source_of(action.cause, action.index);
-  const TimeEvent& event = plan().time_event_of(plan().scheduled(action.index));
-  if (event.update)
-    transition_.run({&event.update, action.leaf, 0, present_.t, journal_.name_of(source)});
-  journal_.note({.kind = EventKind::time, .source = source, .leaf = action.leaf});
-}
-
-/// The effect that the author of a zero crossing or an edge declared.
-Instant::Effect Instant::effect_of(const Action& action) {
-  const auto index = static_cast<std::size_t>(action.index);
-  if (action.cause == Cause::edge)
-    return {&edges_.reset_of(index).reset_map, nullptr, &holds_.of_edge(index)};
-  const ZeroCrossing& crossing = plan().crossing_of(plan().guards[index]);
-  return {&crossing.reset_map, crossing.end_mode ? &*crossing.end_mode : nullptr,
-          &holds_.of_guard(static_cast<std::size_t>(action.slot))};
-}
-
-/// Runs an effect. Returns whether it wrote a state or a mode.
-bool Instant::run_effect(const Effect& effect, int leaf, const std::string& source) {
-  const bool wrote =
-      *effect.map && transition_.run({effect.map, leaf, effect.hold->entry, present_.t, source});
-  if (effect.end_mode) transition_.enter_mode(leaf, *effect.end_mode);
-  return wrote || effect.end_mode != nullptr;
-}
-
-/// Runs the effect of a zero crossing or an edge.
-void Instant::run_reset(const Action& action) {
-  const int source = journal_.source_of(action.cause, action.index);
-  const auto index = static_cast<std::size_t>(action.index);
-  const Effect effect = effect_of(action);
-  Holds::Hold& hold = *effect.hold;
-  if (effect.any() && !action.carry) holds_.fired(hold, present_.t);
-  const bool wrote = run_effect(effect, action.leaf, journal_.name_of(source));
-  const bool last = action.cause == Cause::crossing && journal_.ends_run(index);
-  present_.outcome.terminal = present_.outcome.terminal || last;
-  journal_.note(
-      {.kind = last ? EventKind::terminal : EventKind::zero_crossing,
-       .source = source,
-       .leaf = action.leaf,
-       .direction = -action.from,
-       .entry = action.slot < 0 ? 0 : (*guards_)[static_cast<std::size_t>(action.slot)].entry});
-  if (!wrote || action.carry) return;
-  if (holds_.look_for_accumulation(hold) && action.cause == Cause::edge)
-    contacts_.keep_relations_of(plan().edges[index]);
 }
 
 void Instant::commit() {

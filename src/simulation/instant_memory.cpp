@@ -21,7 +21,10 @@ Instant::Instant(Machine& machine, GuardSet& guards, const SimulatorOptions& opt
       contacts_(machine, guards, options, flow_, edges_, holds_, transition_, present_),
       relations_(machine, guards, options, flow_, edges_, holds_, contacts_, transition_, journal_,
                  present_),
-      crossings_(machine, guards, flow_, holds_, contacts_, transition_, present_) {
+      crossings_(machine, guards, flow_, holds_, contacts_, transition_, present_),
+      collector_(plan(), guards, edges_, holds_, contacts_, relations_, crossings_, transition_,
+                 journal_, present_),
+      effects_(plan(), guards, edges_, holds_, contacts_, transition_, journal_, present_) {
   guards.scan_points = options.event_scan_points;
 }
 

@@ -21,19 +21,6 @@ SimulatorOptions checked_for(const Plan& plan, SimulatorOptions options) {
   return options;
 }
 
-SolverOptions solver_options(const SimulatorOptions& options, Index n) {
-  SolverOptions out{options.rtol,
-                    options.atol,
-                    options.min_minor_step_size,
-                    options.max_minor_step_size,
-                    options.linear_solver,
-                    options.find_sparsity};
-  out.first_step = options.first_step.value_or(0.0);
-  if (n > 0 && (options.rtol.by_state() || options.atol.by_state()))
-    out.rtols = each_of(options.rtol, n), out.atols = each_of(options.atol, n);
-  return out;
-}
-
 }  // namespace
 
 Run::Run(const System& system, SimulatorOptions options)
@@ -48,8 +35,11 @@ Run::Run(std::shared_ptr<const Plan> plan, SimulatorOptions options)
       instant_(machine_, guards_, options_, results_),
       calendar_(machine_.plan()),
       major_(options_.max_major_step_length),
+      integration_(machine_, guards_, options_),
+      rows_(machine_, results_, options_),
       chattering_(options_),
-      crawl_(machine_) {}
+      crawl_(machine_),
+      interrupt_(options_) {}
 
 /// A context that is refused leaves the run as it is.
 void Run::initialize(const Context& context) {
@@ -63,28 +53,22 @@ void Run::initialize(const Context& context) {
   results_.time.clear(), results_.jump.clear();
   results_.statistics = {}, results_.message.clear();
   results_.block.clear(), results_.cause = nullptr, results_.status = Status::reached_end;
-  start_recorder();
+  rows_.begin();
   results_.trajectory = {};
   if (options_.dense_output) results_.trajectory.start(machine_.shared_plan(), begin_, options_);
   calendar_.begin(time_, context.settled());
-  begun_ = solver_started_ = over_ = false;
+  integration_.begin();
+  begun_ = over_ = false;
   accepted_ = {.settled = context.settled()};
-  next_save_ = 0, interrupt_ = {};
+  interrupt_.begin();
   chattering_.begin(time_, machine_.x), crawl_.begin(time_);
-  row_ = machine_.x;
-}
-
-void Run::start_recorder() {
-  recorder_.reset();
-  if (!plan().taps.empty())
-    recorder_.emplace(machine_, results_, options_.event_rows ? nullptr : &options_.save_at);
 }
 
 Results Run::take_results() {
   EventLog next = results_.events.emptied();
   Results taken = std::move(results_);
   results_.events = std::move(next);
-  start_recorder();  // the columns were moved out with the results
+  rows_.renew();
   if (options_.dense_output && begun_) {
     results_.trajectory.start(machine_.shared_plan(), begin_, options_);
     results_.trajectory.open(time_, machine_, instant_.contacts());
@@ -95,7 +79,7 @@ Results Run::take_results() {
 Status Run::advance_to(double t_end) {
   require_ready(t_end);
   const auto start = std::chrono::steady_clock::now();
-  interrupt_.asked = start;
+  interrupt_.go_on(start);
   try {
     results_.status = run_to(t_end);
   } catch (const SimulationError& error) {
@@ -134,7 +118,7 @@ Status Run::run_to(double t_end) {
                       " major steps before t = ", t_end, " s; raise max_major_steps"));
     }
     if (const Status status = step(t_end); over_) return status;
-    if ((++interrupt_.ticks & 15) == 0 && interrupted())
+    if (interrupt_.after_step())
       return end(Status::interrupted, text("t = ", time_, " s: interrupted"));
   }
   return Status::reached_end;
@@ -143,12 +127,11 @@ Status Run::run_to(double t_end) {
 /// Runs the instant at which the run starts, unless an earlier run has settled it.
 Status Run::begin(double t_end) {
   begun_ = true;
-  Recorder* recorder = recorder_ ? &*recorder_ : nullptr;
   const Continuation* earlier = begin_.continuation();
   const bool resumes = earlier != nullptr && instant_.fits(*earlier);
-  resumes ? instant_.resume(time_, recorder, *earlier, t_end - time_)
-          : instant_.begin(time_, recorder);
-  record(time_, machine_.x.data());
+  resumes ? instant_.resume(time_, rows_.recorder(), *earlier, t_end - time_)
+          : instant_.begin(time_, rows_.recorder());
+  rows_.record(time_, instant_.jump(), machine_.x.data());
   if (options_.dense_output) results_.trajectory.open(time_, machine_, instant_.contacts());
   if (!resumes) return settle(StopReason::stop_time, t_end, true);
   // A run that failed in an instant goes on with that instant.
@@ -164,46 +147,32 @@ Status Run::begin(double t_end) {
 Status Run::step(double t_end) {
   const double t_stop = major_.next(time_, std::min(t_end, calendar_.next()));
   const double from = time_;
-  StopReason reason = StopReason::stop_time;
-  if (options_.dense_output) results_.trajectory.depart(present_state());
-  move_to(t_stop, reason);
+  if (options_.dense_output) results_.trajectory.depart(integration_.state());
+  const StopReason reason = integration_.advance(time_, t_stop);
   accepted_.settled = false;
-  accepted_.place = solver_started_ ? Place::solver : Place::machine;
+  accepted_.place = integration_.started() ? Place::solver : Place::machine;
   if (options_.dense_output) keep_step(from);
-  for (const MonitorHit& hit : guards_.monitors) {
-    solver_->interpolate(hit.t, row_.data());
-    machine_.put_carried(hit.t, row_.data());
-    instant_.log_monitor(hit, row_.data());
-  }
-  record_step(from);
-  if (solver_started_ && crawl_.found(time_, solver_->state(), t_end - begin_.time()))
+  log_monitors();
+  rows_.record_step(from, time_, instant_.jump(), integration_);
+  if (integration_.started() && crawl_.found(time_, integration_.state(), t_end - begin_.time()))
     return end_crawl();
   if (reason == StopReason::step) return Status::reached_end;
   return settle(reason, t_end, false);
 }
 
-/// Lets the solver advance if some state moves.
-void Run::move_to(double t_stop, StopReason& reason) {
-  guards_.monitors.clear();
-  if (plan().nx == 0 && guards_.active().empty()) {
-    time_ = t_stop;
-    return;
+/// Logs the monitors that crossed inside the last step.
+void Run::log_monitors() {
+  for (const MonitorHit& hit : guards_.monitors) {
+    Eigen::VectorXd& x = integration_.at(hit.t);
+    machine_.put_carried(hit.t, x.data());
+    instant_.log_monitor(hit, x.data());
   }
-  if (!solver_started_) {
-    if (!solver_)
-      solver_ = make_solver(plan().nx == 0 ? Method::dopri5 : options_.ode_solver_method, machine_,
-                            guards_, solver_options(options_, plan().nx));
-    solver_->restart(time_, machine_.x, {.first = true});
-    solver_started_ = true;
-  }
-  reason = solver_->advance(t_stop);
-  time_ = solver_->time();
 }
 
 /// Runs the instant at time_, if there is one. Restarts the solver if its history is not valid any
 /// more.
 Status Run::settle(StopReason reason, double t_end, bool at_start) {
-  if (solver_started_) take_state();
+  integration_.take_state(time_);
   if (accepted_.place == Place::solver) accepted_.place = Place::machine;
   ++results_.statistics.instants;
   results_.trajectory.instant();
@@ -212,14 +181,14 @@ Status Run::settle(StopReason reason, double t_end, bool at_start) {
   if (reason != StopReason::root && due_.empty() && !at_start)
     return Status::reached_end;  // only the end of a major step
   major_.begin(time_);
-  record(time_, machine_.x.data());
+  rows_.record(time_, instant_.jump(), machine_.x.data());  // what a failure leaves
   accepted_.rows = results_.time.size();
   const bool at_root = reason == StopReason::root, idle = at_root && chattering_.idle(machine_.x);
   accepted_.in_instant = true;
   const Outcome outcome = instant_.run(time_, due_, t_end - time_, at_start);
   accepted_ = {.place = Place::machine, .settled = true};
-  if (outcome.restart && solver_started_)
-    solver_->restart(time_, machine_.x, {.horizon = outcome.horizon, .flow = instant_.flow()});
+  if (outcome.restart)
+    integration_.restart(time_, {.horizon = outcome.horizon, .flow = instant_.flow()});
   return after(outcome, {time_, at_root, t_end - begin_.time()}, idle);
 }
 

@@ -44,14 +44,6 @@ Status Run::end_crawl() {
                   "motion along the jump, or make it steep but continuous"));
 }
 
-bool Run::interrupted() {
-  if (!options_.interrupt) return false;
-  const auto now = std::chrono::steady_clock::now();
-  if (now - interrupt_.asked < std::chrono::milliseconds(20)) return false;
-  interrupt_.asked = now;
-  return options_.interrupt();
-}
-
 /// Ends the run with an error. Called in a handler: the present exception is the cause.
 void Run::fail(std::string message) {
   results_.status = Status::failed;
@@ -64,17 +56,16 @@ void Run::fail(std::string message) {
 void Run::take_accepted() {
   if (std::exchange(accepted_.in_instant, false)) {
     instant_.undo();
-    if (recorder_) recorder_->shorten(accepted_.rows);
+    rows_.shorten(accepted_.rows);
   } else {
     guards_.arm_again(guards_.fired_at_root);  // the instant at the end of the step has not begun
   }
   if (accepted_.place != Place::solver) return;
-  machine_.x = solver_->state();
   try {
-    machine_.put_carried(time_, machine_.x.data());
+    integration_.take_state(time_);
   } catch (...) {  // what failed is in the results; the state is that of the step
     detail::pass_end_of_thread();
-    machine_.x = solver_->state();
+    machine_.x = integration_.state();
   }
 }
 

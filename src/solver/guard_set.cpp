@@ -85,7 +85,7 @@ void GuardSet::load(const Continuation& from) {
   for (std::size_t k = 0; k < guards_.size(); ++k) {
     Guard& guard = guards_[k];
     const Continuation::Guard& saved = from.guards[k];
-    set(k, saved.fresh ? Phase::waiting : Phase::unseen, 0, saved.band);
+    set(k, saved.at_zero ? Phase::waiting : Phase::unseen, 0, saved.error);
     guard.turn(saved.side);
     guard.came_from = static_cast<signed char>(saved.from);
     guard.rests = saved.resting, guard.base = saved.base;

@@ -1,12 +1,12 @@
 // From expressions to instructions: the place of each number, and how long it keeps that place.
 #include <algorithm>
-#include <map>
 #include <optional>
 #include <utility>
 
 #include "arrange.hpp"
 #include "copy.hpp"
-#include "program.hpp"
+#include "value.hpp"
+#include "variables.hpp"
 
 namespace saltus::tape::detail {
 
@@ -16,7 +16,7 @@ class Builder {
  public:
   Builder(Program& program, const Graph& graph, std::span<const Node> outputs,
           std::span<const Index> places)
-      : program_(program), places_(places) {
+      : program_(program), places_(places), registers_(program.registers) {
     program_.outputs = copy(graph, outputs, program_.graph);
     values_.resize(static_cast<std::size_t>(program_.graph.size()));
   }
@@ -31,26 +31,15 @@ class Builder {
     for (std::size_t i = 0; i < program_.outputs.size(); ++i) {
       of(program_.outputs[i]).outputs.push_back(place_of_output(i));
     }
-    for (int id = 0; id < program_.graph.size(); ++id) note_variable(Node{id});
+    for (int id = 0; id < program_.graph.size(); ++id) {
+      if (operand_count(at(Node{id}).op) == 0)
+        of(Node{id}).place = place_of_variable(program_, at(Node{id}));
+    }
     for (const Group& group : groups) group.size() == 1 ? one(group[0]) : many(group);
     copy_variables();
   }
 
  private:
-  struct Value {
-    int uses = 0;                        ///< still to come
-    std::vector<std::uint32_t> outputs;  ///< that return it
-    Place place = {};
-    std::optional<Place> loaded = {};  ///< a register that holds it too, for operations that read
-                                       ///< no other
-    int block = -1;                    ///< the block of its register, if any
-  };
-  /// Adjacent registers, released when no number in them is needed any more.
-  struct Block {
-    std::uint32_t offset = 0, size = 0;
-    int uses = 0;
-  };
-
   std::uint32_t place_of_output(std::size_t i) const {
     return static_cast<std::uint32_t>(places_.empty() ? static_cast<Index>(i) : places_[i]);
   }
@@ -74,7 +63,8 @@ class Builder {
     for (const Node operand : all) release(operand);
     Value& value = of(node);
     const bool straight = value.uses == 0;  // directly to the first output that returns it
-    line.to = straight ? Place{Kind::out, value.outputs.at(0)} : take_registers({&node, 1});
+    line.to =
+        straight ? Place{Kind::out, value.outputs.at(0)} : registers_.take({&node, 1}, values_);
     add(line, node);
     for (std::size_t i = straight ? 1 : 0; i < value.outputs.size(); ++i) {
       program_.lines.push_back(
@@ -97,7 +87,7 @@ class Builder {
   }
   void load(Node node) {
     if (of(node).loaded) return;
-    const Place to{Kind::reg, static_cast<std::uint32_t>(program_.registers++)};
+    const Place to = registers_.keep();
     of(node).loaded = to;
     add({.to = to, .from = {of(node).place}}, node);
   }
@@ -124,18 +114,14 @@ class Builder {
     const auto output = outputs_of(group);
     const bool unread =
         std::ranges::all_of(group, [this](Node node) { return of(node).uses == 0; });
-    line.to = output && unread ? *output : take_registers(group);
+    line.to = output && unread ? *output : registers_.take(group, values_);
     for (const Node node : group) {
       for (const Node operand : operands(node)) release(operand);
     }
     add(line, Node{});
     if (output && unread) return;
     copy_out(group);
-    if (of(group[0]).block >= 0 && unread) give_back(of(group[0]).block);
-  }
-
-  static std::int32_t distance(std::uint32_t from, std::uint32_t to) {
-    return static_cast<std::int32_t>(to) - static_cast<std::int32_t>(from);
+    if (of(group[0]).block >= 0 && unread) registers_.give_back(of(group[0]).block);
   }
 
   /// The outputs of a run, if each of its values has one and they are at equal distances.
@@ -178,6 +164,11 @@ class Builder {
     return line.count;
   }
 
+  void release(Node node) {
+    --of(node).uses;
+    registers_.release(of(node).block);
+  }
+
   // --- outputs that are variables or constants ---
 
   void copy_variables() {
@@ -218,100 +209,11 @@ class Builder {
     return count >= shortest_run ? count : 1;
   }
 
-  // --- registers ---
-
-  /// Registers for all numbers of a run.
-  Place take_registers(std::span<const Node> nodes) {
-    const auto size = static_cast<std::uint32_t>(nodes.size());
-    auto& free = free_[size];
-    Block block{static_cast<std::uint32_t>(program_.registers), size};
-    if (free.empty()) {
-      program_.registers += size;
-    } else {
-      block.offset = free.back();
-      free.pop_back();
-    }
-    for (std::uint32_t i = 0; i < size; ++i) {
-      of(nodes[i]).place = {Kind::reg, block.offset + i};
-      of(nodes[i]).block = static_cast<int>(blocks_.size());
-      block.uses += of(nodes[i]).uses;
-    }
-    blocks_.push_back(block);
-    return {Kind::reg, block.offset, size > 1 ? 1 : 0};
-  }
-
-  void release(Node node) {
-    --of(node).uses;
-    if (of(node).block < 0) return;
-    Block& block = blocks_[static_cast<std::size_t>(of(node).block)];
-    if (--block.uses == 0) give_back(of(node).block);
-  }
-  void give_back(int number) {
-    const Block& block = blocks_[static_cast<std::size_t>(number)];
-    free_[block.size].push_back(block.offset);
-  }
-
-  // --- variables ---
-
-  void note_variable(Node node) {
-    const Expression& e = at(node);
-    const auto i = static_cast<std::uint32_t>(e.index);
-    const auto entry_of = [&](Kind kind, Index& size, Reads reads) -> Place {
-      size = std::max(size, e.index + 1);
-      program_.reads = program_.reads | reads;
-      return {kind, i};
-    };
-    Index none = 0;
-    Place& place = of(node).place;
-    switch (e.op) {
-      case Op::constant:
-        place = {.kind = Kind::constant, .value = e.value};
-        break;
-      case Op::time:
-        place = entry_of(Kind::time, none, Reads::time);
-        break;
-      case Op::mode:
-        place = entry_of(Kind::mode, none, Reads::mode);
-        break;
-      case Op::entry:
-        place = {Kind::entry};
-        program_.reads_entry = true;
-        break;
-      case Op::continuous_state:
-        place = entry_of(Kind::x, program_.x, Reads::continuous_state);
-        break;
-      case Op::discrete_state:
-        place = entry_of(Kind::z, program_.z, Reads::discrete_state);
-        break;
-      case Op::parameter:
-        place = entry_of(Kind::p, program_.p, Reads::parameters);
-        break;
-      case Op::input:
-        place = input(e);
-        break;
-      default:
-        break;
-    }
-  }
-
-  Place input(const Expression& e) {
-    program_.reads = program_.reads | Reads::inputs;
-    const auto found = std::ranges::find(program_.inputs, e.port);
-    const auto which = static_cast<std::size_t>(found - program_.inputs.begin());
-    if (found == program_.inputs.end()) {
-      program_.inputs.push_back(e.port);
-      program_.widths.push_back(0);
-    }
-    program_.widths[which] = std::max(program_.widths[which], e.index + 1);
-    return {.kind = Kind::input, .offset = static_cast<std::uint32_t>(e.index), .port = e.port};
-  }
-
   Program& program_;
   std::span<const Index> places_;
   std::vector<Value> values_;
   std::vector<bool> swapped_;
-  std::vector<Block> blocks_;
-  std::map<std::uint32_t, std::vector<std::uint32_t>> free_;  ///< by size
+  Registers registers_;
   Node before_ = {};
 };
 

@@ -66,6 +66,9 @@ TEST_CASE(
   CHECK(instants_until(still_run, {}, 1e-12, true, 30'000, 1.0) <= 20'000);
   CHECK(instants_until(moving, {}, 1e-12, false, 30'000, 1.0) == 30'001);
   CHECK(instants_until(longer, {}, 1e-12, true, 30'000, 1e-3) == 30'001);
+  Chattering within = begun(), beyond = begun();  // the series takes 0.9e-7 or 1.1e-7 of the run
+  CHECK(instants_until(within, {}, 0.9e-11, true, 30'000, 1.0) <= 20'000);
+  CHECK(instants_until(beyond, {}, 1.1e-11, true, 30'000, 1.0) == 30'001);
 }
 
 TEST_CASE("A state that moved by its tolerance since the last root is not idle") {

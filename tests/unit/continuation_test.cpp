@@ -12,7 +12,7 @@ namespace {
 Continuation some() {
   return {.jump = 3,
           .relations = {1.0, 0.0},
-          .guards = {{.side = 1, .from = -1, .band = 0.5, .base = 2.0}},
+          .guards = {{.side = 1, .from = -1, .error = 0.5, .base = 2.0}},
           .firings = {{.times = {2.0, 1.0}, .after = {4.0}, .holding = true}},
           .edges = {1},
           .counts = {7}};
@@ -28,9 +28,9 @@ TEST_CASE("a continuation is equal to a copy and to no other", "[continuation]")
       [](auto& c) { c.relations[1] = 1.0; },
       [](auto& c) { c.guards[0].side = -1; },
       [](auto& c) { c.guards[0].from = 1; },
-      [](auto& c) { c.guards[0].fresh = true; },
+      [](auto& c) { c.guards[0].at_zero = true; },
       [](auto& c) { c.guards[0].resting = true; },
-      [](auto& c) { c.guards[0].band = 0.25; },
+      [](auto& c) { c.guards[0].error = 0.25; },
       [](auto& c) { c.guards[0].base = 0.0; },
       [](auto& c) { c.guards.emplace_back(); },
       [](auto& c) { c.firings[0].times.pop_back(); },

@@ -178,7 +178,11 @@ TEST_CASE("an instant without end names its last six causes and the block of the
 TEST_CASE("a chain remembers its first four hundred causes, and begins anew with an instant",
           "[journal]") {
   Events run;
-  for (std::size_t i = 0; i < thresholds::remembered_causes; ++i) run.journal.cause(0);
+  for (int i = 0; i < 399; ++i) run.journal.cause(0);
+  run.journal.cause(1);
+  CHECK(contains(run.no_end(), "leaf.last"));
+  run.journal.open(2.0);
+  for (int i = 0; i < 400; ++i) run.journal.cause(0);
   run.journal.cause(1);
   CHECK_FALSE(contains(run.no_end(), "leaf.last"));
   run.journal.open(2.0), run.journal.cause(1);

@@ -177,3 +177,21 @@ TEST_CASE("a continued run has the truths of the earlier one, whatever the signs
   later.instant.resume(1.0, nullptr, between, 10.0);
   CHECK(later.truth());
 }
+
+TEST_CASE("a relation whose both sides lead back to its surface flutters", "[relations]") {
+  // x' is -1 above zero and +1 below, or +1 on both sides.
+  const auto flutters = [](double above) {
+    Instants run(std::make_shared<Leaf>("relay", [above](Leaf& l) {
+      const auto r = std::make_shared<RelationIndex>();
+      l.declare_continuous_state(
+          {.initial = vec({-1.0}), .ode = [above, r](const At& at, VectorRef xdot) {
+             xdot[0] = at.relation(*r) ? above : 1.0;
+           }});
+      *r = l.declare_relation({.name = "sign", .guard = [](const At& at) { return at.x[0]; }});
+    }));
+    run.begin(0.0, vec({-1.0}));
+    return run.fire(1.0, vec({0.0}), 0, -1).flutters;
+  };
+  CHECK(flutters(-1.0));
+  CHECK_FALSE(flutters(1.0));
+}

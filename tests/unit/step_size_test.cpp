@@ -92,5 +92,78 @@ TEST_CASE("the first step keeps to its bounds", "[step_size]") {
   CHECK(first_of(0.0, 0.0, 1.0, options, 0.0, 50.0) <= 50.0);  // nothing moves
   CHECK(first_of(0.0, 0.0, 1.0, options, 0.0, 50.0) > 0.01);
   // 100 roundings of the time: a shorter one would be lost in it.
-  CHECK(first_of(1e15, 0.0, 1.0, options, 1e6) >= 100.0 * eps * 1e6);
+  CHECK(first_of(1e15, 0.0, 1.0, options, 1e6) == 100.0 * eps * 1e6);
+}
+
+TEST_CASE("states that rest have a first step of a tenth of the run", "[step_size]") {
+  // A state at zero with a constant slope: only atol measures it, and nothing bends its path. If it
+  // rests, the step is a hundred trial steps of a thousandth of the run; otherwise it is the run.
+  const SolverOptions options{.rtol = 1e-6, .atol = 1e-8};
+  const double run = 50.0, tolerance = 1e-8;
+  CHECK_THAT(first_of(0.0, 0.9e-5 * tolerance / run, 0.0, options, 0.0, run),
+             WithinRel(0.1 * run, 1e-12));
+  CHECK(first_of(0.0, 1.1e-5 * tolerance / run, 0.0, options, 0.0, run) == run);
+}
+
+TEST_CASE("an error too small for a logarithm has the factor of the formula", "[step_size]") {
+  // The worst case: the step before had no error at all. 1e-9 and 1e-8 are beyond the longest
+  // factor of each method, so the shortcut below 1e-9 changes no step.
+  for (const double error : {1.01e-9, 1e-8}) {
+    CHECK(StepController(5.0).accept(error, 1.0, false) == 10.0);
+    CHECK(StepController(8.0, 0.0, 1.0 / 3.0, 6.0).accept(error, 1.0, false) == 6.0);
+  }
+  CHECK_THAT(StepController(5.0).accept(9e-8, 1.0, false),  // not beyond it any more
+             WithinRel(proportional_integral(5.0, 0.04, 9e-8, 1e-4), 1e-12));
+}
+
+namespace {
+
+/// x' = 0, but not a number after `end` [s].
+Leaf ends_at(double end) {
+  return Leaf("leaf", [=](Leaf& l) {
+    l.declare_continuous_state({.initial = vec({1.0}), .ode = [=](const At& at) {
+                                  return at.time > end ? not_a_number : 0.0;
+                                }});
+  });
+}
+
+bool finite_near(double end, double t, double h) {
+  const Leaf leaf = ends_at(end);
+  Machine machine(compile(leaf));
+  machine.load(leaf.create_context());
+  const double x = 1.0;
+  try {
+    require_finite_near(machine, t, h, &x);
+  } catch (const SimulationError&) {
+    return false;
+  }
+  return true;
+}
+
+/// The message about a step of h with min_minor_step_size = 0.1 s.
+std::string too_small(double h) {
+  const Leaf leaf = ends_at(infinite);
+  Machine machine(compile(leaf));
+  machine.load(leaf.create_context());
+  const double x = 1.0;
+  try {
+    throw_step_too_small(machine, 0.0, h, &x, {.min_step = 0.1});
+  } catch (const SimulationError& error) {
+    return error.what();
+  }
+}
+
+}  // namespace
+
+TEST_CASE("a derivative that ends within 16 steps or 64 roundings ahead is found", "[step_size]") {
+  CHECK_FALSE(finite_near(0.015, 0.0, 1e-3));
+  CHECK(finite_near(0.017, 0.0, 1e-3));
+  const double rounding = eps * 1024.0;  // exact, as are the sums below
+  CHECK_FALSE(finite_near(1024.0 + 60.0 * rounding, 1024.0, 0.0));
+  CHECK(finite_near(1024.0 + 68.0 * rounding, 1024.0, 0.0));
+}
+
+TEST_CASE("a step of the least length names that option, a shorter scale does not", "[step_size]") {
+  CHECK(too_small(0.1005).find("below min_minor_step_size = 0.1 s") != std::string::npos);
+  CHECK(too_small(0.102).find("underflows") != std::string::npos);
 }

@@ -40,6 +40,25 @@ TEST_CASE("gaps that shrink by rounding only do not accumulate", "[zeno]") {
   CHECK(!seen(1e-6, 1e3, {1e-7, 1e-7 - 1e-13, 1e-7 - 2e-13}).accumulates());
 }
 
+TEST_CASE("gaps that shrink by more than eight roundings of the time accumulate", "[zeno]") {
+  // At 1024 s a rounding is 2^-42 s, and all of these times are exact.
+  const double rounding = 1024.0 * eps;
+  const auto shrinking_by = [&](double step) {
+    return seen(1.0, 1024.0,
+                {100.0 * rounding, (100.0 - step) * rounding, (100.0 - 2.0 * step) * rounding});
+  };
+  CHECK(!shrinking_by(7.0).accumulates());
+  CHECK(shrinking_by(9.0).accumulates());
+}
+
+TEST_CASE("the ratio of a slow series is that over two gaps", "[zeno]") {
+  const auto remainder = [](double q) { return q / (1.0 - q); };
+  // 0.92 / 0.97 > 0.9: the square root of 0.92 / 1. Otherwise the ratio of the last two gaps.
+  CHECK_THAT(seen(10.0, 0.0, {1.0, 0.97, 0.92}).remainder(),
+             WithinRel(remainder(std::sqrt(0.92)), 1e-12));
+  CHECK_THAT(seen(10.0, 0.0, {1.0, 0.5, 0.44}).remainder(), WithinRel(remainder(0.88), 1e-12));
+}
+
 TEST_CASE("the accumulation time and state of a geometric series are exact", "[zeno]") {
   const double q = GENERATE(0.1, 0.5, 0.9);
   ZenoMonitor monitor(1.0);

@@ -15,8 +15,8 @@ struct Continuation {
   /// One guard.
   struct Guard {
     int side = 0, from = 0;
-    bool fresh = false, resting = false;
-    double band = 0.0, base = 0.0;
+    bool at_zero = false, resting = false;
+    double error = 0.0, base = 0.0;
     bool operator==(const Guard&) const = default;
   };
   /// One Zeno monitor.

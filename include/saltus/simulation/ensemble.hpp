@@ -64,7 +64,7 @@ class Ensemble {
     std::size_t width;
     std::vector<double> values;
   };
-  class Share;
+  class Worker;
   struct Progress;
 
   void require_new(std::string_view name, const ContextEntry& entry) const;

@@ -22,10 +22,19 @@ def _declare_function(
     shape: int | tuple[int, ...] | None,
     boolean: bool | None,
     convention: _core.Convention,
+    formula: bool,
 ) -> None:
     """The one output of a block that is a function of its inputs and nothing else."""
     _core.LeafSystem.declare_output_port(
-        block, callback_of(function), "out", None, shape_of(shape), boolean, ["inputs"], convention
+        block,
+        callback_of(function),
+        "out",
+        None,
+        shape_of(shape),
+        boolean,
+        ["inputs"],
+        convention,
+        bool(formula),
     )
 
 
@@ -45,6 +54,9 @@ class ReduceBlock(LeafSystem):
     boolean
         Whether y is true or false. A boolean that reaches a derivative or a reset is located: by a
         smooth guard where Saltus can see into the function, else by bisection.
+    formula
+        Whether a run may compute the function together with the blocks around it; see
+        `LeafSystem.declare_output_port`.
     name
         How messages, contexts and `diagram[...]` know it; if not said, its class and number.
 
@@ -77,6 +89,7 @@ class ReduceBlock(LeafSystem):
         *,
         shape: int | tuple[int, ...] | None = None,
         boolean: bool | None = None,
+        formula: bool = False,
         name: str | None = None,
     ):
         super().__init__(name)
@@ -84,7 +97,7 @@ class ReduceBlock(LeafSystem):
             raise ModelError(f"block '{self.name}': expected 1 input or more, found {n_inputs}")
         for _ in range(n_inputs):
             self.declare_input_port()
-        _declare_function(self, function, shape, boolean, _core.Convention.inputs)
+        _declare_function(self, function, shape, boolean, _core.Convention.inputs, formula)
 
 
 class FunctionBlock(LeafSystem):
@@ -100,6 +113,9 @@ class FunctionBlock(LeafSystem):
     boolean
         Whether y is true or false. A boolean that reaches a derivative or a reset is located: by a
         smooth guard where Saltus can see into the function, else by bisection.
+    formula
+        Whether a run may compute the function together with the blocks around it; see
+        `LeafSystem.declare_output_port`.
     name
         How messages, contexts and `diagram[...]` know it; if not said, its class and number.
 
@@ -124,8 +140,9 @@ class FunctionBlock(LeafSystem):
         *,
         shape: int | tuple[int, ...] | None = None,
         boolean: bool | None = None,
+        formula: bool = False,
         name: str | None = None,
     ):
         super().__init__(name)
         self.declare_input_port("in")
-        _declare_function(self, function, shape, boolean, _core.Convention.input)
+        _declare_function(self, function, shape, boolean, _core.Convention.input, formula)

@@ -84,8 +84,8 @@ void fields_of(Archive& archive, Continuation& c) {
   using Guard = Continuation::Guard;
   archive.field("jump", c.jump);
   archive.field("relations", c.relations);
-  archive.rows("guards", c.guards, &Guard::side, &Guard::from, &Guard::fresh, &Guard::resting,
-               &Guard::band, &Guard::base);
+  archive.rows("guards", c.guards, &Guard::side, &Guard::from, &Guard::at_zero, &Guard::resting,
+               &Guard::error, &Guard::base);
   archive.records("firings", c.firings, [](auto& one, auto& firings) {
     one.field("times", firings.times);
     one.field("after", firings.after);

@@ -4,13 +4,11 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
-#include <new>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "saltus/plan/detail/calls.hpp"
-#include "saltus/plan/detail/memory.hpp"
+#include "saltus/plan/detail/arguments.hpp"
 #include "saltus/plan/detail/resting_states.hpp"
 
 namespace saltus {
@@ -50,17 +48,15 @@ class Machine : public Memory {
     if (lone_ode_ == nullptr || resting_.any() || carrier_ != nullptr)
       return carried_derivative(t, state, xdot);
     ++rhs_calls;
-    bases_[0] = state;
     const VectorRef out(xdot, lone_ode_->size);
-    (*lone_ode_->function)(*lone_ode_->system, seen_by(*lone_ode_, t), out);
+    (*lone_ode_->function)(*lone_ode_->system, arguments_.of(state).at(*lone_ode_, t), out);
   }
   /// Evaluates all guards that can fire now, into their slots of g.
   void guards(double t, const double* state, double* g) {
     if (lone_guard_ == nullptr || carrier_ != nullptr) return carried_guards(t, state, g);
     ++guard_calls;
-    bases_[0] = state;
     const VectorRef out(g + lone_guard_->slot, lone_guard_->width);
-    (*lone_guard_->function)(*lone_guard_->system, seen_by(*lone_guard_, t), out);
+    (*lone_guard_->function)(*lone_guard_->system, arguments_.of(state).at(*lone_guard_, t), out);
   }
 
   /// The right-hand side with its arguments except t and x, if a step that was compiled together
@@ -73,7 +69,7 @@ class Machine : public Memory {
   };
   Inlined inlined() {
     if (inlined_ == nullptr || resting_.any() || carrier_ != nullptr) return {};
-    return {inlined_, lone_ode_->system, &seen_by(*lone_ode_, 0.0)};
+    return {inlined_, lone_ode_->system, &arguments_.of(x.data()).at(*lone_ode_, 0.0)};
   }
 
   /// Derivative and guards at exactly this state, even while a block is carried.
@@ -87,16 +83,15 @@ class Machine : public Memory {
   void evaluate_moving(double t, const double* state) { run(calls_.moving, t, state); }
   /// Computes the values that the recorded rows show, at (t, x), and returns where they are.
   Values evaluate_taps(double t, const double* state) {
-    run(calls_.taps, t, carried(t, state));
-    return Values(bases_);
+    return run(calls_.taps, t, carried(t, state)).values();
   }
 
   /// The arguments of a leaf's functions at time t and this state of the whole machine; a view that
   /// lasts until the next evaluation. Inputs are those of the last evaluation.
   At at(std::size_t leaf, double t, const double* state) {
-    bases_[0] = state;
     const PlanLeaf& of = plan_->leaves[leaf];
-    return seen_by({nullptr, of.system, leaf, &views_[leaf], of.x, of.nx}, t);
+    return arguments_.of(state).at(
+        {nullptr, of.system, leaf, &arguments_.views()[leaf], of.x, of.nx}, t);
   }
   /// xdot of one leaf at time t and this state of the whole machine.
   void leaf_derivative(std::size_t leaf, double t, const double* state, VectorRef xdot) {
@@ -139,39 +134,31 @@ class Machine : public Memory {
   std::int64_t rhs_calls = 0, guard_calls = 0, jacobian_calls = 0;
 
  private:
-  void make_views();
+  using Seen = Arguments::OfState;
+
   void carried_derivative(double t, const double* state, double* xdot);
   void carried_guards(double t, const double* state, double* g);
 
-  /// The present arguments of leaf i. Only the values that change from call to call are set again.
-  const At& seen_by(const Call& call, double t) {
-    At& at = *call.at;
-    at.time = t;
-    new (&at.x) VectorView(bases_[0] + call.x, call.size);
-    at.mode = modes[call.leaf];
-    return at;
-  }
-  void run(const std::vector<OutputCall>& calls, double t, const double* state) {
-    bases_[0] = state;
+  /// Carries out calls at a state, and returns what further calls see.
+  Seen run(const std::vector<OutputCall>& calls, double t, const double* state) {
+    const Seen seen = arguments_.of(state);
     for (const OutputCall& call : calls) {
       const VectorRef out(y.data() + call.to, call.width);
-      (*call.function)(*call.system, seen_by(call, t), out);
+      (*call.function)(*call.system, seen.at(call, t), out);
       if (!call.relation) continue;
       const bool at_zero = call.true_at_zero;
       for (double& value : VectorRef(out)) value = value > 0.0 || (at_zero && value == 0.0);
     }
+    return seen;
   }
-  void ode_of(const Call& ode, double t, double* xdot) {
+  static void ode_of(const Call& ode, Seen seen, double t, double* xdot) {
     const VectorRef out(xdot + ode.x, ode.size);
-    (*ode.function)(*ode.system, seen_by(ode, t), out);
+    (*ode.function)(*ode.system, seen.at(ode, t), out);
   }
-  void ode_with_rest(const Call& ode, double t, double* xdot);
-  void guard(const GuardCall& call, double t, double* g);
+  void ode_with_rest(const Call& ode, Seen seen, double t, double* xdot) const;
+  static void guard(const GuardCall& call, Seen seen, double t, double* g);
 
-  Bases bases_{};
-  Place place_of_z_;       // all of z, for fused functions
-  std::vector<At> views_;  // one for each leaf, and one of the whole machine for fused functions
-  std::vector<const double*> relation_values_;
+  Arguments arguments_;
   Calls calls_;
   /// If this is the only ode, and it needs no computed values, it is called without a walk.
   const Call* lone_ode_ = nullptr;

@@ -1,13 +1,12 @@
 // Instant: all that happens at one time value, in passes, until nothing changes.
 #pragma once
 
-#include <string>
 #include <utility>
 #include <vector>
 
-#include "saltus/simulation/detail/crossing_arming.hpp"
+#include "saltus/simulation/detail/collector.hpp"
+#include "saltus/simulation/detail/effects.hpp"
 #include "saltus/simulation/detail/instant_rows.hpp"
-#include "saltus/simulation/detail/relations.hpp"
 
 namespace saltus {
 
@@ -20,6 +19,7 @@ namespace saltus {
 ///     Holds                               which states rest
 ///     ContactGuards                       the guards of blocks at rest
 ///     Relations, CrossingArming           truths; sides of zero crossings
+///     Collector, Effects                  the actions of a pass; carrying them out
 class Instant {
  public:
   Instant(Machine& machine, GuardSet& guards, const SimulatorOptions& options, Results& results);
@@ -63,29 +63,11 @@ class Instant {
     std::vector<Firing> roots = {};
     int jump = 0;
   };
-  struct Effect {
-    const ResetMap* map;
-    const int* end_mode;  // null: none
-    Holds::Hold* hold;
-    bool any() const { return *map || end_mode != nullptr; }
-  };
 
   void open(double t, const std::vector<int>& due, double longest);
   void turn_beside_root();
   bool collect();
-  bool acts(const Action& action) const;
-  bool take_contacts();
-  bool flip_relations();
-  bool collect_edges();
-  void collect_carried(std::size_t e);
-  void collect_crossings();
-  void note_passive();
-  bool run_effect(const Effect& effect, int leaf, const std::string& source);
   void run_pass();
-  void run_action(const Action& action);
-  void run_update(const Action& action);
-  void run_reset(const Action& action);
-  Effect effect_of(const Action& action);
   void commit();
   void find_next();
   void arm(bool at_start);
@@ -107,6 +89,8 @@ class Instant {
   ContactGuards contacts_;
   Relations relations_;
   CrossingArming crossings_;
+  Collector collector_;
+  Effects effects_;
   int jump_ = 0;
   Before before_;
 };

@@ -1,9 +1,7 @@
 // Run: the loop from instant to instant. It implements Simulator.
 #pragma once
 
-#include <chrono>
 #include <memory>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,9 +10,11 @@
 #include "saltus/simulation/detail/chattering.hpp"
 #include "saltus/simulation/detail/crawl.hpp"
 #include "saltus/simulation/detail/instant.hpp"
+#include "saltus/simulation/detail/integration.hpp"
+#include "saltus/simulation/detail/interrupt.hpp"
 #include "saltus/simulation/detail/major_steps.hpp"
+#include "saltus/simulation/detail/rows.hpp"
 #include "saltus/simulation/detail/turn.hpp"
-#include "saltus/solver/detail/choose.hpp"
 
 namespace saltus {
 
@@ -52,17 +52,13 @@ class Run {
     std::size_t rows = 0;     ///< before the last instant
   };
   using Place = Accepted::Place;
-  void start_recorder();
   Status run_to(double t_end);
   Status begin(double t_end);
   Status step(double t_end);
-  void move_to(double t_stop, StopReason& reason);
   Status settle(StopReason reason, double t_end, bool at_start);
   Status after(const Outcome& outcome, const Chattering::Seen& seen, bool idle);
-  void record_step(double from);
-  void record(double t, const double* x);
+  void log_monitors();
   void keep_step(double from);
-  bool interrupted();
   Status end_chattering();
   Status end_crawl();
   Status end(Status status, std::string message = {});
@@ -70,15 +66,6 @@ class Run {
   void finish();
   void take_accepted();
   void require_ready(double t_end) const;
-  /// The solver's state, or the machine's while no solver is at work.
-  const Eigen::VectorXd& present_state() const {
-    return solver_started_ ? solver_->state() : machine_.x;
-  }
-  /// Copies the solver's state into the machine, and moves carried blocks onto their surfaces.
-  void take_state() {
-    machine_.x = solver_->state();
-    machine_.put_carried(time_, machine_.x.data());
-  }
 
   SimulatorOptions options_;
   Machine machine_;
@@ -87,22 +74,17 @@ class Run {
   Instant instant_;
   Calendar calendar_;
   MajorSteps major_;
-  std::optional<Recorder> recorder_;
-  std::unique_ptr<Solver> solver_;
+  Integration integration_;
+  Rows rows_;
   Context begin_;
   double time_ = 0.0;
-  bool begun_ = false, solver_started_ = false, over_ = false;
+  bool begun_ = false, over_ = false;
   Accepted accepted_;
   mutable Caller caller_{};
   std::vector<int> due_;
-  std::size_t next_save_ = 0;
   Chattering chattering_;
   Crawl crawl_;
-  Eigen::VectorXd row_;  // a state inside the last step
-  struct {
-    std::int64_t ticks = 0;  // minor steps
-    std::chrono::steady_clock::time_point asked{};
-  } interrupt_;
+  Interrupt interrupt_;
 };
 
 }  // namespace saltus

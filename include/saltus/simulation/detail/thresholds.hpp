@@ -1,5 +1,5 @@
 // The tuning numbers of the instants of a run: name, unit and derivation. Where a test is named, it
-// fails if the number changes.
+// fails if the number is a hundred times as large, or as small.
 #pragma once
 
 #include <cstdint>
@@ -14,34 +14,38 @@ namespace saltus::thresholds {
 /// order 1e-14, shows in none of them.
 inline constexpr double disturbance = 1e-7;
 /// [eps] Rounding that a state carries after a step: a dozen stages, each with one rounding, and
-/// the reset map.
+/// the reset map. tests/unit/departure_test.cpp
 inline constexpr double state_roundings = 16.0;
 /// [eps |t|] Times closer than this may be the same time after a location; a flight of that length
-/// does not differ from rest.
+/// does not differ from rest. tests/semantics/zeno_false_rest_test.cpp
 inline constexpr double time_roundings = 64.0;
 /// [eps |t|] Resolution of the location of a root: two roundings of the bracket, and those of t +
-/// u.
+/// u. tests/semantics/guards_no_fall_test.cpp
 inline constexpr double location_roundings = 8.0;
 /// [of the guard's value at its root] Location error: Illinois leaves a bracket of two resolutions,
 /// over which a guard doubles at most, and the flow adds as much again on the way back.
+/// tests/unit/error_bound_test.cpp
 inline constexpr double location_error = 4.0;
 /// [of the guard's value] Error of a guard that fired on leaving its error: the old error, and one
-/// part in a hundred for the rounding of the reset.
+/// part in a hundred for the rounding of the reset. tests/unit/error_bound_test.cpp
 inline constexpr double kept_error = 1.01;
 /// [of its movement by a commit] A guard that a commit moved further beyond zero than this part of
 /// the whole movement is across: a rounding of that size would leave three digits.
 inline constexpr double clearly_across = 1e-3;
 /// [tolerances of the states] A guard that leaves a falling surface is at zero within this error:
 /// its distance grows as the third power of time, while the error of the state grows as the first.
+/// tests/unit/departure_test.cpp
 inline constexpr double lift_off_tolerances = 30.0;
 
 // --- how far the flow is followed from a guard at zero: departure.hpp
 
 /// [1] The time grows by this factor from look to look. Eight is a power of two: times stay exact.
+/// tests/unit/departure_test.cpp
 inline constexpr double look_growth = 8.0;
 /// [first looks] Time of the furthest look: six looks. The solver finds later events.
 inline constexpr double furthest_look = 3e5;
 /// [of the run] Time of the first look at a guard that no state moves.
+/// tests/semantics/zeno_false_rest_test.cpp
 inline constexpr double first_look_of_run = 1e-9;
 /// [of the run] A state that takes longer than this to move by its tolerance is ignored.
 inline constexpr double slow_state_of_run = 1e-3;
@@ -49,10 +53,11 @@ inline constexpr double slow_state_of_run = 1e-3;
 /// is beyond doubt, and its rounding need not be measured.
 inline constexpr double doubtless_move = 1e-3;
 /// [lift times] and [of the run]: the furthest look that waits for curvature to exceed rounding.
+/// tests/laws/ball_far_test.cpp
 inline constexpr double lift_times = 16.0;
 inline constexpr double lift_of_run = 1e-2;
 /// [s] A run that is shorter than this gives no time scale to look ahead by. [1] The time scale of
-/// the fastest state is multiplied by this then.
+/// the fastest state is multiplied by this then. tests/unit/departure_test.cpp
 inline constexpr double short_run = 1.0;
 inline constexpr double short_run_looks = 1e9;
 /// [first looks] The time over which the speed of a guard is bounded: long enough that its rounding
@@ -67,7 +72,7 @@ inline constexpr double stopped_slope = 1e-6;
 // --- contacts with surfaces that move: contact.cpp, contact_guards.cpp
 
 /// [rounds] of Aitken's extrapolation: one for an affine map, one to verify that it is affine, and
-/// four for maps that are nearly affine.
+/// four for maps that are nearly affine. tests/unit/contact_guards_test.cpp
 inline constexpr int fixed_point_rounds = 6;
 /// [eps of the size of a state] A reset that moves a state by less has reached its fixed point.
 inline constexpr double fixed_point_roundings = 64.0;
@@ -79,7 +84,8 @@ inline constexpr double brief_of_run = 1e-9;
 inline constexpr double brief_roundings = 1024.0;
 inline constexpr double look_ahead_of_run = 1e-3;
 /// [looks] that find out whether a surface moves. Each is `probe_growth` times as far as the one
-/// before: up to 3e4 looks ahead.
+/// before: up to 3e4 looks ahead. tests/unit/contact_guards_test.cpp
+/// tests/semantics/zeno_moving_frame_test.cpp
 inline constexpr int probes = 4;
 inline constexpr double probe_growth = 30.0;
 /// [eps of the size of a state] A fixed point that differs from the held state by more moves.
@@ -87,6 +93,7 @@ inline constexpr double moved_roundings = 1e3;
 /// [1] A force on the surface counts as changed if it changes by more than this part.
 inline constexpr double changed_force = 1e-5;
 /// [errors] A held guard that is further beyond zero than this has moved into its surface.
+/// tests/unit/contact_decisions_test.cpp
 inline constexpr double clearly_beyond = 1e3;
 /// [1] The error of a contact grows by this factor if the guard left it by rounding.
 inline constexpr double wavered = 2.0;
@@ -94,16 +101,18 @@ inline constexpr double wavered = 2.0;
 // --- Zeno points: zeno.hpp, holds.cpp
 
 /// [eps |t|] A gap that shrinks by less may shrink by the rounding of the event times only.
+/// tests/unit/zeno_test.cpp
 inline constexpr double gap_roundings = 8.0;
 /// [1] Above this ratio of gaps, the ratio is computed over two gaps: a slow series amplifies the
-/// rounding of event times by 1 / (1 - q)^2.
+/// rounding of event times by 1 / (1 - q)^2. tests/unit/zeno_test.cpp
 inline constexpr double slow_series = 0.9;
-/// [1] The next firing may follow within this many of the last gaps.
+/// [1] The next firing may follow within this many of the last gaps. tests/unit/holds_test.cpp
 inline constexpr double next_gap = 1.2;
 
 // --- chattering: chattering.cpp (tests/unit/chattering_test.cpp)
 
 /// [flips] of a relation in one instant: both sides lead back to its surface.
+/// tests/unit/relations_test.cpp
 inline constexpr int fluttering_flips = 3;
 /// [events] A guard at rest without a Zeno monitor fires as often as the solver can step; a
 /// thousand firings are no approach to a limit.
@@ -140,10 +149,12 @@ inline constexpr int crawl_halvings = 200;
 // --- journal and calendar
 
 /// [causes] that a chain remembers: four times the default of max_passes.
+/// tests/unit/journal_test.cpp
 inline constexpr std::size_t remembered_causes = 400;
-/// [causes] The last causes of a chain, which a message shows.
+/// [causes] The last causes of a chain, which a message shows. tests/unit/journal_test.cpp
 inline constexpr std::size_t shown_causes = 6;
 /// [eps |t|] Times that differ by rounding only are one instant: 3 * 0.1 and 0.3.
+/// tests/unit/calendar_test.cpp
 inline constexpr double tick_roundings = 4.0;
 
 }  // namespace saltus::thresholds

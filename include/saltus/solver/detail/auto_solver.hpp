@@ -11,6 +11,7 @@
 #include "saltus/solver/detail/cvode.hpp"
 #include "saltus/solver/detail/one_step.hpp"
 #include "saltus/solver/detail/spectral_radius.hpp"
+#include "saltus/solver/detail/stretch_log.hpp"
 #include "saltus/solver/detail/thresholds.hpp"
 
 namespace saltus {
@@ -70,21 +71,8 @@ class AutoSolver final : public Solver {
     return sum_;
   }
 
-  std::vector<Stretch> stretches() const override {
-    std::vector<Stretch> all = past_;
-    all.push_back(present());
-    return all;
-  }
-
-  std::string method() const override {
-    std::string all = past_.empty() ? present().method : past_.front().method;
-    constexpr std::size_t shown = 4;
-    const auto list = stretches();
-    for (std::size_t i = 1; i < std::min(list.size(), shown); ++i)
-      all += text(", then ", list[i].method, " from t = ", list[i].begin, " s: the scene ",
-                  list[i].method == "bdf" ? "looks stiff" : "no longer does");
-    return list.size() > shown ? text(all, "; ", list.size(), " stretches in all") : all;
-  }
+  std::vector<Stretch> stretches() const override { return log_.all(now()); }
+  std::string method() const override { return log_.to_string(now()); }
 
  private:
   /// The damping ratio up to which a part oscillates: its bound by stability is nearer to that of
@@ -106,7 +94,7 @@ class AutoSolver final : public Solver {
 
   void begin_run(double t) {
     stiff_ = false, bdf_ = {}, form_ = 0, beyond_ = beyond_instability, radius_.forget();
-    past_.clear(), begun_ = t, steps_before_ = 0;
+    log_.clear(t);
     longest_ = window_ = 0.0, patience_ = thresholds::first_checks;
   }
   void forget_steps() { longest_ = window_ = 0.0, steps_ = not_stiff_ = 0, unchecked_ = true; }
@@ -118,7 +106,7 @@ class AutoSolver final : public Solver {
     if (stiff == stiff_) return;
     const double t = now().time();
     handed_over_ = now().state();
-    if (stiff && steps_ < thresholds::short_stretch && !past_.empty())
+    if (stiff && steps_ < thresholds::short_stretch && log_.changed())
       patience_ = std::min(2 * patience_, thresholds::most_checks);
     const bool in_vain = stiff_ && hardly_damped_;
     change(t, stiff);
@@ -196,15 +184,9 @@ class AutoSolver final : public Solver {
       options.highest_order = highest_order[form_];
       bdf_[form_] = make_cvode(*machine_, *guards_, options, CvodeMethod::bdf);
     }
-    past_.push_back(present());
-    past_.back().end = t;
-    begun_ = t;
+    log_.end(now(), t);
     stiff_ = stiff;
-    steps_before_ = now().statistics().steps;
-  }
-
-  Stretch present() const {
-    return {now().method(), begun_, now().time(), now().statistics().steps - steps_before_};
+    log_.begin(now());
   }
 
   Machine* machine_;
@@ -224,9 +206,7 @@ class AutoSolver final : public Solver {
   int steps_ = 0;          // since the last restart or change
   int not_stiff_ = 0, patience_ = thresholds::first_checks;
   Eigen::VectorXd handed_over_;  // the state at a change
-  std::vector<Stretch> past_;
-  double begun_ = 0.0;  // [s] begin of the present stretch
-  std::int64_t steps_before_ = 0;
+  StretchLog log_;
   mutable SolverStatistics sum_;
 };
 

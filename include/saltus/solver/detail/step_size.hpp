@@ -35,11 +35,11 @@ class StepController {
     before_ = std::max(size, thresholds::least_remembered);
     return h * (after_rejection ? std::min(factor, 1.0) : factor);
   }
-  /// The step after a rejection.
+  /// The step after a rejection, whose error is above 1.
   double reject(double error, double h) const {
     if (!std::isfinite(error)) return h * thresholds::blind_retry;
-    return h * std::clamp(thresholds::step_safety * std::pow(error, -plain_),
-                          thresholds::shortest_retry, thresholds::longest_retry);
+    return h *
+           std::max(thresholds::step_safety * std::pow(error, -plain_), thresholds::shortest_retry);
   }
 
  private:
@@ -77,9 +77,8 @@ inline double first_step(Machine& machine, double t, const Eigen::VectorXd& x, c
   const double whole = std::max(d0, 1.0), bend = d2 * unit * unit;
   const double clock = bend < whole ? std::sqrt(whole / d2) : unit;
   const double largest = std::max(d1 * unit, bend);
-  const double h1 = largest <= thresholds::no_curvature
-                        ? unit
-                        : clock * std::pow(thresholds::first_change / largest, 1.0 / order);
+  // Infinite without slope and curvature.
+  const double h1 = clock * std::pow(thresholds::first_change / largest, 1.0 / order);
   const double shortest =
       thresholds::first_step_roundings * thresholds::eps * std::max(std::abs(t), limit);
   const double h = std::min(std::max(shortest, std::min(unit, h1)), limit);

@@ -1,6 +1,6 @@
 // The tuning numbers of the solvers: name, unit and derivation or source. Where a test is named, it
-// fails if the number changes. Coefficients of a method, and its bounds of step factors, are in
-// dopri5.hpp and dop853.hpp.
+// fails if the number is a hundred times as large, or as small. Coefficients of a method, and its
+// bounds of step factors, are in dopri5.hpp and dop853.hpp.
 #pragma once
 
 #include <limits>
@@ -20,63 +20,70 @@ inline constexpr double step_safety = 0.9;
 /// formula). tests/unit/step_size_test.cpp
 inline constexpr double beta_of_exponent = 0.75;
 /// [log2 of tolerances] The controller remembers no error below 1e-4 (the code DOPRI5).
+/// tests/unit/step_size_test.cpp
 inline constexpr double least_remembered = -13.287712379549449;
 /// [tolerances] Below this error both powers together exceed the longest factor, so log2 is not
-/// computed.
+/// computed. That holds up to 1e-8: tests/unit/step_size_test.cpp
 inline constexpr double negligible_error = 1e-9;
-/// [1] Bounds of the factor after a rejection. The codes shorten to a tenth at most; after a change
-/// of mode a thousandth may be right, which an error of 1e10 shows.
-inline constexpr double shortest_retry = 1e-3, longest_retry = 0.9;
+/// [1] The least factor after a rejection. The codes shorten to a tenth at most; after a change of
+/// mode a thousandth may be right, which an error of 1e10 shows. tests/unit/step_size_test.cpp
+inline constexpr double shortest_retry = 1e-3;
 /// [1] The factor after an error that is not finite: the codes' most cautious.
+/// tests/unit/step_size_test.cpp
 inline constexpr double blind_retry = 0.1;
 /// [eps |t|] A shorter step is an underflow: its twelve stages would hardly be different times.
+/// tests/unit/locate_test.cpp
 inline constexpr double least_step_roundings = 16.0;
 
 // --- the first step: step_size.hpp (Hairer, Norsett, Wanner I, p. 169)
 
 /// [tolerances] States that move by less until the end of the run rest.
+/// tests/unit/step_size_test.cpp
 inline constexpr double resting_change = 1e-5;
-/// [of the run] Length of the trial step of states that rest.
+/// [of the run] Length of the trial step of states that rest. tests/unit/step_size_test.cpp
 inline constexpr double resting_step = 1e-3;
 /// [1] The trial step changes the states by this part; the first step's error is this part of a
-/// tolerance.
+/// tolerance. tests/unit/step_size_test.cpp
 inline constexpr double first_change = 0.01;
-/// [trial steps] The time in which the states change by themselves: 1 / first_change.
-inline constexpr double time_of_change = 100.0;
-/// [tolerances] A smaller slope and curvature bound no step.
-inline constexpr double no_curvature = 1e-15;
-/// [eps |t|] The least first step, as CVODE's.
+/// [trial steps] The time in which the states change by themselves.
+inline constexpr double time_of_change = 1.0 / first_change;
+/// [eps |t|] The least first step, as CVODE's. tests/unit/step_size_test.cpp
 inline constexpr double first_step_roundings = 100.0;
 
 // --- when no step is small enough: step_size.hpp
 
 /// [steps] and [eps |t|]: a value that is not finite within the larger of these ahead is the cause.
+/// tests/unit/step_size_test.cpp
 inline constexpr double ahead_steps = 16.0, ahead_roundings = 64.0;
 /// [min_minor_step_size] A step of this length is at the lower bound, but for rounding.
+/// tests/unit/step_size_test.cpp
 inline constexpr double at_min_step = 1.01;
 
 // --- dense output of dop853: runge_kutta.hpp
 
 /// [tolerances] The error allowed for a look inside a step: less than half of the ten tolerances
-/// that the tests allow for the time of an event.
+/// that the tests allow for the time of an event. tests/unit/halves_test.cpp
 inline constexpr double dense_room = 4.0;
 
 // --- location: narrow.hpp, locate.hpp, glance.hpp
 
 /// [eps of the offset] The bracket of a root: the offsets at its ends differ by two roundings.
+/// tests/unit/narrow_test.cpp
 inline constexpr double bracket_roundings = 2.0;
 /// [brackets] In a shorter interval there is one point to look at only, its middle.
+/// tests/unit/auto_solver_test.cpp
 inline constexpr double last_look = 3.0;
 /// [looks] Bisection takes 53 looks; where an estimate has not come to an end by then, bisection
 /// goes on. The second number is a limit that neither reaches: 60 and the 74 + 53 halvings of an
-/// interval down to the least double.
+/// interval down to the least double. tests/unit/narrow_test.cpp, tests/unit/locate_cvode_test.cpp
 inline constexpr int bisects_after = 60, most_looks = 200;
 /// [of the guard at the bracket's ends] Rounding of the interpolant at a root: both ends may be off
 /// by as much as they differ, twice.
 inline constexpr double root_noise = 4.0;
 /// [1] How much steeper than in the whole interval a guard has to be in its last bracket to be a
 /// jump. A bracket is narrowed by 1e12 and more: a jump is steeper by the whole factor, a smooth
-/// guard hardly. This lies between, in decades. tests/semantics/guards_jump_test.cpp
+/// guard hardly. This lies between, in decades. tests/semantics/guards_jump_test.cpp fails where it is
+/// so large that nothing is a jump.
 inline constexpr double jump_steepness = 1e6;
 /// [of a piece of a step] The first look after a restart where a guard is beyond zero: with the
 /// looks at both ends of the first piece it shows whether the guard comes back inside it.
@@ -85,11 +92,12 @@ inline constexpr double first_look = 1.0 / 64.0;
 /// [of the interval] A root so near to its begin gives no look that a parabola could use.
 inline constexpr double short_share = 1e-3;
 /// [eps t] and [of the interval]: how far after its root a monitor is looked at for its side.
+/// tests/laws/tangent_pairs_test.cpp
 inline constexpr double leave_roundings = 64.0, leave_share = 1e-9;
 /// [steps] Looks inside steps that need none: the first after seven, then 15, 31, 63.
 inline constexpr int least_patience = 7, most_patience = 63;
 /// [1] A guard is out of reach if it could not come to zero and back at this many times its recent
-/// speed: two for the way, four for a change of speed.
+/// speed: two for the way, four for a change of speed. tests/laws/tangent_test.cpp
 inline constexpr double speed_margin = 8.0;
 /// [1] Part of the recent speed that is kept from look to look.
 inline constexpr double speed_memory = 0.5;
@@ -100,24 +108,28 @@ inline constexpr double slow_dip = 0.5;
 /// [of the largest of three looks] A touch of zero within this is rounding, no dip.
 inline constexpr double dip_rounding = 1e-12;
 /// [looks] at the vertex: each has twice as many digits as the one before; 2^6 > 53.
+/// tests/laws/tangent_pairs_test.cpp
 inline constexpr int dip_looks = 6;
 
 // --- stiffness of an explicit method: stiffness.hpp
 
 /// [steps] in a row that look stiff, and steps that do not and end the row (the code DOPRI5).
+/// tests/unit/stiffness_test.cpp
 inline constexpr int stiff_steps = 15, other_steps = 6;
-/// [1] h |lambda| below which no step looks stiff.
+/// [1] h |lambda| below which no step looks stiff. tests/unit/stiffness_test.cpp
 inline constexpr double least_reach = 0.25;
 /// [of h |lambda|] A step whose derivative turns by less is short because of stability.
+/// tests/unit/stiffness_test.cpp
 inline constexpr double smooth_turn = 0.1;
 /// [1] BDF's step on a smooth solution is this times rtol^(1/6) h / r (two modes of bench/methods,
 /// rtol 1e-3 to 1e-12); [calls] of a step of BDF; [1] the part of our calls that BDF has to save.
+/// tests/unit/stiffness_test.cpp
 inline constexpr double bdf_step = 0.4, bdf_calls = 1.5, saved_calls = 0.5;
 
 // --- spectral radius: spectral_radius.hpp
 
 /// [1] Part of every other direction that an iteration starts with; [iterations], for an order of
-/// magnitude.
+/// magnitude. tests/unit/spectral_radius_test.cpp
 inline constexpr double other_directions = 0.1;
 inline constexpr int power_iterations = 3;
 
@@ -125,23 +137,25 @@ inline constexpr int power_iterations = 3;
 
 /// [1] rtol below which dop853 takes less time than dopri5 at equal rtol (bench/methods). Ratios of
 /// the times for Kepler, Arenstorf, Van der Pol with mu = 1: 0.8 at 1e-6, 0.5 to 0.9 at 1e-7, 0.3
-/// at 1e-12.
+/// at 1e-12. tests/unit/auto_solver_test.cpp
 inline constexpr double order_8_pays = 1e-7;
 /// [1] The same with guards that stop. Ratios for a ball with drag, whose flights end inside a step
 /// and whose steps need looks inside: 1.6 at 1e-9, 1.0 at 1e-10, 0.8 at 1e-12.
+/// tests/unit/auto_solver_test.cpp
 inline constexpr double order_8_pays_with_guards = 1e-10;
 /// [1] h |lambda| below which BDF's steps are stable for the explicit method (L. Petzold, SIAM J.
-/// Sci. Stat. Comput. 4 (1983) 136).
+/// Sci. Stat. Comput. 4 (1983) 136). tests/unit/auto_solver_test.cpp
 inline constexpr double stable_reach = 1.0;
 /// [of the steps before] A first step shorter than this looks stiff, if also h |lambda| of the
 /// steps before was beyond ten times the bound of stability, and that of this step is not below
 /// `least_reach`.
 inline constexpr double collapse = 0.01, far_beyond_stability = 10.0;
 /// [steps] of BDF between two checks; [checks] in a row that must succeed, at first and at most.
+/// tests/unit/auto_solver_test.cpp
 inline constexpr int check_every = 50;
 inline constexpr int first_checks = 2, most_checks = 64;
 /// [steps] A stretch of BDF begins with as many steps that do not count, because order and steps
-/// rise; an explicit stretch that ends sooner did not last.
+/// rise; an explicit stretch that ends sooner did not last. tests/unit/auto_solver_test.cpp
 inline constexpr int short_stretch = 100;
 
 // --- CVODE: cvode_solver.cpp, cvode_scene.hpp
@@ -168,33 +182,36 @@ inline constexpr int small_vector = 16;
 /// [roundings of f] The least change of f that a difference is made of (CVODE's own).
 inline constexpr double difference_roundings = 1000.0;
 /// [1] Part of a change of f that a Jacobian may leave unexplained: what differences leave of it,
-/// and [eps] the rounding of f.
+/// and [eps] the rounding of f. tests/unit/jacobian_test.cpp
 inline constexpr double unexplained = 0.01, unexplained_roundings = 100.0;
 /// [states] A smaller block counts as full: its Jacobian by differences costs no more calls than a
-/// search.
+/// search. tests/unit/probe_test.cpp
 inline constexpr Index small_block = 256;
 /// [sizes of the states] Distance of the two points that places are looked for at.
+/// tests/unit/probe_test.cpp
 inline constexpr double near_point = 1e-4, far_point = 1e-2;
 /// [groups] from which a half full matrix ends the search; [colours] above which a round is too
-/// expensive.
+/// expensive. tests/unit/find_places_test.cpp
 inline constexpr Index judged_groups = 64, most_colours = 1000;
 
 // --- linear solvers: linear/ (times fitted to bench/linear_solvers; only where they cross matters)
 
-/// [states] Up to here a full matrix is never slower.
+/// [states] Up to here a full matrix is never slower. tests/unit/linear_solver_test.cpp
 inline constexpr Index few_states = 8;
-/// [diagonals] Up to here no other order is looked for.
+/// [diagonals] Up to here no other order is looked for. tests/unit/linear_solver_test.cpp
 inline constexpr Index narrow_band = 8;
 /// [1] A new order of the states must make the band narrower than this part.
+/// tests/unit/linear_solver_test.cpp
 inline constexpr double band_pays = 0.8;
-/// [ns] per n^3 and n^2 of a factorisation and its solves.
+/// [ns] per n^3 and n^2 of a factorisation and its solves. tests/unit/linear_solver_test.cpp
 inline constexpr double dense_cube = 0.06, dense_square = 3.0;
 /// [ns] per row, per row and diagonal, per row and product of diagonals.
+/// tests/unit/linear_solver_test.cpp
 inline constexpr double band_row = 20.0, band_diagonal = 2.0, band_product = 0.15;
-/// [ns] per row, entry of the factors, and operation.
+/// [ns] per row, entry of the factors, and operation. tests/unit/linear_solver_test.cpp
 inline constexpr double sparse_row = 300.0, sparse_entry = 15.0, sparse_operation = 1.0;
 /// [ns] per place; three times the measured time, because the number of iterations is not known
-/// beforehand.
+/// beforehand. tests/unit/linear_solver_test.cpp
 inline constexpr double gmres_place = 3.0 * 150.0;
 /// [entries] of a factor, at which their count stops: 0.3 s of a factorisation.
 inline constexpr double most_factor_entries = 2e7;
@@ -204,7 +221,7 @@ inline constexpr double most_factor_entries = 2e7;
 inline constexpr int unrolled_dense = 8;
 inline constexpr Index large_dense = 48;
 /// [states] Up to here the Jacobian is renewed with each set-up, and a set-up made each five steps:
-/// see LinearSystem::refresh_often.
+/// see LinearSystem::refresh_often. tests/laws/fast_modes_test.cpp fails with five hundred steps.
 inline constexpr Index fresh_jacobian = 16;
 inline constexpr int setup_steps = 5;
 /// [vectors] of GMRES's Krylov space, at most.

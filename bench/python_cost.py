@@ -1,7 +1,7 @@
 """What Python costs: the tutorial's scenes traced and called against the same scenes in C++; one
 call of a callback; the first result after `import saltus`.
 
-    python bench/python_ladder.py [build/bench/results]
+    python bench/python_cost.py [build/bench/results]
 
 Whole calls of `saltus.simulate`, warm, in one process, taking turns; processor time, medians.
 """
@@ -234,8 +234,8 @@ import numpy
 numpy_done = time.process_time()
 import sys
 sys.path.insert(0, {folder!r})
-import python_ladder
-python_ladder.leaf_runner(0.9, 12.0, "traced")()
+import python_cost
+python_cost.leaf_runner(0.9, 12.0, "traced")()
 print(time.process_time() - numpy_done)
 """
 
@@ -265,7 +265,7 @@ def main(results=None):
     print(f"first result after import: {first:.3f} s; target <= {COLD_TARGET} s")
     if results:
         sheet = {"scenes": rows, "call": call, "cold": first}
-        (Path(results) / "python_ladder.json").write_text(json.dumps(sheet, indent=1))
+        (Path(results) / "python_cost.json").write_text(json.dumps(sheet, indent=1))
 
 
 if __name__ == "__main__":

@@ -1,25 +1,23 @@
-"""`simulate`, and `Simulator` for a run in pieces."""
+"""`Simulator`: a run in pieces."""
 
 from __future__ import annotations
 
-import contextlib
-import threading
-from collections.abc import Mapping
 from dataclasses import fields, replace
 from typing import Any
 
 from saltus import _core
 from saltus._engine import core_context, core_options
 from saltus._porting import OPTIONS, refuse
-from saltus._span import span_of
 from saltus.callbacks import Callbacks, planned
-from saltus.errors import Error, ModelError, SimulationError
+from saltus.errors import ModelError, SimulationError
 from saltus.options import SimulatorOptions
 from saltus.progress import reporter_of
 from saltus.results import Results
-from saltus.system import OutputPort, System
+from saltus.simulation.failure import raise_for
+from saltus.simulation.turn import Turn
+from saltus.system import System
 
-__all__ = ["Results", "Simulator", "SimulatorOptions", "simulate"]
+__all__ = ["Simulator"]
 
 
 class Simulator:
@@ -69,10 +67,9 @@ class Simulator:
         self.system = system  # the engine refers to it
         self._reporter = reporter_of(self.options.progress)
         self._options = core_options(self.options)
-        self._turn = threading.Lock()
-        self._user = 0  # the thread that has the turn
         self._make()
         self._failed: Results | None = None
+        self._turn = Turn()
 
     def _make(self) -> None:
         """The engine's simulator."""
@@ -98,11 +95,8 @@ class Simulator:
         With the context at the end of an earlier run, the new run continues that run. Raises
         ModelError for a context of another system.
         """
-        self._take_turn("initialize")
-        try:
+        with self._turn.of("initialize", self._core):
             self._initialize(context)
-        finally:
-            self._turn.release()
 
     def _initialize(self, context: _core.Context) -> None:
         callbacks = self._callbacks
@@ -112,24 +106,6 @@ class Simulator:
             self._make()
         self._core.initialize(core_context(context))
         self._failed = None
-
-    def _take_turn(self, call: str) -> None:
-        """The simulator belongs to this call until the lock is released."""
-        if not self._turn.acquire(blocking=False):
-            self._refuse(call)
-        self._user = threading.get_ident()
-
-    def _refuse(self, call: str) -> None:
-        own = self._user == threading.get_ident()
-        who = "by a callback of the run itself" if own else "while another thread uses it"
-        raise Error(
-            f"t = {self.time} s: {call} of a simulator was called {who}; expected one call at a "
-            "time: use a simulator of its own for each caller"
-        )
-
-    def _require_idle(self, call: str) -> None:
-        if self._turn.locked():
-            self._refuse(call)
 
     def advance_to(self, time: float) -> str:
         """Goes on to `time`, or to where the run ends before.
@@ -177,11 +153,8 @@ class Simulator:
         return self._advance(end, take=True)
 
     def _advance(self, time: float, take: bool) -> Results:
-        self._take_turn("advance_to")
-        try:
+        with self._turn.of("advance_to", self._core):
             results, raised = self._advance_alone(time, take)
-        finally:
-            self._turn.release()
         if self.options.throw and results.status not in ("reached_end", "terminal", "zeno_stop"):
             self._raise(results, raised)
         return results
@@ -233,18 +206,7 @@ class Simulator:
             reporter(self._core.time, self._core.events)
 
     def _raise(self, results: Results, error: BaseException | None) -> None:
-        if error is None:
-            error = SimulationError(results.message, results._ended_at, results.block)
-        with contextlib.suppress(AttributeError):  # a class with slots has no room for it
-            error.results = results  # type: ignore[attr-defined]
-        if hasattr(error, "add_note") and not isinstance(error, (SimulationError, ModelError)):
-            error.add_note(f"in a run, at t = {results._ended_at} s; `.results` is what it did")
-        if isinstance(error, KeyboardInterrupt) and not error.args:
-            error.args = (f"{results.message}; its attribute results has what was computed",)
-        try:
-            raise error
-        finally:
-            del error  # otherwise the exception and this frame would refer to each other
+        raise_for(results, error)
 
     @property
     def time(self) -> float:
@@ -256,13 +218,13 @@ class Simulator:
         """The present values; after an error the last accepted ones, from which
         `initialize` goes on.
         """
-        self._require_idle("context")
+        self._turn.require_idle("context", self._core)
         return self._core.context
 
     @property
     def results(self) -> Results:
         """The run since `initialize`, as a copy."""
-        self._require_idle("results")
+        self._turn.require_idle("results", self._core)
         return self._failed or self._results(*self._core.results(False))
 
     def describe(self) -> str:
@@ -277,84 +239,5 @@ class Simulator:
         >>> print(saltus.Simulator(builder.build()).describe().splitlines()[0])
         plan: 1 block, 1 continuous and 0 discrete states
         """
-        self._require_idle("describe")
+        self._turn.require_idle("describe", self._core)
         return self._core.describe()
-
-
-def simulate(
-    system: System,
-    context: _core.Context | tuple[float, float] | None = None,
-    time_span: tuple[float, float] | None = None,
-    options: SimulatorOptions | None = None,
-    recorded_signals: Mapping[str, OutputPort] | None = None,
-    **option_overrides: Any,
-) -> Results:
-    """Runs `system` from the values of `context`: ``simulate(system, context, (0.0, 1.0))``.
-
-    Parameters
-    ----------
-    system : System
-        A `LeafSystem` or a `Diagram`. It never changes.
-    context : Context, optional
-        The values at the beginning; those of ``system.create_context()`` if not said, as in
-        ``simulate(system, (0.0, 1.0))``.
-    time_span : (float, float)
-        [s] begin and end.
-    options : SimulatorOptions, optional
-        How the run is done.
-    recorded_signals : dict of str to OutputPort, optional
-        The outputs to record, by name.
-    **option_overrides
-        Any option by name; it replaces the one in `options`: ``rtol=1e-9``,
-        ``dense_output=True``, ``progress=True``, ...
-
-    Returns
-    -------
-    Results
-        The recorded signals, the events, the final context, the status and the statistics.
-
-    Raises
-    ------
-    ModelError
-        For bad input, before the run.
-    SimulationError
-        If the run ends badly; its attribute `results` has the run until then. An exception of a
-        callback is raised unchanged.
-    KeyboardInterrupt
-        After Ctrl-C, or the stop button of a notebook. It is Python's own exception, so a script
-        stops. Its attribute `results` has the run until then::
-
-            try:
-                results = saltus.simulate(...)
-            except KeyboardInterrupt as stop:
-                results = stop.results  # status 'interrupted'
-
-        At a prompt and in a notebook ``sys.last_value.results`` has it afterwards. With
-        ``throw=False`` neither exception is raised: the results are returned, and their status
-        says how the run ended.
-
-    Examples
-    --------
-    >>> import saltus
-    >>> class Decay(saltus.LeafSystem):
-    ...     def __init__(self):
-    ...         super().__init__(name="decay")
-    ...         self.declare_continuous_state([1.0], ode=lambda t, s: -s.continuous_state)
-    ...         self.declare_continuous_state_output("x")
-    >>> decay = Decay()
-    >>> recorded = {"x": decay.output("x")}
-    >>> results = saltus.simulate(
-    ...     decay, decay.create_context(), (0.0, 1.0), recorded_signals=recorded, rtol=1e-9
-    ... )
-    >>> f"{results.outputs['x'][-1, 0]:.6f}"
-    '0.367879'
-    """
-    if time_span is None and not isinstance(context, _core.Context):
-        context, time_span = None, context  # simulate(system, (0.0, 1.0))
-    begin, end = span_of("simulate", time_span)
-    if recorded_signals is not None:
-        option_overrides["recorded_signals"] = recorded_signals
-    simulator = Simulator(system, options, **option_overrides)
-    context = core_context(system.create_context(begin) if context is None else context)
-    # a context from the end of a run at this time knows which events have happened already
-    return simulator._run(context if context.time == begin else context.with_time(begin), end)

@@ -1,0 +1,64 @@
+// Integration: the continuous state between instants, and the solver that advances it.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "saltus/simulation/options.hpp"
+#include "saltus/simulation/results.hpp"
+#include "saltus/solver/detail/choose.hpp"
+
+namespace saltus {
+
+/// Holds the solver of a run, made when a state moves for the first time. From then on the state of
+/// the run is the solver's; before, and where no state moves, it is the machine's.
+class Integration {
+ public:
+  Integration(Machine& machine, GuardSet& guards, const SimulatorOptions& options)
+      : machine_(&machine), guards_(&guards), options_(&options) {}
+
+  /// A run begins: no solver is at work.
+  void begin();
+  bool started() const noexcept { return started_; }
+  /// Takes one minor step from t [s] to t_stop at most, and sets t to its end. Where no state moves
+  /// and no guard can fire, t becomes t_stop.
+  StopReason advance(double& t, double t_stop);
+  /// After an instant that changed f or x: begins anew from the machine's state, if at work.
+  void restart(double t, const Start& start) {
+    if (started_) solver_->restart(t, machine_->x, start);
+  }
+
+  /// The present state.
+  const Eigen::VectorXd& state() const { return started_ ? solver_->state() : machine_->x; }
+  /// Copies the present state to the machine, and moves carried blocks onto their surfaces at t.
+  void take_state(double t);
+  /// The state at a time within the last step; a view that lasts until the next call of `at`.
+  Eigen::VectorXd& at(double t) {
+    interpolate(t, inside_.data());
+    return inside_;
+  }
+  void interpolate(double t, double* x) { solver_->interpolate(t, x); }
+  /// Degree in time of `interpolate`.
+  int degree() const { return still() ? 0 : solver_->degree(); }
+  /// [s] The time at which the first of the two polynomials of the last step ends; `from`, the
+  /// begin of the step, if there is only one.
+  double joint(double from) { return degree() == 0 ? from : solver_->joint(); }
+
+  /// Writes counts, stretches and the method in use.
+  void report(Statistics& statistics) const;
+  /// The method and the linear solver in use, as lines of `Simulator::describe`.
+  std::string describe() const;
+
+ private:
+  bool still() const { return machine_->plan().nx == 0; }
+  void start(double t);
+
+  Machine* machine_;
+  GuardSet* guards_;
+  const SimulatorOptions* options_;
+  std::unique_ptr<Solver> solver_;
+  bool started_ = false;
+  Eigen::VectorXd inside_;  // a state inside the last step
+};
+
+}  // namespace saltus

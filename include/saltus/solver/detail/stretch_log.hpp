@@ -1,0 +1,58 @@
+// StretchLog: which method advanced a run, from when to when.
+#pragma once
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "saltus/solver/detail/solver.hpp"
+
+namespace saltus {
+
+/// Counts the steps of a method from its begin on: the difference of its statistics.
+class StretchLog {
+ public:
+  /// A run begins at t [s].
+  void clear(double t) {
+    past_.clear();
+    begun_ = t, steps_before_ = 0;
+  }
+  /// The method in use ends at t [s].
+  void end(const Solver& method, double t) {
+    past_.push_back(present(method));
+    past_.back().end = t;
+    begun_ = t;
+  }
+  /// The next method takes over.
+  void begin(const Solver& method) { steps_before_ = method.statistics().steps; }
+  bool changed() const noexcept { return !past_.empty(); }
+
+  /// All stretches; `now` is the method in use.
+  std::vector<Stretch> all(const Solver& now) const {
+    std::vector<Stretch> all = past_;
+    all.push_back(present(now));
+    return all;
+  }
+  /// The first of them in words.
+  std::string to_string(const Solver& now) const {
+    constexpr std::size_t shown = 4;
+    const auto list = all(now);
+    std::string words = list.front().method;
+    for (std::size_t i = 1; i < std::min(list.size(), shown); ++i)
+      words += text(", then ", list[i].method, " from t = ", list[i].begin, " s: the scene ",
+                    list[i].method == "bdf" ? "looks stiff" : "no longer does");
+    return list.size() > shown ? text(words, "; ", list.size(), " stretches in all") : words;
+  }
+
+ private:
+  Stretch present(const Solver& method) const {
+    return {method.method(), begun_, method.time(), method.statistics().steps - steps_before_};
+  }
+
+  std::vector<Stretch> past_;
+  double begun_ = 0.0;  // [s] begin of the present stretch
+  std::int64_t steps_before_ = 0;
+};
+
+}  // namespace saltus

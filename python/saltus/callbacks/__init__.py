@@ -1,0 +1,14 @@
+"""How each Python callback of a system runs: called, traced or compiled, and why."""
+
+from saltus.callbacks.callbacks import Callbacks
+from saltus.callbacks.explanation import ExplainedCallback, Explanation
+from saltus.callbacks.planned import explain, planned, traced_callbacks
+
+__all__ = [
+    "Callbacks",
+    "ExplainedCallback",
+    "Explanation",
+    "explain",
+    "planned",
+    "traced_callbacks",
+]

@@ -1,0 +1,143 @@
+"""The Python functions of a system, and the traces of them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from typing import Any
+
+from saltus import _core
+from saltus.callbacks.explanation import Explanation, explained
+from saltus.callbacks.function import Block, core_trace, outcome_of
+
+__all__ = ["Callbacks", "Others"]
+
+Place = tuple[int, int]  # the numbers of a block and of a function of it
+Others = Sequence[tuple[str, Any]]  # functions that are no callbacks of a block, with words
+
+
+class Callbacks:
+    """The Python functions of a system, the traces of them, and whether these are still right.
+
+    They are traced while the first plan of the system is made, because the shapes of its inputs are
+    known then. The Python object of the system owns this object, so it holds no block and no
+    function: they would hold each other.
+    """
+
+    def __init__(self, system: Any):
+        self.traces = _core.Traces(system)
+        self.version = 0
+        self.outcomes: dict[int, list[Any]] = {}  # of the functions of each block, by its number
+        self._runs: dict[int, list[_core.Trace | None]] = {}  # what the engine runs of them
+        self._called: dict[Place, Any] = {}  # those that are called all the same, Refused
+        self._siblings: Any = None  # while functions are traced
+
+    def trace_block(self, number: int, block: Block) -> list[_core.Trace]:
+        """Trace the functions of a block, which the engine calls for while it makes a plan."""
+        functions = block["functions"]
+        trace = self._tracer()
+        outcomes = [outcome_of(block, function, trace) for function in functions]
+        self.outcomes[number] = outcomes
+        self._called = {}
+        self._runs[number] = [
+            core_trace(block, f, o) for f, o in zip(functions, outcomes, strict=True)
+        ]
+        return self._core_traces(number)
+
+    def refresh(self, others: Others = ()) -> int:
+        """Trace again the functions that read something that has changed; returns the version.
+
+        `others` are functions that the run calls as well.
+        """
+        self.settle(others)
+        changed = self._changed()
+        if changed:
+            trace = self._tracer()
+            blocks: list[Block] = self.traces.blocks()
+            for b, i in changed:
+                self.outcomes[b][i] = outcome_of(blocks[b], blocks[b]["functions"][i], trace)
+            self._run_anew(blocks, changed)
+            self.settle(others)
+        return self.version
+
+    def settle(self, others: Others = ()) -> bool:
+        """Have those called that read what a called one may write; whether that is another choice.
+
+        Only when all functions are traced or refused is it known what a run may write.
+        """
+        self._siblings = None
+        found = self._readers_of_writes(others)
+        changed = found.keys() ^ self._called.keys()
+        self._called = found
+        if changed:
+            self._run_anew(self.traces.blocks(), changed)
+        return bool(changed)
+
+    def written(self) -> str | None:
+        """A change of a value that a trace of the last run was made from, in words.
+
+        Traced functions write nothing; without called ones nothing is compared.
+        """
+        if not self._calls:
+            return None
+        traced = [(b, i) for b, i in self._watched() if hasattr(self.outcomes[b][i], "tape")]
+        changes = (self.outcomes[b][i].watch.changed() for b, i in traced)
+        return next((change for change in changes if change is not None), None)
+
+    @property
+    def _calls(self) -> bool:
+        """Whether some function was refused, or is compiled."""
+        return any(not hasattr(o, "tape") for of_block in self.outcomes.values() for o in of_block)
+
+    def _readers_of_writes(self, others: Others) -> dict[Place, Any]:
+        if not self.outcomes or not (self._calls or others):
+            return {}
+        from saltus import tracing
+
+        return tracing.readers_of_writes(self.traces.blocks(), self.outcomes, others)
+
+    def _watched(self) -> list[Place]:
+        """The functions whose outcome holds while nothing changes that they read."""
+        return [
+            (b, i)
+            for b, outcomes in self.outcomes.items()
+            for i, outcome in enumerate(outcomes)
+            if outcome is not None and (b, i) not in self._called
+        ]
+
+    def _changed(self) -> list[Place]:
+        return [(b, i) for b, i in self._watched() if self.outcomes[b][i].watch.changed()]
+
+    def _run_anew(self, blocks: list[Block], places: Iterable[Place]) -> None:
+        """Gives the engine other traces of some functions."""
+        for b, i in places:
+            function = blocks[b]["functions"][i]
+            self._runs[b][i] = core_trace(blocks[b], function, self._outcome(b, i))
+        for b in {b for b, _ in places}:
+            self.traces.set(b, self._core_traces(b))
+        self.version += 1
+
+    def _outcome(self, b: int, i: int) -> Any:
+        """How a function runs: its own outcome, or called all the same."""
+        return self._called.get((b, i), self.outcomes[b][i])
+
+    def explain(self, note: str = "") -> Explanation:
+        """How each callback runs."""
+        callbacks = [
+            explained(block, function, self._outcome(number, i))
+            for number, block in enumerate(self.traces.blocks())
+            for i, function in enumerate(block["functions"])
+        ]
+        if not callbacks:
+            note = note or "no callback is a Python function: all of it runs compiled"
+        return Explanation(callbacks, note)
+
+    def _tracer(self) -> Callable[[Any], Any]:
+        """Traces a function; those of one code only once, until `settle`."""
+        from saltus import tracing  # not before there is something to trace
+
+        self._siblings = self._siblings or tracing.Siblings()
+        trace: Callable[[Any], Any] = self._siblings.trace
+        return trace
+
+    def _core_traces(self, number: int) -> list[_core.Trace]:
+        return [trace for trace in self._runs[number] if trace is not None]

@@ -1,0 +1,77 @@
+"""One function of a block: what the tracer is asked about it, and what the engine runs of it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from saltus import _core
+
+__all__ = ["Block", "core_trace", "outcome_of"]
+
+Block = dict[str, Any]  # the facts of a block, or of a function of it
+
+KINDS = {"jacobian": "matrix", "reset_map": "reset", "edge_reset": "reset", "update": "update"}
+"""role of a function -> the tracer's word for it; the others return a vector"""
+
+GUARDS = {"guard", "relation"}
+"""roles of functions whose sign matters: a comparison gives its smooth difference"""
+
+
+def outcome_of(block: Block, function: Block, trace: Callable[[Any], Any]) -> Any:
+    """Traced or Refused; None for a compiled function."""
+    from saltus import tracing
+
+    if function["compiled"]:
+        return None
+    outcome = trace(_signature(block, function))
+    return tracing.as_guard(outcome) if function["role"] in GUARDS else outcome
+
+
+def _signature(block: Block, function: Block) -> Any:
+    from saltus import tracing
+
+    return tracing.Signature(
+        function=function["function"],
+        owner=block["leaf"] if function["method"] else None,
+        convention=function["convention"].name,
+        block=block["path"],
+        state_shape=tuple(block["state_shape"]),
+        discrete_shape=tuple(block["discrete_shape"]),
+        mode=block["mode"],
+        x=block["x"],
+        z=block["z"],
+        parameters=block["parameters"],
+        input_shapes=block["input_shapes"],
+        inputs=function["inputs"],
+        kind=KINDS.get(function["role"], "vector"),
+        out=function["out"],
+        out_shape=_out_shape(block, function),
+        result_size=function["result_size"],
+    )
+
+
+def _out_shape(block: Block, function: Block) -> tuple[int, ...] | None:
+    if not function["out"]:
+        return None
+    if function["role"] == "ode" and block["state_shape"]:
+        return tuple(block["state_shape"])
+    if function["role"] == "jacobian":
+        return (len(block["x"]), len(block["x"]))
+    return None
+
+
+def core_trace(block: Block, function: Block, outcome: Any) -> _core.Trace | None:
+    """The trace that the engine runs; None for a function that is called."""
+    if not hasattr(outcome, "tape"):
+        return None
+    given = any(f["role"] in ("jacobian", "sparse_jacobian") for f in block["functions"])
+    return _core.Trace(
+        function["number"],
+        outcome.tape,
+        outcome.relations,
+        outcome.wrote_x,
+        outcome.wrote_z,
+        outcome.wrote_mode,
+        function["role"] == "ode" and not given,
+    )

@@ -1,0 +1,67 @@
+"""Plans of a system with its callbacks, traced."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, TypeVar
+
+from saltus import _core
+from saltus.callbacks.callbacks import Callbacks, Others
+from saltus.callbacks.explanation import Explanation
+from saltus.errors import ModelError
+
+__all__ = ["explain", "planned", "traced_callbacks"]
+
+Made = TypeVar("Made")
+
+
+def callbacks_of(system: Any) -> Callbacks:
+    """The callbacks of a system as they are now, for the plan that is made next.
+
+    New ones at first use, and again if blocks have declared more since.
+    """
+    callbacks: Callbacks | None = getattr(system, "_callbacks", None)
+    if callbacks is None or callbacks.traces.stale:
+        return Callbacks(system)
+    callbacks.refresh()
+    return callbacks
+
+
+def planned(
+    system: Any, plan: Callable[[Callbacks], Made], others: Others = ()
+) -> tuple[Made, Callbacks]:
+    """What `plan` makes for a system with its callbacks, which are traced by then.
+
+    `plan` is called again if a function, traced for the first plan, has to be called.
+    """
+    callbacks = callbacks_of(system)
+    made = plan(callbacks)
+    if callbacks.settle(others):
+        made = plan(callbacks)
+    system._callbacks = callbacks
+    return made, callbacks
+
+
+def traced_callbacks(system: Any) -> Callbacks:
+    """The callbacks of a system, traced. ModelError if the system cannot run."""
+    return planned(system, lambda callbacks: _made_complete(system, callbacks))[1]
+
+
+def _made_complete(system: Any, callbacks: Callbacks) -> None:
+    if not callbacks.traces.complete:
+        _core.trace(system, callbacks)
+
+
+def explain(system: Any) -> Explanation:
+    """How each callback of a system runs, for one that cannot run yet, too."""
+    try:
+        return traced_callbacks(system).explain()
+    except ModelError:
+        callbacks = Callbacks(system)
+        callbacks.traces.guess_shapes()
+        for number, block in enumerate(callbacks.traces.blocks()):
+            callbacks.trace_block(number, block)
+        callbacks.settle()
+        return callbacks.explain(
+            "the system has open inputs; each is taken for a single number here"
+        )

@@ -1,0 +1,5 @@
+"""Blocks of your own: the class, and what it declares, one idea a module."""
+
+from saltus.leaf_system.leaf_system import LeafSystem
+
+__all__ = ["LeafSystem"]

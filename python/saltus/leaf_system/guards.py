@@ -1,0 +1,185 @@
+"""The guards of a block: zero crossings and relations."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+
+from numpy.typing import ArrayLike
+
+from saltus import _core
+from saltus._declarations import EVERYTHING, RequiresInputs, callback_of, direction_of, inputs_of
+from saltus._porting import refusing
+
+__all__ = ["DeclaresGuards"]
+
+
+class DeclaresGuards(_core.LeafSystem):
+    """Declares what the engine locates by the zeros of a function, or by an edge of an input."""
+
+    __slots__ = ()
+
+    @refusing
+    def declare_zero_crossing(
+        self,
+        guard: Callable[..., ArrayLike],
+        reset_map: Callable[..., _core.State | ArrayLike] | None = None,
+        name: str | None = None,
+        direction: str = "crosses_zero",
+        start_mode: int | None = None,
+        end_mode: int | None = None,
+        terminal: bool = False,
+        zeno_tolerance: float | None = None,
+        requires_inputs: RequiresInputs = True,
+        max_count: int = 1,
+        size: int = 1,
+        at_start: str = "auto",
+        on_zeno: str | int = "hold",
+        holds: Sequence[Sequence[int]] | None = None,
+        formula: bool = False,
+    ) -> None:
+        """An event where g = guard(time, state, *inputs, **parameters), a smooth number in any
+        unit, reaches zero or crosses it. A truth is a guard, too, with the positive side where it
+        is true: `x[0] > 0` is located as smoothly as x[0], any other truth where it jumps. Without
+        a reset map, a mode change and `terminal` it is only logged, and changes nothing.
+
+        - `reset_map`, called like the guard, returns x+ from x-, the state before the event, or the
+          numbers of the one state that the block has.
+        - `direction` is 'crosses_zero' (or 'both'), 'positive_then_non_positive' ('falling'),
+          'negative_then_non_negative' ('rising'), 'edge_detection' (any change, for values that
+          jump) or 'none' (never).
+        - With `start_mode` it is seen in that mode only; `end_mode` is the mode after it.
+        - `terminal` ends the run after the reset map, `max_count` n when it happens the n-th time.
+        - `size` n is n guards in one: the guard returns n numbers, each fires for itself, and
+          `state.entry` tells the reset map which one did, 0 to n - 1.
+        - `at_start` is for a guard at zero, or on its firing side, when a run starts or its mode is
+          entered. 'auto': at zero and headed for the firing side it fires at once if it has a reset
+          map or changes the mode, and waits if not; on the firing side it waits until it has been
+          on the other. 'ignore' waits, 'fire' fires at once, 'error' is a SimulationError.
+        - `on_zeno` says what becomes of the block where events accumulate. 'hold': the state rests
+          at the accumulation state until the guard moves to its armed side. 'stop': the run ends,
+          status 'zeno_stop'. 'error': a SimulationError. An integer: the mode to go on in.
+        - `holds` lists, for each of the `size` guards, the positions in the continuous state that
+          rest on a hold, such as [[0, 1]]; without it all do.
+        - `zeno_tolerance` [s] overrides that of the simulator options, 0 switches the monitor off.
+        - `formula` is as for `declare_output_port`, for the guard.
+
+        A ModelError for a name declared twice, an unknown direction, `at_start` or `on_zeno` (with
+        the nearest name), a `size` or `max_count` below 1, a `max_count` without `terminal`, a
+        negative `zeno_tolerance`, and `holds` of another length or beyond the state.
+        """
+        options = {
+            "direction": direction_of(direction),
+            "start_mode": start_mode,
+            "end_mode": end_mode,
+            "terminal": terminal,
+            "max_count": max_count,
+            "size": size,
+            "at_start": at_start,
+            "on_zeno": on_zeno,
+            "zeno_tolerance": zeno_tolerance,
+            "holds": holds,
+            "formula": bool(formula),
+            "inputs": inputs_of(requires_inputs),
+        }
+        super().declare_zero_crossing(
+            callback_of(guard), callback_of(reset_map), name or "", options
+        )
+
+    @refusing
+    def declare_relation(
+        self,
+        guard: Callable[..., ArrayLike],
+        name: str | None = None,
+        true_at_zero: bool = False,
+        requires_inputs: RequiresInputs = True,
+        size: int = 1,
+        reads: Iterable[str] = EVERYTHING,
+        formula: bool = False,
+    ) -> int:
+        """A truth with a smooth guard: true while g = guard(time, state, *inputs, **parameters) is
+        positive. Returns its position in `state.relations`.
+
+        The engine locates the zeros of the guard and holds the truth between them, so a derivative
+        may jump with the truth. `true_at_zero` is the truth for g = 0 where no side is known yet.
+        With `size` n the guard returns n numbers, and the truth is a read-only array of 0 and 1 in
+        place of a bool. `reads`, `formula` are as for `declare_output_port`. An output that reads
+        `state.relations` is declared after the relation. A callback that reads them is called, not
+        traced; the guard itself is traced.
+
+        Raises ModelError for a name declared twice and for a `size` below 1.
+
+        Examples
+        --------
+        >>> class Tank(saltus.LeafSystem):
+        ...     def __init__(self):
+        ...         super().__init__(name="tank")
+        ...         self.declare_continuous_state([20.0], ode=self.ode)
+        ...         self.full = self.declare_relation(self.above, name="full")
+        ...
+        ...     def above(self, time, state):
+        ...         return state.continuous_state[0] - 25.0
+        ...
+        ...     def ode(self, time, state):
+        ...         return [0.5 if state.relations[self.full] else 1.0]
+        >>> tank = Tank()
+        >>> end = saltus.simulate(tank, tank.create_context(), (0.0, 9.0)).context
+        >>> f"{end.continuous_state[0]:.6f}"
+        '27.000000'
+        """
+        return super().declare_relation(
+            callback_of(guard),
+            name or "",
+            true_at_zero,
+            size,
+            inputs_of(requires_inputs),
+            list(reads),
+            bool(formula),
+        )
+
+    @refusing
+    def declare_edge_reset(
+        self,
+        reset_map: Callable[..., _core.State | ArrayLike],
+        input: int,
+        edge: str = "rising",
+        name: str | None = None,
+        on_zeno: str | int = "hold",
+        zeno_tolerance: float | None = None,
+        requires_inputs: RequiresInputs = True,
+    ) -> None:
+        """A reset at an edge of an input, read as a boolean: every number except 0 is true.
+
+        `reset_map`, called like a guard, returns x+ from x-. `edge` is 'rising', 'falling' or
+        'either'. The signal has to be held: a comparison, a logical block, a discrete state. The
+        input needs no guard of its own. `on_zeno` and `zeno_tolerance` are as for
+        `declare_zero_crossing`; a hold ends when the signal falls back.
+
+        Raises ModelError for a name declared twice, an unknown `edge` or `on_zeno`.
+
+        Examples
+        --------
+        >>> class Counter(saltus.LeafSystem):
+        ...     def __init__(self):
+        ...         super().__init__(name="counter")
+        ...         self.declare_discrete_state([0.0])
+        ...         self.declare_input_port("gate")
+        ...         self.declare_edge_reset(self.count, input=0, edge="falling")
+        ...
+        ...     def count(self, time, state, gate):
+        ...         return state.with_discrete_state(state.discrete_state + 1.0)
+        >>> from saltus.library import Pulse
+        >>> builder = saltus.DiagramBuilder()
+        >>> pulse, counter = builder.add(Pulse(period=1.0), Counter())
+        >>> builder.connect(pulse.output(), counter.input())
+        >>> diagram = builder.build()
+        >>> end = saltus.simulate(diagram, diagram.create_context(), (0.0, 3.75)).context
+        >>> end.discrete_state
+        array([4.])
+        """
+        options = {
+            "edge": edge,
+            "on_zeno": on_zeno,
+            "zeno_tolerance": zeno_tolerance,
+            "inputs": inputs_of(requires_inputs),
+        }
+        super().declare_edge_reset(callback_of(reset_map), input, name or "", options)

@@ -1,0 +1,90 @@
+"""The ports of a block: its inputs and outputs."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+
+from numpy.typing import ArrayLike
+
+from saltus import _core
+from saltus._declarations import EVERYTHING, RequiresInputs, callback_of, inputs_of, shape_of
+from saltus._porting import refusing
+
+__all__ = ["DeclaresPorts"]
+
+
+class DeclaresPorts(_core.LeafSystem):
+    """Declares the signals that a block reads and shows."""
+
+    __slots__ = ()
+
+    @refusing
+    def declare_input_port(
+        self, name: str | None = None, shape: int | tuple[int, ...] | None = None
+    ) -> int:
+        """An input, called in_0, in_1, ... if not said; returns its position.
+
+        With a `shape`, another one is refused. An input of one number comes as a float, with shape
+        1 as an array.
+        """
+        return super().declare_input_port(name or "", shape_of(shape))
+
+    @refusing
+    def declare_output_port(
+        self,
+        callback: Callable[..., ArrayLike],
+        name: str | None = None,
+        requires_inputs: RequiresInputs = True,
+        shape: int | tuple[int, ...] | None = None,
+        default_value: ArrayLike | None = None,
+        boolean: bool | None = None,
+        reads: Iterable[str] = EVERYTHING,
+        formula: bool = False,
+    ) -> int:
+        """An output, y = callback(time, state, *inputs, **parameters), called out_0, out_1, ... if
+        not said; returns its position.
+
+        `shape` (or the shape of `default_value`) is () for a number, n for a vector. Where it is
+        not said, and where `boolean` is not, callback is called once before the run, with inputs at
+        zero, to see. A boolean output that reaches a derivative or a reset is located by bisection
+        and held in between. `reads` says what it depends on, of 'time', 'continuous_state',
+        'discrete_state', 'mode', 'inputs': what reads neither time nor a continuous state is
+        computed at events only, not at every stage of the solver.
+
+        With `formula` a run may compute the trace of the callback together with those of the blocks
+        around it, to the same bits. Where the others make a finite number of an inf or nan of the
+        callback, as of 1/0, nothing raises or warns then. In a `Simulator` the formula is that of
+        the whole run: if an attribute that it reads changes between two pieces, the next piece is a
+        `ModelError`. A callback that is not traced, that reads a discrete state or the mode, or
+        that returns more than 16 numbers remains a call.
+        """
+        inputs = inputs_of(requires_inputs)
+        return super().declare_output_port(
+            callback_of(callback),
+            name or "",
+            inputs,
+            shape_of(shape, default_value),
+            boolean,
+            list(reads),
+            _core.Convention.state,
+            bool(formula),
+        )
+
+    @refusing
+    def declare_continuous_state_output(self, name: str | None = None) -> int:
+        """An output that shows the whole continuous state; it is never copied. Returns its
+        position.
+        """
+        return super().declare_continuous_state_output(name or "")
+
+    @refusing
+    def declare_discrete_state_output(self, name: str | None = None) -> int:
+        """An output that shows the whole discrete state; it is never copied. Returns its
+        position.
+        """
+        return super().declare_discrete_state_output(name or "")
+
+    @refusing
+    def declare_mode_output(self, name: str | None = None) -> int:
+        """An output that shows the mode. Returns its position."""
+        return super().declare_mode_output(name or "")

@@ -1,0 +1,89 @@
+"""The values of a block: its states, its mode, its parameters."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from numpy.typing import ArrayLike
+
+from saltus import _core
+from saltus._declarations import RequiresInputs, callback_of, initial_of, inputs_of, places_of
+from saltus._porting import refusing
+from saltus.errors import ModelError
+
+__all__ = ["DeclaresValues"]
+
+
+class DeclaresValues(_core.LeafSystem):
+    """Declares the values that a context holds for a block."""
+
+    __slots__ = ()
+
+    @refusing
+    def declare_continuous_state(
+        self,
+        shape: int | tuple[int, ...] | ArrayLike | None = None,
+        default_value: ArrayLike | None = None,
+        ode: Callable[..., ArrayLike] | None = None,
+        requires_inputs: RequiresInputs = True,
+        jacobian: Callable[..., ArrayLike] | None = None,
+        jacobian_sparsity: Any = None,
+        sparse_jacobian: Callable[..., ArrayLike] | None = None,
+        formula: bool = False,
+    ) -> None:
+        """The continuous state x, with dx/dt = ode(time, state, *inputs, **parameters), in units of
+        x per second.
+
+        `shape` n is a vector of n zeros, () a single number; `default_value` (or an array in place
+        of the shape) says where it starts. Without `ode` it is constant between resets. `jacobian`
+        gives the n by n matrix d(ode)/dx, row by row, for a stiff method; without it, and for
+        entries that are not finite, differences are used. Once a block.
+
+        `jacobian_sparsity` says where d(ode)/dx may differ from zero, in every mode: an n by n
+        array or a scipy.sparse matrix, not zero there, or a pair (rows, columns), each place once;
+        a stiff method then needs neither memory nor calls for the others. Name too many rather than
+        too few. `sparse_jacobian` gives the values there, in that order (for a matrix that of its
+        `nonzero()`).
+
+        `formula` is as for `declare_output_port`.
+        """
+        what = f"block '{self.name}': continuous state"
+        initial = initial_of(what, shape, default_value)
+        places = None if jacobian_sparsity is None else places_of(what, jacobian_sparsity)
+        if sparse_jacobian is not None and places is None:
+            raise ModelError(f"{what}: sparse_jacobian without jacobian_sparsity; give both")
+        super().declare_continuous_state(
+            initial,
+            callback_of(ode),
+            inputs_of(requires_inputs),
+            callback_of(jacobian),
+            places,
+            callback_of(sparse_jacobian),
+            bool(formula),
+        )
+
+    @refusing
+    def declare_discrete_state(
+        self,
+        default_value: ArrayLike | None = None,
+        shape: int | tuple[int, ...] | None = None,
+    ) -> None:
+        """The discrete state z, numbers that only resets and updates change. Once a block."""
+        super().declare_discrete_state(
+            initial_of(f"block '{self.name}': discrete state", shape, default_value)
+        )
+
+    @refusing
+    def declare_default_mode(self, mode: int) -> None:
+        """The mode the block starts in: an integer that selects among its zero crossings, see
+        `start_mode` there.
+        """
+        super().declare_default_mode(mode)
+
+    @refusing
+    def declare_dynamic_parameter(self, name: str, default_value: ArrayLike) -> None:
+        """A number or an array that lives in the context, `context.with_parameter(name, value)`,
+        and that every callback gets by keyword.
+        """
+        super().declare_dynamic_parameter(name, default_value)

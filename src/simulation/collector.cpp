@@ -1,0 +1,133 @@
+// Collector: firings, edges, zero crossings.
+#include <algorithm>
+
+#include "saltus/simulation/detail/collector.hpp"
+
+namespace saltus {
+
+namespace {
+
+/// Sorts actions by leaf. Within a leaf updates come first: they read x- z-, and a reset map that
+/// follows sees their results. The order is stable, and the sort allocates nothing.
+void sort(std::vector<Action>& actions) {
+  const auto rank = [](Cause cause) { return cause == Cause::time ? -1 : static_cast<int>(cause); };
+  const auto before = [&](const Action& a, const Action& b) {
+    return a.leaf != b.leaf ? a.leaf < b.leaf : rank(a.cause) < rank(b.cause);
+  };
+  if (actions.size() < 2) return;
+  for (auto a = actions.begin(); a != actions.end(); ++a)
+    std::rotate(std::upper_bound(actions.begin(), a, *a, before), a, a + 1);
+}
+
+}  // namespace
+
+bool Collector::take_contacts() {
+  bool let_go = false;
+  std::erase_if(present_->firings, [&](const Firing& firing) {
+    const ContactGuards::Taken taken = contacts_->take(firing);
+    let_go = let_go || taken == ContactGuards::Taken::let_go;
+    if (taken != ContactGuards::Taken::no) return true;
+    return present_->pass == 0 && crossings_->goes_against(firing);
+  });
+  return let_go;
+}
+
+bool Collector::flip_relations() {
+  bool flipped = false;
+  for (GuardNow& now : present_->now) now.fired_in_pass = false;
+  for (const Firing& firing : present_->firings) {
+    const auto k = static_cast<std::size_t>(firing.slot);
+    present_->now[k].fired = present_->now[k].fired_in_pass = true;
+    guards_->fired(k, firing.from);
+    if (plan_->guard((*guards_)[k].group).is_crossing()) continue;
+    relations_->flip(firing);
+    flipped = true;
+  }
+  return flipped;
+}
+
+bool Collector::collect_edges() {
+  bool released = false;
+  for (std::size_t e = 0; e < plan_->edges.size(); ++e) {
+    const Edges::Look look = edges_->look(e);
+    Holds::Hold& hold = holds_->of_edge(e);
+    if (hold.monitor.holding && !look.now) {
+      holds_->release(hold);
+      released = true;
+    } else if (hold.monitor.holding) {
+      collect_carried(e);
+    } else if (look.fires) {
+      present_->actions.push_back(
+          {plan_->edges[e].leaf, Cause::edge, static_cast<int>(e), -1, look.now ? -1 : 1, false});
+      edges_->fired(e);
+    }
+  }
+  return released;
+}
+
+/// Applies the reset map again to a leaf on hold whose reset value changed while its trigger did
+/// not: a rising floor carries the ball. This waits until the relations have been read again,
+/// because a falling floor changes the reset value too.
+void Collector::collect_carried(std::size_t e) {
+  if (present_->pass == 0 || edges_->is_carried(e)) return;
+  const EdgeWatch& edge = plan_->edges[e];
+  const bool moved = std::ranges::any_of(edge.reads, [&](int input) {
+    const Node& node = plan_->node(input);
+    return input != edge.node && node.rate == Rate::held && transition_->changed(node.place);
+  });
+  if (!moved) return;
+  present_->actions.push_back({edge.leaf, Cause::edge, static_cast<int>(e), -1, -1, true});
+  edges_->carried(e);
+}
+
+/// Collects the zero crossings that act in this pass, by leaf, in declaration order. Those that do
+/// nothing when they fire remain in the list: monitors, and terminal guards that end the run at a
+/// later firing.
+void Collector::collect_crossings() {
+  auto passive = present_->firings.begin();
+  for (const Firing& firing : present_->firings) {
+    const auto k = static_cast<std::size_t>(firing.slot);
+    const int number = (*guards_)[k].group;
+    const GuardGroup& group = plan_->guard(number);
+    if (!group.is_crossing()) continue;
+    const auto same = [&](const Firing& other) {
+      return (*guards_)[static_cast<std::size_t>(other.slot)].group == number;
+    };
+    const auto waiting = std::count_if(present_->firings.begin(), passive, same);
+    if (plan_->crossing_of(group).has_effect() ||
+        journal_->ends_run(static_cast<std::size_t>(number), waiting)) {
+      present_->actions.push_back({group.leaf, Cause::crossing, number, firing.slot, firing.from,
+                                   holds_->of_guard(k).monitor.holding});
+    } else {
+      *passive++ = firing;
+    }
+  }
+  present_->firings.erase(passive, present_->firings.end());
+  sort(present_->actions);
+}
+
+void Collector::note_passive() {
+  for (const Firing& firing : present_->firings) {
+    const Guard& guard = (*guards_)[static_cast<std::size_t>(firing.slot)];
+    journal_->note({.kind = EventKind::zero_crossing,
+                    .source = guard.group,
+                    .leaf = plan_->guard(guard.group).leaf,
+                    .direction = -firing.from,
+                    .entry = guard.entry});
+  }
+  present_->firings.clear();
+}
+
+bool Collector::acts() const {
+  return std::ranges::any_of(present_->actions,
+                             [this](const Action& action) { return acts(action); });
+}
+
+/// A guard that only ends the run does not count. A time event does: whether held signals follow it
+/// must not depend on which of them are recorded.
+bool Collector::acts(const Action& action) const {
+  return action.cause != Cause::crossing ||
+         plan_->crossing_of(plan_->guard(action.index)).has_effect();
+}
+
+}  // namespace saltus

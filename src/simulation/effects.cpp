@@ -1,0 +1,64 @@
+// Effects: reset maps, changes of mode, updates.
+#include "saltus/simulation/detail/effects.hpp"
+
+namespace saltus {
+
+void Effects::run(const Action& action) {
+  if (action.cause == Cause::zeno) return transition_->enter_mode(action.leaf, action.from);
+  journal_->cause(journal_->source_of(action.cause, action.index));
+  action.cause == Cause::time ? run_update(action) : run_reset(action);
+}
+
+void Effects::run_update(const Action& action) {
+  const int source = journal_->source_of(action.cause, action.index);
+  const TimeEvent& event = plan_->time_event_of(plan_->scheduled(action.index));
+  if (event.update)
+    transition_->run({&event.update, action.leaf, 0, present_->t, journal_->name_of(source)});
+  journal_->note({.kind = EventKind::time, .source = source, .leaf = action.leaf});
+}
+
+/// The effect that the author of a zero crossing or an edge declared.
+Effects::Effect Effects::effect_of(const Action& action) {
+  const auto index = static_cast<std::size_t>(action.index);
+  if (action.cause == Cause::edge)
+    return {&edges_->reset_of(index).reset_map, nullptr, &holds_->of_edge(index)};
+  const ZeroCrossing& crossing = plan_->crossing_of(plan_->guards[index]);
+  return {&crossing.reset_map, crossing.end_mode ? &*crossing.end_mode : nullptr,
+          &holds_->of_guard(static_cast<std::size_t>(action.slot))};
+}
+
+/// Runs the effect of a zero crossing or an edge.
+void Effects::run_reset(const Action& action) {
+  const int source = journal_->source_of(action.cause, action.index);
+  const Effect effect = effect_of(action);
+  Holds::Hold& hold = *effect.hold;
+  if (effect.any() && !action.carry) holds_->fired(hold, present_->t);
+  const bool wrote = write(effect, action.leaf, journal_->name_of(source));
+  note(action, source);
+  if (!wrote || action.carry) return;
+  if (holds_->look_for_accumulation(hold) && action.cause == Cause::edge)
+    contacts_->keep_relations_of(plan_->edges[static_cast<std::size_t>(action.index)]);
+}
+
+/// Runs the reset map of an effect, and enters its mode. Returns whether it wrote a state or a mode.
+bool Effects::write(const Effect& effect, int leaf, const std::string& source) {
+  const bool wrote =
+      *effect.map && transition_->run({effect.map, leaf, effect.hold->entry, present_->t, source});
+  if (effect.end_mode) transition_->enter_mode(leaf, *effect.end_mode);
+  return wrote || effect.end_mode != nullptr;
+}
+
+/// Logs the firing of a zero crossing or an edge. It may be the last one of the run.
+void Effects::note(const Action& action, int source) {
+  const auto index = static_cast<std::size_t>(action.index);
+  const bool last = action.cause == Cause::crossing && journal_->ends_run(index);
+  present_->outcome.terminal = present_->outcome.terminal || last;
+  journal_->note(
+      {.kind = last ? EventKind::terminal : EventKind::zero_crossing,
+       .source = source,
+       .leaf = action.leaf,
+       .direction = -action.from,
+       .entry = action.slot < 0 ? 0 : (*guards_)[static_cast<std::size_t>(action.slot)].entry});
+}
+
+}  // namespace saltus
