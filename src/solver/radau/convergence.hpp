@@ -18,10 +18,15 @@ enum class Verdict {
 /// two ratios; the error left after d_k is theta / (1 - theta) d_k.
 class Convergence {
  public:
-  /// `tolerance`: [tolerances] of the iteration; `most`: iterations; `before`: theta / (1 - theta)
-  /// of the step before, which judges the first correction; infinite if it says nothing.
-  Convergence(double tolerance, int most, double before)
-      : tolerance_(tolerance), most_(most), factor_(std::pow(std::max(before, least), 0.8)) {}
+  /// `tolerance`: [tolerances] of the iteration; `rounding`: [tolerances] of a correction; `most`:
+  /// iterations; `before`: theta / (1 - theta) of the step before, which judges the first
+  /// correction; infinite if it says nothing. It counts as 0.01 at least: what it was before does
+  /// not bound what it is now.
+  Convergence(double tolerance, double rounding, int most, double before)
+      : tolerance_(tolerance),
+        rounding_(rounding),
+        most_(most),
+        factor_(std::pow(std::max(before, 0.01), 0.8)) {}
 
   Verdict look(double correction) {
     ++iterations_;
@@ -29,9 +34,10 @@ class Convergence {
       const double ratio = correction / last_;
       theta_ = iterations_ == 2 ? ratio : std::sqrt(ratio * last_ratio_);
       last_ratio_ = ratio;
-      // A correction that is rounding need not shrink.
-      if (!(theta_ < 0.99) && correction > tolerance_) return Verdict::diverged;
-      factor_ = theta_ < 0.99 ? theta_ / (1.0 - theta_) : 0.0;
+      const bool shrinks = theta_ < 0.99;
+      at_rounding_ = !shrinks && correction <= rounding_;
+      if (!shrinks && !at_rounding_) return Verdict::diverged;
+      factor_ = shrinks ? theta_ / (1.0 - theta_) : 0.0;
     }
     last_ = correction;
     if (factor_ * correction <= tolerance_ || correction == 0.0) return Verdict::converged;
@@ -42,7 +48,10 @@ class Convergence {
 
   int iterations() const { return iterations_; }
   double theta() const { return theta_; }
-  double factor() const { return std::max(factor_, least); }
+  double factor() const { return factor_; }
+  /// Whether it converged only in so far as the corrections are so small that rounding may be the
+  /// reason that they do not shrink.
+  bool at_rounding() const { return at_rounding_; }
   /// The part of the step with which the iteration would be fast enough (IV.8, p. 121).
   double shorter() const {
     const double excess = std::clamp(remaining(), 1e-4, 20.0);
@@ -50,16 +59,16 @@ class Convergence {
   }
 
  private:
-  static constexpr double least = 1e-16;
   /// [tolerances] What the last allowed iteration would leave.
   double remaining() const {
     return factor_ * last_ * std::pow(theta_, most_ - 1 - iterations_) / tolerance_;
   }
 
-  double tolerance_;
+  double tolerance_, rounding_;
   int most_;
   double factor_;  // theta / (1 - theta)
   int iterations_ = 0;
+  bool at_rounding_ = false;
   double theta_ = 0.0, last_ = 0.0, last_ratio_ = 0.0;
 };
 

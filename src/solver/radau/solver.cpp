@@ -53,12 +53,12 @@ class RadauSolver final : public StepSolver<RadauSolver> {
   }
 
   /// See StepSolver. The root is off by the error of the dense output, and the cut ends ten times as
-  /// far beyond it.
+  /// far beyond it. Near the begin of the step the polynomial is as good as the state there.
   bool cut(double root) {
     const double moved = in_tolerances(x1_ - x0_);
     const double off = step_error_ * scheme_of(step_.stages).dense_share / std::max(moved, 1e-300);
     const double h = root * (1.0 + std::clamp(10.0 * off, 1e-12, 1e-2));
-    if (!(h < length_)) return false;
+    if (!(h < length_ && root > near_begin * length_)) return false;
     last_ = step_;
     last_.predict(step_.stages, 0.0, h / length_, step_.z);
     if (!solve_aside(t0_, h, x0_, step_)) {
@@ -72,6 +72,11 @@ class RadauSolver final : public StepSolver<RadauSolver> {
 
  private:
   friend StepSolver<RadauSolver>;
+  /// [of the step] The error of the collocation polynomial has the factor s; so near its begin it is a
+  /// thousandth of its largest.
+  static constexpr double near_begin = 1e-3;
+  /// [steps] The polynomial of the last step predicts no more than this.
+  static constexpr double furthest = 16.0;
   static constexpr double infinite = std::numeric_limits<double>::infinity();
 
   void begin(const Start& start) {
@@ -106,6 +111,7 @@ class RadauSolver final : public StepSolver<RadauSolver> {
       if (!ends) require_room(h);
       t1_ = ends ? t_stop : t0_ + h;
       if (!solve(h)) {
+        if (creep(h)) return;
         wish = h * shorter_;
         order_.newton_failed = true;
         choose_order(1.0);
@@ -172,6 +178,21 @@ class RadauSolver final : public StepSolver<RadauSolver> {
     }
   }
 
+  /// Takes the step along the derivative if no state moves by a tolerance in it, and the derivative
+  /// jumps: there Newton's iteration may not converge, however short the step is. Without steps a
+  /// solution that slides along a jump would not be noticed.
+  bool creep(double h) {
+    for (int j = 0; j < step_.stages; ++j) step_.z.col(j) = scheme().c[j] * h * f0_;
+    finish_stages(h);
+    step_error_ = in_tolerances(step_.z.col(step_.stages - 1));
+    if (!(step_error_ <= 0.5)) return false;
+    machine_->derivative(t1_, x1_.data(), residual_.data());
+    if (!((residual_ - f0_).norm() > 0.1 * f0_.norm())) return false;
+    ++statistics_.steps;
+    h_ = h, smooth_ = jacobian_known_ = false;
+    return true;
+  }
+
   /// [tolerances] What Newton's iteration may leave.
   double newton_room() const { return std::max(0.05, 10.0 * thresholds::eps / options_.rtol); }
 
@@ -194,8 +215,9 @@ class RadauSolver final : public StepSolver<RadauSolver> {
   }
 
   void start_stages(double h) {
-    if (smooth_)
-      last_.predict(step_.stages, 1.0, h / last_length_, step_.z);
+    const double ratio = h / last_length_;
+    if (smooth_ && ratio < furthest)
+      last_.predict(step_.stages, 1.0, ratio, step_.z);
     else
       step_.z.leftCols(step_.stages).setZero();
   }
@@ -206,8 +228,8 @@ class RadauSolver final : public StepSolver<RadauSolver> {
   double estimate(double h) {
     finish_stages(h);
     const Scheme m = scheme();
-    residual_ = f0_;
-    for (int j = 0; j < m.stages; ++j) residual_ += m.e[j] / h * step_.z.col(j);
+    residual_ = h * f0_;
+    for (int j = 0; j < m.stages; ++j) residual_ += m.e[j] * step_.z.col(j);
     systems_->solve_real(residual_.data());
     step_error_ = in_tolerances(residual_);
     return std::isfinite(step_error_) ? step_error_ : infinite;

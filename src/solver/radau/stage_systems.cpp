@@ -7,21 +7,24 @@ namespace saltus::radau {
 
 template <class T>
 bool StageSystems::System<T>::factor(const LinearStructure& structure,
-                                     const std::vector<double>& jacobian, T shift) {
+                                     const std::vector<double>& jacobian, double h,
+                                     T eigenvalue) {
   if (!solver) solver = structure.make_factorisation<T>();
   matrix.resize(jacobian.size());
-  std::ranges::transform(jacobian, matrix.begin(), [](double value) { return T(-value); });
+  std::ranges::transform(jacobian, matrix.begin(), 
+                         [h](double value) { return T(-h * value); });
   for (const Index place : structure.layout().diagonal)
-    matrix[static_cast<std::size_t>(place)] += shift;
+    matrix[static_cast<std::size_t>(place)] += eigenvalue;
   return solver->factor(matrix.data());
 }
 
 bool StageSystems::factor(const std::vector<double>& jacobian, const Scheme& scheme, double h) {
   stages_ = 0;
-  if (!real_.factor(*structure_, jacobian, scheme.gamma / h)) return false;
+  if (!real_.factor(*structure_, jacobian, h, scheme.gamma)) return false;
   for (int k = 0; k < scheme.pairs(); ++k) {
-    const Complex shift(scheme.alpha[k] / h, scheme.beta[k] / h);
-    if (!pairs_[static_cast<std::size_t>(k)].factor(*structure_, jacobian, shift)) return false;
+    const Complex eigenvalue(scheme.alpha[k], scheme.beta[k]);
+    if (!pairs_[static_cast<std::size_t>(k)].factor(*structure_, jacobian, h, eigenvalue))
+      return false;
   }
   right_.resize(structure_->layout().diagonal.size());
   stages_ = scheme.stages, h_ = h;

@@ -1,4 +1,4 @@
-// The linear systems of a step: (lambda / h - J) d = r for the eigenvalues lambda of A^-1.
+// The linear systems of a step: (lambda - h J) d = r for the eigenvalues lambda of A^-1.
 #pragma once
 
 #include <array>
@@ -36,7 +36,8 @@ class StageSystems {
  private:
   template <class T>
   struct System {
-    bool factor(const LinearStructure& structure, const std::vector<double>& jacobian, T shift);
+    bool factor(const LinearStructure& structure, const std::vector<double>& jacobian, double h,
+                T eigenvalue);
 
     std::vector<T> matrix;
     std::unique_ptr<FactorisationOf<T>> solver;
