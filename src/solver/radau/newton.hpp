@@ -11,6 +11,9 @@
 
 namespace saltus::radau {
 
+/// [iterations] 7, 12 and 17 (the code RADAU).
+constexpr int most_iterations(int stages) { return 7 + 5 * (stages - 3) / 2; }
+
 /// Solves z = h (A x I) f(t0 + c h, x0 + z) by simplified Newton iterations. With w = (T^-1 x I) z
 /// each iteration is (Lambda - h J) dw = h (T^-1 x I) f - Lambda w, which falls into systems for each
 /// eigenvalue (Hairer, Wanner II, IV.8, (8.6) to (8.13), times h).
@@ -140,8 +143,6 @@ class Newton {
   }
   /// [tolerances] Some roundings of the states, which are at least rtol of their size.
   double rounding() const { return 10.0 * thresholds::eps / options_.rtol; }
-  /// 7, 12 and 17 (the code RADAU).
-  static constexpr int most_iterations(int stages) { return 7 + 5 * (stages - 3) / 2; }
 
   Machine* machine_;
   SolverOptions options_;

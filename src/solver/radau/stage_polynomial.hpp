@@ -61,6 +61,9 @@ struct StagePolynomial {
     }
   }
 
+  /// From the begin of the step to its end.
+  auto end() const { return z.col(stages - 1); }
+
   int stages = stage_counts.front();
   Eigen::MatrixXd z;
 };

@@ -44,13 +44,22 @@ class PredictiveControl {
   void forget() { h_ = 0.0; }
 
  private:
-  static constexpr double shortest = 0.2, longest = 8.0, least_error = 1e-2;
+  static constexpr double shortest = 0.1, longest = 8.0, least_error = 1e-2;
   static double next(double error, double order, double safety) {
     return std::clamp(safety * std::pow(std::max(error, 1e-20), -1.0 / order), shortest, longest);
   }
 
   double h_ = 0.0, error_ = 0.0;  // of the last accepted step
 };
+
+/// The safety of a step size: the less, the more of the allowed iterations Newton took (IV.8, p. 124).
+inline double safety_of(int iterations, int most) {
+  return 0.9 * (1.0 + 2.0 * most) / (iterations + 2.0 * most);
+}
+
+/// Whether a step longer by this factor saves less than the factorisation that it costs (the code
+/// RADAU5).
+constexpr bool not_worth_it(double factor) { return factor >= 1.0 && factor < 1.2; }
 
 /// What a choice of the order depends on.
 struct OrderFacts {
