@@ -1,6 +1,6 @@
-"""Computes the coefficients of the Radau IIA methods and writes include/saltus/solver/detail/radau_tables.hpp.
+"""Computes the coefficients of the Radau IIA methods and writes include/saltus/solver/detail/radau/tables.hpp.
 
-Usage: python tools/radau_coefficients.py > include/saltus/solver/detail/radau_tables.hpp     (needs mpmath)
+Usage: python tools/radau_coefficients.py > include/saltus/solver/detail/radau/tables.hpp     (needs mpmath)
 
 Radau IIA with s stages is collocation at the zeros c_i of d^(s-1)/dx^(s-1) [x^(s-1) (x - 1)^s] (E. Hairer, G. Wanner,
 Solving Ordinary Differential Equations II, 2nd ed., IV.5, (5.7)). Everything is computed with 60 digits and rounded

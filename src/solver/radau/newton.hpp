@@ -3,10 +3,10 @@
 
 #include <cmath>
 
-#include "convergence.hpp"
+#include "saltus/solver/detail/radau/convergence.hpp"
 #include "saltus/solver/detail/solver.hpp"
 #include "saltus/solver/detail/thresholds.hpp"
-#include "stage_polynomial.hpp"
+#include "saltus/solver/detail/radau/stage_polynomial.hpp"
 #include "stage_systems.hpp"
 
 namespace saltus::radau {

@@ -6,7 +6,7 @@
 #include "saltus/solver/detail/step_size.hpp"
 #include "saltus/solver/detail/step_solver.hpp"
 #include "stage_solver.hpp"
-#include "step_control.hpp"
+#include "saltus/solver/detail/radau/step_control.hpp"
 
 namespace saltus::radau {
 

@@ -7,7 +7,7 @@
 
 #include "../linear/scalar.hpp"
 #include "../linear/structure.hpp"
-#include "scheme.hpp"
+#include "saltus/solver/detail/radau/scheme.hpp"
 
 namespace saltus::radau {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scheme.hpp"
+#include "saltus/solver/detail/radau/scheme.hpp"
 
 namespace saltus::radau {
 

@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "scheme.hpp"
+#include "saltus/solver/detail/radau/scheme.hpp"
 
 namespace saltus::radau {
 

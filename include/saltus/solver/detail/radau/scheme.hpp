@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "saltus/solver/detail/radau_tables.hpp"
+#include "saltus/solver/detail/radau/tables.hpp"
 
 namespace saltus::radau {
 
