@@ -9,7 +9,7 @@ FOLDER = Path(__file__).parent
 
 def main():
     scene = saltus.scene("van-der-pol")
-    methods = ["dopri5", "dop853", "adams", "bdf", "auto"]
+    methods = ["dopri5", "dop853", "adams", "bdf", "radau", "auto"]
     table = saltus.work_precision(scene, methods=methods, time_limit=3.0)
     table.plot(FOLDER / "van-der-pol.svg")
     print(table)

@@ -5,6 +5,7 @@
 
 #include "saltus/solver/detail/auto_solver.hpp"
 #include "saltus/solver/detail/one_step.hpp"
+#include "saltus/solver/detail/radau.hpp"
 #include "saltus/solver/detail/thresholds.hpp"
 
 namespace saltus {
@@ -21,12 +22,18 @@ double order_8_pays(const GuardSet& guards) {
 }  // namespace
 
 void require_linear_solver(LinearSolver linear_solver, Method method) {
-  const bool stiff = method == Method::automatic || method == Method::bdf;
+  const bool stiff =
+      method == Method::automatic || method == Method::bdf || method == Method::radau;
   if (linear_solver != LinearSolver::automatic && !stiff) {
     throw ModelError(text("option linear_solver = '", to_string(linear_solver),
                           "': ode_solver_method '", to_string(method),
                           "' solves no linear systems; leave it at 'auto', or take the "
-                          "method 'bdf' or 'auto'"));
+                          "method 'bdf', 'radau' or 'auto'"));
+  }
+  if (linear_solver == LinearSolver::gmres && method == Method::radau) {
+    throw ModelError(
+        "option linear_solver = 'gmres': ode_solver_method 'radau' factorises its matrices; leave it "
+        "at 'auto', or take the method 'bdf'");
   }
 }
 
@@ -46,6 +53,8 @@ std::unique_ptr<Solver> make_solver(Method method, Machine& machine, GuardSet& g
       return make_cvode(machine, guards, options, CvodeMethod::adams);
     case Method::bdf:
       return make_cvode(machine, guards, options, CvodeMethod::bdf);
+    case Method::radau:
+      return make_radau(machine, guards, options);
   }
   return nullptr;
 }

@@ -38,7 +38,7 @@ def ends(target, arguments=(), options=""):
     return done.returncode, done.stderr
 
 
-@pytest.mark.parametrize("method", ["auto", "dopri5", "dop853", "adams", "bdf"])
+@pytest.mark.parametrize("method", ["auto", "dopri5", "dop853", "adams", "bdf", "radau"])
 def test_6_4_daemon_threads_whose_callbacks_are_called(method):
     assert ends("run", (f"'{method}'", "called", "'called'")) == (0, "")
 

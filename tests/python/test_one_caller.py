@@ -13,7 +13,7 @@ CALLS = {
     "results": lambda simulator, context: simulator.results,
     "describe": lambda simulator, context: simulator.describe(),
 }
-METHODS = ["auto", "dopri5", "dop853", "adams", "bdf"]
+METHODS = ["auto", "dopri5", "dop853", "adams", "bdf", "radau"]
 
 
 class Decay(saltus.LeafSystem):

@@ -5,7 +5,7 @@ import pytest
 import saltus
 from saltus.library import Comparator, Constant, Pulse
 
-METHODS = ["dopri5", "dop853", "adams", "bdf"]
+METHODS = ["dopri5", "dop853", "adams", "bdf", "radau"]
 PYTHON = ["traced", "called"]
 
 

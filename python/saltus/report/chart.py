@@ -25,9 +25,10 @@ COLOURS = {
     "dop853": "#56B4E9",
     "adams": "#009E73",
     "bdf": "#D55E00",
+    "radau": "#CC79A7",
     "auto": "#000000",
 }
-OTHERS = ("#CC79A7", "#E69F00", "#999999")
+OTHERS = ("#E69F00", "#999999", "#F0E442")
 MARKERS = "ovs^Dp<h>*"  # one for each tolerance, the loosest first
 LEAST = 1e-17  # errors below it, zero among them, are drawn here
 STYLE: dict[Any, Any] = {

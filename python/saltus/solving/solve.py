@@ -38,7 +38,7 @@ HINTS = OPTIONS | {
     "event_rows": "with t_eval there are rows at those times only, else at events too",
     "recorded_signals": "the state is recorded as 'x'; for other signals write a LeafSystem",
 }
-METHODS = {"RK23": "dopri5", "Radau": "bdf", "LSODA": "auto"}
+METHODS = {"RK23": "dopri5", "LSODA": "auto"}
 """methods of SciPy that are not here, and those that do their work"""
 OWN = (
     "method",
@@ -94,8 +94,8 @@ def solve(
         A plain ``g(t, x, *args)``, perhaps with SciPy's attributes `terminal` and `direction`, is
         logged where it is zero; `Guard` says more, such as a reset.
     method : str
-        'auto', 'dopri5' ('RK45'), 'dop853' ('DOP853'), 'adams' or 'bdf' ('BDF'). SciPy's 'RK23'
-        is run by 'dopri5', 'Radau' by 'bdf' and 'LSODA' by 'auto'.
+        'auto', 'dopri5' ('RK45'), 'dop853' ('DOP853'), 'adams', 'bdf' ('BDF') or 'radau'
+        ('Radau'). SciPy's 'RK23' is run by 'dopri5' and 'LSODA' by 'auto'.
     rtol, atol : float or array_like, shape (n,)
         Relative and absolute tolerance of a step, for all states or for each. A relative one below
         1e-15 is raised to that, with a warning.

@@ -1,8 +1,8 @@
 // Gaussian elimination with partial pivoting within a band.
 #include <algorithm>
-#include <cmath>
 
 #include "factorisation.hpp"
+#include "scalar.hpp"
 
 namespace saltus {
 
@@ -11,7 +11,8 @@ namespace {
 /// Entry (i, j) is at offset lower + upper + i - j of column j; `lower` rows above the band take
 /// the entries that pivoting adds (LAPACK's layout and dgbtf2: E. Anderson et al., LAPACK Users'
 /// Guide, 3rd ed., 1999, section 5.3.3). The diagonal keeps the reciprocals of the pivots.
-class Band final : public Factorisation {
+template <class T>
+class Band final : public FactorisationOf<T> {
  public:
   Band(Index n, Bandwidth band, std::vector<int> position)
       : n_(n),
@@ -23,32 +24,32 @@ class Band final : public Factorisation {
         position_(std::move(position)),
         moved_(position_.size()) {}
 
-  bool factor(double* a) override {
+  bool factor(T* a) override {
     a_ = a;
     Index last = 0;  // the last column of the rows so far
     for (Index j = 0; j < n_; ++j) {
-      double* column = diagonal(j);
+      T* column = diagonal(j);
       const Index below = std::min(lower_, n_ - 1 - j);
       Index best = 0;
       for (Index i = 1; i <= below; ++i)
-        if (std::abs(column[i]) > std::abs(column[best])) best = i;
+        if (size_of(column[i]) > size_of(column[best])) best = i;
       pivots_[static_cast<std::size_t>(j)] = best;
-      if (!(std::abs(column[best]) > 0.0)) return false;
+      if (!(size_of(column[best]) > 0.0)) return false;
       last = std::max(last, std::min(j + upper_ + best, n_ - 1));
       if (best != 0)
         for (Index k = j; k <= last; ++k) std::swap(diagonal(k)[j - k], diagonal(k)[j - k + best]);
-      column[0] = 1.0 / column[0];
-      for (Index i = 1; i <= below; ++i) column[i] *= column[0];
+      column[0] = reciprocal(column[0]);
+      for (Index i = 1; i <= below; ++i) column[i] = product(column[i], column[0]);
       for (Index k = j + 1; k <= last; ++k) {
-        double* other = diagonal(k) + (j - k);
-        const double factor = other[0];
-        for (Index i = 1; i <= below; ++i) other[i] -= factor * column[i];
+        T* other = diagonal(k) + (j - k);
+        const T factor = other[0];
+        for (Index i = 1; i <= below; ++i) other[i] -= product(factor, column[i]);
       }
     }
     return true;
   }
 
-  void solve(double* b) override {
+  void solve(T* b) override {
     if (position_.empty()) return solve_in_place(b);
     for (std::size_t i = 0; i < moved_.size(); ++i)
       moved_[static_cast<std::size_t>(position_[i])] = b[i];
@@ -58,29 +59,29 @@ class Band final : public Factorisation {
   }
 
  private:
-  double* diagonal(Index j) const { return a_ + j * height_ + reach_; }
+  T* diagonal(Index j) const { return a_ + j * height_ + reach_; }
 
-  void solve_in_place(double* b) const {
+  void solve_in_place(T* b) const {
     for (Index j = 0; j < n_; ++j) {
       const Index pivot = pivots_[static_cast<std::size_t>(j)];
       if (pivot != 0) std::swap(b[j], b[j + pivot]);
-      const double* column = diagonal(j);
+      const T* column = diagonal(j);
       const Index below = std::min(lower_, n_ - 1 - j);
-      for (Index i = 1; i <= below; ++i) b[j + i] -= column[i] * b[j];
+      for (Index i = 1; i <= below; ++i) b[j + i] -= product(column[i], b[j]);
     }
     for (Index j = n_ - 1; j >= 0; --j) {
-      const double* column = diagonal(j);
-      b[j] *= column[0];
+      const T* column = diagonal(j);
+      b[j] = product(b[j], column[0]);
       const Index above = std::min(reach_, j);
-      for (Index i = 1; i <= above; ++i) b[j - i] -= column[-i] * b[j];
+      for (Index i = 1; i <= above; ++i) b[j - i] -= product(column[-i], b[j]);
     }
   }
 
   Index n_, lower_, reach_, height_, upper_;
-  double* a_ = nullptr;
+  T* a_ = nullptr;
   std::vector<Index> pivots_;
   std::vector<int> position_;  // of each state; empty: natural order
-  std::vector<double> moved_;
+  std::vector<T> moved_;
 };
 
 }  // namespace
@@ -100,8 +101,11 @@ MatrixLayout band_layout(const Sparsity& places, Bandwidth band, const std::vect
   return layout;
 }
 
-std::unique_ptr<Factorisation> make_band(Index n, Bandwidth band, std::vector<int> position) {
-  return std::make_unique<Band>(n, band, std::move(position));
+template <class T>
+std::unique_ptr<FactorisationOf<T>> make_band(Index n, Bandwidth band, std::vector<int> position) {
+  return std::make_unique<Band<T>>(n, band, std::move(position));
 }
+template std::unique_ptr<FactorisationOf<double>> make_band(Index, Bandwidth, std::vector<int>);
+template std::unique_ptr<FactorisationOf<Complex>> make_band(Index, Bandwidth, std::vector<int>);
 
 }  // namespace saltus

@@ -9,25 +9,29 @@ namespace saltus {
 
 namespace {
 
-class LargeDense final : public Factorisation {
+template <class T>
+class LargeDense final : public FactorisationOf<T> {
  public:
+  using Vector = Eigen::Matrix<T, Eigen::Dynamic, 1>;
+  using Matrix = Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic>;
+
   explicit LargeDense(Index n) : n_(n), lu_(n) {}
 
-  bool factor(double* a) override {
-    lu_.compute(MatrixRef(a, n_, n_));
+  bool factor(T* a) override {
+    lu_.compute(Eigen::Map<Matrix>(a, n_, n_));
     const auto pivots = lu_.matrixLU().diagonal().cwiseAbs();
     return pivots.allFinite() && pivots.minCoeff() > 0.0;
   }
-  void solve(double* b) override {
-    VectorRef x(b, n_);
+  void solve(T* b) override {
+    Eigen::Map<Vector> x(b, n_);
     lu_.permutationP().applyThisOnTheLeft(x);
-    lu_.matrixLU().triangularView<Eigen::UnitLower>().solveInPlace(x);
-    lu_.matrixLU().triangularView<Eigen::Upper>().solveInPlace(x);
+    lu_.matrixLU().template triangularView<Eigen::UnitLower>().solveInPlace(x);
+    lu_.matrixLU().template triangularView<Eigen::Upper>().solveInPlace(x);
   }
 
  private:
   Index n_;
-  Eigen::PartialPivLU<Eigen::MatrixXd> lu_;
+  Eigen::PartialPivLU<Matrix> lu_;
 };
 
 }  // namespace
@@ -42,11 +46,14 @@ MatrixLayout dense_layout(const Sparsity& places) {
   return layout;
 }
 
-std::unique_ptr<Factorisation> make_dense(Index n) {
+template <class T>
+std::unique_ptr<FactorisationOf<T>> make_dense(Index n) {
   const auto small = static_cast<int>(n);
-  if (small <= thresholds::unrolled_dense) return make_unrolled(small);
-  if (n < thresholds::large_dense) return std::make_unique<Elimination<0>>(small);
-  return std::make_unique<LargeDense>(n);
+  if (small <= thresholds::unrolled_dense) return make_unrolled<T>(small);
+  if (n < thresholds::large_dense) return std::make_unique<Elimination<0, T>>(small);
+  return std::make_unique<LargeDense<T>>(n);
 }
+template std::unique_ptr<FactorisationOf<double>> make_dense(Index);
+template std::unique_ptr<FactorisationOf<Complex>> make_dense(Index);
 
 }  // namespace saltus

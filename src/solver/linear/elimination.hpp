@@ -2,50 +2,50 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 
 #include "factorisation.hpp"
+#include "scalar.hpp"
 
 namespace saltus {
 
 /// Factorises in place, column by column (G. H. Golub, C. F. Van Loan, Matrix Computations, 4th
 /// ed., algorithm 3.4.1). The diagonal keeps the reciprocals of the pivots. With a fixed size the
 /// compiler unrolls the loops; size 0 is known at run time only.
-template <int fixed>
-class Elimination final : public Factorisation {
+template <int fixed, class T>
+class Elimination final : public FactorisationOf<T> {
  public:
   explicit Elimination(int n) : n_(n), pivots_(static_cast<std::size_t>(n)) {}
 
-  bool factor(double* a) override {
+  bool factor(T* a) override {
     a_ = a;
     for (int k = 0; k < n(); ++k) {
-      double* column = a + k * n();
+      T* column = a + k * n();
       int best = k;
       for (int i = k + 1; i < n(); ++i)
-        if (std::abs(column[i]) > std::abs(column[best])) best = i;
+        if (size_of(column[i]) > size_of(column[best])) best = i;
       pivots_[static_cast<std::size_t>(k)] = best;
-      if (!(std::abs(column[best]) > 0.0)) return false;
+      if (!(size_of(column[best]) > 0.0)) return false;
       if (best != k)
         for (int j = 0; j < n(); ++j) std::swap(a[k + j * n()], a[best + j * n()]);
-      column[k] = 1.0 / column[k];
-      for (int i = k + 1; i < n(); ++i) column[i] *= column[k];
+      column[k] = reciprocal(column[k]);
+      for (int i = k + 1; i < n(); ++i) column[i] = product(column[i], column[k]);
       for (int j = k + 1; j < n(); ++j) {
-        double* other = a + j * n();
-        const double factor = other[k];
-        for (int i = k + 1; i < n(); ++i) other[i] -= factor * column[i];
+        T* other = a + j * n();
+        const T factor = other[k];
+        for (int i = k + 1; i < n(); ++i) other[i] -= product(factor, column[i]);
       }
     }
     return true;
   }
 
-  void solve(double* b) override {
+  void solve(T* b) override {
     for (int k = 0; k < n(); ++k) std::swap(b[k], b[pivots_[static_cast<std::size_t>(k)]]);
     for (int k = 0; k < n(); ++k) {
-      for (int i = k + 1; i < n(); ++i) b[i] -= a_[i + k * n()] * b[k];
+      for (int i = k + 1; i < n(); ++i) b[i] -= product(a_[i + k * n()], b[k]);
     }
     for (int k = n() - 1; k >= 0; --k) {
-      b[k] *= a_[k + k * n()];
-      for (int i = 0; i < k; ++i) b[i] -= a_[i + k * n()] * b[k];
+      b[k] = product(b[k], a_[k + k * n()]);
+      for (int i = 0; i < k; ++i) b[i] -= product(a_[i + k * n()], b[k]);
     }
   }
 
@@ -53,11 +53,12 @@ class Elimination final : public Factorisation {
   constexpr int n() const { return fixed > 0 ? fixed : n_; }
 
   int n_;
-  double* a_ = nullptr;
+  T* a_ = nullptr;
   std::vector<int> pivots_;
 };
 
 /// For 1 to thresholds::unrolled_dense states: unrolled.
-std::unique_ptr<Factorisation> make_unrolled(int n);
+template <class T>
+std::unique_ptr<FactorisationOf<T>> make_unrolled(int n);
 
 }  // namespace saltus

@@ -25,68 +25,32 @@ int solve_or_fail(SUNLinearSolver solver, SUNMatrix matrix, N_Vector x, N_Vector
 
 LinearSystem::LinearSystem(Machine& machine, const SolverOptions& options,
                            std::exception_ptr& error, double t, const double* x)
-    : machine_(&machine), options_(options), error_(&error), probe_(machine) {
-  if (options.find_sparsity) probe_.look(t, x);
+    : n_(machine.plan().nx), error_(&error), structure_(machine, options, t, x) {
   build();
 }
 
 void LinearSystem::build() {
-  jacobian_.emplace(*machine_, probe_.found());
-  choice_ = choose_linear_solver(*jacobian_, machine_->plan().nx, options_.linear_solver);
-  factorisation_.reset(), preconditioner_.reset(), words_.clear();
-  if (choice_.solver != LinearSolver::gmres)
-    make_factorisation();
-  else if (!jacobian_->pattern().overflow)
-    preconditioner_.emplace(jacobian_->pattern().places);
+  factorisation_.reset(), preconditioner_.reset();
+  if (structure_.direct())
+    factorisation_ = structure_.make_factorisation<double>();
+  else if (!structure_.pattern().overflow)
+    preconditioner_.emplace(structure_.pattern().places);
 }
 
 bool LinearSystem::renew(int flag) {
-  const bool failed = flag == CV_CONV_FAILURE && !probe_.found().empty();
-  if (!std::exchange(news_, false) && !failed) return false;
-  if (failed)
-    probe_.give_up("Newton's iteration did not converge with what was found");
-  else if (++renewals_ > thresholds::most_renewals)
-    probe_.give_up(text("others were missing ", thresholds::most_renewals, " times"));
+  if (!structure_.renew(flag == CV_CONV_FAILURE)) return false;
   build();
   return true;
-}
-
-/// Whether the probe found new places. The places found near one state may be too few near another.
-/// A false alarm, by a kink or by rounding, doubles the time to the next look.
-bool LinearSystem::doubtful(double t, const double* x, const double* xdot, const double* values) {
-  if (probe_.found().empty() || --until_check_ > 0) return false;
-  const bool explained = jacobian_->explains(t, x, xdot, increments(), values);
-  news_ = !explained && probe_.look(t, x);
-  if (!explained && !news_) wait_ *= 2;
-  until_check_ = wait_;
-  return news_;
-}
-
-void LinearSystem::make_factorisation() {
-  const Index n = machine_->plan().nx;
-  if (jacobian_->pattern().overflow) jacobian_->fill_up();
-  const Sparsity& places = jacobian_->pattern().places;
-  if (choice_.solver == LinearSolver::dense) {
-    layout_ = dense_layout(places);
-    factorisation_ = make_dense(n);
-  } else if (choice_.solver == LinearSolver::band) {
-    layout_ = band_layout(places, choice_.band, choice_.position);
-    factorisation_ = make_band(n, choice_.band, choice_.position);
-  } else {
-    layout_ = sparse_layout(places);
-    factorisation_ = make_sparse(places);
-  }
-  jacobian_->store_at(std::move(layout_.places));
 }
 
 void LinearSystem::attach(void* cvode, N_Vector y, SUNContext context, const Callbacks& callbacks) {
   cvode_ = cvode;
   if (factorisation_) {
-    matrix_ = sun::make_matrix(layout_, context);
+    matrix_ = sun::make_matrix(structure_.layout(), context);
     linear_ = sun::make_direct(*factorisation_, *error_, context);
     CVodeSetLinearSolver(cvode, linear_.get(), matrix_.get());
     CVodeSetJacFn(cvode, callbacks.jacobian);
-    if (machine_->plan().nx <= thresholds::fresh_jacobian) refresh_often();
+    if (n_ <= thresholds::fresh_jacobian) refresh_often();
     return;
   }
   // The preconditioner is on the right, so that GMRES tests the residual itself. With an inaccurate
@@ -110,26 +74,24 @@ void LinearSystem::refresh_often() {
 }
 
 Increments LinearSystem::increments() const {
-  Increments by{.rtol = options_.rtol,
-                .atol = options_.atol,
-                .rtols = options_.each_rtol(),
-                .atols = options_.each_atol()};
-  CVodeGetCurrentStep(cvode_, &by.h);
-  return by;
+  double h = 0.0;
+  CVodeGetCurrentStep(cvode_, &h);
+  return structure_.increments(h);
 }
 
 int LinearSystem::jacobian(double t, N_Vector x, N_Vector xdot, SUNMatrix out) {
   const double *at = N_VGetArrayPointer(x), *speed = N_VGetArrayPointer(xdot);
   double* values = sun::values_of(out);
-  if (!(*jacobian_)(t, at, speed, increments(), values)) return 1;
-  return doubtful(t, at, speed, values) ? -1 : 0;
+  const Increments by = increments();
+  if (!structure_.jacobian()(t, at, speed, by, values)) return 1;
+  return structure_.misses_places(t, at, speed, by, values) ? -1 : 0;
 }
 
 int LinearSystem::prepare(double t, N_Vector x, N_Vector xdot, bool keep, bool& renewed,
                           double gamma) {
   renewed = !keep;
-  if (!keep && !(*jacobian_)(t, N_VGetArrayPointer(x), N_VGetArrayPointer(xdot), increments(),
-                             preconditioner_->jacobian()))
+  if (!keep && !structure_.jacobian()(t, N_VGetArrayPointer(x), N_VGetArrayPointer(xdot),
+                                     increments(), preconditioner_->jacobian()))
     return 1;
   return preconditioner_->factor(gamma) ? 0 : 1;
 }
@@ -137,14 +99,6 @@ int LinearSystem::prepare(double t, N_Vector x, N_Vector xdot, bool keep, bool& 
 int LinearSystem::precondition(N_Vector r, N_Vector z) {
   preconditioner_->solve(N_VGetArrayPointer(r), N_VGetArrayPointer(z));
   return 0;
-}
-
-const std::string& LinearSystem::describe() const {
-  if (std::exchange(told_, jacobian_->mended()) != jacobian_->mended() || words_.empty()) {
-    words_ = text(linear_solver_names[static_cast<std::size_t>(choice_.solver)].first, ": ",
-                  choice_.why, probe_.words(), jacobian_->words());
-  }
-  return words_;
 }
 
 }  // namespace saltus

@@ -4,11 +4,9 @@
 
 #include <optional>
 
-#include "choice.hpp"
 #include "direct.hpp"
 #include "krylov.hpp"
-#include "saltus/solver/detail/probe.hpp"
-#include "saltus/solver/detail/solver.hpp"
+#include "structure.hpp"
 
 namespace saltus {
 
@@ -38,28 +36,17 @@ class LinearSystem {
   int precondition(N_Vector r, N_Vector z);
 
   /// The solver and the reason, in words. The text is made again only if it has changed.
-  const std::string& describe() const;
+  const std::string& describe() const { return structure_.describe(); }
 
  private:
   void build();
-  void make_factorisation();
   void refresh_often();
-  bool doubtful(double t, const double* x, const double* xdot, const double* values);
   Increments increments() const;
 
-  Machine* machine_;
-  SolverOptions options_;
+  Index n_;
   std::exception_ptr* error_;
   void* cvode_ = nullptr;
-  Probe probe_;
-  bool news_ = false;  // the probe has found places that are not built in yet
-  int renewals_ = 0;
-  int wait_ = 1, until_check_ = 1;  // Jacobians between two checks of the probe's places
-  std::optional<Jacobian> jacobian_;
-  LinearChoice choice_;
-  mutable std::string words_;
-  mutable int told_ = 0;  // count of mended Jacobians in words_
-  MatrixLayout layout_;
+  LinearStructure structure_;
   std::unique_ptr<Factorisation> factorisation_;
   std::optional<Preconditioner> preconditioner_;
   sun::Matrix matrix_;

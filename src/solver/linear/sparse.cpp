@@ -4,6 +4,7 @@
 #include <Eigen/SparseLU>
 
 #include "factorisation.hpp"
+#include "scalar.hpp"
 
 namespace saltus {
 
@@ -13,28 +14,31 @@ namespace {
 /// own pivots. (J. W. Demmel et al., "A supernodal approach to sparse partial pivoting", SIAM J.
 /// Matrix Anal. Appl. 20 (1999) 720; T. A. Davis et al., "Algorithm 836: COLAMD", ACM TOMS 30
 /// (2004) 377.)
-class Sparse final : public Factorisation {
+template <class T>
+class Sparse final : public FactorisationOf<T> {
  public:
   explicit Sparse(const Sparsity& places)
-      : matrix_(sparse_matrix(places)), solution_(matrix_.rows()) {
+      : matrix_(sparse_matrix<T>(places)), solution_(matrix_.rows()) {
     lu_.analyzePattern(matrix_);
   }
 
-  bool factor(double* a) override {
+  bool factor(T* a) override {
     std::copy_n(a, matrix_.nonZeros(), matrix_.valuePtr());
     lu_.factorize(matrix_);
     return lu_.info() == Eigen::Success;
   }
-  void solve(double* b) override {
-    VectorRef x(b, solution_.size());
+  void solve(T* b) override {
+    Eigen::Map<Vector> x(b, solution_.size());
     solution_ = lu_.solve(x);
     x = solution_;
   }
 
  private:
-  SparseColumns matrix_;
-  Eigen::VectorXd solution_;
-  Eigen::SparseLU<SparseColumns, Eigen::COLAMDOrdering<int>> lu_;
+  using Vector = Eigen::Matrix<T, Eigen::Dynamic, 1>;
+
+  SparseColumnsOf<T> matrix_;
+  Vector solution_;
+  Eigen::SparseLU<SparseColumnsOf<T>, Eigen::COLAMDOrdering<int>> lu_;
 };
 
 }  // namespace
@@ -49,8 +53,11 @@ MatrixLayout sparse_layout(const Sparsity& places) {
   return layout;
 }
 
-std::unique_ptr<Factorisation> make_sparse(const Sparsity& places) {
-  return std::make_unique<Sparse>(places);
+template <class T>
+std::unique_ptr<FactorisationOf<T>> make_sparse(const Sparsity& places) {
+  return std::make_unique<Sparse<T>>(places);
 }
+template std::unique_ptr<FactorisationOf<double>> make_sparse(const Sparsity&);
+template std::unique_ptr<FactorisationOf<Complex>> make_sparse(const Sparsity&);
 
 }  // namespace saltus

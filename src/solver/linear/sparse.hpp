@@ -9,17 +9,20 @@
 
 namespace saltus {
 
-using SparseColumns = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
+template <class T>
+using SparseColumnsOf = Eigen::SparseMatrix<T, Eigen::ColMajor, int>;
+using SparseColumns = SparseColumnsOf<double>;
 
 /// The matrix with a one at each of these places. Its values are in the order of the pattern.
-inline SparseColumns sparse_matrix(const Sparsity& places) {
+template <class T = double>
+SparseColumnsOf<T> sparse_matrix(const Sparsity& places) {
   const auto n = places.columns();
-  SparseColumns matrix(n, n);
+  SparseColumnsOf<T> matrix(n, n);
   matrix.resizeNonZeros(places.size());
   std::ranges::transform(places.start, matrix.outerIndexPtr(),
                          [](Index k) { return static_cast<int>(k); });
   std::ranges::copy(places.rows, matrix.innerIndexPtr());
-  std::fill_n(matrix.valuePtr(), places.size(), 1.0);
+  std::fill_n(matrix.valuePtr(), places.size(), T(1.0));
   return matrix;
 }
 

@@ -8,12 +8,15 @@
 
 namespace saltus {
 
-std::unique_ptr<Factorisation> make_unrolled(int n) {
-  std::unique_ptr<Factorisation> result;
+template <class T>
+std::unique_ptr<FactorisationOf<T>> make_unrolled(int n) {
+  std::unique_ptr<FactorisationOf<T>> result;
   [n, &result]<int... i>(std::integer_sequence<int, i...>) {
-    (void)((n == i + 1 && (result = std::make_unique<Elimination<i + 1>>(n), true)) || ...);
+    (void)((n == i + 1 && (result = std::make_unique<Elimination<i + 1, T>>(n), true)) || ...);
   }(std::make_integer_sequence<int, thresholds::unrolled_dense>());
   return result;
 }
+template std::unique_ptr<FactorisationOf<double>> make_unrolled(int);
+template std::unique_ptr<FactorisationOf<Complex>> make_unrolled(int);
 
 }  // namespace saltus

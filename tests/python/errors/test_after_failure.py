@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import saltus
 
-METHODS = ["auto", "dopri5", "dop853", "adams", "bdf"]
+METHODS = ["auto", "dopri5", "dop853", "adams", "bdf", "radau"]
 PLACES = ["ode", "guard", "reset", "update", "output"]
 
 

@@ -25,7 +25,7 @@ from scene import Scene
 
 SCENES = 2000
 BY_EACH_METHOD = 400  # of them
-METHODS = ("dopri5", "dop853", "adams", "bdf", "auto")
+METHODS = ("dopri5", "dop853", "adams", "bdf", "radau", "auto")
 LIMIT = 60.0  # [s]; a run that meets it gives a line that differs each time
 
 

@@ -13,7 +13,7 @@ from typing import Any
 
 import saltus
 
-METHODS = ("auto", "dopri5", "dop853", "adams", "bdf")
+METHODS = ("auto", "dopri5", "dop853", "adams", "bdf", "radau")
 APART = 1e-6
 """[of a period] an end that is closer to an event says nothing: the event is on either side"""
 

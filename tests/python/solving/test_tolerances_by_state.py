@@ -6,7 +6,7 @@ import saltus
 from saltus import Guard, solve
 from systems import Ball
 
-METHODS = ("auto", "dopri5", "dop853", "adams", "bdf")
+METHODS = ("auto", "dopri5", "dop853", "adams", "bdf", "radau")
 SHAKE = 1000.0  # [1/s] of the state that nobody needs exactly
 
 

@@ -15,6 +15,14 @@ namespace saltus {
 ///   inside_step(u, x)  the state at offset u from the beginning of the step, 0 <= u <= length_
 /// This class does everything else, including roots. After a root that changes nothing continuous,
 /// the rest of the same step is delivered, so the trajectory is the same as without the root.
+///
+/// A method whose steps have a higher order than its dense output also provides
+///   cut(root)          take the step again from t0_ to just beyond the offset `root`, and set t1_, x1_
+///                      and length_; false if it stays as it is
+/// The root is then located in the shorter step, near its end, where the state is as good as there.
+template <class Method>
+concept CutsSteps = requires(Method method) { method.cut(1.0); };
+
 template <class Method, class Interface = Solver>
 class StepSolver : public Interface {
  public:
@@ -97,9 +105,7 @@ class StepSolver : public Interface {
   /// Delivers the step to its first root, or to its end.
   StopReason deliver(double t_stop) {
     const auto inside = [this](double u, double* x) { self().inside_step(u, x); };
-    if (!guards_->active().empty() &&
-        locator_.find(t0_, offset_, length_, x1_.data(),
-                      offset_ == 0.0 ? self().end_guards() : nullptr, inside)) {
+    if (!guards_->active().empty() && find_root(inside)) {
       const double root = locator_.offset();
       if (root < length_) read_root(root);
       offset_ = root;
@@ -110,6 +116,23 @@ class StepSolver : public Interface {
     delivered_ = true;
     time_ = t1_;
     return t1_ >= t_stop ? StopReason::stop_time : StopReason::step;
+  }
+
+  template <class Inside>
+  bool find_root(const Inside& inside) {
+    const auto find = [&](const double* guards) {
+      return locator_.find(t0_, offset_, length_, x1_.data(), guards, inside);
+    };
+    if constexpr (CutsSteps<Method>) {
+      before_ = guards_->g;
+      if (!find(nullptr)) return false;
+      if (offset_ > 0.0 || !self().cut(locator_.offset())) return true;
+      guards_->restore(), guards_->monitors.clear(), locator_.forget();
+      guards_->g = before_;
+      return find(nullptr);
+    } else {
+      return find(offset_ == 0.0 ? self().end_guards() : nullptr);
+    }
   }
 
   void read_root(double root) {
@@ -147,6 +170,7 @@ class StepSolver : public Interface {
   bool delivered_ = true;  // the last step is delivered to its end
   Eigen::VectorXd state_;  // the state at a root inside the last step
   Eigen::VectorXd next_state_;
+  std::vector<double> before_;  // the guards at the begin of a step that may be cut
 };
 
 }  // namespace saltus

@@ -1,0 +1,156 @@
+// Newton's iteration for the stages of a step.
+#pragma once
+
+#include <cmath>
+
+#include "saltus/solver/detail/radau/convergence.hpp"
+#include "saltus/solver/detail/solver.hpp"
+#include "saltus/solver/detail/thresholds.hpp"
+#include "saltus/solver/detail/radau/stage_polynomial.hpp"
+#include "stage_systems.hpp"
+
+namespace saltus::radau {
+
+/// [iterations] 7, 12 and 17 (the code RADAU).
+constexpr int most_iterations(int stages) { return 7 + 5 * (stages - 3) / 2; }
+
+/// Solves z = h (A x I) f(t0 + c h, x0 + z) by simplified Newton iterations. With w = (T^-1 x I) z
+/// each iteration is (Lambda - h J) dw = h (T^-1 x I) f - Lambda w, which falls into systems for each
+/// eigenvalue (Hairer, Wanner II, IV.8, (8.6) to (8.13), times h).
+class Newton {
+ public:
+  Newton(Machine& machine, const SolverOptions& options)
+      : machine_(&machine),
+        options_(options),
+        n_(machine.plan().nx),
+        x_(n_),
+        tolerance_(n_),
+        w_(n_, most_stages),
+        f_(n_, most_stages),
+        d_(n_, most_stages) {}
+
+  struct Problem {
+    double t0, h;
+    const double* x0;
+    double allowed;  // [tolerances] of the iteration
+    double factor;   // see Convergence
+  };
+
+  /// `polynomial` has the number of stages and their first values, and gets the solution. Verdict
+  /// `diverged` also if a derivative is not finite: `finite` then returns false.
+  Verdict solve(const Problem& problem, StageSystems& systems, StagePolynomial& polynomial) {
+    if (polynomial.stages == 3) return iterate<3>(problem, systems, polynomial.z);
+    if (polynomial.stages == 5) return iterate<5>(problem, systems, polynomial.z);
+    return iterate<7>(problem, systems, polynomial.z);
+  }
+  const Convergence& convergence() const { return convergence_; }
+  bool finite() const { return finite_; }
+
+ private:
+  template <int S>
+  using Block = Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, S>>;
+
+  template <int S>
+  Verdict iterate(const Problem& problem, StageSystems& systems, Eigen::MatrixXd& stages) {
+    Block<S> z(stages.data(), n_, S), w(w_.data(), n_, S);
+    convergence_ = {problem.allowed, rounding(), most_iterations(S), problem.factor};
+    for (Index i = 0; i < n_; ++i)
+      tolerance_[i] = 1.0 / options_.tolerance(i, std::abs(problem.x0[i]));
+    w = z.lazyProduct(matrix<S>(RadauTable<S>::t_inverse).transpose());
+    for (;;) {
+      const double size = correct<S>(problem, systems, z, w);
+      if (finite_ = std::isfinite(size); !finite_) return Verdict::diverged;
+      const Verdict verdict = convergence_.look(size);
+      if (verdict == Verdict::go_on) continue;
+      if (verdict == Verdict::converged && convergence_.at_rounding() &&
+          !is_rounding<S>(problem, z))
+        return Verdict::diverged;
+      return verdict;
+    }
+  }
+
+  /// Whether rounding explains the residual of the last stage, z_S - h sum_j a_Sj f_j. If the
+  /// Jacobian has a difference across a jump of f, all corrections are small, whatever the residual.
+  /// The rounding of f is seen by a relative change of the states of 1e-8.
+  template <int S>
+  bool is_rounding(const Problem& problem, const Block<S>& z) {
+    Block<S> f(f_.data(), n_, S);
+    evaluate<S>(problem, z, f);
+    auto residual = d_.col(0);
+    residual = z.col(S - 1);
+    for (int j = 0; j < S; ++j) residual -= problem.h * RadauTable<S>::a[S - 1][j] * f.col(j);
+    if (residual.cwiseProduct(tolerance_).norm() <= problem.allowed) return true;
+    for (Index i = 0; i < n_; ++i) x_[i] = (problem.x0[i] + z(i, S - 1)) * (1.0 + 1e-8);
+    auto moved = d_.col(1);
+    machine_->derivative(problem.t0 + problem.h, x_.data(), &d_(0, 1));
+    constexpr double roundings = 100.0 * thresholds::eps;
+    for (Index i = 0; i < n_; ++i) {
+      const double noise = std::abs(moved[i] - f(i, S - 1)) / 1e-8 + std::abs(f(i, S - 1));
+      if (!(std::abs(residual[i]) <= roundings * (std::abs(x_[i]) + problem.h * noise)))
+        return false;
+    }
+    return true;
+  }
+
+  template <int S>
+  void evaluate(const Problem& problem, const Block<S>& z, Block<S>& f) {
+    for (int j = 0; j < S; ++j) {
+      for (Index i = 0; i < n_; ++i) x_[i] = problem.x0[i] + z(i, j);
+      machine_->derivative(problem.t0 + RadauTable<S>::c[j] * problem.h, x_.data(), &f(0, j));
+    }
+  }
+
+  /// One iteration. Returns the root mean square of the correction of z [tolerances].
+  template <int S>
+  double correct(const Problem& problem, StageSystems& systems, Block<S>& z, Block<S>& w) {
+    Block<S> f(f_.data(), n_, S), d(d_.data(), n_, S);
+    evaluate<S>(problem, z, f);
+    d = f.lazyProduct(matrix<S>(RadauTable<S>::t_inverse).transpose());
+    d *= problem.h;
+    subtract_product<S>(w, d);
+    systems.solve_real(d.data());
+    for (int k = 0; k < (S - 1) / 2; ++k)
+      systems.solve_pair(k, &d(0, 2 * k + 1), &d(0, 2 * k + 2));
+    w += d;
+    f = d.lazyProduct(matrix<S>(RadauTable<S>::t).transpose());
+    z += f;
+    double sum = 0.0;
+    for (int j = 0; j < S; ++j) {
+      for (Index i = 0; i < n_; ++i) {
+        const double e = f(i, j) * tolerance_[i];
+        sum += e * e;
+      }
+    }
+    return std::sqrt(sum / static_cast<double>(S * n_));
+  }
+
+  /// d -= Lambda w.
+  template <int S>
+  void subtract_product(const Block<S>& w, Block<S>& d) {
+    using Table = RadauTable<S>;
+    d.col(0) -= Table::gamma * w.col(0);
+    for (int k = 0; k < (S - 1) / 2; ++k) {
+      const double alpha = Table::alpha[k], beta = Table::beta[k];
+      const int re = 2 * k + 1, im = re + 1;
+      d.col(re) -= alpha * w.col(re) - beta * w.col(im);
+      d.col(im) -= beta * w.col(re) + alpha * w.col(im);
+    }
+  }
+
+  template <int S>
+  static auto matrix(const double (&values)[S][S]) {
+    return Eigen::Map<const Eigen::Matrix<double, S, S, Eigen::RowMajor>>(&values[0][0]);
+  }
+  /// [tolerances] Some roundings of the states, which are at least rtol of their size.
+  double rounding() const { return 10.0 * thresholds::eps / options_.rtol; }
+
+  Machine* machine_;
+  SolverOptions options_;
+  Index n_;
+  Eigen::VectorXd x_, tolerance_;
+  Eigen::MatrixXd w_, f_, d_;
+  Convergence convergence_{1.0, 0.0, 1, 1.0};
+  bool finite_ = true;
+};
+
+}  // namespace saltus::radau

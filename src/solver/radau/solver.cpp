@@ -1,0 +1,270 @@
+// The stepper of the Radau methods: error estimate, length and order of steps, looks inside them.
+#include <utility>
+
+#include "halves.hpp"
+#include "saltus/solver/detail/radau.hpp"
+#include "saltus/solver/detail/step_size.hpp"
+#include "saltus/solver/detail/step_solver.hpp"
+#include "stage_solver.hpp"
+#include "saltus/solver/detail/radau/step_control.hpp"
+
+namespace saltus::radau {
+
+namespace {
+
+class RadauSolver final : public StepSolver<RadauSolver> {
+ public:
+  RadauSolver(Machine& machine, GuardSet& guards, const SolverOptions& options)
+      : StepSolver(machine, guards, options),
+        x0_(n_),
+        f0_(n_),
+        residual_(n_),
+        scratch_(n_),
+        stages_(machine, options),
+        step_(n_),
+        last_(n_),
+        halves_(n_) {}
+
+  void inside_step(double u, double* x) {
+    if (!looked_) look_inside();
+    if (halved_)
+      halves_.read(x0_.data(), u / length_, x);
+    else
+      step_.read(x0_.data(), u / length_, x);
+  }
+
+  int degree() const override { return step_.stages; }
+  double joint() override {
+    if (!looked_) look_inside();
+    return halved_ ? t0_ + 0.5 * length_ : -infinite;
+  }
+  std::string method() const override { return "radau"; }
+  const SolverStatistics& statistics() const override {
+    sum_ = statistics_;
+    sum_.linear_setups = stages_.setups() - setups_before_;
+    sum_.linear_solver = stages_.describe();
+    return sum_;
+  }
+
+  /// See StepSolver. The root is off by the error of the dense output, and the cut ends ten times as
+  /// far beyond it. Near the begin of the step the polynomial is as good as the state there.
+  bool cut(double root) {
+    const double moved = in_tolerances(x1_ - x0_);
+    const double off = dense_error() / std::max(moved, std::numeric_limits<double>::min());
+    const double h = root * (1.0 + std::clamp(10.0 * off, 1e-12, 1e-2));
+    if (!(h < length_ && root > near_begin * length_)) return false;
+    std::swap(step_, last_);
+    step_.stages = last_.stages;
+    last_.predict(step_.stages, 0.0, h / length_, step_.z);
+    if (!stages_.solve_aside(t0_, x0_, h, step_)) {
+      std::swap(step_, last_);
+      return false;
+    }
+    t1_ = t0_ + h;
+    finish_stages(h);
+    return true;
+  }
+
+ private:
+  friend StepSolver<RadauSolver>;
+  static constexpr double infinite = std::numeric_limits<double>::infinity();
+  /// [of the step] The error of the collocation polynomial has the factor s; so near its begin it is
+  /// a thousandth of its largest.
+  static constexpr double near_begin = 1e-3;
+  /// [steps] The polynomial of the last step predicts no more than this.
+  static constexpr double furthest = 16.0;
+
+  void begin(const Start& start) {
+    if (start.first || start.handover) {
+      h_ = start.first ? options_.first_step : 0.0;
+      order_ = {};
+      stages_.forget();
+      if (start.first) setups_before_ = stages_.setups();
+    }
+    f_known_ = start.flow != nullptr;
+    if (f_known_) f0_ = *start.flow;
+    horizon_ = start.horizon;
+    order_ = {.stages = order_.stages};
+    forget_steps();
+  }
+  void undo() {
+    x1_ = x0_, t1_ = t0_;
+    f_known_ = false;
+    forget_steps();
+  }
+  void forget_steps() {
+    control_.forget(), stages_.distrust();
+    smooth_ = false;
+  }
+
+  /// Tries steps until one is accepted.
+  void step(double t_stop) {
+    prepare_step(t_stop);
+    double wish = std::min({h_, options_.max_step, std::exchange(horizon_, infinite)});
+    const double left = t_stop - t0_;
+    for (bool rejected = false;; rejected = true) {
+      const bool ends = wish >= left;
+      // Two equal steps are better than a long step and a very short one.
+      const double h = ends ? left : 2.0 * wish > left ? 0.5 * left : wish;
+      if (!ends) require_room(h);
+      t1_ = ends ? t_stop : t0_ + h;
+      if (!stages_.solve({t0_, &x0_, &f0_, h}, step_, [&] { predict(h); })) {
+        if (creep(h)) return;
+        wish = h * stages_.shorter();
+        choose_order(0.0, true);
+        step_.stages = order_.stages;
+        ++statistics_.rejected;
+        continue;
+      }
+      const double error = estimate(h) / allowed();
+      if (error <= 1.0) return accept(error, h, wish, rejected);
+      ++statistics_.rejected;
+      wish = PredictiveControl::reject(error, h, scheme().estimate_order(), safety());
+      // Behind a jump the steps before it say nothing, and the estimate of fast parts hardly shrinks
+      // with h until it resolves them.
+      if (!smooth_ && !rejected) wish = std::min(wish, careful_step(t_stop));
+    }
+  }
+
+  Scheme scheme() const { return scheme_of(step_.stages); }
+  double allowed() const {
+    return allowed_estimate(scheme(), options_.rtol, thresholds::dense_room);
+  }
+
+  void prepare_step(double t_stop) {
+    x0_.swap(x1_);
+    last_length_ = length_;
+    std::swap(step_, last_);
+    step_.stages = order_.stages;
+    if (!std::exchange(f_known_, false)) machine_->derivative(t0_, x0_.data(), f0_.data());
+    if (!f0_.allFinite()) throw_not_finite(*machine_, t0_, x0_.data());
+    stages_.prepare(t0_, x0_);
+    if (h_ == 0.0) h_ = careful_step(t_stop);
+    h_ = std::max(h_, options_.min_step);  // the first step is only a guess
+  }
+  double careful_step(double t_stop) {
+    return first_step(*machine_, t0_, x0_, f0_.data(), scratch_, residual_.data(), options_,
+                      scheme().estimate_order(), t_stop);
+  }
+
+  /// The first values of the stages: the polynomial of the last step goes on.
+  void predict(double h) {
+    const double ratio = h / last_length_;
+    if (smooth_ && ratio < furthest)
+      last_.predict(step_.stages, 1.0, ratio, step_.z);
+    else
+      step_.z.leftCols(step_.stages).setZero();
+  }
+
+  /// Takes the step along the derivative if no state moves by a tolerance in it, and the derivative
+  /// jumps: there Newton's iteration may not converge, however short the step is. Without steps a
+  /// solution that slides along a jump would not be noticed.
+  bool creep(double h) {
+    for (int j = 0; j < step_.stages; ++j) step_.z.col(j) = scheme().c[j] * h * f0_;
+    finish_stages(h);
+    step_error_ = in_tolerances(step_.end());
+    if (!(step_error_ <= 0.5)) return false;
+    machine_->derivative(t1_, x1_.data(), residual_.data());
+    if (!((residual_ - f0_).norm() > 0.1 * f0_.norm())) return false;
+    ++statistics_.steps;
+    h_ = h, smooth_ = false;
+    stages_.renew_jacobian();
+    return true;
+  }
+
+  /// Root mean square of the error estimate [tolerances] (Hairer, Wanner II, IV.8, (8.19)). It is not
+  /// filtered a second time where it is large at a start, as (8.20) does: a transient that is damped
+  /// within the step leaves no error at its end, but the collocation polynomial is wrong inside.
+  double estimate(double h) {
+    finish_stages(h);
+    residual_ = h * f0_;
+    for (int j = 0; j < step_.stages; ++j) residual_ += scheme().e[j] * step_.z.col(j);
+    stages_.filter(residual_);
+    step_error_ = in_tolerances(residual_);
+    return std::isfinite(step_error_) ? step_error_ : infinite;
+  }
+  void finish_stages(double h) {
+    length_ = h;
+    x1_ = x0_ + step_.end();
+    looked_ = halved_ = false;
+  }
+
+  template <class Vector>
+  double in_tolerances(const Vector& v) const {
+    double sum = 0.0;
+    for (Index i = 0; i < n_; ++i) {
+      const double e = v[i] / options_.tolerance(i, std::max(std::abs(x0_[i]), std::abs(x1_[i])));
+      sum += e * e;
+    }
+    return std::sqrt(sum / static_cast<double>(n_));
+  }
+
+  double safety() const {
+    return safety_of(stages_.convergence().iterations(), most_iterations(step_.stages));
+  }
+
+  void accept(double error, double h, double wish, bool rejected) {
+    ++statistics_.steps, ++order_.steps;
+    const Convergence& newton = stages_.convergence();
+    if (newton.iterations() > 1) order_.theta = std::max(newton.theta(), 0.5 * order_.theta);
+    const double next = control_.accept(error, h, scheme().estimate_order(), safety(), rejected);
+    const bool kept = stages_.keep();
+    choose_order(smooth_ ? h / last_length_ : 0.0, false);
+    const bool same = kept && order_.stages == step_.stages && not_worth_it(next / h);
+    h_ = same ? h : next;
+    if (!rejected && h < wish)
+      h_ = std::max(h_, wish);  // the stop time shortened it, not the error
+    smooth_ = true;
+  }
+
+  /// Chooses the stages of the next step; `ratio` of the lengths of the last two steps.
+  void choose_order(double ratio, bool newton_failed) {
+    order_.ratio = ratio, order_.newton_failed = newton_failed;
+    const int stages = next_stages(order_);
+    if (stages == order_.stages) return;
+    order_ = {.stages = stages};
+    control_.forget();
+  }
+
+  /// [tolerances] Of the collocation polynomial inside the step.
+  double dense_error() const { return step_error_ * scheme().dense_share; }
+  void look_inside() {
+    looked_ = true;
+    halved_ = dense_error() > thresholds::dense_room &&
+              halves_.solve(stages_, t0_, x0_, x1_, length_, step_);
+  }
+
+  void require_room(double h) {
+    const double smallest = thresholds::least_step_roundings * thresholds::eps * std::abs(t0_);
+    if (!(h > smallest && h >= options_.min_step))
+      throw_step_too_small(*machine_, t0_, h, x0_.data(), options_);
+  }
+
+  Eigen::VectorXd x0_, f0_;  // at the begin of the step
+  Eigen::VectorXd residual_, scratch_;
+  StageSolver stages_;
+  StagePolynomial step_, last_;  // of the present step, and of the step before
+  Halves halves_;
+  bool looked_ = false, halved_ = false;
+  bool f_known_ = false;
+  bool smooth_ = false;  // the solution of the last step continues in the present one
+  double h_ = 0.0, horizon_ = infinite, last_length_ = 0.0;
+  double step_error_ = 0.0;  // [tolerances] the estimate
+  PredictiveControl control_;
+  OrderFacts order_;
+  long setups_before_ = 0;  // of earlier runs
+  mutable SolverStatistics sum_;
+};
+
+}  // namespace
+
+}  // namespace saltus::radau
+
+namespace saltus {
+
+std::unique_ptr<Solver> make_radau(Machine& machine, GuardSet& guards,
+                                   const SolverOptions& options) {
+  return std::make_unique<radau::RadauSolver>(machine, guards, options);
+}
+
+}  // namespace saltus

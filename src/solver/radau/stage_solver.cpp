@@ -1,0 +1,78 @@
+// When a Jacobian and a factorisation are made anew.
+#include "stage_solver.hpp"
+
+namespace saltus::radau {
+
+void StageSolver::prepare(double t, const Eigen::VectorXd& x) {
+  if (structure_) return;
+  structure_.emplace(*machine_, options_, t, x.data());
+  if (!structure_->direct()) {
+    throw SimulationError(
+        text("t = ", t, " s: ode_solver_method 'radau' factorises its matrices, and those of this "
+             "scene would fill up (", structure_->describe(),
+             "); take 'bdf', declare the sparsity of the largest block, or set linear_solver to "
+             "'sparse', 'band' or 'dense'"),
+        t, "");
+  }
+  use_structure();
+}
+
+void StageSolver::use_structure() {
+  systems_.emplace(*structure_), aside_.emplace(*structure_);
+  jacobian_.assign(static_cast<std::size_t>(structure_->layout().size), 0.0);
+  known_ = false;
+}
+
+/// False if the derivative nearby is not finite.
+bool StageSolver::make_jacobian(const Step& step) {
+  const double *x = step.x->data(), *f = step.f->data();
+  const Increments by = structure_->increments(step.h);
+  for (;;) {
+    if (!structure_->jacobian()(step.t, x, f, by, jacobian_.data())) return false;
+    if (!structure_->misses_places(step.t, x, f, by, jacobian_.data())) break;
+    structure_->renew(false);
+    use_structure();
+  }
+  systems_->forget(), aside_->forget();
+  known_ = true, age_ = 0;
+  return true;
+}
+
+/// False if a matrix is singular.
+bool StageSolver::set_up(StageSystems& systems, const Scheme& scheme, double h) {
+  ++setups_;
+  return systems.factor(jacobian_, scheme, h);
+}
+
+bool StageSolver::recover(Verdict verdict) {
+  if (age_ > 0) {
+    known_ = false;
+    return true;
+  }
+  if (structure_->renew(true)) {
+    use_structure();
+    return true;
+  }
+  if (verdict == Verdict::slow) shorter_ = newton_.convergence().shorter();
+  if (!newton_.finite()) shorter_ = 0.1;
+  return false;
+}
+
+bool StageSolver::keep() {
+  const Convergence& newton = convergence();
+  factor_ = newton.factor();
+  ++age_;
+  const bool contracts = newton.iterations() <= 2 || newton.theta() <= 1e-3;
+  const bool old = machine_->plan().nx <= thresholds::fresh_jacobian && age_ >= oldest;
+  known_ = known_ && contracts && !old;
+  return known_;
+}
+
+bool StageSolver::solve_aside(double t, const Eigen::VectorXd& x, double h,
+                              StagePolynomial& stages) {
+  const Scheme scheme = scheme_of(stages.stages);
+  if (!aside_->serves(scheme, h) && !set_up(*aside_, scheme, h)) return false;
+  return newton_.solve({t, h, x.data(), room(), infinite}, *aside_, stages) == Verdict::converged;
+}
+
+}  // namespace saltus::radau

@@ -1,0 +1,95 @@
+// Solves the stages of a step, and decides when a Jacobian and a factorisation serve again.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "newton.hpp"
+
+namespace saltus::radau {
+
+/// A step to solve: its begin, the derivative there, and its length.
+struct Step {
+  double t;                  // [s]
+  const Eigen::VectorXd* x;  // at t
+  const Eigen::VectorXd* f;  // at (t, x)
+  double h;                  // [s]
+};
+
+/// The Jacobian of a step is kept for the next ones, across restarts too, until Newton's iteration
+/// contracts slowly with it; the factorisation as long as the length of the step stays.
+class StageSolver {
+ public:
+  StageSolver(Machine& machine, const SolverOptions& options)
+      : machine_(&machine), options_(options), newton_(machine, options) {}
+
+  /// A new run, or a change of method: nothing is known.
+  void forget() { structure_.reset(); }
+  /// Makes the structure of the linear systems at the first step. Throws SimulationError if they
+  /// cannot be factorised.
+  void prepare(double t, const Eigen::VectorXd& x);
+  /// What was seen of Newton's iteration says nothing about the next step.
+  void distrust() { factor_ = infinite; }
+
+  /// Solves the stages of a step from their first values, which `start` writes to the polynomial.
+  /// False if Newton's iteration does not converge with a new Jacobian either: `shorter()` then is
+  /// a factor for the length.
+  template <class Start>
+  bool solve(const Step& step, StagePolynomial& stages, const Start& start);
+  double shorter() const { return shorter_; }
+  const Convergence& convergence() const { return newton_.convergence(); }
+  /// The step was accepted: decides whether the Jacobian is kept. Returns whether it is.
+  bool keep();
+  void renew_jacobian() { known_ = false; }
+
+  /// Solves the stages of a part of the last step from the first values they have.
+  bool solve_aside(double t, const Eigen::VectorXd& x, double h, StagePolynomial& stages);
+  /// v becomes (gamma - h J)^-1 v, of the last step.
+  void filter(Eigen::VectorXd& v) { systems_->solve_real(v.data()); }
+
+  long setups() const { return setups_; }
+  std::string describe() const { return structure_ ? structure_->describe() : std::string(); }
+
+ private:
+  static constexpr double infinite = std::numeric_limits<double>::infinity();
+  /// [steps] of a small system after which its Jacobian is renewed: see LinearSystem::refresh_often.
+  static constexpr int oldest = 20;
+
+  void use_structure();
+  bool make_jacobian(const Step& step);
+  bool set_up(StageSystems& systems, const Scheme& scheme, double h);
+  /// Whether the step may be tried again, with a new Jacobian or structure.
+  bool recover(Verdict verdict);
+  /// [tolerances] What Newton's iteration may leave.
+  double room() const { return std::max(0.05, 10.0 * thresholds::eps / options_.rtol); }
+
+  Machine* machine_;
+  SolverOptions options_;
+  Newton newton_;
+  std::optional<LinearStructure> structure_;
+  std::optional<StageSystems> systems_, aside_;
+  std::vector<double> jacobian_;  // in the layout of the structure
+  bool known_ = false;            // the Jacobian serves
+  int age_ = 0;                   // [steps] of the Jacobian
+  double factor_ = infinite;      // see Convergence
+  double shorter_ = 0.5;
+  long setups_ = 0;
+};
+
+template <class Start>
+bool StageSolver::solve(const Step& step, StagePolynomial& stages, const Start& start) {
+  shorter_ = 0.5;
+  for (;;) {
+    const Scheme scheme = scheme_of(stages.stages);
+    if (!known_ && !make_jacobian(step)) return false;
+    if (!systems_->serves(scheme, step.h) && !set_up(*systems_, scheme, step.h)) return false;
+    start();
+    const Verdict verdict =
+        newton_.solve({step.t, step.h, step.x->data(), room(), factor_}, *systems_, stages);
+    if (verdict == Verdict::converged) return true;
+    distrust();
+    if (!recover(verdict)) return false;
+  }
+}
+
+}  // namespace saltus::radau
