@@ -1,10 +1,11 @@
-// Location: the earliest crossing of any guard inside one solver step, on the solver's own
-// interpolant.
+// Guard search: the earliest crossing of the guards of one watch inside one solver step, on the
+// solver's own interpolant.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "saltus/solver/detail/crowd_locator.hpp"
@@ -13,35 +14,49 @@
 
 namespace saltus {
 
-/// Looks at all guards at a few interior points of a step. It also looks where three looks suggest
+/// Looks at the guards of a watch at a few interior points of a step. It also looks where three looks suggest
 /// that a guard dips across zero and back (a pair of roots). The first interval in which a guard
 /// crosses is narrowed.
-class Locator : private CrowdLocator {
+class GuardSearch : private CrowdLocator {
  public:
-  Locator(Machine& machine, GuardSet& guards) : CrowdLocator(machine, guards) {
+  GuardSearch(Machine& machine, GuardSet& guards, const Watch& watch)
+      : CrowdLocator(machine, guards, watch) {
     const auto slots = static_cast<std::size_t>(machine.plan().guard_slots);
     for (auto* values : {&at_root_, &before_, &end_}) values->assign(slots, 1.0);
   }
 
-  /// Finds the first offset in (from, to] at which a guard other than a monitor fires; false if
-  /// there is none. The step begins at `t0`; `interpolate(u, x)` gives the state inside it, `end`
-  /// is the state at exactly `to`, `guards` are the guards there if they are known, otherwise null.
+  bool has_guards() const noexcept { return !watch_->slots.empty(); }
+
+  /// What a search is about: the step begins at `t0`, and is searched in (from, to]. `end` is the
+  /// state at exactly `to` and `guards` are the guards there, if they are known; otherwise null.
+  struct Part {
+    double t0, from, to;
+    const double *end = nullptr, *guards = nullptr;
+    int scan_points;       ///< interior points with a look
+    bool to_root = false;  ///< the solver stops at `to`
+  };
+
+  /// Finds the first offset at which a guard other than a monitor fires; false if there is none.
+  /// Monitors are noted on the way. `interpolate(u, x)` gives the state inside the step. If a look
+  /// throws, GuardSet::restore restores the records.
   template <class Interpolate>
-  bool find(double t0, double from, double to, const double* end, const double* guards,
-            const Interpolate& interpolate) {
-    t0_ = t0;
+  bool find(const Part& part, const Interpolate& interpolate) {
+    t0_ = part.t0, scan_points_ = part.scan_points, to_root_ = part.to_root;
+    few_.clear(), may_go_back_ = false;
     if (outdated()) look_up_guards();
-    if (guards != nullptr)
-      std::copy_n(guards, high_.size(), high_.data());
+    if (part.guards != nullptr)
+      std::copy_n(part.guards, high_.size(), high_.data());
     else
-      look(to, end, interpolate, high_);
-    const bool skips = guards_->scan_points > 0 && out_of_reach(from, to);
-    if (!skips || skipped_ >= patience_) return find_inside(from, to, end, skips, interpolate);
+      look(part.to, part.end, interpolate, high_);
+    const bool skips = scans() && out_of_reach(part.from, part.to);
+    if (!skips || skipped_ >= patience_) return find_inside(part, skips, interpolate);
     ++skipped_;
-    shift_all(from, to);
-    earlier_at_ -= to;  // relative to the next step
+    shift_all(part.from, part.to);
     return false;
   }
+
+  /// The step ends here: offsets are relative to the next one from now on.
+  void end_step(double length) { earlier_at_ -= length; }
 
   /// Forgets the looks before a restart, which have no meaning after it.
   void forget() {
@@ -52,34 +67,24 @@ class Locator : private CrowdLocator {
   double offset() const noexcept { return root_; }
 
  private:
-  /// `find` with looks inside the step. It is a function of its own because most steps need only
-  /// the rest of `find`. If a look throws, the guards are as before.
+  /// `find` piece by piece; high_ has the guards at the end. It is a function of its own because
+  /// most steps need only the rest of `find`.
   template <class Interpolate>
-  [[gnu::noinline]] bool find_inside(double from, double to, const double* end, bool needless,
+  [[gnu::noinline]] bool find_inside(const Part& part, bool needless,
                                      const Interpolate& interpolate) {
     guards_->keep();
-    try {
-      return find_in_pieces(from, to, end, needless, interpolate);
-    } catch (...) {
-      guards_->restore();
-      throw;
-    }
-  }
-
-  /// `find` piece by piece; high_ has the guards at the end of the step.
-  template <class Interpolate>
-  bool find_in_pieces(double from, double to, const double* end, bool needless,
-                      const Interpolate& interpolate) {
+    double from = part.from;
+    const double to = part.to, *end = part.end;
     // If the look was not needed, the next one comes later: after 7 steps, 15, 31, then 63.
     patience_ = needless && skipped_ > 0 ? std::min(2 * patience_ + 1, thresholds::most_patience)
                                          : thresholds::least_patience;
     skipped_ = 0;
     end_.swap(high_);
     end_at_ = to;
-    const int pieces = guards_->scan_points + 1;
+    const int pieces = scan_points_ + 1;
     const double piece_length = (to - from) / pieces;
     double next = from;
-    if (earlier_at_ == never && guards_->some_beyond && guards_->scan_points > 0) {
+    if (earlier_at_ == never && guards_->some_beyond && scans()) {
       const double early = from + thresholds::first_look * piece_length;
       look(early, nullptr, interpolate, high_);
       if (find_in(from, early, nullptr, interpolate)) return true;
@@ -98,7 +103,6 @@ class Locator : private CrowdLocator {
         return true;
       from = next;
     }
-    earlier_at_ -= to;
     return false;
   }
 
@@ -125,35 +129,66 @@ class Locator : private CrowdLocator {
       }
       const double before = from;
       before_ = guards_->g;
-      // This look does not depend on the other guards, because no monitor may change a bit of a
-      // root.
       third_ = end_, third_at_ = high < end_at_ ? end_at_ : never;
       from = narrow(from, high, interpolate);
-      if (between && guards_->active().size() > 1 && guards_->scan_points > 0) {
+      if (between && watch_->slots.size() > 1 && scans()) {
         if (find_before(before, from, interpolate)) return true;
       } else if (from - before > thresholds::short_share * (to - before)) {
         earlier_.swap(before_);
         earlier_at_ = before;
       }
+      from = at_root_of_step(from, interpolate);
+      may_go_back_ = false;
       if (take(from)) return true;
       leave_zero_of_monitors(from, to, interpolate);
     }
     return false;
   }
 
+  /// A monitor that crosses within the bracket of the root at which the solver stops crosses there:
+  /// equal guards fire at equal times.
+  template <class Interpolate>
+  double at_root_of_step(double u, const Interpolate& interpolate) {
+    const double bracket = thresholds::bracket_roundings * thresholds::eps * end_at_;
+    if (!to_root_ || u == end_at_ || end_at_ - u > bracket) return u;
+    look(end_at_, nullptr, interpolate, high_);
+    note_crossed(high_);
+    return end_at_;
+  }
+
   /// No guard fired at `to`: the offset of a dip at which a guard fires. If there is none, returns
   /// `never` and moves `from` to the end of the part that was looked at.
   template <class Interpolate>
   double next_dip(double& from, double to, const Interpolate& interpolate) {
-    const double dip = guards_->scan_points > 0 ? find_dip(from, to, interpolate) : never;
-    if (dip != never) {
-      high_.swap(middle_);
-      if (note_crossed(high_)) return dip;  // otherwise it dips to its other side
+    const double dip = scans() ? find_dip(from, to, interpolate) : never;
+    const bool back = dip < from, crossed = dip != never && note_crossed(middle_);
+    if (dip == never || (back && crossed && !fires_first_at_dip())) {
+      shift(from), follow();
+      from = never;
+      return never;
     }
-    shift(from);
-    follow();
+    if (back) go_back(from);
+    high_.swap(middle_);
+    if (crossed) return dip;  // otherwise it dips to its other side
+    shift(from), follow();
+    may_go_back_ = may_go_back_ && !back;
     from = dip;
     return never;
+  }
+
+  /// Whether the guards that fire at a dip between the last two looks were on their sides at both.
+  bool fires_first_at_dip() const {
+    return std::ranges::all_of(crossed_, [&](std::size_t k) {
+      const double side = (*guards_)[k].plain_side();
+      return side * earlier_[k] > 0.0 && side * guards_->g[k] > 0.0;
+    });
+  }
+
+  /// A guard dips between the last two looks, which only the look after them showed: the first of
+  /// them is the last look again.
+  void go_back(double& from) {
+    for (const std::size_t k : watch_->slots) guards_->g[k] = earlier_[k];
+    from = std::exchange(earlier_at_, never);
   }
 
   /// `find` in the part before a root. The root shortens the step, so the looks need new points.
@@ -161,11 +196,15 @@ class Locator : private CrowdLocator {
   template <class Interpolate>
   bool find_before(double from, double root, const Interpolate& interpolate) {
     at_root_ = high_;
-    const double piece = (root - from) / (guards_->scan_points + 1);
-    for (int i = 1; i <= guards_->scan_points; ++i) {
+    const double piece = (root - from) / (scan_points_ + 1);
+    for (int i = 1; i <= scan_points_; ++i) {
       const double next = std::min(root, from + piece);
-      if (from < next) look(next, nullptr, interpolate, high_);
-      if (find_in(from, next, nullptr, interpolate, false)) return true;
+      if (!(from < next)) break;
+      look(next, nullptr, interpolate, high_);
+      if (calm(from, next))
+        shift_all(from, next);
+      else if (find_in(from, next, nullptr, interpolate, false))
+        return true;
       from = next;
     }
     high_ = at_root_;
@@ -196,15 +235,16 @@ class Locator : private CrowdLocator {
   template <class Interpolate>
   double find_dip(double from, double to, const Interpolate& interpolate) {
     if (earlier_at_ == never) return never;
-    for (const std::size_t k : guards_->active()) {
+    const double first = may_go_back_ ? earlier_at_ : from;
+    for (const std::size_t k : watch_->slots) {
       const Guard& guard = (*guards_)[k];
-      if (guard.side == 0 || guard.at_zero() || guard.jumps) continue;
+      if (guard.side == 0 || guard.at_zero() || guard.jumps || !may_dip(k, from, to)) continue;
       Dip dip{{earlier_at_, from, to},
               {guard.side * earlier_[k], guard.side * guards_->g[k], guard.side * high_[k]}};
       // A touch within rounding is no dip; nor is a vertex far above zero.
       const double size = std::max({dip.g[0], dip.g[1], dip.g[2]});
       double u = dip.vertex(thresholds::shallow_dip * size);
-      for (int round = 0; round < thresholds::dip_looks && u > from && u < to; ++round) {
+      for (int round = 0; round < thresholds::dip_looks && u > first && u < to; ++round) {
         look(u, nullptr, interpolate, middle_);
         const double g = guard.side * middle_[k];
         if (g < -thresholds::dip_rounding * size) return u;
@@ -213,6 +253,14 @@ class Locator : private CrowdLocator {
       }
     }
     return never;
+  }
+
+  /// Whether the parabola through the three looks has a vertex between them.
+  bool may_dip(std::size_t k, double from, double to) const {
+    const double side = (*guards_)[k].side, r = (to - from) / (from - earlier_at_);
+    const double rise = side * (high_[k] - guards_->g[k]),
+                 earlier_rise = side * (guards_->g[k] - earlier_[k]);
+    return rise * (1.0 + 2.0 * r) > earlier_rise * r * r && rise > earlier_rise * r * (2.0 + r);
   }
 
   /// Whether a guard that has a firing side, and has not crossed, is as close to zero as it moves in
@@ -244,7 +292,7 @@ class Locator : private CrowdLocator {
   /// Notes the guards that fired at offset u; true if one of them is not a monitor.
   bool take(double u) {
     root_ = u;
-    guards_->fired_at_root.clear(), guards_->beside_root.clear();
+    bool stops = false;
     for (const std::size_t k : crossed_) {
       const Guard& guard = (*guards_)[k];
       if (!std::isfinite(high_[k])) throw_not_finite(k, t0_ + u);
@@ -252,9 +300,9 @@ class Locator : private CrowdLocator {
       if (guard.monitor)
         pass_monitor(firing, u);
       else
-        guards_->fired_at_root.push_back(firing);
+        guards_->fired_at_root.push_back(firing), stops = true;
     }
-    for (const std::size_t k : guards_->active()) {
+    for (const std::size_t k : watch_->slots) {
       const Guard& guard = (*guards_)[k];
       guards_->g[k] = high_[k];
       if (is_beside_root(k)) guards_->beside_root.push_back(k);
@@ -262,13 +310,13 @@ class Locator : private CrowdLocator {
       // A guard exactly on zero takes the side to which it leaves.
       if (guard.phase != Phase::resting && guard.crossed(high_[k])) guards_->leave_to(k, 0);
     }
-    const bool stops = !guards_->fired_at_root.empty();
     stops ? forget_guards() : look_up_guards();
     return stops;
   }
 
   std::vector<double> at_root_, before_;
   double root_ = 0.0;
+  bool to_root_ = false;
   std::vector<double> end_;  // guards at the end of the step, until the look at its last piece
   double end_at_ = 0.0;
   int patience_ = thresholds::least_patience;  // allowed steps in a row without a look inside

@@ -2,6 +2,8 @@
 // the first root in it.
 #pragma once
 
+#include <algorithm>
+
 #include "saltus/solver/detail/locate.hpp"
 #include "saltus/solver/detail/solver.hpp"
 
@@ -97,9 +99,9 @@ class StepSolver : public Interface {
   /// Delivers the step to its first root, or to its end.
   StopReason deliver(double t_stop) {
     const auto inside = [this](double u, double* x) { self().inside_step(u, x); };
+    const double* end_guards = offset_ == 0.0 ? self().end_guards() : nullptr;
     if (!guards_->active().empty() &&
-        locator_.find(t0_, offset_, length_, x1_.data(),
-                      offset_ == 0.0 ? self().end_guards() : nullptr, inside)) {
+        locator_.find({t0_, offset_, length_, x1_.data(), end_guards, scan_points()}, inside)) {
       const double root = locator_.offset();
       if (root < length_) read_root(root);
       offset_ = root;
@@ -110,6 +112,13 @@ class StepSolver : public Interface {
     delivered_ = true;
     time_ = t1_;
     return t1_ >= t_stop ? StopReason::stop_time : StopReason::step;
+  }
+
+  /// By default as many points as the degree of the interpolant, at least three: the interpolant of
+  /// a multistep method that begins is a line, but its guard need not be.
+  int scan_points() {
+    return guards_->scan_points ? *guards_->scan_points
+                                : std::max(thresholds::least_scan_points, self().degree());
   }
 
   void read_root(double root) {

@@ -1,0 +1,60 @@
+// Location: the earliest crossing of any guard inside one solver step.
+#pragma once
+
+#include "saltus/solver/detail/guard_search.hpp"
+
+namespace saltus {
+
+/// Searches a step for guards that stop the solver as if there were no monitors, because no monitor
+/// may change a bit of a root. The monitors are then searched up to that root.
+class Locator {
+ public:
+  using Part = GuardSearch::Part;
+
+  Locator(Machine& machine, GuardSet& guards)
+      : guards_(&guards),
+        stopping_(machine, guards, guards.stopping()),
+        watching_(machine, guards, guards.watching()) {}
+
+  /// Finds the first offset at which the solver has to stop; false if there is none. If a look
+  /// throws, the guards are as before.
+  template <class Interpolate>
+  bool find(const Part& step, const Interpolate& interpolate) {
+    guards_->begin_search();
+    try {
+      return find_both(step, interpolate);
+    } catch (...) {
+      guards_->restore();
+      throw;
+    }
+  }
+
+  /// Forgets the looks before a restart, which have no meaning after it.
+  void forget() { stopping_.forget(), watching_.forget(); }
+
+  double offset() const noexcept { return stopping_.offset(); }
+
+ private:
+  template <class Interpolate>
+  bool find_both(const Part& step, const Interpolate& interpolate) {
+    const bool stops = stopping_.has_guards() && stopping_.find(step, interpolate);
+    if (watching_.has_guards()) watch(step, stops, interpolate);
+    if (!stops || offset() == step.to) stopping_.end_step(step.to), watching_.end_step(step.to);
+    return stops;
+  }
+
+  template <class Interpolate>
+  void watch(Part step, bool stops, const Interpolate& interpolate) {
+    step.to_root = stops;
+    if (stops && offset() < step.to) {
+      step.to = offset();
+      step.end = step.guards = nullptr;
+    }
+    watching_.find(step, interpolate);
+  }
+
+  GuardSet* guards_;
+  GuardSearch stopping_, watching_;
+};
+
+}  // namespace saltus
