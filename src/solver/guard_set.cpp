@@ -30,7 +30,6 @@ void GuardSet::add(const GuardTraits& traits, bool active) {
 
 void GuardSet::clear() {
   ++version_;
-  some_beyond = false;
   fired_at_root.clear(), beside_root.clear(), monitors.clear(), kept_.clear();
   active_.clear(), stopping_.clear(), watching_.clear();
   for (Guard& guard : guards_) {

@@ -84,8 +84,8 @@ Leaf room(int monitors) {
     l.declare_discrete_state(vec({0.0}));
     l.declare_continuous_state_output("x");
     int left = monitors;
-    const auto watch = [&](const char* name, auto guard) {
-      if (left-- > 0) l.declare_zero_crossing({.name = name, .guard = guard});
+    const auto watch = [&](const char* name, auto guard, Direction to = Direction::crosses_zero) {
+      if (left-- > 0) l.declare_zero_crossing({.name = name, .guard = guard, .direction = to});
     };
     l.declare_zero_crossing({.name = "bounce",
                              .guard = floor,
@@ -101,7 +101,9 @@ Leaf room(int monitors) {
                              .reset_map = count_up,
                              .direction = Direction::positive_then_non_positive});
     watch("same", floor);
-    watch("near", [](const At& at) { return at.x[0] - 0.06; });
+    // After each bounce it is beyond zero.
+    watch(
+        "near", [](const At& at) { return at.x[0] - 0.06; }, Direction::positive_then_non_positive);
     watch("turn", [](const At& at) { return at.x[1]; });
     watch("clock", [](const At& at) { return std::sin(25.0 * at.time); });
     watch("truth", [](const At& at) { return at.x[0] > 0.2 ? 1.0 : -1.0; });
@@ -130,6 +132,36 @@ TEST_CASE("one to five monitors change no bit of rows and of other events", "[la
   CHECK(a.context.discrete_state() == b.context.discrete_state());
   // A monitor of the same surface fires when the guard fires.
   CHECK(b.events.times("same") == a.events.times("bounce"));
+}
+
+TEST_CASE("a monitor that is beyond zero changes no look at other guards", "[laws][monitors]") {
+  const auto method = GENERATE(from_range(methods));
+  INFO("method " << method);
+  std::vector<double> looks;  // at the level, as states: those of the solver, after the start
+  const auto run = [&](bool watched) {
+    const Leaf leaf("leaf", [&](Leaf& l) {
+      declare_ramp(l);
+      l.declare_zero_crossing(
+          {.name = "level",
+           .guard =
+               [&](const At& at) {
+                 if (at.x[0] > 0.0) looks.push_back(at.x[0]);
+                 return at.x[0] - 0.7;
+               },
+           .reset_map = [](const At&, Next& next) { next.set_continuous_state({0.0}); }});
+      if (watched)
+        l.declare_zero_crossing({.name = "beyond",
+                                 .guard = [](const At& at) { return at.x[0] - 2.0; },
+                                 .direction = Direction::positive_then_non_positive});
+    });
+    looks.clear();
+    const Results results =
+        simulate(leaf, leaf.create_context(), {0.0, 5.0}, {.ode_solver_method = method});
+    CHECK(results.events.size() == 7);
+    return looks;
+  };
+  const std::vector<double> plain = run(false);
+  CHECK(run(true) == plain);
 }
 
 TEST_CASE("what a monitor logs is the time, the direction and the state", "[laws][monitors]") {

@@ -82,7 +82,7 @@ class GuardSearch : private DipSearch {
     const int pieces = scan_points_ + 1;
     const double piece_length = (to - from) / pieces;
     double next = from;
-    if (earlier_at_ == never && guards_->some_beyond && scans()) {
+    if (earlier_at_ == never && scans() && some_beyond()) {
       const double early = from + thresholds::first_look * piece_length;
       look(early, nullptr, interpolate, high_);
       if (find_in(from, early, nullptr, interpolate)) return true;
@@ -188,6 +188,12 @@ class GuardSearch : private DipSearch {
       if (unsure(k)) guards_->leave_to(k, sign_of(middle_[k]));
     }
     look_up_guards();
+  }
+
+  /// Whether some guard with one direction is on its firing side.
+  bool some_beyond() const {
+    return std::ranges::any_of(watch_->slots,
+                               [&](std::size_t k) { return (*guards_)[k].is_beyond(); });
   }
 
   /// Whether a guard that has a firing side, and has not crossed, is as close to zero as it moves in

@@ -133,7 +133,6 @@ class GuardSet {
   std::vector<Firing> fired_at_root;     ///< the guards that crossed at the last root
   std::vector<std::size_t> beside_root;  ///< others within the resolution of that root from zero
   std::vector<MonitorHit> monitors;      ///< crossings of monitors in the last advance
-  bool some_beyond = false;  ///< some guard with one direction is on its firing side at a restart
   /// Interior points of a step with a look at the guards; empty: by the degree of the interpolant.
   std::optional<int> scan_points = {};
 
