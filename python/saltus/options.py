@@ -85,9 +85,10 @@ class SimulatorOptions:
     """[s] A guard whose firings follow each other this closely, with shrinking gaps, comes to rest:
     a Zeno hold. 0 switches the monitor off
     """
-    event_scan_points: int = 3
+    event_scan_points: int | None = None
     """interior points of a step at which guards are looked at, for two crossings in one step; 0
-    turns that off
+    turns that off. None: as many as the degree of the method's dense output, that is 4 for dopri5,
+    7 for dop853, and for adams and bdf the present order, at least 3
     """
     max_passes: int = 100
     """passes an instant may have before it counts as a loop without end"""

@@ -108,6 +108,21 @@ void Machine::guards_at(double t, const double* state, double* g) {
   for (int i : called_) guard(calls_.guards[static_cast<std::size_t>(i)], seen, t, g);
 }
 
+void Machine::guards_of(std::span<const int> groups, double t, const double* state, double* g) {
+  if (lone_guard_ != nullptr || carrier_ != nullptr) return guards(t, state, g);
+  ++guard_calls;
+  const Seen seen = run(calls_.guard_needs, t, state);
+  bool fused = false;
+  for (const int i : groups) {
+    const auto group = static_cast<std::size_t>(i);
+    if (calls_.fused_guards && plan_->walks.guards.fused[group])
+      fused = true;
+    else
+      guard(calls_.guards[group], seen, t, g);
+  }
+  if (fused) guard(*calls_.fused_guards, seen, t, g);
+}
+
 void Machine::ode_with_rest(const Call& ode, Seen seen, double t, double* xdot) const {
   VectorRef out(xdot + ode.x, ode.size);
   if (resting_.of_leaf(ode.leaf) == ode.size) {

@@ -128,7 +128,6 @@ void Instant::find_next() {
 /// Arms all active guards for the solver. A guard at zero, or a guard that just fired, gets its
 /// side from the flow.
 void Instant::arm(bool at_start) {
-  guards_->some_beyond = false;
   for (const std::size_t k : guards_->active()) {
     const Guard& guard = (*guards_)[k];
     guards_->g[k] = present_.g[k];
@@ -139,7 +138,6 @@ void Instant::arm(bool at_start) {
       contacts_.arm_crossing(k);
     else
       crossings_.arm(k, at_start);
-    guards_->some_beyond = guards_->some_beyond || guard.is_beyond();
     guards_->mark_armed_at(k, present_.now[k].fired && guard.at_zero() ? present_.t : not_armed);
   }
 }

@@ -20,18 +20,18 @@ GuardSet::GuardSet(const Plan& plan) {
 }
 
 void GuardSet::add(const GuardTraits& traits, bool active) {
-  if (active) active_.push_back(guards_.size());
   guards_.push_back({});
   static_cast<GuardTraits&>(guards_.back()) = traits;
   guards_.back().active = active;
+  if (active) watch(guards_.size() - 1);
   g.push_back(1.0);
   ++version_;
 }
 
 void GuardSet::clear() {
   ++version_;
-  some_beyond = false;
-  fired_at_root.clear(), beside_root.clear(), monitors.clear(), active_.clear(), kept_.clear();
+  fired_at_root.clear(), beside_root.clear(), monitors.clear(), kept_.clear();
+  active_.clear(), stopping_.clear(), watching_.clear();
   for (Guard& guard : guards_) {
     const GuardTraits traits = guard;
     guard = {};
@@ -41,11 +41,10 @@ void GuardSet::clear() {
 
 void GuardSet::select(const std::vector<int>& groups, const Plan& plan) {
   ++version_;
-  active_.clear();
+  active_.clear(), stopping_.clear(), watching_.clear();
   for (const int i : groups) {
     const GuardGroup& group = plan.guards[static_cast<std::size_t>(i)];
-    for (Index s = 0; s < group.size; ++s)
-      active_.push_back(static_cast<std::size_t>(group.slot + s));
+    for (Index s = 0; s < group.size; ++s) watch(static_cast<std::size_t>(group.slot + s));
   }
   for (Guard& guard : guards_) guard.was_active = std::exchange(guard.active, false);
   for (const std::size_t k : active_) {

@@ -70,6 +70,100 @@ TEST_CASE("a monitor beside a bouncing ball changes no bit of it", "[laws][monit
   CHECK(a.events.times("top").size() >= 5);
 }
 
+namespace {
+
+/// A ball with drag over a swinging floor. It bounces, and a reset map counts its tops. `monitors`
+/// guards look at states, at the time, and at the surfaces of the other guards.
+Leaf room(int monitors) {
+  return Leaf("room", [=](Leaf& l) {
+    const auto floor = [](const At& at) { return at.x[0] - 0.05 * std::sin(3.0 * at.time); };
+    l.declare_continuous_state(
+        {.initial = vec({1.0, 0.3}), .ode = [](const At& at, VectorRef xdot) {
+           xdot << at.x[1], -9.81 - 0.3 * at.x[1] * std::abs(at.x[1]);
+         }});
+    l.declare_discrete_state(vec({0.0}));
+    l.declare_continuous_state_output("x");
+    int left = monitors;
+    const auto watch = [&](const char* name, auto guard, Direction to = Direction::crosses_zero) {
+      if (left-- > 0) l.declare_zero_crossing({.name = name, .guard = guard, .direction = to});
+    };
+    l.declare_zero_crossing({.name = "bounce",
+                             .guard = floor,
+                             .reset_map =
+                                 [](const At& at, Next& next) {
+                                   const double v = 0.15 * std::cos(3.0 * at.time);
+                                   next.set_continuous_state(
+                                       {at.x[0], v + 0.9 * std::abs(at.x[1] - v)});
+                                 },
+                             .direction = Direction::positive_then_non_positive});
+    l.declare_zero_crossing({.name = "top",
+                             .guard = [](const At& at) { return at.x[1]; },
+                             .reset_map = count_up,
+                             .direction = Direction::positive_then_non_positive});
+    watch("same", floor);
+    // After each bounce it is beyond zero.
+    watch(
+        "near", [](const At& at) { return at.x[0] - 0.06; }, Direction::positive_then_non_positive);
+    watch("turn", [](const At& at) { return at.x[1]; });
+    watch("clock", [](const At& at) { return std::sin(25.0 * at.time); });
+    watch("truth", [](const At& at) { return at.x[0] > 0.2 ? 1.0 : -1.0; });
+  });
+}
+
+}  // namespace
+
+TEST_CASE("one to five monitors change no bit of rows and of other events", "[laws][monitors]") {
+  const auto method = GENERATE(from_range(methods));
+  const int monitors = GENERATE(1, 2, 3, 4, 5);
+  INFO("method " << method << ", monitors " << monitors);
+  const auto run = [&](const Leaf& leaf) {
+    return simulate(leaf, leaf.create_context(), {0.0, 4.0},
+                    {.ode_solver_method = method, .recorded_signals = {{"x", leaf.output()}}});
+  };
+  const Leaf plain = room(0), watched = room(monitors);
+  const Results a = run(plain), b = run(watched);
+  CHECK(a.events.size() > 10);
+  CHECK(b.events.size() > a.events.size());
+  CHECK(a.time == b.time);
+  CHECK(column(a, "x") == column(b, "x"));
+  CHECK(a.events.times("bounce") == b.events.times("bounce"));
+  CHECK(a.events.times("top") == b.events.times("top"));
+  CHECK(a.context.continuous_state() == b.context.continuous_state());
+  CHECK(a.context.discrete_state() == b.context.discrete_state());
+  // A monitor of the same surface fires when the guard fires.
+  CHECK(b.events.times("same") == a.events.times("bounce"));
+}
+
+TEST_CASE("a monitor that is beyond zero changes no look at other guards", "[laws][monitors]") {
+  const auto method = GENERATE(from_range(methods));
+  INFO("method " << method);
+  std::vector<double> looks;  // at the level, as states: those of the solver, after the start
+  const auto run = [&](bool watched) {
+    const Leaf leaf("leaf", [&](Leaf& l) {
+      declare_ramp(l);
+      l.declare_zero_crossing(
+          {.name = "level",
+           .guard =
+               [&](const At& at) {
+                 if (at.x[0] > 0.0) looks.push_back(at.x[0]);
+                 return at.x[0] - 0.7;
+               },
+           .reset_map = [](const At&, Next& next) { next.set_continuous_state({0.0}); }});
+      if (watched)
+        l.declare_zero_crossing({.name = "beyond",
+                                 .guard = [](const At& at) { return at.x[0] - 2.0; },
+                                 .direction = Direction::positive_then_non_positive});
+    });
+    looks.clear();
+    const Results results =
+        simulate(leaf, leaf.create_context(), {0.0, 5.0}, {.ode_solver_method = method});
+    CHECK(results.events.size() == 7);
+    return looks;
+  };
+  const std::vector<double> plain = run(false);
+  CHECK(run(true) == plain);
+}
+
 TEST_CASE("what a monitor logs is the time, the direction and the state", "[laws][monitors]") {
   const auto method = GENERATE(from_range(methods));
   INFO("method " << method);

@@ -78,9 +78,7 @@ TEST_CASE("each monitor of a crowd fires once, at its time, in the order of time
   }
 }
 
-// Hidden because it fails yet, with and without a crowd: beside others, a monitor that comes back
-// soon may fire late.
-TEST_CASE("a crowd is located as the same monitors are one by one", "[.][crowd_locator]") {
+TEST_CASE("a crowd is located as the same monitors are one by one", "[crowd_locator]") {
   const Function wave = [](double x) { return std::sin(7.0 * x); };
   const std::vector<double> at = levels(100);
   const Results together = run(*monitors(differences(at, wave)));
@@ -144,9 +142,7 @@ TEST_CASE("guards within the rounding of their terms are located by looks", "[cr
   }
 }
 
-// Hidden because it fails yet, with and without a crowd: a monitor that crosses in the same piece
-// as a guard with a reset map may move its root by a rounding.
-TEST_CASE("a crowd changes no bit of a trajectory with resets", "[.][crowd_locator]") {
+TEST_CASE("a crowd changes no bit of a trajectory with resets", "[crowd_locator]") {
   const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
   const auto ball = [](bool watched) {
@@ -174,5 +170,6 @@ TEST_CASE("a crowd changes no bit of a trajectory with resets", "[.][crowd_locat
   const Results expected = run(plain, method, 3.0), found = run(watched, method, 3.0);
   CHECK(found.context.continuous_state() == expected.context.continuous_state());
   CHECK(found.events.times("bounce") == expected.events.times("bounce"));
-  CHECK(found.events.times("level").size() > 300);
+  // The ball falls through 80 levels; its flights rise to 0.8^2k m and pass the levels below twice.
+  CHECK(found.events.times("level").size() >= 390);
 }

@@ -91,6 +91,43 @@ TEST_CASE("a pair of roots in one step is found at interior points, and missed w
   CHECK(run(leaf, Method::dopri5, {.event_scan_points = 0}).events.empty());
 }
 
+TEST_CASE("a dip in the first piece after a restart is found by the look behind it", "[locate]") {
+  const auto method = GENERATE(Method::dopri5, Method::dop853);
+  const double bottom = GENERATE(0.02, 0.05, 0.1, 0.12);
+  INFO("method " << method << ", bottom " << bottom);
+  // One step of 1 s; the first of its points is at 1/5 (dopri5) or 1/8 (dop853).
+  const Leaf leaf("dip", [=](Leaf& l) {
+    declare_ramp(l);
+    l.declare_discrete_state(vec({0.0}));
+    l.declare_zero_crossing(
+        {.name = "dip",
+         .guard = [=](const At& at) { return std::pow(at.x[0] - bottom, 2.0) - 1e-6; },
+         .reset_map = count_up});
+  });
+  const Results results = run(leaf, method, {.first_step = 1.0});
+  REQUIRE(results.events.size() == 2);
+  CHECK_THAT(results.events[0].time, WithinAbs(bottom - 1e-3, 1e-12));
+  CHECK_THAT(results.events[1].time, WithinAbs(bottom + 1e-3, 1e-12));
+}
+
+TEST_CASE("by default a step has as many points as the degree of its interpolant", "[locate]") {
+  // A step of 1 s in which the guard comes close to zero: a look at the end, then one at each point.
+  const Leaf leaf("near", [](Leaf& l) {
+    declare_ramp(l);
+    l.declare_zero_crossing(
+        {.name = "near", .guard = [](const At& at) { return 1.0 + at.x[0] * (at.x[0] - 1.0); }});
+  });
+  const auto looks = [&](Method method, std::optional<int> points) {
+    return run(leaf, method, {.first_step = 1.0, .event_scan_points = points})
+        .statistics.guard_calls;
+  };
+  for (const auto& [method, degree] : {std::pair{Method::dopri5, 4}, {Method::dop853, 7}}) {
+    INFO("method " << method);
+    CHECK(looks(method, {}) == looks(method, degree));
+    CHECK(looks(method, degree) == looks(method, 0) + degree);
+  }
+}
+
 TEST_CASE("a guard with a steep and one with a flat root are located alike", "[locate]") {
   const auto method = GENERATE(from_range(methods));
   INFO("method " << method);

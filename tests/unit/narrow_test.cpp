@@ -35,7 +35,8 @@ class Crossings : private Narrower {
     GuardSet guards;
   };
 
-  explicit Crossings(Parts& parts) : Narrower(parts.machine, parts.guards) {}
+  explicit Crossings(Parts& parts)
+      : Narrower(parts.machine, parts.guards, parts.guards.watching()) {}
 
   /// Arms all guards by their values at `low`, and narrows [low, high].
   double find(double low, double high) {
@@ -136,6 +137,38 @@ TEST_CASE("a plateau of exact zeros is found at its beginning", "[narrow]") {
   const Found found = find({[](double u) { return std::max(0.3 - u, 0.0); }});
   CHECK(found.u >= 0.3);
   CHECK(found.u - 0.3 <= 4.0 * eps);
+}
+
+TEST_CASE("a plateau that the rounding of a state makes costs looks by its length", "[narrow]") {
+  // Zero for half a rounding of `offset` on either side of 0.3. That is 8^k brackets: k looks back
+  // in growing steps, 3 k halvings of the last of them, and five for a line.
+  const double offset = GENERATE(1.0, 1e3, 1e6, 1e9);
+  INFO("offset " << offset);
+  const Found found = find({[=](double u) { return (offset + 0.3) - (offset + u); }});
+  CHECK((offset + 0.3) - (offset + found.u) == 0.0);
+  CHECK(std::abs(found.u - 0.3) <= eps * offset);
+  const double brackets = eps * (offset + 0.3) / (2.0 * eps * 0.3);
+  CHECK(static_cast<double>(found.looks) <= 4.0 * (std::log2(brackets) / 3.0 + 1.0) + 5.0);
+}
+
+TEST_CASE("where few of many guards cross, only they are looked at on the way", "[narrow]") {
+  // At the low end, at the high end, and at both ends of the last bracket.
+  int looks_at_others = 0;
+  std::vector<Function> many(32, [&](double) { return ++looks_at_others, 1.0; });
+  many[20] = [](double u) { return std::exp(-20.0 * u) - std::exp(-4.0); };
+  const Found found = find(many);
+  CHECK_THAT(found.u, Catch::Matchers::WithinAbs(0.2, 4.0 * eps));
+  CHECK(found.crossed == std::vector<std::size_t>{20});
+  CHECK(looks_at_others == 4 * 31);
+}
+
+TEST_CASE("a guard that is beyond zero at the root of few others is found before it", "[narrow]") {
+  std::vector<Function> many(32, [](double) { return 1.0; });
+  many[7] = [](double u) { return 0.3 - u; };
+  many[25] = [](double u) { return std::abs(u - 0.3) - 0.01; };  // crosses at 0.29, and comes back
+  const Found found = find(many);
+  CHECK_THAT(found.u, Catch::Matchers::WithinAbs(0.29, 4.0 * eps));
+  CHECK(found.crossed == std::vector<std::size_t>{25});
 }
 
 TEST_CASE("an exact root is found by one look just before it", "[narrow]") {

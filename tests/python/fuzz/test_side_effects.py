@@ -14,7 +14,12 @@ BOUND = 1e-6
 def run(story, python):
     diagram, signals = build(story)
     simulator = saltus.Simulator(
-        diagram, recorded_signals=signals, python=python, rtol=1e-9, atol=1e-11
+        diagram,
+        recorded_signals=signals,
+        python=python,
+        rtol=1e-9,
+        atol=1e-11,
+        throw=False,  # a reset map that changes what it reads may chatter: both have to say so
     )
     simulator.initialize(diagram.create_context())
     simulator.advance_to(1.3)
@@ -27,6 +32,7 @@ def run(story, python):
 @given(stories())
 def test_a_run_has_one_answer_traced_and_called(story):
     found, expected = (run(story, python) for python in ("traced", "called"))
+    assert found.status == expected.status
     names = [[(event.block, event.name) for event in r.events] for r in (found, expected)]
     assert names[0] == names[1]
     for one, other in zip(found.events, expected.events, strict=True):

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -58,6 +59,10 @@ class Machine : public Memory {
     const VectorRef out(g + lone_guard_->slot, lone_guard_->width);
     (*lone_guard_->function)(*lone_guard_->system, arguments_.of(state).at(*lone_guard_, t), out);
   }
+
+  /// Evaluates the guards of some of the groups that can fire now, into their slots of g. Other
+  /// slots may be written too.
+  void guards_of(std::span<const int> groups, double t, const double* state, double* g);
 
   /// The right-hand side with its arguments except t and x, if a step that was compiled together
   /// with it may call it directly: one leaf, no needed outputs, nothing held or carried. Otherwise

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <vector>
 
@@ -29,6 +30,12 @@ class Departure {
     for (auto* v : {&f_, &f_disturbed_, &f1_, &x1_, &move_, &trial_}) v->setZero(n);
     const Index slots = machine.plan().guard_slots;
     for (auto* v : {&g_, &g0_, &g_disturbed_}) v->setOnes(slots);
+    const std::size_t groups = machine.plan().guards.size();
+    looked_at_.assign(groups, 0);
+    for (std::size_t i = 0; i < groups; ++i) {
+      const auto size = static_cast<std::size_t>(machine.plan().guards[i].size);
+      group_of_.insert(group_of_.end(), size, static_cast<int>(i));
+    }
   }
 
   /// The side to which the flow takes a guard (0: none), and the rounding bound used to decide it.
@@ -46,7 +53,7 @@ class Departure {
     if (longest < short_run)
       longest_ = std::max(longest, std::min(short_run, short_run_looks * quickest()));
     longest_ = std::min(longest_, longest_step_);  // the author knows of something as quick
-    disturbed_ = looked_ = false;
+    disturbed_ = false, ++departures_;
   }
 
   /// f at the point it departs from.
@@ -102,7 +109,7 @@ class Departure {
   double slope_along(const Eigen::VectorXd& f, const GuardGroup& group, Index slot) {
     const double d = first_time(group);
     x1_ = *x_ + d * f;
-    machine_->guards(t_ + d, x1_.data(), g_.data());
+    look(t_ + d, x1_, slot, g_);
     return (g_[slot] - g0(slot)) / d;
   }
 
@@ -135,10 +142,17 @@ class Departure {
     return std::abs(g) > std::max(error, thresholds::doubtless_move * largest_move());
   }
 
+  /// Evaluates the group of one guard. All guards would cost n squared where n of them depart.
+  void look(double t, const Eigen::VectorXd& x, Index slot, Eigen::VectorXd& g) {
+    machine_->guards_of({&group_of_[static_cast<std::size_t>(slot)], 1}, t, x.data(), g.data());
+  }
+
   /// The guard at the point of departure, computed at the first call.
   double g0(Index slot) {
-    if (!looked_) machine_->guards(t_, x_->data(), g0_.data());
-    looked_ = true;
+    std::int64_t& looked_at =
+        looked_at_[static_cast<std::size_t>(group_of_[static_cast<std::size_t>(slot)])];
+    if (looked_at != departures_) look(t_, *x_, slot, g0_);
+    looked_at = departures_;
     return g0_[slot];
   }
 
@@ -166,7 +180,7 @@ class Departure {
     disturb_by(trial_.size(), [&](Index i, double weight) {
       trial_[i] += weight * (rtol_[i] * std::abs(trial_[i]) + atol_[i]);
     });
-    machine_->guards(t_, trial_.data(), g_disturbed_.data());
+    look(t_, trial_, slot, g_disturbed_);
     return std::abs(g_disturbed_[slot] - before) + rounding(slot);
   }
 
@@ -221,7 +235,7 @@ class Departure {
     else
       move_ = 0.5 * d * (f_ + f1_);
     x1_ = *x_ + move_;
-    machine_->guards(t_ + d, x1_.data(), g_.data());
+    look(t_ + d, x1_, slot, g_);
     return g_[slot];
   }
 
@@ -247,13 +261,12 @@ class Departure {
     }
     trial_ = x1_;
     disturb(trial_);
-    machine_->guards(t_ + d, trial_.data(), g_disturbed_.data());
+    look(t_ + d, trial_, slot, g_disturbed_);
     const double through_x = std::abs(g_disturbed_[slot] - g);
     trial_ = x1_ + d * (f_disturbed_ - f_);
-    machine_->guards(t_ + d, trial_.data(), g_disturbed_.data());
+    look(t_ + d, trial_, slot, g_disturbed_);
     const double through_f = std::abs(g_disturbed_[slot] - g);
-    machine_->guards(t_ + d + thresholds::time_roundings * eps * std::abs(t_), x1_.data(),
-                     g_disturbed_.data());
+    look(t_ + d + thresholds::time_roundings * eps * std::abs(t_), x1_, slot, g_disturbed_);
     return thresholds::state_roundings * eps / amount * (through_x + through_f) +
            0.25 * std::abs(g_disturbed_[slot] - g);
   }
@@ -278,9 +291,11 @@ class Departure {
   double longest_step_;
   double t_ = 0.0, longest_ = 0.0;
   const Eigen::VectorXd* x_ = nullptr;
-  bool fine_ = false;       // follow the flow with order 4
-  bool disturbed_ = false;  // f_disturbed_ belongs to x_
-  bool looked_ = false;     // g0_ belongs to x_
+  bool fine_ = false;                    // follow the flow with order 4
+  bool disturbed_ = false;               // f_disturbed_ belongs to x_
+  std::vector<int> group_of_;            // of each slot
+  std::vector<std::int64_t> looked_at_;  // of each group: the departure that g0_ belongs to
+  std::int64_t departures_ = 0;
   Eigen::VectorXd f_, f_disturbed_, f1_, x1_, move_, trial_, g_, g0_, g_disturbed_;
 };
 

@@ -74,9 +74,10 @@ inline const std::tuple option_table{
            +[](const SimulatorOptions& o) {
              return unless(o.zeno_tolerance >= 0.0, "a time >= 0 s");
            }},
-    Option{
-        "event_scan_points", &SimulatorOptions::event_scan_points,
-        +[](const SimulatorOptions& o) { return unless(o.event_scan_points >= 0, "0 or more"); }},
+    Option{"event_scan_points", &SimulatorOptions::event_scan_points,
+           +[](const SimulatorOptions& o) {
+             return unless(o.event_scan_points.value_or(0) >= 0, "0 or more");
+           }},
     Option{"max_passes", &SimulatorOptions::max_passes,
            +[](const SimulatorOptions& o) { return unless(o.max_passes > 0, "1 or more"); }},
     Option<std::vector<double>>{"save_at", &SimulatorOptions::save_at},

@@ -45,7 +45,7 @@ class CrowdLocator : protected Glance {
     const Crowd crowd = find_crowd(to - from);
     if (crowd == Crowd::located) {
       note_crowd();
-      shift(from);
+      shift(from), may_go_back_ = false;
       follow();
     }
     return crowd;
@@ -63,8 +63,8 @@ class CrowdLocator : protected Glance {
     crowd_.clear();
     Crowd crowd = Crowd::located;
     auto crossed = crossed_.begin();  // in the order of the active guards
-    for (std::size_t i = 0; i < guards_->active().size(); ++i) {
-      const std::size_t k = guards_->active()[i];
+    for (std::size_t i = 0; i < watch_->slots.size(); ++i) {
+      const std::size_t k = watch_->slots[i];
       const Guard& guard = (*guards_)[k];
       const bool crosses = crossed != crossed_.end() && *crossed == k;
       crossed += crosses;

@@ -17,11 +17,14 @@ class Glance : protected Narrower {
  protected:
   static constexpr double never = std::numeric_limits<double>::infinity();
 
-  Glance(Machine& machine, GuardSet& guards) : Narrower(machine, guards) {
+  Glance(Machine& machine, GuardSet& guards, const Watch& watch)
+      : Narrower(machine, guards, watch) {
     const auto slots = static_cast<std::size_t>(machine.plan().guard_slots);
     for (auto* values : {&earlier_, &speed_}) values->assign(slots, 1.0);
     plain_.reserve(slots);
   }
+
+  bool scans() const { return scan_points_ > 0; }
 
   /// Forgets the looks before a restart, which have no meaning after it.
   void forget() { earlier_at_ = never, version_ = -1; }
@@ -33,7 +36,7 @@ class Glance : protected Narrower {
     set_limits();
     plain_.clear();
     jumps_ = false;
-    for (const std::size_t k : guards_->active()) {
+    for (const std::size_t k : watch_->slots) {
       plain_.push_back((*guards_)[k].plain_side());
       jumps_ = jumps_ || (*guards_)[k].jumps;
     }
@@ -48,7 +51,7 @@ class Glance : protected Narrower {
   bool out_of_reach(double from, double to) const {
     if (jumps_) return false;
     for (std::size_t i = 0; i < plain_.size(); ++i) {
-      const std::size_t k = guards_->active()[i];
+      const std::size_t k = watch_->slots[i];
       const double now = plain_[i] * high_[k], before = plain_[i] * guards_->g[k];
       const double moves = std::max(std::abs(now - before), speed_[k] * (to - from));
       if (!(now > 0.0 && now + before > thresholds::speed_margin * moves)) return false;
@@ -58,42 +61,44 @@ class Glance : protected Narrower {
 
   /// Whether no guard can have fired between the look at `from` and high_, at `to`: each guard is
   /// clearly on its side at both, and the parabola through the last three looks has no vertex in
-  /// between. This is true in most steps.
+  /// between, nor in the piece before, where the look at `to` shows more. This is true in most steps.
   bool calm(double from, double to) const {
     const double r = (to - from) / (from - earlier_at_);
-    const bool dips = earlier_at_ != never && guards_->scan_points > 0;
+    const bool dips = earlier_at_ != never && scans();
+    const double back = r * (2.0 + r);
     for (std::size_t i = 0; i < plain_.size(); ++i) {
       const double side = plain_[i];
-      const std::size_t k = guards_->active()[i];
+      const std::size_t k = watch_->slots[i];
       const double now = side * high_[k], before = side * guards_->g[k];
       if (!(now > 0.0 && now < never)) return false;  // never is infinite
       if (!dips) continue;
       const double rise = now - before, earlier_rise = before - side * earlier_[k];
-      // The parabola falls at `from` and rises at `to`.
-      if (rise < -earlier_rise * r * r && rise * (1.0 + 2.0 * r) > earlier_rise * r * r)
+      // The parabola falls at `from` and rises at `to`; or falls at the earlier look and rises here.
+      const double turn = -earlier_rise * r * r;
+      if (rise < turn ? rise * (1.0 + 2.0 * r) > -turn : may_go_back_ && rise > earlier_rise * back)
         return false;
     }
     return true;
   }
   void shift_all(double from, double to) {
-    for (const std::size_t k : guards_->active()) {
+    for (const std::size_t k : watch_->slots) {
       speed_[k] = std::max(thresholds::speed_memory * speed_[k],
                            std::abs(high_[k] - guards_->g[k]) / (to - from));
       earlier_[k] = guards_->g[k], guards_->g[k] = high_[k];
     }
-    earlier_at_ = from;
+    earlier_at_ = from, may_go_back_ = true;
   }
 
-  /// The look at `from` becomes the look before the next one.
+  /// The look at `from` becomes the look before the next one. No guard fired since.
   void shift(double from) {
     earlier_ = guards_->g;
-    earlier_at_ = from;
+    earlier_at_ = from, may_go_back_ = true;
   }
 
   /// The guards take their sides at high_, where no guard fired.
   void follow() {
     for (std::size_t i = 0; i < limits_.size(); ++i) {
-      const std::size_t k = guards_->active()[i];
+      const std::size_t k = watch_->slots[i];
       const Guard& guard = (*guards_)[k];
       const bool stays =
           !guard.waits() && (guard.side > 0 ? high_[k] > 0.0 : guard.side < 0 && high_[k] < 0.0);
@@ -107,6 +112,9 @@ class Glance : protected Narrower {
 
   std::vector<double> earlier_;  // guards at the look before the last
   double earlier_at_ = never;    // its offset; below zero: in the step before
+  bool may_go_back_ =
+      false;             // the piece that begins there is of this step, and nothing fired in it
+  int scan_points_ = 0;  // interior points of a step with a look
 
  private:
   std::vector<double> plain_;  // plain_side() of each active guard

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -11,6 +12,18 @@
 #include "saltus/solver/detail/guard.hpp"
 
 namespace saltus {
+
+/// Guards that are located together.
+struct Watch {
+  std::vector<std::size_t> slots;
+  std::vector<int> groups;  ///< the groups of these slots, in the order of the plan
+
+  void add(std::size_t slot, int group) {
+    slots.push_back(slot);
+    if (groups.empty() || groups.back() != group) groups.push_back(group);
+  }
+  void clear() { slots.clear(), groups.clear(); }
+};
 
 /// The only writer of guard records. Each write by the engine increments the version, so that a
 /// locator knows when the values derived from the records are outdated. Writes by the locator do
@@ -28,6 +41,10 @@ class GuardSet {
   const std::vector<Guard>& all() const noexcept { return guards_; }
   /// The guards that can fire in the present modes.
   const std::vector<std::size_t>& active() const noexcept { return active_; }
+  /// Those of them that stop the solver, and those that do not. They are located apart, because no
+  /// monitor may change a bit of a root.
+  const Watch& stopping() const noexcept { return stopping_; }
+  const Watch& watching() const noexcept { return watching_; }
   std::int64_t version() const noexcept { return version_; }
 
   // --- written by the engine
@@ -72,11 +89,19 @@ class GuardSet {
   bool fits(const Continuation& from) const { return from.guards.size() == guards_.size(); }
   void load(const Continuation& from);
 
-  /// Remembers the records before a step is searched; `restore` undoes what was written since.
-  void keep() { kept_ = guards_; }
+  /// A step is searched: `keep` remembers the records once before they are written, `restore` undoes
+  /// what was written since.
+  void begin_search() {
+    keeps_ = false;
+    fired_at_root.clear(), beside_root.clear();
+  }
+  void keep() {
+    if (!keeps_) kept_ = guards_;
+    keeps_ = true;
+  }
   void restore() {
     fired_at_root.clear();
-    restore(kept_);
+    if (keeps_) restore(kept_);
   }
   /// Sets all records to those of an earlier copy.
   void restore(const std::vector<Guard>& records) { ++version_, guards_ = records; }
@@ -108,8 +133,8 @@ class GuardSet {
   std::vector<Firing> fired_at_root;     ///< the guards that crossed at the last root
   std::vector<std::size_t> beside_root;  ///< others within the resolution of that root from zero
   std::vector<MonitorHit> monitors;      ///< crossings of monitors in the last advance
-  bool some_beyond = false;  ///< some guard with one direction is on its firing side at a restart
-  int scan_points = 3;       ///< interior points of a step with a look at the guards
+  /// Interior points of a step with a look at the guards; empty: by the degree of the interpolant.
+  std::optional<int> scan_points = {};
 
  private:
   void set(std::size_t k, Phase phase, int side, double error) {
@@ -118,8 +143,15 @@ class GuardSet {
     guard.phase = phase, guard.side = static_cast<signed char>(side), guard.error = error;
   }
 
+  void watch(std::size_t k) {
+    active_.push_back(k);
+    (guards_[k].monitor ? watching_ : stopping_).add(k, guards_[k].group);
+  }
+
   std::vector<Guard> guards_, kept_;
+  bool keeps_ = false;  // kept_ is of the present search
   std::vector<std::size_t> active_;
+  Watch stopping_, watching_;
   std::int64_t version_ = 0;
 };
 

@@ -12,7 +12,7 @@
 
 namespace saltus {
 
-/// Looks at all guards in one vector call, and narrows an interval in which one crosses: by the
+/// Looks at all guards of a watch at once, and narrows an interval in which one crosses: by the
 /// parabola through the last three looks (D. E. Muller, "A method for solving algebraic equations
 /// using an automatic computer", Math. Tables Aids Comput. 10 (1956) 208). If the parabola keeps
 /// one end unchanged, the Illinois variant of regula falsi follows, guarded by bisection (K. L.
@@ -21,32 +21,41 @@ namespace saltus {
 /// the firing side, so the state there is past the crossing or exactly on it. Points inside the
 /// step are offsets u from its beginning, not times: the bracket ends below 2 eps u, finer than the
 /// resolution of t, so that a state reaches its surface equally well late and early in a long run.
+/// Where few of many guards have crossed, the looks on the way are at these few.
 class Narrower {
  protected:
-  Narrower(Machine& machine, GuardSet& guards)
-      : machine_(&machine), guards_(&guards), x_(static_cast<std::size_t>(machine.plan().nx)) {
+  Narrower(Machine& machine, GuardSet& guards, const Watch& watch)
+      : machine_(&machine),
+        guards_(&guards),
+        watch_(&watch),
+        x_(static_cast<std::size_t>(machine.plan().nx)) {
     const auto slots = static_cast<std::size_t>(machine.plan().guard_slots);
     for (auto* values : {&low_, &high_, &middle_, &third_, &noise_, &jump_, &begun_})
       values->assign(slots, 1.0);
-    crossed_.reserve(slots), limits_.reserve(slots);
+    crossed_.reserve(slots), limits_.reserve(slots), few_.reserve(slots);
   }
 
-  /// Computes all guards at offset u.
+  /// Computes the guards at offset u; while few are narrowed, only these.
   template <class Interpolate>
   void look(double u, const double* known, const Interpolate& interpolate,
             std::vector<double>& values) {
     if (known == nullptr) interpolate(u, x_.data());
-    machine_->guards(t0_ + u, known == nullptr ? x_.data() : known, values.data());
+    const double* x = known == nullptr ? x_.data() : known;
+    const std::vector<int>& groups = few_.empty() ? watch_->groups : few_groups_;
+    if (groups.size() == machine_->active_guards().size())
+      machine_->guards(t0_ + u, x, values.data());
+    else
+      machine_->guards_of(groups, t0_ + u, x, values.data());
   }
 
   /// Sets the values at which the active guards fire, from their present records.
   void set_limits() {
     limits_.clear();
-    for (const std::size_t k : guards_->active()) limits_.push_back((*guards_)[k].limits());
+    for (const std::size_t k : watch_->slots) limits_.push_back((*guards_)[k].limits());
   }
 
   bool fired(std::size_t i, const std::vector<double>& values) const {
-    const double value = values[guards_->active()[i]];
+    const double value = values[watch_->slots[i]];
     return !(value > limits_[i].first && value < limits_[i].second);  // NaN and Inf fire too
   }
 
@@ -58,7 +67,7 @@ class Narrower {
     if (i == count) return false;
     crossed_.clear();
     for (; i < count; ++i) {
-      if (fired(i, values)) crossed_.push_back(guards_->active()[i]);
+      if (fired(i, values)) crossed_.push_back(watch_->slots[i]);
     }
     return true;
   }
@@ -69,22 +78,81 @@ class Narrower {
   template <class Interpolate>
   double narrow(double low, double high, const Interpolate& interpolate) {
     low_ = guards_->g, begun_ = high_;
-    const double begun = high - low;
+    choose_few();
+    Bracket last = narrow_few({low, high}, interpolate);
+    while (!few_.empty() && others_crossed(last, low, interpolate))
+      last = narrow_few({low, last.low}, interpolate);
+    note_ends(last.high - last.low, high - low);
+    return last.high;
+  }
+
+  Machine* machine_;
+  GuardSet* guards_;
+  const Watch* watch_;
+  std::vector<double> low_, high_, middle_, third_;
+  double third_at_ = 0.0;
+  std::vector<double> noise_;  // of guards near their root, by the rounding of interpolants
+  std::vector<double> begun_;  // guards at the high end of the whole interval
+  std::vector<double> jump_;   // of guards that seem to jump at their root, otherwise 0
+  std::vector<std::size_t> crossed_;
+  std::vector<std::pair<double, double>> limits_;  // of the watched guards
+  std::vector<std::size_t> few_;                   // those that are narrowed; empty: all
+  double t0_ = 0.0;
+
+ private:
+  struct Bracket {
+    double low, high;
+  };
+
+  /// If few of many guards have crossed by the high end, only these are narrowed.
+  void choose_few() {
+    few_.clear(), few_groups_.clear();
+    if (crossed_.size() * thresholds::few_guards > watch_->groups.size()) return;
+    for (const std::size_t k : crossed_) {
+      const auto at = std::ranges::lower_bound(watch_->slots, k);
+      few_.push_back(static_cast<std::size_t>(at - watch_->slots.begin()));
+      const int group = (*guards_)[k].group;
+      if (few_groups_.empty() || few_groups_.back() != group) few_groups_.push_back(group);
+    }
+  }
+
+  /// Few guards were narrowed to this bracket. Looks at all of them at its ends. True if others
+  /// have crossed before it: then these are narrowed next.
+  template <class Interpolate>
+  bool others_crossed(const Bracket& last, double begun, const Interpolate& interpolate) {
+    few_.clear();
+    look(last.high, nullptr, interpolate, high_);
+    if (last.low == begun)
+      low_ = guards_->g;
+    else
+      look(last.low, nullptr, interpolate, low_);
+    if (last.low == begun || !note_crossed(low_)) return note_crossed(high_), false;
+    high_.swap(low_), low_ = guards_->g;
+    third_at_ = std::numeric_limits<double>::infinity();
+    choose_few();
+    return true;
+  }
+
+  /// Narrows an interval to the bracket of a root.
+  template <class Interpolate>
+  Bracket narrow_few(Bracket in, const Interpolate& interpolate) {
+    auto [low, high] = in;
     int kept = 0;   // looks in a row that kept the low (> 0) or the high (< 0) end
-    int zeros = 0;  // looks in a row with exact zeros only: a plateau is halved to its beginning
+    int zeros = 0;  // looks in a row with exact zeros only
     double weight = 1.0;
     for (int count = 0; count < thresholds::most_looks; ++count) {
       const double resolution = thresholds::bracket_roundings * thresholds::eps * high;
       if (high - low <= resolution) break;
       zeros = only_exact_zeros() ? zeros + 1 : 0;
-      const bool halves = zeros > 1 || (zeros == 0 && count > thresholds::bisects_after);
-      const double u = zeros == 1 ? high - resolution  // an exact root: look just before it
-                       : halves   ? low + 0.5 * (high - low)
-                                  : next_point(low, high, weight, resolution);
+      const double u = zeros > 0 ? before_zeros(low, high, zeros)
+                       : count > thresholds::bisects_after
+                           ? low + 0.5 * (high - low)
+                           : next_point(low, high, weight, resolution);
       if (!(u > low && u < high)) break;
       look(u, nullptr, interpolate, middle_);
-      if (note_crossed(middle_)) {
+      if (few_.empty() ? note_crossed(middle_) : note_few_crossed(middle_)) {
         third_at_ = high, high = u, high_.swap(middle_);
+        if (few_.empty()) choose_few();
         kept = std::max(kept, 0) + 1;
       } else {
         third_at_ = low, low = u, low_.swap(middle_);
@@ -94,22 +162,29 @@ class Narrower {
       third_.swap(middle_);
       weight = next_weight(weight, kept);
     }
-    note_ends(high - low, begun);
-    return high;
+    return {low, high};
   }
 
-  Machine* machine_;
-  GuardSet* guards_;
-  std::vector<double> low_, high_, middle_, third_;
-  double third_at_ = 0.0;
-  std::vector<double> noise_;  // of guards near their root, by the rounding of interpolants
-  std::vector<double> begun_;  // guards at the high end of the whole interval
-  std::vector<double> jump_;   // of guards that seem to jump at their root, otherwise 0
-  std::vector<std::size_t> crossed_;
-  std::vector<std::pair<double, double>> limits_;  // of the active guards
-  double t0_ = 0.0;
+  /// An exact zero: the next look is just before it. If there is another zero, the guard is flat.
+  /// The looks then go back in growing steps, because the rounding of a state makes many such
+  /// plateaus, all short; the last interval is halved to the beginning of the plateau.
+  static double before_zeros(double low, double high, int zeros) {
+    const double back = thresholds::bracket_roundings * thresholds::eps * high *
+                        std::pow(thresholds::plateau_growth, zeros - 1);
+    return high - back > low ? high - back : low + 0.5 * (high - low);
+  }
 
- private:
+  /// note_crossed for the few guards that are narrowed.
+  bool note_few_crossed(const std::vector<double>& values) {
+    const auto has_fired = [&](std::size_t i) { return fired(i, values); };
+    if (std::ranges::none_of(few_, has_fired)) return false;
+    crossed_.clear();
+    for (const std::size_t i : few_) {
+      if (has_fired(i)) crossed_.push_back(watch_->slots[i]);
+    }
+    return true;
+  }
+
   /// The next weight: Illinois halves the value of an end that was kept twice in a row.
   static double next_weight(double weight, int kept) {
     return kept > 1 ? weight * 0.5 : kept < -1 ? weight * 2.0 : 1.0;
@@ -129,13 +204,18 @@ class Narrower {
 
   /// A guard that waits and is on its armed side at low becomes armed.
   void leave_zero() {
-    for (std::size_t i = 0; i < limits_.size(); ++i) {
-      const std::size_t k = guards_->active()[i];
-      const Guard& guard = (*guards_)[k];
-      if (!guard.waits() || guard.sign(low_[k]) != guard.side) continue;
-      guards_->leave_zero(k);
-      limits_[i] = guard.limits();
+    if (few_.empty()) {
+      for (std::size_t i = 0; i < limits_.size(); ++i) leave_zero(i);
+    } else {
+      for (const std::size_t i : few_) leave_zero(i);
     }
+  }
+  void leave_zero(std::size_t i) {
+    const std::size_t k = watch_->slots[i];
+    const Guard& guard = (*guards_)[k];
+    if (!guard.waits() || guard.sign(low_[k]) != guard.side) return;
+    guards_->leave_zero(k);
+    limits_[i] = guard.limits();
   }
 
   bool only_exact_zeros() const {
@@ -174,6 +254,7 @@ class Narrower {
     return near > 0.0 && near < 1.0 ? near : far > 0.0 && far < 1.0 ? far : -a;
   }
 
+  std::vector<int> few_groups_;  // the groups of few_
   std::vector<double> x_;
 };
 

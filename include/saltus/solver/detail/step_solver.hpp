@@ -2,6 +2,8 @@
 // the first root in it.
 #pragma once
 
+#include <algorithm>
+
 #include "saltus/solver/detail/locate.hpp"
 #include "saltus/solver/detail/solver.hpp"
 
@@ -121,7 +123,7 @@ class StepSolver : public Interface {
   template <class Inside>
   bool find_root(const Inside& inside) {
     const auto find = [&](const double* guards) {
-      return locator_.find(t0_, offset_, length_, x1_.data(), guards, inside);
+      return locator_.find({t0_, offset_, length_, x1_.data(), guards, scan_points()}, inside);
     };
     if constexpr (CutsSteps<Method>) {
       before_ = guards_->g;
@@ -133,6 +135,13 @@ class StepSolver : public Interface {
     } else {
       return find(offset_ == 0.0 ? self().end_guards() : nullptr);
     }
+  }
+
+  /// By default as many points as the degree of the interpolant, at least three: the interpolant of
+  /// a multistep method that begins is a line, but its guard need not be.
+  int scan_points() {
+    return guards_->scan_points ? *guards_->scan_points
+                                : std::max(thresholds::least_scan_points, self().degree());
   }
 
   void read_root(double root) {

@@ -77,6 +77,12 @@ inline constexpr double last_look = 3.0;
 /// goes on. The second number is a limit that neither reaches: 60 and the 74 + 53 halvings of an
 /// interval down to the least double. tests/unit/narrow_test.cpp, tests/unit/locate_cvode_test.cpp
 inline constexpr int bisects_after = 60, most_looks = 200;
+/// [1] Growth of the steps back from a zero on a plateau: each look gains three of 53 bits.
+/// tests/unit/narrow_test.cpp
+inline constexpr double plateau_growth = 8.0;
+/// [1] Where at most one in so many guards has crossed, only these are narrowed. The two looks at all
+/// others at the end then cost less than is saved.
+inline constexpr std::size_t few_guards = 8;
 /// [of the guard at the bracket's ends] Rounding of the interpolant at a root: both ends may be off
 /// by as much as they differ, twice.
 inline constexpr double root_noise = 4.0;
@@ -85,6 +91,9 @@ inline constexpr double root_noise = 4.0;
 /// guard hardly. This lies between, in decades. tests/semantics/guards_jump_test.cpp fails where it is
 /// so large that nothing is a jump.
 inline constexpr double jump_steepness = 1e6;
+/// [points] in a step of an interpolant of lower degree.
+/// tests/semantics/zeno_moving_frame_test.cpp
+inline constexpr int least_scan_points = 3;
 /// [of a piece of a step] The first look after a restart where a guard is beyond zero: with the
 /// looks at both ends of the first piece it shows whether the guard comes back inside it.
 /// tests/semantics/guards_behind_test.cpp
