@@ -61,7 +61,8 @@ class Ours final : public Solver {
       for (const int i : places.column(j))
         matrix_[static_cast<std::size_t>(layout.places[k++])] = Problem::entry(i, j);
     work_ = matrix_;
-    solver_ = p.full() ? saltus::make_dense<double>(p.n) : saltus::make_band<double>(p.n, p.band(), {});
+    solver_ =
+        p.full() ? saltus::make_dense<double>(p.n) : saltus::make_band<double>(p.n, p.band(), {});
   }
   double operator()() override {
     work_ = matrix_;

@@ -32,7 +32,8 @@ void require_linear_solver(LinearSolver linear_solver, Method method) {
   }
   if (linear_solver == LinearSolver::gmres && method == Method::radau) {
     throw ModelError(
-        "option linear_solver = 'gmres': ode_solver_method 'radau' factorises its matrices; leave it "
+        "option linear_solver = 'gmres': ode_solver_method 'radau' factorises its matrices; leave "
+        "it "
         "at 'auto', or take the method 'bdf'");
   }
 }

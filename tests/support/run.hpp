@@ -25,8 +25,8 @@ inline std::ostream& operator<<(std::ostream& out, LinearSolver solver) {
 namespace support {
 
 inline constexpr std::array methods{saltus::Method::dopri5, saltus::Method::dop853,
-                                    saltus::Method::adams, saltus::Method::bdf,
-                                    saltus::Method::radau, saltus::Method::automatic};
+                                    saltus::Method::adams,  saltus::Method::bdf,
+                                    saltus::Method::radau,  saltus::Method::automatic};
 
 inline constexpr double eps = std::numeric_limits<double>::epsilon();
 inline constexpr double infinite = std::numeric_limits<double>::infinity();

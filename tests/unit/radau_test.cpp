@@ -14,16 +14,16 @@ namespace {
 /// x'' = -x from (1, 0): x = cos t. It is linear, so that Newton's iteration is exact.
 Leaf oscillator(double level) {
   return Leaf("oscillator", [level](Leaf& l) {
-    l.declare_continuous_state({.initial = vec({1.0, 0.0}), .ode = [](const At& at, VectorRef xdot) {
-                                  xdot << at.x[1], -at.x[0];
-                                }});
+    l.declare_continuous_state(
+        {.initial = vec({1.0, 0.0}),
+         .ode = [](const At& at, VectorRef xdot) { xdot << at.x[1], -at.x[0]; }});
     l.declare_continuous_state_output("x");
-    l.declare_zero_crossing({.name = "level",
-                             .guard = [level](const At& at) { return at.x[0] - level; },
-                             .reset_map = [](const At& at, Next& next) {
-                               next.set_continuous_state({at.x[0], at.x[1]});
-                             },
-                             .direction = Direction::positive_then_non_positive});
+    l.declare_zero_crossing(
+        {.name = "level",
+         .guard = [level](const At& at) { return at.x[0] - level; },
+         .reset_map = [](const At& at,
+                         Next& next) { next.set_continuous_state({at.x[0], at.x[1]}); },
+         .direction = Direction::positive_then_non_positive});
   });
 }
 
@@ -151,7 +151,8 @@ TEST_CASE("the allowed estimate lets a step be as long as its own error allows",
   // 0.1 rtol^(4/6 - 1) = 0.1 * 100 at 1e-6; at 1e-14 the dense output bounds it: 4 * 2^4 / share.
   const radau::Scheme three = radau::scheme_of(3);
   CHECK_THAT(radau::allowed_estimate(three, 1e-6, 4.0), WithinRel(10.0, 1e-12));
-  CHECK_THAT(radau::allowed_estimate(three, 1e-14, 4.0), WithinRel(64.0 / three.dense_share, 1e-12));
+  CHECK_THAT(radau::allowed_estimate(three, 1e-14, 4.0),
+             WithinRel(64.0 / three.dense_share, 1e-12));
 }
 
 TEST_CASE("steps of three stages have order 5, their dense output order 3 and more", "[radau]") {

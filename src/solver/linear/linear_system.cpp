@@ -91,7 +91,7 @@ int LinearSystem::prepare(double t, N_Vector x, N_Vector xdot, bool keep, bool& 
                           double gamma) {
   renewed = !keep;
   if (!keep && !structure_.jacobian()(t, N_VGetArrayPointer(x), N_VGetArrayPointer(xdot),
-                                     increments(), preconditioner_->jacobian()))
+                                      increments(), preconditioner_->jacobian()))
     return 1;
   return preconditioner_->factor(gamma) ? 0 : 1;
 }

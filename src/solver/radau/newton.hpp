@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "saltus/solver/detail/radau/convergence.hpp"
+#include "saltus/solver/detail/radau/stage_polynomial.hpp"
 #include "saltus/solver/detail/solver.hpp"
 #include "saltus/solver/detail/thresholds.hpp"
-#include "saltus/solver/detail/radau/stage_polynomial.hpp"
 #include "stage_systems.hpp"
 
 namespace saltus::radau {
@@ -109,8 +109,7 @@ class Newton {
     d *= problem.h;
     subtract_product<S>(w, d);
     systems.solve_real(d.data());
-    for (int k = 0; k < (S - 1) / 2; ++k)
-      systems.solve_pair(k, &d(0, 2 * k + 1), &d(0, 2 * k + 2));
+    for (int k = 0; k < (S - 1) / 2; ++k) systems.solve_pair(k, &d(0, 2 * k + 1), &d(0, 2 * k + 2));
     w += d;
     f = d.lazyProduct(matrix<S>(RadauTable<S>::t).transpose());
     z += f;

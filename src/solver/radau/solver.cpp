@@ -3,10 +3,10 @@
 
 #include "halves.hpp"
 #include "saltus/solver/detail/radau.hpp"
+#include "saltus/solver/detail/radau/step_control.hpp"
 #include "saltus/solver/detail/step_size.hpp"
 #include "saltus/solver/detail/step_solver.hpp"
 #include "stage_solver.hpp"
-#include "saltus/solver/detail/radau/step_control.hpp"
 
 namespace saltus::radau {
 

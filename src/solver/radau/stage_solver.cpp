@@ -8,8 +8,10 @@ void StageSolver::prepare(double t, const Eigen::VectorXd& x) {
   structure_.emplace(*machine_, options_, t, x.data());
   if (!structure_->direct()) {
     throw SimulationError(
-        text("t = ", t, " s: ode_solver_method 'radau' factorises its matrices, and those of this "
-             "scene would fill up (", structure_->describe(),
+        text("t = ", t,
+             " s: ode_solver_method 'radau' factorises its matrices, and those of this "
+             "scene would fill up (",
+             structure_->describe(),
              "); take 'bdf', declare the sparsity of the largest block, or set linear_solver to "
              "'sparse', 'band' or 'dense'"),
         t, "");

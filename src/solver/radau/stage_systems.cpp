@@ -7,12 +7,10 @@ namespace saltus::radau {
 
 template <class T>
 bool StageSystems::System<T>::factor(const LinearStructure& structure,
-                                     const std::vector<double>& jacobian, double h,
-                                     T eigenvalue) {
+                                     const std::vector<double>& jacobian, double h, T eigenvalue) {
   if (!solver) solver = structure.make_factorisation<T>();
   matrix.resize(jacobian.size());
-  std::ranges::transform(jacobian, matrix.begin(), 
-                         [h](double value) { return T(-h * value); });
+  std::ranges::transform(jacobian, matrix.begin(), [h](double value) { return T(-h * value); });
   for (const Index place : structure.layout().diagonal)
     matrix[static_cast<std::size_t>(place)] += eigenvalue;
   return solver->factor(matrix.data());
@@ -34,7 +32,8 @@ bool StageSystems::factor(const std::vector<double>& jacobian, const Scheme& sch
 void StageSystems::solve_pair(int k, double* re, double* im) {
   for (std::size_t i = 0; i < right_.size(); ++i) right_[i] = {re[i], im[i]};
   pairs_[static_cast<std::size_t>(k)].solver->solve(right_.data());
-  for (std::size_t i = 0; i < right_.size(); ++i) re[i] = right_[i].real(), im[i] = right_[i].imag();
+  for (std::size_t i = 0; i < right_.size(); ++i)
+    re[i] = right_[i].real(), im[i] = right_[i].imag();
 }
 
 }  // namespace saltus::radau

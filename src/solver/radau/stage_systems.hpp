@@ -23,9 +23,7 @@ class StageSystems {
   /// matrix is singular.
   bool factor(const std::vector<double>& jacobian, const Scheme& scheme, double h);
   /// Whether the last factorisation was for this step.
-  bool serves(const Scheme& scheme, double h) const {
-    return stages_ == scheme.stages && h_ == h;
-  }
+  bool serves(const Scheme& scheme, double h) const { return stages_ == scheme.stages && h_ == h; }
   void forget() { stages_ = 0; }
 
   /// r becomes the solution for the real eigenvalue.

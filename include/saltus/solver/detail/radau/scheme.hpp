@@ -16,8 +16,8 @@ inline constexpr int most_pairs = (most_stages - 1) / 2;
 struct Scheme {
   int stages;
   double gamma;
-  const double *alpha, *beta;    // of the pairs of complex eigenvalues
-  const double *c, *e, *weights; // see RadauTable
+  const double *alpha, *beta;     // of the pairs of complex eigenvalues
+  const double *c, *e, *weights;  // see RadauTable
   double dense_share;
 
   constexpr int pairs() const { return (stages - 1) / 2; }

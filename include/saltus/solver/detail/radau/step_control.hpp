@@ -64,9 +64,9 @@ constexpr bool not_worth_it(double factor) { return factor >= 1.0 && factor < 1.
 /// What a choice of the order depends on.
 struct OrderFacts {
   int stages = 3;
-  double theta = 0.0;       ///< contraction of Newton's iteration in the last steps
-  double ratio = 1.0;       ///< of the lengths of the last two steps
-  int steps = 0;            ///< accepted with these stages
+  double theta = 0.0;  ///< contraction of Newton's iteration in the last steps
+  double ratio = 1.0;  ///< of the lengths of the last two steps
+  int steps = 0;       ///< accepted with these stages
   bool newton_failed = false;
   int highest = 7;
 };
