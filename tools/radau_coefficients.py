@@ -1,16 +1,23 @@
-"""Computes the coefficients of the Radau IIA methods and writes include/saltus/solver/detail/radau/tables.hpp.
+"""Computes the coefficients of the Radau IIA methods.
 
-Usage: python tools/radau_coefficients.py > include/saltus/solver/detail/radau/tables.hpp     (needs mpmath)
+Usage, with mpmath:
 
-Radau IIA with s stages is collocation at the zeros c_i of d^(s-1)/dx^(s-1) [x^(s-1) (x - 1)^s] (E. Hairer, G. Wanner,
-Solving Ordinary Differential Equations II, 2nd ed., IV.5, (5.7)). Everything is computed with 60 digits and rounded
-once:
+    python tools/radau_coefficients.py > include/saltus/solver/detail/radau/tables.hpp
+
+Radau IIA with s stages is collocation at the zeros c_i of d^(s-1)/dx^(s-1) [x^(s-1) (x - 1)^s]
+(E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, 2nd ed., IV.5, (5.7)).
+Everything is computed with 60 digits and rounded once:
+
 - A from sum_j a_ij c_j^(k-1) = c_i^k / k, k = 1..s (C(s), IV.5, p. 71)
-- T, T^-1 with T^-1 A^-1 T block diagonal: gamma, then blocks [alpha -beta; beta alpha] (IV.8, (8.5))
-- the error estimate: the quadrature formula of order s with the weight 1/gamma at the node 0, less the method's own,
-  in terms of the stage values z = h A f (IV.8, (8.17) to (8.19); the RADAU code does the same for 5 and 7 stages)
-- dense_share: for x' = t^s, the largest error of the collocation polynomial inside the step over the error estimate
+- T, T^-1 with T^-1 A^-1 T block diagonal: gamma, then blocks [alpha -beta; beta alpha] (IV.8,
+  (8.5))
+- the error estimate: the quadrature formula of order s with the weight 1/gamma at the node 0, less
+  the method's own, in terms of the stage values z = h A f (IV.8, (8.17) to (8.19); the RADAU code
+  does the same for 5 and 7 stages)
+- dense_share: for x' = t^s, the largest error of the collocation polynomial inside the step over
+  the error estimate
 """
+
 import mpmath as mp
 
 mp.mp.dps = 60
@@ -20,7 +27,7 @@ def nodes(s):
     """c_1 < ... < c_s = 1."""
     radau = [mp.mpf(1)]
     for _ in range(s):  # (x - 1)^s
-        radau = [a - b for a, b in zip(radau + [mp.mpf(0)], [mp.mpf(0)] + radau)]
+        radau = [a - b for a, b in zip([*radau, mp.mpf(0)], [mp.mpf(0), *radau], strict=True)]
     radau += [mp.mpf(0)] * (s - 1)  # times x^(s - 1)
     for _ in range(s - 1):
         degree = len(radau) - 1
@@ -47,7 +54,9 @@ def blocks(inverse):
     s = inverse.rows
     values, vectors = mp.eig(inverse)
     real = min(range(s), key=lambda k: abs(mp.im(values[k])))
-    pairs = sorted((k for k in range(s) if k != real and mp.im(values[k]) > 0), key=lambda k: mp.re(values[k]))
+    pairs = sorted(
+        (k for k in range(s) if k != real and mp.im(values[k]) > 0), key=lambda k: mp.re(values[k])
+    )
     columns = [[mp.re(vectors[i, real] / vectors[s - 1, real]) for i in range(s)]]
     for k in pairs:  # q = u - i v belongs to alpha + i beta
         q = [vectors[i, k] / vectors[s - 1, k] for i in range(s)]
@@ -68,13 +77,17 @@ def error_weights(c, inverse, gamma):
             powers[q, i] = c[i] ** q
     right = mp.matrix(s, 1)
     right[0] = -1
-    return (mp.lu_solve(powers, right)).T * inverse  # times 1 / gamma, which the factor gamma takes back
+    return (
+        mp.lu_solve(powers, right)
+    ).T * inverse  # times 1 / gamma, which the factor gamma takes back
 
 
 def largest_error(c):
     """max over 0 < u < 1 of the error of the collocation polynomial for x' = t^s."""
+
     def error(u):
         return mp.quad(lambda t: mp.fprod(t - each for each in c), [0, u])
+
     return max(abs(error(each)) for each in c[:-1])
 
 
@@ -129,17 +142,17 @@ struct RadauTable<{s}> {{
 """
 
 
-print("""// Coefficients of Radau IIA. Made by tools/radau_coefficients.py, which says where they come from.
+print("""// Coefficients of Radau IIA. Made by tools/radau_coefficients.py, which has their sources.
 #pragma once
 
 namespace saltus {
 
 // clang-format off
 
-/// Of the method with S stages: nodes c, matrix a; the eigenvalues gamma and alpha +- i beta of its inverse and
-/// the transformation t with t_inverse a^-1 t block diagonal; weights e of the error estimate; barycentric
-/// weights of the nodes 0, c; dense_share: the largest error of the collocation polynomial in a step, in error
-/// estimates.
+/// Of the method with S stages: nodes c, matrix a; the eigenvalues gamma and alpha +- i beta of its
+/// inverse and the transformation t with t_inverse a^-1 t block diagonal; weights e of the error
+/// estimate; barycentric weights of the nodes 0, c; dense_share: the largest error of the
+/// collocation polynomial in a step, in error estimates.
 template <int S>
 struct RadauTable;
 """)

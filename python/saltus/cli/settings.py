@@ -33,7 +33,9 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--t-end", type=float, metavar="T", help="[s] that of the scene if not said"
     )
-    parser.add_argument("--method", metavar="NAME", help="auto, dopri5, dop853, adams, bdf or radau")
+    parser.add_argument(
+        "--method", metavar="NAME", help="auto, dopri5, dop853, adams, bdf or radau"
+    )
     parser.add_argument(
         "--rtol",
         type=_tolerance,

@@ -1,14 +1,14 @@
-// Coefficients of Radau IIA. Made by tools/radau_coefficients.py, which says where they come from.
+// Coefficients of Radau IIA. Made by tools/radau_coefficients.py, which has their sources.
 #pragma once
 
 namespace saltus {
 
 // clang-format off
 
-/// Of the method with S stages: nodes c, matrix a; the eigenvalues gamma and alpha +- i beta of its inverse and
-/// the transformation t with t_inverse a^-1 t block diagonal; weights e of the error estimate; barycentric
-/// weights of the nodes 0, c; dense_share: the largest error of the collocation polynomial in a step, in error
-/// estimates.
+/// Of the method with S stages: nodes c, matrix a; the eigenvalues gamma and alpha +- i beta of its
+/// inverse and the transformation t with t_inverse a^-1 t block diagonal; weights e of the error
+/// estimate; barycentric weights of the nodes 0, c; dense_share: the largest error of the
+/// collocation polynomial in a step, in error estimates.
 template <int S>
 struct RadauTable;
 
