@@ -31,11 +31,11 @@ inline constexpr double infinite = std::numeric_limits<double>::infinity();
 inline constexpr double eps = std::numeric_limits<double>::epsilon();
 
 using Methods = std::vector<Method>;
-inline const Methods every{Method::dopri5, Method::dop853, Method::adams, Method::bdf,
-                           Method::automatic};
+inline const Methods every{Method::dopri5, Method::dop853, Method::adams,
+                           Method::bdf,    Method::radau,  Method::automatic};
 inline const Methods explicit_ones{Method::dopri5, Method::dop853, Method::adams,
                                    Method::automatic};
-inline const Methods stiff_ones{Method::bdf, Method::automatic};
+inline const Methods stiff_ones{Method::bdf, Method::radau, Method::automatic};
 inline const Methods runge_kutta{Method::dopri5, Method::dop853, Method::automatic};
 
 /// The distance of a run from the exact answer.

@@ -35,6 +35,7 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
   CvodeSolver(Machine& machine, GuardSet& guards, const SolverOptions& options, CvodeMethod method)
       : StepSolver(machine, guards, options),
         method_(method),
+        tolerances_(tolerances_for(method, options)),
         context_(sun::make_context()),
         y_(make_vector(n_, context_.get())),
         dky_(N_VClone(y_.get())),
@@ -92,6 +93,18 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
       start_cvode(how.first);
   }
 
+  /// See thresholds::loose_rtol.
+  static SolverOptions tolerances_for(CvodeMethod method, SolverOptions options) {
+    if (!is_loose(method, options)) return options;
+    options.rtol *= thresholds::loose_share, options.atol *= thresholds::loose_share;
+    for (auto* each : {&options.rtols, &options.atols})
+      for (double& tolerance : *each) tolerance *= thresholds::loose_share;
+    return options;
+  }
+  static bool is_loose(CvodeMethod method, const SolverOptions& options) {
+    return method == CvodeMethod::bdf && options.rtol >= thresholds::loose_rtol;
+  }
+
   /// The starter begins stretches inside a run.
   static SolverOptions without_first_step(SolverOptions options) {
     options.first_step = 0.0;
@@ -145,6 +158,7 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
       corrector_.attach(nonlinear_.get());
     } else {
       CVodeSetMaxOrd(cvode, options_.highest_order);
+      if (is_loose(method_, options_)) CVodeSetNonlinConvCoef(cvode, thresholds::loose_newton);
       scene_.make_linear(options_, t1_, x1_.data());
       scene_.attach_linear(cvode, y_.get(), context_.get());
     }
@@ -156,15 +170,16 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
   /// where rtol differs from state to state.
   void set_tolerances() {
     void* cvode = cvode_.get();
-    if (options_.rtols.empty()) {
-      CVodeSStolerances(cvode, options_.rtol, options_.atol);
-    } else if (std::ranges::all_of(options_.rtols, [&](double r) { return r == options_.rtol; })) {
+    const SolverOptions& by = tolerances_;
+    if (by.rtols.empty()) {
+      CVodeSStolerances(cvode, by.rtol, by.atol);
+    } else if (std::ranges::all_of(by.rtols, [&](double r) { return r == by.rtol; })) {
       const sun::Vector atol(N_VClone(y_.get()));
       if (!atol) throw Error("SUNDIALS: out of memory");
-      std::ranges::copy(options_.atols, N_VGetArrayPointer(atol.get()));
-      CVodeSVtolerances(cvode, options_.rtol, atol.get());  // CVODE copies it
+      std::ranges::copy(by.atols, N_VGetArrayPointer(atol.get()));
+      CVodeSVtolerances(cvode, by.rtol, atol.get());  // CVODE copies it
     } else {
-      scene_.weigh_by(options_);
+      scene_.weigh_by(by);
       CVodeWFtolerances(cvode, CvodeScene::weights);
     }
   }
@@ -280,6 +295,7 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
   }
 
   CvodeMethod method_;
+  SolverOptions tolerances_;  // those of CVODE
   sun::ErrorHook hook_;
   std::string last_message_;
   sun::Context context_;

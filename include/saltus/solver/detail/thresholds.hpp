@@ -169,6 +169,10 @@ inline constexpr int short_stretch = 100;
 
 // --- CVODE: cvode_solver.cpp, cvode_scene.hpp
 
+/// [1] From this rtol on BDF gets a smaller part of the tolerance, and of what Newton's iteration may
+/// leave of it [CVODE's unit, 0.1 otherwise]: the local errors of its low orders have one sign, and at
+/// rtol 1e-3 they add up to 1 to 11 tolerances in twenty steps. tests/python/scipy_ivp
+inline constexpr double loose_rtol = 1e-3, loose_share = 0.5, loose_newton = 0.01;
 /// [first steps of CVODE] If the next event may follow within these, a one-step method starts: a
 /// step of order 1 would draw the flight as a line.
 inline constexpr double one_step_flight = 2e4;
