@@ -102,7 +102,7 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
     return options;
   }
   static bool is_loose(CvodeMethod method, const SolverOptions& options) {
-    return method == CvodeMethod::bdf && options.rtol >= thresholds::loose_rtol;
+    return method == CvodeMethod::bdf && options.tightens && options.rtol >= thresholds::loose_rtol;
   }
 
   /// The starter begins stretches inside a run.

@@ -18,6 +18,7 @@ class RadauSolver final : public StepSolver<RadauSolver> {
       : StepSolver(machine, guards, options),
         x0_(n_),
         f0_(n_),
+        f1_(n_),
         residual_(n_),
         scratch_(n_),
         stages_(machine, options),
@@ -81,15 +82,15 @@ class RadauSolver final : public StepSolver<RadauSolver> {
       stages_.forget();
       if (start.first) setups_before_ = stages_.setups();
     }
-    f_known_ = start.flow != nullptr;
-    if (f_known_) f0_ = *start.flow;
+    f1_known_ = start.flow != nullptr;
+    if (f1_known_) f1_ = *start.flow;
     horizon_ = start.horizon;
     order_ = {.stages = order_.stages};
     forget_steps();
   }
   void undo() {
     x1_ = x0_, t1_ = t0_;
-    f_known_ = false;
+    f1_known_ = false;
     forget_steps();
   }
   void forget_steps() {
@@ -116,7 +117,12 @@ class RadauSolver final : public StepSolver<RadauSolver> {
         ++statistics_.rejected;
         continue;
       }
-      const double error = estimate(h) / allowed();
+      const double error = estimate(h);
+      if (error <= 1.0 && !ends_finite()) {
+        ++statistics_.rejected;
+        wish = h * thresholds::blind_retry;
+        continue;
+      }
       if (error <= 1.0) return accept(error, h, wish, rejected);
       ++statistics_.rejected;
       wish = PredictiveControl::reject(error, h, scheme().estimate_order(), safety());
@@ -136,7 +142,8 @@ class RadauSolver final : public StepSolver<RadauSolver> {
     last_length_ = length_;
     std::swap(step_, last_);
     step_.stages = order_.stages;
-    if (!std::exchange(f_known_, false)) machine_->derivative(t0_, x0_.data(), f0_.data());
+    f0_.swap(f1_);
+    if (!std::exchange(f1_known_, false)) machine_->derivative(t0_, x0_.data(), f0_.data());
     if (!f0_.allFinite()) throw_not_finite(*machine_, t0_, x0_.data());
     stages_.prepare(t0_, x0_);
     if (h_ == 0.0) h_ = careful_step(t_stop);
@@ -172,21 +179,36 @@ class RadauSolver final : public StepSolver<RadauSolver> {
     return true;
   }
 
-  /// Root mean square of the error estimate [tolerances] (Hairer, Wanner II, IV.8, (8.19)). It is not
-  /// filtered a second time where it is large at a start, as (8.20) does: a transient that is damped
-  /// within the step leaves no error at its end, but the collocation polynomial is wrong inside.
+  /// Root mean square of the error estimate, in what is allowed (Hairer, Wanner II, IV.8, (8.19)). It
+  /// is not filtered a second time where it is large at a start, as (8.20) does: a transient that is
+  /// damped within the step leaves no error at its end, but the collocation polynomial is wrong
+  /// inside.
   double estimate(double h) {
     finish_stages(h);
     residual_ = h * f0_;
     for (int j = 0; j < step_.stages; ++j) residual_ += scheme().e[j] * step_.z.col(j);
+    scratch_ = residual_ / scheme().gamma;  // what a filter without J leaves
     stages_.filter(residual_);
     step_error_ = in_tolerances(residual_);
-    return std::isfinite(step_error_) ? step_error_ : infinite;
+    const double all = allowed();
+    for (Index i = 0; i < n_; ++i) {
+      const double plain = std::abs(scratch_[i]), left = std::abs(residual_[i]);
+      scratch_[i] = left / allowed_of_part(all, plain > 0.0 ? left / plain : 1.0);
+    }
+    const double error = in_tolerances(scratch_);
+    return std::isfinite(error) ? error : infinite;
+  }
+  /// Whether the derivative is finite at the end of the step, where Newton's iteration has not seen
+  /// it. It is the derivative at the begin of the next step.
+  bool ends_finite() {
+    machine_->derivative(t1_, x1_.data(), f1_.data());
+    f1_known_ = true;
+    return f1_.allFinite();
   }
   void finish_stages(double h) {
     length_ = h;
     x1_ = x0_ + step_.end();
-    looked_ = halved_ = false;
+    looked_ = halved_ = f1_known_ = false;
   }
 
   template <class Vector>
@@ -241,12 +263,13 @@ class RadauSolver final : public StepSolver<RadauSolver> {
   }
 
   Eigen::VectorXd x0_, f0_;  // at the begin of the step
+  Eigen::VectorXd f1_;       // at its end
   Eigen::VectorXd residual_, scratch_;
   StageSolver stages_;
   StagePolynomial step_, last_;  // of the present step, and of the step before
   Halves halves_;
   bool looked_ = false, halved_ = false;
-  bool f_known_ = false;
+  bool f1_known_ = false;
   bool smooth_ = false;  // the solution of the last step continues in the present one
   double h_ = 0.0, horizon_ = infinite, last_length_ = 0.0;
   double step_error_ = 0.0;  // [tolerances] the estimate

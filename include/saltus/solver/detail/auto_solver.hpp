@@ -182,6 +182,7 @@ class AutoSolver final : public Solver {
     if (stiff && !bdf_[form_]) {
       SolverOptions options = options_;
       options.highest_order = highest_order[form_];
+      options.tightens = false;  // the choice is fitted to CVODE's own steps
       bdf_[form_] = make_cvode(*machine_, *guards_, options, CvodeMethod::bdf);
     }
     log_.end(now(), t);

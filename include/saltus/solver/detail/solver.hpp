@@ -30,6 +30,7 @@ struct SolverOptions {
   double first_step = 0.0;                                    ///< [s] 0: chosen by the tolerance
   std::vector<double> rtols = {}, atols = {};                 ///< of each state; empty: one for all
   int highest_order = 5;                                      ///< of BDF
+  bool tightens = true;  ///< BDF takes a part of a loose tolerance: see thresholds::loose_rtol
 
   const double* each_rtol() const { return rtols.empty() ? nullptr : rtols.data(); }
   const double* each_atol() const { return atols.empty() ? nullptr : atols.data(); }
