@@ -1,5 +1,6 @@
 // A monitor is located and logged and changes no bit of the trajectory.
 #include "support/balls.hpp"
+#include "support/cases.hpp"
 #include "support/leaves.hpp"
 
 using namespace saltus;
@@ -130,8 +131,9 @@ TEST_CASE("one to five monitors change no bit of rows and of other events", "[la
   CHECK(a.events.times("top") == b.events.times("top"));
   CHECK(a.context.continuous_state() == b.context.continuous_state());
   CHECK(a.context.discrete_state() == b.context.discrete_state());
-  // A monitor of the same surface fires when the guard fires.
-  CHECK(b.events.times("same") == a.events.times("bounce"));
+  // A monitor of the same surface fires when the guard fires, but for the rounding of a state of 1 m
+  // that falls with 1 m/s or more.
+  CHECK(worst(b.events.times("same"), a.events.times("bounce")) <= 4.0 * eps);
 }
 
 TEST_CASE("a monitor that is beyond zero changes no look at other guards", "[laws][monitors]") {

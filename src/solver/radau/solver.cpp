@@ -111,6 +111,7 @@ class RadauSolver final : public StepSolver<RadauSolver> {
       t1_ = ends ? t_stop : t0_ + h;
       if (!stages_.solve({t0_, &x0_, &f0_, h}, step_, [&] { predict(h); })) {
         if (creep(h)) return;
+        if (!stages_.finite()) note_not_finite(h);
         wish = h * stages_.shorter();
         choose_order(0.0, true);
         step_.stages = order_.stages;
@@ -120,6 +121,7 @@ class RadauSolver final : public StepSolver<RadauSolver> {
       const double error = estimate(h);
       if (error <= 1.0 && !ends_finite()) {
         ++statistics_.rejected;
+        note_not_finite(h);
         wish = h * thresholds::blind_retry;
         continue;
       }
@@ -139,6 +141,7 @@ class RadauSolver final : public StepSolver<RadauSolver> {
 
   void prepare_step(double t_stop) {
     x0_.swap(x1_);
+    not_finite_within_ = 0.0;
     last_length_ = length_;
     std::swap(step_, last_);
     step_.stages = order_.stages;
@@ -256,10 +259,18 @@ class RadauSolver final : public StepSolver<RadauSolver> {
               halves_.solve(stages_, t0_, x0_, x1_, length_, step_);
   }
 
+  /// The lengths of the next steps are no trend of the error.
+  void note_not_finite(double h) {
+    not_finite_within_ = h;
+    control_.forget();
+  }
+
   void require_room(double h) {
     const double smallest = thresholds::least_step_roundings * thresholds::eps * std::abs(t0_);
-    if (!(h > smallest && h >= options_.min_step))
-      throw_step_too_small(*machine_, t0_, h, x0_.data(), options_);
+    if (h > smallest && h >= options_.min_step) return;
+    // The value that was not finite is looked for as far ahead as it was met.
+    const double looks = not_finite_within_ / thresholds::ahead_steps;
+    throw_step_too_small(*machine_, t0_, std::max(h, looks), x0_.data(), options_);
   }
 
   Eigen::VectorXd x0_, f0_;  // at the begin of the step
@@ -272,7 +283,8 @@ class RadauSolver final : public StepSolver<RadauSolver> {
   bool f1_known_ = false;
   bool smooth_ = false;  // the solution of the last step continues in the present one
   double h_ = 0.0, horizon_ = infinite, last_length_ = 0.0;
-  double step_error_ = 0.0;  // [tolerances] the estimate
+  double not_finite_within_ = 0.0;  // [s] of the present step; 0: all values were finite
+  double step_error_ = 0.0;         // [tolerances] the estimate
   PredictiveControl control_;
   OrderFacts order_;
   long setups_before_ = 0;  // of earlier runs

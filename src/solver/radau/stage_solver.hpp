@@ -37,6 +37,8 @@ class StageSolver {
   template <class Start>
   bool solve(const Step& step, StagePolynomial& stages, const Start& start);
   double shorter() const { return shorter_; }
+  /// Whether all derivatives were finite in the last iteration.
+  bool finite() const { return newton_.finite(); }
   const Convergence& convergence() const { return newton_.convergence(); }
   /// The step was accepted: decides whether the Jacobian is kept. Returns whether it is.
   bool keep();

@@ -20,16 +20,14 @@ inline double allowed_estimate(const Scheme& scheme, double rtol, double dense_r
   return std::min(by_order, by_dense);
 }
 
-/// The estimate that a component may have, in units of its tolerance: of `allowed` as much as its
-/// error is not that of a fast part. There, the error of a step has the order of the estimate too,
-/// for it follows the stages: on x' = -1e6 (x - cos t) - sin t it is a tenth of the estimate
-/// (A. Prothero, A. Robinson, Math. Comp. 28 (1974) 145; Hairer, Wanner II, IV.15). `share` is the
-/// part of the estimate that the filter (gamma - h J)^-1 leaves of it: 1 for a slow part, 1 / h
+/// The estimate that a component may have, in units of its tolerance: all that is `allowed` for a
+/// slow part, 1 for a fast part. There the error of a step has the order of the estimate too, for it
+/// follows the stages (A. Prothero, A. Robinson, "On the stability and accuracy of one-step methods
+/// for solving stiff systems", Math. Comp. 28 (1974) 145; Hairer, Wanner II, IV.15). `share` is the
+/// part of the estimate that the filter gamma (gamma - h J)^-1 leaves: 1 for a slow part, gamma / h
 /// |lambda| for a fast one.
 inline double allowed_of_part(double allowed, double share) {
-  constexpr double of_fast_part = 10.0;
-  if (!(allowed > of_fast_part)) return allowed;
-  return of_fast_part * std::pow(allowed / of_fast_part, std::min(share, 1.0));
+  return allowed > 1.0 ? std::pow(allowed, std::min(share, 1.0)) : allowed;
 }
 
 /// Predictive control of the step size (K. Gustafsson, "Control-theoretic techniques for stepsize
