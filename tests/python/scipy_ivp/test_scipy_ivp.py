@@ -9,16 +9,12 @@ from pathlib import Path
 import pytest
 
 OURS = {
-    "test_args": "1e-9 of dense output by Radau, which BDF does not reach at rtol 1e-10",
+    "test_args": "1e-9 of dense output at rtol 1e-10: four tolerances of a state are allowed here",
     "test_duplicate_timestamps": "dense output far beyond the end: nothing is extrapolated",
-    "test_events": "BDF at rtol 1e-3: 1.0 tolerance of error at an event, less is asked for",
-    "test_first_step": "BDF at rtol 1e-3: 5.7 tolerances of error, 5 are allowed",
-    "test_integration": "the bound of njev: a small Jacobian is renewed more often here",
-    "test_integration_complex": "the bound of njev again",
-    "test_integration_const_jac": "BDF at rtol 1e-3: 10.6 tolerances of error, 10 are allowed",
-    "test_integration_sparse_difference": "BDF at rtol 1e-3: 5 % of error, 1 % is allowed",
-    "test_max_step": "BDF at rtol 1e-3: 6.2 tolerances of error, 5 are allowed",
-    "test_t_eval_early_event": "without rows t and y are empty arrays, not empty lists",
+    "test_integration": "the bound of njev by BDF: a small Jacobian is renewed more often here",
+    "test_integration_complex": "the bound of nfev by BDF: it has half of a loose tolerance",
+    "test_integration_const_jac": "the bound of nlu by BDF: it has half of a loose tolerance",
+    "test_t_eval_early_event": "SciPy's own message",
 }
 """the tests that fail, and why; docs/coming_from/scipy.md says it to users"""
 
@@ -35,11 +31,11 @@ def outcomes():
     return json.loads(run.stdout.splitlines()[-1])
 
 
-def test_four_of_five_pass(outcomes):
-    """41 of 51 with SciPy 1.17; other versions have other tests."""
+def test_seven_of_eight_pass(outcomes):
+    """45 of 51 with SciPy 1.17; other versions have other tests."""
     passed = [name for name, outcome in outcomes.items() if outcome == "passed"]
     print(f"{len(passed)} of {len(outcomes)} tests that call solve_ivp pass")
-    assert len(passed) >= 0.8 * len(outcomes)
+    assert len(passed) >= 0.875 * len(outcomes)
 
 
 def test_the_others_are_known(outcomes):
