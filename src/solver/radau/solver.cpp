@@ -104,12 +104,10 @@ class RadauSolver final : public StepSolver<RadauSolver> {
     double wish = std::min({h_, options_.max_step, std::exchange(horizon_, infinite)});
     const double left = t_stop - t0_;
     for (bool rejected = false;; rejected = true) {
-      const bool ends = wish >= left;
-      // Two equal steps are better than a long step and a very short one.
-      const double h = ends ? left : 2.0 * wish > left ? 0.5 * left : wish;
+      const auto [h, ends] = fit(wish, left);
       if (!ends) require_room(h);
       t1_ = ends ? t_stop : t0_ + h;
-      if (!stages_.solve({t0_, &x0_, &f0_, h}, step_, [&] { predict(h); })) {
+      if (!stages_.solve({t0_, &x0_, &f0_, h}, step_, [&, h = h] { predict(h); })) {
         if (creep(h)) return;
         if (!stages_.finite()) note_not_finite(h);
         wish = h * stages_.shorter();
@@ -266,8 +264,7 @@ class RadauSolver final : public StepSolver<RadauSolver> {
   }
 
   void require_room(double h) {
-    const double smallest = thresholds::least_step_roundings * thresholds::eps * std::abs(t0_);
-    if (h > smallest && h >= options_.min_step) return;
+    if (has_room(t0_, h, options_)) return;
     // The value that was not finite is looked for as far ahead as it was met.
     const double looks = not_finite_within_ / thresholds::ahead_steps;
     throw_step_too_small(*machine_, t0_, std::max(h, looks), x0_.data(), options_);

@@ -101,9 +101,7 @@ class RungeKutta final : public StepSolver<RungeKutta<Method, N>, OneStepSolver>
     double wish = std::min({h_, options_.max_step, std::exchange(horizon_, infinite)});
     const double left = t_stop - t0_;
     for (bool rejected = false;; rejected = true) {
-      const bool ends = wish >= left;
-      // Two equal steps are better than a long step and a very short one.
-      const double h = ends ? left : 2.0 * wish > left ? 0.5 * left : wish;
+      const auto [h, ends] = fit(wish, left);
       if (!ends) require_room(h);
       const double error = try_step(h, ends ? t_stop : t0_ + h);
       if (error <= 1.0) {
@@ -244,9 +242,7 @@ class RungeKutta final : public StepSolver<RungeKutta<Method, N>, OneStepSolver>
       throw_not_finite(*machine_, t0_, x0_.data());
   }
   void require_room(double h) {
-    const double smallest = thresholds::least_step_roundings * thresholds::eps * std::abs(t0_);
-    if (!(h > smallest && h >= options_.min_step))
-      throw_step_too_small(*machine_, t0_, h, x0_.data(), options_);
+    if (!has_room(t0_, h, options_)) throw_step_too_small(*machine_, t0_, h, x0_.data(), options_);
   }
 
   double h_ = 0.0;

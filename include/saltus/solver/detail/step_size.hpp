@@ -47,6 +47,26 @@ class StepController {
   double before_ = thresholds::least_remembered;  // log2 of the error of the last step
 };
 
+/// The length of a step towards a stop, and whether it ends there.
+struct StepLength {
+  double h;  // [s]
+  bool ends;
+};
+
+/// The length for a step that should be `wish` long, `left` before the stop: two equal steps are
+/// better than a long step and a very short one.
+inline StepLength fit(double wish, double left) {
+  if (wish >= left) return {left, true};
+  return {2.0 * wish > left ? 0.5 * left : wish, false};
+}
+
+/// Whether a step of this length can be told from none at this time, and is not below
+/// min_minor_step_size.
+inline bool has_room(double t, double h, const SolverOptions& options) {
+  return h > thresholds::least_step_roundings * thresholds::eps * std::abs(t) &&
+         h >= options.min_step;
+}
+
 /// The first step, from the size of x, f and f' (Hairer, Norsett, Wanner I, p. 169, "Starting step
 /// size"). The book's constants are in seconds; here the unit is the time in which x changes by
 /// itself, or by a tolerance if x is smaller, so that another unit of time gives the same steps.
