@@ -14,8 +14,8 @@ VectorFunction taped(const PythonLeaf& leaf, const Slot& slot);
 /// The same for a Jacobian, whose tape returns the matrix row by row.
 MatrixFunction taped_matrix(const PythonLeaf& leaf, const Slot& slot);
 
-/// The same for a reset map or an update, whose tape returns x+, z+, mode+ one after the other, of
-/// those that it writes. `called` is the function itself.
+/// The same for a reset map or an update. Its tape returns the parts of x+, z+, mode+ that it writes,
+/// one after the other. `called` is the function itself.
 ResetMap taped_reset(const PythonLeaf& leaf, Slot slot, ResetMap called);
 
 /// The same matrix with these entries: zero where it has none, without those it has beyond.

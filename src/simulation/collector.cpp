@@ -80,9 +80,9 @@ void Collector::collect_carried(std::size_t e) {
   edges_->carried(e);
 }
 
-/// Collects the zero crossings that act in this pass, by leaf, in declaration order. Those that do
-/// nothing when they fire remain in the list: monitors, and terminal guards that end the run at a
-/// later firing.
+/// Collects the zero crossings that act in this pass, by leaf, in declaration order. The list keeps
+/// guards that do nothing when they fire: monitors, and terminal guards that end the run at a later
+/// firing.
 void Collector::collect_crossings() {
   auto passive = present_->firings.begin();
   for (const Firing& firing : present_->firings) {

@@ -28,7 +28,7 @@ class Callbacks:
         self.version = 0
         self.outcomes: dict[int, list[Any]] = {}  # of the functions of each block, by its number
         self._runs: dict[int, list[_core.Trace | None]] = {}  # what the engine runs of them
-        self._called: dict[Place, Any] = {}  # those that are called all the same, Refused
+        self._called: dict[Place, Any] = {}  # readers of writes: called, though traceable
         self._siblings: Any = None  # while functions are traced
 
     def trace_block(self, number: int, block: Block) -> list[_core.Trace]:

@@ -53,7 +53,7 @@ def _made_complete(system: Any, callbacks: Callbacks) -> None:
 
 
 def explain(system: Any) -> Explanation:
-    """How each callback of a system runs, for one that cannot run yet, too."""
+    """How each callback of a system runs, even if the system is not ready to run yet."""
     try:
         return traced_callbacks(system).explain()
     except ModelError:

@@ -41,8 +41,8 @@ class GuardSet {
   const std::vector<Guard>& all() const noexcept { return guards_; }
   /// The guards that can fire in the present modes.
   const std::vector<std::size_t>& active() const noexcept { return active_; }
-  /// Those of them that stop the solver, and those that do not. They are located apart, because no
-  /// monitor may change a bit of a root.
+  /// The active guards that stop the solver, and the active monitors. They are searched one after the
+  /// other, because no monitor may change a bit of a root.
   const Watch& stopping() const noexcept { return stopping_; }
   const Watch& watching() const noexcept { return watching_; }
   std::int64_t version() const noexcept { return version_; }

@@ -96,7 +96,7 @@ class Narrower {
   std::vector<double> jump_;   // of guards that seem to jump at their root, otherwise 0
   std::vector<std::size_t> crossed_;
   std::vector<std::pair<double, double>> limits_;  // of the watched guards
-  std::vector<std::size_t> few_;                   // those that are narrowed; empty: all
+  std::vector<std::size_t> few_;                   // the slots that are narrowed; empty: all
   double t0_ = 0.0;
 
  private:
