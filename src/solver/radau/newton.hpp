@@ -14,9 +14,11 @@ namespace saltus::radau {
 /// [iterations] 7, 12 and 17 (the code RADAU).
 constexpr int most_iterations(int stages) { return 7 + 5 * (stages - 3) / 2; }
 
-/// Solves z = h (A x I) f(t0 + c h, x0 + z) by simplified Newton iterations. With w = (T^-1 x I) z
-/// each iteration is (Lambda - h J) dw = h (T^-1 x I) f - Lambda w, which falls into systems for each
-/// eigenvalue (Hairer, Wanner II, IV.8, (8.6) to (8.13), times h).
+/// Solves z = h (A x I) f(t0 + c h, x0 + z) by simplified Newton iterations. With r = h (A x I) f - z
+/// each is (Lambda - h J) d = Lambda (T^-1 x I) r, z += (T x I) d, which falls into systems for each
+/// eigenvalue (Hairer, Wanner II, IV.8, (8.6) to (8.13), times h). The
+/// residual r is taken before it is transformed: were its two parts transformed by themselves, their
+/// roundings would grow by |T| |T^-1|, up to 1e3, and break the linear invariants of f.
 class Newton {
  public:
   Newton(Machine& machine, const SolverOptions& options)
@@ -25,7 +27,7 @@ class Newton {
         n_(machine.plan().nx),
         x_(n_),
         tolerance_(n_),
-        w_(n_, most_stages),
+        r_(n_, most_stages),
         f_(n_, most_stages),
         d_(n_, most_stages) {}
 
@@ -52,13 +54,12 @@ class Newton {
 
   template <int S>
   Verdict iterate(const Problem& problem, StageSystems& systems, Eigen::MatrixXd& stages) {
-    Block<S> z(stages.data(), n_, S), w(w_.data(), n_, S);
+    Block<S> z(stages.data(), n_, S);
     convergence_ = {problem.allowed, rounding(), most_iterations(S), problem.factor};
     for (Index i = 0; i < n_; ++i)
       tolerance_[i] = 1.0 / options_.tolerance(i, std::abs(problem.x0[i]));
-    w = z.lazyProduct(matrix<S>(RadauTable<S>::t_inverse).transpose());
     for (;;) {
-      const double size = correct<S>(problem, systems, z, w);
+      const double size = correct<S>(problem, systems, z);
       if (finite_ = std::isfinite(size); !finite_) return Verdict::diverged;
       const Verdict verdict = convergence_.look(size);
       if (verdict == Verdict::go_on) continue;
@@ -102,15 +103,15 @@ class Newton {
 
   /// One iteration. Returns the root mean square of the correction of z [tolerances].
   template <int S>
-  double correct(const Problem& problem, StageSystems& systems, Block<S>& z, Block<S>& w) {
-    Block<S> f(f_.data(), n_, S), d(d_.data(), n_, S);
+  double correct(const Problem& problem, StageSystems& systems, Block<S>& z) {
+    Block<S> f(f_.data(), n_, S), r(r_.data(), n_, S), d(d_.data(), n_, S);
     evaluate<S>(problem, z, f);
-    d = f.lazyProduct(matrix<S>(RadauTable<S>::t_inverse).transpose());
-    d *= problem.h;
-    subtract_product<S>(w, d);
+    r = f.lazyProduct(matrix<S>(RadauTable<S>::a).transpose());
+    r = problem.h * r - z;
+    d = r.lazyProduct(matrix<S>(RadauTable<S>::t_inverse).transpose());
+    multiply<S>(d);
     systems.solve_real(d.data());
     for (int k = 0; k < (S - 1) / 2; ++k) systems.solve_pair(k, &d(0, 2 * k + 1), &d(0, 2 * k + 2));
-    w += d;
     f = d.lazyProduct(matrix<S>(RadauTable<S>::t).transpose());
     z += f;
     double sum = 0.0;
@@ -123,16 +124,19 @@ class Newton {
     return std::sqrt(sum / static_cast<double>(S * n_));
   }
 
-  /// d -= Lambda w.
+  /// d becomes Lambda d.
   template <int S>
-  void subtract_product(const Block<S>& w, Block<S>& d) {
+  void multiply(Block<S>& d) {
     using Table = RadauTable<S>;
-    d.col(0) -= Table::gamma * w.col(0);
+    d.col(0) *= Table::gamma;
     for (int k = 0; k < (S - 1) / 2; ++k) {
       const double alpha = Table::alpha[k], beta = Table::beta[k];
-      const int re = 2 * k + 1, im = re + 1;
-      d.col(re) -= alpha * w.col(re) - beta * w.col(im);
-      d.col(im) -= beta * w.col(re) + alpha * w.col(im);
+      double *re = &d(0, 2 * k + 1), *im = &d(0, 2 * k + 2);
+      for (Index i = 0; i < n_; ++i) {
+        const double part = re[i];
+        re[i] = alpha * part - beta * im[i];
+        im[i] = beta * part + alpha * im[i];
+      }
     }
   }
 
@@ -147,7 +151,7 @@ class Newton {
   SolverOptions options_;
   Index n_;
   Eigen::VectorXd x_, tolerance_;
-  Eigen::MatrixXd w_, f_, d_;
+  Eigen::MatrixXd r_, f_, d_;
   Convergence convergence_{1.0, 0.0, 1, 1.0};
   bool finite_ = true;
 };
