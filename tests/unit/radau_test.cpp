@@ -1,4 +1,5 @@
-// The Radau methods: their coefficients, their decisions, and their orders.
+// The Radau methods: their coefficients and their decisions.
+#include "saltus/solver/detail/radau/allowed_estimate.hpp"
 #include "saltus/solver/detail/radau/convergence.hpp"
 #include "saltus/solver/detail/radau/stage_polynomial.hpp"
 #include "saltus/solver/detail/radau/step_control.hpp"
@@ -11,34 +12,13 @@ using Catch::Matchers::WithinRel;
 
 namespace {
 
-/// x'' = -x from (1, 0): x = cos t. It is linear, so that Newton's iteration is exact.
-Leaf oscillator(double level) {
-  return Leaf("oscillator", [level](Leaf& l) {
+/// x'' = -x from (1, 0): x = cos t.
+Leaf oscillator() {
+  return Leaf("oscillator", [](Leaf& l) {
     l.declare_continuous_state(
         {.initial = vec({1.0, 0.0}),
          .ode = [](const At& at, VectorRef xdot) { xdot << at.x[1], -at.x[0]; }});
-    l.declare_continuous_state_output("x");
-    l.declare_zero_crossing(
-        {.name = "level",
-         .guard = [level](const At& at) { return at.x[0] - level; },
-         .reset_map = [](const At& at,
-                         Next& next) { next.set_continuous_state({at.x[0], at.x[1]}); },
-         .direction = Direction::positive_then_non_positive});
   });
-}
-
-/// A run with steps of h. The tolerance is so loose that no step is rejected; at most nine steps are
-/// taken, so that the order stays five.
-Results run(double h, double level, std::vector<double> save_at = {}) {
-  const Leaf leaf = oscillator(level);
-  return simulate(leaf, leaf.create_context(), {0.0, 2.0},
-                  {.rtol = 1e-2,
-                   .atol = 1e-2,
-                   .ode_solver_method = Method::radau,
-                   .max_minor_step_size = h,
-                   .first_step = h,
-                   .recorded_signals = {{"x", leaf.output(0)}},
-                   .save_at = std::move(save_at)});
 }
 
 template <int S>
@@ -147,49 +127,41 @@ TEST_CASE("the order of the Radau methods follows Newton's iteration", "[radau]"
   CHECK(next_stages({.stages = 3, .newton_failed = true}) == 3);
 }
 
-TEST_CASE("the allowed estimate lets a step be as long as its own error allows", "[radau]") {
+TEST_CASE("a slow part may have the estimate of a step as long as its own error allows",
+          "[radau]") {
   // 0.1 rtol^(4/6 - 1) = 0.1 * 100 at 1e-6; at 1e-14 the dense output bounds it: 4 * 2^4 / share.
   const radau::Scheme three = radau::scheme_of(3);
-  CHECK_THAT(radau::allowed_estimate(three, 1e-6, 4.0), WithinRel(10.0, 1e-12));
-  CHECK_THAT(radau::allowed_estimate(three, 1e-14, 4.0),
-             WithinRel(64.0 / three.dense_share, 1e-12));
+  CHECK_THAT(radau::slow_estimate(three, 1e-6, 4.0), WithinRel(10.0, 1e-12));
+  CHECK_THAT(radau::slow_estimate(three, 1e-14, 4.0), WithinRel(64.0 / three.dense_share, 1e-12));
 }
 
-TEST_CASE("steps of three stages have order 5, their dense output order 3 and more", "[radau]") {
-  // The error at 2 s, and the largest in between, for 4 and 8 steps.
-  std::vector<double> rows;
-  for (int i = 1; i < 40; ++i) rows.push_back(0.05 * i + 1e-3);
-  double end[2], inside[2] = {0.0, 0.0};
-  for (const int k : {0, 1}) {
-    const auto results = run(k == 0 ? 0.5 : 0.25, -2.0, rows);
-    CHECK(results.statistics.steps == (k == 0 ? 4 : 8));
-    end[k] = (results.context.continuous_state() - vec({std::cos(2.0), -std::sin(2.0)})).norm();
-    const auto x = results.output("x");
-    for (std::size_t i = 0; i < results.time.size(); ++i) {
-      const auto row = static_cast<Index>(i);
-      inside[k] = std::max(inside[k], std::abs(x(row, 0) - std::cos(results.time[i])));
-    }
-  }
-  CHECK(std::log2(end[0] / end[1]) > 4.7);
-  CHECK(std::log2(inside[0] / inside[1]) > 2.7);
-  CHECK(end[1] < 0.1 * inside[1]);  // which is why a step that an event cuts is taken again
+TEST_CASE("a fast part may have the estimate of which S times is the error", "[radau]") {
+  const int stages = GENERATE(3, 5, 7);
+  const radau::Scheme scheme = radau::scheme_of(stages);
+  // The barycentric weights are 1 / w' at the nodes 0 and 1 of the node polynomial w.
+  CHECK_THAT(std::abs(scheme.weights[0] / scheme.weights[stages]), WithinRel(stages, 1e-12));
+  CHECK(radau::fast_estimate(scheme, 10.0) == 2.0 / stages);
+  CHECK(radau::fast_estimate(scheme, 0.1) == 0.1);
+  const radau::AllowedEstimate allowed(scheme, 1e-6, 4.0);
+  const double slow = radau::slow_estimate(scheme, 1e-6, 4.0);
+  CHECK(allowed.of(1.0) == slow);
+  CHECK_THAT(allowed.of(0.5), WithinRel(std::sqrt(slow * 2.0 / stages), 1e-12));
+  CHECK_THAT(allowed.of(0.0), WithinRel(2.0 / stages, 1e-12));
 }
 
-TEST_CASE("an event has the order of the steps, not that of the dense output", "[radau]") {
-  // x = cos t falls through 0.35 at 1.213 s, inside the third step of 0.5 and the fifth of 0.25.
-  const double level = 0.35, exact = std::acos(level);
-  double error[2];
-  for (const int k : {0, 1}) {
-    const auto results = run(k == 0 ? 0.5 : 0.25, level);
-    REQUIRE(results.events.size() == 1);
-    error[k] = std::abs(results.events[0].time - exact);
-  }
-  // A point at a fixed part of a step would have the order 4 of the collocation polynomial.
-  CHECK(std::log2(error[0] / error[1]) > 4.5);
+TEST_CASE("two tries of a step tell what it has inherited from what is its own", "[radau]") {
+  using radau::inherited_estimate;
+  // Estimates 3 + 8 and 3 + 1 of steps of h and h / 2 with three stages, with both signs.
+  CHECK(inherited_estimate(11.0, 4.0, 0.125, 10.0) == 3.0);
+  CHECK(inherited_estimate(-5.0, 2.0, 0.125, 10.0) == 3.0);
+  // An error that is the step's own shrinks, and nothing is excused; a transient is resolved.
+  CHECK(inherited_estimate(8.0, 1.0, 0.125, 10.0) == 0.0);
+  CHECK(inherited_estimate(1e6, 1e6, 0.125, 4.0) == 4.0);
+  CHECK(inherited_estimate(-1e6, -1e6, 0.125, 4.0) == -4.0);
 }
 
 TEST_CASE("looks inside steps change no bit of them", "[radau]") {
-  const Leaf leaf = oscillator(-2.0);
+  const Leaf leaf = oscillator();
   const auto end = [&](std::vector<double> rows) {
     return simulate(leaf, leaf.create_context(), {0.0, 20.0},
                     {.rtol = 1e-10,
@@ -204,7 +176,7 @@ TEST_CASE("looks inside steps change no bit of them", "[radau]") {
 }
 
 TEST_CASE("matrices that cannot be factorised are refused with what to take instead", "[radau]") {
-  const Leaf leaf = oscillator(0.0);
+  const Leaf leaf = oscillator();
   const auto refused = message<ModelError>([&] {
     simulate(leaf, leaf.create_context(), {0.0, 1.0},
              {.ode_solver_method = Method::radau, .linear_solver = LinearSolver::gmres});

@@ -1,6 +1,7 @@
-// The stepper of the Radau methods: error estimate, length and order of steps, looks inside them.
+// The stepper of the Radau methods: length and order of steps, looks inside them.
 #include <utility>
 
+#include "error_estimate.hpp"
 #include "halves.hpp"
 #include "saltus/solver/detail/radau.hpp"
 #include "saltus/solver/detail/radau/step_control.hpp"
@@ -24,7 +25,8 @@ class RadauSolver final : public StepSolver<RadauSolver> {
         stages_(machine, options),
         step_(n_),
         last_(n_),
-        halves_(n_) {}
+        halves_(n_),
+        error_(n_, options) {}
 
   void inside_step(double u, double* x) {
     if (!looked_) look_inside();
@@ -113,6 +115,7 @@ class RadauSolver final : public StepSolver<RadauSolver> {
         wish = h * stages_.shorter();
         choose_order(0.0, true);
         step_.stages = order_.stages;
+        error_.forget_tries();
         ++statistics_.rejected;
         continue;
       }
@@ -133,13 +136,11 @@ class RadauSolver final : public StepSolver<RadauSolver> {
   }
 
   Scheme scheme() const { return scheme_of(step_.stages); }
-  double allowed() const {
-    return allowed_estimate(scheme(), options_.rtol, thresholds::dense_room);
-  }
 
   void prepare_step(double t_stop) {
     x0_.swap(x1_);
     not_finite_within_ = 0.0;
+    error_.forget_tries();
     last_length_ = length_;
     std::swap(step_, last_);
     step_.stages = order_.stages;
@@ -170,8 +171,8 @@ class RadauSolver final : public StepSolver<RadauSolver> {
   bool creep(double h) {
     for (int j = 0; j < step_.stages; ++j) step_.z.col(j) = scheme().c[j] * h * f0_;
     finish_stages(h);
-    step_error_ = in_tolerances(step_.end());
-    if (!(step_error_ <= 0.5)) return false;
+    error_.set_size(in_tolerances(step_.end()));
+    if (!(error_.size() <= 0.5)) return false;
     machine_->derivative(t1_, x1_.data(), residual_.data());
     if (!((residual_ - f0_).norm() > 0.1 * f0_.norm())) return false;
     ++statistics_.steps;
@@ -180,24 +181,9 @@ class RadauSolver final : public StepSolver<RadauSolver> {
     return true;
   }
 
-  /// Root mean square of the error estimate, in what is allowed (Hairer, Wanner II, IV.8, (8.19)). It
-  /// is not filtered a second time where it is large at a start, as (8.20) does: a transient that is
-  /// damped within the step leaves no error at its end, but the collocation polynomial is wrong
-  /// inside.
   double estimate(double h) {
     finish_stages(h);
-    residual_ = h * f0_;
-    for (int j = 0; j < step_.stages; ++j) residual_ += scheme().e[j] * step_.z.col(j);
-    scratch_ = residual_ / scheme().gamma;  // what a filter without J leaves
-    stages_.filter(residual_);
-    step_error_ = in_tolerances(residual_);
-    const double all = allowed();
-    for (Index i = 0; i < n_; ++i) {
-      const double plain = std::abs(scratch_[i]), left = std::abs(residual_[i]);
-      scratch_[i] = left / allowed_of_part(all, plain > 0.0 ? left / plain : 1.0);
-    }
-    const double error = in_tolerances(scratch_);
-    return std::isfinite(error) ? error : infinite;
+    return error_.look(stages_, {t0_, &x0_, &f0_, h}, step_, x1_);
   }
   /// Whether the derivative is finite at the end of the step, where Newton's iteration has not seen
   /// it. It is the derivative at the begin of the next step.
@@ -250,7 +236,7 @@ class RadauSolver final : public StepSolver<RadauSolver> {
   }
 
   /// [tolerances] Of the collocation polynomial inside the step.
-  double dense_error() const { return step_error_ * scheme().dense_share; }
+  double dense_error() const { return error_.size() * scheme().dense_share; }
   void look_inside() {
     looked_ = true;
     halved_ = dense_error() > thresholds::dense_room &&
@@ -276,12 +262,12 @@ class RadauSolver final : public StepSolver<RadauSolver> {
   StageSolver stages_;
   StagePolynomial step_, last_;  // of the present step, and of the step before
   Halves halves_;
+  ErrorEstimate error_;
   bool looked_ = false, halved_ = false;
   bool f1_known_ = false;
   bool smooth_ = false;  // the solution of the last step continues in the present one
   double h_ = 0.0, horizon_ = infinite, last_length_ = 0.0;
   double not_finite_within_ = 0.0;  // [s] of the present step; 0: all values were finite
-  double step_error_ = 0.0;         // [tolerances] the estimate
   PredictiveControl control_;
   OrderFacts order_;
   long setups_before_ = 0;  // of earlier runs

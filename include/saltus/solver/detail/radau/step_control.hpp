@@ -8,28 +8,6 @@
 
 namespace saltus::radau {
 
-/// The error estimate that a step may have [tolerances]. The estimate shrinks as h^(S + 1), the
-/// error of the step as h^(2 S). 0.1 rtol^((S + 1) / (2 S)) in place of rtol lets the step be as long
-/// as its own error allows (the codes RADAU5 and RADAU by Hairer and Wanner). The collocation
-/// polynomial has the order of the estimate. Beyond `dense_room` times 2^(S + 1) of its own error
-/// two halves of a step would not bring it within the tolerance.
-inline double allowed_estimate(const Scheme& scheme, double rtol, double dense_room) {
-  const double part = scheme.estimate_order() / scheme.local_order();
-  const double by_order = 0.1 * std::pow(rtol, part - 1.0);
-  const double by_dense = dense_room * std::exp2(scheme.estimate_order()) / scheme.dense_share;
-  return std::min(by_order, by_dense);
-}
-
-/// The estimate that a component may have, in units of its tolerance: all that is `allowed` for a
-/// slow part, 1 for a fast part. There the error of a step has the order of the estimate too, for it
-/// follows the stages (A. Prothero, A. Robinson, "On the stability and accuracy of one-step methods
-/// for solving stiff systems", Math. Comp. 28 (1974) 145; Hairer, Wanner II, IV.15). `share` is the
-/// part of the estimate that the filter gamma (gamma - h J)^-1 leaves: 1 for a slow part, gamma / h
-/// |lambda| for a fast one.
-inline double allowed_of_part(double allowed, double share) {
-  return allowed > 1.0 ? std::pow(allowed, std::min(share, 1.0)) : allowed;
-}
-
 /// Predictive control of the step size (K. Gustafsson, "Control-theoretic techniques for stepsize
 /// selection in implicit Runge-Kutta methods", ACM TOMS 20 (1994) 496; Hairer, Wanner II, IV.8,
 /// (8.25)). An error of 1 is allowed.

@@ -1,0 +1,80 @@
+// The error estimate of a step.
+#pragma once
+
+#include <array>
+#include <limits>
+
+#include "saltus/solver/detail/radau/allowed_estimate.hpp"
+#include "stage_solver.hpp"
+
+namespace saltus::radau {
+
+/// The embedded formula (gamma - h J)^-1 (h f0 + sum_j e_j z_j) (Hairer, Wanner II, IV.8, (8.19)). It
+/// is not filtered a second time where it is large at a start, as (8.20) does: a transient that is
+/// damped within the step leaves no error at its end, but the collocation polynomial is wrong
+/// inside.
+class ErrorEstimate {
+ public:
+  ErrorEstimate(Index n, const SolverOptions& options)
+      : options_(options), estimate_(n), plain_(n), before_(n), tolerance_(n) {
+    for (std::size_t k = 0; k < allowed_.size(); ++k)
+      allowed_[k].emplace(scheme_of(stage_counts[k]), options.rtol, thresholds::dense_room);
+  }
+
+  /// Another step begins, or the same one with other stages: no try of it is known.
+  void forget_tries() { tried_ = 0.0; }
+
+  /// Root mean square of the estimate, in what is allowed: infinite if it is not finite. `x1` is the
+  /// end of the step.
+  double look(StageSolver& solver, const Step& step, const StagePolynomial& stages,
+              const Eigen::VectorXd& x1) {
+    const Scheme scheme = scheme_of(stages.stages);
+    before_.swap(estimate_);
+    estimate_ = step.h * *step.f;
+    for (int j = 0; j < stages.stages; ++j) estimate_ += scheme.e[j] * stages.z.col(j);
+    plain_ = estimate_ / scheme.gamma;  // what a filter without J leaves
+    solver.filter(estimate_);
+    for (Index i = 0; i < estimate_.size(); ++i)
+      tolerance_[i] = options_.tolerance(i, std::max(std::abs((*step.x)[i]), std::abs(x1[i])));
+    size_ = mean(estimate_);
+    const double error = in_allowed(scheme, step.h);
+    tried_ = step.h;
+    return std::isfinite(error) ? error : std::numeric_limits<double>::infinity();
+  }
+
+  /// [tolerances] Root mean square of the last estimate.
+  double size() const { return size_; }
+  /// For a step that is accepted without an estimate.
+  void set_size(double size) { size_ = size; }
+
+ private:
+  /// Root mean square in what is allowed. `plain_` is overwritten.
+  double in_allowed(const Scheme& scheme, double h) {
+    const AllowedEstimate& allowed = *allowed_[static_cast<std::size_t>((scheme.stages - 3) / 2)];
+    const bool again = h < tuning::alike_tries * tried_;
+    const double shrunk = again ? std::pow(h / tried_, scheme.stages) : 0.0;
+    for (Index i = 0; i < estimate_.size(); ++i) {
+      const double plain = std::abs(plain_[i]), left = std::abs(estimate_[i]);
+      const double share = left < plain ? left / plain : 1.0;
+      double own = estimate_[i];
+      if (again) {
+        const double bound = thresholds::dense_room * tolerance_[i];
+        own -= (1.0 - share) * inherited_estimate(before_[i], estimate_[i], shrunk, bound);
+      }
+      plain_[i] = own / allowed.of(share);
+    }
+    return mean(plain_);
+  }
+
+  double mean(const Eigen::VectorXd& v) const {
+    return std::sqrt(v.cwiseQuotient(tolerance_).squaredNorm() / static_cast<double>(v.size()));
+  }
+
+  SolverOptions options_;
+  std::array<std::optional<AllowedEstimate>, stage_counts.size()> allowed_;
+  Eigen::VectorXd estimate_, plain_, before_, tolerance_;
+  double tried_ = 0.0;  // [s] length of the try before; 0: none
+  double size_ = 0.0;
+};
+
+}  // namespace saltus::radau
