@@ -6,11 +6,13 @@
 #include <condition_variable>
 #include <exception>
 #include <mutex>
+#include <optional>
 #include <thread>
 
 #include "saltus/base/detail/forced_unwind.hpp"
 #include "saltus/plan/compile.hpp"
 #include "saltus/plan/detail/memory.hpp"
+#include "saltus/solver/detail/one_thread.hpp"
 
 namespace saltus {
 
@@ -181,9 +183,14 @@ Index Ensemble::run(const Take& take, const EnsembleOptions& how) const {
   const Index threads = std::min(how.threads == 0 ? cores : Index{how.threads}, size_);
   Progress progress;
   if (threads <= 1) {
+    std::optional<OneThread> alone;
+    if (how.threads == 1) alone.emplace();
     Worker(*this, take, progress, how.watch).run();
   } else {
-    const auto runs = [&] { Worker(*this, take, progress, {}).run(); };
+    const auto runs = [&] {
+      const OneThread alone;
+      Worker(*this, take, progress, {}).run();
+    };
     const auto work = [&] {
       how.around ? how.around(runs) : runs();
       const std::lock_guard lock(progress.mutex);

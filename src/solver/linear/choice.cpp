@@ -52,20 +52,22 @@ void find_band(const Sparsity& places, LinearChoice& choice) {
 std::string automatic(const Jacobian& jacobian, Index n, LinearChoice& choice) {
   const Sparsity& places = jacobian.pattern().places;
   choice.solver = LinearSolver::dense;
+  const auto size = static_cast<double>(n);
+  choice.time = dense_time(size);
   if (n <= few_states) return "few states";
   if (jacobian.pattern().overflow) {
     choice.solver = LinearSolver::gmres;
     return "without a preconditioner: declare the sparsity of the largest blocks for a better one";
   }
   find_band(places, choice);
-  const auto size = static_cast<double>(n);
-  const double dense = dense_time(size), band = band_time(size, choice.band);
+  const double dense = choice.time, band = band_time(size, choice.band);
   if (band <= dense && choice.band.total() <= narrow_band) {
-    choice.solver = LinearSolver::band;
+    choice.solver = LinearSolver::band, choice.time = band;
     return "the band is narrow";
   }
   const Fill fill = predicted_fill(places, most_factor_entries);
   const double sparse = sparse_time(size, fill), direct = std::min({dense, band, sparse});
+  choice.time = direct;
   if (direct > gmres_time(places.size())) {
     choice.solver = LinearSolver::gmres;
     return "factors would fill up";
@@ -76,6 +78,19 @@ std::string automatic(const Jacobian& jacobian, Index n, LinearChoice& choice) {
   return text("about ", fill.entries, " entries in its factors");
 }
 
+void as_asked(const Jacobian& jacobian, Index n, LinearChoice& choice) {
+  const Sparsity& places = jacobian.pattern().places;
+  const auto size = static_cast<double>(n);
+  if (choice.solver == LinearSolver::dense) choice.time = dense_time(size);
+  if (jacobian.pattern().overflow) return;
+  if (choice.solver == LinearSolver::band) {
+    find_band(places, choice);
+    choice.time = band_time(size, choice.band);
+  }
+  if (choice.solver == LinearSolver::sparse)
+    choice.time = sparse_time(size, predicted_fill(places, most_factor_entries));
+}
+
 }  // namespace
 
 LinearChoice choose_linear_solver(const Jacobian& jacobian, Index n, LinearSolver asked) {
@@ -83,8 +98,8 @@ LinearChoice choose_linear_solver(const Jacobian& jacobian, Index n, LinearSolve
   std::string why = "asked for";
   if (asked == LinearSolver::automatic)
     why = automatic(jacobian, n, choice);
-  else if (asked == LinearSolver::band && !jacobian.pattern().overflow)
-    find_band(jacobian.pattern().places, choice);
+  else
+    as_asked(jacobian, n, choice);
   choice.why = text(facts(jacobian, n, choice), "; ", why);
   return choice;
 }

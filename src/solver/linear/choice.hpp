@@ -14,6 +14,7 @@ struct LinearChoice {
   Bandwidth band = {};
   std::vector<int> position = {};  // of each state in the band; empty: natural order
   std::string why = {};            // "n = 20, ..."
+  double time = 0.0;               // [ns] estimated, of a factorisation; 0: not known
 };
 
 /// Chooses the requested solver; for `automatic` the solver with the least estimated time (docs:

@@ -3,6 +3,9 @@
 
 #include <algorithm>
 
+#include "saltus/solver/detail/one_thread.hpp"
+#include "saltus/solver/detail/radau/side_by_side.hpp"
+
 namespace saltus::radau {
 
 template <class T>
@@ -16,15 +19,31 @@ bool StageSystems::System<T>::factor(const LinearStructure& structure,
   return solver->factor(matrix.data());
 }
 
-bool StageSystems::factor(const std::vector<double>& jacobian, const Scheme& scheme, double h) {
-  stages_ = 0;
-  if (!real_.factor(*structure_, jacobian, h, scheme.gamma)) return false;
-  for (int k = 0; k < scheme.pairs(); ++k) {
+bool StageSystems::factor_real(const std::vector<double>& jacobian, const Scheme& scheme,
+                               double h) {
+  return real_.factor(*structure_, jacobian, h, scheme.gamma);
+}
+
+bool StageSystems::factor_pairs(int first, const std::vector<double>& jacobian,
+                                const Scheme& scheme, double h) {
+  for (int k = first; k < scheme.pairs(); k += 2) {
     const Complex eigenvalue(scheme.alpha[k], scheme.beta[k]);
     if (!pairs_[static_cast<std::size_t>(k)].factor(*structure_, jacobian, h, eigenvalue))
       return false;
   }
+  return true;
+}
+
+bool StageSystems::factor(const std::vector<double>& jacobian, const Scheme& scheme, double h) {
+  stages_ = 0;
   right_.resize(structure_->layout().diagonal.size());
+  const bool apart =
+      side_by_side(structure_->choice().time, scheme.pairs(), cores_, OneThread::asked());
+  bool even = false, others = false;
+  call_both(
+      apart, [&] { even = factor_pairs(0, jacobian, scheme, h); },
+      [&] { others = factor_real(jacobian, scheme, h) && factor_pairs(1, jacobian, scheme, h); });
+  if (!even || !others) return false;
   stages_ = scheme.stages, h_ = h;
   return true;
 }

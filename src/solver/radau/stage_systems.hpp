@@ -3,6 +3,7 @@
 
 #include <array>
 #include <memory>
+#include <thread>
 #include <vector>
 
 #include "../linear/scalar.hpp"
@@ -19,8 +20,8 @@ class StageSystems {
   /// For matrices of this structure, which has to be direct.
   explicit StageSystems(const LinearStructure& structure) : structure_(&structure) {}
 
-  /// Factorises for a step of length h; `jacobian` has the values of J in the layout. False if a
-  /// matrix is singular.
+  /// Factorises for a step of length h, large matrices in two threads; `jacobian` has the values of J
+  /// in the layout. False if a matrix is singular.
   bool factor(const std::vector<double>& jacobian, const Scheme& scheme, double h);
   /// Whether the last factorisation was for this step.
   bool serves(const Scheme& scheme, double h) const { return stages_ == scheme.stages && h_ == h; }
@@ -41,10 +42,15 @@ class StageSystems {
     std::unique_ptr<FactorisationOf<T>> solver;
   };
 
+  bool factor_real(const std::vector<double>& jacobian, const Scheme& scheme, double h);
+  /// Of every second pair, from `first` on.
+  bool factor_pairs(int first, const std::vector<double>& jacobian, const Scheme& scheme, double h);
+
   const LinearStructure* structure_;
   System<double> real_;
   std::array<System<Complex>, most_pairs> pairs_;
   std::vector<Complex> right_;
+  unsigned cores_ = std::thread::hardware_concurrency();
   int stages_ = 0;  // of the last factorisation; 0: none
   double h_ = 0.0;
 };
