@@ -11,7 +11,7 @@ namespace saltus {
 
 namespace {
 
-using thresholds::eps;
+using thresholds::eps, thresholds::unexplained;
 
 /// Index of entry (row, column) in the pattern.
 Index entry_of(const Sparsity& places, Index row, Index column) {
@@ -187,7 +187,8 @@ bool Jacobian::take(const Own& own, double t, const double* x, const double* xdo
     state.sparse_jacobian(*leaf.system, at, VectorRef(block_.data(), own.size));
   else
     state.jacobian(*leaf.system, at, MatrixRef(block_.data(), leaf.nx, leaf.nx));
-  if (!block_.head(own.size).allFinite() && !mend(own, t, x, xdot, by)) return false;
+  if ((distrusted_ || !block_.head(own.size).allFinite()) && !mend(own, t, x, xdot, by))
+    return false;
   for (const Copy& copy : own.copies) {
     out[place(copy.entry)] = machine_->resting().rests(copy.row) ? 0.0 : block_[copy.from];
     block_[copy.from] = 0.0;
@@ -197,7 +198,7 @@ bool Jacobian::take(const Own& own, double t, const double* x, const double* xdo
   return true;
 }
 
-/// Replaces entries that are not finite by differences of the leaf alone, because its inputs do not
+/// Replaces entries that are not finite, or all of them, by differences of the leaf alone, because its inputs do not
 /// depend on its own states. False if a difference is not finite either.
 bool Jacobian::mend(const Own& own, double t, const double* x, const double* xdot,
                     const Increments& by) {
@@ -209,8 +210,8 @@ bool Jacobian::mend(const Own& own, double t, const double* x, const double* xdo
   int column = -1;
   double moved = 0.0;
   for (const Copy& bad : own.copies) {
-    if (std::isfinite(block_[bad.from])) continue;
-    if (first_mended_.empty()) first_mended_ = text_of(bad, leaf, t);
+    const double declared = block_[bad.from];
+    if (!distrusted_ && std::isfinite(declared)) continue;
     if (std::exchange(column, bad.column) != bad.column) {
       const double before = x_[column];
       x_[column] += increment(column, before, least, by);
@@ -220,15 +221,24 @@ bool Jacobian::mend(const Own& own, double t, const double* x, const double* xdo
     }
     block_[bad.from] = (f_[bad.row] - moved_[bad.row]) / moved;
     if (!std::isfinite(block_[bad.from])) return false;
+    note(bad, leaf, t, declared, block_[bad.from]);
   }
   ++mended_;
   return true;
 }
 
-std::string Jacobian::text_of(const Copy& bad, const PlanLeaf& leaf, double t) {
-  return text("entry (", bad.row - leaf.x, ", ", bad.column - leaf.x,
-              ") of the Jacobian of block '", leaf.path, "' was not finite at t = ", t,
-              " s: differences stood in, in ");
+/// Keeps the first entry that is not finite, or is not the difference that was found.
+void Jacobian::note(const Copy& bad, const PlanLeaf& leaf, double t, double declared,
+                    double found) {
+  const double size = std::abs(declared) + std::abs(found);
+  const bool finite = std::isfinite(declared);
+  if (!first_mended_.empty() || (finite && std::abs(declared - found) <= unexplained * size))
+    return;
+  first_mended_ =
+      text("entry (", bad.row - leaf.x, ", ", bad.column - leaf.x, ") of the Jacobian of block '",
+           leaf.path, "' was ",
+           finite ? text(declared, ", and the difference ", found, ",") : std::string("not finite"),
+           " at t = ", t, " s: differences stood in, in ");
 }
 
 void Jacobian::ode_of(const PlanLeaf& leaf, double t, Eigen::VectorXd& xdot) {
@@ -237,7 +247,8 @@ void Jacobian::ode_of(const PlanLeaf& leaf, double t, Eigen::VectorXd& xdot) {
 }
 
 std::string Jacobian::words() const {
-  return mended_ == 0 ? std::string() : text("; ", first_mended_, mended_, " evaluation(s)");
+  return first_mended_.empty() ? std::string()
+                               : text("; ", first_mended_, mended_, " evaluation(s)");
 }
 
 void Jacobian::refuse(const Own& own, double t, const char* what) const {

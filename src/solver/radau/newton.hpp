@@ -63,15 +63,22 @@ class Newton {
       if (finite_ = std::isfinite(size); !finite_) return Verdict::diverged;
       const Verdict verdict = convergence_.look(size);
       if (verdict == Verdict::go_on) continue;
-      if (verdict == Verdict::converged && convergence_.at_rounding() &&
-          !is_rounding<S>(problem, z))
+      const bool doubtful =
+          convergence_.at_rounding() || (size == 0.0 && !residual<S>().isZero(0.0));
+      if (verdict == Verdict::converged && doubtful && !is_rounding<S>(problem, z))
         return Verdict::diverged;
       return verdict;
     }
   }
 
+  template <int S>
+  Block<S> residual() {
+    return Block<S>(r_.data(), n_, S);
+  }
+
   /// Whether rounding explains the residual of the last stage, z_S - h sum_j a_Sj f_j. If the
-  /// Jacobian has a difference across a jump of f, all corrections are small, whatever the residual.
+  /// Jacobian has a difference across a jump of f, or is wrong, all corrections are small, whatever
+  /// the residual.
   /// The rounding of f is seen by a relative change of the states of 1e-8.
   template <int S>
   bool is_rounding(const Problem& problem, const Block<S>& z) {
@@ -104,7 +111,7 @@ class Newton {
   /// One iteration. Returns the root mean square of the correction of z [tolerances].
   template <int S>
   double correct(const Problem& problem, StageSystems& systems, Block<S>& z) {
-    Block<S> f(f_.data(), n_, S), r(r_.data(), n_, S), d(d_.data(), n_, S);
+    Block<S> f(f_.data(), n_, S), r = residual<S>(), d(d_.data(), n_, S);
     evaluate<S>(problem, z, f);
     r = f.lazyProduct(matrix<S>(RadauTable<S>::a).transpose());
     r = problem.h * r - z;

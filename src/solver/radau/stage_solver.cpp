@@ -1,6 +1,10 @@
 // When a Jacobian and a factorisation are made anew.
 #include "stage_solver.hpp"
 
+#include <utility>
+
+#include "saltus/solver/detail/radau/tuning.hpp"
+
 namespace saltus::radau {
 
 void StageSolver::prepare(double t, const Eigen::VectorXd& x) {
@@ -46,8 +50,21 @@ bool StageSolver::set_up(StageSystems& systems, const Scheme& scheme, double h) 
   return systems.factor(jacobian_, scheme, h);
 }
 
-bool StageSolver::recover(Verdict verdict) {
-  if (age_ > 0) {
+bool StageSolver::doubt(const Step& step) {
+  failed_ = true;
+  if (++doubts_ < tuning::most_doubts || !newton_.finite()) return false;
+  doubts_ = 0;
+  Jacobian& jacobian = structure_->jacobian();
+  const Increments by = structure_->increments(step.h);
+  if (!jacobian.trusts_own() ||
+      jacobian.explains(step.t, step.x->data(), step.f->data(), by, jacobian_.data()))
+    return false;
+  jacobian.distrust();
+  return true;
+}
+
+bool StageSolver::recover(Verdict verdict, const Step& step) {
+  if (age_ > 0 || doubt(step)) {
     known_ = false;
     return true;
   }
@@ -64,6 +81,7 @@ bool StageSolver::keep() {
   const Convergence& newton = convergence();
   factor_ = newton.factor();
   ++age_;
+  if (!std::exchange(failed_, false)) doubts_ = std::max(doubts_ - 1, 0);
   const bool contracts = newton.iterations() <= 2 || newton.theta() <= 1e-3;
   const bool old = machine_->plan().nx <= thresholds::fresh_jacobian && age_ >= oldest;
   known_ = known_ && contracts && !old;

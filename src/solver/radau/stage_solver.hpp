@@ -24,7 +24,7 @@ class StageSolver {
       : machine_(&machine), options_(options), newton_(machine, options) {}
 
   /// A new run, or a change of method: nothing is known.
-  void forget() { structure_.reset(); }
+  void forget() { structure_.reset(), doubts_ = 0; }
   /// Makes the structure of the linear systems at the first step. Throws SimulationError if they
   /// cannot be factorised.
   void prepare(double t, const Eigen::VectorXd& x);
@@ -61,7 +61,9 @@ class StageSolver {
   bool make_jacobian(const Step& step);
   bool set_up(StageSystems& systems, const Scheme& scheme, double h);
   /// Whether the step may be tried again, with a new Jacobian or structure.
-  bool recover(Verdict verdict);
+  bool recover(Verdict verdict, const Step& step);
+  /// Whether the leaves' own Jacobians are found wrong, and differences will take their place.
+  bool doubt(const Step& step);
   /// [tolerances] What Newton's iteration may leave.
   double room() const { return std::max(0.05, 10.0 * thresholds::eps / options_.rtol); }
 
@@ -73,6 +75,8 @@ class StageSolver {
   std::vector<double> jacobian_;  // in the layout of the structure
   bool known_ = false;            // the Jacobian serves
   int age_ = 0;                   // [steps] of the Jacobian
+  int doubts_ = 0;                // failures with a new Jacobian, less the steps without
+  bool failed_ = false;           // in this step, with a new Jacobian
   double factor_ = infinite;      // see Convergence
   double shorter_ = 0.5;
   long setups_ = 0;
@@ -90,7 +94,7 @@ bool StageSolver::solve(const Step& step, StagePolynomial& stages, const Start& 
         newton_.solve({step.t, step.h, step.x->data(), room(), factor_}, *systems_, stages);
     if (verdict == Verdict::converged) return true;
     distrust();
-    if (!recover(verdict)) return false;
+    if (!recover(verdict, step)) return false;
   }
 }
 

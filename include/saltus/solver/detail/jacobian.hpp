@@ -58,6 +58,12 @@ class Jacobian {
   bool explains(double t, const double* x, const double* xdot, const Increments& by,
                 const double* values);
 
+  /// From now on differences replace all entries of the leaves' own Jacobians: Newton's iteration
+  /// does not converge with them, and they do not explain how f moves.
+  void distrust() { distrusted_ = true; }
+  /// Whether there are own Jacobians, and they are used.
+  bool trusts_own() const { return !own_.empty() && !distrusted_; }
+
   /// The faults of the leaves' own Jacobians; empty if there were none.
   std::string words() const;
   auto mended() const noexcept { return mended_; }  ///< evaluations with replaced entries
@@ -85,7 +91,7 @@ class Jacobian {
   bool take(const Own& own, double t, const double* x, const double* xdot, const Increments& by,
             double* out);
   bool mend(const Own& own, double t, const double* x, const double* xdot, const Increments& by);
-  static std::string text_of(const Copy& bad, const PlanLeaf& leaf, double t);
+  void note(const Copy& bad, const PlanLeaf& leaf, double t, double declared, double found);
   void ode_of(const PlanLeaf& leaf, double t, Eigen::VectorXd& xdot);
   [[noreturn]] void refuse(const Own& own, double t, const char* what) const;
   Index place(Index entry) const {
@@ -100,8 +106,9 @@ class Jacobian {
   Eigen::VectorXd x_, f_, base_, moved_, block_;
   Eigen::VectorXd sum_, least_;  // of rows; made at their first use
   std::mt19937_64 random_{1};
+  bool distrusted_ = false;  // the own Jacobians are wrong
   std::string first_mended_;
-  int mended_ = 0;  // evaluations in which own entries were not finite
+  int mended_ = 0;  // evaluations in which own entries were replaced
 };
 
 }  // namespace saltus

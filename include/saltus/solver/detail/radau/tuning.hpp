@@ -12,6 +12,13 @@ inline constexpr double fast_error = 2.0;
 /// depends on: the estimate shrinks by a factor of 0.86 at most then, for three stages.
 inline constexpr double alike_tries = 0.95;
 
+// --- Newton's iteration: stage_solver.cpp
+
+/// [failures] of the iteration with a new Jacobian, less the steps without one, from which on a
+/// leaf's own Jacobian is compared with a difference: it costs a call, and a right one has so many in
+/// a row at jumps only. tests/errors/radau_bad_input_test.cpp
+inline constexpr int most_doubts = 10;
+
 // --- factorisation: side_by_side.hpp
 
 /// [factorisations of a real matrix] Time of a complex one (dense, 100 to 400 states: 3.1 to 3.5).
