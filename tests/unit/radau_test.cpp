@@ -123,8 +123,49 @@ TEST_CASE("the order of the Radau methods follows Newton's iteration", "[radau]"
   CHECK(next_stages({.stages = 3, .theta = 0.001, .ratio = 0.7, .steps = 10}) == 3);
   CHECK(next_stages({.stages = 7, .theta = 0.001, .ratio = 1.0, .steps = 10}) == 7);
   CHECK(next_stages({.stages = 7, .theta = 0.8}) == 5);
+  CHECK(next_stages({.stages = 7, .theta = 0.1}) == 7);
   CHECK(next_stages({.stages = 5, .newton_failed = true}) == 3);
   CHECK(next_stages({.stages = 3, .newton_failed = true}) == 3);
+}
+
+TEST_CASE("the length of a step follows its error, and the trend of the errors", "[radau]") {
+  const double order = 4.0, safety = 0.9;
+  const auto first = [&](double error) {
+    return radau::PredictiveControl().accept(error, 1.0, order, safety, false);
+  };
+  CHECK_THAT(first(1.0), WithinRel(0.9, 1e-12));
+  CHECK_THAT(first(1e-2), WithinRel(0.9 * std::sqrt(10.0), 1e-12));
+  CHECK(first(0.0) == 8.0);
+  // A step shorter than the one before expects its error to shrink by as much again: 0.9 (0.1 / 0.5^2)
+  // of the error, with half of the length.
+  radau::PredictiveControl control;
+  control.accept(0.1, 2.0, order, safety, false);
+  CHECK_THAT(control.accept(0.5, 1.0, order, safety, false),
+             WithinRel(0.9 * 0.5 * std::pow(0.4, 0.25), 1e-12));
+  // An error below a hundredth counts as that.
+  control = {};
+  control.accept(1e-6, 1.0, order, safety, false);
+  CHECK_THAT(control.accept(1e-2, 1.0, order, safety, false),
+             WithinRel(0.9 * std::sqrt(10.0), 1e-12));
+  CHECK(control.accept(1e-2, 1.0, order, safety, true) == 1.0);  // after a rejection
+  CHECK(radau::PredictiveControl::reject(1.0, 2.0, order, 1.0) == 1.8);
+  CHECK(radau::PredictiveControl::reject(1e30, 2.0, order, 0.9) == 0.2);
+  // One of seven iterations, and all of them; a step is kept for gains of less than a fifth.
+  CHECK_THAT(radau::safety_of(1, 7), WithinRel(0.9, 1e-12));
+  CHECK_THAT(radau::safety_of(7, 7), WithinRel(0.9 * 15.0 / 21.0, 1e-12));
+  CHECK(radau::not_worth_it(1.1));
+  CHECK_FALSE(radau::not_worth_it(1.3));
+  CHECK_FALSE(radau::not_worth_it(0.9));
+}
+
+TEST_CASE("a slow iteration asks for a step in which it would be fast enough", "[radau]") {
+  // theta = 0.9 leaves 9 * 9 * 0.9^4 / 0.1 = 531 tolerances after seven iterations, 20 count.
+  radau::Convergence slow(0.1, 1e-8, 7, infinite);
+  slow.look(10.0), slow.look(9.0);
+  CHECK_THAT(slow.shorter(), WithinRel(0.8 * std::pow(20.0, -1.0 / 8.0), 1e-12));
+  radau::Convergence less(0.1, 1e-8, 7, infinite);
+  less.look(10.0), less.look(5.0);  // 1 * 5 * 0.5^4 / 0.1
+  CHECK_THAT(less.shorter(), WithinRel(0.8 * std::pow(3.125, -1.0 / 8.0), 1e-12));
 }
 
 TEST_CASE("a slow part may have the estimate of a step as long as its own error allows",

@@ -79,7 +79,7 @@ class Newton {
   /// Whether rounding explains the residual of the last stage, z_S - h sum_j a_Sj f_j. If the
   /// Jacobian has a difference across a jump of f, or is wrong, all corrections are small, whatever
   /// the residual.
-  /// The rounding of f is seen by a relative change of the states of 1e-8.
+  /// The rounding of f is seen by a relative change of the states.
   template <int S>
   bool is_rounding(const Problem& problem, const Block<S>& z) {
     Block<S> f(f_.data(), n_, S);
@@ -88,12 +88,14 @@ class Newton {
     residual = z.col(S - 1);
     for (int j = 0; j < S; ++j) residual -= problem.h * RadauTable<S>::a[S - 1][j] * f.col(j);
     if (residual.cwiseProduct(tolerance_).norm() <= problem.allowed) return true;
-    for (Index i = 0; i < n_; ++i) x_[i] = (problem.x0[i] + z(i, S - 1)) * (1.0 + 1e-8);
+    for (Index i = 0; i < n_; ++i)
+      x_[i] = (problem.x0[i] + z(i, S - 1)) * (1.0 + tuning::seen_change);
     auto moved = d_.col(1);
     machine_->derivative(problem.t0 + problem.h, x_.data(), &d_(0, 1));
-    constexpr double roundings = 100.0 * thresholds::eps;
+    constexpr double roundings = tuning::residual_roundings * thresholds::eps;
     for (Index i = 0; i < n_; ++i) {
-      const double noise = std::abs(moved[i] - f(i, S - 1)) / 1e-8 + std::abs(f(i, S - 1));
+      const double noise =
+          std::abs(moved[i] - f(i, S - 1)) / tuning::seen_change + std::abs(f(i, S - 1));
       if (!(std::abs(residual[i]) <= roundings * (std::abs(x_[i]) + problem.h * noise)))
         return false;
     }
@@ -152,7 +154,7 @@ class Newton {
     return Eigen::Map<const Eigen::Matrix<double, S, S, Eigen::RowMajor>>(&values[0][0]);
   }
   /// [tolerances] Some roundings of the states, which are at least rtol of their size.
-  double rounding() const { return 10.0 * thresholds::eps / options_.rtol; }
+  double rounding() const { return tuning::room_roundings * thresholds::eps / options_.rtol; }
 
   Machine* machine_;
   SolverOptions options_;

@@ -54,8 +54,9 @@ class RadauSolver final : public StepSolver<RadauSolver> {
   bool cut(double root) {
     const double moved = in_tolerances(x1_ - x0_);
     const double off = dense_error() / std::max(moved, std::numeric_limits<double>::min());
-    const double h = root * (1.0 + std::clamp(10.0 * off, 1e-12, 1e-2));
-    if (!(h < length_ && root > near_begin * length_)) return false;
+    const double h =
+        root * (1.0 + std::clamp(tuning::beyond * off, tuning::least_beyond, tuning::most_beyond));
+    if (!(h < length_ && root > tuning::near_begin * length_)) return false;
     std::swap(step_, last_);
     step_.stages = last_.stages;
     last_.predict(step_.stages, 0.0, h / length_, step_.z);
@@ -71,11 +72,6 @@ class RadauSolver final : public StepSolver<RadauSolver> {
  private:
   friend StepSolver<RadauSolver>;
   static constexpr double infinite = std::numeric_limits<double>::infinity();
-  /// [of the step] The error of the collocation polynomial has the factor s; so near its begin it is
-  /// a thousandth of its largest.
-  static constexpr double near_begin = 1e-3;
-  /// [steps] The polynomial of the last step predicts no more than this.
-  static constexpr double furthest = 16.0;
 
   void begin(const Start& start) {
     if (start.first || start.handover) {
@@ -159,7 +155,7 @@ class RadauSolver final : public StepSolver<RadauSolver> {
   /// The first values of the stages: the polynomial of the last step goes on.
   void predict(double h) {
     const double ratio = h / last_length_;
-    if (smooth_ && ratio < furthest)
+    if (smooth_ && ratio < tuning::furthest)
       last_.predict(step_.stages, 1.0, ratio, step_.z);
     else
       step_.z.leftCols(step_.stages).setZero();
@@ -172,9 +168,9 @@ class RadauSolver final : public StepSolver<RadauSolver> {
     for (int j = 0; j < step_.stages; ++j) step_.z.col(j) = scheme().c[j] * h * f0_;
     finish_stages(h);
     error_.set_size(in_tolerances(step_.end()));
-    if (!(error_.size() <= 0.5)) return false;
+    if (!(error_.size() <= tuning::small_move)) return false;
     machine_->derivative(t1_, x1_.data(), residual_.data());
-    if (!((residual_ - f0_).norm() > 0.1 * f0_.norm())) return false;
+    if (!((residual_ - f0_).norm() > tuning::large_turn * f0_.norm())) return false;
     ++statistics_.steps;
     h_ = h, smooth_ = false;
     stages_.renew_jacobian();
@@ -215,7 +211,8 @@ class RadauSolver final : public StepSolver<RadauSolver> {
   void accept(double error, double h, double wish, bool rejected) {
     ++statistics_.steps, ++order_.steps;
     const Convergence& newton = stages_.convergence();
-    if (newton.iterations() > 1) order_.theta = std::max(newton.theta(), 0.5 * order_.theta);
+    if (newton.iterations() > 1)
+      order_.theta = std::max(newton.theta(), tuning::theta_memory * order_.theta);
     const double next = control_.accept(error, h, scheme().estimate_order(), safety(), rejected);
     const bool kept = stages_.keep();
     choose_order(smooth_ ? h / last_length_ : 0.0, false);

@@ -73,7 +73,7 @@ bool StageSolver::recover(Verdict verdict, const Step& step) {
     return true;
   }
   if (verdict == Verdict::slow) shorter_ = newton_.convergence().shorter();
-  if (!newton_.finite()) shorter_ = 0.1;
+  if (!newton_.finite()) shorter_ = thresholds::blind_retry;
   return false;
 }
 
@@ -82,8 +82,9 @@ bool StageSolver::keep() {
   factor_ = newton.factor();
   ++age_;
   if (!std::exchange(failed_, false)) doubts_ = std::max(doubts_ - 1, 0);
-  const bool contracts = newton.iterations() <= 2 || newton.theta() <= 1e-3;
-  const bool old = machine_->plan().nx <= thresholds::fresh_jacobian && age_ >= oldest;
+  const bool contracts =
+      newton.iterations() <= tuning::keeps_iterations || newton.theta() <= tuning::keeps_to;
+  const bool old = machine_->plan().nx <= thresholds::fresh_jacobian && age_ >= tuning::oldest;
   known_ = known_ && contracts && !old;
   return known_;
 }

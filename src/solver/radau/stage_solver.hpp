@@ -54,8 +54,6 @@ class StageSolver {
 
  private:
   static constexpr double infinite = std::numeric_limits<double>::infinity();
-  /// [steps] of a small system after which its Jacobian is renewed: see LinearSystem::refresh_often.
-  static constexpr int oldest = 20;
 
   void use_structure();
   bool make_jacobian(const Step& step);
@@ -65,7 +63,9 @@ class StageSolver {
   /// Whether the leaves' own Jacobians are found wrong, and differences will take their place.
   bool doubt(const Step& step);
   /// [tolerances] What Newton's iteration may leave.
-  double room() const { return std::max(0.05, 10.0 * thresholds::eps / options_.rtol); }
+  double room() const {
+    return std::max(tuning::newton_room, tuning::room_roundings * thresholds::eps / options_.rtol);
+  }
 
   Machine* machine_;
   SolverOptions options_;
@@ -78,13 +78,13 @@ class StageSolver {
   int doubts_ = 0;                // failures with a new Jacobian, less the steps without
   bool failed_ = false;           // in this step, with a new Jacobian
   double factor_ = infinite;      // see Convergence
-  double shorter_ = 0.5;
+  double shorter_ = tuning::diverged_retry;
   long setups_ = 0;
 };
 
 template <class Start>
 bool StageSolver::solve(const Step& step, StagePolynomial& stages, const Start& start) {
-  shorter_ = 0.5;
+  shorter_ = tuning::diverged_retry;
   for (;;) {
     const Scheme scheme = scheme_of(stages.stages);
     if (!known_ && !make_jacobian(step)) return false;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "saltus/solver/detail/radau/tuning.hpp"
+
 namespace saltus::radau {
 
 enum class Verdict {
@@ -20,13 +22,13 @@ class Convergence {
  public:
   /// `tolerance`: [tolerances] of the iteration; `rounding`: [tolerances] of a correction; `most`:
   /// iterations; `before`: theta / (1 - theta) of the step before, which judges the first
-  /// correction; infinite if it says nothing. It counts as 0.01 at least: what it was before does
+  /// correction; infinite if it says nothing. It counts as `least_factor` at least: what it was before does
   /// not bound what it is now.
   Convergence(double tolerance, double rounding, int most, double before)
       : tolerance_(tolerance),
         rounding_(rounding),
         most_(most),
-        factor_(std::pow(std::max(before, 0.01), 0.8)) {}
+        factor_(std::pow(std::max(before, tuning::least_factor), tuning::factor_power)) {}
 
   Verdict look(double correction) {
     ++iterations_;
@@ -34,7 +36,7 @@ class Convergence {
       const double ratio = correction / last_;
       theta_ = iterations_ == 2 ? ratio : std::sqrt(ratio * last_ratio_);
       last_ratio_ = ratio;
-      const bool shrinks = theta_ < 0.99;
+      const bool shrinks = theta_ < tuning::no_contraction;
       at_rounding_ = !shrinks && correction <= rounding_;
       if (!shrinks && !at_rounding_) return Verdict::diverged;
       factor_ = shrinks ? theta_ / (1.0 - theta_) : 0.0;
@@ -54,8 +56,8 @@ class Convergence {
   bool at_rounding() const { return at_rounding_; }
   /// The part of the step with which the iteration would be fast enough (IV.8, p. 121).
   double shorter() const {
-    const double excess = std::clamp(remaining(), 1e-4, 20.0);
-    return 0.8 * std::pow(excess, -1.0 / (3.0 + most_ - iterations_));
+    const double excess = std::clamp(remaining(), tuning::least_excess, tuning::most_excess);
+    return tuning::slow_safety * std::pow(excess, -1.0 / (3.0 + most_ - iterations_));
   }
 
  private:

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "saltus/solver/detail/radau/scheme.hpp"
+#include "saltus/solver/detail/radau/tuning.hpp"
 
 namespace saltus::radau {
 
@@ -16,25 +17,25 @@ class PredictiveControl {
   /// The step after an accepted step of length h.
   double accept(double error, double h, double order, double safety, bool after_rejection) {
     double factor = next(error, order, safety);
-    const double now = std::max(error, least_error);
+    const double now = std::max(error, tuning::least_error);
     if (h_ > 0.0) {
       const double trend = h / h_ * std::pow(error_ / (now * now), 1.0 / order) * safety;
-      factor = std::min(factor, std::max(trend, shortest));
+      factor = std::min(factor, std::max(trend, tuning::shortest));
     }
     h_ = h, error_ = now;
     return h * (after_rejection ? std::min(factor, 1.0) : factor);
   }
   /// The step after a rejected step of length h.
   static double reject(double error, double h, double order, double safety) {
-    return h * std::min(next(error, order, safety), 0.9);
+    return h * std::min(next(error, order, safety), tuning::longest_retry);
   }
   /// The last step says nothing about the next.
   void forget() { h_ = 0.0; }
 
  private:
-  static constexpr double shortest = 0.1, longest = 8.0, least_error = 1e-2;
   static double next(double error, double order, double safety) {
-    return std::clamp(safety * std::pow(std::max(error, 1e-20), -1.0 / order), shortest, longest);
+    return std::clamp(safety * std::pow(std::max(error, 1e-20), -1.0 / order), tuning::shortest,
+                      tuning::longest);
   }
 
   double h_ = 0.0, error_ = 0.0;  // of the last accepted step
@@ -42,12 +43,12 @@ class PredictiveControl {
 
 /// The safety of a step size: the less, the more of the allowed iterations Newton took (IV.8, p. 124).
 inline double safety_of(int iterations, int most) {
-  return 0.9 * (1.0 + 2.0 * most) / (iterations + 2.0 * most);
+  return tuning::safety * (1.0 + 2.0 * most) / (iterations + 2.0 * most);
 }
 
 /// Whether a step longer by this factor saves less than the factorisation that it costs (the code
 /// RADAU5).
-constexpr bool not_worth_it(double factor) { return factor >= 1.0 && factor < 1.2; }
+constexpr bool not_worth_it(double factor) { return factor >= 1.0 && factor < tuning::worth_it; }
 
 /// What a choice of the order depends on.
 struct OrderFacts {
@@ -65,9 +66,12 @@ struct OrderFacts {
 ///   theta <= 0.002 after ten steps of nearly one length  more
 ///   otherwise                                            as many
 inline int next_stages(const OrderFacts& facts) {
-  if (facts.newton_failed || facts.theta >= 0.8) return std::max(facts.stages - 2, 3);
-  const bool steady = facts.ratio > 0.8 && facts.ratio < 1.2 && facts.steps >= 10;
-  return steady && facts.theta <= 0.002 ? std::min(facts.stages + 2, facts.highest) : facts.stages;
+  if (facts.newton_failed || facts.theta >= tuning::falls_from)
+    return std::max(facts.stages - 2, 3);
+  const bool steady = facts.ratio > tuning::least_even && facts.ratio < tuning::most_even &&
+                      facts.steps >= tuning::even_steps;
+  return steady && facts.theta <= tuning::rises_to ? std::min(facts.stages + 2, facts.highest)
+                                                   : facts.stages;
 }
 
 }  // namespace saltus::radau

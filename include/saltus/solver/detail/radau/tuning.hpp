@@ -1,4 +1,7 @@
-// The tuning numbers of the Radau methods: name, unit, and derivation or source.
+// The tuning numbers of the Radau methods: name, unit, and derivation or source. Where a test is
+// named, it fails if the number is a hundred times as large, or as small. No test holds these yet:
+// near_begin, beyond and its bounds, small_move, large_turn, room_roundings, least_excess,
+// theta_memory, seen_change, residual_roundings, keeps_to, keeps_iterations.
 #pragma once
 
 namespace saltus::radau::tuning {
@@ -7,12 +10,87 @@ namespace saltus::radau::tuning {
 
 /// [tolerances] Error of a fast part that a step may leave. Two steps of this size each stay within
 /// `dense_room`, and one tolerance costs 3 % more calls on the stiff shelf.
+/// tests/unit/radau_test.cpp
 inline constexpr double fast_error = 2.0;
 /// [1] From this part of its length on, a second try of a step shows too little of what its error
 /// depends on: the estimate shrinks by a factor of 0.86 at most then, for three stages.
+/// tests/laws/prothero_robinson_test.cpp (as small)
 inline constexpr double alike_tries = 0.95;
 
-// --- Newton's iteration: stage_solver.cpp
+// --- length and order of steps: step_control.hpp
+
+/// [1] Part of the length that the estimate allows (Hairer, Wanner II, IV.8, p. 124).
+/// tests/unit/radau_test.cpp
+inline constexpr double safety = 0.9;
+/// [1] The least and the largest factor of the length (the code RADAU5: 1/5 to 8; a tenth after a
+/// jump).
+/// tests/unit/radau_test.cpp
+inline constexpr double shortest = 0.1, longest = 8.0;
+/// [allowed] A smaller error says nothing about the trend (the code RADAU5).
+/// tests/unit/radau_test.cpp
+inline constexpr double least_error = 1e-2;
+/// [1] The least factor of which a retry is shorter.
+/// tests/unit/radau_test.cpp
+inline constexpr double longest_retry = 0.9;
+/// [1] A step longer by less than this saves less than its factorisation costs (the code RADAU5).
+/// tests/unit/radau_test.cpp
+inline constexpr double worth_it = 1.2;
+/// [theta] From here on the order falls, and up to here it rises (Hairer, Wanner, J. Comput. Appl.
+/// Math. 111 (1999) 93, section 4).
+/// tests/unit/radau_test.cpp
+inline constexpr double falls_from = 0.8, rises_to = 0.002;
+/// [1] Ratio of the lengths of steps that count as even, and [steps] with one order before it rises
+/// (the same source).
+/// tests/unit/radau_test.cpp
+inline constexpr double least_even = 0.8, most_even = 1.2;
+inline constexpr int even_steps = 10;
+/// [1] Part of the contraction before that counts in the next step, so that a step of one iteration
+/// does not forget it.
+inline constexpr double theta_memory = 0.5;
+
+// --- the stepper: solver.cpp
+
+/// [of the step] The error of the collocation polynomial has the factor s; so nearer to its begin it
+/// is a thousandth of its largest.
+inline constexpr double near_begin = 1e-3;
+/// [steps] The polynomial of the last step predicts no more than this.
+/// tests/laws/linear_invariants_test.cpp (as small)
+inline constexpr double furthest = 16.0;
+/// [errors of the dense output] How far beyond its root a step is cut, and [of the root] the bounds.
+inline constexpr double beyond = 10.0, least_beyond = 1e-12, most_beyond = 1e-2;
+/// [tolerances] A step that moves by less passes a jump along the derivative, if that [of itself]
+/// changes by more than the second number.
+inline constexpr double small_move = 0.5, large_turn = 0.1;
+
+// --- Newton's iteration: convergence.hpp, newton.hpp, stage_solver.hpp
+
+/// [tolerances] What the iteration may leave: 0.05 moves the estimate by a twentieth of what a fast
+/// part may have; and [eps / rtol] what rounding leaves.
+/// tests/errors/radau_bad_input_test.cpp (as large)
+inline constexpr double newton_room = 0.05, room_roundings = 10.0;
+/// [1] A contraction known from before judges the first correction as this at least, to the power
+/// (the code RADAU5; there eps is the least).
+/// tests/unit/radau_test.cpp
+inline constexpr double least_factor = 0.01, factor_power = 0.8;
+/// [theta] From here on corrections do not shrink (the code RADAU5).
+/// tests/unit/radau_test.cpp
+inline constexpr double no_contraction = 0.99;
+/// [1] The factor of a step whose iteration is slow, and [tolerances of the iteration] the bounds of
+/// what the last iteration would leave (IV.8, p. 121).
+/// tests/unit/radau_test.cpp
+inline constexpr double slow_safety = 0.8, least_excess = 1e-4, most_excess = 20.0;
+/// [1] The factor of a step whose iteration diverges (the code RADAU5).
+/// tests/errors/radau_bad_input_test.cpp
+inline constexpr double diverged_retry = 0.5;
+/// [of a state] The change that shows the rounding of f, and [eps] how much of it a residual may
+/// be.
+inline constexpr double seen_change = 1e-8, residual_roundings = 100.0;
+/// [theta] and [iterations] up to which a Jacobian is kept for the next step (the code RADAU5).
+inline constexpr double keeps_to = 1e-3;
+inline constexpr int keeps_iterations = 2;
+/// [steps] of a small system after which its Jacobian is renewed: see LinearSystem::refresh_often.
+/// tests/errors/radau_bad_input_test.cpp (as small)
+inline constexpr int oldest = 20;
 
 /// [failures] of the iteration with a new Jacobian, less the steps without one, from which on a
 /// leaf's own Jacobian is compared with a difference: it costs a call, and a right one has so many in
@@ -22,6 +100,7 @@ inline constexpr int most_doubts = 10;
 // --- factorisation: side_by_side.hpp
 
 /// [factorisations of a real matrix] Time of a complex one (dense, 100 to 400 states: 3.1 to 3.5).
+/// tests/unit/radau_side_by_side_test.cpp
 inline constexpr double complex_cost = 3.3;
 /// [ns] All matrices of a step together, from which on a second thread pays: to start one takes 20 to
 /// 120 us, and a thread of less than 2 ms often waits for the core of its parent. Time in two
