@@ -11,9 +11,6 @@
 
 namespace saltus::radau {
 
-/// [iterations] 7, 12 and 17 (the code RADAU).
-constexpr int most_iterations(int stages) { return 7 + 5 * (stages - 3) / 2; }
-
 /// Solves z = h (A x I) f(t0 + c h, x0 + z) by simplified Newton iterations. With r = h (A x I) f - z
 /// each is (Lambda - h J) d = Lambda (T^-1 x I) r, z += (T x I) d, which falls into systems for each
 /// eigenvalue (Hairer, Wanner II, IV.8, (8.6) to (8.13), times h). The

@@ -4,7 +4,7 @@
 #include "error_estimate.hpp"
 #include "halves.hpp"
 #include "saltus/solver/detail/radau.hpp"
-#include "saltus/solver/detail/radau/step_control.hpp"
+#include "saltus/solver/detail/radau/step_choice.hpp"
 #include "saltus/solver/detail/step_size.hpp"
 #include "saltus/solver/detail/step_solver.hpp"
 #include "stage_solver.hpp"
@@ -76,14 +76,14 @@ class RadauSolver final : public StepSolver<RadauSolver> {
   void begin(const Start& start) {
     if (start.first || start.handover) {
       h_ = start.first ? options_.first_step : 0.0;
-      order_ = {};
+      choice_.start();
       stages_.forget();
       if (start.first) setups_before_ = stages_.setups();
     }
     f1_known_ = start.flow != nullptr;
     if (f1_known_) f1_ = *start.flow;
     horizon_ = start.horizon;
-    order_ = {.stages = order_.stages};
+    choice_.restart();
     forget_steps();
   }
   void undo() {
@@ -92,7 +92,7 @@ class RadauSolver final : public StepSolver<RadauSolver> {
     forget_steps();
   }
   void forget_steps() {
-    control_.forget(), stages_.distrust();
+    choice_.forget_trend(), stages_.distrust();
     smooth_ = false;
   }
 
@@ -109,8 +109,8 @@ class RadauSolver final : public StepSolver<RadauSolver> {
         if (creep(h)) return;
         if (!stages_.finite()) note_not_finite(h);
         wish = h * stages_.shorter();
-        choose_order(0.0, true);
-        step_.stages = order_.stages;
+        choice_.newton_failed();
+        step_.stages = choice_.stages();
         error_.forget_tries();
         ++statistics_.rejected;
         continue;
@@ -124,7 +124,7 @@ class RadauSolver final : public StepSolver<RadauSolver> {
       }
       if (error <= 1.0) return accept(error, h, wish, rejected);
       ++statistics_.rejected;
-      wish = PredictiveControl::reject(error, h, scheme().estimate_order(), safety());
+      wish = choice_.reject(error, h, stages_.convergence());
       // Behind a jump the steps before it say nothing, and the estimate of fast parts hardly shrinks
       // with h until it resolves them.
       if (!smooth_ && !rejected) wish = std::min(wish, careful_step(t_stop));
@@ -139,7 +139,7 @@ class RadauSolver final : public StepSolver<RadauSolver> {
     error_.forget_tries();
     last_length_ = length_;
     std::swap(step_, last_);
-    step_.stages = order_.stages;
+    step_.stages = choice_.stages();
     f0_.swap(f1_);
     if (!std::exchange(f1_known_, false)) machine_->derivative(t0_, x0_.data(), f0_.data());
     if (!f0_.allFinite()) throw_not_finite(*machine_, t0_, x0_.data());
@@ -204,32 +204,14 @@ class RadauSolver final : public StepSolver<RadauSolver> {
     return std::sqrt(sum / static_cast<double>(n_));
   }
 
-  double safety() const {
-    return safety_of(stages_.convergence().iterations(), most_iterations(step_.stages));
-  }
-
   void accept(double error, double h, double wish, bool rejected) {
-    ++statistics_.steps, ++order_.steps;
-    const Convergence& newton = stages_.convergence();
-    if (newton.iterations() > 1)
-      order_.theta = std::max(newton.theta(), tuning::theta_memory * order_.theta);
-    const double next = control_.accept(error, h, scheme().estimate_order(), safety(), rejected);
+    ++statistics_.steps;
     const bool kept = stages_.keep();
-    choose_order(smooth_ ? h / last_length_ : 0.0, false);
-    const bool same = kept && order_.stages == step_.stages && not_worth_it(next / h);
-    h_ = same ? h : next;
+    const double ratio = smooth_ ? h / last_length_ : 0.0;
+    h_ = choice_.accept({h, error, ratio, rejected, kept}, stages_.convergence());
     if (!rejected && h < wish)
       h_ = std::max(h_, wish);  // the stop time shortened it, not the error
     smooth_ = true;
-  }
-
-  /// Chooses the stages of the next step; `ratio` of the lengths of the last two steps.
-  void choose_order(double ratio, bool newton_failed) {
-    order_.ratio = ratio, order_.newton_failed = newton_failed;
-    const int stages = next_stages(order_);
-    if (stages == order_.stages) return;
-    order_ = {.stages = stages};
-    control_.forget();
   }
 
   /// [tolerances] Of the collocation polynomial inside the step.
@@ -243,7 +225,7 @@ class RadauSolver final : public StepSolver<RadauSolver> {
   /// The lengths of the next steps are no trend of the error.
   void note_not_finite(double h) {
     not_finite_within_ = h;
-    control_.forget();
+    choice_.forget_trend();
   }
 
   void require_room(double h) {
@@ -265,8 +247,7 @@ class RadauSolver final : public StepSolver<RadauSolver> {
   bool smooth_ = false;  // the solution of the last step continues in the present one
   double h_ = 0.0, horizon_ = infinite, last_length_ = 0.0;
   double not_finite_within_ = 0.0;  // [s] of the present step; 0: all values were finite
-  PredictiveControl control_;
-  OrderFacts order_;
+  StepChoice choice_;
   long setups_before_ = 0;  // of earlier runs
   mutable SolverStatistics sum_;
 };

@@ -8,6 +8,9 @@
 
 namespace saltus::radau {
 
+/// [iterations] 7, 12 and 17 (the code RADAU).
+constexpr int most_iterations(int stages) { return 7 + 5 * (stages - 3) / 2; }
+
 enum class Verdict {
   go_on,      ///< another iteration
   converged,  ///< the next correction would be below the tolerance of the iteration
