@@ -17,9 +17,9 @@ struct StiffProblem {
   const char* name;
   Eigen::VectorXd start;
   double t_end;
-  void (*f)(const double* x, double* xdot, long n);
-  void (*jacobian)(const double* x, double* j) = nullptr;  ///< dense, column by column
-  long band = -1;                                          ///< of its Jacobian; -1: dense
+  void (*f)(double t, const double* x, double* xdot, long n);
+  void (*jacobian)(double t, const double* x, double* j) = nullptr;  ///< dense, by columns
+  long band = -1;                                                    ///< of it; -1: dense
 };
 
 class FloorStiff {
@@ -70,14 +70,14 @@ class FloorStiff {
   }
 
  private:
-  static int rate(double, N_Vector x, N_Vector xdot, void* user) {
-    static_cast<const StiffProblem*>(user)->f(N_VGetArrayPointer(x), N_VGetArrayPointer(xdot),
+  static int rate(double t, N_Vector x, N_Vector xdot, void* user) {
+    static_cast<const StiffProblem*>(user)->f(t, N_VGetArrayPointer(x), N_VGetArrayPointer(xdot),
                                               static_cast<long>(N_VGetLength(x)));
     return 0;
   }
-  static int jacobian(double, N_Vector x, N_Vector, SUNMatrix out, void* user, N_Vector, N_Vector,
+  static int jacobian(double t, N_Vector x, N_Vector, SUNMatrix out, void* user, N_Vector, N_Vector,
                       N_Vector) {
-    static_cast<const StiffProblem*>(user)->jacobian(N_VGetArrayPointer(x),
+    static_cast<const StiffProblem*>(user)->jacobian(t, N_VGetArrayPointer(x),
                                                      SUNDenseMatrix_Data(out));
     return 0;
   }
@@ -101,11 +101,13 @@ class StiffLeaf final : public saltus::LeafSystem {
     const auto n = problem.start.size();
     declare_continuous_state(
         {.initial = problem.start, .ode = [f = problem.f, n](const At& at, VectorRef xdot) {
-           f(at.x.data(), xdot.data(), static_cast<long>(n));
+           f(at.time, at.x.data(), xdot.data(), static_cast<long>(n));
          }});
+    declare_continuous_state_output("y");
     if (problem.jacobian != nullptr)
-      declare_jacobian(
-          [j = problem.jacobian](const At& at, MatrixRef out) { j(at.x.data(), out.data()); });
+      declare_jacobian([j = problem.jacobian](const At& at, MatrixRef out) {
+        j(at.time, at.x.data(), out.data());
+      });
     if (problem.band >= 0)
       declare_jacobian_sparsity(saltus::band_entries(n, problem.band, problem.band));
   }
