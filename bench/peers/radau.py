@@ -97,7 +97,7 @@ def main(names):
     for row in rows:
         row["error"] = error(row["scene"], row.pop("states"), true[row["scene"]])
     Path(ROOT / "build" / "peers" / "radau.json").write_text(json.dumps(rows, indent=1))
-    for key, solvers in (("calls", SOLVERS), ("factorisations", SOLVERS), ("seconds", TIMED)):
+    for key, solvers in (("calls", SOLVERS), ("seconds", TIMED)):
         table(rows, key, solvers, names)
 
 
