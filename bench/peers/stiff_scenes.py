@@ -6,6 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
+from stiff_more import e5, pollu, pollu_start, ring
 
 
 @dataclass
@@ -140,6 +141,11 @@ SCENES = {
         hires, np.array([1.0, 0, 0, 0, 0, 0, 0, 0.0057]), [5, 20, 80, 200, 300, 321.8122], 1e-4
     ),
     "orego": StiffScene(oregonator, np.array([1.0, 2.0, 3.0]), [60, 120, 180, 240, 300, 360], 1e-2),
+    "pollu": StiffScene(pollu, pollu_start(), [1.0, 5.0, 15.0, 30.0, 60.0], 1e-10),
+    "e5": StiffScene(
+        e5, np.array([1.76e-3, 0.0, 0.0, 0.0]), [10.0**k for k in range(-4, 14)], 1e-17
+    ),
+    "ring-modulator": StiffScene(ring, np.zeros(15), [2.5e-4, 5e-4, 7.5e-4, 1e-3], 1e-2),
     "b5": StiffScene(b5, np.ones(6), [0.1, 1.0, 5.0, 20.0], 1.0),
     "beam": StiffScene(beam, np.zeros(80), [1.0, 2.0, 3.0, 4.0, 5.0], 1.0),
     "cusp": StiffScene(cusp, cusp_start(), [0.25, 0.5, 0.75, 1.1], 1.0),
