@@ -2,6 +2,12 @@
 // SUNDIALS, the Jacobian of the problem, defaults otherwise. Here is CVODE's BDF.
 #pragma once
 
+#include <sunlinsol/sunlinsol_band.h>
+#include <sunlinsol/sunlinsol_dense.h>
+#include <sunmatrix/sunmatrix_band.h>
+#include <sunmatrix/sunmatrix_dense.h>
+
+#include "../src/solver/sundials_compat.hpp"
 #include "peer.hpp"
 
 namespace bench {
@@ -19,6 +25,8 @@ class SundialsPeer : public Peer {
     return true;
   }
   double error() final { return error_of(scene_, rows_); }
+  /// The states of the last run at the times of the answer.
+  const std::vector<Eigen::VectorXd>& rows() const { return rows_; }
 
  protected:
   static constexpr long most_steps = 1'000'000;  // from one row to the next

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "floor_stiff.hpp"
+#include "stiff_problem.hpp"
 
 namespace bench {
 

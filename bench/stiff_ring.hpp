@@ -4,7 +4,7 @@
 
 #include <saltus/models/ring_modulator.hpp>
 
-#include "floor_stiff.hpp"
+#include "stiff_problem.hpp"
 
 namespace bench {
 
