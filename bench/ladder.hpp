@@ -32,7 +32,7 @@ struct Rung {
 class Ladder {
  public:
   /// Climbs from rtol = `loosest` to 1e-13, ten times as tight at a time: until the error is below
-  /// `enough`, or a run takes longer than `longest` [s] or fails.
+  /// `enough`, or a run takes longer than `longest` [s].
   Ladder(std::string name, const MakePeer& make, double loosest, double enough, double longest)
       : name_(std::move(name)) {
     for (double rtol = loosest; rtol > 0.9e-13; rtol *= 0.1) {
