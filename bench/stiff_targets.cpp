@@ -108,6 +108,7 @@ int main(int argc, char** argv) {
                  found.mean(), 0.5);
   if (names.empty())
     sheet.target("the same scenes: errors that neither radau nor bdf reaches", found.missed, 0.0);
-  for (const char* name : {"stiff-contact", "buck-converter", "heat-rod"})
+  for (const char* name :
+       {"stiff-contact", "buck-converter", "buck-parasitics", "relay-circuit", "heat-rod"})
     if (wanted(name)) against_bdf(sheet, name);
 }
