@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "floor_stiff.hpp"
+#include "stiff_problem.hpp"
 
 namespace bench {
 
@@ -13,12 +13,12 @@ inline StiffProblem van_der_pol() {
           .start = Eigen::Vector2d(2.0, 0.0),
           .t_end = 2000.0,
           .f =
-              [](const double* x, double* xdot, long) {
+              [](double, const double* x, double* xdot, long) {
                 xdot[0] = x[1];
                 xdot[1] = 1000.0 * (1.0 - x[0] * x[0]) * x[1] - x[0];
               },
           .jacobian =
-              [](const double* x, double* j) {
+              [](double, const double* x, double* j) {
                 j[0] = 0.0, j[1] = -2000.0 * x[0] * x[1] - 1.0;
                 j[2] = 1.0, j[3] = 1000.0 * (1.0 - x[0] * x[0]);
               }};
@@ -30,12 +30,12 @@ inline StiffProblem robertson() {
           .start = Eigen::Vector3d(1.0, 0.0, 0.0),
           .t_end = 4e10,
           .f =
-              [](const double* x, double* xdot, long) {
+              [](double, const double* x, double* xdot, long) {
                 const double decay = 0.04 * x[0], back = 1e4 * x[1] * x[2], on = 3e7 * x[1] * x[1];
                 xdot[0] = back - decay, xdot[1] = decay - back - on, xdot[2] = on;
               },
           .jacobian =
-              [](const double* x, double* j) {
+              [](double, const double* x, double* j) {
                 const double by2 = 1e4 * x[2], by3 = 1e4 * x[1], on = 6e7 * x[1];
                 j[0] = -0.04, j[1] = 0.04, j[2] = 0.0;
                 j[3] = by2, j[4] = -by2 - on, j[5] = on;
@@ -51,7 +51,7 @@ inline StiffProblem hires() {
   return {.name = "hires",
           .start = start,
           .t_end = 321.8122,
-          .f = [](const double* y, double* d, long) {
+          .f = [](double, const double* y, double* d, long) {
             d[0] = -1.71 * y[0] + 0.43 * y[1] + 8.32 * y[2] + 0.0007;
             d[1] = 1.71 * y[0] - 8.75 * y[1];
             d[2] = -10.03 * y[2] + 0.43 * y[3] + 0.035 * y[4];
@@ -76,7 +76,7 @@ inline StiffProblem brusselator(long cells) {
           .start = start,
           .t_end = 10.0,
           .f =
-              [](const double* x, double* xdot, long n) {
+              [](double, const double* x, double* xdot, long n) {
                 const long last = n - 2;
                 const auto width = static_cast<double>(n / 2 + 1);
                 const double c = 0.02 * width * width;

@@ -19,7 +19,7 @@ fuzz() {  # [N]
     | tee build/log/fuzz.log
 }
 
-questions=(ball_floor stiff_floor absent diagram many auto_or_best shelf_report)
+questions=(ball_floor stiff_floor stiff_targets absent diagram many auto_or_best shelf_report)
 
 bench() {  # [PROGRAM...]: only these; else all questions, and the page
   local program results=build/bench/results start

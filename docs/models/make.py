@@ -25,9 +25,18 @@ ORBITS = {
     "pleiades": [(i, i + 7) for i in range(7)],
     "rocking-block": [(0, 1)],
 }
-SHOWN = {"ring-modulator": [0, 1, 6]}  # columns, where all would be too many to tell apart
-LOG_FROM = {"hires": 1e-3, "pollu": 1e-4, "stiff-contact": 5e-3}  # [s] short spans seen better so
-EVERY = {"brusselator": 2}  # of states (u_1, v_1, u_2, v_2, ...) the field u
+# columns, where all would be too many to tell apart
+SHOWN = {"ring-modulator": [0, 1, 6], "emep": [0, 1, 13, 14, 36, 38]}
+LOG_FROM = {
+    "hires": 1e-3,
+    "pollu": 1e-4,
+    "stiff-contact": 5e-3,
+    "b5": 1e-3,
+}  # [s] short spans seen better so
+# of states (u_1, v_1, u_2, v_2, ...) the field u
+EVERY = {"brusselator": 2, "brusselator-2d": 2, "cusp": 3, "medakzo": 2}
+HALF = {"beam", "plate"}  # of states that end with their rates the first half
+LINEAR = {"emep"}  # spans longer than LONG that are seen better over time as it is
 plt.rcParams.update(
     {
         "font.size": 8,
@@ -46,7 +55,7 @@ plt.rcParams.update(
 
 
 def logarithmic(scene):
-    return scene.t_span[1] > LONG or scene.name in LOG_FROM
+    return (scene.t_span[1] > LONG and scene.name not in LINEAR) or scene.name in LOG_FROM
 
 
 def run(scene, rows=600):
@@ -143,6 +152,8 @@ def over_time(scene, results):
 def in_space(scene, results):
     """Time across, place along the grid upwards; of several signals the first."""
     name, field = next(iter(results.outputs.items()))
+    if scene.name in HALF:
+        field = field[:, : field.shape[1] // 2]
     field = field[:, :: EVERY.get(scene.name, 1)]
     seen = np.flatnonzero(results.time > 0) if logarithmic(scene) else np.arange(len(field))
     seen = seen[:: max(1, len(seen) // 300)]
@@ -175,7 +186,7 @@ def picture(name):
     results = run(scene, 3000 if name in ORBITS else 600)
     if name in ORBITS:
         figure = orbit(scene, results, ORBITS[name])
-    elif columns(results)[0].shape[1] > MANY:
+    elif columns(results)[0].shape[1] > MANY and name not in SHOWN:
         figure = in_space(scene, results)
     else:
         figure = over_time(scene, results)

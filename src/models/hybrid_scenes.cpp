@@ -3,8 +3,10 @@
 #include "saltus/models/bouncing_ball.hpp"
 #include "saltus/models/bouncing_ball_diagram.hpp"
 #include "saltus/models/buck_converter.hpp"
+#include "saltus/models/buck_parasitics.hpp"
 #include "saltus/models/integrate_and_fire.hpp"
 #include "saltus/models/newtons_cradle.hpp"
+#include "saltus/models/relay_circuit.hpp"
 #include "saltus/models/rimless_wheel.hpp"
 #include "saltus/models/rocking_block.hpp"
 #include "saltus/models/stick_slip.hpp"
@@ -179,6 +181,39 @@ std::vector<ShelfEntry> hybrid_scenes() {
            {"damping", &StiffContactParameters::damping, 0, below_one},
            {"y0", &StiffContactParameters::y0, positive},
            {"t_end", &StiffContactParameters::t_end, positive}}),
+      entry<BuckParasiticsParameters>(
+          "buck-parasitics", "a buck converter whose switches are resistors: rates of 1e9 /s",
+          &buck_parasitics,
+          {{"E", &BuckParasiticsParameters::E, positive},
+           {"L", &BuckParasiticsParameters::L, positive},
+           {"C", &BuckParasiticsParameters::C, positive},
+           {"R", &BuckParasiticsParameters::R, positive},
+           {"on", &BuckParasiticsParameters::on, positive},
+           {"off", &BuckParasiticsParameters::off, positive},
+           {"Cx", &BuckParasiticsParameters::Cx, positive},
+           {"Lc", &BuckParasiticsParameters::Lc, positive},
+           {"r", &BuckParasiticsParameters::r, 0},
+           {"T", &BuckParasiticsParameters::T, positive},
+           {"duty", &BuckParasiticsParameters::duty, positive, below_one},
+           {"i0", &BuckParasiticsParameters::i0, 0},
+           {"v0", &BuckParasiticsParameters::v0},
+           {"t_end", &BuckParasiticsParameters::t_end, positive}}),
+      entry<RelayCircuitParameters>(
+          "relay-circuit",
+          "a relay that switches a stiff RLC circuit: a ringing layer at each event",
+          &relay_circuit,
+          {{"E", &RelayCircuitParameters::E, positive},
+           {"L", &RelayCircuitParameters::L, positive},
+           {"R1", &RelayCircuitParameters::R1, positive},
+           {"C1", &RelayCircuitParameters::C1, positive},
+           {"R2", &RelayCircuitParameters::R2, positive},
+           {"C2", &RelayCircuitParameters::C2, positive},
+           {"R3", &RelayCircuitParameters::R3, positive},
+           {"low", &RelayCircuitParameters::low, positive},
+           {"high", &RelayCircuitParameters::high, positive},
+           {"t_end", &RelayCircuitParameters::t_end, positive}},
+          RelayCircuitParameters{}, true,
+          {"low < high", [](const RelayCircuitParameters& p) { return p.low < p.high; }}),
   };
 }
 

@@ -1,10 +1,17 @@
+#include "saltus/models/b5.hpp"
+#include "saltus/models/beam.hpp"
 #include "saltus/models/brusselator.hpp"
+#include "saltus/models/brusselator_2d.hpp"
+#include "saltus/models/cusp.hpp"
 #include "saltus/models/e5.hpp"
+#include "saltus/models/emep.hpp"
 #include "saltus/models/heat_rod.hpp"
 #include "saltus/models/hires.hpp"
 #include "saltus/models/kepler.hpp"
 #include "saltus/models/lorenz.hpp"
+#include "saltus/models/medakzo.hpp"
 #include "saltus/models/orego.hpp"
+#include "saltus/models/plate.hpp"
 #include "saltus/models/pleiades.hpp"
 #include "saltus/models/pollu.hpp"
 #include "saltus/models/ring_modulator.hpp"
@@ -53,6 +60,33 @@ std::vector<ShelfEntry> smooth_scenes() {
                                    {{"n", &BrusselatorParameters::n, 1, 1e+06},
                                     {"alpha", &BrusselatorParameters::alpha},
                                     {"t_end", &BrusselatorParameters::t_end, positive}}),
+      entry<B5Parameters>(
+          "b5", "eigenvalues beside the imaginary axis", &b5,
+          {{"alpha", &B5Parameters::alpha}, {"t_end", &B5Parameters::t_end, positive}}),
+      entry<BeamParameters>(
+          "beam", "an elastic beam: stiff, oscillating, without damping", &beam,
+          {{"n", &BeamParameters::n, 2, 1000}, {"t_end", &BeamParameters::t_end, positive}},
+          BeamParameters{}, false),
+      entry<CuspParameters>("cusp", "nerve cells on a ring that jump over a threshold", &cusp,
+                            {{"n", &CuspParameters::n, 3, 1e+05},
+                             {"epsilon", &CuspParameters::epsilon, positive},
+                             {"t_end", &CuspParameters::t_end, positive}}),
+      entry<PlateParameters>("plate", "a plate under a vehicle: friction and elasticity", &plate,
+                             {{"omega", &PlateParameters::omega},
+                              {"sigma", &PlateParameters::sigma},
+                              {"t_end", &PlateParameters::t_end, positive}}),
+      entry<MedicalAkzoParameters>("medakzo", "a front into tissue; the supply ends at t = 5",
+                                   &medical_akzo,
+                                   {{"n", &MedicalAkzoParameters::n, 2, 1e+05},
+                                    {"t_end", &MedicalAkzoParameters::t_end, positive}}),
+      entry<Brusselator2dParameters>(
+          "brusselator-2d", "reaction and diffusion on a square with a source", &brusselator_2d,
+          {{"n", &Brusselator2dParameters::n, 3, 1000},
+           {"alpha", &Brusselator2dParameters::alpha},
+           {"t_end", &Brusselator2dParameters::t_end, positive}},
+          Brusselator2dParameters{}, false),
+      entry<EmepParameters>("emep", "ozone over Europe: 66 substances, light by day only", &emep,
+                            {{"t_end", &EmepParameters::t_end, Emep::sunrise}}),
       entry<HeatRodProblem>("heat-rod", "the heat equation under a thermostat", &heat_rod,
                             {{"n", &HeatRodProblem::n, 3, 255},
                              {"kappa", &HeatRodProblem::kappa, positive},

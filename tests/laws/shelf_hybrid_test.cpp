@@ -35,6 +35,8 @@ const std::vector<Timing> timings{
     // w = 3.2e4 turns an error of y in contact, of 1e-6 m at most, into one of speed, in 2
     // contacts.
     {"stiff-contact", 1e-6, 3.2e4 * 2.0 / 9.81, 2.0},
+    {"buck-parasitics", 20.0, 1e-8, 10.0},          // the node falls at 1e8 V/s, ten times
+    {"relay-circuit", 4.0, 1.0 / 3.0, 49.0 * 1.5},  // 3 V/s at the slower switch
 };
 
 /// A scene of the shelf by one method, atol in the ratio of its own options.

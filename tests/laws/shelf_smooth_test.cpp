@@ -13,8 +13,9 @@ using namespace saltus;
 namespace {
 
 const std::vector<std::string> smooth_scenes{
-    "robertson", "hires",  "orego",          "van-der-pol", "vdpol",    "vdpol-1e6", "e5",
-    "pollu",     "kepler", "ring-modulator", "brusselator", "heat-rod", "pleiades",  "lorenz"};
+    "robertson", "hires",  "orego",          "van-der-pol",    "vdpol",    "vdpol-1e6", "e5",
+    "pollu",     "kepler", "ring-modulator", "brusselator",    "heat-rod", "pleiades",  "lorenz",
+    "b5",        "beam",   "cusp",           "brusselator-2d", "plate",    "medakzo",   "emep"};
 
 saltus::Scene at_tolerance(saltus::Scene scene, Method method, double rtol) {
   scene.options.atol *= rtol / scene.options.rtol;
@@ -88,7 +89,9 @@ TEST_CASE("each smooth scene meets its reference with each method that suits it"
   for (const std::string& name : smooth_scenes) {
     const auto& entry = *std::ranges::find(models::shelf(), name, &models::ShelfEntry::name);
     auto methods = models::scene(name).methods;
-    if (std::ranges::count(methods, Method::bdf) > 0) methods.push_back(Method::radau);
+    if (std::ranges::count(methods, Method::bdf) > 0 &&
+        std::ranges::count(methods, Method::radau) == 0)
+      methods.push_back(Method::radau);
     for (const Method method : methods) {
       if (entry.quick) check_scene(name, method, 1e-9);
       if (entry.quick || method == Method::bdf) check_scene(name, method, 1e-6);
@@ -139,13 +142,14 @@ TEST_CASE("references keep the invariants of their equations", "[laws][models]")
 }
 
 TEST_CASE("closed forms satisfy the equations they are of", "[laws][models]") {
-  const auto* name = GENERATE("kepler", "heat-rod");
+  const auto* name = GENERATE("kepler", "heat-rod", "b5");
   const saltus::Scene scene = models::scene(name);
   Machine machine(compile(*scene.system));
   for (const Sample& sample : known(scene)) {
     Context context = scene.context;
     std::size_t switches = 0;
-    for (const double t : scene.exact.events[0].series[0].times) switches += t < sample.time;
+    if (!scene.exact.events.empty())
+      for (const double t : scene.exact.events[0].series[0].times) switches += t < sample.time;
     if (name == std::string("heat-rod")) context = context.with_mode(switches % 2 == 0 ? 1 : 0);
     machine.load(context);
     // Central differences of second order, twice, and their limit by Richardson: h^4 times the
@@ -164,11 +168,12 @@ TEST_CASE("closed forms satisfy the equations they are of", "[laws][models]") {
 }
 
 TEST_CASE("the Jacobians of stiff scenes are those of their equations", "[laws][models]") {
-  const auto* name = GENERATE("robertson", "hires", "orego", "van-der-pol", "vdpol", "e5", "pollu");
+  const auto* name =
+      GENERATE("robertson", "hires", "orego", "van-der-pol", "vdpol", "e5", "pollu", "b5", "emep");
   const saltus::Scene scene = models::scene(name);
   Machine machine(compile(*scene.system));
   machine.load(scene.context);
-  for (const Sample& sample : scene.exact.samples) {
+  for (const Sample& sample : known(scene)) {
     const Index n = sample.state.size();
     const Eigen::MatrixXd jacobian = own_jacobian(machine, sample);
     for (Index j = 0; j < n; ++j) {
@@ -201,6 +206,12 @@ TEST_CASE("a scene with parameters of its own has no reference, and says so", "[
   CHECK(models::orego({.q = 1e-5}).exact.events.empty());
   CHECK(models::lorenz({.t_end = 4.0}).exact.samples.size() == 2);
   CHECK(models::lorenz({.t_end = 4.0}).exact.events.at(0).series[0].times.size() == 12);
+  CHECK(models::beam({.n = 20}).exact.provenance.starts_with("none"));
+  CHECK(models::cusp({.epsilon = 1e-3}).exact.provenance.starts_with("none"));
+  CHECK(models::plate({.omega = 10.0}).exact.provenance.starts_with("none"));
+  CHECK(models::medical_akzo({.t_end = 4.0}).exact.events.empty());
+  CHECK(models::brusselator_2d({.n = 16}).exact.samples.empty());
+  CHECK(models::emep({.t_end = 2e5}).exact.samples.size() == 1);
   CHECK_THROWS_AS(models::kepler({.e = 1.0}), ModelError);
   CHECK_THROWS_AS(models::heat_rod({.low = 0.4}), ModelError);
   CHECK_THROWS_AS(models::brusselator({.n = 0}), ModelError);

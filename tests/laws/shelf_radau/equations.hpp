@@ -4,7 +4,8 @@
 
 #include <map>
 
-#include "radau.hpp"
+#include "emep.hpp"
+#include "fields.hpp"
 
 inline const Equation robertson = [](Quad, const Vector& y, Vector& d) {
   const Quad a = number("0.04") * y[0], b = 10000 * y[1] * y[2], c = 30000000 * y[1] * y[1];
@@ -242,6 +243,11 @@ inline std::map<std::string, Problem> problems() {
         1e-4Q,
         1,
         1}},
+      {"beam", {beam(40), Vector(80), {N("2.5"), M_PIq, 5}, 1e-4Q, 1e-2Q, 1}},
+      {"cusp", {cusp(32), cusp_start(32), {N("1.1")}, 1e-8Q, 1e-2Q, 1}},
+      {"plate", {plate, Vector(80), {N("3.5"), 7}, 1e-4Q, 1e-4Q, 1e-3}},
+      {"medakzo", {medakzo(200), medakzo_start(200), {5, 20}, 1e-7Q, 1e-4Q, 1}},
+      {"emep", {emep(), emep_start(), emep_times(), 1e-6Q, 1e3Q, 1e6}},
       {"lorenz", {lorenz, {0, 1, 0}, {2, 4, 6, 8, 10}, 1e-4Q, 1, 1, {[](const Vector& y) {
                     return y[2] - 27;
                   }}}},

@@ -77,6 +77,8 @@ Tableau::Tableau(int s) : s(s) {
 Radau::Radau(const Problem& problem, int stages, double tolerance, bool tangents)
     : problem_(problem),
       tableau_(stages),
+      differences_(problem),
+      newton_(tableau_),
       tolerance_(tolerance),
       tangents_(tangents),
       h_(problem.first_step),
@@ -84,30 +86,25 @@ Radau::Radau(const Problem& problem, int stages, double tolerance, bool tangents
       states_{problem.start},
       roots_(problem.guards.size()) {}
 
-Matrix Radau::jacobian(Quad t, const Vector& y) const {
-  const std::size_t n = y.size();
-  Matrix out(n, n);
-  Vector f(n), moved_f(n), moved = y;
-  problem_.f(t, y, f);
-  for (std::size_t j = 0; j < n; ++j) {
-    moved[j] = y[j] + Quad(1e-17) * (fabsq(y[j]) + problem_.atol);
-    problem_.f(t, moved, moved_f);
-    for (std::size_t i = 0; i < n; ++i)
-      out(i, j) = static_cast<long double>((moved_f[i] - f[i]) / (moved[j] - y[j]));
-    moved[j] = y[j];
+/// d(state after the step) / d(state before it), by the Jacobian of each stage.
+Matrix Radau::propagator(Quad h, const Stages& stages) const {
+  const Eigen::Index n = static_cast<Eigen::Index>(y_.size()), s = tableau_.s;
+  std::vector<Eigen::Triplet<double>> entries;
+  for (Eigen::Index i = 0; i < s * n; ++i) entries.emplace_back(i, i, 1.0);
+  for (Eigen::Index b = 0; b < s; ++b) {
+    const Sparse jacobian = differences_(t_ + tableau_.c[b] * h, stages[b]);
+    for (Eigen::Index j = 0; j < n; ++j)
+      for (Sparse::InnerIterator e(jacobian, j); e; ++e)
+        for (Eigen::Index a = 0; a < s; ++a)
+          entries.emplace_back(
+              a * n + e.row(), b * n + j,
+              -static_cast<double>(h * tableau_.a[a][b]) * static_cast<double>(e.value()));
   }
-  return out;
-}
-
-/// I - h A x J, with one Jacobian for all stages or one for each.
-Matrix Radau::newton_matrix(Quad h, const std::vector<Matrix>& jacobians) const {
-  const Eigen::Index n = jacobians[0].rows(), s = tableau_.s;
-  Matrix out = Matrix::Identity(s * n, s * n);
-  for (Eigen::Index a = 0; a < s; ++a)
-    for (Eigen::Index b = 0; b < s; ++b)
-      out.block(a * n, b * n, n, n) -=
-          static_cast<long double>(h * tableau_.a[a][b]) * jacobians[jacobians.size() == 1 ? 0 : b];
-  return out;
+  Eigen::SparseMatrix<double> all(s * n, s * n);
+  all.setFromTriplets(entries.begin(), entries.end());
+  Eigen::SparseLU<Eigen::SparseMatrix<double>> lu(all);
+  const Eigen::MatrixXd start = Eigen::MatrixXd::Identity(n, n).replicate(s, 1);
+  return Eigen::MatrixXd(lu.solve(start)).bottomRows(n).cast<long double>();
 }
 
 /// The polynomial of the step before, continued.
@@ -128,12 +125,12 @@ Radau::Stages Radau::predict(Quad h) const {
   return stages;
 }
 
-bool Radau::solve(Quad h, Stages& stages) const {
+bool Radau::solve(Quad h, Stages& stages) {
   const std::size_t n = y_.size(), s = static_cast<std::size_t>(tableau_.s);
-  const Eigen::PartialPivLU<Matrix> lu(newton_matrix(h, {jacobian(t_, y_)}));
+  newton_.factorise(h, differences_(t_ + tableau_.c[0] * h, y_));  // behind a jump of the data
   stages = predict(h);
   Stages f(s, Vector(n));
-  Eigen::Vector<long double, Eigen::Dynamic> residual(s * n);
+  Matrix residual(n, s);
   Quad before = 1e30Q;
   for (int iteration = 0, slow = 0; iteration < 60; ++iteration) {
     for (std::size_t i = 0; i < s; ++i) problem_.f(t_ + tableau_.c[i] * h, stages[i], f[i]);
@@ -141,13 +138,13 @@ bool Radau::solve(Quad h, Stages& stages) const {
       for (std::size_t k = 0; k < n; ++k) {
         Quad r = y_[k] - stages[i][k];
         for (std::size_t j = 0; j < s; ++j) r += h * tableau_.a[i][j] * f[j][k];
-        residual[i * n + k] = static_cast<long double>(r);
+        residual(k, i) = static_cast<long double>(r);
       }
-    residual = lu.solve(residual);
+    residual = newton_.solve(residual);
     Quad worst = 0;
     for (std::size_t i = 0; i < s; ++i)
       for (std::size_t k = 0; k < n; ++k) {
-        const Quad change = residual[i * n + k];
+        const Quad change = residual(k, i);
         stages[i][k] += change;
         const Quad size = problem_.atol + fabsq(y_[k]) + fabsq(stages[i][k]);
         if (!(fabsq(change) / size <= worst)) worst = fabsq(change) / size;
@@ -191,14 +188,7 @@ void Radau::locate(std::size_t guard, Quad h) {
 }
 
 void Radau::accept(Quad h, const Stages& stages) {
-  if (tangents_) {
-    const Eigen::Index n = static_cast<Eigen::Index>(y_.size()), s = tableau_.s;
-    std::vector<Matrix> jacobians;
-    for (int i = 0; i < tableau_.s; ++i)
-      jacobians.push_back(jacobian(t_ + tableau_.c[i] * h, stages[i]));
-    const Matrix all = Matrix::Identity(n, n).replicate(s, 1);
-    propagators_.push_back(newton_matrix(h, jacobians).partialPivLu().solve(all).bottomRows(n));
-  }
+  if (tangents_) propagators_.push_back(propagator(h, stages));
   last_ = stages, last_y_ = y_, last_h_ = h;
   t_ += h, y_ = stages.back();
   states_.push_back(y_);

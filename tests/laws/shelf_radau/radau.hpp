@@ -1,52 +1,16 @@
 // Radau IIA with any number of stages, in binary128 (34 digits): for references, not for speed.
 // E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, section IV.5 and IV.8: the
 // nodes are the zeros of P_s(2 x - 1) - P_{s-1}(2 x - 1), the order is 2 s - 1. Simplified Newton
-// with an LU in long double, iterated until nothing moves in 31 digits. The step is chosen by the
-// leading coefficient of the collocation polynomial, which is what a polynomial of one degree less
-// would miss; the ends of steps, of order 2 s - 1, are far better than that.
+// with an LU in long double (newton.hpp), iterated until nothing moves in 31 digits. The step is
+// chosen by the leading coefficient of the collocation polynomial, which is what a polynomial of
+// one degree less would miss; the ends of steps, of order 2 s - 1, are far better than that.
 #pragma once
-
-#include <quadmath.h>
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <stdexcept>
-#include <string>
-#include <vector>
 
-#include <Eigen/Dense>
-
-using Quad = __float128;
-using Vector = std::vector<Quad>;
-using Matrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
-using Equation = std::function<void(Quad t, const Vector& y, Vector& dydt)>;
-using Guard = std::function<Quad(const Vector& y)>;
-
-inline Quad number(const std::string& text) { return strtoflt128(text.c_str(), nullptr); }
-inline std::string text(Quad x, int digits = 20) {
-  char out[96];
-  quadmath_snprintf(out, sizeof out, ("%." + std::to_string(digits) + "Qg").c_str(), x);
-  return out;
-}
-
-/// Nodes c, matrix A, and the weights of the divided difference over 0, c_1, ..., c_s.
-struct Tableau {
-  explicit Tableau(int s);
-  int s;
-  Vector c, leading;
-  std::vector<Vector> a;
-};
-
-struct Problem {
-  Equation f;
-  Vector start;
-  std::vector<Quad> times;
-  Quad first_step;
-  Quad atol;           ///< of the size that errors are measured against, atol + |y|
-  double ratio = 1.0;  ///< atol / rtol of the scene, for the growth
-  std::vector<Guard> guards = {};
-};
+#include "newton.hpp"
 
 class Radau {
  public:
@@ -62,16 +26,17 @@ class Radau {
 
  private:
   using Stages = std::vector<Vector>;
-  Matrix jacobian(Quad t, const Vector& y) const;
-  Matrix newton_matrix(Quad h, const std::vector<Matrix>& jacobians) const;
   Stages predict(Quad h) const;
-  bool solve(Quad h, Stages& stages) const;
+  bool solve(Quad h, Stages& stages);
+  Matrix propagator(Quad h, const Stages& stages) const;
   Quad error(const Stages& stages) const;
   void locate(std::size_t guard, Quad h);
   void accept(Quad h, const Stages& stages);
 
   const Problem& problem_;
   Tableau tableau_;
+  Differences differences_;
+  Newton newton_;
   double tolerance_;
   bool tangents_;
   Quad t_ = 0, h_, last_h_ = 0;
