@@ -21,12 +21,13 @@ GROUPS = {
     "Modes and switches": (
         "Scenes whose equations change at events.",
         ["water-tanks", "thermostat", "integrate-and-fire", "stick-slip", "buck-converter",
-         "stiff-contact", "heat-rod"],
+         "stiff-contact", "buck-parasitics", "relay-circuit", "heat-rod"],
     ),
     "Stiff scenes": (
         "Only methods that suit: an explicit one would not come to the end, or take a thousand times longer.",
         ["robertson", "hires", "orego", "van-der-pol", "vdpol", "vdpol-1e6", "e5", "pollu",
-         "ring-modulator", "brusselator"],
+         "ring-modulator", "brusselator", "b5", "beam", "cusp", "plate", "medakzo",
+         "brusselator-2d", "emep"],
     ),
     "Smooth scenes": ("High order makes digits cheap.", ["kepler", "pleiades", "lorenz"]),
 }  # fmt: skip
