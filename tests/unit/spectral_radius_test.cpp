@@ -49,6 +49,26 @@ TEST_CASE("an oscillation counts by its frequency", "[spectral_radius]") {
   CHECK(about(linear(turn)(), 50.0));
 }
 
+TEST_CASE("many oscillations of an elastic beam are seen, in angles and rates",
+          "[spectral_radius]") {
+  // x'' = -K x with K = m^4 D^2, D the second difference of a row of m points: frequencies up to
+  // 4 m^2. J lengthens a vector of angles by m^4 and one of rates by 1.
+  const Index m = GENERATE(4, 20, 60);
+  const double damping = GENERATE(0.0, 0.01, 1.0);
+  Eigen::MatrixXd d = -2.0 * Eigen::MatrixXd::Identity(m, m);
+  d.diagonal(1).setOnes(), d.diagonal(-1).setOnes();
+  const auto scale = static_cast<double>(m * m);
+  Eigen::MatrixXd a = Eigen::MatrixXd::Zero(2 * m, 2 * m);
+  a.topRightCorner(m, m).setIdentity();
+  a.bottomLeftCorner(m, m) = -scale * scale * d * d;
+  // Every mode has the damping ratio `damping`: x'' = -K x + 2 ratio sqrt(K) x', sqrt(K) = -m^2 D.
+  a.bottomRightCorner(m, m) = 2.0 * damping * scale * d;
+  INFO("m " << m << ", damping ratio " << damping);
+  Flow flow = linear(a);
+  CHECK(about(flow(), 4.0 * scale));
+  CHECK((flow.radius.damping() < 0.3) == (damping < 0.3));
+}
+
 TEST_CASE("another unit of a state changes nothing", "[spectral_radius]") {
   // The same eigenvalues, -1 and -100, and a place off the diagonal that grows as the unit shrinks.
   const auto in_units = [](double unit) {

@@ -19,7 +19,10 @@ namespace saltus {
 ///
 /// A pair of complex eigenvalues turns v for ever, and one growth depends on where v is. So the
 /// last three vectors are fitted by J^2 v = a J v + b v, whose roots are the pair (Y. Saad,
-/// "Numerical Methods for Large Eigenvalue Problems", 1992, IV.1).
+/// "Numerical Methods for Large Eigenvalue Problems", 1992, IV.1). Many pairs on the imaginary axis,
+/// those of an elastic structure, leave the span of two vectors; but J^2 has real eigenvalues -w^2
+/// then, and turns v back, while one J may lengthen it by 10 and the next by 10^6 where the states are
+/// angles and their rates. If v is turned back by most, but not by all, the iteration goes on.
 class SpectralRadius {
  public:
   SpectralRadius(Machine& machine, const SolverOptions& options)
@@ -44,20 +47,19 @@ class SpectralRadius {
     machine_->derivative(t, x.data(), f_.data());
     double growth = 0.0;
     damping_ = 1.0;
-    for (int k = 0; k < thresholds::power_iterations; ++k) {
+    for (int k = 0;
+         k < thresholds::power_iterations || (undecided() && k < thresholds::most_power_iterations);
+         ++k) {
       before_last_.swap(last_), last_ = direction_, growth_before_ = growth;
-      point_ = x + small * scale_.cwiseProduct(direction_);
-      machine_->derivative(t, point_.data(), moved_.data());
-      direction_ = (moved_ - f_).cwiseQuotient(scale_) / small;
-      growth = direction_.norm();
+      growth = iterate(t, x, small);
       if (growth == 0.0) return 0.0;
       if (!std::isfinite(growth)) {
         forget();
         return std::numeric_limits<double>::infinity();
       }
-      direction_ /= growth;
+      if (k > 0) fit(growth);
     }
-    return oscillation(growth);
+    return rate(growth);
   }
 
   /// The damping ratio of the part found last, -Re lambda / |lambda|; 1 if lambda is real.
@@ -73,23 +75,52 @@ class SpectralRadius {
     return VectorView(options.each_atol(), n).cwiseQuotient(VectorView(options.each_rtol(), n));
   }
 
+  /// v <- J v / |J v|. Returns |J v|.
+  double iterate(double t, const Eigen::VectorXd& x, double small) {
+    point_ = x + small * scale_.cwiseProduct(direction_);
+    machine_->derivative(t, point_.data(), moved_.data());
+    direction_ = (moved_ - f_).cwiseQuotient(scale_) / small;
+    const double growth = direction_.norm();
+    if (growth > 0.0 && std::isfinite(growth)) direction_ /= growth;
+    return growth;
+  }
+
+  /// Fits the last three vectors: direction_ = a last_ + b growth_before / growth before_last_, with
+  /// a and b in units of the growth.
+  void fit(double growth) {
+    const double overlap = before_last_.dot(last_);
+    const double p = direction_.dot(last_);
+    turned_ = 1.0 - overlap * overlap, twice_ = direction_.dot(before_last_);
+    if (!is_turned()) return;
+    const double c = (twice_ - overlap * p) / turned_;
+    a_ = (p - overlap * twice_) / turned_, b_ = growth_before_ / growth * c;
+    unexplained_ = (direction_ - a_ * last_ - c * before_last_).norm() / std::sqrt(turned_);
+  }
+  bool is_turned() const { return !(turned_ < 1e-6); }
+
+  /// Whether J^2 turns the vector back, but more than one pair takes part in it.
+  bool undecided() const {
+    return is_turned() && unexplained_ > thresholds::unexplained_turn && twice_ < -0.5 &&
+           twice_ > -thresholds::turned_back;
+  }
+
   /// |lambda| of the pair that turned the last vectors, or the growth if they turned by a rounding
   /// only, or by two real eigenvalues.
-  double oscillation(double growth) {
-    const double overlap = before_last_.dot(last_);
-    const double turned = 1.0 - overlap * overlap;
-    if (turned < 1e-6) return growth;
-    // In units of the growth: direction_ = a last_ + b (growth / growth_before) before_last_.
-    const double p = direction_.dot(last_), q = direction_.dot(before_last_);
-    const double a = (p - overlap * q) / turned;
-    const double b = growth_before_ / growth * (q - overlap * p) / turned;
-    if (!(0.25 * a * a + b < 0.0)) return growth;
-    damping_ = -0.5 * a / std::sqrt(-b);
-    return growth * std::sqrt(-b);
+  double rate(double growth) {
+    if (!is_turned()) return growth;
+    if (unexplained_ > thresholds::unexplained_turn && twice_ < -thresholds::turned_back) {
+      damping_ = std::sqrt(std::max(0.5 * (1.0 + twice_), 0.0));
+      return std::sqrt(growth * growth_before_);
+    }
+    if (!(0.25 * a_ * a_ + b_ < 0.0)) return growth;
+    damping_ = -0.5 * a_ / std::sqrt(-b_);
+    return growth * std::sqrt(-b_);
   }
 
   Machine* machine_;
   double damping_ = 1.0, growth_before_ = 0.0;
+  // What `fit` has found.
+  double a_ = 0.0, b_ = 0.0, turned_ = 0.0, twice_ = 0.0, unexplained_ = 0.0;
   Eigen::VectorXd floor_, direction_, f_, moved_, scale_, point_;
   Eigen::VectorXd last_, before_last_;  // directions
 };

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "saltus/solver/detail/solver.hpp"
 #include "saltus/solver/detail/thresholds.hpp"
@@ -49,8 +50,8 @@ class StiffnessTest {
       : stability_(bounds.real),
         turning_(bounds.imaginary),
         amplitude_(std::min(bounds.amplitude, part_of_solution / options.rtol)),
-        bdf_per_turn_(thresholds::bdf_step * std::pow(options.rtol, 1.0 / 6.0)),
-        smooth_(thresholds::saved_calls * calls / thresholds::bdf_calls * bdf_per_turn_),
+        smooth_(thresholds::saved_calls * calls / thresholds::bdf_calls * thresholds::bdf_step *
+                std::pow(options.rtol, 1.0 / 6.0)),
         options_(options) {}
 
   bool detected() const noexcept { return stiff_ >= thresholds::stiff_steps; }
@@ -68,13 +69,16 @@ class StiffnessTest {
   /// Whether it does, if its rate is |lambda| [1/s]: by the mean of the steps since the first of
   /// them, and by the mean change of the derivative in them.
   bool oscillates(double rate) const noexcept {
-    return rate * span_ > turning_ * looks_ && swing_ < amplitude_ * rate * long_;
+    return rate * span_ > turning_ * looks_ && amplitude(rate) < amplitude_;
+  }
+  /// [tolerances] The amplitude of an oscillation of this rate [1/s], by the mean change of the
+  /// derivative; infinite if no step may have followed one.
+  double amplitude(double rate) const noexcept {
+    return long_ > 0 ? swing_ / (rate * long_) : std::numeric_limits<double>::infinity();
   }
   /// Whether Petzold's rule called most of the stiff steps so. It does not depend on a phase.
   bool by_smoothness() const noexcept { return 2 * smooth_steps_ >= stiff_; }
-  /// The step of BDF by Petzold's rule [s], after a step that was stiff by it.
-  double step_of_bdf() const noexcept { return bdf_step_; }
-  /// It does not, or BDF found no longer steps. The next question comes after `times` as many steps.
+  /// No other method suits. The next question comes after `times` as many steps.
   void put_off(int times) noexcept {
     wanted_ = std::min(times * wanted_, latest);
     watch_anew();
@@ -99,7 +103,7 @@ class StiffnessTest {
   void count_long(double h, VectorView x1, VectorView f0, VectorView f1) {
     ++looks_, span_ += h;
     if (h * rate_ > turning_)
-      ++long_, others_ = 0, swing_ += in_tolerances(f1 - f0, x1);
+      ++long_, others_ = 0, swing_ += largest(f1 - f0, x1);
     else if (++others_ == thresholds::other_steps)
       watch_anew();
   }
@@ -114,29 +118,36 @@ class StiffnessTest {
     if (!(reach > thresholds::least_reach)) return false;
     const double turned = in_tolerances(f1 - f0, x1) / in_tolerances(f1, x1);
     const bool smooth = turned < std::min(smooth_, thresholds::smooth_turn * reach);
-    if (smooth) ++smooth_steps_, bdf_step_ = bdf_per_turn_ * h / turned;
+    if (smooth) ++smooth_steps_;
     return smooth || reach > stability_;
   }
 
   /// |value| in units of the tolerance.
   template <class Value>
   double in_tolerances(const Value& value, VectorView x1) const {
+    return measured(value, x1, [](const auto& scaled) { return scaled.matrix().norm(); });
+  }
+  /// The largest part of it. An oscillation of the solution may be in one state of many.
+  template <class Value>
+  double largest(const Value& value, VectorView x1) const {
+    return measured(value, x1, [](const auto& scaled) { return scaled.abs().maxCoeff(); });
+  }
+  template <class Value, class Norm>
+  double measured(const Value& value, VectorView x1, const Norm& norm) const {
     const auto size = x1.array().abs();
-    if (options_.rtols.empty())
-      return (value.array() / (options_.atol + options_.rtol * size)).matrix().norm();
+    if (options_.rtols.empty()) return norm(value.array() / (options_.atol + options_.rtol * size));
     const VectorView rtol(options_.each_rtol(), x1.size()), atol(options_.each_atol(), x1.size());
-    return (value.array() / (atol.array() + rtol.array() * size)).matrix().norm();
+    return norm(value.array() / (atol.array() + rtol.array() * size));
   }
 
-  double stability_, turning_, amplitude_, bdf_per_turn_, smooth_;
+  double stability_, turning_, amplitude_, smooth_;
   SolverOptions options_;
   int stiff_ = 0, calm_ = 0, smooth_steps_ = 0;
   double rate_ = 0.0;
   int long_ = 0, others_ = 0, looks_ = 0;  // steps beyond turning_, others in a row, all of them
   int wanted_ = thresholds::stiff_steps;
-  double span_ = 0.0;      // [s] of all of them
-  double swing_ = 0.0;     // sum of |f1 - f0| [tolerances / s] of the first
-  double bdf_step_ = 0.0;  // [s]
+  double span_ = 0.0;   // [s] of all of them
+  double swing_ = 0.0;  // sum of |f1 - f0| [tolerances / s] of the first
 };
 
 }  // namespace saltus
