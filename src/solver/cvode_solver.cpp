@@ -102,7 +102,7 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
     return options;
   }
   static bool is_loose(CvodeMethod method, const SolverOptions& options) {
-    return method == CvodeMethod::bdf && options.tightens && options.rtol >= thresholds::loose_rtol;
+    return method == CvodeMethod::bdf && options.rtol >= thresholds::loose_rtol;
   }
 
   /// The starter begins stretches inside a run.
@@ -157,7 +157,6 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
       CVodeSetNonlinearSolver(cvode, nonlinear_.get());
       corrector_.attach(nonlinear_.get());
     } else {
-      CVodeSetMaxOrd(cvode, options_.highest_order);
       if (is_loose(method_, options_)) CVodeSetNonlinConvCoef(cvode, thresholds::loose_newton);
       scene_.make_linear(options_, t1_, x1_.data());
       scene_.attach_linear(cvode, y_.get(), context_.get());

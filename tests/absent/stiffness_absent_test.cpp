@@ -31,6 +31,7 @@ TEST_CASE("a scene that is not stiff has no Jacobian and no linear solver", "[ab
   CHECK(results.statistics.jacobian_calls == 0);
   CHECK(results.statistics.linear_setups == 0);
   CHECK(!contains(results.statistics.method, "bdf"));
+  CHECK(!contains(results.statistics.method, "then radau"));
 }
 
 TEST_CASE("a method that is not stiff looks at no sparsity, colours nothing, has no linear solver",

@@ -126,6 +126,17 @@ TEST_CASE("the order of the Radau methods follows Newton's iteration", "[radau]"
   CHECK(next_stages({.stages = 7, .theta = 0.1}) == 7);
   CHECK(next_stages({.stages = 5, .newton_failed = true}) == 3);
   CHECK(next_stages({.stages = 3, .newton_failed = true}) == 3);
+  // Below the usual number it rises sooner.
+  CHECK(next_stages({.stages = 3, .theta = 0.01, .ratio = 1.0, .steps = 10, .usual = 7}) == 5);
+  CHECK(next_stages({.stages = 5, .theta = 0.01, .ratio = 1.0, .steps = 10, .usual = 5}) == 5);
+  CHECK(next_stages({.stages = 5, .theta = 0.03, .ratio = 1.0, .steps = 10, .usual = 7}) == 5);
+}
+
+TEST_CASE("the first steps have more stages at a tighter tolerance", "[radau]") {
+  CHECK(radau::first_stages(2e-6) == 3);
+  CHECK(radau::first_stages(1e-6) == 5);
+  CHECK(radau::first_stages(2e-9) == 5);
+  CHECK(radau::first_stages(1e-9) == 7);
 }
 
 TEST_CASE("the length of a step follows its error, and the trend of the errors", "[radau]") {

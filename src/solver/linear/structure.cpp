@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "saltus/solver/detail/radau.hpp"
 #include "saltus/solver/detail/thresholds.hpp"
 #include "scalar.hpp"
 
@@ -16,7 +17,9 @@ LinearStructure::LinearStructure(Machine& machine, const SolverOptions& options,
 }
 
 void LinearStructure::build() {
+  const bool distrusted = jacobian_ && jacobian_->distrusted();
   jacobian_.emplace(*machine_, probe_.found());
+  if (distrusted) jacobian_->distrust();
   choice_ = choose_linear_solver(*jacobian_, machine_->plan().nx, options_.linear_solver);
   words_.clear();
   if (direct()) lay_out();
@@ -80,6 +83,12 @@ const std::string& LinearStructure::describe() const {
                   choice_.why, probe_.words(), jacobian_->words());
   }
   return words_;
+}
+
+MatrixCost matrix_cost(Machine& machine, const SolverOptions& options, double t,
+                       const Eigen::VectorXd& x) {
+  const LinearStructure structure(machine, options, t, x.data());
+  return {structure.direct(), structure.choice().time};
 }
 
 }  // namespace saltus

@@ -37,22 +37,31 @@ class ErrorEstimate {
     for (Index i = 0; i < estimate_.size(); ++i)
       tolerance_[i] = options_.tolerance(i, std::max(std::abs((*step.x)[i]), std::abs(x1[i])));
     size_ = mean(estimate_);
-    const double error = in_allowed(scheme, step.h);
+    const double error = in_allowed(allowed(scheme, x1), step.h, scheme.stages);
     tried_ = step.h;
     return std::isfinite(error) ? error : std::numeric_limits<double>::infinity();
   }
 
   /// [tolerances] Root mean square of the last estimate.
   double size() const { return size_; }
+  /// [tolerances] The largest part of it.
+  double largest() const { return estimate_.cwiseQuotient(tolerance_).cwiseAbs().maxCoeff(); }
   /// For a step that is accepted without an estimate.
   void set_size(double size) { size_ = size; }
 
  private:
+  /// What is allowed at rtol, or, where the absolute tolerances are the larger part, at the ratio of
+  /// the tolerances to the states.
+  AllowedEstimate allowed(const Scheme& scheme, const Eigen::VectorXd& x1) const {
+    const double relative = std::min(tuning::absolute_part / mean(x1), 1.0);
+    if (relative > options_.rtol) return AllowedEstimate(scheme, relative, thresholds::dense_room);
+    return *allowed_[static_cast<std::size_t>((scheme.stages - 3) / 2)];
+  }
+
   /// Root mean square in what is allowed. `plain_` is overwritten.
-  double in_allowed(const Scheme& scheme, double h) {
-    const AllowedEstimate& allowed = *allowed_[static_cast<std::size_t>((scheme.stages - 3) / 2)];
+  double in_allowed(const AllowedEstimate& allowed, double h, int stages) {
     const bool again = h < tuning::alike_tries * tried_;
-    const double shrunk = again ? std::pow(h / tried_, scheme.stages) : 0.0;
+    const double shrunk = again ? std::pow(h / tried_, stages) : 0.0;
     for (Index i = 0; i < estimate_.size(); ++i) {
       const double plain = std::abs(plain_[i]), left = std::abs(estimate_[i]);
       const double share = left < plain ? left / plain : 1.0;

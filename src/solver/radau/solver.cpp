@@ -74,18 +74,32 @@ class RadauSolver final : public StepSolver<RadauSolver> {
   static constexpr double infinite = std::numeric_limits<double>::infinity();
 
   void begin(const Start& start) {
-    if (start.first || start.handover) {
+    if (start.first || start.changed) {
       h_ = start.first ? options_.first_step : 0.0;
       choice_.start();
-      stages_.forget();
-      if (start.first) setups_before_ = stages_.setups();
+      stages_.renew_jacobian();
+      if (start.first) stages_.forget(), setups_before_ = stages_.setups();
     }
+    begin_damping(start);
     f1_known_ = start.flow != nullptr;
     if (f1_known_) f1_ = *start.flow;
     horizon_ = start.horizon;
     choice_.restart();
+    if (damping_ > 0) choice_.take(3);
     forget_steps();
   }
+  /// See Start::damp_rate. Steps that are long for the oscillation damp it; by the estimate they would
+  /// be so short that they resolve it.
+  void begin_damping(const Start& start) {
+    damping_ = 0;
+    if (!(start.damp_rate > 0.0)) return;
+    damp_length_ = tuning::damping_reach / start.damp_rate;
+    if (!(damp_length_ <= options_.max_step)) return;
+    damping_ = tuning::damping_steps;
+    h_ = damp_length_, damp_size_ = start.damp_size;
+  }
+  /// Whether a step of length h damps: a shorter one, to a stop time, is a step like any other.
+  bool damps(double h) const { return damping_ > 0 && h >= tuning::damping_share * damp_length_; }
   void undo() {
     x1_ = x0_, t1_ = t0_;
     f1_known_ = false;
@@ -108,14 +122,14 @@ class RadauSolver final : public StepSolver<RadauSolver> {
       if (!stages_.solve({t0_, &x0_, &f0_, h}, step_, [&, h = h] { predict(h); })) {
         if (creep(h)) return;
         if (!stages_.finite()) note_not_finite(h);
-        wish = h * stages_.shorter();
+        wish = h * stages_.shorter(), damping_ = 0;
         choice_.newton_failed();
         step_.stages = choice_.stages();
         error_.forget_tries();
         ++statistics_.rejected;
         continue;
       }
-      const double error = estimate(h);
+      const double error = judged(h);
       if (error <= 1.0 && !ends_finite()) {
         ++statistics_.rejected;
         note_not_finite(h);
@@ -127,7 +141,7 @@ class RadauSolver final : public StepSolver<RadauSolver> {
       wish = choice_.reject(error, h, stages_.convergence());
       // Behind a jump the steps before it say nothing, and the estimate of fast parts hardly shrinks
       // with h until it resolves them.
-      if (!smooth_ && !rejected) wish = std::min(wish, careful_step(t_stop));
+      if (!smooth_ && !rejected && damping_ == 0) wish = std::min(wish, careful_step(t_stop));
     }
   }
 
@@ -177,6 +191,15 @@ class RadauSolver final : public StepSolver<RadauSolver> {
     return true;
   }
 
+  /// The error of a step that damps an oscillation is allowed if the estimate shrinks from step to step
+  /// as that does.
+  double judged(double h) {
+    const double error = estimate(h);
+    if (!damps(h) || !std::isfinite(error)) return error;
+    if (error_.largest() <= tuning::damping_room * damp_size_) return std::min(error, 1.0);
+    damping_ = 0;
+    return error;
+  }
   double estimate(double h) {
     finish_stages(h);
     return error_.look(stages_, {t0_, &x0_, &f0_, h}, step_, x1_);
@@ -208,10 +231,19 @@ class RadauSolver final : public StepSolver<RadauSolver> {
     ++statistics_.steps;
     const bool kept = stages_.keep();
     const double ratio = smooth_ ? h / last_length_ : 0.0;
-    h_ = choice_.accept({h, error, ratio, rejected, kept}, stages_.convergence());
+    const double next = choice_.accept({h, error, ratio, rejected, kept}, stages_.convergence());
+    if (damping_ > 0) return go_on_damping(h);
+    h_ = next;
     if (!rejected && h < wish)
       h_ = std::max(h_, wish);  // the stop time shortened it, not the error
     smooth_ = true;
+  }
+
+  /// The next step damps the oscillation further, or is free.
+  void go_on_damping(double h) {
+    if (damps(h)) --damping_, damp_size_ = tuning::damping_left * error_.largest();
+    h_ = damp_length_, smooth_ = true;
+    choice_.forget_trend();
   }
 
   /// [tolerances] Of the collocation polynomial inside the step.
@@ -244,10 +276,13 @@ class RadauSolver final : public StepSolver<RadauSolver> {
   ErrorEstimate error_;
   bool looked_ = false, halved_ = false;
   bool f1_known_ = false;
-  bool smooth_ = false;  // the solution of the last step continues in the present one
+  int damping_ = 0;           // steps that still damp an oscillation: see Start::damp_rate
+  double damp_size_ = 0.0;    // [tolerances] its amplitude
+  double damp_length_ = 0.0;  // [s] of the steps that damp it
+  bool smooth_ = false;       // the solution of the last step continues in the present one
   double h_ = 0.0, horizon_ = infinite, last_length_ = 0.0;
   double not_finite_within_ = 0.0;  // [s] of the present step; 0: all values were finite
-  StepChoice choice_;
+  StepChoice choice_{options_.rtol};
   long setups_before_ = 0;  // of earlier runs
   mutable SolverStatistics sum_;
 };

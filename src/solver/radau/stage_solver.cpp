@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "saltus/solver/detail/radau.hpp"
 #include "saltus/solver/detail/radau/tuning.hpp"
 
 namespace saltus::radau {
@@ -10,20 +11,22 @@ namespace saltus::radau {
 void StageSolver::prepare(double t, const Eigen::VectorXd& x) {
   if (structure_) return;
   structure_.emplace(*machine_, options_, t, x.data());
+  use_structure(t);
+}
+
+void StageSolver::use_structure(double t) {
   if (!structure_->direct()) {
-    throw SimulationError(
+    const std::string found = structure_->describe();
+    structure_.reset();
+    throw NoFactors(
         text("t = ", t,
              " s: ode_solver_method 'radau' factorises its matrices, and those of this "
              "scene would fill up (",
-             structure_->describe(),
+             found,
              "); take 'bdf', declare the sparsity of the largest block, or set linear_solver to "
              "'sparse', 'band' or 'dense'"),
         t, "");
   }
-  use_structure();
-}
-
-void StageSolver::use_structure() {
   systems_.emplace(*structure_), aside_.emplace(*structure_);
   jacobian_.assign(static_cast<std::size_t>(structure_->layout().size), 0.0);
   known_ = false;
@@ -37,7 +40,7 @@ bool StageSolver::make_jacobian(const Step& step) {
     if (!structure_->jacobian()(step.t, x, f, by, jacobian_.data())) return false;
     if (!structure_->misses_places(step.t, x, f, by, jacobian_.data())) break;
     structure_->renew(false);
-    use_structure();
+    use_structure(step.t);
   }
   systems_->forget(), aside_->forget();
   known_ = true, age_ = 0;
@@ -69,7 +72,7 @@ bool StageSolver::recover(Verdict verdict, const Step& step) {
     return true;
   }
   if (structure_->renew(true)) {
-    use_structure();
+    use_structure(step.t);
     return true;
   }
   if (verdict == Verdict::slow) shorter_ = newton_.convergence().shorter();

@@ -23,10 +23,10 @@ class StageSolver {
   StageSolver(Machine& machine, const SolverOptions& options)
       : machine_(&machine), options_(options), newton_(machine, options) {}
 
-  /// A new run, or a change of method: nothing is known.
+  /// A new run: nothing is known.
   void forget() { structure_.reset(), doubts_ = 0; }
-  /// Makes the structure of the linear systems at the first step. Throws SimulationError if they
-  /// cannot be factorised.
+  /// Makes the structure of the linear systems at the first step. Throws NoFactors if they cannot be
+  /// factorised.
   void prepare(double t, const Eigen::VectorXd& x);
   /// What was seen of Newton's iteration says nothing about the next step.
   void distrust() { factor_ = infinite; }
@@ -50,12 +50,16 @@ class StageSolver {
   void filter(Eigen::VectorXd& v) { systems_->solve_real(v.data()); }
 
   long setups() const { return setups_; }
-  std::string describe() const { return structure_ ? structure_->describe() : std::string(); }
+  const std::string& describe() const {
+    static const std::string none;
+    return structure_ ? structure_->describe() : none;
+  }
 
  private:
   static constexpr double infinite = std::numeric_limits<double>::infinity();
 
-  void use_structure();
+  /// Throws NoFactors if the systems cannot be factorised.
+  void use_structure(double t);
   bool make_jacobian(const Step& step);
   bool set_up(StageSystems& systems, const Scheme& scheme, double h);
   /// Whether the step may be tried again, with a new Jacobian or structure.

@@ -61,6 +61,7 @@ class Jacobian {
   /// From now on differences replace all entries of the leaves' own Jacobians: Newton's iteration
   /// does not converge with them, and they do not explain how f moves.
   void distrust() { distrusted_ = true; }
+  bool distrusted() const { return distrusted_; }
   /// Whether there are own Jacobians, and they are used.
   bool trusts_own() const { return !own_.empty() && !distrusted_; }
 

@@ -4,8 +4,16 @@
 #include <memory>
 
 #include "saltus/solver/detail/solver.hpp"
+#include "saltus/solver/detail/stiff_choice.hpp"
 
 namespace saltus {
+
+/// The matrices of Radau cannot be factorised, or no longer: places of the Jacobian were missed, and
+/// with them the factors would fill up.
+class NoFactors : public SimulationError {
+ public:
+  using SimulationError::SimulationError;
+};
 
 /// Implicit Runge-Kutta methods of 3, 5 and 7 stages, orders 5, 9 and 13, for stiff scenes: A- and
 /// L-stable, without a history (E. Hairer, G. Wanner, Solving Ordinary Differential Equations II,
@@ -13,5 +21,10 @@ namespace saltus {
 /// (1999) 93).
 std::unique_ptr<Solver> make_radau(Machine& machine, GuardSet& guards,
                                    const SolverOptions& options);
+
+/// Whether the matrices of a stiff method at (t, x) can be factorised, and for how much. Throws
+/// ModelError for an impossible sparsity.
+MatrixCost matrix_cost(Machine& machine, const SolverOptions& options, double t,
+                       const Eigen::VectorXd& x);
 
 }  // namespace saltus

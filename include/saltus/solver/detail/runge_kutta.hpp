@@ -73,7 +73,7 @@ class RungeKutta final : public StepSolver<RungeKutta<Method, N>, OneStepSolver>
   double* stage(std::size_t i) { return k_.data() + static_cast<Index>(i) * size(); }
 
   void begin(const Start& start) {
-    if (start.first || start.handover) {
+    if (start.first || start.changed) {
       h_ = start.first ? options_.first_step : 0.0;
       controller_ = controller();
     }

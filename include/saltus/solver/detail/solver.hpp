@@ -25,12 +25,10 @@ struct SolverOptions {
   double atol = 1e-8;
   double min_step = 0.0;                                      ///< [s]
   double max_step = std::numeric_limits<double>::infinity();  ///< [s]
-  LinearSolver linear_solver = LinearSolver::automatic;       ///< of BDF
+  LinearSolver linear_solver = LinearSolver::automatic;       ///< of BDF and Radau
   bool find_sparsity = true;                                  ///< see Probe
   double first_step = 0.0;                                    ///< [s] 0: chosen by the tolerance
   std::vector<double> rtols = {}, atols = {};                 ///< of each state; empty: one for all
-  int highest_order = 5;                                      ///< of BDF
-  bool tightens = true;  ///< BDF takes a part of a loose tolerance: see thresholds::loose_rtol
 
   const double* each_rtol() const { return rtols.empty() ? nullptr : rtols.data(); }
   const double* each_atol() const { return atols.empty() ? nullptr : atols.data(); }
@@ -48,7 +46,11 @@ struct Start {
                                                              ///< follow: resolve it
   const Eigen::VectorXd* flow = nullptr;  ///< f(t, x), if the engine knows it already
   bool first = false;                     ///< a new run: step size and counts are reset too
-  bool handover = false;                  ///< a change of method: it does not count as a restart
+  bool changed = false;                   ///< another method took the steps before
+  bool handover = false;   ///< a change of method within a stretch: it does not count as a restart
+  double damp_rate = 0.0;  ///< |lambda| [1/s] of a fast oscillation that the errors of the method
+                           ///< before have excited, for the first steps to damp; 0: there is none
+  double damp_size = 0.0;  ///< [tolerances] its amplitude
 };
 
 /// Advances the continuous state of a machine. Between two calls of `restart` the machine's

@@ -15,10 +15,15 @@ struct Accepted {
 /// The one record of what the steps have shown.
 class StepChoice {
  public:
+  /// See first_stages.
+  explicit StepChoice(double rtol) : usual_(first_stages(rtol)) { start(); }
+
   /// A new run, or a change of method.
-  void start() { order_ = {}; }
+  void start() { take(usual_); }
   /// A restart: the order stays.
-  void restart() { order_ = {.stages = order_.stages}; }
+  void restart() { take(order_.stages); }
+  /// The next steps have this order.
+  void take(int stages) { order_ = {.stages = stages, .usual = usual_}; }
   /// The last steps are no trend of the error.
   void forget_trend() { control_.forget(); }
 
@@ -52,11 +57,12 @@ class StepChoice {
     order_.ratio = ratio, order_.newton_failed = newton_failed;
     const int stages = next_stages(order_);
     if (stages == order_.stages) return;
-    order_ = {.stages = stages};
+    take(stages);
     control_.forget();
   }
 
   PredictiveControl control_;
+  int usual_;
   OrderFacts order_;
 };
 

@@ -17,6 +17,21 @@ inline constexpr double fast_error = 2.0;
 /// tests/laws/prothero_robinson_test.cpp (as small)
 inline constexpr double alike_tries = 0.95;
 
+/// [1] The ratio of the tolerances to the states counts as this part of it: it matters where atol is
+/// ten times rtol |x|. tests/unit/radau_orders_test.cpp
+inline constexpr double absolute_part = 0.1;
+
+// --- an oscillation of the errors of the method before: solver.cpp
+
+/// [1] h |lambda| of the steps that damp it, with three stages: each leaves a third. [steps] of this
+/// kind. [1] The estimate may be as large as this many times the oscillation, of which a step has to
+/// leave no more than this. tests/laws/fast_modes_test.cpp
+inline constexpr double damping_reach = 10.0;
+inline constexpr int damping_steps = 5;
+inline constexpr double damping_room = 2.0, damping_left = 0.25;
+/// [of their length] A shorter step, to a stop time, damps too little. tests/laws/fast_modes_test.cpp
+inline constexpr double damping_share = 0.9;
+
 // --- length and order of steps: step_control.hpp
 
 /// [1] Part of the length that the estimate allows (Hairer, Wanner II, IV.8, p. 124).
@@ -39,6 +54,11 @@ inline constexpr double worth_it = 1.2;
 /// Math. 111 (1999) 93, section 4).
 /// tests/unit/radau_test.cpp
 inline constexpr double falls_from = 0.8, rises_to = 0.002;
+/// [theta] Up to here it rises below the usual number of stages: see first_stages.
+/// tests/unit/radau_test.cpp
+inline constexpr double returns_to = 0.02;
+/// [1] rtol from which on a run begins with five and with seven stages. tests/unit/radau_test.cpp
+inline constexpr double begins_with_five = 1e-6, begins_with_seven = 1e-9;
 /// [1] Ratio of the lengths of steps that count as even, and [steps] with one order before it rises
 /// (the same source).
 /// tests/unit/radau_test.cpp
