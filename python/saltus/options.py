@@ -60,7 +60,7 @@ class SimulatorOptions:
     atol: ArrayLike = 1e-8
     """absolute tolerance, in the unit of the states; one number, or one for each"""
     ode_solver_method: str = "auto"
-    """'auto' (dopri5 or dop853 by tolerance, BDF while the scene is stiff), 'dopri5', 'dop853',
+    """'auto' (dopri5 or dop853 by tolerance, radau or bdf while the scene is stiff), 'dopri5', 'dop853',
     'adams', 'bdf', 'radau'; also 'rk45', 'RK45', 'DOP853', 'non-stiff', 'stiff', 'BDF', 'Radau'
     """
     linear_solver: str = "auto"

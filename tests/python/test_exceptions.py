@@ -10,7 +10,7 @@ import saltus
 from saltus.library import Constant, Gain, Integrator, ReduceBlock
 from systems import Ball, Decay, run
 
-METHODS = ["dopri5", "adams", "bdf", "auto"]
+METHODS = ["dopri5", "adams", "bdf", "radau", "auto"]
 
 
 class Trouble(Exception):

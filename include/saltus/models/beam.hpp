@@ -101,7 +101,7 @@ inline Scene beam(const BeamParameters& with = {}) {
        .span = {0.0, with.t_end},
        .options = {.rtol = 1e-6, .atol = 1e-6, .recorded_signals = {{"theta", beam->output(0)}}},
        .exact = detail::until(with.t_end, with.t_end, known),
-       .methods = {Method::radau},
+       .methods = {Method::radau, Method::automatic},
        .growth = 2.0e4});
 }
 

@@ -120,7 +120,7 @@ inline Scene brusselator(const BrusselatorParameters& with = {}) {
        .span = {0.0, with.t_end},
        .options = {.rtol = 1e-6, .atol = 1e-6, .recorded_signals = {{"y", line->output(0)}}},
        .exact = detail::until(with.t_end, 10.0, detail::brusselator_reference(with)),
-       .methods = {Method::bdf, Method::automatic},
+       .methods = {Method::bdf, Method::radau, Method::automatic},
        .growth = 17.0});
 }
 

@@ -118,7 +118,7 @@ inline Scene e5(const E5Parameters& with = {}) {
        .exact = detail::until(with.t_end, with.t_end, detail::e5_reference()),
        .invariants = {{"y2 - y3 - y4",
                        [](double, const Eigen::VectorXd& y) { return y[1] - y[2] - y[3]; }}},
-       .methods = {Method::bdf, Method::automatic},
+       .methods = {Method::bdf, Method::radau, Method::automatic},
        .growth = 2.8});
 }
 

@@ -69,7 +69,7 @@ inline Scene heat_rod(const HeatRodProblem& with = {}) {
           .span = {0.0, with.t_end},
           .options = {.rtol = 1e-6, .atol = 1e-6, .recorded_signals = {{"u", rod->output(0)}}},
           .exact = std::move(exact),
-          .methods = {Method::bdf, Method::automatic},
+          .methods = {Method::bdf, Method::radau, Method::automatic},
           .growth = 10.5};
 }
 

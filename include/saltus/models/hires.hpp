@@ -99,7 +99,7 @@ inline Scene hires(const HiresParameters& with = {}) {
        .options = {.rtol = 1e-6, .atol = 1e-10, .recorded_signals = {{"y", plant->output(0)}}},
        .exact = detail::until(with.t_end, with.t_end, detail::hires_reference()),
        .invariants = {{"y7 + y8", [](double, const Eigen::VectorXd& y) { return y[6] + y[7]; }}},
-       .methods = {Method::bdf, Method::automatic},
+       .methods = {Method::bdf, Method::radau, Method::automatic},
        .growth = 92.0});
 }
 

@@ -86,7 +86,7 @@ inline Scene orego(const OregoParameters& with = {}) {
        .span = {0.0, with.t_end},
        .options = {.rtol = 1e-6, .atol = 1e-8, .recorded_signals = {{"y", reaction->output(0)}}},
        .exact = detail::until(with.t_end, 360.0, detail::orego_reference(with)),
-       .methods = {Method::bdf, Method::automatic},
+       .methods = {Method::bdf, Method::radau, Method::automatic},
        .growth = 7.0});
 }
 

@@ -161,7 +161,7 @@ inline Scene pollu(const PolluParameters& with = {}) {
                       detail::atoms(
                           "carbon",
                           {{7, 1}, {8, 1}, {9, 2}, {10, 1}, {11, 2}, {12, 1}, {13, 2}, {14, 1}})},
-       .methods = {Method::bdf, Method::automatic},
+       .methods = {Method::bdf, Method::radau, Method::automatic},
        .growth = 4.3});
 }
 

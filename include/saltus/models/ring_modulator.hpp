@@ -121,7 +121,7 @@ inline Scene ring_modulator(const RingModulatorParameters& with = {}) {
        .span = {0.0, with.t_end},
        .options = {.rtol = 1e-6, .atol = 1e-8, .recorded_signals = {{"y", circuit->output(0)}}},
        .exact = detail::until(with.t_end, with.t_end, detail::ring_modulator_reference()),
-       .methods = {Method::bdf, Method::automatic},
+       .methods = {Method::bdf, Method::radau, Method::automatic},
        .growth = 3600.0});
 }
 

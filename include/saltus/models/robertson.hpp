@@ -108,7 +108,7 @@ inline Scene robertson(const RobertsonParameters& with = {}) {
       .options = {.rtol = 1e-6, .atol = 1e-14, .recorded_signals = {{"y", reaction->output(0)}}},
       .exact = robertson_answer(with),
       .invariants = {{"y1 + y2 + y3", [](double, const Eigen::VectorXd& y) { return y.sum(); }}},
-      .methods = {Method::bdf, Method::automatic},
+      .methods = {Method::bdf, Method::radau, Method::automatic},
       .growth = 2.0};
   for (const Sample& sample : scene.exact.samples) scene.options.save_at.push_back(sample.time);
   return scene;

@@ -117,7 +117,7 @@ inline Scene stiff_contact(const StiffContactParameters& with = {}) {
       .exact =
           pieces_answer("parabolas and damped circles, joined by bisection in extended precision",
                         "mass.*", touches(with)),
-      .methods = {Method::bdf, Method::automatic},
+      .methods = {Method::bdf, Method::radau, Method::automatic},
       .growth = 2e5};
 }
 

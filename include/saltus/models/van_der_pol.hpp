@@ -71,8 +71,9 @@ inline Scene van_der_pol(const VanDerPolParameters& with = {}) {
               .span = {0.0, with.t_end},
               .options = {.recorded_signals = {{"x", oscillator->output(0)}}},
               .exact = van_der_pol_answer(with),
-              .methods = with.mu < 30.0 ? Scene{}.methods
-                                        : std::vector<Method>{Method::bdf, Method::automatic},
+              .methods = with.mu < 30.0
+                             ? Scene{}.methods
+                             : std::vector<Method>{Method::bdf, Method::radau, Method::automatic},
               .growth = 12.3};
   for (const Sample& sample : scene.exact.samples) scene.options.save_at.push_back(sample.time);
   return scene;

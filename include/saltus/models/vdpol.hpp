@@ -85,7 +85,7 @@ inline Scene vdpol(const VdpolParameters& with = {}) {
        .span = {0.0, with.t_end},
        .options = {.rtol = 1e-6, .atol = 1e-8, .recorded_signals = {{"x", oscillator->output(0)}}},
        .exact = detail::until(with.t_end, 2.0, detail::vdpol_reference(with.epsilon)),
-       .methods = {Method::bdf, Method::automatic},
+       .methods = {Method::bdf, Method::radau, Method::automatic},
        .growth = 12.3});
 }
 

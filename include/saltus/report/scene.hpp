@@ -29,8 +29,8 @@ struct Scene {
   /// The distance of one row to the surface that the trajectory must not pass; the penetration
   /// depth is max(-gap). Empty: no surface.
   std::function<double(double t, const Eigen::VectorXd& row)> gap = {};
-  std::vector<Method> methods = {Method::dopri5, Method::dop853, Method::adams, Method::bdf,
-                                 Method::automatic};  ///< those that suit the scene
+  std::vector<Method> methods = {Method::dopri5, Method::dop853,   Method::adams, Method::bdf,
+                                 Method::radau,  Method::automatic};  ///< those that suit the scene
   double growth = 1.0;  ///< the factor by which the problem enlarges earlier errors; >= 1
   /// Makes the system anew, for the time of a cold run. Empty: a cold run begins with `system`.
   std::function<std::shared_ptr<const System>()> build = {};

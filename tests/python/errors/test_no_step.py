@@ -36,7 +36,7 @@ def test_6_2_a_solution_that_blows_up_ends_at_that_time(method):
     assert again.context.continuous_state == pytest.approx([2.0], rel=1e-6)
 
 
-@pytest.mark.parametrize("method", ["dopri5", "auto", "adams", "bdf"])
+@pytest.mark.parametrize("method", ["dopri5", "auto", "adams", "bdf", "radau"])
 def test_6_2_a_step_below_the_least_names_the_option(method):
     system = Blow()
     with pytest.raises(saltus.SimulationError, match="below min_minor_step_size") as caught:

@@ -3,7 +3,7 @@
 import numpy as np
 import saltus
 
-METHODS = ["dopri5", "adams", "bdf", "auto"]
+METHODS = ["dopri5", "adams", "bdf", "radau", "auto"]
 CALLBACKS = ["ode", "guard", "reset", "update", "output"]
 
 
