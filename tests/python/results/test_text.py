@@ -52,7 +52,7 @@ def test_names_are_escaped():
 
 def test_several_methods_are_told_in_brief():
     text = repr(saltus.scene("van-der-pol").simulate())
-    assert "steps of dopri5 and bdf (" in text and "stretches)" in text
+    assert "steps of dopri5 and radau (" in text and "stretches)" in text
 
 
 def test_statistics_under_both_names():
