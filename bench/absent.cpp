@@ -41,7 +41,7 @@ class Planet final : public saltus::LeafSystem {
 };
 
 SimulatorOptions dopri5() {
-  return {.rtol = 1e-6, .atol = 1e-6, .ode_solver_method = Method::dopri5};
+  return {.rtol = 1e-6, .atol = 1e-6, .ode_solver_method = saltus::Method::dopri5};
 }
 
 Runner planet(double stretch, const std::string& guard, bool recorded = false) {
