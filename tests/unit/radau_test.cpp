@@ -1,6 +1,7 @@
 // The Radau methods: their coefficients and their decisions.
 #include "saltus/solver/detail/radau/allowed_estimate.hpp"
 #include "saltus/solver/detail/radau/convergence.hpp"
+#include "saltus/solver/detail/radau/damping.hpp"
 #include "saltus/solver/detail/radau/stage_polynomial.hpp"
 #include "saltus/solver/detail/radau/step_control.hpp"
 #include "support/leaves.hpp"
@@ -235,4 +236,28 @@ TEST_CASE("matrices that cannot be factorised are refused with what to take inst
   });
   CHECK(contains(refused, "'gmres'"));
   CHECK(contains(refused, "'bdf'"));
+}
+
+TEST_CASE("Radau damps an oscillation by five steps of its own length", "[radau]") {
+  radau::Damping damping;
+  CHECK(!damping.goes_on());
+  damping.begin(100.0, 8.0, 1.0);
+  REQUIRE(damping.goes_on());
+  CHECK_THAT(damping.length(), WithinRel(0.1, 1e-12));
+  CHECK(damping.by(0.1));
+  CHECK(!damping.by(0.05));  // to a stop time
+  CHECK(damping.allows(16.0));
+  CHECK(!damping.allows(17.0));
+  CHECK(!damping.allows(std::numeric_limits<double>::quiet_NaN()));
+  // Each estimate may be half of the one before.
+  damping.accept(10.0);
+  CHECK(damping.allows(5.0));
+  CHECK(!damping.allows(6.0));
+  for (int i = 0; i < 4; ++i) damping.accept(1.0);
+  CHECK(!damping.goes_on());
+  CHECK(!damping.by(0.1));
+  damping.begin(100.0, 8.0, 0.01);  // a largest step that is too short
+  CHECK(!damping.goes_on());
+  damping.begin(0.0, 8.0, 1.0);  // no oscillation
+  CHECK(!damping.goes_on());
 }

@@ -4,6 +4,7 @@
 #include "error_estimate.hpp"
 #include "halves.hpp"
 #include "saltus/solver/detail/radau.hpp"
+#include "saltus/solver/detail/radau/damping.hpp"
 #include "saltus/solver/detail/radau/step_choice.hpp"
 #include "saltus/solver/detail/step_size.hpp"
 #include "saltus/solver/detail/step_solver.hpp"
@@ -80,26 +81,15 @@ class RadauSolver final : public StepSolver<RadauSolver> {
       stages_.renew_jacobian();
       if (start.first) stages_.forget(), setups_before_ = stages_.setups();
     }
-    begin_damping(start);
+    damping_.begin(start.damp_rate, start.damp_size, options_.max_step);
+    if (damping_.goes_on()) h_ = damping_.length();
     f1_known_ = start.flow != nullptr;
     if (f1_known_) f1_ = *start.flow;
     horizon_ = start.horizon;
     choice_.restart();
-    if (damping_ > 0) choice_.take(3);
+    if (damping_.goes_on()) choice_.take(3);
     forget_steps();
   }
-  /// See Start::damp_rate. Steps that are long for the oscillation damp it; by the estimate they would
-  /// be so short that they resolve it.
-  void begin_damping(const Start& start) {
-    damping_ = 0;
-    if (!(start.damp_rate > 0.0)) return;
-    damp_length_ = tuning::damping_reach / start.damp_rate;
-    if (!(damp_length_ <= options_.max_step)) return;
-    damping_ = tuning::damping_steps;
-    h_ = damp_length_, damp_size_ = start.damp_size;
-  }
-  /// Whether a step of length h damps: a shorter one, to a stop time, is a step like any other.
-  bool damps(double h) const { return damping_ > 0 && h >= tuning::damping_share * damp_length_; }
   void undo() {
     x1_ = x0_, t1_ = t0_;
     f1_known_ = false;
@@ -122,7 +112,7 @@ class RadauSolver final : public StepSolver<RadauSolver> {
       if (!stages_.solve({t0_, &x0_, &f0_, h}, step_, [&, h = h] { predict(h); })) {
         if (creep(h)) return;
         if (!stages_.finite()) note_not_finite(h);
-        wish = h * stages_.shorter(), damping_ = 0;
+        wish = h * stages_.shorter(), damping_.end();
         choice_.newton_failed();
         step_.stages = choice_.stages();
         error_.forget_tries();
@@ -141,7 +131,7 @@ class RadauSolver final : public StepSolver<RadauSolver> {
       wish = choice_.reject(error, h, stages_.convergence());
       // Behind a jump the steps before it say nothing, and the estimate of fast parts hardly shrinks
       // with h until it resolves them.
-      if (!smooth_ && !rejected && damping_ == 0) wish = std::min(wish, careful_step(t_stop));
+      if (!smooth_ && !rejected && !damping_.goes_on()) wish = std::min(wish, careful_step(t_stop));
     }
   }
 
@@ -191,13 +181,11 @@ class RadauSolver final : public StepSolver<RadauSolver> {
     return true;
   }
 
-  /// The error of a step that damps an oscillation is allowed if the estimate shrinks from step to step
-  /// as that does.
   double judged(double h) {
     const double error = estimate(h);
-    if (!damps(h) || !std::isfinite(error)) return error;
-    if (error_.largest() <= tuning::damping_room * damp_size_) return std::min(error, 1.0);
-    damping_ = 0;
+    if (!damping_.by(h) || !std::isfinite(error)) return error;
+    if (damping_.allows(error_.largest())) return std::min(error, 1.0);
+    damping_.end();
     return error;
   }
   double estimate(double h) {
@@ -232,7 +220,7 @@ class RadauSolver final : public StepSolver<RadauSolver> {
     const bool kept = stages_.keep();
     const double ratio = smooth_ ? h / last_length_ : 0.0;
     const double next = choice_.accept({h, error, ratio, rejected, kept}, stages_.convergence());
-    if (damping_ > 0) return go_on_damping(h);
+    if (damping_.goes_on()) return go_on_damping(h);
     h_ = next;
     if (!rejected && h < wish)
       h_ = std::max(h_, wish);  // the stop time shortened it, not the error
@@ -241,8 +229,8 @@ class RadauSolver final : public StepSolver<RadauSolver> {
 
   /// The next step damps the oscillation further, or is free.
   void go_on_damping(double h) {
-    if (damps(h)) --damping_, damp_size_ = tuning::damping_left * error_.largest();
-    h_ = damp_length_, smooth_ = true;
+    if (damping_.by(h)) damping_.accept(error_.largest());
+    h_ = damping_.length(), smooth_ = true;
     choice_.forget_trend();
   }
 
@@ -276,10 +264,8 @@ class RadauSolver final : public StepSolver<RadauSolver> {
   ErrorEstimate error_;
   bool looked_ = false, halved_ = false;
   bool f1_known_ = false;
-  int damping_ = 0;           // steps that still damp an oscillation: see Start::damp_rate
-  double damp_size_ = 0.0;    // [tolerances] its amplitude
-  double damp_length_ = 0.0;  // [s] of the steps that damp it
-  bool smooth_ = false;       // the solution of the last step continues in the present one
+  Damping damping_;
+  bool smooth_ = false;  // the solution of the last step continues in the present one
   double h_ = 0.0, horizon_ = infinite, last_length_ = 0.0;
   double not_finite_within_ = 0.0;  // [s] of the present step; 0: all values were finite
   StepChoice choice_{options_.rtol};
