@@ -14,9 +14,9 @@ struct CostPoint {
 };
 
 /// The least cost of an error of at most `error`. `points` are in the order of tolerances, loosest
-/// first. A run that is exact enough counts with its own cost. Between a run that is not and the
-/// next one that is, the cost is a straight line in the logarithms of both. Infinite if no run is
-/// exact enough. The cost of a loose run that is exact enough is an upper bound, and counts too.
+/// first. Each run whose error is small enough counts with its cost. If the run before has a larger
+/// error, the cost in between is interpolated: its logarithm is linear in that of the error. The
+/// result is infinite if no run has so small an error.
 inline double cost_at(double error, const std::vector<CostPoint>& points) {
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < points.size(); ++k) {

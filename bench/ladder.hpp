@@ -29,6 +29,16 @@ struct Rung {
   }
 };
 
+/// Costs of a rung.
+inline double milliseconds(const Rung& rung) { return rung.time() * 1e3; }
+inline double calls(const Rung& rung) { return static_cast<double>(rung.counts.calls); }
+
+inline double geometric_mean(const std::vector<double>& values) {
+  double logs = 0.0;
+  for (const double value : values) logs += std::log(value);
+  return std::exp(logs / static_cast<double>(values.size()));
+}
+
 class Ladder {
  public:
   /// Climbs from rtol = `loosest` to 1e-13, ten times as tight at a time: until the error is below

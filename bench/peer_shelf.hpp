@@ -11,7 +11,7 @@ namespace bench {
 class ShelfPeer final : public Peer {
  public:
   ShelfPeer(saltus::Scene scene, saltus::Method method, double rtol)
-      : scene_(at(std::move(scene), method, rtol)), timed_(scene_, method) {}
+      : scene_(at_tolerance(std::move(scene), method, rtol)), timed_(scene_, method) {}
 
   bool run() override {
     try {
@@ -33,13 +33,6 @@ class ShelfPeer final : public Peer {
   }
 
  private:
-  static saltus::Scene at(saltus::Scene scene, saltus::Method method, double rtol) {
-    const double scale = scene.options.atol.smallest() / scene.options.rtol.smallest();
-    scene.options.rtol = rtol, scene.options.atol = rtol * scale;
-    scene.options.ode_solver_method = method;
-    return scene;
-  }
-
   saltus::Scene scene_;
   Runner timed_;
 };

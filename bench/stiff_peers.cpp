@@ -39,8 +39,6 @@ std::vector<Ladder> ladders(const StiffScene& scene) {
   return all;
 }
 
-double milliseconds(const Rung& rung) { return rung.time() * 1e3; }
-double calls(const Rung& rung) { return static_cast<double>(rung.counts.calls); }
 double factorisations(const Rung& rung) {
   return std::max(1.0, static_cast<double>(rung.counts.factorisations));
 }
@@ -48,12 +46,6 @@ double factorisations(const Rung& rung) {
 /// Of one solver at one level, over the scenes where it and radau reach it.
 struct Means {
   std::vector<double> times = {}, calls = {};
-
-  static double geometric(const std::vector<double>& values) {
-    double logs = 0.0;
-    for (const double value : values) logs += std::log(value);
-    return std::exp(logs / static_cast<double>(values.size()));
-  }
 };
 using AllMeans = std::map<std::pair<double, std::string>, Means, std::greater<>>;
 
@@ -64,7 +56,7 @@ void show_runs(Sheet& sheet, const std::string& scene, const std::vector<Ladder>
                  {"solver", ladder.name()},
                  {"rtol", rung.rtol},
                  {"error", rung.error},
-                 {"ms", rung.time() * 1e3},
+                 {"ms", milliseconds(rung)},
                  {"steps", rung.counts.steps},
                  {"calls", rung.counts.calls},
                  {"Jacobians", rung.counts.jacobians},
@@ -103,8 +95,8 @@ void show_means(Sheet& sheet, const AllMeans& means) {
     sheet.add({{"geometric mean", key.second},
                {"at error", key.first},
                {"scenes", here.times.size()},
-               {"time to radau's", Means::geometric(here.times)},
-               {"calls to radau's", Means::geometric(here.calls)}});
+               {"time to radau's", geometric_mean(here.times)},
+               {"calls to radau's", geometric_mean(here.calls)}});
 }
 
 }  // namespace

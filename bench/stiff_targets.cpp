@@ -21,9 +21,6 @@ constexpr double budget = 1.0;   // [s] of timing for each scene, in turns
 /// A scene without its resets is compared at these errors, one with resets at those.
 constexpr double smooth_levels[] = {1e-8, 1e-10}, hybrid_levels[] = {1e-6, 1e-8};
 
-double calls(const Rung& rung) { return static_cast<double>(rung.counts.calls); }
-double milliseconds(const Rung& rung) { return rung.time() * 1e3; }
-
 /// null instead of infinity, which JSON does not have.
 Row shown(double cost) { return std::isfinite(cost) ? Row(cost) : Row(nullptr); }
 
@@ -31,12 +28,6 @@ Row shown(double cost) { return std::isfinite(cost) ? Row(cost) : Row(nullptr); 
 struct Found {
   std::vector<double> ratios = {};
   int missed = 0;
-
-  double mean() const {
-    double logs = 0.0;
-    for (const double ratio : ratios) logs += std::log(ratio);
-    return std::exp(logs / static_cast<double>(ratios.size()));
-  }
 };
 
 /// A row for this error. `all` are radau, bdf and, if there are three, CVODE, which is the floor;
@@ -85,7 +76,7 @@ void against_bdf(Sheet& sheet, const std::string& name) {
   Found found;
   for (const double level : hybrid_levels) judge(sheet, found, name, level, all);
   sheet.target(name + ", errors of 1e-6 and 1e-8: radau against bdf, geometric mean",
-               found.missed > 0 ? HUGE_VAL : found.mean(), 0.3);
+               found.missed > 0 ? HUGE_VAL : geometric_mean(found.ratios), 0.3);
 }
 
 }  // namespace
@@ -105,7 +96,7 @@ int main(int argc, char** argv) {
     sheet.target(saltus::text(scenes,
                               " stiff scenes, errors of 1e-8 and 1e-10: best of "
                               "radau and bdf against CVODE, geometric mean"),
-                 found.mean(), 0.5);
+                 geometric_mean(found.ratios), 0.5);
   if (names.empty())
     sheet.target("the same scenes: errors that neither radau nor bdf reaches", found.missed, 0.0);
   for (const char* name :

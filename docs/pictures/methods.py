@@ -8,7 +8,6 @@ import argparse
 from pathlib import Path
 
 import matplotlib
-import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import EngFormatter, LogLocator
@@ -27,41 +26,9 @@ SCENES = {
 OPTIONS = {"methods": METHODS, "rtols": RTOLS, "least_time": 0.02, "time_limit": 1.0}
 
 
-def b5():
-    """Class B5 of W. H. Enright, T. E. Hull, B. Lindberg, BIT 15 (1975) 10, and its solution:
-    eigenvalues -10 +- 100 j, near the imaginary axis, and no oscillation from t = 3 on.
-    """
-    decays = np.array([4.0, 1.0, 0.5, 0.1])
-
-    class B5(saltus.LeafSystem):
-        def __init__(self):
-            super().__init__("b5")
-            self.declare_continuous_state(default_value=np.ones(6), ode=self.ode)
-            self.declare_continuous_state_output("x")
-
-        def ode(self, t, state):
-            x = state.continuous_state
-            return np.concatenate(
-                [[-10.0 * x[0] + 100.0 * x[1], -100.0 * x[0] - 10.0 * x[1]], -decays * x[2:]]
-            )
-
-    def exact(t):
-        c, s, e = np.cos(100.0 * t), np.sin(100.0 * t), np.exp(-10.0 * t)
-        return [e * (c + s), e * (c - s), *np.exp(-decays * t)]
-
-    leaf = B5()
-    span, rows = (0.0, 20.0), [0.03, 0.1, 0.3, 1.0, 5.0, 20.0]
-    return leaf, leaf.create_context(), span, {"exact": exact, "save_at": rows}
-
-
 def measured(name):
     """{method: [(error, seconds), ...]} of the runs that came to their end."""
-    if name == "b5":
-        *scene, known = b5()
-        known["atol_over_rtol"] = 1.0
-    else:
-        scene, known = [saltus.scene(name)], {}
-    tables = [saltus.work_precision(*scene, **known, **OPTIONS) for _ in range(3)]
+    tables = [saltus.work_precision(saltus.scene(name), **OPTIONS) for _ in range(3)]
     points = {method: [] for method in METHODS}
     for same in zip(*tables, strict=True):
         row, times = same[0], [row["seconds_quartile1"] for row in same]

@@ -198,8 +198,8 @@ bool Jacobian::take(const Own& own, double t, const double* x, const double* xdo
   return true;
 }
 
-/// Replaces entries that are not finite, or all of them, by differences of the leaf alone, because its inputs do not
-/// depend on its own states. False if a difference is not finite either.
+/// Replaces entries that are not finite, or all of them, by differences of the leaf alone, because
+/// its inputs do not depend on its own states. False if a difference is not finite either.
 bool Jacobian::mend(const Own& own, double t, const double* x, const double* xdot,
                     const Increments& by) {
   const PlanLeaf& leaf = machine_->plan().leaves[static_cast<std::size_t>(own.leaf)];

@@ -39,14 +39,6 @@ const std::vector<Timing> timings{
     {"relay-circuit", 4.0, 1.0 / 3.0, 49.0 * 1.5},  // 3 V/s at the slower switch
 };
 
-/// A scene of the shelf by one method, atol in the ratio of its own options.
-saltus::Scene at_tolerance(saltus::Scene scene, Method method, double rtol) {
-  scene.options.atol *= rtol / scene.options.rtol;
-  scene.options.rtol = rtol;
-  scene.options.ode_solver_method = method;
-  return scene;
-}
-
 double penetration(const saltus::Scene& scene, const Results& results) {
   double deepest = 0.0;
   for (std::size_t row = 0; scene.gap && row < results.time.size(); ++row)

@@ -17,13 +17,6 @@ const std::vector<std::string> smooth_scenes{
     "pollu",     "kepler", "ring-modulator", "brusselator",    "heat-rod", "pleiades",  "lorenz",
     "b5",        "beam",   "cusp",           "brusselator-2d", "plate",    "medakzo",   "emep"};
 
-saltus::Scene at_tolerance(saltus::Scene scene, Method method, double rtol) {
-  scene.options.atol *= rtol / scene.options.rtol;
-  scene.options.rtol = rtol;
-  scene.options.ode_solver_method = method;
-  return scene;
-}
-
 /// How many local errors of the tolerance an achieved error may be. Ten for one-step methods and
 /// Adams. BDF takes hundreds to thousands of steps within the memory of a stiff scene, and its
 /// local errors, each up to the tolerance and of either sign, add up like the root of their number.

@@ -305,3 +305,19 @@ TEST_CASE("auto takes BDF where the matrices of Radau are not possible", "[auto]
   CHECK(last_method(results) == "bdf");
   CHECK(contains(results.statistics.method, "would fill up"));
 }
+
+TEST_CASE("auto runs again to the same bits after a run that ended in a stiff method", "[auto]") {
+  const Index n = GENERATE(16, 200);  // Radau, BDF
+  const Leaf leaf = rod(n, 1e4, {0.3, 0.6});
+  Simulator simulator(leaf, {.ode_solver_method = Method::automatic});
+  std::vector<Eigen::VectorXd> ends;
+  std::vector<std::string> words;
+  for (int run = 0; run < 2; ++run) {
+    simulator.initialize(leaf.create_context());
+    simulator.advance_to(1.0);
+    ends.push_back(simulator.context().continuous_state());
+    words.push_back(simulator.results().statistics.method);
+  }
+  CHECK(ends[0] == ends[1]);
+  CHECK(words[0] == words[1]);
+}

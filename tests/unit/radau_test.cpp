@@ -261,3 +261,15 @@ TEST_CASE("Radau damps an oscillation by five steps of its own length", "[radau]
   damping.begin(0.0, 8.0, 1.0);  // no oscillation
   CHECK(!damping.goes_on());
 }
+
+TEST_CASE("Radau is within ten tolerances where the absolute tolerance is the larger part",
+          "[radau]") {
+  // At rtol 1e-12 alone a slow estimate may be 14 000 tolerances; that is an error of 14 with atol = 1e-3.
+  const double rtol = GENERATE(1e-6, 1e-9, 1e-12), atol = GENERATE(1e-2, 1e-3, 1e-5);
+  const Leaf leaf = oscillator();
+  const auto results = simulate(leaf, leaf.create_context(), {0.0, 20.0},
+                                {.rtol = rtol, .atol = atol, .ode_solver_method = Method::radau});
+  INFO("rtol " << rtol << ", atol " << atol << ": " << results.statistics.steps << " steps");
+  const Eigen::Vector2d exact(std::cos(20.0), -std::sin(20.0));
+  CHECK((results.context.continuous_state() - exact).cwiseAbs().maxCoeff() < 10.0 * (atol + rtol));
+}

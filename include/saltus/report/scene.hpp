@@ -29,12 +29,21 @@ struct Scene {
   /// The distance of one row to the surface that the trajectory must not pass; the penetration
   /// depth is max(-gap). Empty: no surface.
   std::function<double(double t, const Eigen::VectorXd& row)> gap = {};
-  std::vector<Method> methods = {Method::dopri5, Method::dop853,   Method::adams, Method::bdf,
-                                 Method::radau,  Method::automatic};  ///< those that suit the scene
+  /// The methods that suit the scene.
+  std::vector<Method> methods = {Method::dopri5, Method::dop853, Method::adams,
+                                 Method::bdf,    Method::radau,  Method::automatic};
   double growth = 1.0;  ///< the factor by which the problem enlarges earlier errors; >= 1
   /// Makes the system anew, for the time of a cold run. Empty: a cold run begins with `system`.
   std::function<std::shared_ptr<const System>()> build = {};
 };
+
+/// The scene by a method at this rtol, with the ratio of its own atol to its own rtol.
+inline Scene at_tolerance(Scene scene, Method method, double rtol) {
+  scene.options.atol *= rtol / scene.options.rtol;
+  scene.options.rtol = rtol;
+  scene.options.ode_solver_method = method;
+  return scene;
+}
 
 /// Runs a scene with its own options.
 inline Results simulate(const Scene& scene) {

@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "saltus/solver/detail/radau.hpp"
+#include "saltus/solver/detail/matrix_cost.hpp"
 #include "saltus/solver/detail/thresholds.hpp"
 #include "scalar.hpp"
 

@@ -55,7 +55,7 @@ class ErrorEstimate {
   AllowedEstimate allowed(const Scheme& scheme, const Eigen::VectorXd& x1) const {
     const double relative = std::min(tuning::absolute_part / mean(x1), 1.0);
     if (relative > options_.rtol) return AllowedEstimate(scheme, relative, thresholds::dense_room);
-    return *allowed_[static_cast<std::size_t>((scheme.stages - 3) / 2)];
+    return *allowed_[static_cast<std::size_t>(scheme.pairs() - 1)];
   }
 
   /// Root mean square in what is allowed. `plain_` is overwritten.

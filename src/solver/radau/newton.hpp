@@ -13,9 +13,10 @@ namespace saltus::radau {
 
 /// Solves z = h (A x I) f(t0 + c h, x0 + z) by simplified Newton iterations. With r = h (A x I) f - z
 /// each is (Lambda - h J) d = Lambda (T^-1 x I) r, z += (T x I) d, which falls into systems for each
-/// eigenvalue (Hairer, Wanner II, IV.8, (8.6) to (8.13), times h). The
-/// residual r is taken before it is transformed: were its two parts transformed by themselves, their
-/// roundings would grow by |T| |T^-1|, up to 1e3, and break the linear invariants of f.
+/// eigenvalue (Hairer, Wanner II, IV.8, (8.6) to (8.13), times h).
+///
+/// The residual r is taken before it is transformed. If its two parts were transformed one by one,
+/// their roundings would grow by |T| |T^-1|, up to 1e3, and break the linear invariants of f.
 class Newton {
  public:
   Newton(Machine& machine, const SolverOptions& options)
@@ -75,8 +76,7 @@ class Newton {
 
   /// Whether rounding explains the residual of the last stage, z_S - h sum_j a_Sj f_j. If the
   /// Jacobian has a difference across a jump of f, or is wrong, all corrections are small, whatever
-  /// the residual.
-  /// The rounding of f is seen by a relative change of the states.
+  /// the residual. The rounding of f is seen by a relative change of the states.
   template <int S>
   bool is_rounding(const Problem& problem, const Block<S>& z) {
     Block<S> f(f_.data(), n_, S);

@@ -4,7 +4,6 @@
 #include <memory>
 
 #include "saltus/solver/detail/solver.hpp"
-#include "saltus/solver/detail/stiff_choice.hpp"
 
 namespace saltus {
 
@@ -21,10 +20,5 @@ class NoFactors : public SimulationError {
 /// (1999) 93).
 std::unique_ptr<Solver> make_radau(Machine& machine, GuardSet& guards,
                                    const SolverOptions& options);
-
-/// Whether the matrices of a stiff method at (t, x) can be factorised, and for how much. Throws
-/// ModelError for an impossible sparsity.
-MatrixCost matrix_cost(Machine& machine, const SolverOptions& options, double t,
-                       const Eigen::VectorXd& x);
 
 }  // namespace saltus

@@ -1,6 +1,7 @@
 // Which method advances a stiff scene: Radau or BDF.
 #pragma once
 
+#include "saltus/solver/detail/matrix_cost.hpp"
 #include "saltus/solver/detail/thresholds.hpp"
 
 namespace saltus {
@@ -13,12 +14,6 @@ struct StiffScene {
   bool many_events = false;    ///< they end the stretches of BDF before its order has risen
 };
 
-/// The matrices of a scene.
-struct MatrixCost {
-  bool direct = true;  ///< they can be factorised
-  double time = 0.0;   ///< [ns] of one factorisation and its solves, by estimate
-};
-
 enum class StiffMethod { none, radau, bdf };
 
 struct StiffChoice {
@@ -29,14 +24,14 @@ struct StiffChoice {
 /// Chooses the method. `cost` returns the MatrixCost; it is called only where the choice depends on
 /// it, because it has to look for the sparsity.
 ///
-/// The figures are those of both methods on the stiff scenes of the shelf and on chains and full
-/// systems of 4 to 4 000 states, at rtol 1e-3 to 1e-12 (bench/methods). At the same rtol Radau takes 1.5 to
-/// 3 times the calls, a third to a twentieth of the steps, and its errors are ten to a hundred times
-/// smaller. So it takes less time wherever a step costs more than its calls: up to some twenty
-/// states. With more states, the time of both is that of calls and matrices, and BDF takes 0.5 to
-/// 0.7 of the time. But at tight tolerances BDF's errors are ten to a thousand tolerances.
-/// Radau's complex matrices cost up to thirteen times a real one and are new in nearly each step:
-/// where matrices are expensive, it is too slow even then.
+/// The figures are those of whole runs by both methods on the stiff scenes of the shelf, and on chains
+/// and full systems of 4 to 4 000 states, at rtol 1e-3 to 1e-12. At the same rtol Radau takes 1.5 to
+/// 3 times the calls and a third to a twentieth of the steps, and its errors are ten to a hundred
+/// times smaller. A step of BDF costs more than its calls where there are few states. There Radau
+/// takes less time: 0.6 to 1.2 of it at 3 to 20 states. With more states calls and matrices are all
+/// of the cost, and BDF takes 0.5 to 0.7 of the time. But at tight tolerances BDF's errors are ten to
+/// a thousand tolerances. Radau's complex matrices cost up to thirteen times a real one and are new
+/// in nearly each step: where matrices are expensive, it is too slow even then.
 ///
 /// BDF of orders 3 to 5 is unstable near the imaginary axis (Hairer, Wanner II, p. 251), so
 /// a scene that is hardly damped stays with the explicit method where Radau is not possible.

@@ -25,8 +25,8 @@ class Convergence {
  public:
   /// `tolerance`: [tolerances] of the iteration; `rounding`: [tolerances] of a correction; `most`:
   /// iterations; `before`: theta / (1 - theta) of the step before, which judges the first
-  /// correction; infinite if it says nothing. It counts as `least_factor` at least: what it was before does
-  /// not bound what it is now.
+  /// correction; infinite if it says nothing. It counts as `least_factor` at least: what it was
+  /// before does not bound what it is now.
   Convergence(double tolerance, double rounding, int most, double before)
       : tolerance_(tolerance),
         rounding_(rounding),

@@ -61,9 +61,9 @@ struct OrderFacts {
   int highest = 7;
 };
 
-/// The stages of the first steps, and those that a step returns to soon. By the rule of next_stages
-/// alone, the order that a run keeps depends on its first steps: in a transient they are so short
-/// that the order rises, and it stays high. A run that begins on a smooth solution would keep
+/// The usual number of stages. A run begins with it, and after a fall the order soon rises to it again.
+/// Without it the order of a run would depend on its first steps. In a transient they are so short
+/// that the order rises, and then it stays high. A run that begins on a smooth solution would keep
 /// three stages: Van der Pol with mu = 1000 at rtol 1e-12 took ten times the steps.
 constexpr int first_stages(double rtol) {
   return rtol <= tuning::begins_with_seven ? 7 : rtol <= tuning::begins_with_five ? 5 : 3;

@@ -18,7 +18,7 @@ inline constexpr double fast_error = 2.0;
 inline constexpr double alike_tries = 0.95;
 
 /// [1] The ratio of the tolerances to the states counts as this part of it: it matters where atol is
-/// ten times rtol |x|. tests/unit/radau_orders_test.cpp
+/// ten times rtol |x|. tests/unit/radau_test.cpp
 inline constexpr double absolute_part = 0.1;
 
 // --- an oscillation of the errors of the method before: solver.cpp
