@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import fields
+from dataclasses import dataclass, fields
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from saltus._core import Context
 from saltus._porting import OPTIONS, refuse
 from saltus._span import span_of
 from saltus.errors import ModelError, SimulationError
 from saltus.results.record import Record
-from saltus.simulation import Results, Simulator, SimulatorOptions
+from saltus.simulation import SimulatorOptions
+from saltus.simulation.whole import prepared, run_whole
 from saltus.solving.form import form_of
 from saltus.solving.formed import formed
 from saltus.solving.guard import Guard, guards_of
@@ -180,8 +180,9 @@ def solve(
         settings |= {"save_at": times_of(t_eval, begin, end, form), "event_rows": False}
     names = None if guards is None else [guard.named(i) for i, guard in enumerate(guards)]
     known = Known(names, form, jacobian is not None and not callable(jacobian))
-    simulator = _SolveSimulator(system, known, settings)
-    return simulator.solution(system.create_context(form.time(begin)), form.time(end))
+    run = prepared("solve", system, None, {**settings, "recorded_signals": {"x": system.output("x")}})
+    context = system.create_context(form.time(begin))
+    return run_whole(run, context, form.time(end), _Outcome(system, known))
 
 
 def _require_terminal(guards: Sequence[Guard]) -> None:
@@ -197,24 +198,18 @@ def _refuse(options: Mapping[str, Any]) -> None:
     refuse("solve", options, [*OWN, *known], HINTS)
 
 
-class _SolveSimulator(Simulator):
-    """A simulator whose runs end in a `Solution`."""
+@dataclass(frozen=True)
+class _Outcome:
+    """Makes the solution of a run, which counts t."""
 
-    def __init__(self, system: SolvedSystem, known: Known, settings: Mapping[str, Any]):
-        super().__init__(system, recorded_signals={"x": system.output("x")}, **settings)
-        self._known = known
+    system: SolvedSystem
+    known: Known
 
-    def _outcome(self, core: Record, raised: BaseException | None, asks: Any) -> Solution:
-        if self._known.form.backward and isinstance(raised, SimulationError):  # it counts s
-            t = self._known.form.time(raised.time)
-            raised = SimulationError(formed(core, self._known.form).message, t, raised.block)
-        return Solution(core, raised, asks, self._known, self.system)
-
-    def _raise(self, results: Results, error: BaseException | None) -> None:
-        own = self._known.form.backward and isinstance(error, SimulationError)
-        super()._raise(results, results.cause if own else error)
-
-    def solution(self, context: Context, end: float) -> Solution:
-        solution = self._run(context, end)
-        assert isinstance(solution, Solution)
-        return solution
+    def __call__(
+        self, core: Record, raised: BaseException | None
+    ) -> tuple[Solution, BaseException | None]:
+        form = self.known.form
+        if form.backward and isinstance(raised, SimulationError):  # it counts s
+            t = form.time(raised.time)
+            raised = SimulationError(formed(core, form).message, t, raised.block)
+        return Solution(core, raised, self.system, self.known, self.system), raised
