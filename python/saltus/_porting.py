@@ -97,11 +97,12 @@ def refusing(method: Callable[P, R]) -> Callable[P, R]:
     return checked
 
 
-def _let_go(block: object) -> None:
-    """Lets go of the plans that a block keeps, which use it: then it may declare more."""
+def _let_go(block: Any) -> None:
+    """Lets go of the traces and plans that a block keeps, which use it: then it may declare more."""
     callbacks = getattr(block, "_callbacks", None)
     if callbacks is not None:
         callbacks.plans.clear()
+        block._callbacks = None
 
 
 def _hints(method: str, known: tuple[str, ...]) -> dict[str, str]:

@@ -87,6 +87,11 @@ class Callbacks:
             self._run_anew(self.traces.blocks(), changed)
         return bool(changed)
 
+    @property
+    def all_traced(self) -> bool:
+        """Whether no function is called."""
+        return not self._calls
+
     def written(self) -> str | None:
         """A change of a value that a trace of the last run was made from, in words.
 

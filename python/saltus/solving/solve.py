@@ -18,6 +18,7 @@ from saltus.simulation.whole import prepared, run_whole
 from saltus.solving.form import form_of
 from saltus.solving.formed import formed
 from saltus.solving.guard import Guard, guards_of
+from saltus.solving.kept import call_of, find, keep
 from saltus.solving.solution import Known, Solution
 from saltus.solving.solved_system import SolvedSystem, arguments_of, state_of, times_of
 from saltus.solving.tolerances import first_step_of, tolerances_of
@@ -154,16 +155,16 @@ def solve(
     if np.isinf(end) and start.size:
         _require_terminal(guards or [])
     form = form_of(end < begin, start.dtype.kind == "c")
-    system = SolvedSystem(
-        f,
-        begin,
-        start,
-        arguments_of(args),
-        guards or [],
-        jacobian,
-        jacobian_sparsity,
-        vectorized,
-        form,
+    given = arguments_of(args)
+    shape = (jacobian_sparsity is None, bool(vectorized))
+    call = (
+        call_of(f, begin, start, given, guards or [], jacobian, form, shape)
+        if jacobian_sparsity is None
+        else None
+    )
+    kept = None if call is None else find(call)
+    system = kept or SolvedSystem(
+        f, begin, start, given, guards or [], jacobian, jacobian_sparsity, vectorized, form
     )
     settings: dict[str, Any] = {
         **options,
@@ -181,6 +182,8 @@ def solve(
     names = None if guards is None else [guard.named(i) for i, guard in enumerate(guards)]
     known = Known(names, form, jacobian is not None and not callable(jacobian))
     run = prepared("solve", system, None, {**settings, "recorded_signals": {"x": system.output("x")}})
+    if call is not None and kept is None:
+        keep(call, system)
     context = system.create_context(form.time(begin))
     return run_whole(run, context, form.time(end), _Outcome(system, known))
 
@@ -194,6 +197,8 @@ def _require_terminal(guards: Sequence[Guard]) -> None:
 
 def _refuse(options: Mapping[str, Any]) -> None:
     """Raises ModelError for an unknown name, with the nearest name or with advice."""
+    if not options:
+        return
     known = [field.name for field in fields(SimulatorOptions) if field.name not in HINTS]
     refuse("solve", options, [*OWN, *known], HINTS)
 
