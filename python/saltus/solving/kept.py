@@ -110,7 +110,12 @@ def _exact(value: Any) -> Any:
 
 def _owner_of(functions: Sequence[FunctionType]) -> FunctionType:
     """One that holds objects itself, if there is one: it does not live longer than they do."""
-    return next((f for f in functions if f.__closure__ or f.__defaults__), functions[0])
+    return next((f for f in functions if _holds(f)), functions[0])
+
+
+def _holds(f: FunctionType) -> bool:
+    values = (*(f.__defaults__ or ()), *(f.__kwdefaults__ or {}).values())
+    return bool(f.__closure__) or any(type(value) not in (*PLAIN, float) for value in values)
 
 
 def find(call: Call) -> SolvedSystem | None:

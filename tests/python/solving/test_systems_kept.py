@@ -229,10 +229,10 @@ def test_functions_go_with_their_systems():
 
 def test_a_function_of_a_module_keeps_no_closure_alive():
     f = fresh(decay)  # it lives on
-    world, _, height, bounce = ball()
+    world, fall, height, bounce = ball()
     saltus.solve(f, SPAN, [1.0, 0.0], events=[guard_of(height, bounce)])
     gone = weakref.ref(world), weakref.ref(height)
-    del world, height, bounce
+    del world, fall, height, bounce
     gc.collect()
     assert [one() for one in gone] == [None, None]
 
