@@ -46,8 +46,7 @@ class PythonSimulator {
   /// would keep each other alive.
   py::tuple results() {
     if (shown_) return py::make_tuple(shown_, py::none());
-    const py::object raised =
-        own().cause ? cause_of(own()) : std::exchange(signalled_, py::none());
+    const py::object raised = own().cause ? cause_of(own()) : std::exchange(signalled_, py::none());
     own().cause = nullptr;
     shown_ = std::make_shared<Record>(simulator_.take_results(), true);
     // Ctrl-C, perhaps in a function of the model.

@@ -98,7 +98,7 @@ def refusing(method: Callable[P, R]) -> Callable[P, R]:
 
 
 def _let_go(block: Any) -> None:
-    """Lets go of the traces and plans that a block keeps, which use it: then it may declare more."""
+    """Lets go of the traces and plans that a block keeps: they use it, and it declares more."""
     callbacks = getattr(block, "_callbacks", None)
     if callbacks is not None:
         callbacks.plans.clear()

@@ -7,8 +7,8 @@ from typing import Any
 
 from saltus import _core
 from saltus.callbacks.explanation import Explanation, explained
-from saltus.callbacks.plans import Plans
 from saltus.callbacks.function import Block, core_trace, outcome_of
+from saltus.callbacks.plans import Plans
 
 __all__ = ["Callbacks", "Others"]
 

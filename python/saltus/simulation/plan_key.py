@@ -45,7 +45,7 @@ def key_of(options: SimulatorOptions | None, overrides: Mapping[str, Any]) -> Ke
 
 
 def _signals(signals: Any) -> Key | None:
-    """The recorded signals. A block is referred to weakly: it may be the one that keeps the plan."""
+    """The recorded signals. They refer to a block weakly: it may be the one that keeps the plan."""
     if signals is None:
         return ()
     if type(signals) is not dict:

@@ -94,4 +94,6 @@ def simulate(
     # a context from the end of a run at this time knows which events have happened already
     if context.time != begin:
         context = context.with_time(begin)
-    return run_whole(run, context, end, lambda core, raised: (Results(core, raised, system), raised))
+    return run_whole(
+        run, context, end, lambda core, raised: (Results(core, raised, system), raised)
+    )

@@ -70,7 +70,9 @@ class Simulator:
         self._options = core_options(self.options)
         self._others = functions_of(self.options)
         self._make()
-        self._shown: Callable[[], Results | None] = lambda: None  # the last results, while they live
+        self._shown: Callable[[], Results | None] = lambda: (
+            None
+        )  # the last results, while they live
         self._failed: Results | None = None
         self._turn = Turn()
 

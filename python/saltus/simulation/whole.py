@@ -10,13 +10,13 @@ from saltus import _core
 from saltus._engine import core_options
 from saltus._porting import OPTIONS, refuse
 from saltus.callbacks import Callbacks, planned
+from saltus.callbacks.plans import Key
 from saltus.errors import ModelError, SimulationError
 from saltus.options import SimulatorOptions
 from saltus.progress import Reporter, reporter_of
 from saltus.results import Results
 from saltus.simulation.failure import raise_for
 from saltus.simulation.plan_key import key_of
-from saltus.callbacks.plans import Key
 from saltus.system import System
 
 __all__ = [

@@ -1,4 +1,4 @@
-"""Systems of `solve` that are kept, with their traces and plans, for the next call that is the same.
+"""Systems of `solve` that are kept, with traces and plans, for the next call that is the same.
 
 A system refers to the functions it was made of, and these may refer to it. So one of the functions
 keeps it, as an attribute, where the garbage collector sees the circle: they are freed together.
@@ -61,6 +61,9 @@ class Systems(list[Kept]):
         return Systems, ()
 
 
+EMPTY = Systems()
+
+
 def call_of(
     f: Any,
     begin: float,
@@ -120,7 +123,8 @@ def _holds(f: FunctionType) -> bool:
 
 def find(call: Call) -> SolvedSystem | None:
     """The system there is, if nothing it was made from has changed."""
-    kept = next((one for one in vars(call.owner).get(SYSTEMS, ()) if one.key == call.key), None)
+    systems: Systems = vars(call.owner).get(SYSTEMS, EMPTY)
+    kept = next((one for one in systems if one.key == call.key), None)
     if kept is None or getattr(kept.system, "_callbacks", None) is not kept.callbacks:
         return None  # it has declared more
     if kept.callbacks.traces.stale or kept.callbacks.refresh() != kept.version:

@@ -181,7 +181,9 @@ def solve(
         settings |= {"save_at": times_of(t_eval, begin, end, form), "event_rows": False}
     names = None if guards is None else [guard.named(i) for i, guard in enumerate(guards)]
     known = Known(names, form, jacobian is not None and not callable(jacobian))
-    run = prepared("solve", system, None, {**settings, "recorded_signals": {"x": system.output("x")}})
+    run = prepared(
+        "solve", system, None, {**settings, "recorded_signals": {"x": system.output("x")}}
+    )
     if call is not None and kept is None:
         keep(call, system)
     context = system.create_context(form.time(begin))

@@ -210,8 +210,8 @@ def _dense(jacobian: ArrayLike) -> np.ndarray:
 
 def state_of(x0: ArrayLike) -> np.ndarray:
     """The state at the beginning: a vector, or a number; complex if one of its numbers is."""
-    if type(x0) in (list, tuple) and {float, int}.issuperset(map(type, x0)):
-        start = np.array(x0, dtype=float)
+    if isinstance(x0, (list, tuple)) and {float, int}.issuperset(map(type, x0)):
+        start = np.array(x0, dtype=float)  # plain numbers, quickly
     else:
         start = np.array(x0) if _is_complex(x0) else np.array(numbers(x0, "solve: x0"))
     if start.ndim > 1:

@@ -59,7 +59,7 @@ class Model(saltus.LeafSystem):
         )
 
     def ode(self, time, state, *, g):
-        y, v = state.continuous_state
+        _, v = state.continuous_state
         drag = self.table["drag"] * v
         return np.array([v, -g * GRAVITY / 9.81 - drag + self.wind[1]]) + self.force(time)
 
@@ -416,7 +416,10 @@ def test_declaring_more_is_refused_while_a_run_is_under_way():
 def test_a_signal_is_known_by_its_block():
     """Two wrappers of one block of the shelf, and two blocks of one name."""
     scene = saltus.scene("bouncing-ball")
-    leaf_one, leaf_two = leaf(lambda t, s: -s.continuous_state), leaf(lambda t, s: -s.continuous_state)
+    leaf_one, leaf_two = (
+        leaf(lambda t, s: -s.continuous_state),
+        leaf(lambda t, s: -s.continuous_state),
+    )
     for block in (leaf_one, leaf_two):
         block.declare_continuous_state_output("state")
     run(leaf_one)

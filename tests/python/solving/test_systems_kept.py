@@ -1,5 +1,5 @@
-"""A call of `solve` that is the same as one before runs the system of that one: it has the bits of a
-new one, whatever changes in between, and traces and plans nothing.
+"""A call of `solve` that is the same as one before runs the system of that one: it has the bits of
+a new one, whatever changes in between, and traces and plans nothing.
 """
 
 import copy
