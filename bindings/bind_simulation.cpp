@@ -167,7 +167,8 @@ void bind_simulation(py::module_& module) {
   });
 
   py::class_<PythonPlan, std::shared_ptr<PythonPlan>>(module, "Plan")
-      .def(py::init<const System&, SimulatorOptions, const py::object&>());
+      .def(py::init<const System&, SimulatorOptions, const py::object&>())
+      .def_property_readonly("blocks", [](const PythonPlan& p) { return p.plan()->leaves.size(); });
 
   py::class_<PythonSimulator>(module, "Simulator")
       .def(py::init<std::shared_ptr<PythonPlan>, py::object>())

@@ -38,6 +38,8 @@ class Callbacks:
         self._called: dict[Place, Any] = {}  # readers of writes: called, though traceable
         self._siblings: Any = None  # while functions are traced
         self._glance: Callable[[], bool] | None = None  # whether anything may have changed
+        self._values: Callable[[], bool] | None = None  # whether a value that was read has changed
+        self._looks: list[Any] = []  # at what the last search for writers has looked
         self._traces = self._calls = False  # whether a function is traced, and whether one is not
 
     def trace_block(self, number: int, block: Block) -> list[_core.Trace]:
@@ -47,7 +49,7 @@ class Callbacks:
         outcomes = [outcome_of(block, function, trace) for function in functions]
         self.outcomes[number] = outcomes
         self._called = {}
-        self._glance = None
+        self._glance = self._values = None
         self._note_ways()
         self._runs[number] = [
             core_trace(block, f, o) for f, o in zip(functions, outcomes, strict=True)
@@ -71,7 +73,7 @@ class Callbacks:
             self._note_ways()
             self._run_anew(blocks, changed)
             self.settle(others)
-        self._glance = self._new_glance()
+        self._glance = self._new_glance(others)
         return self.version
 
     def settle(self, others: Others = ()) -> bool:
@@ -79,10 +81,11 @@ class Callbacks:
 
         Only when all functions are traced or refused is it known what a run may write.
         """
-        self._siblings = self._glance = None
-        found = self._readers_of_writes(others)
+        self._siblings = self._glance = self._values = None
+        looks: list[Any] = []
+        found = self._readers_of_writes(others, looks)
         changed = found.keys() ^ self._called.keys()
-        self._called = found
+        self._called, self._looks = found, looks
         if changed:
             self._run_anew(self.traces.blocks(), changed)
         return bool(changed)
@@ -97,7 +100,7 @@ class Callbacks:
 
         Traced functions write nothing; without called ones nothing is compared.
         """
-        if not self._calls:
+        if not self._calls or (self._values is not None and not self._values()):
             return None
         traced = [(b, i) for b, i in self._watched() if hasattr(self.outcomes[b][i], "tape")]
         changes = (self.outcomes[b][i].watch.changed() for b, i in traced)
@@ -108,24 +111,29 @@ class Callbacks:
         traced = {hasattr(o, "tape") for of_block in self.outcomes.values() for o in of_block}
         self._traces, self._calls = True in traced, False in traced
 
-    def _new_glance(self) -> Callable[[], bool] | None:
-        """None if a function is called that may write what a traced one reads: then each run asks
-        what it may write.
-        """
-        if self._called or (self._calls and self._traces):
-            return None
+    def _new_glance(self, others: Others) -> Callable[[], bool] | None:
+        """None if a search for writers is needed before every run."""
         if not self.outcomes:
             return _nothing_changes
+        compiled = any(o is None for of_block in self.outcomes.values() for o in of_block)
+        searched = self._calls and self._traces
+        if others or (searched and compiled):
+            return None
         from saltus import tracing
 
-        return tracing.Glance(self.outcomes[b][i].watch for b, i in self._watched()).changed
+        outcomes = (o for of_block in self.outcomes.values() for o in of_block if o is not None)
+        values, looks = tracing.Glance(outcome.watch for outcome in outcomes).changed, self._looks
+        self._values = values
+        if not searched:
+            return values
+        return lambda: values() or any(each.changed() for each in looks)
 
-    def _readers_of_writes(self, others: Others) -> dict[Place, Any]:
+    def _readers_of_writes(self, others: Others, looks: list[Any]) -> dict[Place, Any]:
         if not self._traces or not (self._calls or others):
             return {}
         from saltus import tracing
 
-        return tracing.readers_of_writes(self.traces.blocks(), self.outcomes, others)
+        return tracing.readers_of_writes(self.traces.blocks(), self.outcomes, others, looks)
 
     def _watched(self) -> list[Place]:
         """The functions whose outcome holds while nothing changes that they read."""

@@ -12,7 +12,9 @@ Key = tuple[Any, ...]
 """options as values that can be compared"""
 
 MOST = 4
-"""plans that a system keeps: one takes some kilobytes, and few programs use more sets of options"""
+"""plans that a system keeps: few programs use more sets of options"""
+LARGE = 1000
+"""blocks; a plan of more is kept alone, for it takes some kilobytes a block"""
 
 
 class Plans:
@@ -38,7 +40,8 @@ class Plans:
         Another thread that does the same may be lost: then a plan is made once more.
         """
         others = [one for one in self._kept if one[1] == version and one[0] != key]
-        self._kept = ((key, version, plan), *others[: MOST - 1])
+        most = 1 if plan.blocks > LARGE else MOST
+        self._kept = ((key, version, plan), *others[: most - 1])
 
     def clear(self) -> None:
         """Lets go of all plans."""

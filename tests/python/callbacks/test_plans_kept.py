@@ -264,6 +264,15 @@ def test_few_plans_are_kept(plans):
     assert len(plans) == 50
 
 
+def test_of_a_large_system_one_is_kept():
+    builder = saltus.DiagramBuilder()
+    builder.add(*(saltus.library.Constant(1.0, name=f"one_{i}") for i in range(1001)))
+    diagram = builder.build()
+    for rtol in (1e-3, 1e-4):
+        saltus.simulate(diagram, SPAN, rtol=rtol)
+    assert len(diagram._callbacks.plans._kept) == 1
+
+
 def test_a_progress_function_and_an_interrupt_are_not_kept():
     model, seen = Model(), []
 

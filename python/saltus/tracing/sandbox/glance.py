@@ -5,16 +5,17 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any
 
-from saltus.tracing.sandbox.watch import GONE, MISSING, AttributeOf, Watch, content
+from saltus.tracing.sandbox.watch import GONE, MISSING, AttributeOf, Watch, content, same
 
 __all__ = ["Glance"]
 
 
 class Glance:
-    """Whether the values that were read are the same objects still, with the same parts.
+    """Whether the values that were read are the same objects still, or equal numbers, with the
+    same parts.
 
-    It may see a change where there is none: another object that is equal. Then `Watch.changed`
-    tells. It holds what the watches hold.
+    It may see a change where there is none, such as in an object that is gone. Then
+    `Watch.changed` tells. It holds what the watches hold.
 
     Examples
     --------
@@ -53,7 +54,8 @@ class Glance:
     def changed(self) -> bool:
         """False: nothing has changed. True: something may have."""
         for get, key, value in self._entries:
-            if get(key, MISSING) is not value:
+            now = get(key, MISSING)
+            if now is not value and not same(now, value):
                 return True
         for owner_of, name, value in self._attributes:
             owner = owner_of()  # gone: it cannot change
