@@ -4,11 +4,8 @@ between two runs, and while nothing changes nothing is traced or planned again.
 
 import copy
 import gc
-import os
 import pickle
-import threading
 import weakref
-from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
@@ -16,10 +13,10 @@ import saltus
 from saltus import _core
 from saltus.tracing import tracing
 from systems import Ball
+from whole_runs import SPAN, bits, run
 
 from models import Pendulum, leaf
 
-SPAN = (0.0, 2.0)
 GRAVITY = 9.81
 
 
@@ -78,21 +75,6 @@ class Model(saltus.LeafSystem):
     def energy(self, time, state, *, g):
         y, v = state.continuous_state
         return g * y + 0.5 * v * v
-
-
-def bits(results):
-    """All that a run says, for comparison."""
-    statistics = vars(results.statistics) | {"wall_time": 0.0}
-    events = [(e.time, e.name, e.before.tolist(), e.after.tolist()) for e in results.events]
-    outputs = {name: array.tobytes() for name, array in results.outputs.items()}
-    x = results.context.continuous_state.tobytes()
-    return (results.time.tobytes(), outputs, x, events, results.status, statistics)
-
-
-def run(system, values=None, span=SPAN, outputs=("state",), **options):
-    context = system.create_context() if values is None else values(system.create_context())
-    recorded = {name: system.output(name) for name in outputs}
-    return saltus.simulate(system, context, span, recorded_signals=recorded, **options)
 
 
 def set_global(model):
@@ -173,64 +155,6 @@ def test_other_values_of_a_kept_plan(values, plans):
     assert len(plans) == 2
 
 
-OPTIONS = {
-    "a tolerance": {"rtol": 1e-9},
-    "tolerances by state": {"atol": [1e-9, 1e-7]},
-    "tolerances as an array": {"atol": np.array([1e-9, 1e-7])},
-    "a method": {"ode_solver_method": "dop853"},
-    "times": {"save_at": [0.5, 1.0]},
-    "times as an array": {"save_at": np.linspace(0.0, 2.0, 5)},
-    "events": {"record_events": False},
-    "steps": {"max_minor_step_size": 0.01},
-    "signals": {"outputs": ("state", "energy")},
-    "called": {"python": "called"},
-}
-
-
-@pytest.mark.parametrize("options", OPTIONS.values(), ids=OPTIONS.keys())
-def test_other_options_have_a_plan_of_their_own(options):
-    model = Model()
-    for each in ({}, options, {}, options):
-        assert bits(run(model, **each)) == bits(run(Model(), **each))
-
-
-def test_options_that_are_changed_in_place_are_seen():
-    model, times = Model(), [0.5, 1.0]
-    options = saltus.SimulatorOptions(save_at=times, recorded_signals={"y": model.output()})
-    context = model.create_context()
-    for time in (1.5, 2.0):
-        assert saltus.simulate(model, context, SPAN, options).time[-1] == SPAN[1]
-        times.append(time)
-        found = saltus.simulate(model, context, SPAN, options)
-        assert set(times) <= set(found.time.tolist())
-    options.recorded_signals["energy"] = model.output("energy")
-    assert set(saltus.simulate(model, context, SPAN, options).outputs) == {"y", "energy"}
-
-
-@pytest.mark.parametrize(
-    "wrong",
-    [
-        {"rtol": -1.0},
-        {"rtol": "tight"},
-        {"throw": 1},
-        {"dense_output": 1},
-        {"python": "fast"},
-        {"rtool": 1e-6},
-        {"progress": 0.5},
-        {"recorded_signals": {"y": 1}},
-    ],
-    ids=str,
-)
-def test_wrong_options_are_refused_as_before(wrong):
-    model, messages = Model(), []
-    for system in (model, Model()):
-        saltus.simulate(model, model.create_context(), SPAN)  # the plan of right options is kept
-        with pytest.raises(saltus.ModelError) as caught:
-            saltus.simulate(system, system.create_context(), SPAN, **wrong)
-        messages.append(str(caught.value))
-    assert messages[0] == messages[1]
-
-
 def test_nothing_is_traced_or_planned_again(plans, traces):
     model, pendulum = Model(), Pendulum()
     builder = saltus.DiagramBuilder()
@@ -254,23 +178,6 @@ def test_what_changes_is_traced_and_planned_once(plans, traces):
     run(model), run(model)
     assert len(plans) == first[0] + 1
     assert len(traces) == first[1] + 1
-
-
-def test_few_plans_are_kept(plans):
-    model = Model()
-    for rtol in np.geomspace(1e-3, 1e-9, 50):
-        run(model, rtol=float(rtol))
-    assert len(model._callbacks.plans._kept) <= 4
-    assert len(plans) == 50
-
-
-def test_of_a_large_system_one_is_kept():
-    builder = saltus.DiagramBuilder()
-    builder.add(*(saltus.library.Constant(1.0, name=f"one_{i}") for i in range(1001)))
-    diagram = builder.build()
-    for rtol in (1e-3, 1e-4):
-        saltus.simulate(diagram, SPAN, rtol=rtol)
-    assert len(diagram._callbacks.plans._kept) == 1
 
 
 def test_a_progress_function_and_an_interrupt_are_not_kept():
@@ -315,111 +222,12 @@ def test_dense_output_keeps_the_values_it_was_made_from():
     assert after == before
 
 
-class Inner(saltus.LeafSystem):
-    """x' = -x; its derivative runs `inside` once. It is called: it branches on a value."""
-
-    def __init__(self):
-        super().__init__(name="inner")
-        self.inside = None
-        self.declare_continuous_state(default_value=[1.0], ode=self.ode)
-        self.declare_continuous_state_output("state")
-
-    def ode(self, time, state):
-        if time > 0.3 and self.inside is not None:
-            inside, self.inside = self.inside, None
-            inside()
-        return -state.continuous_state
-
-
-def test_a_callback_may_run_its_own_system():
-    system, found = Inner(), []
-    alone = bits(run(system))
-    for _ in range(2):
-        system.inside = lambda: found.append(bits(run(system)))
-        assert bits(run(system)) == alone
-    assert found == [alone, alone]
-
-
-def test_threads_share_a_plan_and_no_run():
-    """The two runs are under way at once: each waits for the other."""
-    barrier = threading.Barrier(2, timeout=20)
-
-    class Both(Inner):
-        def ode(self, time, state):
-            if time > 0.3 and threading.get_ident() not in self.met:
-                self.met.add(threading.get_ident())
-                barrier.wait()
-            return -state.continuous_state
-
-    both = Both()
-    both.met = {threading.get_ident()}
-    expected = bits(run(both))
-    with ThreadPoolExecutor(2) as pool:
-        assert list(pool.map(lambda _: bits(run(both)), range(2))) == [expected] * 2
-    assert len(both.met) == 3
-
-
-@pytest.mark.parametrize("throw", [True, False])
-def test_an_exception_leaves_the_plan_as_it_was(throw):
-    system = Inner()
-    alone = bits(run(system))
-
-    def fail():
-        raise RuntimeError("once")
-
-    system.inside = fail
-    if throw:
-        with pytest.raises(RuntimeError, match="once") as caught:
-            run(system)
-        results = caught.value.results
-    else:
-        results = run(system, throw=False)
-    assert results.status == "failed"
-    assert 0.0 < results.time[-1] < SPAN[1]
-    assert bits(run(system)) == alone
-
-
 def test_a_copy_of_a_context_and_of_results_says_the_same():
     model = Model()
     run(model)
     results = run(model)
     for copied in (copy.copy(results), copy.deepcopy(results), pickle.loads(pickle.dumps(results))):
         assert bits(copied) == bits(results)
-
-
-@pytest.mark.skipif(not hasattr(os, "fork"), reason="no fork here")
-def test_a_forked_process_uses_the_plans():
-    model = Model()
-    expected = bits(run(model))[0]
-    reader, writer = os.pipe()
-    child = os.fork()
-    if child == 0:  # nothing of pytest may run here
-        same = False
-        try:
-            same = bits(run(model))[0] == expected
-        finally:
-            os.write(writer, b"y" if same else b"n")
-            os._exit(0)
-    os.close(writer)
-    assert os.read(reader, 1) == b"y"
-    os.close(reader)
-    os.waitpid(child, 0)
-    assert bits(run(model))[0] == expected
-
-
-def test_declaring_more_is_refused_while_a_run_is_under_way():
-    system = Inner()
-    run(system)
-    refused = []
-
-    def declare():
-        with pytest.raises(saltus.ModelError, match="in use"):
-            system.declare_dynamic_parameter("k", 1.0)
-        refused.append(1)
-
-    system.inside = declare
-    run(system)
-    assert refused
 
 
 def test_a_signal_is_known_by_its_block():
@@ -437,3 +245,17 @@ def test_a_signal_is_known_by_its_block():
     for _ in range(2):
         recorded = {"y": scene.system.output(0)}
         assert saltus.simulate(scene.system, scene.context, SPAN, recorded_signals=recorded).outputs
+
+
+def test_a_copy_of_a_system_has_no_plan_of_the_other():
+    scene = saltus.scene("bouncing-ball")
+    expected = saltus.simulate(scene.system, scene.context, SPAN).context.continuous_state
+    copies = [copy.copy(scene.system), pickle.loads(pickle.dumps(scene.system))]
+    assert not any(getattr(one, "_callbacks", None) for one in copies)
+    del scene
+    gc.collect()
+    for one in copies:
+        context = one.create_context().with_continuous_state([10.0, 0.0])
+        assert saltus.simulate(one, context, SPAN).context.continuous_state.tobytes() == (
+            expected.tobytes()
+        )
