@@ -1,5 +1,5 @@
 """What Python costs: the tutorial's scenes traced and called against the same scenes in C++; one
-call of a callback; the first result after `import saltus`.
+call of a callback; short runs (`short_runs.py`); the first result after `import saltus`.
 
     python bench/python_cost.py [build/bench/results]
 
@@ -18,6 +18,7 @@ from pathlib import Path
 
 import numpy as np
 import saltus
+import short_runs
 from saltus.library import Comparator, Constant, Gain, Integrator, ReduceBlock, Step
 
 LEAF = {"rtol": 1e-10, "atol": 1e-12, "max_minor_step_size": 1e-3}
@@ -261,10 +262,11 @@ def main(results=None):
     call = call_cost()
     print("a call of Python: {floor:.0f} ns the call itself, {ours:.0f} ns ours".format(**call))
     print(f"target: ours <= {CALL_TARGET:.0f} ns")
+    short = short_runs.show(Ball)
     first = cold()
     print(f"first result after import: {first:.3f} s; target <= {COLD_TARGET} s")
     if results:
-        sheet = {"scenes": rows, "call": call, "cold": first}
+        sheet = {"scenes": rows, "call": call, "short": short, "cold": first}
         (Path(results) / "python_cost.json").write_text(json.dumps(sheet, indent=1))
 
 

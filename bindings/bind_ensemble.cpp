@@ -102,7 +102,7 @@ class Call {
     }
     if (each_.is_none()) return;
     locked([&] {
-      auto copy = std::make_shared<Results>(results);
+      auto copy = std::make_shared<Record>(results);
       copy->cause = nullptr;  // it would refer to the frames it went through
       each_(run, copy, cause_of(results));
     });

@@ -1,4 +1,5 @@
-// Results: columns as NumPy arrays over the C++ memory, which lives as long as any of them.
+// Results: columns as NumPy arrays over the C++ memory, which lives as long as any of them, or over
+// copies.
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
@@ -9,21 +10,22 @@ namespace saltus::python {
 
 namespace {
 
-using SharedResults = std::shared_ptr<Results>;
+using SharedRecord = std::shared_ptr<Record>;
 
 template <class Number>
-py::array column(const SharedResults& results, std::vector<Number>& values,
+py::array column(const SharedRecord& results, std::vector<Number>& values,
                  std::vector<py::ssize_t> dimensions) {
-  const py::capsule owner(new SharedResults(results),
-                          [](void* shared) { delete static_cast<SharedResults*>(shared); });
+  if (results->goes_on) return py::array_t<Number>(std::move(dimensions), values.data());
+  const py::capsule owner(new SharedRecord(results),
+                          [](void* shared) { delete static_cast<SharedRecord*>(shared); });
   return py::array_t<Number>(std::move(dimensions), values.data(), owner);
 }
 
-py::ssize_t rows(const SharedResults& results) {
+py::ssize_t rows(const SharedRecord& results) {
   return static_cast<py::ssize_t>(results->time.size());
 }
 
-py::dict outputs(const SharedResults& results) {
+py::dict outputs(const SharedRecord& results) {
   py::dict all;
   for (RecordedSignal& signal : results->signals) {
     std::vector<py::ssize_t> dimensions{rows(results)};
@@ -35,7 +37,7 @@ py::dict outputs(const SharedResults& results) {
 
 /// The continuous state and the recorded signals at each of `times`. It needs the interpreter only
 /// if the model has Python functions.
-py::tuple at(const SharedResults& results, const std::vector<double>& times, bool left) {
+py::tuple at(const SharedRecord& results, const std::vector<double>& times, bool left) {
   std::vector<double> states;
   std::vector<std::vector<double>> signals(results->signals.size());
   {
@@ -68,7 +70,7 @@ py::array copy_of(std::span<const double> values) {
 }
 
 /// An event, in the order of the fields of saltus.results.Event.
-py::tuple event(const Results& results, std::size_t i) {
+py::tuple event(const Record& results, std::size_t i) {
   if (i >= results.events.size())
     throw py::index_error(text("event ", i, " of ", results.events.size()));
   const Event e = results.events[i];
@@ -79,7 +81,7 @@ py::tuple event(const Results& results, std::size_t i) {
 }
 
 /// Without a kind: of all events that fired.
-py::array event_times(const Results& results, std::string_view name,
+py::array event_times(const Record& results, std::string_view name,
                       std::optional<std::string_view> kind) {
   if (!kind) return copy_of(results.events.times(name));
   std::vector<std::string> known;
@@ -92,7 +94,7 @@ py::array event_times(const Results& results, std::string_view name,
 }
 
 /// The counts, by the names of the fields of saltus.results.Statistics.
-py::dict statistics(const Results& results) {
+py::dict statistics(const Record& results) {
   const Statistics& s = results.statistics;
   py::dict by_name;
   for (const auto& [name, count] : s.events_by_name) by_name[py::str(name)] = count;
@@ -128,25 +130,25 @@ py::object cause_of(const Results& results) {
 }
 
 void bind_results(py::module_& module) {
-  py::class_<Results, SharedResults>(module, "Results")
+  py::class_<Record, SharedRecord>(module, "Results")
       .def_property_readonly("time",
-                             [](const SharedResults& r) { return column(r, r->time, {rows(r)}); })
+                             [](const SharedRecord& r) { return column(r, r->time, {rows(r)}); })
       .def_property_readonly("jump",
-                             [](const SharedResults& r) { return column(r, r->jump, {rows(r)}); })
+                             [](const SharedRecord& r) { return column(r, r->jump, {rows(r)}); })
       .def_property_readonly("outputs", &outputs)
       .def_readonly("context", &Results::context)
-      .def_property_readonly("status", [](const Results& r) { return to_string(r.status); })
+      .def_property_readonly("status", [](const Record& r) { return to_string(r.status); })
       .def_readonly("message", &Results::message)
       .def_readonly("block", &Results::block)
       .def_property_readonly("statistics", &statistics)
-      .def_property_readonly("event_count", [](const Results& r) { return r.events.size(); })
-      .def_property_readonly("event_names", [](const Results& r) { return r.events.names(); })
-      .def_property_readonly("dense", [](const Results& r) { return !r.trajectory.empty(); })
+      .def_property_readonly("event_count", [](const Record& r) { return r.events.size(); })
+      .def_property_readonly("event_names", [](const Record& r) { return r.events.names(); })
+      .def_property_readonly("dense", [](const Record& r) { return !r.trajectory.empty(); })
       .def_property_readonly(
           "span",
-          [](const Results& r) { return py::make_tuple(r.trajectory.begin(), r.trajectory.end()); })
+          [](const Record& r) { return py::make_tuple(r.trajectory.begin(), r.trajectory.end()); })
       .def_property_readonly(
-          "joints", [](const Results& r) { return py::array(py::cast(r.trajectory.joints())); })
+          "joints", [](const Record& r) { return py::array(py::cast(r.trajectory.joints())); })
       .def("at", &at)
       .def("event", &event)
       .def("event_times", &event_times);

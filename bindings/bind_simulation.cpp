@@ -9,10 +9,9 @@
 #include "interpreter.hpp"
 #include "names.hpp"
 #include "numbers.hpp"
+#include "python_plan.hpp"
 #include "python_results.hpp"
-#include "saltus/simulation/detail/option_table.hpp"
 #include "saltus/simulation/simulator.hpp"
-#include "trace_pass.hpp"
 
 namespace saltus::python {
 
@@ -23,49 +22,71 @@ using NamedPort = std::tuple<std::string, const System*, int>;
 /// A Simulator that handles signals such as Ctrl-C and lets Python raise their exceptions.
 class PythonSimulator {
  public:
-  PythonSimulator(const System& system, SimulatorOptions options, py::object progress,
-                  const py::object& callbacks)
+  PythonSimulator(std::shared_ptr<PythonPlan> plan, py::object progress)
       : progress_(std::move(progress)),
-        pass_(trace_pass(callbacks)),
-        simulator_(system, prepared(std::move(options))) {
-    if (pass_) pass_->end();
-  }
+        plan_(std::move(plan)),
+        simulator_(plan_->plan(), prepared(plan_->options())) {}
   PythonSimulator(const PythonSimulator&) = delete;
   PythonSimulator& operator=(const PythonSimulator&) = delete;
 
-  void initialize(const Context& context) { simulator_.initialize(context); }
-
-  void advance_to(double t_end) {
-    const Unlocked run;
-    simulator_.advance_to(t_end);
+  void initialize(const Context& context) {
+    simulator_.initialize(context);
+    shown_ = nullptr;
   }
 
-  /// Everything since initialize(), moved out or copied, and the exception, or None. An exception
-  /// refers to the frames it went through, and they refer to this simulator. So no C++ object may
-  /// keep the exception, or the two would keep each other alive.
-  py::tuple results(bool take) {
-    // The engine's results are const, but they are part of this object's own simulator.
-    auto& now = const_cast<Results&>(simulator_.results());
-    const py::object raised = now.cause ? cause_of(now) : std::exchange(signalled_, py::none());
-    now.cause = nullptr;
-    auto results = std::make_shared<Results>(take ? simulator_.take_results() : now);
+  std::string_view advance_to(double t_end) {
+    put_back();
+    const Unlocked run;
+    return to_string(simulator_.advance_to(t_end));
+  }
+
+  /// Everything since initialize(), moved out, and the exception, or None. The run may go on:
+  /// then it takes back what is shown, or a copy. An exception refers to the frames it went
+  /// through, and they refer to this simulator. So no C++ object may keep the exception, or the two
+  /// would keep each other alive.
+  py::tuple results() {
+    if (shown_) return py::make_tuple(shown_, py::none());
+    const py::object raised = own().cause ? cause_of(own()) : std::exchange(signalled_, py::none());
+    own().cause = nullptr;
+    shown_ = std::make_shared<Record>(simulator_.take_results(), true);
     // Ctrl-C, perhaps in a function of the model.
     if (PyErr_GivenExceptionMatches(raised.ptr(), PyExc_KeyboardInterrupt)) {
-      results->status = Status::interrupted;
-      results->message = text("t = ", results->context.time(), " s: interrupted");
+      shown_->status = Status::interrupted;
+      shown_->message = text("t = ", shown_->context.time(), " s: interrupted");
     }
-    return py::make_tuple(results, raised);
+    return py::make_tuple(shown_, raised);
   }
 
-  /// Runs the present traces from now on, see TracePass.
-  bool replace_traces() { return !pass_ || pass_->replace(); }
+  /// The results of a run that does not go on: their arrays are the memory itself.
+  py::tuple last_results() {
+    const py::tuple last = results();
+    std::exchange(shown_, nullptr)->goes_on = false;
+    return last;
+  }
+
+  bool replace_traces() { return plan_->replace_traces(); }
 
   const Simulator& simulator() const { return simulator_; }
 
  private:
+  /// The engine's results are const, but they are part of this object's own simulator.
+  Results& own() { return const_cast<Results&>(simulator_.results()); }
+
+  /// Gives the engine the results that are shown. What Python still has does not change. A run that
+  /// Ctrl-C ended in a function of the model is one that failed, to the engine.
+  void put_back() {
+    if (!shown_) return;
+    Results& shown = *shown_;
+    const Status status = own().status;
+    if (shown_.use_count() == 1)
+      own() = std::move(shown);
+    else
+      own() = shown;
+    own().status = status;
+    shown_ = nullptr;
+  }
+
   SimulatorOptions prepared(SimulatorOptions options) {
-    options.refinement = pass_;
-    options.throw_errors = false;
     options.interrupt = [this, asked = std::move(options.interrupt)] {
       if (signal_arrived()) return true;
       if (!progress_.is_none()) report();
@@ -97,8 +118,9 @@ class PythonSimulator {
   py::object signalled_ = py::none();
   py::object progress_;
   std::chrono::steady_clock::time_point reported_{};
-  std::shared_ptr<TracePass> pass_;  // null: every function is called
+  std::shared_ptr<PythonPlan> plan_;
   Simulator simulator_;
+  std::shared_ptr<Record> shown_;  // results that Python has; null: the engine has them
 };
 
 void set_recorded_signals(SimulatorOptions& options, const std::vector<NamedPort>& signals) {
@@ -144,12 +166,17 @@ void bind_simulation(py::module_& module) {
       options.def_readwrite(option.name, option.member);
   });
 
+  py::class_<PythonPlan, std::shared_ptr<PythonPlan>>(module, "Plan")
+      .def(py::init<const System&, SimulatorOptions, const py::object&>())
+      .def_property_readonly("blocks", [](const PythonPlan& p) { return p.plan()->leaves.size(); });
+
   py::class_<PythonSimulator>(module, "Simulator")
-      .def(py::init<const System&, SimulatorOptions, py::object, const py::object&>())
+      .def(py::init<std::shared_ptr<PythonPlan>, py::object>())
       .def("initialize", &PythonSimulator::initialize)
       .def("advance_to", &PythonSimulator::advance_to)
       .def("replace_traces", &PythonSimulator::replace_traces)
       .def("results", &PythonSimulator::results)
+      .def("last_results", &PythonSimulator::last_results)
       .def_property_readonly("time", [](const PythonSimulator& s) { return s.simulator().time(); })
       .def_property_readonly(
           "events",

@@ -48,6 +48,7 @@ REFINED: dict[str, dict[str, str]] = {
     "Results.jump": {"return": "NDArray[np.int32]"},
     "Results.outputs": {"return": f"dict[str, {NUMBERS}]"},
     "Simulator.results": {"return": "tuple[Results, BaseException | None]"},
+    "Simulator.last_results": {"return": "tuple[Results, BaseException | None]"},
     "Ensemble.run": {"return": "tuple[dict[str, Any], BaseException | None]"},
     "set_event_times": {"arg1": "Sequence[tuple[str, ArrayLike]]"},
     "Graph.apply": {"args": "int"},

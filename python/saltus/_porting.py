@@ -84,6 +84,8 @@ def refusing(method: Callable[P, R]) -> Callable[P, R]:
     def checked(*arguments: P.args, **options: P.kwargs) -> R:
         if declares and not getattr(arguments[0], "_made", False):
             raise ModelError(f"{where}: call super().__init__(name=...) first, then declare")
+        if declares:
+            _let_go(arguments[0])
         refuse(where, options, known, hints)
         try:
             return method(*arguments, **options)
@@ -93,6 +95,14 @@ def refusing(method: Callable[P, R]) -> Callable[P, R]:
         raise ModelError(f"{where}: {_wrong_kind(method, arguments, options)}")
 
     return checked
+
+
+def _let_go(block: Any) -> None:
+    """Lets go of the traces and plans that a block keeps: they use it, and it declares more."""
+    callbacks = getattr(block, "_callbacks", None)
+    if callbacks is not None:
+        callbacks.plans.clear()
+        block._callbacks = None
 
 
 def _hints(method: str, known: tuple[str, ...]) -> dict[str, str]:

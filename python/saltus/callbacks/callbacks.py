@@ -8,11 +8,17 @@ from typing import Any
 from saltus import _core
 from saltus.callbacks.explanation import Explanation, explained
 from saltus.callbacks.function import Block, core_trace, outcome_of
+from saltus.callbacks.plans import Plans
 
 __all__ = ["Callbacks", "Others"]
 
 Place = tuple[int, int]  # the numbers of a block and of a function of it
 Others = Sequence[tuple[str, Any]]  # functions that are no callbacks of a block, with words
+
+
+def _nothing_changes() -> bool:
+    """The glance at a system without functions of Python."""
+    return False
 
 
 class Callbacks:
@@ -26,10 +32,15 @@ class Callbacks:
     def __init__(self, system: Any):
         self.traces = _core.Traces(system)
         self.version = 0
+        self.plans = Plans()
         self.outcomes: dict[int, list[Any]] = {}  # of the functions of each block, by its number
         self._runs: dict[int, list[_core.Trace | None]] = {}  # what the engine runs of them
         self._called: dict[Place, Any] = {}  # readers of writes: called, though traceable
         self._siblings: Any = None  # while functions are traced
+        self._glance: Callable[[], bool] | None = None  # whether anything may have changed
+        self._values: Callable[[], bool] | None = None  # whether a value that was read has changed
+        self._looks: list[Any] = []  # at what the last search for writers has looked
+        self._traces = self._calls = False  # whether a function is traced, and whether one is not
 
     def trace_block(self, number: int, block: Block) -> list[_core.Trace]:
         """Trace the functions of a block, which the engine calls for while it makes a plan."""
@@ -38,6 +49,8 @@ class Callbacks:
         outcomes = [outcome_of(block, function, trace) for function in functions]
         self.outcomes[number] = outcomes
         self._called = {}
+        self._glance = self._values = None
+        self._note_ways()
         self._runs[number] = [
             core_trace(block, f, o) for f, o in zip(functions, outcomes, strict=True)
         ]
@@ -48,6 +61,8 @@ class Callbacks:
 
         `others` are functions that the run calls as well.
         """
+        if self._glance is not None and not others and not self._glance():
+            return self.version
         self.settle(others)
         changed = self._changed()
         if changed:
@@ -55,8 +70,10 @@ class Callbacks:
             blocks: list[Block] = self.traces.blocks()
             for b, i in changed:
                 self.outcomes[b][i] = outcome_of(blocks[b], blocks[b]["functions"][i], trace)
+            self._note_ways()
             self._run_anew(blocks, changed)
             self.settle(others)
+        self._glance = self._new_glance(others)
         return self.version
 
     def settle(self, others: Others = ()) -> bool:
@@ -64,36 +81,59 @@ class Callbacks:
 
         Only when all functions are traced or refused is it known what a run may write.
         """
-        self._siblings = None
-        found = self._readers_of_writes(others)
+        self._siblings = self._glance = self._values = None
+        looks: list[Any] = []
+        found = self._readers_of_writes(others, looks)
         changed = found.keys() ^ self._called.keys()
-        self._called = found
+        self._called, self._looks = found, looks
         if changed:
             self._run_anew(self.traces.blocks(), changed)
         return bool(changed)
+
+    @property
+    def all_traced(self) -> bool:
+        """Whether no function is called."""
+        return not self._calls
 
     def written(self) -> str | None:
         """A change of a value that a trace of the last run was made from, in words.
 
         Traced functions write nothing; without called ones nothing is compared.
         """
-        if not self._calls:
+        if not self._calls or (self._values is not None and not self._values()):
             return None
         traced = [(b, i) for b, i in self._watched() if hasattr(self.outcomes[b][i], "tape")]
         changes = (self.outcomes[b][i].watch.changed() for b, i in traced)
         return next((change for change in changes if change is not None), None)
 
-    @property
-    def _calls(self) -> bool:
-        """Whether some function was refused, or is compiled."""
-        return any(not hasattr(o, "tape") for of_block in self.outcomes.values() for o in of_block)
+    def _note_ways(self) -> None:
+        """Whether some function is traced, and whether some was refused or is compiled."""
+        traced = {hasattr(o, "tape") for of_block in self.outcomes.values() for o in of_block}
+        self._traces, self._calls = True in traced, False in traced
 
-    def _readers_of_writes(self, others: Others) -> dict[Place, Any]:
-        if not self.outcomes or not (self._calls or others):
+    def _new_glance(self, others: Others) -> Callable[[], bool] | None:
+        """None if a search for writers is needed before every run."""
+        if not self.outcomes:
+            return _nothing_changes
+        compiled = any(o is None for of_block in self.outcomes.values() for o in of_block)
+        searched = self._calls and self._traces
+        if others or (searched and compiled):
+            return None
+        from saltus import tracing
+
+        outcomes = (o for of_block in self.outcomes.values() for o in of_block if o is not None)
+        values, looks = tracing.Glance(outcome.watch for outcome in outcomes).changed, self._looks
+        self._values = values
+        if not searched:
+            return values
+        return lambda: values() or any(each.changed() for each in looks)
+
+    def _readers_of_writes(self, others: Others, looks: list[Any]) -> dict[Place, Any]:
+        if not self._traces or not (self._calls or others):
             return {}
         from saltus import tracing
 
-        return tracing.readers_of_writes(self.traces.blocks(), self.outcomes, others)
+        return tracing.readers_of_writes(self.traces.blocks(), self.outcomes, others, looks)
 
     def _watched(self) -> list[Place]:
         """The functions whose outcome holds while nothing changes that they read."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cached_property
 from os import PathLike
 from typing import TYPE_CHECKING, Any
 
@@ -37,7 +38,9 @@ class _Outputs(dict[str, np.ndarray]):
 class Results:
     """The recorded signals, the event log, the final values, and the way the run ended.
 
-    The arrays show the memory of the run without a copy, and keep it as long as one of them lives.
+    Each part is made when it is asked for, once. The arrays of a whole run show its memory without
+    a copy, and keep it as long as one of them lives; those of a `Simulator`, which may go on, are
+    copies.
     Results can be saved (`save`), pickled, and called for values between the rows.
 
     Examples
@@ -50,44 +53,63 @@ class Results:
     True
     """
 
-    time: np.ndarray
-    """[s] of each row; never decreases. Each event has a row before and a row after it."""
-    jump: np.ndarray
-    """tells rows of one time apart: it goes up by one with each pass that changed something"""
-    outputs: dict[str, np.ndarray]
-    """recorded signals by name: one value a row for a scalar, a row of values for a vector"""
-    events: EventLog
-    """every event, in order; a table with `to_pandas()` and `times(name)`"""
-    context: _core.Context
-    """the values at the end; a run can go on from here"""
-    status: str
-    """'reached_end', 'terminal', 'zeno_stop', 'step_limit', 'chattering', 'interrupted' or
-    'failed'
-    """
-    message: str
-    """the reason for any status but the first three"""
-    block: str
-    """path of the block at fault, if a single block is"""
-    cause: BaseException | None
+    cause: BaseException | None = None
     """the exception, if the status is 'failed'"""
-    statistics: Statistics
-    """the numbers of steps and calls"""
 
     def __init__(self, core: Record, raised: BaseException | None = None, asks: Any = None):
         self._core = core
         self._asks = asks if core.dense else None  # the system whose outputs dense output calls
-        self.time = core.time
-        self.jump = core.jump
-        self.outputs = _Outputs(core.outputs)
-        self.events = EventLog(core)
-        self.context = core.context
-        self.status = core.status
-        self.block = core.block
-        self.cause = raised if core.status == "failed" else None
-        self.message = core.message
-        if self.cause is not None and not isinstance(self.cause, Error):  # it says no more
-            self.message = f"t = {self._ended_at} s: {type(raised).__name__}: {raised}"
-        self.statistics = Statistics(**core.statistics)
+        if raised is not None and core.status == "failed":
+            self.cause = raised
+            if not isinstance(raised, Error):  # the message of the run says no more
+                self.message = f"t = {self._ended_at} s: {type(raised).__name__}: {raised}"
+
+    @cached_property
+    def time(self) -> np.ndarray:
+        """[s] of each row; never decreases. Each event has a row before and a row after it."""
+        return self._core.time
+
+    @cached_property
+    def jump(self) -> np.ndarray:
+        """Tells rows of one time apart: it goes up by one with each pass that changed something."""
+        return self._core.jump
+
+    @cached_property
+    def outputs(self) -> dict[str, np.ndarray]:
+        """Recorded signals by name: one value a row for a scalar, a row of values for a vector."""
+        return _Outputs(self._core.outputs)
+
+    @cached_property
+    def events(self) -> EventLog:
+        """Every event, in order; a table with `to_pandas()` and `times(name)`."""
+        return EventLog(self._core)
+
+    @cached_property
+    def context(self) -> _core.Context:
+        """The values at the end; a run can go on from here."""
+        return self._core.context
+
+    @cached_property
+    def status(self) -> str:
+        """'reached_end', 'terminal', 'zeno_stop', 'step_limit', 'chattering', 'interrupted' or
+        'failed'.
+        """
+        return self._core.status
+
+    @cached_property
+    def message(self) -> str:
+        """The reason for any status but the first three."""
+        return self._core.message
+
+    @cached_property
+    def block(self) -> str:
+        """Path of the block at fault, if a single block is."""
+        return self._core.block
+
+    @cached_property
+    def statistics(self) -> Statistics:
+        """The numbers of steps and calls."""
+        return Statistics(**self._core.statistics)
 
     @property
     def stats(self) -> Statistics:

@@ -10,7 +10,7 @@ from saltus._engine import core_context
 from saltus._span import span_of
 from saltus.options import SimulatorOptions
 from saltus.results import Results
-from saltus.simulation.simulator import Simulator
+from saltus.simulation.whole import prepared, run_whole
 from saltus.system import OutputPort, System
 
 __all__ = ["simulate"]
@@ -89,7 +89,11 @@ def simulate(
     begin, end = span_of("simulate", time_span)
     if recorded_signals is not None:
         option_overrides["recorded_signals"] = recorded_signals
-    simulator = Simulator(system, options, **option_overrides)
+    run = prepared("Simulator", system, options, option_overrides)
     context = core_context(system.create_context(begin) if context is None else context)
     # a context from the end of a run at this time knows which events have happened already
-    return simulator._run(context if context.time == begin else context.with_time(begin), end)
+    if context.time != begin:
+        context = context.with_time(begin)
+    return run_whole(
+        run, context, end, lambda core, raised: (Results(core, raised, system), raised)
+    )

@@ -2,19 +2,26 @@
 
 from __future__ import annotations
 
-from dataclasses import fields, replace
+import weakref
+from collections.abc import Callable
 from typing import Any
 
 from saltus import _core
 from saltus._engine import core_context, core_options
-from saltus._porting import OPTIONS, refuse
 from saltus.callbacks import Callbacks, planned
-from saltus.errors import ModelError, SimulationError
+from saltus.errors import ModelError
 from saltus.options import SimulatorOptions
 from saltus.progress import reporter_of
 from saltus.results import Results
 from saltus.simulation.failure import raise_for
 from saltus.simulation.turn import Turn
+from saltus.simulation.whole import (
+    WELL,
+    advance,
+    checked_options,
+    functions_of,
+    refuse_stale,
+)
 from saltus.system import System
 
 __all__ = ["Simulator"]
@@ -57,37 +64,30 @@ class Simulator:
     """
 
     def __init__(self, system: System, options: SimulatorOptions | None = None, **overrides: Any):
-        if not isinstance(system, System):
-            raise ModelError(f"expected a system, found {system!r}")
-        options = options or SimulatorOptions()
-        if not isinstance(options, SimulatorOptions):
-            raise ModelError(f"expected SimulatorOptions, found {options!r}")
-        refuse(type(self).__name__, overrides, (field.name for field in fields(options)), OPTIONS)
-        self.options = replace(options, **overrides)
+        self.options = checked_options(type(self).__name__, system, options, overrides)
         self.system = system  # the engine refers to it
         self._reporter = reporter_of(self.options.progress)
         self._options = core_options(self.options)
+        self._others = functions_of(self.options)
         self._make()
+        self._shown: Callable[[], Results | None] = lambda: (
+            None
+        )  # the last results, while they live
         self._failed: Results | None = None
         self._turn = Turn()
 
     def _make(self) -> None:
-        """The engine's simulator."""
+        """The engine's simulator, over a plan of its own."""
         self._callbacks: Callbacks | None = None
         if self.options.python == "traced":
-            self._core, self._callbacks = planned(self.system, self._core_simulator, self._others)
+            plan, self._callbacks = planned(self.system, self._plan, self._others)
         else:
-            self._core = self._core_simulator(None)
+            plan = self._plan(None)
+        self._core = _core.Simulator(plan, self._reporter)
         self._version = self._callbacks.version if self._callbacks else 0
 
-    def _core_simulator(self, callbacks: Callbacks | None) -> _core.Simulator:
-        return _core.Simulator(self.system, self._options, self._reporter, callbacks)
-
-    @property
-    def _others(self) -> list[tuple[str, Any]]:
-        """The functions of the user that a run calls beside the callbacks of its blocks."""
-        progress = self.options.progress
-        return [("the progress function", progress)] if callable(progress) else []
+    def _plan(self, callbacks: Callbacks | None) -> _core.Plan:
+        return _core.Plan(self.system, self._options, callbacks)
 
     def initialize(self, context: _core.Context) -> None:
         """Begins a run with these values, at their time.
@@ -131,7 +131,16 @@ class Simulator:
             After Ctrl-C, or the stop button of a notebook; its attribute `results` has the run
             until then. With the option ``throw=False`` nothing is raised, and the status says it.
         """
-        return self._advance(time, take=False).status
+        with self._turn.of("advance_to", self._core):
+            self._follow_changes()
+            status = advance(self._core, _seconds(time), self._reporter)
+            results, raised = (None, None) if status in WELL else self._ended_badly()
+            refuse_stale(self._callbacks, lambda: self._taken()[0])
+        if results is None:
+            return status
+        if self.options.throw:
+            raise_for(results, raised)
+        return results.status
 
     def _follow_changes(self) -> None:
         """Replaces the traces whose sources have changed since the last piece of the run."""
@@ -145,68 +154,20 @@ class Simulator:
                 "initialize again, or use the option python='called'"
             )
 
-    def _run(self, context: _core.Context, end: float) -> Results:
-        """A whole run of a simulator that was made just now, so that its traces are right. The
-        results take the recorded rows without a copy.
-        """
-        self._core.initialize(core_context(context))
-        return self._advance(end, take=True)
+    def _taken(self) -> tuple[Results, BaseException | None]:
+        """The present results, made once, and the exception the first time."""
+        core, raised = self._core.results()
+        shown = self._shown()
+        if shown is None or shown._core is not core:
+            shown = Results(core, raised, self.system)
+            self._shown = weakref.ref(shown)
+        return shown, raised
 
-    def _advance(self, time: float, take: bool) -> Results:
-        with self._turn.of("advance_to", self._core):
-            results, raised = self._advance_alone(time, take)
-        if self.options.throw and results.status not in ("reached_end", "terminal", "zeno_stop"):
-            self._raise(results, raised)
-        return results
-
-    def _advance_alone(self, time: float, take: bool) -> tuple[Results, BaseException | None]:
-        if not take:  # simulate has made its traces just now
-            self._follow_changes()
-        try:
-            time = float(time)
-        except (TypeError, ValueError):
-            raise ModelError(f"advance_to: expected a time in seconds, found {time!r}") from None
-        if self._reporter is None:
-            self._core.advance_to(time)
-        else:
-            self._report(time)
-        core, raised = self._core.results(take)
-        results = self._results(core, raised)
-        self._refuse_stale(results)
+    def _ended_badly(self) -> tuple[Results, BaseException | None]:
+        results, raised = self._taken()
         if results.status in ("failed", "interrupted"):
             self._failed = results
         return results, raised
-
-    def _refuse_stale(self, results: Results) -> None:
-        """The last resort, behind the search for writers that comes before the run."""
-        change = self._callbacks.written() if self._callbacks else None
-        if change is None:
-            return
-        error = SimulationError(
-            f"t = {self.time} s: {change}: something wrote it during the run, and a traced "
-            "callback that reads it used the old value; use the option python='called'",
-            self.time,
-            "",
-        )
-        error.results = results
-        raise error
-
-    def _outcome(self, core: _core.Results, raised: BaseException | None, asks: Any) -> Results:
-        """The form in which a run is returned; `solve` has one of its own."""
-        return Results(core, raised, asks)
-
-    def _results(self, core: _core.Results, raised: BaseException | None) -> Results:
-        return self._outcome(core, raised, self.system)
-
-    def _report(self, time: float) -> None:
-        """Advances and reports the progress to the user."""
-        assert self._reporter is not None
-        with self._reporter.over(self._core.time, time, self._core.events) as reporter:
-            self._core.advance_to(time)
-            reporter(self._core.time, self._core.events)
-
-    def _raise(self, results: Results, error: BaseException | None) -> None:
-        raise_for(results, error)
 
     @property
     def time(self) -> float:
@@ -223,9 +184,9 @@ class Simulator:
 
     @property
     def results(self) -> Results:
-        """The run since `initialize`, as a copy."""
+        """The run since `initialize`; it stays as it is when the run goes on."""
         self._turn.require_idle("results", self._core)
-        return self._failed or self._results(*self._core.results(False))
+        return self._failed or self._taken()[0]
 
     def describe(self) -> str:
         """When each signal of the system is computed, which signals are never computed, and why.
@@ -241,3 +202,10 @@ class Simulator:
         """
         self._turn.require_idle("describe", self._core)
         return self._core.describe()
+
+
+def _seconds(time: float) -> float:
+    try:
+        return float(time)
+    except (TypeError, ValueError):
+        raise ModelError(f"advance_to: expected a time in seconds, found {time!r}") from None

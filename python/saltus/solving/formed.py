@@ -27,15 +27,40 @@ class Formed:
     def __init__(self, record: Record, form: Form):
         self._record = record
         self._form = form
-        self.time: np.ndarray = form.time(record.time)
-        self.jump: np.ndarray = record.jump
-        self.outputs: Columns = self._states(record.outputs)
-        self.context: _core.Context = record.context
-        self.status: str = record.status
-        self.block: str = record.block
-        self.event_count: int = record.event_count
-        self.event_names: list[str] = record.event_names
         self.dense: bool = record.dense
+
+    @property
+    def time(self) -> np.ndarray:
+        time: np.ndarray = self._form.time(self._record.time)
+        return time
+
+    @property
+    def jump(self) -> np.ndarray:
+        return self._record.jump
+
+    @property
+    def outputs(self) -> Columns:
+        return self._states(self._record.outputs)
+
+    @property
+    def context(self) -> _core.Context:
+        return self._record.context
+
+    @property
+    def status(self) -> str:
+        return self._record.status
+
+    @property
+    def block(self) -> str:
+        return self._record.block
+
+    @property
+    def event_count(self) -> int:
+        return self._record.event_count
+
+    @property
+    def event_names(self) -> list[str]:
+        return self._record.event_names
 
     @property
     def message(self) -> str:

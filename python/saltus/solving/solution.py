@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 from os import PathLike
 from typing import Any
 
@@ -90,7 +91,11 @@ class Solution(Results):
         self._engine = core
         super().__init__(formed(core, known.form), raised, asks)
         self.system = system
-        self.message = self.message or WELL.get(self.status, "")
+
+    @cached_property
+    def message(self) -> str:
+        """How the run ended, in words."""
+        return self._core.message or WELL.get(self.status, "")
 
     @property
     def t(self) -> np.ndarray:

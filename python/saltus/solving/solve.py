@@ -3,21 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import fields
+from dataclasses import dataclass, fields
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from saltus._core import Context
 from saltus._porting import OPTIONS, refuse
 from saltus._span import span_of
 from saltus.errors import ModelError, SimulationError
 from saltus.results.record import Record
-from saltus.simulation import Results, Simulator, SimulatorOptions
+from saltus.simulation import SimulatorOptions
+from saltus.simulation.whole import prepared, run_whole
 from saltus.solving.form import form_of
 from saltus.solving.formed import formed
 from saltus.solving.guard import Guard, guards_of
+from saltus.solving.kept import call_of, find, keep
 from saltus.solving.solution import Known, Solution
 from saltus.solving.solved_system import SolvedSystem, arguments_of, state_of, times_of
 from saltus.solving.tolerances import first_step_of, tolerances_of
@@ -154,16 +155,16 @@ def solve(
     if np.isinf(end) and start.size:
         _require_terminal(guards or [])
     form = form_of(end < begin, start.dtype.kind == "c")
-    system = SolvedSystem(
-        f,
-        begin,
-        start,
-        arguments_of(args),
-        guards or [],
-        jacobian,
-        jacobian_sparsity,
-        vectorized,
-        form,
+    given = arguments_of(args)
+    shape = (jacobian_sparsity is None, bool(vectorized))
+    call = (
+        call_of(f, begin, start, given, guards or [], jacobian, form, shape)
+        if jacobian_sparsity is None
+        else None
+    )
+    kept = None if call is None else find(call)
+    system = kept or SolvedSystem(
+        f, begin, start, given, guards or [], jacobian, jacobian_sparsity, vectorized, form
     )
     settings: dict[str, Any] = {
         **options,
@@ -180,8 +181,13 @@ def solve(
         settings |= {"save_at": times_of(t_eval, begin, end, form), "event_rows": False}
     names = None if guards is None else [guard.named(i) for i, guard in enumerate(guards)]
     known = Known(names, form, jacobian is not None and not callable(jacobian))
-    simulator = _SolveSimulator(system, known, settings)
-    return simulator.solution(system.create_context(form.time(begin)), form.time(end))
+    run = prepared(
+        "solve", system, None, {**settings, "recorded_signals": {"x": system.output("x")}}
+    )
+    if call is not None and kept is None:
+        keep(call, system)
+    context = system.create_context(form.time(begin))
+    return run_whole(run, context, form.time(end), _Outcome(system, known))
 
 
 def _require_terminal(guards: Sequence[Guard]) -> None:
@@ -193,28 +199,24 @@ def _require_terminal(guards: Sequence[Guard]) -> None:
 
 def _refuse(options: Mapping[str, Any]) -> None:
     """Raises ModelError for an unknown name, with the nearest name or with advice."""
+    if not options:
+        return
     known = [field.name for field in fields(SimulatorOptions) if field.name not in HINTS]
     refuse("solve", options, [*OWN, *known], HINTS)
 
 
-class _SolveSimulator(Simulator):
-    """A simulator whose runs end in a `Solution`."""
+@dataclass(frozen=True)
+class _Outcome:
+    """Makes the solution of a run, which counts t."""
 
-    def __init__(self, system: SolvedSystem, known: Known, settings: Mapping[str, Any]):
-        super().__init__(system, recorded_signals={"x": system.output("x")}, **settings)
-        self._known = known
+    system: SolvedSystem
+    known: Known
 
-    def _outcome(self, core: Record, raised: BaseException | None, asks: Any) -> Solution:
-        if self._known.form.backward and isinstance(raised, SimulationError):  # it counts s
-            t = self._known.form.time(raised.time)
-            raised = SimulationError(formed(core, self._known.form).message, t, raised.block)
-        return Solution(core, raised, asks, self._known, self.system)
-
-    def _raise(self, results: Results, error: BaseException | None) -> None:
-        own = self._known.form.backward and isinstance(error, SimulationError)
-        super()._raise(results, results.cause if own else error)
-
-    def solution(self, context: Context, end: float) -> Solution:
-        solution = self._run(context, end)
-        assert isinstance(solution, Solution)
-        return solution
+    def __call__(
+        self, core: Record, raised: BaseException | None
+    ) -> tuple[Solution, BaseException | None]:
+        form = self.known.form
+        if form.backward and isinstance(raised, SimulationError):  # it counts s
+            t = form.time(raised.time)
+            raised = SimulationError(formed(core, form).message, t, raised.block)
+        return Solution(core, raised, self.system, self.known, self.system), raised

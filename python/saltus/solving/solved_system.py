@@ -32,6 +32,9 @@ class SolvedSystem(LeafSystem):
     Every callback is a closure over the user's function and `args`, and does nothing but call it.
     """
 
+    check: Callable[[], Function]
+    """calls f once, see `_checked`"""
+
     def __init__(
         self,
         f: Function,
@@ -47,9 +50,10 @@ class SolvedSystem(LeafSystem):
         super().__init__(name=BLOCK)
         self._form = form
         flow = _flow(_one_column(f) if vectorized else f, form, x0, args)
+        self.check = functools.partial(_checked, flow, f, begin, x0, form)
         self.declare_continuous_state(
             default_value=form.flat(x0),
-            ode=wrapping(f, _checked(flow, f, begin, x0, form)),
+            ode=wrapping(f, self.check()),
             **_derivatives(jacobian, jacobian_sparsity, len(x0), form, args),
         )
         self.declare_continuous_state_output(name="x")
@@ -122,13 +126,10 @@ def _takes_out(f: Function, extra: int) -> bool:
 
 def _checked(flow: Function, f: Function, begin: float, x0: np.ndarray, form: Form) -> Function:
     """Calls f once, so that the message about a wrong shape speaks of f and not of the engine."""
-
-    class Start:
-        continuous_state = form.flat(x0).copy()
-
-    Start.continuous_state.flags.writeable = False
+    state = form.flat(x0).copy()
+    state.flags.writeable = False
     try:
-        returned = flow(form.time(begin), Start)
+        returned = flow(form.time(begin), SimpleNamespace(continuous_state=state))
     except ValueError as error:
         refuse_writing(f"solve: {getattr(f, '__name__', 'f')}", error, error.__traceback__)
         raise
@@ -209,10 +210,15 @@ def _dense(jacobian: ArrayLike) -> np.ndarray:
 
 def state_of(x0: ArrayLike) -> np.ndarray:
     """The state at the beginning: a vector, or a number; complex if one of its numbers is."""
-    start = np.array(x0) if _is_complex(x0) else np.array(numbers(x0, "solve: x0"))
+    if isinstance(x0, (list, tuple)) and {float, int}.issuperset(map(type, x0)):
+        start = np.array(x0, dtype=float)  # plain numbers, quickly
+    else:
+        start = np.array(x0) if _is_complex(x0) else np.array(numbers(x0, "solve: x0"))
     if start.ndim > 1:
         raise ModelError(f"solve: x0: expected shape (n,), found {start.shape}; flatten it")
     start = start.reshape(-1)
+    if np.isfinite(start).all():
+        return start
     for i in np.flatnonzero(~np.isfinite(start))[:1]:
         raise ModelError(
             f"solve: x0: entry {i} is {start[i]}; give a finite value. All components of the "

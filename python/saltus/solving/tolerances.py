@@ -19,6 +19,8 @@ LEAST = 1e-15
 
 def tolerances_of(rtol: ArrayLike, atol: ArrayLike, size: int, form: Form) -> dict[str, Any]:
     """The options rtol and atol of the engine, from one number or one for each state."""
+    if type(rtol) is type(atol) is float and rtol >= LEAST:
+        return {"rtol": rtol, "atol": atol}
     for name, tolerance in (("rtol", rtol), ("atol", atol)):
         if np.ndim(tolerance) == 1 and len(tolerance) != size:  # type: ignore[arg-type]
             raise ModelError(

@@ -6,12 +6,13 @@ Jacobian, and smooth guards where a result is a comparison. See the README besid
 
 from saltus.tracing.readers import readers_of_writes
 from saltus.tracing.relations import as_guard
-from saltus.tracing.sandbox import Watch
+from saltus.tracing.sandbox import Glance, Watch
 from saltus.tracing.siblings import Siblings
 from saltus.tracing.signature import Refused, Relations, Signature, Traced
 from saltus.tracing.tracing import trace
 
 __all__ = [
+    "Glance",
     "Refused",
     "Relations",
     "Siblings",

@@ -6,7 +6,7 @@ import gc
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
-from saltus.tracing.effects import Change, Changes, writes_of
+from saltus.tracing.effects import Change, Changes, Looks, writes_of
 from saltus.tracing.signature import Refused, Traced
 
 __all__ = ["readers_of_writes"]
@@ -24,6 +24,7 @@ def readers_of_writes(
     blocks: Sequence[Mapping[str, Any]],
     outcomes: Mapping[int, Sequence[Traced | Refused | None]],
     others: Iterable[tuple[str, Any]],
+    looks: list[Looks] | None = None,
 ) -> dict[Place, Refused]:
     """The traced functions, by (block, number), that have to be called, and why.
 
@@ -31,6 +32,9 @@ def readers_of_writes(
     the run writes them. A traced function writes nothing; what a called one may write is found by
     its code and by the objects that it can reach. A function that is called for this reason may
     write, too, for its values may lead it elsewhere then: so the search is repeated.
+
+    `looks` gets all at which the search has looked: while that and the watches of `outcomes` stay
+    the same, so does the answer.
     """
     waiting = [_Callback(words, [function]) for words, function in others]
     left: dict[Place, Traced] = {}
@@ -44,7 +48,10 @@ def readers_of_writes(
     changes = Changes()
     while waiting and left:
         for callback in waiting:
-            changes.add(callback.words, writes_of(callback.roots))
+            writes = writes_of(callback.roots)
+            changes.add(callback.words, writes)
+            if looks is not None:
+                looks.append(writes.looks)
         new = dict(_readers(changes, left))
         waiting = [_callback(blocks[b], i) for b, i in new]
         left = {place: traced for place, traced in left.items() if place not in new}

@@ -6,6 +6,7 @@ that a trace was made from may change during a run.
 
 from saltus.tracing.effects.changes import Change, Changes
 from saltus.tracing.effects.libraries import only_attributes
+from saltus.tracing.effects.looks import Looks
 from saltus.tracing.effects.writes import Writes, writes_of
 
-__all__ = ["Change", "Changes", "Writes", "only_attributes", "writes_of"]
+__all__ = ["Change", "Changes", "Looks", "Writes", "only_attributes", "writes_of"]

@@ -30,6 +30,7 @@ from saltus.tracing.effects.libraries import (
     of_library,
     only_attributes,
 )
+from saltus.tracing.effects.looks import Looks
 from saltus.tracing.sandbox import PLAIN, names_in
 
 __all__ = ["CONTAINERS", "Reach", "memory_of"]
@@ -82,6 +83,8 @@ class Reach:
         self.mutates = False
         self.unknown = ""
         """why it may write anything; or nothing"""
+        self.looks = Looks()
+        """at what it has looked"""
         self._arguments = 0  # of the longest call
         self._fills = NEVER  # with so many arguments a function of NumPy may fill an array
         self._foreign = False  # a library that may call methods gets the objects
@@ -132,6 +135,7 @@ class Reach:
         if of_library(function):
             self._of_library(function)
             return
+        self.looks.function(function)
         names = self._code(function.__code__, function.__globals__)
         cells = zip(function.__code__.co_freevars, function.__closure__ or (), strict=True)
         for name, cell in cells:
@@ -151,11 +155,15 @@ class Reach:
         self._arguments = max(self._arguments, facts.arguments)
         if facts.dynamic:
             self.unknown = f"it uses {facts.dynamic}"
-        self._visit_all(variables[name] for name in names_in(code) if name in variables)
+        for name in names_in(code):
+            self.looks.entry(variables, name)
+            if name in variables:
+                self._visit(variables[name])
         return facts.cells
 
     def _generator(self, generator: GeneratorType[Any, Any, Any]) -> None:
         self.mutates = True
+        self.looks.whole = False
         frame = generator.gi_frame
         if frame is None:
             return  # it has ended
@@ -189,9 +197,11 @@ class Reach:
 
     def _class(self, kind: type, made: set[str]) -> None:
         """The methods that no name in the code shows: those of operators and conversions."""
+        self.looks.parts(_bases, kind)
         for base in kind.__mro__:
             if of_library(base):
                 continue
+            self.looks.parts(_entries_of_class, base)
             for name, entry in vars(base).items():
                 special = (
                     _special(name) and name not in SETS and (name not in MAKES or name in made)
@@ -208,28 +218,57 @@ class Reach:
             self._container(value)
         elif not only_attributes(kind):
             self._of_library(value if callable(value) and hasattr(value, "__name__") else kind)
+            self.looks.parts(gc.get_referents, value)
             parts = gc.get_referents(value)
             self._visit_all(p for p in parts if not isinstance(p, (type, ModuleType)))
         if only_attributes(kind):
+            self.looks.kind(value)
             self._holders.append((value, set()))
             self._class(kind, set())
 
     def _container(self, value: Any) -> None:
         if isinstance(value, np.ndarray):
             self.touched[id(memory_of(value))] = value
-            self._visit_all(value.flat if value.dtype == object else ())
+            if value.dtype == object:
+                self.looks.parts(_flat, value)
+                self._visit_all(value.flat)
             return
         if not isinstance(value, (tuple, frozenset)):
             self.touched[id(value)] = value
+            self.looks.parts(_listed, value)
         self._visit_all(_items(value))
 
     def _attribute(self, holder: Any, name: str) -> None:
         """An attribute, found without running code of its object."""
+        self._look_at(holder, name)
         for entry in _entries(holder, name):
             if type(entry).__name__ in ("member_descriptor", "getset_descriptor"):
+                self.looks.whole = False  # there is no dictionary to look at again
                 self._visit_all(_of_slot(entry, holder))
             elif not (_special(name) and _generated(entry)):
                 self._visit(entry)
+
+    def _look_at(self, holder: Any, name: str) -> None:
+        """Notes where `_entries` finds an attribute, or does not. Classes are noted by `_class`."""
+        own = None if isinstance(holder, type) else getattr(holder, "__dict__", None)
+        if own is not None:
+            self.looks.entry(own, name)
+
+
+def _bases(kind: type) -> list[Any]:
+    return [kind.__mro__]
+
+
+def _entries_of_class(base: type) -> list[Any]:
+    return [*vars(base), *vars(base).values()]
+
+
+def _flat(array: Any) -> list[Any]:
+    return list(array.flat)
+
+
+def _listed(container: Any) -> list[Any]:
+    return list(_items(container))
 
 
 def _content(cell: CellType) -> list[Any]:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from types import CellType
 from typing import Any
 
+from saltus.tracing.effects.looks import Looks
 from saltus.tracing.effects.reach import Reach
 
 __all__ = ["Writes", "writes_of"]
@@ -24,10 +25,12 @@ class Writes:
     """lists, dictionaries, sets and owners of arrays whose entries it may change"""
     unknown: str
     """why it may write anything else; or nothing"""
+    looks: Looks
+    """at what the search has looked"""
 
 
 def writes_of(roots: Iterable[Any]) -> Writes:
     """What the functions and objects in `roots` may write when they are called."""
     reach = Reach(roots)
     touched = reach.touched if reach.mutates or reach.unknown else {}
-    return Writes(frozenset(reach.binds), reach.cells, touched, reach.unknown)
+    return Writes(frozenset(reach.binds), reach.cells, touched, reach.unknown, reach.looks)

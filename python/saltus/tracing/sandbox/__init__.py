@@ -5,7 +5,8 @@
 """
 
 from saltus.tracing.sandbox.code import names_in
+from saltus.tracing.sandbox.glance import Glance
 from saltus.tracing.sandbox.sandbox import Sandbox
 from saltus.tracing.sandbox.watch import MISSING, PLAIN, Watch, same, same_content
 
-__all__ = ["MISSING", "PLAIN", "Sandbox", "Watch", "names_in", "same", "same_content"]
+__all__ = ["MISSING", "PLAIN", "Glance", "Sandbox", "Watch", "names_in", "same", "same_content"]

@@ -11,7 +11,18 @@ from typing import Any
 
 import numpy as np
 
-__all__ = ["LARGEST", "MISSING", "PLAIN", "AttributeOf", "Watch", "entries", "same", "same_content"]
+__all__ = [
+    "GONE",
+    "LARGEST",
+    "MISSING",
+    "PLAIN",
+    "AttributeOf",
+    "Watch",
+    "content",
+    "entries",
+    "same",
+    "same_content",
+]
 
 MISSING: Any = type("Missing", (), {"__repr__": lambda self: "not there"})()
 
@@ -77,18 +88,19 @@ class AttributeOf:
 
     def __init__(self, value: Any):
         try:
-            self._object: Any = weakref.ref(value)
+            self.object: Any = weakref.ref(value)
+            """gives the object, or None if it is gone"""
         except TypeError:  # not every object can be referred to weakly
-            self._object = lambda: value
+            self.object = lambda: value
 
     def moved(self, move: Callable[[Any], Any]) -> Any:
         """The same for another object."""
-        value = self._object()
+        value = self.object()
         other = move(value)
         return self if other is value else type(self)(other)
 
     def __call__(self, name: str, default: Any) -> Any:
-        value = self._object()
+        value = self.object()
         return GONE if value is None else getattr(value, name, default)
 
 
@@ -164,6 +176,11 @@ class Watch:
         """The words, the place (a name, or a variable of a closure) and the value of each read."""
         for words, _, key, value, _ in self._reads:
             yield words, key, value
+
+    def looks(self) -> Iterator[tuple[Get, Any, Any, Any]]:
+        """Each read as get(key, default), the value that it gave, and the parts of a container."""
+        for _, get, key, value, inside in self._reads:
+            yield get, key, value, inside
 
     def moved(
         self, move: Callable[[Any], Any], equal: Callable[[Any, Any, Any], bool]

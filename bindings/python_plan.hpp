@@ -1,0 +1,43 @@
+// PythonPlan: what a run of a system needs and does not change.
+#pragma once
+
+#include <memory>
+#include <utility>
+
+#include "saltus/plan/compile.hpp"
+#include "saltus/simulation/detail/option_table.hpp"
+#include "trace_pass.hpp"
+
+namespace saltus::python {
+
+/// A plan with the options it was made for. Any number of runs may go over it, at once too, for
+/// each has a memory of its own. It refers to the blocks of the system and keeps none alive. Only
+/// the option `interrupt` refers to an object of Python.
+class PythonPlan {
+ public:
+  /// Throws ModelError for an impossible system or option.
+  PythonPlan(const System& system, SimulatorOptions options, const py::object& callbacks)
+      : options_(checked(std::move(options))), pass_(trace_pass(callbacks)) {
+    plan_ = compile(system, std::exchange(options_.recorded_signals, {}), pass_.get());
+    options_.throw_errors = false;
+    if (pass_) pass_->end();
+  }
+
+  const SimulatorOptions& options() const { return options_; }
+  const std::shared_ptr<const Plan>& plan() const { return plan_; }
+
+  /// Runs the present traces from now on, see TracePass. For a plan of a single simulator.
+  bool replace_traces() { return !pass_ || pass_->replace(); }
+
+ private:
+  static SimulatorOptions checked(SimulatorOptions options) {
+    detail::check(options);
+    return options;
+  }
+
+  SimulatorOptions options_;
+  std::shared_ptr<TracePass> pass_;  // null: every function is called
+  std::shared_ptr<const Plan> plan_;
+};
+
+}  // namespace saltus::python

@@ -1,0 +1,147 @@
+"""Systems of `solve` that are kept, with traces and plans, for the next call that is the same.
+
+A system refers to the functions it was made of, and these may refer to it. So one of the functions
+keeps it, as an attribute, where the garbage collector sees the circle: they are freed together.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from types import FunctionType
+from typing import Any
+
+import numpy as np
+
+from saltus.callbacks import Callbacks
+from saltus.solving.form import Form
+from saltus.solving.guard import Guard
+from saltus.solving.solved_system import SolvedSystem
+
+__all__ = ["Call", "call_of", "find", "keep"]
+
+SYSTEMS = "__saltus_systems__"
+MOST = 4  # systems that a function keeps
+LARGEST = 1000  # entries of an array in `args`: a system keeps it alive
+PLAIN = (bool, int, str, type(None))
+REDIRECTED = {"__wrapped__", "__signature__"}
+"""attributes by which a function says that its arguments are others"""
+
+
+@dataclass(frozen=True)
+class Call:
+    """What a call of `solve` makes its system of."""
+
+    owner: FunctionType
+    """the function that keeps it"""
+    key: tuple[Any, ...]
+    """equal for calls that make the same; it has the identities of functions, which the system
+    keeps alive
+    """
+
+
+@dataclass(frozen=True)
+class Kept:
+    """A system, and what tells whether it is still right."""
+
+    key: tuple[Any, ...]
+    system: SolvedSystem
+    callbacks: Callbacks
+    version: int
+
+
+class Systems(list[Kept]):
+    """The systems that a function keeps. A copy of the function has none."""
+
+    def __init__(self, owner: int = 0):
+        super().__init__()
+        self.owner = owner  # functools.wraps gives a function the attributes of another one
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Systems, ()
+
+
+EMPTY = Systems()
+
+
+def call_of(
+    f: Any,
+    begin: float,
+    x0: np.ndarray,
+    args: tuple[Any, ...],
+    guards: Sequence[Guard],
+    jacobian: Any,
+    form: Form,
+    others: tuple[Any, ...],
+) -> Call | None:
+    """None for a call whose system is not kept: of methods and other callable objects, with a
+    matrix as the Jacobian, with objects or long arrays in `args`.
+    """
+    functions = [f, jacobian, *(each for g in guards for each in (g.guard, g.reset))]
+    functions = [function for function in functions if function is not None]
+    for function in functions:
+        if type(function) is not FunctionType or not REDIRECTED.isdisjoint(vars(function)):
+            return None
+    values = [_exact(value) for guard in guards for value in _settings(guard)]
+    values += [_exact(value) for value in args]
+    if None in values:
+        return None
+    start = (begin.hex(), x0.dtype.str, x0.tobytes(), len(args), len(guards))
+    places = tuple(map(id, (f, jacobian, *(x for g in guards for x in (g.guard, g.reset)))))
+    return Call(_owner_of(functions), (places, start, tuple(values), id(form), others))
+
+
+def _settings(guard: Guard) -> tuple[Any, ...]:
+    """All but the functions, and the name that it goes by without one."""
+    g = guard
+    own = g.name or g.guard.__name__
+    times = (g.zeno_tolerance, g.on_zeno, g.at_start)
+    return (g.direction, own, g.name, g.terminal, g.max_count, *times)
+
+
+def _exact(value: Any) -> Any:
+    """The value as one that is equal only for the same bits; None for one that may change."""
+    kind = type(value)
+    if kind in PLAIN:
+        return (kind, value)
+    if kind is float or isinstance(value, np.floating):
+        return (kind, value.tobytes() if kind is not float else value.hex())
+    if kind is np.ndarray and value.size <= LARGEST and value.dtype != object:
+        return (kind, id(value))  # what is in it is watched
+    return None
+
+
+def _owner_of(functions: Sequence[FunctionType]) -> FunctionType:
+    """One that holds objects itself, if there is one: it does not live longer than they do."""
+    return next((f for f in functions if _holds(f)), functions[0])
+
+
+def _holds(f: FunctionType) -> bool:
+    values = (*(f.__defaults__ or ()), *(f.__kwdefaults__ or {}).values())
+    return bool(f.__closure__) or any(type(value) not in (*PLAIN, float) for value in values)
+
+
+def find(call: Call) -> SolvedSystem | None:
+    """The system there is, if nothing it was made from has changed."""
+    systems: Systems = vars(call.owner).get(SYSTEMS, EMPTY)
+    kept = next((one for one in systems if one.key == call.key), None)
+    if kept is None or getattr(kept.system, "_callbacks", None) is not kept.callbacks:
+        return None  # it has declared more
+    if kept.callbacks.traces.stale or kept.callbacks.refresh() != kept.version:
+        return None
+    if not kept.callbacks.all_traced:
+        kept.system.check()  # a called function may raise this time
+    return kept.system
+
+
+def keep(call: Call, system: SolvedSystem) -> None:
+    """Remember a system that is ready to run, for `find`."""
+    callbacks = getattr(system, "_callbacks", None)
+    if not isinstance(callbacks, Callbacks):
+        return  # all of it is called
+    systems = vars(call.owner).get(SYSTEMS)
+    if systems is None or systems.owner != id(call.owner):
+        systems = Systems(id(call.owner))
+        setattr(call.owner, SYSTEMS, systems)
+    others = [one for one in systems if one.key != call.key]
+    systems[:] = [Kept(call.key, system, callbacks, callbacks.version), *others[: MOST - 1]]
