@@ -1,0 +1,159 @@
+// From expressions to the program of a series.
+#include <algorithm>
+#include <utility>
+
+#include "../arithmetic.hpp"
+#include "../copy.hpp"
+#include "lower.hpp"
+#include "saltus/base/error.hpp"
+
+namespace saltus::tape::series {
+
+namespace {
+
+class Builder {
+ public:
+  Builder(const Graph& graph, std::span<const Node> rates, std::span<const Node> outputs)
+      : count_(rates.size()) {
+    program_.states = static_cast<int>(count_);
+    for (std::size_t i = 0; i < count_; ++i) graph_.continuous_state(static_cast<Index>(i));
+    std::vector<Node> all(rates.begin(), rates.end());
+    all.insert(all.end(), outputs.begin(), outputs.end());
+    nodes_ = copy(graph, all, graph_);
+    check_states();
+  }
+
+  Program build() {
+    Lowering lowering(graph_, program_);
+    const auto rates = std::span(nodes_).first(count_), outputs = std::span(nodes_).subspan(count_);
+    for (const Node node : rates) program_.rates.push_back({lowering.row(node), node.id});
+    program_.first_instructions = static_cast<int>(program_.instructions.size());
+    for (const Node node : outputs) {
+      program_.outputs.push_back({lowering.row(node), node.id, {}, {}});
+    }
+    add_leaves();
+    add_values(rates);
+    for (std::size_t i = 0; i < outputs.size(); ++i) find_needs(program_.outputs[i], outputs[i]);
+    return std::move(program_);
+  }
+
+ private:
+  void check_states() const {
+    for (int id = 0; id < graph_.size(); ++id) {
+      const Expression& e = graph_[Node{id}];
+      if (e.op != Op::continuous_state || e.index < static_cast<Index>(count_)) continue;
+      throw ModelError(text("a series of ", count_, " rates expects expressions that read states ",
+                            "below ", count_, ", found state ", e.index));
+    }
+  }
+
+  void add_leaves() {
+    program_.constants.assign(static_cast<std::size_t>(graph_.size()), 0.0);
+    for (int id = 0; id < graph_.size(); ++id) {
+      const Expression& e = graph_[Node{id}];
+      if (e.op == Op::constant) program_.constants[static_cast<std::size_t>(id)] = e.value;
+      if (is_variable(e.op) && e.op != Op::continuous_state) {
+        program_.loads.push_back({e.op, e.index, e.port, id});
+      }
+    }
+  }
+
+  /// The values that rates and their instructions need come first; then all others.
+  void add_values(std::span<const Node> rates) {
+    place_.assign(static_cast<std::size_t>(graph_.size()), -1);
+    std::vector<Node> roots(rates.begin(), rates.end());
+    for (int i = 0; i < program_.first_instructions; ++i) append_values(roots, i);
+    auto first = needed(graph_, roots);
+    std::ranges::sort(first);  // operands have smaller numbers
+    for (const Node node : first) add_value(node);
+    program_.first_values = static_cast<int>(program_.values.size());
+    for (int id = 0; id < graph_.size(); ++id) add_value({id});
+  }
+
+  void add_value(Node node) {
+    const Expression& e = graph_[node];
+    int& place = place_[static_cast<std::size_t>(node.id)];
+    if (operand_count(e.op) == 0 || place >= 0) return;
+    place = static_cast<int>(program_.values.size());
+    Value value{.run = function(e.op), .to = node.id};
+    for (int k = 0; k < operand_count(e.op); ++k) {
+      value.from[k] = e.operands[static_cast<std::size_t>(k)].id;
+    }
+    program_.values.push_back(value);
+  }
+
+  const Instruction& instruction(int i) const {
+    return program_.instructions[static_cast<std::size_t>(i)];
+  }
+  void append_values(std::vector<Node>& all, int number) const {
+    const Instruction& i = instruction(number);
+    for (const int value : {i.value, i.of_a, i.of_b, i.of_c, i.of_d}) all.push_back({value});
+  }
+
+  /// The instructions and the values of an output, through the rows that they read.
+  void find_needs(Output& output, Node node) {
+    if (writers_.empty()) note_writers();
+    std::vector<int> open{output.row};
+    std::vector<Node> roots{node};
+    while (!open.empty()) {
+      const int row = open.back();
+      open.pop_back();
+      const int writer = writers_[static_cast<std::size_t>(row / row_size)];
+      if (writer < 0 ||
+          std::exchange(seen_[static_cast<std::size_t>(writer)], node.id) == node.id) {
+        continue;
+      }
+      output.instructions.push_back(writer);
+      append_values(roots, writer);
+      const Instruction& i = instruction(writer);
+      for (const int read : {i.a, i.b, i.c, i.d, i.da}) open.push_back(read);
+    }
+    std::ranges::sort(output.instructions);
+    for (const Node value : needed(graph_, roots)) {
+      const int place = place_[static_cast<std::size_t>(value.id)];
+      if (place >= program_.first_values) output.values.push_back(place);
+    }
+    std::ranges::sort(output.values);
+  }
+
+  void note_writers() {
+    writers_.assign(static_cast<std::size_t>(program_.rows), -1);
+    seen_.assign(program_.instructions.size(), -1);
+    for (std::size_t i = 0; i < program_.instructions.size(); ++i) {
+      const Instruction& one = program_.instructions[i];
+      writers_[static_cast<std::size_t>(one.to / row_size)] = static_cast<int>(i);
+      if (one.to_second != zero_row) {
+        writers_[static_cast<std::size_t>(one.to_second / row_size)] = static_cast<int>(i);
+      }
+    }
+  }
+
+  Graph graph_;
+  std::size_t count_;
+  std::vector<Node> nodes_;
+  Program program_;
+  std::vector<int> place_;    ///< of the value of a node, or -1
+  std::vector<int> writers_;  ///< of each row, or -1
+  std::vector<int> seen_;     ///< the last output that needs an instruction
+};
+
+template <Op op>
+double value_of(double a, double b, double c) {
+  return compute(op, a, b, c);
+}
+
+}  // namespace
+
+Function function(Op op) {
+  static constexpr auto all = []<std::size_t... o>(std::index_sequence<o...>) {
+    return std::array<Function, sizeof...(o)>{&value_of<static_cast<Op>(o)>...};
+  }(std::make_index_sequence<operation_count>{});
+  return all[static_cast<std::size_t>(op)];
+}
+
+std::shared_ptr<const Program> build(const Graph& graph, std::span<const Node> rates,
+                                     std::span<const Node> outputs) {
+  return std::make_shared<const Program>(Builder(graph, rates, outputs).build());
+}
+
+}  // namespace saltus::tape::series

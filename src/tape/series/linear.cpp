@@ -1,0 +1,37 @@
+// Sums, differences and multiples.
+#include "kernel.hpp"
+
+namespace saltus::tape::series {
+
+namespace {
+
+#define SALTUS_SERIES_AT                                                                       \
+  static double at([[maybe_unused]] const Instruction& i, [[maybe_unused]] const double* rows, \
+                   [[maybe_unused]] const double* own, [[maybe_unused]] const double* values,  \
+                   [[maybe_unused]] int k)
+
+struct Sum : Plain<Sum> {
+  SALTUS_SERIES_AT { return rows[i.a + k] + rows[i.b + k]; }
+};
+struct Difference : Plain<Difference> {
+  SALTUS_SERIES_AT { return rows[i.a + k] - rows[i.b + k]; }
+};
+struct Negative : Plain<Negative> {
+  SALTUS_SERIES_AT { return -rows[i.a + k]; }
+};
+struct Multiple : Plain<Multiple> {
+  SALTUS_SERIES_AT { return rows[i.a + k] * values[i.of_b]; }
+};
+struct Fraction : Plain<Fraction> {
+  SALTUS_SERIES_AT { return rows[i.a + k] / values[i.of_b]; }
+};
+
+}  // namespace
+
+const Kernel plus = kernel<Sum>();
+const Kernel minus = kernel<Difference>();
+const Kernel negative = kernel<Negative>();
+const Kernel multiple = kernel<Multiple>();
+const Kernel fraction = kernel<Fraction>();
+
+}  // namespace saltus::tape::series

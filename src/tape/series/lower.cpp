@@ -1,0 +1,258 @@
+#include "lower.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace saltus::tape::series {
+
+Lowering::Lowering(Graph& graph, Program& program) : graph_(graph), program_(program) {
+  program_.rows = 1 + program_.states;  // the row of zeros, the states
+}
+
+int& Lowering::known(Node node) {
+  if (rows_.size() < static_cast<std::size_t>(graph_.size())) {
+    rows_.resize(static_cast<std::size_t>(graph_.size()), -1);
+  }
+  return rows_[static_cast<std::size_t>(node.id)];
+}
+
+int Lowering::row(Node wanted) {
+  std::vector<Node> open{wanted};  // depth first, without recursion: expressions may be deep
+  while (!open.empty()) {
+    const Node node = open.back();
+    const Expression e = graph_[node];  // a copy: the graph grows
+    const std::size_t size = open.size();
+    for (int k = operand_count(e.op) - 1; k >= 0 && known(node) < 0; --k) {
+      const Node operand = e.operands[static_cast<std::size_t>(k)];
+      if (known(operand) < 0) open.push_back(operand);
+    }
+    if (open.size() > size) continue;
+    open.pop_back();
+    if (known(node) >= 0) continue;
+    const int found = lower(node, e);
+    known(node) = found;
+  }
+  return known(wanted);
+}
+
+int Lowering::add(const Kernel& kernel, Instruction i) {
+  i.kernel = &kernel;
+  if (i.to == zero_row) i.to = new_row();
+  program_.instructions.push_back(i);
+  return i.to;
+}
+
+int Lowering::slope(int row) {
+  const auto number = static_cast<std::size_t>(row / row_size);
+  if (slopes_.size() <= number) slopes_.resize(number + 1, -1);
+  if (slopes_[number] < 0) slopes_[number] = new_row();
+  return slopes_[number];
+}
+
+int Lowering::lower(Node node, const Expression& e) {
+  if (e.op == Op::continuous_state) return row_size * (1 + static_cast<int>(e.index));
+  if (e.op == Op::time) return program_.time_row = new_row();
+  bool varies = false;
+  for (int k = 0; k < operand_count(e.op); ++k) {
+    varies = varies || known(e.operands[static_cast<std::size_t>(k)]) != zero_row;
+  }
+  if (!varies) return zero_row;
+  const auto [a, b, c] = e.operands;
+  switch (e.op) {
+    case Op::add:
+    case Op::sub:
+      return lower_sum(e);
+    case Op::mul:
+      return lower_product(a, b);
+    case Op::div:
+      return lower_quotient(node, a, b);
+    case Op::pow:
+      return lower_power(node, a, b);
+    case Op::atan2:
+      return lower_angle(a, b);
+    case Op::hypot:
+      return add(root, {.a = row(sum_of_squares(a, b)), .value = node.id});
+    default:
+      return operand_count(e.op) == 1 && e.op < Op::floor && e.op != Op::abs
+                 ? lower_unary(node, e)
+                 : lower_kinked(node, e);
+  }
+}
+
+int Lowering::lower_sum(const Expression& e) {
+  const Node a = e.operands[0], b = e.operands[1];
+  const int of_a = known(a), of_b = known(b);
+  if (of_b == zero_row) return of_a;
+  if (of_a == zero_row) return e.op == Op::add ? of_b : add(negative, {.a = of_b});
+  return add(e.op == Op::add ? plus : minus, {.a = of_a, .b = of_b});
+}
+
+int Lowering::lower_product(Node a, Node b) {
+  if (known(a) == zero_row) std::swap(a, b);
+  if (known(b) == zero_row) return add(multiple, {.a = known(a), .of_b = b.id});
+  if (a == b) return add(square, {.a = known(a), .of_a = a.id});
+  return add(product, {.a = known(a), .b = known(b), .of_a = a.id, .of_b = b.id});
+}
+
+int Lowering::lower_quotient(Node node, Node a, Node b) {
+  if (known(b) == zero_row) return add(fraction, {.a = known(a), .of_b = b.id});
+  return add(quotient, {.a = known(a), .b = known(b), .value = node.id, .of_b = b.id});
+}
+
+int Lowering::lower_power(Node node, Node a, Node b) {
+  constexpr double most_factors = 16.0;
+  if (row(b) == zero_row) {
+    const auto p = graph_.value(b);
+    const bool whole = p && *p >= 2.0 && *p <= most_factors && std::floor(*p) == *p;
+    if (whole) return lower_whole_power(a, static_cast<int>(*p));
+    const int to = new_row();
+    return add(power, {.to = to,
+                       .a = known(a),
+                       .da = slope(known(a)),
+                       .db = slope(to),
+                       .value = node.id,
+                       .of_a = a.id,
+                       .of_b = b.id});
+  }
+  // of a constant base 0 the logarithm is not needed: the power is 0
+  Node log = of(Op::log, a);
+  if (known(a) == zero_row) log = graph_.select(of(Op::eq, a, n(0.0)), n(0.0), log);
+  return lower_growth(node, times(b, log), 1.0, node);
+}
+
+int Lowering::lower_whole_power(Node a, int exponent) {
+  std::optional<Node> result;
+  for (Node factor = a; exponent > 0; exponent /= 2) {
+    if (exponent % 2 == 1) result = result ? times(*result, factor) : factor;
+    if (exponent > 1) factor = times(factor, factor);
+  }
+  return row(*result);
+}
+
+int Lowering::lower_growth(Node node, Node a, double factor, Node b) {
+  const int of_a = row(a), to = known(node) = new_row();
+  const std::size_t place = program_.instructions.size();
+  add(growth, {.to = to, .a = of_a, .da = slope(of_a), .of_b = b.id, .factor = factor});
+  const int of_b = row(b);  // it may depend on the result
+  program_.instructions[place].b = of_b;
+  return to;
+}
+
+int Lowering::lower_logarithm(Node a, double factor, Node b) {
+  const int of_b = row(b), to = new_row();
+  return add(logarithm,
+             {.to = to, .a = row(a), .b = of_b, .db = slope(to), .of_b = b.id, .factor = factor});
+}
+
+int Lowering::lower_angle(Node a, Node b) {
+  const int of_a = known(a), of_b = known(b);
+  const Node distance = sum_of_squares(a, b);
+  const int of_distance = row(distance);
+  const int da =
+      add(turn,
+          {.a = of_a, .b = of_b, .da = slope(of_a), .db = slope(of_b), .of_a = a.id, .of_b = b.id});
+  const int to = new_row();
+  return add(angle, {.to = to, .b = of_distance, .da = da, .db = slope(to), .of_b = distance.id});
+}
+
+int Lowering::lower_rotation(Node node, Op sine, Op cosine, Node a, double factor) {
+  const Node s = of(sine, a), c = of(cosine, a);
+  const int to = known(s) = new_row(), second = known(c) = new_row();
+  add(rotation, {.to = to,
+                 .to_second = second,
+                 .a = known(a),
+                 .da = slope(known(a)),
+                 .value = s.id,
+                 .of_b = c.id,
+                 .factor = factor});
+  return known(node);
+}
+
+int Lowering::lower_unary(Node node, const Expression& e) {
+  const Node a = e.operands[0], one = n(1.0);
+  const auto one_less_square = [&] { return times(of(Op::sub, one, a), of(Op::add, one, a)); };
+  switch (e.op) {
+    case Op::neg:
+      return add(negative, {.a = known(a)});
+    case Op::sqrt:
+      return add(root, {.a = known(a), .value = node.id});
+    case Op::cbrt:
+      return lower_power(node, a, n(1.0 / 3.0));
+    case Op::exp:
+      return lower_growth(node, a, 1.0, node);
+    case Op::exp2:
+      return lower_growth(node, a, std::numbers::ln2, node);
+    case Op::expm1:
+      return lower_growth(node, a, 1.0, of(Op::add, node, one));
+    case Op::log:
+      return lower_logarithm(a, 1.0, a);
+    case Op::log2:
+      return lower_logarithm(a, std::numbers::log2e, a);
+    case Op::log10:
+      return lower_logarithm(a, std::numbers::log10e, a);
+    case Op::log1p:
+      return lower_logarithm(a, 1.0, of(Op::add, one, a));
+    case Op::sin:
+    case Op::cos:
+      return lower_rotation(node, Op::sin, Op::cos, a, -1.0);
+    case Op::sinh:
+    case Op::cosh:
+      return lower_rotation(node, Op::sinh, Op::cosh, a, 1.0);
+    case Op::tan:
+      return lower_growth(node, a, 1.0, of(Op::add, one, times(node, node)));
+    case Op::tanh:
+      return lower_growth(node, a, 1.0, of(Op::sub, one, times(node, node)));
+    case Op::asin:
+      return lower_logarithm(a, 1.0, of(Op::sqrt, one_less_square()));
+    case Op::acos:
+      return lower_logarithm(a, -1.0, of(Op::sqrt, one_less_square()));
+    case Op::atan:
+      return lower_logarithm(a, 1.0, of(Op::add, one, times(a, a)));
+    case Op::asinh:
+      return lower_logarithm(a, 1.0, of(Op::hypot, a, one));
+    case Op::acosh:
+      return lower_logarithm(a, 1.0, of(Op::sqrt, times(of(Op::sub, a, one), of(Op::add, a, one))));
+    default:
+      return lower_logarithm(a, 1.0, one_less_square());  // atanh
+  }
+}
+
+int Lowering::lower_kinked(Node node, const Expression& e) {
+  const Node a = e.operands[0], b = e.operands[1];
+  switch (e.op) {
+    case Op::abs:
+      return add(magnitude, {.a = known(a), .of_a = a.id, .op = e.op});
+    case Op::copysign:
+      if (known(a) == zero_row) return zero_row;
+      return add(magnitude, {.a = known(a), .of_a = a.id, .of_b = b.id, .op = e.op});
+    case Op::minimum:
+    case Op::maximum:
+      return add(extreme, {.a = known(a),
+                           .b = known(b),
+                           .of_a = a.id,
+                           .of_b = b.id,
+                           .factor = e.op == Op::minimum ? 1.0 : -1.0});
+    case Op::mod:
+    case Op::fmod:
+      return add(remainder,
+                 {.a = known(a), .b = known(b), .value = node.id, .of_a = a.id, .of_b = b.id});
+    case Op::select:
+      return lower_choice(e);
+    default:
+      return zero_row;  // a step
+  }
+}
+
+int Lowering::lower_choice(const Expression& e) {
+  const auto [condition, a, b] = e.operands;
+  if (known(a) == zero_row && known(b) == zero_row) return zero_row;
+  Instruction i{.a = known(a), .b = known(b), .of_a = a.id, .of_b = b.id, .of_c = condition.id};
+  const Expression compared = graph_[condition];
+  if (compared.op >= Op::lt && compared.op <= Op::ne) {
+    const auto [c, d, none] = compared.operands;
+    i.op = compared.op, i.c = known(c), i.d = known(d), i.of_c = c.id, i.of_d = d.id;
+  }
+  return add(choice, i);
+}
+
+}  // namespace saltus::tape::series

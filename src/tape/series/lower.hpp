@@ -1,0 +1,52 @@
+// Lowering: the instructions for the rows of expressions.
+#pragma once
+
+#include <vector>
+
+#include "kernels.hpp"
+
+namespace saltus::tape::series {
+
+/// Appends to a program what its expressions need. Operations without a kernel of their own get
+/// helping expressions, which are added to the graph.
+class Lowering {
+ public:
+  /// The states have rows already.
+  Lowering(Graph& graph, Program& program);
+
+  /// The row of an expression, with the instructions for it and for its operands.
+  int row(Node node);
+
+ private:
+  int lower(Node node, const Expression& e);
+  int lower_kinked(Node node, const Expression& e);
+  int lower_unary(Node node, const Expression& e);
+  int lower_sum(const Expression& e);
+  int lower_product(Node a, Node b);
+  int lower_quotient(Node node, Node a, Node b);
+  int lower_power(Node node, Node a, Node b);
+  int lower_whole_power(Node a, int exponent);
+  int lower_angle(Node a, Node b);
+  int lower_choice(const Expression& e);
+  int lower_rotation(Node node, Op sine, Op cosine, Node a, double factor);
+  int lower_growth(Node node, Node a, double factor, Node b);
+  int lower_logarithm(Node a, double factor, Node b);
+
+  int new_row() { return row_size * program_.rows++; }
+  int slope(int row);
+  int add(const Kernel& kernel, Instruction i);
+  int& known(Node node);
+
+  Node n(double value) { return graph_.constant(value); }
+  Node of(Op op, Node a) { return graph_.unary(op, a); }
+  Node of(Op op, Node a, Node b) { return graph_.binary(op, a, b); }
+  Node times(Node a, Node b) { return of(Op::mul, a, b); }
+  Node sum_of_squares(Node a, Node b) { return of(Op::add, times(a, a), times(b, b)); }
+
+  Graph& graph_;
+  Program& program_;
+  std::vector<int> rows_;    ///< of each node; -1: none yet
+  std::vector<int> slopes_;  ///< of each row: the row of k times the coefficient of order k, or -1
+};
+
+}  // namespace saltus::tape::series

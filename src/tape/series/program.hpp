@@ -1,0 +1,92 @@
+// The list of instructions of a series.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "saltus/base/view.hpp"
+#include "saltus/tape/graph.hpp"
+
+namespace saltus::tape::series {
+
+/// A row holds the coefficients of order 1, 2, ... of an expression at those places. The coefficient
+/// of order 0 is among the values, because expressions that differ by a constant share a row. A
+/// distance of 36 numbers keeps rows apart in the cache.
+inline constexpr int row_size = 36;
+/// The row of a constant: zeros.
+inline constexpr int zero_row = 0;
+/// The numbers that an instruction keeps during an expansion: two sums of a block of four orders,
+/// then what `begin` computes.
+inline constexpr int sums_size = 12;
+
+struct Instruction;
+
+/// What a handler works on. `own` are the numbers of the instruction.
+using Handler = void (*)(const Instruction& i, double* rows, double* own, const double* values,
+                         int k);
+
+/// The functions of an operation.
+struct Kernel {
+  Handler begin = nullptr;    ///< when the values are known
+  Handler earlier = nullptr;  ///< at the first order k of a block: the sums over orders below k
+  Handler orders[8] = {};     ///< order 1, 2, 3 at [1], [2], [3]; k of a later block at [4 + k % 4]
+};
+
+/// Computes a row from others. Rows are offsets in the memory of rows; values are numbers.
+struct Instruction {
+  const Kernel* kernel = nullptr;
+  int to = 0, to_second = 0;
+  int a = 0, b = 0;        ///< the rows of operands
+  int da = 0, db = 0;      ///< rows of k times the coefficient of order k: of a, b or the result
+  int value = 0;           ///< of the result
+  int of_a = 0, of_b = 0;  ///< the values of operands
+  double factor = 1.0;
+  Op op = Op::constant;                  ///< of a kinked operation
+  int c = 0, d = 0, of_c = 0, of_d = 0;  ///< of the comparison that decides a select
+};
+
+/// A value that an expansion reads from its arguments.
+struct Load {
+  Op op = Op::constant;
+  Index index = 0;
+  int port = 0, to = 0;
+};
+
+using Function = double (*)(double a, double b, double c);
+/// The function that computes the value of an operation.
+Function function(Op op);
+
+/// A value that is computed: values[to] = run(values[from[0]], ...).
+struct Value {
+  Function run = nullptr;
+  int to = 0, from[3] = {};
+};
+
+/// The coefficient of order k + 1 of a state is that of order k of its rate, divided by k + 1.
+struct Rate {
+  int row = 0, value = 0;
+};
+
+/// An output: where its coefficients are, and what must be computed for them.
+struct Output {
+  int row = 0, value = 0;
+  std::vector<int> values, instructions;  ///< in ascending order
+};
+
+/// Never changes once built. Value i < states is that of state i, whose row is 1 + i.
+struct Program {
+  std::vector<double> constants;  ///< the values; those that are no constants are 0
+  std::vector<Load> loads;
+  std::vector<Value> values;
+  std::vector<Instruction> instructions;
+  /// The first ones are for the rates, the others for outputs.
+  int first_values = 0, first_instructions = 0;
+  std::vector<Rate> rates;
+  std::vector<Output> outputs;
+  int states = 0, rows = 0, time_row = zero_row;
+};
+
+std::shared_ptr<const Program> build(const Graph& graph, std::span<const Node> rates,
+                                     std::span<const Node> outputs);
+
+}  // namespace saltus::tape::series
