@@ -1,0 +1,350 @@
+// Each operation of a series: against derivatives of its tape, its order, its kinks; random
+// expressions.
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "support/catch.hpp"
+#include "support/expressions.hpp"
+#include "support/series_world.hpp"
+
+using namespace saltus::tape;
+using namespace support;
+using Catch::Matchers::WithinAbs, Catch::Matchers::WithinRel;
+
+namespace {
+
+struct Named {
+  std::string name;
+  Node node;
+};
+
+/// Every operation of two smooth operands, each between 0 and 1, and its special cases.
+std::vector<Named> operations(Graph& g, Node x, Node y) {
+  std::vector<Named> all;
+  const auto n = [&](double value) { return g.constant(value); };
+  const auto add = [&](std::string name, Node node) { all.push_back({std::move(name), node}); };
+  const auto binary = [&](Op op, Node a, Node b) { return g.binary(op, a, b); };
+  for (int o = static_cast<int>(Op::neg); o < operation_count; ++o) {
+    const Op op = static_cast<Op>(o);
+    const std::string word(name(op));
+    const Node inside = op == Op::acosh ? binary(Op::add, n(1.0), x) : x;
+    if (operand_count(op) == 1) add(word, g.unary(op, inside));
+    if (operand_count(op) == 2) {
+      add(word, binary(op, x, y));
+      add(word + " of itself", binary(op, x, x));
+      add(word + " with a constant", binary(op, x, n(0.75)));
+      add(word + " of a constant", binary(op, n(0.75), y));
+      add(word + " with a parameter", binary(op, x, g.parameter(0)));
+    }
+  }
+  add("select", g.select(binary(Op::lt, x, y), g.unary(Op::exp, x), g.unary(Op::sin, y)));
+  add("select of numbers", g.select(g.parameter(0), n(1.0), y));
+  for (const double p : {5.0, 6.0, 7.0, 16.0, 20.0, -2.0, 1.5, -1.5, 0.3}) {
+    add("pow " + std::to_string(p), binary(Op::pow, x, n(p)));
+  }
+  add("tan of sin", g.unary(Op::tan, g.unary(Op::sin, x)));
+  add("log of exp", g.unary(Op::log, g.unary(Op::exp, x)));
+  add("inverse", binary(Op::div, n(1.0), x));
+  return all;
+}
+
+std::vector<Node> nodes_of(const std::vector<Named>& all) {
+  std::vector<Node> nodes;
+  for (const Named& one : all) nodes.push_back(one.node);
+  return nodes;
+}
+
+Numbers random_point(std::size_t n, unsigned seed) {
+  std::mt19937 random(seed);
+  Numbers x(n);
+  for (double& value : x) value = std::uniform_real_distribution<double>(-2.0, 2.0)(random);
+  return x;
+}
+
+/// The coefficients of one function of x(t), x' = 1, to `order`.
+Numbers along(Node (*make)(Graph& g, Node x), double at, int order, double parameter = 0.0) {
+  Graph g;
+  Series series(g, std::array{g.constant(1.0)}, std::array{make(g, g.continuous_state(0))});
+  expanded(series, {.x = {at}, .p = {parameter}}, order);
+  return outputs_of(series, order);
+}
+
+}  // namespace
+
+TEST_CASE("each operation has the derivatives of its tape") {
+  // x' = 0.3 + 0.2 y, y' = -0.4 x + 0.1 t: nothing vanishes
+  Graph g;
+  const Node t = g.time(), x = g.continuous_state(0), y = g.continuous_state(1);
+  const auto mul = [&](double a, Node b) { return g.binary(Op::mul, g.constant(a), b); };
+  const std::vector<Node> rates{g.binary(Op::add, g.constant(0.3), mul(0.2, y)),
+                                g.binary(Op::add, mul(-0.4, x), mul(0.1, t))};
+  const auto all = operations(g, x, y);
+  const World world{.time = 0.7, .x = {0.6, 0.8}, .p = {1.25}};
+  constexpr int order = 6;
+  Series series(g, rates, nodes_of(all));
+  expanded(series, world, order);
+  const Numbers found = outputs_of(series, order);
+  const Numbers expected = by_derivatives(g, rates, nodes_of(all), world, order);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    INFO(all[i / (order + 1)].name << ", order " << i % (order + 1));
+    // the derivatives are up to 6! times the coefficients, and sums of some hundred terms
+    CHECK_THAT(found[i], WithinRel(expected[i], 1e-11) || WithinAbs(expected[i], 1e-13));
+  }
+}
+
+TEST_CASE("the values are the bits of the tape") {
+  Graph g;
+  const Node x = g.continuous_state(0), y = g.continuous_state(1);
+  const auto all = operations(g, x, y);
+  Series series(g, std::array{y, x}, nodes_of(all));
+  const Tape tape(g, nodes_of(all));
+  for (unsigned seed = 0; seed < 50; ++seed) {
+    const World world{.x = random_point(2, seed), .p = {1.25}};
+    expanded(series, world, 2);
+    const Numbers found = outputs_of(series, 2), expected = values_of(tape, world);
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+      INFO(all[i].name);
+      CHECK(same_bits(found[3 * i], expected[i]));
+    }
+  }
+}
+
+TEST_CASE("halving h divides the error of order p by 2^(p+1), for each operation") {
+  Graph g;
+  const auto wave = [&](double middle, double speed) {
+    const Node s = g.unary(Op::sin, g.binary(Op::mul, g.constant(speed), g.time()));
+    return g.binary(Op::add, g.constant(middle), g.binary(Op::mul, g.constant(0.2), s));
+  };
+  const auto all = operations(g, wave(0.55, 1.0), wave(0.6, 0.9));
+  Series series(g, {}, nodes_of(all));
+  const Tape tape(g, nodes_of(all));
+  constexpr double start = 0.4;
+  int measured = 0;
+  for (const int order : {1, 2, 3, 4, 5, 6, 7, 8, 11, 12, 15, 16, 20}) {
+    expanded(series, {.time = start, .p = {1.25}}, order);
+    const Numbers c = outputs_of(series, order);
+    const auto errors = [&](double h) {  // on both sides, where the second term has either sign
+      Numbers worst(all.size());
+      for (const double s : {-h, h}) {
+        const Numbers values = values_of(tape, {.time = start + s, .p = {1.25}});
+        for (std::size_t m = 0; m < all.size(); ++m) {
+          const double error = values[m] - polynomial(&c[m * size(order + 1)], order, s);
+          worst[m] = std::max(worst[m], std::fabs(error));
+        }
+      }
+      return worst;
+    };
+    std::vector<Numbers> by_step;
+    for (double h = 0.8; h > 1e-3; h /= 2) by_step.push_back(errors(h));
+    for (std::size_t m = 0; m < all.size(); ++m) {
+      // the first step that is small enough for the leading term, above rounding at half of it
+      const auto usable = [&](std::size_t i) {
+        return by_step[i][m] < 1e-3 && by_step[i + 1][m] > 1e-13;
+      };
+      std::size_t i = 0;
+      while (i + 1 < by_step.size() && !usable(i)) ++i;
+      if (i + 1 == by_step.size()) continue;  // a step: its error is 0
+      // the latest usable one: there the leading term is largest
+      while (i + 2 < by_step.size() && usable(i + 1)) ++i;
+      ++measured;
+      INFO(all[m].name << ", order " << order << ", " << by_step[i][m] << ", "
+                       << by_step[i + 1][m]);
+      CHECK(std::log2(by_step[i][m] / by_step[i + 1][m]) > order + 0.5);
+    }
+  }
+  CHECK(measured > 500);
+}
+
+TEST_CASE("whole powers of 0 are smooth, with a constant exponent and with a parameter") {
+  for (const double p : {1.0, 2.0, 3.0, 5.0, 9.0, 20.0}) {
+    const Numbers found = along(
+        [](Graph& g, Node x) {
+          const Node u =
+              g.binary(Op::sub, g.unary(Op::exp, x), g.constant(1.0));  // x + x^2/2 + ...
+          return g.binary(Op::pow, u, g.parameter(0));
+        },
+        0.0, 21, p);
+    const int n = static_cast<int>(p);
+    for (int k = 0; k < n; ++k) CHECK(found[size(k)] == 0.0);
+    CHECK_THAT(found[size(n)], WithinRel(1.0, 1e-14));
+    CHECK_THAT(found[size(n + 1)], WithinRel(p / 2, 1e-14));
+  }
+  const Numbers fifth =
+      along([](Graph& g, Node x) { return g.binary(Op::pow, x, g.constant(5.0)); }, 0.0, 6);
+  CHECK(fifth == Numbers{0, 0, 0, 0, 0, 1, 0});
+  const Numbers square = along(
+      [](Graph& g, Node x) { return g.binary(Op::pow, g.binary(Op::mul, x, x), g.parameter(0)); },
+      0.0, 6, 1.5);
+  CHECK(square[2] == 0.0);
+  CHECK_THAT(square[3], WithinRel(1.0, 1e-14));
+}
+
+TEST_CASE("the logarithm of a constant 0 does not reach its power") {
+  const Numbers found =
+      along([](Graph& g, Node x) { return g.binary(Op::pow, g.parameter(0), x); }, 0.5, 3, 0.0);
+  CHECK(found == Numbers{0, 0, 0, 0});
+}
+
+TEST_CASE("at a kink the branch is that of the time just after it") {
+  CHECK(along([](Graph& g, Node x) { return g.unary(Op::abs, x); }, 0.0, 2) == Numbers{0, 1, 0});
+  const Numbers back = along(
+      [](Graph& g, Node x) { return g.unary(Op::abs, g.binary(Op::mul, g.constant(-2.0), x)); },
+      0.0, 2);
+  CHECK(back == Numbers{0, 2, 0});
+  const Numbers square = along(
+      [](Graph& g, Node x) {  // |-x^2|
+        return g.unary(Op::abs, g.unary(Op::neg, g.binary(Op::mul, x, x)));
+      },
+      0.0, 5);
+  CHECK(square == Numbers{0, 0, 1, 0, 0, 0});
+  const Numbers least = along(
+      [](Graph& g, Node x) { return g.binary(Op::minimum, g.binary(Op::mul, x, x), x); }, 0.0, 3);
+  CHECK(least == Numbers{0, 0, 1, 0});
+  const Numbers most = along(
+      [](Graph& g, Node x) { return g.binary(Op::maximum, g.binary(Op::mul, x, x), x); }, 0.0, 3);
+  CHECK(most == Numbers{0, 1, 0, 0});
+  const Numbers chosen = along(
+      [](Graph& g, Node x) {  // x > 0 ? 3 x : x
+        const Node c = g.binary(Op::gt, x, g.constant(0.0));
+        return g.select(c, g.binary(Op::mul, g.constant(3.0), x), x);
+      },
+      0.0, 2);
+  CHECK(chosen == Numbers{0, 3, 0});
+  const Numbers jump = along(
+      [](Graph& g, Node x) {  // x > 0 ? x + 1 : 2 x: not continuous
+        const Node c = g.binary(Op::gt, x, g.constant(0.0));
+        return g.select(c, g.binary(Op::add, g.constant(1.0), x),
+                        g.binary(Op::mul, g.constant(2.0), x));
+      },
+      0.0, 2);
+  CHECK(jump == Numbers{0, 2, 0});  // the branch of the value
+}
+
+TEST_CASE("remainders are linear between their jumps, steps are constant") {
+  const auto rest = [](Op op, double at) {
+    Graph g;
+    const Node x = g.continuous_state(0);
+    Series series(
+        g, std::array{g.constant(1.0)},
+        std::array{g.binary(
+            op, x, g.binary(Op::add, g.constant(1.0), g.binary(Op::mul, g.constant(0.125), x)))});
+    expanded(series, {.x = {at}}, 2);
+    return outputs_of(series, 2);
+  };
+  CHECK(rest(Op::mod, 4.0) == Numbers{1.0, 0.75, 0.0});     // 4 mod 1.5, quotient 2
+  CHECK(rest(Op::fmod, -4.0) == Numbers{0.0, 2.0, 0.0});    // -4 = -8 * 0.5
+  CHECK(rest(Op::mod, -2.0) == Numbers{0.25, 1.375, 0.0});  // -2 mod 0.75, quotient -3
+  CHECK(rest(Op::fmod, -2.0) == Numbers{-0.5, 1.25, 0.0});  // quotient -2
+  CHECK(rest(Op::floor_divide, 4.0) == Numbers{2.0, 0.0, 0.0});
+}
+
+TEST_CASE("kinks are found where an operand varies, and nowhere else") {
+  for (int o = static_cast<int>(Op::neg); o < operation_count; ++o) {
+    const Op op = static_cast<Op>(o);
+    Graph g;
+    const auto made = [&](Node a, Node b) {
+      if (operand_count(op) == 1) return g.unary(op, a);
+      if (operand_count(op) == 2) return g.binary(op, a, b);
+      return g.select(a, b, g.constant(2.0));
+    };
+    const bool known = op == Op::abs || (op >= Op::floor && op <= Op::logical_not) ||
+                       (op >= Op::copysign && op <= Op::select);
+    const Op reported = op == Op::gt ? Op::lt : op == Op::ge ? Op::le : op;  // as a graph has them
+    const std::vector<Op> expected = known ? std::vector{reported} : std::vector<Op>{};
+    INFO(name(op));
+    const Node p = g.parameter(0), u = g.input(0, 0);
+    CHECK(kinks(g, std::array{made(p, u)}).empty());
+    CHECK(kinks(g, std::array{made(g.discrete_state(0), g.mode())}).empty());
+    for (const Node varying : {g.time(), g.continuous_state(0), g.unary(Op::sin, g.time())}) {
+      CHECK(kinks(g, std::array{g.unary(Op::exp, made(varying, p))}) == expected);
+      if (operand_count(op) > 1) CHECK(kinks(g, std::array{made(p, varying)}) == expected);
+    }
+  }
+}
+
+TEST_CASE("kinks are listed once, in the order of the operations") {
+  Graph g;
+  const Node x = g.continuous_state(0);
+  const Node a = g.unary(Op::abs, x), b = g.unary(Op::abs, g.unary(Op::neg, g.unary(Op::exp, x)));
+  const Node both = g.binary(Op::minimum, a, b);
+  CHECK(kinks(g, std::array{both, a}) == std::vector{Op::abs, Op::minimum});
+  CHECK(kinks(g, {}).empty());
+}
+
+TEST_CASE("random expressions have the coefficients that repeated differentiation gives") {
+  int checked = 0;
+  for (unsigned seed = 0; seed < 200; ++seed) {
+    const RandomExpression e = random_expression(seed);
+    if (e.steps.size() > 40) continue;  // derivatives of derivatives grow
+    Graph g;
+    const std::vector<Node> outputs = write(e, g);
+    std::vector<Node> rates;
+    for (std::size_t i = 0; i < e.variables; ++i) rates.push_back(outputs[i % outputs.size()]);
+    const World world{.x = random_point(e.variables, seed)};
+    constexpr int order = 3;
+    Series series(g, rates, outputs);
+    const Numbers x = expanded(series, world, order), found = outputs_of(series, order);
+    const Numbers values = values_of(Tape(g, outputs), world);
+    const Numbers expected = by_derivatives(g, rates, outputs, world, order);
+    INFO("seed " << seed);
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      INFO("output " << i / (order + 1) << ", order " << i % (order + 1));
+      // as in the test of random Jacobians, and a thousand times as much for three derivatives
+      CHECK(std::fabs(found[i] - expected[i]) <= 1e-8 * std::max(1.0, std::fabs(expected[i])));
+      if (i % (order + 1) == 0) CHECK(same_bits(found[i], values[i / (order + 1)]));
+      ++checked;
+    }
+  }
+  CHECK(checked > 500);
+}
+
+TEST_CASE("random analytic expressions have the coefficients of Cauchy's integral") {
+  // u_k = (1/N) sum of u(t + r e^(i phi)) e^(-i k phi) / r^k, with variables that are linear in t
+  constexpr int order = 20, points = 64;
+  int checked = 0;
+  for (unsigned seed = 0; seed < 300; ++seed) {
+    const RandomExpression e = random_expression(seed);
+    Graph g;
+    const Numbers start = random_point(e.variables, seed),
+                  speed = random_point(e.variables, seed + 1);
+    std::vector<Node> variables;
+    for (std::size_t i = 0; i < e.variables; ++i) {
+      const Node line = g.binary(Op::mul, g.constant(speed[i]), g.time());
+      variables.push_back(g.binary(Op::add, g.constant(start[i]), line));
+    }
+    const std::vector<Node> outputs = write(e, g, variables);
+    if (!e.analytic || !kinks(g, outputs).empty()) continue;
+    Series series(g, {}, outputs);
+    expanded(series, {.time = 0.0}, order);
+    const Numbers found = outputs_of(series, order);
+    double growth = 1.0;  // the inverse of the radius, as the last coefficients show it
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      const double k = static_cast<double>(i % (order + 1));
+      if (k > 3) growth = std::max(growth, std::pow(std::fabs(found[i]), 1.0 / k));
+    }
+    const double r = 0.3 / growth;
+    std::vector<std::vector<std::complex<double>>> values;
+    for (int j = 0; j < points; ++j) {
+      const auto h = std::polar(r, 2.0 * std::numbers::pi * j / points);
+      std::vector<std::complex<double>> z;
+      for (std::size_t i = 0; i < e.variables; ++i) z.push_back(start[i] + speed[i] * h);
+      values.push_back(evaluate(e, z));
+    }
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      const int k = static_cast<int>(i % (order + 1));
+      std::complex<double> sum = 0.0;
+      double largest = 1.0;
+      for (int j = 0; j < points; ++j) {
+        const auto value = values[size(j)][i / (order + 1)];
+        sum += value * std::polar(1.0, -2.0 * std::numbers::pi * j * k / points);
+        largest = std::max(largest, std::abs(value));
+      }
+      INFO("seed " << seed << ", output " << i / (order + 1) << ", order " << k);
+      // rounding of the values, and of the recurrences in units of growth^k
+      CHECK(std::fabs(sum.real() / points - found[i] * std::pow(r, k)) <= 1e-12 * largest);
+      ++checked;
+    }
+  }
+  CHECK(checked > 1000);
+}
