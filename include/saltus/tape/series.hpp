@@ -59,6 +59,7 @@ class Series {
  private:
   void load(const At& at);
   void compute_values(int first, int last);
+  void extend(int k, const char* held, double* next);
   void require(int output);
 
   std::shared_ptr<const series::Program> program_;

@@ -24,13 +24,15 @@ class Builder {
   }
 
   Program build() {
-    Lowering lowering(graph_, program_);
+    Lowering lowering(graph_, program_, nodes_);
     const auto rates = std::span(nodes_).first(count_), outputs = std::span(nodes_).subspan(count_);
-    for (const Node node : rates) program_.rates.push_back({lowering.row(node), node.id});
+    for (const Node node : rates) program_.rates.push_back({node.id, lowering.single(node)});
     program_.first_instructions = static_cast<int>(program_.instructions.size());
     for (const Node node : outputs) {
       program_.outputs.push_back({lowering.row(node), node.id, {}, {}});
     }
+    for (Instruction& i : program_.instructions) i.term = program_.terms.data() + i.first_term;
+    add_calls();
     add_leaves();
     add_values(rates);
     for (std::size_t i = 0; i < outputs.size(); ++i) find_needs(program_.outputs[i], outputs[i]);
@@ -44,6 +46,20 @@ class Builder {
       if (e.op != Op::continuous_state || e.index < static_cast<Index>(count_)) continue;
       throw ModelError(text("a series of ", count_, " rates expects expressions that read states ",
                             "below ", count_, ", found state ", e.index));
+    }
+  }
+
+  void add_calls() {
+    Calls& calls = program_.calls;
+    for (int i = 0; i < program_.first_instructions; ++i) {
+      const Instruction& one = instruction(i);
+      const auto append = [&](std::vector<Call>& to, Handler run) {
+        if (run != nullptr) to.push_back({run, &one, sums_size * i});
+      };
+      append(calls.begin, one.kernel->begin);
+      append(calls.earlier, one.kernel->earlier);
+      for (std::size_t slot = 0; slot < 8; ++slot)
+        append(calls.orders[slot], one.kernel->orders[slot]);
     }
   }
 
@@ -62,6 +78,7 @@ class Builder {
   void add_values(std::span<const Node> rates) {
     place_.assign(static_cast<std::size_t>(graph_.size()), -1);
     std::vector<Node> roots(rates.begin(), rates.end());
+    for (const Rate& rate : program_.rates) roots.push_back({rate.term.factor});
     for (int i = 0; i < program_.first_instructions; ++i) append_values(roots, i);
     auto first = needed(graph_, roots);
     std::ranges::sort(first);  // operands have smaller numbers
@@ -85,9 +102,13 @@ class Builder {
   const Instruction& instruction(int i) const {
     return program_.instructions[static_cast<std::size_t>(i)];
   }
+  static std::span<const Term> terms_of(const Instruction& i) {
+    return {i.term, static_cast<std::size_t>(i.terms)};
+  }
   void append_values(std::vector<Node>& all, int number) const {
     const Instruction& i = instruction(number);
     for (const int value : {i.value, i.of_a, i.of_b, i.of_c, i.of_d}) all.push_back({value});
+    for (const Term& term : terms_of(i)) all.push_back({term.factor});
   }
 
   /// The instructions and the values of an output, through the rows that they read.
@@ -107,6 +128,7 @@ class Builder {
       append_values(roots, writer);
       const Instruction& i = instruction(writer);
       for (const int read : {i.a, i.b, i.c, i.d, i.da}) open.push_back(read);
+      for (const Term& term : terms_of(i)) open.push_back(term.row);
     }
     std::ranges::sort(output.instructions);
     for (const Node value : needed(graph_, roots)) {

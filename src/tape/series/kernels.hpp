@@ -6,15 +6,14 @@
 namespace saltus::tape::series {
 
 // linear
-extern const Kernel plus;      ///< a + b
-extern const Kernel minus;     ///< a - b
-extern const Kernel negative;  ///< -a
-extern const Kernel multiple;  ///< a times the value of b
-extern const Kernel fraction;  ///< a divided by the value of b
+extern const Kernel plus;         ///< a + b
+extern const Kernel minus;        ///< a - b
+extern const Kernel multiple;     ///< a times the value of b
+extern const Kernel combination;  ///< the sum of its terms
 // products
 extern const Kernel product;   ///< a b
 extern const Kernel square;    ///< a a
-extern const Kernel quotient;  ///< a / b
+extern const Kernel quotient;  ///< a times a value, divided by b
 extern const Kernel root;      ///< sqrt(a)
 extern const Kernel power;     ///< a to the value of b
 // integrals

@@ -16,22 +16,24 @@ struct Sum : Plain<Sum> {
 struct Difference : Plain<Difference> {
   SALTUS_SERIES_AT { return rows[i.a + k] - rows[i.b + k]; }
 };
-struct Negative : Plain<Negative> {
-  SALTUS_SERIES_AT { return -rows[i.a + k]; }
-};
 struct Multiple : Plain<Multiple> {
   SALTUS_SERIES_AT { return rows[i.a + k] * values[i.of_b]; }
 };
-struct Fraction : Plain<Fraction> {
-  SALTUS_SERIES_AT { return rows[i.a + k] / values[i.of_b]; }
+struct Combination : Plain<Combination> {
+  SALTUS_SERIES_AT {
+    double sum = 0.0;
+    for (const Term& term : std::span(i.term, static_cast<std::size_t>(i.terms))) {
+      sum += values[term.factor] * rows[term.row + k];
+    }
+    return sum;
+  }
 };
 
 }  // namespace
 
 const Kernel plus = kernel<Sum>();
 const Kernel minus = kernel<Difference>();
-const Kernel negative = kernel<Negative>();
 const Kernel multiple = kernel<Multiple>();
-const Kernel fraction = kernel<Fraction>();
+const Kernel combination = kernel<Combination>();
 
 }  // namespace saltus::tape::series

@@ -5,8 +5,17 @@
 
 namespace saltus::tape::series {
 
-Lowering::Lowering(Graph& graph, Program& program) : graph_(graph), program_(program) {
+Lowering::Lowering(Graph& graph, Program& program, std::span<const Node> roots)
+    : graph_(graph), program_(program) {
   program_.rows = 1 + program_.states;  // the row of zeros, the states
+  uses_.assign(static_cast<std::size_t>(graph_.size()), 0);
+  for (const Node wanted : roots) ++uses_[static_cast<std::size_t>(wanted.id)];
+  for (int id = 0; id < graph_.size(); ++id) {
+    const Expression& e = graph_[Node{id}];
+    for (int k = 0; k < operand_count(e.op); ++k) {
+      ++uses_[static_cast<std::size_t>(e.operands[static_cast<std::size_t>(k)].id)];
+    }
+  }
 }
 
 int& Lowering::known(Node node) {
@@ -16,23 +25,31 @@ int& Lowering::known(Node node) {
   return rows_[static_cast<std::size_t>(node.id)];
 }
 
-int Lowering::row(Node wanted) {
+void Lowering::visit(Node wanted) {
   std::vector<Node> open{wanted};  // depth first, without recursion: expressions may be deep
   while (!open.empty()) {
     const Node node = open.back();
     const Expression e = graph_[node];  // a copy: the graph grows
     const std::size_t size = open.size();
-    for (int k = operand_count(e.op) - 1; k >= 0 && known(node) < 0; --k) {
+    for (int k = operand_count(e.op) - 1; k >= 0 && known(node) == unknown; --k) {
       const Node operand = e.operands[static_cast<std::size_t>(k)];
-      if (known(operand) < 0) open.push_back(operand);
+      if (known(operand) == unknown) open.push_back(operand);
     }
     if (open.size() > size) continue;
     open.pop_back();
-    if (known(node) >= 0) continue;
+    if (known(node) != unknown) continue;
     const int found = lower(node, e);
     known(node) = found;
   }
-  return known(wanted);
+}
+
+int Lowering::row(Node node) {
+  visit(node);
+  if (known(node) == linear) {
+    const int found = combine(forms_[node.id]);
+    known(node) = found;
+  }
+  return known(node);
 }
 
 int Lowering::add(const Kernel& kernel, Instruction i) {
@@ -61,9 +78,9 @@ int Lowering::lower(Node node, const Expression& e) {
   switch (e.op) {
     case Op::add:
     case Op::sub:
-      return lower_sum(e);
+      return keep(node, sum_of(form(a), e.op == Op::add ? form(b) : scaled(form(b), n(-1.0))));
     case Op::mul:
-      return lower_product(a, b);
+      return lower_product(node, a, b);
     case Op::div:
       return lower_quotient(node, a, b);
     case Op::pow:
@@ -79,24 +96,18 @@ int Lowering::lower(Node node, const Expression& e) {
   }
 }
 
-int Lowering::lower_sum(const Expression& e) {
-  const Node a = e.operands[0], b = e.operands[1];
-  const int of_a = known(a), of_b = known(b);
-  if (of_b == zero_row) return of_a;
-  if (of_a == zero_row) return e.op == Op::add ? of_b : add(negative, {.a = of_b});
-  return add(e.op == Op::add ? plus : minus, {.a = of_a, .b = of_b});
-}
-
-int Lowering::lower_product(Node a, Node b) {
+int Lowering::lower_product(Node node, Node a, Node b) {
   if (known(a) == zero_row) std::swap(a, b);
-  if (known(b) == zero_row) return add(multiple, {.a = known(a), .of_b = b.id});
-  if (a == b) return add(square, {.a = known(a), .of_a = a.id});
-  return add(product, {.a = known(a), .b = known(b), .of_a = a.id, .of_b = b.id});
+  if (known(b) == zero_row) return keep(node, scaled(form(a), b));
+  if (a == b) return add(square, {.a = row(a), .of_a = a.id});
+  return add(product, {.a = row(a), .b = row(b), .of_a = a.id, .of_b = b.id});
 }
 
 int Lowering::lower_quotient(Node node, Node a, Node b) {
-  if (known(b) == zero_row) return add(fraction, {.a = known(a), .of_b = b.id});
-  return add(quotient, {.a = known(a), .b = known(b), .value = node.id, .of_b = b.id});
+  if (known(b) == zero_row) return keep(node, scaled(form(a), of(Op::div, n(1.0), b)));
+  const Term above = single(a);
+  return add(quotient,
+             {.a = above.row, .b = row(b), .value = node.id, .of_a = above.factor, .of_b = b.id});
 }
 
 int Lowering::lower_power(Node node, Node a, Node b) {
@@ -107,8 +118,8 @@ int Lowering::lower_power(Node node, Node a, Node b) {
     if (whole) return lower_whole_power(a, static_cast<int>(*p));
     const int to = new_row();
     return add(power, {.to = to,
-                       .a = known(a),
-                       .da = slope(known(a)),
+                       .a = row(a),
+                       .da = slope(row(a)),
                        .db = slope(to),
                        .value = node.id,
                        .of_a = a.id,
@@ -145,7 +156,7 @@ int Lowering::lower_logarithm(Node a, double factor, Node b) {
 }
 
 int Lowering::lower_angle(Node a, Node b) {
-  const int of_a = known(a), of_b = known(b);
+  const int of_a = row(a), of_b = row(b);
   const Node distance = sum_of_squares(a, b);
   const int of_distance = row(distance);
   const int da =
@@ -160,8 +171,8 @@ int Lowering::lower_rotation(Node node, Op sine, Op cosine, Node a, double facto
   const int to = known(s) = new_row(), second = known(c) = new_row();
   add(rotation, {.to = to,
                  .to_second = second,
-                 .a = known(a),
-                 .da = slope(known(a)),
+                 .a = row(a),
+                 .da = slope(row(a)),
                  .value = s.id,
                  .of_b = c.id,
                  .factor = factor});
@@ -173,9 +184,9 @@ int Lowering::lower_unary(Node node, const Expression& e) {
   const auto one_less_square = [&] { return times(of(Op::sub, one, a), of(Op::add, one, a)); };
   switch (e.op) {
     case Op::neg:
-      return add(negative, {.a = known(a)});
+      return keep(node, scaled(form(a), n(-1.0)));
     case Op::sqrt:
-      return add(root, {.a = known(a), .value = node.id});
+      return add(root, {.a = row(a), .value = node.id});
     case Op::cbrt:
       return lower_power(node, a, n(1.0 / 3.0));
     case Op::exp:
@@ -221,21 +232,21 @@ int Lowering::lower_kinked(Node node, const Expression& e) {
   const Node a = e.operands[0], b = e.operands[1];
   switch (e.op) {
     case Op::abs:
-      return add(magnitude, {.a = known(a), .of_a = a.id, .op = e.op});
+      return add(magnitude, {.a = row(a), .of_a = a.id, .op = e.op});
     case Op::copysign:
       if (known(a) == zero_row) return zero_row;
-      return add(magnitude, {.a = known(a), .of_a = a.id, .of_b = b.id, .op = e.op});
+      return add(magnitude, {.a = row(a), .of_a = a.id, .of_b = b.id, .op = e.op});
     case Op::minimum:
     case Op::maximum:
-      return add(extreme, {.a = known(a),
-                           .b = known(b),
+      return add(extreme, {.a = row(a),
+                           .b = row(b),
                            .of_a = a.id,
                            .of_b = b.id,
                            .factor = e.op == Op::minimum ? 1.0 : -1.0});
     case Op::mod:
     case Op::fmod:
       return add(remainder,
-                 {.a = known(a), .b = known(b), .value = node.id, .of_a = a.id, .of_b = b.id});
+                 {.a = row(a), .b = row(b), .value = node.id, .of_a = a.id, .of_b = b.id});
     case Op::select:
       return lower_choice(e);
     default:
@@ -246,11 +257,11 @@ int Lowering::lower_kinked(Node node, const Expression& e) {
 int Lowering::lower_choice(const Expression& e) {
   const auto [condition, a, b] = e.operands;
   if (known(a) == zero_row && known(b) == zero_row) return zero_row;
-  Instruction i{.a = known(a), .b = known(b), .of_a = a.id, .of_b = b.id, .of_c = condition.id};
+  Instruction i{.a = row(a), .b = row(b), .of_a = a.id, .of_b = b.id, .of_c = condition.id};
   const Expression compared = graph_[condition];
   if (compared.op >= Op::lt && compared.op <= Op::ne) {
     const auto [c, d, none] = compared.operands;
-    i.op = compared.op, i.c = known(c), i.d = known(d), i.of_c = c.id, i.of_d = d.id;
+    i.op = compared.op, i.c = row(c), i.d = known(d), i.of_c = c.id, i.of_d = d.id;
   }
   return add(choice, i);
 }

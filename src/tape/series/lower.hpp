@@ -1,6 +1,7 @@
 // Lowering: the instructions for the rows of expressions.
 #pragma once
 
+#include <unordered_map>
 #include <vector>
 
 #include "kernels.hpp"
@@ -11,18 +12,29 @@ namespace saltus::tape::series {
 /// helping expressions, which are added to the graph.
 class Lowering {
  public:
-  /// The states have rows already.
-  Lowering(Graph& graph, Program& program);
+  /// The states have rows already. `roots` are the expressions that will be asked for.
+  Lowering(Graph& graph, Program& program, std::span<const Node> roots);
 
   /// The row of an expression, with the instructions for it and for its operands.
   int row(Node node);
+  /// The same, or a row of which it is a multiple.
+  Term single(Node node);
 
  private:
+  /// A sum of multiples of rows, up to a constant.
+  using Form = std::vector<Term>;
+
+  void visit(Node node);
+  Form form(Node node);
+  Form sum_of(Form a, const Form& b);
+  Form scaled(Form form, Node factor);
+  int keep(Node node, Form form);
+  int combine(const Form& form);
+
   int lower(Node node, const Expression& e);
   int lower_kinked(Node node, const Expression& e);
   int lower_unary(Node node, const Expression& e);
-  int lower_sum(const Expression& e);
-  int lower_product(Node a, Node b);
+  int lower_product(Node node, Node a, Node b);
   int lower_quotient(Node node, Node a, Node b);
   int lower_power(Node node, Node a, Node b);
   int lower_whole_power(Node a, int exponent);
@@ -45,7 +57,10 @@ class Lowering {
 
   Graph& graph_;
   Program& program_;
-  std::vector<int> rows_;    ///< of each node; -1: none yet
+  static constexpr int unknown = -1, linear = -2;
+  std::vector<int> rows_;  ///< of each node, or what is known of it: `linear` has a form, no row
+  std::unordered_map<int, Form> forms_;
+  std::vector<int> uses_;    ///< of each node, in the graph as it was
   std::vector<int> slopes_;  ///< of each row: the row of k times the coefficient of order k, or -1
 };
 

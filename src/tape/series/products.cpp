@@ -29,7 +29,7 @@ struct Square {
   }
 };
 
-/// r b = a.
+/// r b = a, or a multiple of it.
 struct Quotient {
   static void begin(const Instruction& i, double*, double* own, const double* values, int) {
     own[8] = 1.0 / values[i.of_b];
@@ -40,7 +40,7 @@ struct Quotient {
   template <int slot>
   static void order(const Instruction& i, double* rows, double* own, const double* values, int k) {
     const double *b = rows + i.b, *r = rows + i.to;
-    const double known = rows[i.a + k] - inner<slot>(b, r, own, k);
+    const double known = values[i.of_a] * rows[i.a + k] - inner<slot>(b, r, own, k);
     rows[i.to + k] = (known - values[i.value] * b[k]) * own[8];
   }
 };

@@ -32,6 +32,11 @@ struct Kernel {
   Handler orders[8] = {};     ///< order 1, 2, 3 at [1], [2], [3]; k of a later block at [4 + k % 4]
 };
 
+/// A multiple of a row.
+struct Term {
+  int row = zero_row, factor = 0;  ///< the factor is a value
+};
+
 /// Computes a row from others. Rows are offsets in the memory of rows; values are numbers.
 struct Instruction {
   const Kernel* kernel = nullptr;
@@ -43,6 +48,19 @@ struct Instruction {
   double factor = 1.0;
   Op op = Op::constant;                  ///< of a kinked operation
   int c = 0, d = 0, of_c = 0, of_d = 0;  ///< of the comparison that decides a select
+  int first_term = 0, terms = 0;         ///< of a combination
+  const Term* term = nullptr;
+};
+
+/// One call of a handler.
+struct Call {
+  Handler run = nullptr;
+  const Instruction* instruction = nullptr;
+  int own = 0;  ///< where the numbers of the instruction are
+};
+/// The calls for all rates, one after the other.
+struct Calls {
+  std::vector<Call> begin, earlier, orders[8];  ///< as in Kernel
 };
 
 /// A value that an expansion reads from its arguments.
@@ -62,9 +80,11 @@ struct Value {
   int to = 0, from[3] = {};
 };
 
-/// The coefficient of order k + 1 of a state is that of order k of its rate, divided by k + 1.
+/// The coefficient of order k + 1 of a state is that of order k of its rate, divided by k + 1. The
+/// rate has a value, and for k >= 1 it is a multiple of a row.
 struct Rate {
-  int row = 0, value = 0;
+  int value = 0;
+  Term term;
 };
 
 /// An output: where its coefficients are, and what must be computed for them.
@@ -79,6 +99,8 @@ struct Program {
   std::vector<Load> loads;
   std::vector<Value> values;
   std::vector<Instruction> instructions;
+  std::vector<Term> terms;  ///< of combinations, which point to them
+  Calls calls;
   /// The first ones are for the rates, the others for outputs.
   int first_values = 0, first_instructions = 0;
   std::vector<Rate> rates;

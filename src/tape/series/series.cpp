@@ -30,42 +30,33 @@ double loaded(const Load& load, const At& at) {
   }
 }
 
-/// Orders that follow one another, for instructions that do not depend on the states.
-struct Run {
-  const Program& program;
+/// The place of order k among the handlers of a kernel.
+constexpr std::size_t slot_of(int k) { return static_cast<std::size_t>(k < 4 ? k : 4 + k % 4); }
+constexpr bool begins_block(int k) { return k >= 4 && k % 4 == 0; }
+
+/// The memory that handlers work on.
+struct Memory {
   double *rows, *sums;
   const double* values;
 
-  void one(int number, Handler handler, int k) const {
-    const Instruction& i = program.instructions[size(number)];
-    if (handler != nullptr) handler(i, rows, sums + sums_size * number, values, k);
+  void run(const std::vector<Call>& calls, int k) const {
+    for (const Call& call : calls) call.run(*call.instruction, rows, sums + call.own, values, k);
   }
-  const Kernel& kernel(int number) const { return *program.instructions[size(number)].kernel; }
-  void begin(int number) const { one(number, kernel(number).begin, 0); }
-  void earlier(int number, int k) const { one(number, kernel(number).earlier, k); }
-  void order(int number, int k) const {
-    one(number, kernel(number).orders[k < 4 ? k : 4 + k % 4], k);
-  }
-  template <class Numbers>
-  void order_of_all(const Numbers& numbers, int k) const {
-    if (k >= 4 && k % 4 == 0) {
-      for (const int number : numbers) earlier(number, k);
+  void run(const Program& program, const std::vector<int>& numbers, int k) const {
+    const auto kernel = [&](int i) { return program.instructions[size(i)].kernel; };
+    const auto call = [&](int i, Handler handler) {
+      if (handler == nullptr) return;
+      handler(program.instructions[size(i)], rows, sums + sums_size * i, values, k);
+    };
+    if (k == 0) {
+      for (const int i : numbers) call(i, kernel(i)->begin);
+      return;
     }
-    for (const int number : numbers) order(number, k);
+    if (begins_block(k)) {
+      for (const int i : numbers) call(i, kernel(i)->earlier);
+    }
+    for (const int i : numbers) call(i, kernel(i)->orders[slot_of(k)]);
   }
-};
-
-/// 0, 1, ... as a range.
-struct Upto {
-  struct Iterator {
-    int i;
-    int operator*() const { return i; }
-    void operator++() { ++i; }
-    bool operator!=(const Iterator& other) const { return i != other.i; }
-  };
-  int count;
-  Iterator begin() const { return {0}; }
-  Iterator end() const { return {count}; }
 };
 
 }  // namespace
@@ -110,18 +101,32 @@ void Series::expand(const At& at, int order, const char* held, double* x) {
   compute_values(0, program.first_values);
   double* const rows = rows_.data();
   if (program.time_row != zero_row) rows[program.time_row + 1] = 1.0;
-  const Run run{program, rows, sums_.data(), values_.data()};
-  for (int i = 0; i < program.first_instructions; ++i) run.begin(i);
+  const Memory memory{rows, sums_.data(), values_.data()};
+  memory.run(program.calls.begin, 0);
   std::copy_n(values_.data(), n, x);
   for (int k = 0; k < order; ++k) {
-    if (k > 0) run.order_of_all(Upto{program.first_instructions}, k);
-    double* const next = x + (k + 1) * n;
-    for (int i = 0; i < n; ++i) {
-      const Rate& rate = program.rates[size(i)];
-      const double slope = k == 0 ? values_[size(rate.value)] : rows[rate.row + k];
-      const bool holds = held != nullptr && held[i] != 0;
-      next[i] = rows[row_size * (1 + i) + k + 1] = holds ? 0.0 : slope * inverse_of(k + 1);
-    }
+    if (begins_block(k)) memory.run(program.calls.earlier, k);
+    if (k > 0) memory.run(program.calls.orders[slot_of(k)], k);
+    extend(k, held, x + (k + 1) * n);
+  }
+}
+
+/// The coefficients of order k + 1 of the states.
+void Series::extend(int k, const char* held, double* next) {
+  double* const rows = rows_.data();
+  const double* const values = values_.data();
+  const double inverse = inverse_of(k + 1);
+  double* to = rows + row_size + k + 1;
+  for (const Rate& rate : program_->rates) {
+    const double slope =
+        k == 0 ? values[rate.value] : values[rate.term.factor] * rows[rate.term.row + k];
+    *next++ = *to = slope * inverse;
+    to += row_size;
+  }
+  if (held == nullptr) return;
+  next -= states();
+  for (int i = 0; i < states(); ++i) {
+    if (held[i] != 0) next[i] = rows[row_size * (1 + i) + k + 1] = 0.0;
   }
 }
 
@@ -141,10 +146,9 @@ void Series::expand_outputs(int first, int count, double* g) {
   for (int m = first; m < first + count; ++m) require(m);
   std::ranges::sort(late_);
   std::ranges::sort(open_);
-  const Run run{*program_, rows_.data(), sums_.data(), values_.data()};
-  if (order_ > 0) run.order_of_all(late_, order_);
-  for (const int i : open_) run.begin(i);
-  for (int k = 1; k <= order_; ++k) run.order_of_all(open_, k);
+  const Memory memory{rows_.data(), sums_.data(), values_.data()};
+  if (order_ > 0) memory.run(*program_, late_, order_);
+  for (int k = 0; k <= order_; ++k) memory.run(*program_, open_, k);
   for (int m = first; m < first + count; ++m, g += order_ + 1) {
     const Output& output = program_->outputs[size(m)];
     std::copy_n(rows_.data() + output.row, order_ + 1, g);
