@@ -61,6 +61,7 @@ class Series {
   void compute_values(int first, int last);
   void extend(int k, const char* held, double* next);
   void require(int output);
+  void run(const std::vector<int>& instructions, int k);
 
   std::shared_ptr<const series::Program> program_;
   std::vector<double> values_, rows_, sums_;  ///< of expressions; of rows; of instructions

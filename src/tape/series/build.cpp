@@ -50,16 +50,15 @@ class Builder {
   }
 
   void add_calls() {
-    Calls& calls = program_.calls;
+    Orders& calls = program_.calls;
     for (int i = 0; i < program_.first_instructions; ++i) {
       const Instruction& one = instruction(i);
-      const auto append = [&](std::vector<Call>& to, Handler run) {
-        if (run != nullptr) to.push_back({run, &one, sums_size * i});
-      };
-      append(calls.begin, one.kernel->begin);
-      append(calls.earlier, one.kernel->earlier);
-      for (std::size_t slot = 0; slot < 8; ++slot)
-        append(calls.orders[slot], one.kernel->orders[slot]);
+      const Index own = sums_size * i;
+      calls.begin.append(one.kernel->begin, one, own);
+      calls.earlier.append(one.kernel->earlier, one, own);
+      for (std::size_t slot = 1; slot < 8; ++slot) {
+        calls.orders[slot].append(one.kernel->orders[slot], one, own);
+      }
     }
   }
 
@@ -78,7 +77,7 @@ class Builder {
   void add_values(std::span<const Node> rates) {
     place_.assign(static_cast<std::size_t>(graph_.size()), -1);
     std::vector<Node> roots(rates.begin(), rates.end());
-    for (const Rate& rate : program_.rates) roots.push_back({rate.term.factor});
+    for (const Rate& rate : program_.rates) roots.push_back(node(rate.term.factor));
     for (int i = 0; i < program_.first_instructions; ++i) append_values(roots, i);
     auto first = needed(graph_, roots);
     std::ranges::sort(first);  // operands have smaller numbers
@@ -102,22 +101,23 @@ class Builder {
   const Instruction& instruction(int i) const {
     return program_.instructions[static_cast<std::size_t>(i)];
   }
+  static Node node(Index value) { return {static_cast<int>(value)}; }
   static std::span<const Term> terms_of(const Instruction& i) {
     return {i.term, static_cast<std::size_t>(i.terms)};
   }
   void append_values(std::vector<Node>& all, int number) const {
     const Instruction& i = instruction(number);
-    for (const int value : {i.value, i.of_a, i.of_b, i.of_c, i.of_d}) all.push_back({value});
-    for (const Term& term : terms_of(i)) all.push_back({term.factor});
+    for (const Index value : {i.value, i.of_a, i.of_b, i.of_c, i.of_d}) all.push_back(node(value));
+    for (const Term& term : terms_of(i)) all.push_back(node(term.factor));
   }
 
   /// The instructions and the values of an output, through the rows that they read.
   void find_needs(Output& output, Node node) {
     if (writers_.empty()) note_writers();
-    std::vector<int> open{output.row};
+    std::vector<Index> open{output.row};
     std::vector<Node> roots{node};
     while (!open.empty()) {
-      const int row = open.back();
+      const Index row = open.back();
       open.pop_back();
       const int writer = writers_[static_cast<std::size_t>(row / row_size)];
       if (writer < 0 ||
@@ -127,7 +127,7 @@ class Builder {
       output.instructions.push_back(writer);
       append_values(roots, writer);
       const Instruction& i = instruction(writer);
-      for (const int read : {i.a, i.b, i.c, i.d, i.da}) open.push_back(read);
+      for (const Index read : {i.a, i.b, i.c, i.d, i.da}) open.push_back(read);
       for (const Term& term : terms_of(i)) open.push_back(term.row);
     }
     std::ranges::sort(output.instructions);
@@ -165,6 +165,20 @@ double value_of(double a, double b, double c) {
 }
 
 }  // namespace
+
+void stop(const Call*, double*, double*, const double*, Index) {}
+
+void Calls::append(Handler handler, const Instruction& instruction, Index own) {
+  constexpr std::size_t longest = 256;
+  if (handler == nullptr) return;
+  if (!all.empty() && all.size() - starts.back() <= longest) {
+    all.pop_back();
+  } else {
+    starts.push_back(all.size());
+  }
+  all.push_back({handler, &instruction, own});
+  all.push_back({&stop, nullptr, 0});
+}
 
 Function function(Op op) {
   static constexpr auto all = []<std::size_t... o>(std::index_sequence<o...>) {

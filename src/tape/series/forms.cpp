@@ -32,27 +32,27 @@ Lowering::Form Lowering::sum_of(Form a, const Form& b) {
     if (found == a.end()) {
       a.push_back(term);
     } else {
-      found->factor = of(Op::add, Node{found->factor}, Node{term.factor}).id;
+      found->factor = of(Op::add, node(found->factor), node(term.factor)).id;
     }
   }
-  std::erase_if(a, [this](const Term& term) { return graph_.value({term.factor}) == 0.0; });
+  std::erase_if(a, [this](const Term& term) { return graph_.value(node(term.factor)) == 0.0; });
   return a;
 }
 
 Lowering::Form Lowering::scaled(Form form, Node factor) {
-  for (Term& term : form) term.factor = times({term.factor}, factor).id;
+  for (Term& term : form) term.factor = times(node(term.factor), factor).id;
   return form;
 }
 
 /// The row of a form that is one; otherwise the form is kept until somebody needs its row.
-int Lowering::keep(Node node, Form form) {
+Index Lowering::keep(Node node, Form form) {
   if (form.empty()) return zero_row;
   if (form.size() == 1 && form[0].factor == n(1.0).id) return form[0].row;
   forms_[node.id] = std::move(form);
   return linear;
 }
 
-int Lowering::combine(const Form& form) {
+Index Lowering::combine(const Form& form) {
   const auto is = [&](std::size_t i, double factor) { return form[i].factor == n(factor).id; };
   if (form.size() == 1) return add(multiple, {.a = form[0].row, .of_b = form[0].factor});
   if (form.size() == 2 && is(0, 1.0) && is(1, 1.0)) {
@@ -61,9 +61,9 @@ int Lowering::combine(const Form& form) {
   if (form.size() == 2 && is(0, 1.0) && is(1, -1.0)) {
     return add(minus, {.a = form[0].row, .b = form[1].row});
   }
-  const int first = static_cast<int>(program_.terms.size());
+  const auto first = static_cast<Index>(program_.terms.size());
   program_.terms.insert(program_.terms.end(), form.begin(), form.end());
-  return add(combination, {.first_term = first, .terms = static_cast<int>(form.size())});
+  return add(combination, {.first_term = first, .terms = static_cast<Index>(form.size())});
 }
 
 }  // namespace saltus::tape::series

@@ -8,7 +8,7 @@ namespace {
 #define SALTUS_SERIES_AT                                                                       \
   static double at([[maybe_unused]] const Instruction& i, [[maybe_unused]] const double* rows, \
                    [[maybe_unused]] const double* own, [[maybe_unused]] const double* values,  \
-                   [[maybe_unused]] int k)
+                   [[maybe_unused]] Index k)
 
 struct Sum : Plain<Sum> {
   SALTUS_SERIES_AT { return rows[i.a + k] + rows[i.b + k]; }

@@ -18,7 +18,7 @@ Lowering::Lowering(Graph& graph, Program& program, std::span<const Node> roots)
   }
 }
 
-int& Lowering::known(Node node) {
+Index& Lowering::known(Node node) {
   if (rows_.size() < static_cast<std::size_t>(graph_.size())) {
     rows_.resize(static_cast<std::size_t>(graph_.size()), -1);
   }
@@ -38,36 +38,36 @@ void Lowering::visit(Node wanted) {
     if (open.size() > size) continue;
     open.pop_back();
     if (known(node) != unknown) continue;
-    const int found = lower(node, e);
+    const Index found = lower(node, e);
     known(node) = found;
   }
 }
 
-int Lowering::row(Node node) {
+Index Lowering::row(Node node) {
   visit(node);
   if (known(node) == linear) {
-    const int found = combine(forms_[node.id]);
+    const Index found = combine(forms_[node.id]);
     known(node) = found;
   }
   return known(node);
 }
 
-int Lowering::add(const Kernel& kernel, Instruction i) {
+Index Lowering::add(const Kernel& kernel, Instruction i) {
   i.kernel = &kernel;
   if (i.to == zero_row) i.to = new_row();
   program_.instructions.push_back(i);
   return i.to;
 }
 
-int Lowering::slope(int row) {
+Index Lowering::slope(Index row) {
   const auto number = static_cast<std::size_t>(row / row_size);
   if (slopes_.size() <= number) slopes_.resize(number + 1, -1);
   if (slopes_[number] < 0) slopes_[number] = new_row();
   return slopes_[number];
 }
 
-int Lowering::lower(Node node, const Expression& e) {
-  if (e.op == Op::continuous_state) return row_size * (1 + static_cast<int>(e.index));
+Index Lowering::lower(Node node, const Expression& e) {
+  if (e.op == Op::continuous_state) return row_size * (1 + e.index);
   if (e.op == Op::time) return program_.time_row = new_row();
   bool varies = false;
   for (int k = 0; k < operand_count(e.op); ++k) {
@@ -96,27 +96,28 @@ int Lowering::lower(Node node, const Expression& e) {
   }
 }
 
-int Lowering::lower_product(Node node, Node a, Node b) {
+Index Lowering::lower_product(Node node, Node a, Node b) {
   if (known(a) == zero_row) std::swap(a, b);
   if (known(b) == zero_row) return keep(node, scaled(form(a), b));
   if (a == b) return add(square, {.a = row(a), .of_a = a.id});
+  if (row(b) < row(a)) std::swap(a, b);  // a row with a higher number is computed later
   return add(product, {.a = row(a), .b = row(b), .of_a = a.id, .of_b = b.id});
 }
 
-int Lowering::lower_quotient(Node node, Node a, Node b) {
+Index Lowering::lower_quotient(Node node, Node a, Node b) {
   if (known(b) == zero_row) return keep(node, scaled(form(a), of(Op::div, n(1.0), b)));
   const Term above = single(a);
   return add(quotient,
              {.a = above.row, .b = row(b), .value = node.id, .of_a = above.factor, .of_b = b.id});
 }
 
-int Lowering::lower_power(Node node, Node a, Node b) {
+Index Lowering::lower_power(Node node, Node a, Node b) {
   constexpr double most_factors = 16.0;
   if (row(b) == zero_row) {
     const auto p = graph_.value(b);
     const bool whole = p && *p >= 2.0 && *p <= most_factors && std::floor(*p) == *p;
     if (whole) return lower_whole_power(a, static_cast<int>(*p));
-    const int to = new_row();
+    const Index to = new_row();
     return add(power, {.to = to,
                        .a = row(a),
                        .da = slope(row(a)),
@@ -131,7 +132,7 @@ int Lowering::lower_power(Node node, Node a, Node b) {
   return lower_growth(node, times(b, log), 1.0, node);
 }
 
-int Lowering::lower_whole_power(Node a, int exponent) {
+Index Lowering::lower_whole_power(Node a, int exponent) {
   std::optional<Node> result;
   for (Node factor = a; exponent > 0; exponent /= 2) {
     if (exponent % 2 == 1) result = result ? times(*result, factor) : factor;
@@ -140,35 +141,35 @@ int Lowering::lower_whole_power(Node a, int exponent) {
   return row(*result);
 }
 
-int Lowering::lower_growth(Node node, Node a, double factor, Node b) {
-  const int of_a = row(a), to = known(node) = new_row();
+Index Lowering::lower_growth(Node node, Node a, double factor, Node b) {
+  const Index of_a = row(a), to = known(node) = new_row();
   const std::size_t place = program_.instructions.size();
   add(growth, {.to = to, .a = of_a, .da = slope(of_a), .of_b = b.id, .factor = factor});
-  const int of_b = row(b);  // it may depend on the result
+  const Index of_b = row(b);  // it may depend on the result
   program_.instructions[place].b = of_b;
   return to;
 }
 
-int Lowering::lower_logarithm(Node a, double factor, Node b) {
-  const int of_b = row(b), to = new_row();
+Index Lowering::lower_logarithm(Node a, double factor, Node b) {
+  const Index of_b = row(b), to = new_row();
   return add(logarithm,
              {.to = to, .a = row(a), .b = of_b, .db = slope(to), .of_b = b.id, .factor = factor});
 }
 
-int Lowering::lower_angle(Node a, Node b) {
-  const int of_a = row(a), of_b = row(b);
+Index Lowering::lower_angle(Node a, Node b) {
+  const Index of_a = row(a), of_b = row(b);
   const Node distance = sum_of_squares(a, b);
-  const int of_distance = row(distance);
-  const int da =
+  const Index of_distance = row(distance);
+  const Index da =
       add(turn,
           {.a = of_a, .b = of_b, .da = slope(of_a), .db = slope(of_b), .of_a = a.id, .of_b = b.id});
-  const int to = new_row();
+  const Index to = new_row();
   return add(angle, {.to = to, .b = of_distance, .da = da, .db = slope(to), .of_b = distance.id});
 }
 
-int Lowering::lower_rotation(Node node, Op sine, Op cosine, Node a, double factor) {
+Index Lowering::lower_rotation(Node node, Op sine, Op cosine, Node a, double factor) {
   const Node s = of(sine, a), c = of(cosine, a);
-  const int to = known(s) = new_row(), second = known(c) = new_row();
+  const Index to = known(s) = new_row(), second = known(c) = new_row();
   add(rotation, {.to = to,
                  .to_second = second,
                  .a = row(a),
@@ -179,7 +180,7 @@ int Lowering::lower_rotation(Node node, Op sine, Op cosine, Node a, double facto
   return known(node);
 }
 
-int Lowering::lower_unary(Node node, const Expression& e) {
+Index Lowering::lower_unary(Node node, const Expression& e) {
   const Node a = e.operands[0], one = n(1.0);
   const auto one_less_square = [&] { return times(of(Op::sub, one, a), of(Op::add, one, a)); };
   switch (e.op) {
@@ -228,7 +229,7 @@ int Lowering::lower_unary(Node node, const Expression& e) {
   }
 }
 
-int Lowering::lower_kinked(Node node, const Expression& e) {
+Index Lowering::lower_kinked(Node node, const Expression& e) {
   const Node a = e.operands[0], b = e.operands[1];
   switch (e.op) {
     case Op::abs:
@@ -254,7 +255,7 @@ int Lowering::lower_kinked(Node node, const Expression& e) {
   }
 }
 
-int Lowering::lower_choice(const Expression& e) {
+Index Lowering::lower_choice(const Expression& e) {
   const auto [condition, a, b] = e.operands;
   if (known(a) == zero_row && known(b) == zero_row) return zero_row;
   Instruction i{.a = row(a), .b = row(b), .of_a = a.id, .of_b = b.id, .of_c = condition.id};

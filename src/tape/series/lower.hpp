@@ -16,7 +16,7 @@ class Lowering {
   Lowering(Graph& graph, Program& program, std::span<const Node> roots);
 
   /// The row of an expression, with the instructions for it and for its operands.
-  int row(Node node);
+  Index row(Node node);
   /// The same, or a row of which it is a multiple.
   Term single(Node node);
 
@@ -28,27 +28,28 @@ class Lowering {
   Form form(Node node);
   Form sum_of(Form a, const Form& b);
   Form scaled(Form form, Node factor);
-  int keep(Node node, Form form);
-  int combine(const Form& form);
+  Index keep(Node node, Form form);
+  Index combine(const Form& form);
 
-  int lower(Node node, const Expression& e);
-  int lower_kinked(Node node, const Expression& e);
-  int lower_unary(Node node, const Expression& e);
-  int lower_product(Node node, Node a, Node b);
-  int lower_quotient(Node node, Node a, Node b);
-  int lower_power(Node node, Node a, Node b);
-  int lower_whole_power(Node a, int exponent);
-  int lower_angle(Node a, Node b);
-  int lower_choice(const Expression& e);
-  int lower_rotation(Node node, Op sine, Op cosine, Node a, double factor);
-  int lower_growth(Node node, Node a, double factor, Node b);
-  int lower_logarithm(Node a, double factor, Node b);
+  Index lower(Node node, const Expression& e);
+  Index lower_kinked(Node node, const Expression& e);
+  Index lower_unary(Node node, const Expression& e);
+  Index lower_product(Node node, Node a, Node b);
+  Index lower_quotient(Node node, Node a, Node b);
+  Index lower_power(Node node, Node a, Node b);
+  Index lower_whole_power(Node a, int exponent);
+  Index lower_angle(Node a, Node b);
+  Index lower_choice(const Expression& e);
+  Index lower_rotation(Node node, Op sine, Op cosine, Node a, double factor);
+  Index lower_growth(Node node, Node a, double factor, Node b);
+  Index lower_logarithm(Node a, double factor, Node b);
 
-  int new_row() { return row_size * program_.rows++; }
-  int slope(int row);
-  int add(const Kernel& kernel, Instruction i);
-  int& known(Node node);
+  Index new_row() { return row_size * program_.rows++; }
+  Index slope(Index row);
+  Index add(const Kernel& kernel, Instruction i);
+  Index& known(Node node);
 
+  static Node node(Index value) { return {static_cast<int>(value)}; }
   Node n(double value) { return graph_.constant(value); }
   Node of(Op op, Node a) { return graph_.unary(op, a); }
   Node of(Op op, Node a, Node b) { return graph_.binary(op, a, b); }
@@ -57,11 +58,12 @@ class Lowering {
 
   Graph& graph_;
   Program& program_;
-  static constexpr int unknown = -1, linear = -2;
-  std::vector<int> rows_;  ///< of each node, or what is known of it: `linear` has a form, no row
+  static constexpr Index unknown = -1, linear = -2;
+  std::vector<Index> rows_;  ///< of each node, or what is known of it: `linear` has a form, no row
   std::unordered_map<int, Form> forms_;
-  std::vector<int> uses_;    ///< of each node, in the graph as it was
-  std::vector<int> slopes_;  ///< of each row: the row of k times the coefficient of order k, or -1
+  std::vector<int> uses_;  ///< of each node, in the graph as it was
+  std::vector<Index>
+      slopes_;  ///< of each row: the row of k times the coefficient of order k, or -1
 };
 
 }  // namespace saltus::tape::series

@@ -12,18 +12,19 @@ namespace saltus::tape::series {
 /// A row holds the coefficients of order 1, 2, ... of an expression at those places. The coefficient
 /// of order 0 is among the values, because expressions that differ by a constant share a row. A
 /// distance of 36 numbers keeps rows apart in the cache.
-inline constexpr int row_size = 36;
+inline constexpr Index row_size = 36;
 /// The row of a constant: zeros.
-inline constexpr int zero_row = 0;
+inline constexpr Index zero_row = 0;
 /// The numbers that an instruction keeps during an expansion: two sums of a block of four orders,
 /// then what `begin` computes.
-inline constexpr int sums_size = 12;
+inline constexpr Index sums_size = 12;
 
-struct Instruction;
+struct Call;
 
-/// What a handler works on. `own` are the numbers of the instruction.
-using Handler = void (*)(const Instruction& i, double* rows, double* own, const double* values,
-                         int k);
+/// Executes a call and the following ones up to the next stop. `sums` are the numbers of all
+/// instructions.
+using Handler = void (*)(const Call* call, double* rows, double* sums, const double* values,
+                         Index k);
 
 /// The functions of an operation.
 struct Kernel {
@@ -34,21 +35,21 @@ struct Kernel {
 
 /// A multiple of a row.
 struct Term {
-  int row = zero_row, factor = 0;  ///< the factor is a value
+  Index row = zero_row, factor = 0;  ///< the factor is a value
 };
 
 /// Computes a row from others. Rows are offsets in the memory of rows; values are numbers.
 struct Instruction {
   const Kernel* kernel = nullptr;
-  int to = 0, to_second = 0;
-  int a = 0, b = 0;        ///< the rows of operands
-  int da = 0, db = 0;      ///< rows of k times the coefficient of order k: of a, b or the result
-  int value = 0;           ///< of the result
-  int of_a = 0, of_b = 0;  ///< the values of operands
+  Index to = 0, to_second = 0;
+  Index a = 0, b = 0;        ///< the rows of operands
+  Index da = 0, db = 0;      ///< rows of k times the coefficient of order k: of a, b or the result
+  Index value = 0;           ///< of the result
+  Index of_a = 0, of_b = 0;  ///< the values of operands
   double factor = 1.0;
-  Op op = Op::constant;                  ///< of a kinked operation
-  int c = 0, d = 0, of_c = 0, of_d = 0;  ///< of the comparison that decides a select
-  int first_term = 0, terms = 0;         ///< of a combination
+  Op op = Op::constant;                    ///< of a kinked operation
+  Index c = 0, d = 0, of_c = 0, of_d = 0;  ///< of the comparison that decides a select
+  Index first_term = 0, terms = 0;         ///< of a combination
   const Term* term = nullptr;
 };
 
@@ -56,11 +57,27 @@ struct Instruction {
 struct Call {
   Handler run = nullptr;
   const Instruction* instruction = nullptr;
-  int own = 0;  ///< where the numbers of the instruction are
+  Index own = 0;  ///< where the numbers of the instruction are
 };
-/// The calls for all rates, one after the other.
+
+/// Ends a list of calls.
+void stop(const Call*, double*, double*, const double*, Index);
+
+/// Calls that follow one another. They come in pieces that end with a stop: if a compiler makes
+/// calls of the jumps between them, as without optimisation, the stack holds no more than a piece.
 struct Calls {
-  std::vector<Call> begin, earlier, orders[8];  ///< as in Kernel
+  std::vector<Call> all;
+  std::vector<std::size_t> starts;
+
+  void append(Handler handler, const Instruction& instruction, Index own);
+  void run(double* rows, double* sums, const double* values, Index k) const {
+    for (const std::size_t start : starts) all[start].run(&all[start], rows, sums, values, k);
+  }
+};
+
+/// The calls for all rates.
+struct Orders {
+  Calls begin, earlier, orders[8];  ///< as in Kernel
 };
 
 /// A value that an expansion reads from its arguments.
@@ -83,13 +100,13 @@ struct Value {
 /// The coefficient of order k + 1 of a state is that of order k of its rate, divided by k + 1. The
 /// rate has a value, and for k >= 1 it is a multiple of a row.
 struct Rate {
-  int value = 0;
+  Index value = 0;
   Term term;
 };
 
 /// An output: where its coefficients are, and what must be computed for them.
 struct Output {
-  int row = 0, value = 0;
+  Index row = 0, value = 0;
   std::vector<int> values, instructions;  ///< in ascending order
 };
 
@@ -100,12 +117,13 @@ struct Program {
   std::vector<Value> values;
   std::vector<Instruction> instructions;
   std::vector<Term> terms;  ///< of combinations, which point to them
-  Calls calls;
+  Orders calls;
   /// The first ones are for the rates, the others for outputs.
   int first_values = 0, first_instructions = 0;
   std::vector<Rate> rates;
   std::vector<Output> outputs;
-  int states = 0, rows = 0, time_row = zero_row;
+  int states = 0, rows = 0;
+  Index time_row = zero_row;
 };
 
 std::shared_ptr<const Program> build(const Graph& graph, std::span<const Node> rates,

@@ -11,7 +11,7 @@ using namespace series;
 
 namespace {
 
-std::size_t size(int count) { return static_cast<std::size_t>(count); }
+std::size_t size(Index count) { return static_cast<std::size_t>(count); }
 
 double loaded(const Load& load, const At& at) {
   switch (load.op) {
@@ -33,31 +33,6 @@ double loaded(const Load& load, const At& at) {
 /// The place of order k among the handlers of a kernel.
 constexpr std::size_t slot_of(int k) { return static_cast<std::size_t>(k < 4 ? k : 4 + k % 4); }
 constexpr bool begins_block(int k) { return k >= 4 && k % 4 == 0; }
-
-/// The memory that handlers work on.
-struct Memory {
-  double *rows, *sums;
-  const double* values;
-
-  void run(const std::vector<Call>& calls, int k) const {
-    for (const Call& call : calls) call.run(*call.instruction, rows, sums + call.own, values, k);
-  }
-  void run(const Program& program, const std::vector<int>& numbers, int k) const {
-    const auto kernel = [&](int i) { return program.instructions[size(i)].kernel; };
-    const auto call = [&](int i, Handler handler) {
-      if (handler == nullptr) return;
-      handler(program.instructions[size(i)], rows, sums + sums_size * i, values, k);
-    };
-    if (k == 0) {
-      for (const int i : numbers) call(i, kernel(i)->begin);
-      return;
-    }
-    if (begins_block(k)) {
-      for (const int i : numbers) call(i, kernel(i)->earlier);
-    }
-    for (const int i : numbers) call(i, kernel(i)->orders[slot_of(k)]);
-  }
-};
 
 }  // namespace
 
@@ -101,12 +76,14 @@ void Series::expand(const At& at, int order, const char* held, double* x) {
   compute_values(0, program.first_values);
   double* const rows = rows_.data();
   if (program.time_row != zero_row) rows[program.time_row + 1] = 1.0;
-  const Memory memory{rows, sums_.data(), values_.data()};
-  memory.run(program.calls.begin, 0);
+  const auto run = [&](const Calls& calls, int k) {
+    calls.run(rows, sums_.data(), values_.data(), k);
+  };
+  run(program.calls.begin, 0);
   std::copy_n(values_.data(), n, x);
   for (int k = 0; k < order; ++k) {
-    if (begins_block(k)) memory.run(program.calls.earlier, k);
-    if (k > 0) memory.run(program.calls.orders[slot_of(k)], k);
+    if (begins_block(k)) run(program.calls.earlier, k);
+    if (k > 0) run(program.calls.orders[slot_of(k)], k);
     extend(k, held, x + (k + 1) * n);
   }
 }
@@ -116,18 +93,40 @@ void Series::extend(int k, const char* held, double* next) {
   double* const rows = rows_.data();
   const double* const values = values_.data();
   const double inverse = inverse_of(k + 1);
-  double* to = rows + row_size + k + 1;
-  for (const Rate& rate : program_->rates) {
-    const double slope =
-        k == 0 ? values[rate.value] : values[rate.term.factor] * rows[rate.term.row + k];
-    *next++ = *to = slope * inverse;
-    to += row_size;
+  double *to = rows + row_size + k + 1, *out = next;
+  if (k == 0) {
+    for (const Rate& rate : program_->rates) {
+      *to = *out++ = values[rate.value];
+      to += row_size;
+    }
+  } else {
+    for (const Rate& rate : program_->rates) {
+      *to = *out++ = values[rate.term.factor] * inverse * rows[rate.term.row + k];
+      to += row_size;
+    }
   }
   if (held == nullptr) return;
-  next -= states();
   for (int i = 0; i < states(); ++i) {
     if (held[i] != 0) next[i] = rows[row_size * (1 + i) + k + 1] = 0.0;
   }
+}
+
+/// Runs some instructions for one order; order 0 begins them.
+void Series::run(const std::vector<int>& numbers, int k) {
+  const auto call = [&](int i, Handler handler) {
+    if (handler == nullptr) return;
+    const Call alone[] = {{handler, &program_->instructions[size(i)], sums_size * i}, {&stop}};
+    handler(alone, rows_.data(), sums_.data(), values_.data(), k);
+  };
+  const auto kernel = [&](int i) { return program_->instructions[size(i)].kernel; };
+  if (k == 0) {
+    for (const int i : numbers) call(i, kernel(i)->begin);
+    return;
+  }
+  if (begins_block(k)) {
+    for (const int i : numbers) call(i, kernel(i)->earlier);
+  }
+  for (const int i : numbers) call(i, kernel(i)->orders[slot_of(k)]);
 }
 
 void Series::require(int output) {
@@ -146,9 +145,8 @@ void Series::expand_outputs(int first, int count, double* g) {
   for (int m = first; m < first + count; ++m) require(m);
   std::ranges::sort(late_);
   std::ranges::sort(open_);
-  const Memory memory{rows_.data(), sums_.data(), values_.data()};
-  if (order_ > 0) memory.run(*program_, late_, order_);
-  for (int k = 0; k <= order_; ++k) memory.run(*program_, open_, k);
+  if (order_ > 0) run(late_, order_);
+  for (int k = 0; k <= order_; ++k) run(open_, k);
   for (int m = first; m < first + count; ++m, g += order_ + 1) {
     const Output& output = program_->outputs[size(m)];
     std::copy_n(rows_.data() + output.row, order_ + 1, g);

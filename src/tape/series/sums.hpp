@@ -8,6 +8,8 @@
 #include <cstring>
 #include <utility>
 
+#include "saltus/base/ids.hpp"
+
 namespace saltus::tape::series {
 
 using Two [[gnu::vector_size(16)]] = double;
@@ -36,7 +38,7 @@ struct Four {
 };
 
 /// The products of u_1, u_2, u_3 among the sums below; v_k and later ones are not read.
-[[gnu::always_inline]] inline Four first_products(const double* u, const double* v, int k) {
+[[gnu::always_inline]] inline Four first_products(const double* u, const double* v, Index k) {
   Four sum{u[3] * (Two{v[k - 3], v[k - 2]}), u[3] * Two{v[k - 1], 0.0}};
   sum.low += u[2] * Two{v[k - 2], v[k - 1]} + u[1] * Two{v[k - 1], 0.0};
   return sum;
@@ -44,9 +46,9 @@ struct Four {
 
 /// For orders k ... k + 3 the sum of u_j v_{order - j} with both places from 1 to k - 1; k is a
 /// multiple of 4.
-[[gnu::always_inline]] inline Four earlier_product(const double* u, const double* v, int k) {
+[[gnu::always_inline]] inline Four earlier_product(const double* u, const double* v, Index k) {
   Four even = first_products(u, v, k), odd;
-  for (int j = 4; j < k; j += 2) {
+  for (Index j = 4; j < k; j += 2) {
     even.add(u[j], Four::load(v + k - j));
     odd.add(u[j + 1], Four::load(v + k - j - 1));
   }
@@ -54,12 +56,12 @@ struct Four {
 }
 
 /// The same for u = v, with half of the products.
-[[gnu::always_inline]] inline Four earlier_square(const double* u, int k) {
+[[gnu::always_inline]] inline Four earlier_square(const double* u, Index k) {
   if (k == 4)
     return {Two{2.0 * (u[1] * u[3]) + u[2] * u[2], 2.0 * (u[2] * u[3])}, Two{u[3] * u[3], 0.0}};
   Four even = first_products(u, u, k), odd;
-  const int half = k / 2;
-  for (int j = 4; j < half; j += 2) {
+  const Index half = k / 2;
+  for (Index j = 4; j < half; j += 2) {
     even.add(u[j], Four::load(u + k - j));
     odd.add(u[j + 1], Four::load(u + k - j - 1));
   }
@@ -76,7 +78,7 @@ inline constexpr int phase = slot < 4 ? slot : slot - 4;
 /// The sum of u_j v_{k-j} for j = 1 ... k - 1. `sums` is what `earlier_product` has stored.
 template <int slot>
 [[gnu::always_inline]] inline double inner(const double* u, const double* v, const double* sums,
-                                           int k) {
+                                           Index k) {
   constexpr int p = phase<slot>;
   double sum = 0.0;
   if constexpr (slot < 4) {
@@ -93,7 +95,7 @@ template <int slot>
 
 /// The same for u = v.
 template <int slot>
-[[gnu::always_inline]] inline double inner_square(const double* u, const double* sums, int k) {
+[[gnu::always_inline]] inline double inner_square(const double* u, const double* sums, Index k) {
   constexpr int p = phase<slot>;
   double sum = 0.0;
   if constexpr (slot < 4) {
