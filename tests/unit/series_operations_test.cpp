@@ -167,6 +167,59 @@ TEST_CASE("halving h divides the error of order p by 2^(p+1), for each operation
   CHECK(measured > 500);
 }
 
+TEST_CASE("many alike equations have the coefficients that each has alone") {
+  constexpr int copies = 7, order = 21;  // no multiple of the lanes
+  Graph names;
+  const auto kinds = operations(names, names.time(), names.time());
+  for (std::size_t kind = 0; kind < kinds.size(); ++kind) {
+    INFO(kinds[kind].name);
+    const World one{.time = 0.1, .p = {1.25}};
+    Graph all;
+    std::vector<Node> rates, outputs;
+    World world = one;
+    Numbers expected, expected_outputs;
+    int instructions = 0;
+    for (int i = 0; i < copies; ++i) {
+      // x' = op(x + t/8, y), y' = c x
+      const auto add_to = [&](Graph& g, int copy, std::vector<Node>& to, std::vector<Node>& out) {
+        const Node x = g.continuous_state(2 * copy), y = g.continuous_state(2 * copy + 1);
+        const Node a = g.binary(Op::add, x, g.binary(Op::mul, g.time(), g.constant(0.125)));
+        to.push_back(operations(g, a, y)[kind].node);
+        to.push_back(g.binary(Op::mul, g.constant(0.3 + 0.1 * i), x));
+        out.push_back(g.unary(Op::exp, to[to.size() - 2]));
+      };
+      Graph g;
+      std::vector<Node> own, out;
+      add_to(g, 0, own, out);
+      add_to(all, i, rates, outputs);
+      World here = one;
+      here.x = {0.4 + 0.02 * i, 0.5 - 0.03 * i};
+      world.x.insert(world.x.end(), here.x.begin(), here.x.end());
+      Series series(g, own, out);
+      instructions += series.instruction_count();
+      for (const double c : expanded(series, here, order)) expected.push_back(c);
+      for (const double c : outputs_of(series, order)) expected_outputs.push_back(c);
+    }
+    Series together(all, rates, outputs);
+    const Numbers found = expanded(together, world, order);
+    const bool in_lanes = kinks(all, rates).empty() && instructions > copies;
+    if (in_lanes) CHECK(together.instruction_count() < instructions);
+    for (std::size_t k = 0; k <= order; ++k) {
+      for (std::size_t i = 0; i < 2 * copies; ++i) {
+        const double alone = expected[(i / 2 * (order + 1) + k) * 2 + i % 2];
+        INFO("state " << i << ", order " << k);
+        // sums of k products in another order; their terms are up to 2^k times the coefficient
+        CHECK_THAT(found[2 * copies * k + i], WithinRel(alone, 1e-9) || WithinAbs(alone, 1e-13));
+      }
+    }
+    const Numbers found_outputs = outputs_of(together, order);
+    for (std::size_t i = 0; i < found_outputs.size(); ++i) {
+      const double alone = expected_outputs[i];
+      CHECK_THAT(found_outputs[i], WithinRel(alone, 1e-9) || WithinAbs(alone, 1e-13));
+    }
+  }
+}
+
 TEST_CASE("whole powers of 0 are smooth, with a constant exponent and with a parameter") {
   for (const double p : {1.0, 2.0, 3.0, 5.0, 9.0, 20.0}) {
     const Numbers found = along(

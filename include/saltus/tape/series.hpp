@@ -12,7 +12,7 @@ namespace saltus::tape {
 
 namespace series {
 struct Program;
-}
+}  // namespace series
 
 /// The Taylor coefficients of the solution of xdot = f(t, x), and of other functions of t and x
 /// along it.
@@ -55,11 +55,16 @@ class Series {
 
   int states() const noexcept;
   int outputs() const noexcept;
+  /// The number of instructions for each order of the states. Four alike ones count as one if they
+  /// are computed together.
+  int instruction_count() const noexcept;
 
  private:
   void load(const At& at);
   void compute_values(int first, int last);
-  void extend(int k, const char* held, double* next);
+  void expand_narrow(const char* held, double* x);
+  void expand_wide(const char* held, double* x);
+  void hold(const char* held, int k, double* x);
   void require(int output);
   void run(const std::vector<int>& instructions, int k);
 

@@ -6,6 +6,7 @@
 #include "../copy.hpp"
 #include "lower.hpp"
 #include "saltus/base/error.hpp"
+#include "wide.hpp"
 
 namespace saltus::tape::series {
 
@@ -35,6 +36,7 @@ class Builder {
     add_calls();
     add_leaves();
     add_values(rates);
+    program_.wide = widen(program_);
     for (std::size_t i = 0; i < outputs.size(); ++i) find_needs(program_.outputs[i], outputs[i]);
     return std::move(program_);
   }

@@ -110,6 +110,8 @@ struct Output {
   std::vector<int> values, instructions;  ///< in ascending order
 };
 
+struct Wide;
+
 /// Never changes once built. Value i < states is that of state i, whose row is 1 + i.
 struct Program {
   std::vector<double> constants;  ///< the values; those that are no constants are 0
@@ -118,14 +120,19 @@ struct Program {
   std::vector<Instruction> instructions;
   std::vector<Term> terms;  ///< of combinations, which point to them
   Orders calls;
+  std::shared_ptr<const Wide> wide;  ///< runs in place of `calls`; null: narrow ones are quicker
   /// The first ones are for the rates, the others for outputs.
   int first_values = 0, first_instructions = 0;
   std::vector<Rate> rates;
   std::vector<Output> outputs;
   int states = 0, rows = 0;
   Index time_row = zero_row;
+
+  /// The number of instructions that an expansion runs in their narrow form.
+  int first_narrow() const { return wide == nullptr ? first_instructions : 0; }
 };
 
+/// As `rates` and `outputs` of a Series.
 std::shared_ptr<const Program> build(const Graph& graph, std::span<const Node> rates,
                                      std::span<const Node> outputs);
 

@@ -4,6 +4,7 @@
 
 #include "kernel.hpp"
 #include "saltus/base/error.hpp"
+#include "wide.hpp"
 
 namespace saltus::tape {
 
@@ -34,13 +35,28 @@ double loaded(const Load& load, const At& at) {
 constexpr std::size_t slot_of(int k) { return static_cast<std::size_t>(k < 4 ? k : 4 + k % 4); }
 constexpr bool begins_block(int k) { return k >= 4 && k % 4 == 0; }
 
+/// The coefficient of order k + 1 of a state, from that of order k of its rate.
+struct Slope {
+  const double *values, *rows;
+  double inverse;  ///< 1 / (k + 1)
+  int k;
+
+  double of(const Rate& rate) const {
+    if (k == 0) return values[rate.value];
+    return values[rate.term.factor] * inverse * rows[rate.term.row];
+  }
+};
+
 }  // namespace
 
 Series::Series(const Graph& graph, std::span<const Node> rates, std::span<const Node> outputs)
     : program_(build(graph, rates, outputs)) {
   values_ = program_->constants;
-  rows_.assign(size(program_->rows * row_size), 0.0);
-  sums_.assign(program_->instructions.size() * sums_size, 0.0);
+  const auto rows = size(program_->rows * row_size);
+  const auto sums = program_->instructions.size() * sums_size;
+  const Wide* const wide = program_->wide.get();  // its memory follows the other
+  rows_.assign(rows + (wide == nullptr ? 0 : size(wide->rows * wide_row_size)), 0.0);
+  sums_.assign(sums + (wide == nullptr ? 0 : wide->instructions.size() * sums_size), 0.0);
   computed_.assign(program_->values.size(), 0);
   done_.assign(program_->instructions.size(), 0);
   late_.reserve(done_.size());
@@ -49,6 +65,10 @@ Series::Series(const Graph& graph, std::span<const Node> rates, std::span<const 
 
 int Series::states() const noexcept { return program_->states; }
 int Series::outputs() const noexcept { return static_cast<int>(program_->outputs.size()); }
+int Series::instruction_count() const noexcept {
+  if (program_->wide == nullptr) return program_->first_instructions;
+  return static_cast<int>(program_->wide->instructions.size());
+}
 
 void Series::load(const At& at) {
   std::copy_n(at.x.data(), program_->states, values_.data());
@@ -74,40 +94,53 @@ void Series::expand(const At& at, int order, const char* held, double* x) {
   order_ = order;
   load(at);
   compute_values(0, program.first_values);
+  if (program.time_row != zero_row) rows_[size(program.time_row + 1)] = 1.0;
+  std::copy_n(values_.data(), n, x);
+  program.wide == nullptr ? expand_narrow(held, x + n) : expand_wide(held, x + n);
+}
+
+void Series::expand_narrow(const char* held, double* x) {
   double* const rows = rows_.data();
-  if (program.time_row != zero_row) rows[program.time_row + 1] = 1.0;
+  const Program& program = *program_;
   const auto run = [&](const Calls& calls, int k) {
     calls.run(rows, sums_.data(), values_.data(), k);
   };
   run(program.calls.begin, 0);
-  std::copy_n(values_.data(), n, x);
-  for (int k = 0; k < order; ++k) {
+  for (int k = 0; k < order_; ++k) {
     if (begins_block(k)) run(program.calls.earlier, k);
     if (k > 0) run(program.calls.orders[slot_of(k)], k);
-    extend(k, held, x + (k + 1) * n);
+    const Slope slope{values_.data(), rows + k, inverse_of(k + 1), k};
+    double* to = rows + row_size + k + 1;
+    const double* const end = x + program.states;
+    for (const Rate* rate = program.rates.data(); x != end; ++rate, to += row_size) {
+      *x++ = *to = slope.of(*rate);
+    }
+    if (held != nullptr) hold(held, k + 1, x - program.states);
   }
 }
 
-/// The coefficients of order k + 1 of the states.
-void Series::extend(int k, const char* held, double* next) {
-  double* const rows = rows_.data();
-  const double* const values = values_.data();
-  const double inverse = inverse_of(k + 1);
-  double *to = rows + row_size + k + 1, *out = next;
-  if (k == 0) {
-    for (const Rate& rate : program_->rates) {
-      *to = *out++ = values[rate.value];
-      to += row_size;
-    }
-  } else {
-    for (const Rate& rate : program_->rates) {
-      *to = *out++ = values[rate.term.factor] * inverse * rows[rate.term.row + k];
-      to += row_size;
-    }
+void Series::expand_wide(const char* held, double* x) {
+  const Wide& wide = *program_->wide;
+  const int n = program_->states;
+  double* const rows = rows_.data() + row_size * program_->rows;
+  double* const sums = sums_.data() + size(sums_size) * program_->instructions.size();
+  if (wide.time >= 0) rows[wide.time + lanes] = 1.0;
+  wide.begin.run(rows, sums, values_.data(), 0);
+  for (int k = 0; k < order_; ++k, x += n) {
+    if (k > 0) wide.order.run(rows, sums, values_.data(), k);
+    const Slope slope{values_.data(), rows + lanes * k, inverse_of(k + 1), k};
+    for (int i = 0; i < n; ++i) x[i] = slope.of(wide.rates[size(i)]);
+    if (held != nullptr) hold(held, k + 1, x);
+    double* to = rows_.data() + row_size + k + 1;  // outputs read the narrow rows
+    for (int i = 0; i < n; ++i, to += row_size) *to = x[i];
+    wide.store_states(x, n, rows + lanes * (k + 1));
   }
-  if (held == nullptr) return;
+}
+
+/// The states that are held have no coefficients of order k.
+void Series::hold(const char* held, int k, double* x) {
   for (int i = 0; i < states(); ++i) {
-    if (held[i] != 0) next[i] = rows[row_size * (1 + i) + k + 1] = 0.0;
+    if (held[i] != 0) x[i] = rows_[size(row_size * (1 + i) + k)] = 0.0;
   }
 }
 
@@ -135,7 +168,7 @@ void Series::require(int output) {
   }
   for (const int i : program_->outputs[size(output)].instructions) {
     if (std::exchange(done_[size(i)], expansion_) == expansion_) continue;
-    (i < program_->first_instructions ? late_ : open_).push_back(i);
+    (i < program_->first_narrow() ? late_ : open_).push_back(i);
   }
 }
 

@@ -34,7 +34,11 @@ struct Four {
   }
   friend Four operator+(const Four& a, const Four& b) { return {a.low + b.low, a.high + b.high}; }
   friend Four operator-(const Four& a, const Four& b) { return {a.low - b.low, a.high - b.high}; }
+  friend Four operator*(const Four& a, const Four& b) { return {a.low * b.low, a.high * b.high}; }
+  friend Four operator/(const Four& a, const Four& b) { return {a.low / b.low, a.high / b.high}; }
   friend Four operator*(double a, const Four& b) { return {a * b.low, a * b.high}; }
+  Four& operator+=(const Four& b) { return *this = *this + b; }
+  static Four all(double a) { return {Two{a, a}, Two{a, a}}; }
 };
 
 /// The products of u_1, u_2, u_3 among the sums below; v_k and later ones are not read.

@@ -1,0 +1,209 @@
+// From the instructions of a program to wide ones.
+#include <algorithm>
+#include <map>
+#include <tuple>
+
+#include "wide.hpp"
+
+namespace saltus::tape::series {
+
+namespace {
+
+/// The narrow rows in the lanes of a wide one.
+using Lanes = std::array<Index, lanes>;
+
+class Widening {
+ public:
+  explicit Widening(const Program& program)
+      : program_(program), place_(static_cast<std::size_t>(program.rows), -1) {
+    place(zero_row) = new_row();
+    wide_.rates = program.rates;
+  }
+
+  /// Whether it was worth it.
+  bool run() {
+    if (!sort()) return false;
+    wide_.states = wide_row_size * wide_.rows;
+    for (Index i = 0; i < program_.states; ++i) {
+      if (i % lanes == 0) new_row();
+      place(row_size * (1 + i)) = last_row() + i % lanes;
+    }
+    if (program_.time_row != zero_row) wide_.time = place(program_.time_row) = new_row();
+    for (auto& [key, numbers] : buckets_) {
+      align(numbers);
+      for (std::size_t i = 0; i < numbers.size(); i += lanes) {
+        const auto count = std::min<std::size_t>(lanes, numbers.size() - i);
+        add_group(std::span(numbers).subspan(i, count));
+      }
+    }
+    for (const auto& [to, from] : late_) add_pack(to, from);
+    for (Rate& rate : wide_.rates) rate.term.row = place(rate.term.row);
+    // a wide instruction takes up to twice the time of a narrow one
+    return 2 * wide_.instructions.size() <= static_cast<std::size_t>(program_.first_instructions);
+  }
+
+  Wide take() { return std::move(wide_); }
+
+ private:
+  std::span<const Instruction> narrow() const {
+    return {program_.instructions.data(), static_cast<std::size_t>(program_.first_instructions)};
+  }
+  Index& place(Index row) { return place_[static_cast<std::size_t>(row / row_size)]; }
+  Index new_row() { return wide_row_size * wide_.rows++; }
+  Index last_row() const { return wide_row_size * (wide_.rows - 1); }
+
+  /// Alike instructions that do not need each other have one key: the level is 1 + the highest level
+  /// of what is read. False if an instruction has no wide kernel.
+  bool sort() {
+    std::vector<int> levels(static_cast<std::size_t>(program_.rows), 0);
+    const auto level_of = [&](Index row) -> int& {
+      return levels[static_cast<std::size_t>(row / row_size)];
+    };
+    for (std::size_t number = 0; number < narrow().size(); ++number) {
+      const Instruction& i = narrow()[number];
+      const WideKernel* kernel = wide_kernel(i.kernel);
+      if (kernel == nullptr) return false;
+      int level = std::max(level_of(i.a), level_of(i.b));  // 0 where b is computed later
+      for (const Term& term : terms(i)) level = std::max(level, level_of(term.row));
+      level_of(i.to) = level + 1;
+      if (kernel->has_second) level_of(i.to_second) = level + 1;
+      buckets_[{level, first_with(kernel), i.terms, i.factor}].push_back(static_cast<int>(number));
+    }
+    return true;
+  }
+  static std::span<const Term> terms(const Instruction& i) {
+    return {i.term, static_cast<std::size_t>(i.terms)};
+  }
+  /// A number for each kernel, in the order in which they appear.
+  int first_with(const WideKernel* kernel) {
+    const auto found = std::ranges::find(kernels_, kernel);
+    if (found == kernels_.end()) kernels_.push_back(kernel);
+    return static_cast<int>(std::ranges::find(kernels_, kernel) - kernels_.begin());
+  }
+
+  /// Sorts instructions so that the operands b of four of them often are a wide row. Of several that
+  /// read the same b, the first ones come first, then the second ones.
+  void align(std::vector<int>& numbers) {
+    const auto instruction = [&](int n) { return narrow()[static_cast<std::size_t>(n)]; };
+    if (!wide_kernel(instruction(numbers[0]).kernel)->reads_b) return;
+    std::map<Index, int> readers;
+    std::vector<std::tuple<int, Index, int>> sorted;
+    for (const int n : numbers) {
+      const Index b = instruction(n).b;
+      sorted.push_back({readers[b]++, place(b), n});
+    }
+    std::ranges::sort(sorted);
+    std::ranges::transform(sorted, numbers.begin(), [](const auto& s) { return std::get<2>(s); });
+  }
+
+  void add_group(std::span<const int> numbers) {
+    const auto of_lane =
+        [&](Index l) -> const Instruction& {  // the last one in all lanes left over
+      const auto n = std::min(static_cast<std::size_t>(l), numbers.size() - 1);
+      return narrow()[static_cast<std::size_t>(numbers[n])];
+    };
+    WideInstruction wide;
+    const WideKernel& kernel = *wide_kernel(of_lane(0).kernel);
+    wide.factor = of_lane(0).factor;
+    wide.to = new_row();
+    if (kernel.has_second) wide.to_second = new_row();
+    const auto lanes_of = [&](Index Instruction::*row) {
+      Lanes all{};
+      for (Index l = 0; l < lanes; ++l) all[static_cast<std::size_t>(l)] = of_lane(l).*row;
+      return all;
+    };
+    for (Index l = lanes - 1; l >= 0; --l) {
+      wide.narrow[static_cast<std::size_t>(l)] = &of_lane(l);
+      place(of_lane(l).to) = wide.to + l;
+      if (kernel.has_second) place(of_lane(l).to_second) = wide.to_second + l;
+    }
+    if (kernel.linear) {
+      for (Index l = 0; l < lanes; ++l) append_terms(wide, of_lane(l));
+    } else {
+      const Lanes a = lanes_of(&Instruction::a);
+      std::ranges::transform(a, wide.a_of_lane.begin(), [&](Index row) { return place(row); });
+      if (kernel.reads_row_a) wide.a = operand(a, numbers.size());
+      if (kernel.reads_b) wide.b = operand(lanes_of(&Instruction::b), numbers.size());
+      if (kernel.has_da) wide.da = new_row();
+      if (kernel.has_dr) wide.db = new_row();
+    }
+    add(wide, kernel.begin, kernel.order);
+  }
+
+  void append_terms(WideInstruction& wide, const Instruction& i) {
+    std::vector<Term> all(terms(i).begin(), terms(i).end());
+    if (i.kernel == &multiple) all = {{i.a, i.of_b}};
+    if (i.kernel == &plus || i.kernel == &minus) all = {{i.a, 0}, {i.b, 0}};
+    if (wide.terms == 0) wide.first_term = static_cast<Index>(wide_.terms.size());
+    wide.terms = static_cast<Index>(all.size());
+    for (const Term& term : all) wide_.terms.push_back({place(term.row), term.factor});
+  }
+
+  /// A wide row whose first `count` lanes are these: one that exists, or a copy.
+  Index operand(const Lanes& rows, std::size_t count) {
+    const Index first = place(rows[0]);
+    bool exists = first >= 0 && first % lanes == 0, all_known = true;
+    for (std::size_t l = 0; l < count; ++l) {
+      exists = exists && place(rows[l]) == first + static_cast<Index>(l);
+      all_known = all_known && place(rows[l]) >= 0;
+    }
+    if (exists) return first;
+    const auto [known, is_new] = packs_.try_emplace(rows, 0);
+    if (!is_new) return known->second;
+    const Index to = known->second = new_row();
+    if (all_known) {
+      add_pack(to, rows);
+    } else {
+      late_.push_back({to, rows});  // only coefficients of lower orders are read
+    }
+    return to;
+  }
+
+  void add_pack(Index to, const Lanes& rows) {
+    WideInstruction wide;
+    wide.to = to;
+    wide.first_term = static_cast<Index>(wide_.terms.size());
+    wide.terms = 1;
+    for (const Index row : rows) wide_.terms.push_back({place(row), 0});
+    add(wide, nullptr, pack);
+  }
+
+  void add(const WideInstruction& wide, Handler begin, Handler order) {
+    wide_.instructions.push_back(wide);
+    handlers_.push_back({begin, order});
+  }
+
+ public:
+  /// Pointers to what no longer moves.
+  void connect(Wide& wide) const {
+    for (std::size_t n = 0; n < wide.instructions.size(); ++n) {
+      WideInstruction& i = wide.instructions[n];
+      i.term = wide.terms.data() + i.first_term;
+      const Index own = sums_size * static_cast<Index>(n);
+      wide.begin.append(handlers_[n].first, i, own);
+      wide.order.append(handlers_[n].second, i, own);
+    }
+  }
+
+ private:
+  const Program& program_;
+  Wide wide_;
+  std::vector<Index> place_;  ///< of each narrow row: its first number in its lane; -1: none yet
+  std::map<std::tuple<int, int, Index, double>, std::vector<int>> buckets_;
+  std::vector<const WideKernel*> kernels_;
+  std::map<Lanes, Index> packs_;
+  std::vector<std::pair<Index, Lanes>> late_;
+  std::vector<std::pair<Handler, Handler>> handlers_;
+};
+
+}  // namespace
+
+std::shared_ptr<const Wide> widen(const Program& program) {
+  Widening widening(program);
+  if (!widening.run()) return nullptr;
+  const auto wide = std::make_shared<Wide>(widening.take());
+  widening.connect(*wide);
+  return wide;
+}
+
+}  // namespace saltus::tape::series
