@@ -52,15 +52,8 @@ class Builder {
   }
 
   void add_calls() {
-    Orders& calls = program_.calls;
     for (int i = 0; i < program_.first_instructions; ++i) {
-      const Instruction& one = instruction(i);
-      const Index own = sums_size * i;
-      calls.begin.append(one.kernel->begin, one, own);
-      calls.earlier.append(one.kernel->earlier, one, own);
-      for (std::size_t slot = 1; slot < 8; ++slot) {
-        calls.orders[slot].append(one.kernel->orders[slot], one, own);
-      }
+      program_.calls.append(instruction(i).kernel->narrow, instruction(i), sums_size * i);
     }
   }
 
@@ -129,7 +122,7 @@ class Builder {
       output.instructions.push_back(writer);
       append_values(roots, writer);
       const Instruction& i = instruction(writer);
-      for (const Index read : {i.a, i.b, i.c, i.d, i.da}) open.push_back(read);
+      for (const Index read : {i.a, i.b, i.c, i.d}) open.push_back(read);
       for (const Term& term : terms_of(i)) open.push_back(term.row);
     }
     std::ranges::sort(output.instructions);
@@ -180,6 +173,14 @@ void Calls::append(Handler handler, const Instruction& instruction, Index own) {
   }
   all.push_back({handler, &instruction, own});
   all.push_back({&stop, nullptr, 0});
+}
+
+void Orders::append(const Handlers& handlers, const Instruction& instruction, Index own) {
+  begin.append(handlers.begin, instruction, own);
+  earlier.append(handlers.earlier, instruction, own);
+  for (std::size_t slot = 1; slot < 8; ++slot) {
+    orders[slot].append(handlers.orders[slot], instruction, own);
+  }
 }
 
 Function function(Op op) {

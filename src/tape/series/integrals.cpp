@@ -1,93 +1,106 @@
-// Functions that are known by their derivative.
+// Functions that are known by their derivative. The newest coefficient of an operand has a term of
+// its own, so that nobody waits for the others.
 #include "kernel.hpp"
 
 namespace saltus::tape::series {
 
 namespace {
 
-// The newest coefficient of a has a term of its own, so that nobody waits for the others.
-
 /// r' = factor a' b.
 struct Growth {
-  static void begin(const Instruction& i, double* own, const double* values) {
-    own[8] = i.factor * values[i.of_b];
+  template <class N>
+  static void begin(Start<N> s) {
+    s.keep(0, s.i.factor * s.value(&Instruction::of_b));
   }
-  static void earlier(const Instruction& i, double* rows, double* own, Index k) {
-    earlier_product(rows + i.da, rows + i.b, k).store(own);
+  template <class N>
+  static void earlier(Work<N> w) {
+    w.add_earlier(w.i.da, w.i.b);
   }
-  template <int slot>
-  static void order(const Instruction& i, double* rows, double* own, const double*, Index k) {
-    const double a = rows[i.a + k];
-    const double known = inner<slot>(rows + i.da, rows + i.b, own, k);
-    rows[i.to + k] = known * (i.factor * inverse_of(k)) + own[8] * a;
-    rows[i.da + k] = number(k) * a;
+  template <int slot, class N>
+  static void order(Work<N> w) {
+    const N a = w.newest();
+    const N known = inner<slot>(w.row(w.i.da), w.row(w.i.b), w.sums(), w.k);
+    w.set(w.i.to, (w.i.factor * inverse_of(w.k)) * known + w.kept(0) * a);
+    w.set(w.i.da, number(w.k) * a);
   }
 };
 
 /// s' = a' c, c' = factor a' s.
 struct Rotation {
-  static void begin(const Instruction& i, double* own, const double* values) {
-    own[8] = i.factor * values[i.value];
+  template <class N>
+  static void begin(Start<N> s) {
+    s.keep(0, s.value(&Instruction::of_b));
+    s.keep(1, s.i.factor * s.value(&Instruction::value));
   }
-  static void earlier(const Instruction& i, double* rows, double* own, Index k) {
-    earlier_product(rows + i.da, rows + i.to_second, k).store(own);
-    earlier_product(rows + i.da, rows + i.to, k).store(own + 4);
+  template <class N>
+  static void earlier(Work<N> w) {
+    w.add_earlier(w.i.da, w.i.to_second);
+    w.add_second(w.i.da, w.i.to);
   }
-  template <int slot>
-  static void order(const Instruction& i, double* rows, double* own, const double* values,
-                    Index k) {
-    const double a = rows[i.a + k];
-    const double with_c = inner<slot>(rows + i.da, rows + i.to_second, own, k);
-    const double with_s = inner<slot>(rows + i.da, rows + i.to, own + 4, k);
-    rows[i.to + k] = with_c * inverse_of(k) + values[i.of_b] * a;
-    rows[i.to_second + k] = with_s * (i.factor * inverse_of(k)) + own[8] * a;
-    rows[i.da + k] = number(k) * a;
+  template <int slot, class N>
+  static void order(Work<N> w) {
+    const N a = w.newest();
+    const Row<N> da = w.row(w.i.da);
+    const N with_c = inner<slot>(da, w.row(w.i.to_second), w.sums(), w.k);
+    const N with_s = inner<slot>(da, w.row(w.i.to), w.second_sums(), w.k);
+    w.set(w.i.to, inverse_of(w.k) * with_c + w.kept(0) * a);
+    w.set(w.i.to_second, (w.i.factor * inverse_of(w.k)) * with_s + w.kept(1) * a);
+    w.set(w.i.da, number(w.k) * a);
   }
 };
 
-/// b r' = factor a'; if `ready`, the row of a' is given.
+/// b r' = factor a'; if `ready`, a is the row of k times the coefficients.
 template <bool ready>
 struct Logarithm {
-  static void begin(const Instruction& i, double* own, const double* values) {
-    own[8] = 1.0 / values[i.of_b];
-    own[9] = i.factor * own[8];
+  template <class N>
+  static void begin(Start<N> s) {
+    const N inverse = 1.0 / s.value(&Instruction::of_b);
+    s.keep(0, inverse);
+    s.keep(1, s.i.factor * inverse);
   }
-  static void earlier(const Instruction& i, double* rows, double* own, Index k) {
-    earlier_product(rows + i.db, rows + i.b, k).store(own);
+  template <class N>
+  static void earlier(Work<N> w) {
+    w.add_earlier(w.i.db, w.i.b);
   }
-  template <int slot>
-  static void order(const Instruction& i, double* rows, double* own, const double*, Index k) {
-    const double known = inner<slot>(rows + i.db, rows + i.b, own, k) * (own[8] * inverse_of(k));
-    const double of_a = ready ? rows[i.da + k] * (own[8] * inverse_of(k)) : own[9] * rows[i.a + k];
-    rows[i.to + k] = of_a - known;
-    rows[i.db + k] = number(k) * rows[i.to + k];
+  template <int slot, class N>
+  static void order(Work<N> w) {
+    const N share = inverse_of(w.k) * w.kept(0);
+    const N known = inner<slot>(w.row(w.i.db), w.row(w.i.b), w.sums(), w.k) * share;
+    const N result = (ready ? share : w.kept(1)) * w.newest() - known;
+    w.set(w.i.to, result);
+    w.set(w.i.db, number(w.k) * result);
   }
 };
 
 /// b a' - a b'.
 struct Turn {
-  static void earlier(const Instruction& i, double* rows, double* own, Index k) {
-    const Four of_a = earlier_product(rows + i.b, rows + i.da, k);
-    (of_a - earlier_product(rows + i.a, rows + i.db, k)).store(own);
-    Four().store(own + 4);
+  template <class N>
+  static void begin(Start<N> s) {
+    s.keep(0, s.value(&Instruction::of_a));
+    s.keep(1, s.value(&Instruction::of_b));
   }
-  template <int slot>
-  static void order(const Instruction& i, double* rows, double* own, const double* values,
-                    Index k) {
-    const double da = rows[i.da + k] = number(k) * rows[i.a + k];
-    const double db = rows[i.db + k] = number(k) * rows[i.b + k];
-    const double of_a = inner<slot>(rows + i.b, rows + i.da, own, k) + values[i.of_b] * da;
-    const double of_b = inner<slot>(rows + i.a, rows + i.db, own + 4, k) + values[i.of_a] * db;
-    rows[i.to + k] = of_a - of_b;
+  template <class N>
+  static void earlier(Work<N> w) {
+    w.add_earlier(w.i.b, w.i.da);
+    w.add_second(w.i.a, w.i.db);
+  }
+  template <int slot, class N>
+  static void order(Work<N> w) {
+    const Row<N> a = w.row(w.i.a), b = w.row(w.i.b);
+    const N da = number(w.k) * a[w.k], db = number(w.k) * b[w.k];
+    w.set(w.i.da, da);
+    w.set(w.i.db, db);
+    const N of_a = inner<slot>(b, w.row(w.i.da), w.sums(), w.k) + w.kept(1) * da;
+    w.set(w.i.to, of_a - inner<slot>(a, w.row(w.i.db), w.second_sums(), w.k) - w.kept(0) * db);
   }
 };
 
 }  // namespace
 
-const Kernel growth = kernel<Growth>();
-const Kernel rotation = kernel<Rotation>();
-const Kernel logarithm = kernel<Logarithm<false>>();
-const Kernel angle = kernel<Logarithm<true>>();
-const Kernel turn = kernel<Turn>();
+const Kernel growth = kernel<Growth>({.b = true, .da = true});
+const Kernel rotation = kernel<Rotation>({.da = true, .second = true});
+const Kernel logarithm = kernel<Logarithm<false>>({.b = true, .db = true});
+const Kernel angle = kernel<Logarithm<true>>({.b = true, .db = true});
+const Kernel turn = kernel<Turn>({.a = true, .b = true, .da = true, .db = true});
 
 }  // namespace saltus::tape::series

@@ -10,6 +10,7 @@ extern const Kernel plus;         ///< a + b
 extern const Kernel minus;        ///< a - b
 extern const Kernel multiple;     ///< a times the value of b
 extern const Kernel combination;  ///< the sum of its terms
+extern const Kernel copies;       ///< its terms; wide only
 // products
 extern const Kernel product;   ///< a b
 extern const Kernel square;    ///< a a
@@ -20,7 +21,7 @@ extern const Kernel power;     ///< a to the value of b
 extern const Kernel growth;     ///< r' = factor a' b, where b may depend on r
 extern const Kernel rotation;   ///< r = sin(a) and second = cos(a); with factor 1 sinh and cosh
 extern const Kernel logarithm;  ///< r' = factor a' / b
-extern const Kernel angle;      ///< r' = da / b, where da_k is k times a coefficient
+extern const Kernel angle;      ///< r' = a / b, where a_k is k times a coefficient
 extern const Kernel turn;       ///< r_k: k times the coefficient of the integral of b a' - a b'
 // kinks
 extern const Kernel magnitude;  ///< factor |a|, factor by the sign of b if `op` is copysign

@@ -9,12 +9,14 @@ namespace saltus::tape::series {
 namespace {
 
 struct Magnitude {
-  static void begin(const Instruction& i, double* own, const double* values) {
+  static void begin(Start<double> s) {
+    const auto& [i, own, values] = s;
     own[8] = detail::sign(values[i.of_a]);
     own[9] = i.op == Op::copysign ? std::copysign(1.0, values[i.of_b]) : 1.0;
   }
   template <int slot>
-  static void order(const Instruction& i, double* rows, double* own, const double*, Index k) {
+  static void order(Work<double> w) {
+    const auto& [i, rows, own, k] = w;
     const double a = rows[i.a + k];
     if (own[8] == 0.0) own[8] = detail::sign(a);
     rows[i.to + k] = own[8] * own[9] * a;
@@ -27,11 +29,13 @@ inline double first_is_chosen(double a, double b, double factor) {
 }
 
 struct Extreme {
-  static void begin(const Instruction& i, double* own, const double* values) {
+  static void begin(Start<double> s) {
+    const auto& [i, own, values] = s;
     own[8] = first_is_chosen(values[i.of_a], values[i.of_b], i.factor);
   }
   template <int slot>
-  static void order(const Instruction& i, double* rows, double* own, const double*, Index k) {
+  static void order(Work<double> w) {
+    const auto& [i, rows, own, k] = w;
     const double a = rows[i.a + k], b = rows[i.b + k];
     if (own[8] == 0.0) own[8] = first_is_chosen(a, b, i.factor);
     rows[i.to + k] = own[8] < 0.0 ? b : a;
@@ -40,14 +44,16 @@ struct Extreme {
 
 /// The condition compares c with d, if `op` is a comparison; otherwise it is the value of c.
 struct Choice {
-  static void begin(const Instruction& i, double* own, const double* values) {
+  static void begin(Start<double> s) {
+    const auto& [i, own, values] = s;
     const bool open = i.op != Op::constant && values[i.of_c] == values[i.of_d] &&
                       values[i.of_a] == values[i.of_b];
     own[9] = truth(i, values[i.of_c], values[i.of_d]);
     own[8] = open ? 0.0 : own[9];
   }
   template <int slot>
-  static void order(const Instruction& i, double* rows, double* own, const double*, Index k) {
+  static void order(Work<double> w) {
+    const auto& [i, rows, own, k] = w;
     const double c = rows[i.c + k], d = rows[i.d + k];
     if (own[8] == 0.0 && !(c == d)) own[8] = truth(i, c, d);
     rows[i.to + k] = (own[8] == 0.0 ? own[9] : own[8]) > 0.0 ? rows[i.a + k] : rows[i.b + k];
@@ -58,20 +64,22 @@ struct Choice {
 };
 
 struct Remainder {
-  static void begin(const Instruction& i, double* own, const double* values) {
+  static void begin(Start<double> s) {
+    const auto& [i, own, values] = s;
     own[8] = std::nearbyint((values[i.of_a] - values[i.value]) / values[i.of_b]);
   }
   template <int slot>
-  static void order(const Instruction& i, double* rows, double* own, const double*, Index k) {
+  static void order(Work<double> w) {
+    const auto& [i, rows, own, k] = w;
     rows[i.to + k] = rows[i.a + k] - own[8] * rows[i.b + k];
   }
 };
 
 }  // namespace
 
-const Kernel magnitude = kernel<Magnitude>();
-const Kernel extreme = kernel<Extreme>();
-const Kernel choice = kernel<Choice>();
-const Kernel remainder = kernel<Remainder>();
+const Kernel magnitude = {handlers<Magnitude, double>(), {}, {}};
+const Kernel extreme = {handlers<Extreme, double>(), {}, {}};
+const Kernel choice = {handlers<Choice, double>(), {}, {}};
+const Kernel remainder = {handlers<Remainder, double>(), {}, {}};
 
 }  // namespace saltus::tape::series

@@ -160,11 +160,12 @@ Index Lowering::lower_angle(Node a, Node b) {
   const Index of_a = row(a), of_b = row(b);
   const Node distance = sum_of_squares(a, b);
   const Index of_distance = row(distance);
-  const Index da =
+  const Index integrand =
       add(turn,
           {.a = of_a, .b = of_b, .da = slope(of_a), .db = slope(of_b), .of_a = a.id, .of_b = b.id});
   const Index to = new_row();
-  return add(angle, {.to = to, .b = of_distance, .da = da, .db = slope(to), .of_b = distance.id});
+  return add(angle,
+             {.to = to, .a = integrand, .b = of_distance, .db = slope(to), .of_b = distance.id});
 }
 
 Index Lowering::lower_rotation(Node node, Op sine, Op cosine, Node a, double factor) {

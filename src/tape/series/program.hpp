@@ -15,8 +15,8 @@ namespace saltus::tape::series {
 inline constexpr Index row_size = 36;
 /// The row of a constant: zeros.
 inline constexpr Index zero_row = 0;
-/// The numbers that an instruction keeps during an expansion: two sums of a block of four orders,
-/// then what `begin` computes.
+/// The numbers that an instruction keeps during an expansion: two sums for each order of a block,
+/// then up to four that `begin` computes.
 inline constexpr Index sums_size = 12;
 
 struct Call;
@@ -26,11 +26,24 @@ struct Call;
 using Handler = void (*)(const Call* call, double* rows, double* sums, const double* values,
                          Index k);
 
-/// The functions of an operation.
-struct Kernel {
+/// The functions of a recurrence.
+struct Handlers {
   Handler begin = nullptr;    ///< when the values are known
   Handler earlier = nullptr;  ///< at the first order k of a block: the sums over orders below k
   Handler orders[8] = {};     ///< order 1, 2, 3 at [1], [2], [3]; k of a later block at [4 + k % 4]
+};
+
+/// What a recurrence needs in rows of its lanes.
+struct Reads {
+  bool a = false, b = false;    ///< all coefficients of an operand, not only the newest
+  bool da = false, db = false;  ///< a row of k times the coefficients, which it writes itself
+  bool second = false;          ///< a second result
+  bool linear = false;          ///< its terms, from single lanes
+};
+
+struct Kernel {
+  Handlers narrow, wide;  ///< wide ones may be missing
+  Reads reads;
 };
 
 /// A multiple of a row.
@@ -75,9 +88,11 @@ struct Calls {
   }
 };
 
-/// The calls for all rates.
+/// The calls for all rates, by order.
 struct Orders {
-  Calls begin, earlier, orders[8];  ///< as in Kernel
+  Calls begin, earlier, orders[8];  ///< as in Handlers
+
+  void append(const Handlers& handlers, const Instruction& instruction, Index own);
 };
 
 /// A value that an expansion reads from its arguments.

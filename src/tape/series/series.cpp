@@ -56,7 +56,7 @@ Series::Series(const Graph& graph, std::span<const Node> rates, std::span<const 
   const auto sums = program_->instructions.size() * sums_size;
   const Wide* const wide = program_->wide.get();  // its memory follows the other
   rows_.assign(rows + (wide == nullptr ? 0 : size(wide->rows * wide_row_size)), 0.0);
-  sums_.assign(sums + (wide == nullptr ? 0 : wide->instructions.size() * sums_size), 0.0);
+  sums_.assign(sums + (wide == nullptr ? 0 : wide->instructions.size() * wide_sums_size), 0.0);
   computed_.assign(program_->values.size(), 0);
   done_.assign(program_->instructions.size(), 0);
   late_.reserve(done_.size());
@@ -125,9 +125,11 @@ void Series::expand_wide(const char* held, double* x) {
   double* const rows = rows_.data() + row_size * program_->rows;
   double* const sums = sums_.data() + size(sums_size) * program_->instructions.size();
   if (wide.time >= 0) rows[wide.time + lanes] = 1.0;
-  wide.begin.run(rows, sums, values_.data(), 0);
+  const auto run = [&](const Calls& calls, int k) { calls.run(rows, sums, values_.data(), k); };
+  run(wide.calls.begin, 0);
   for (int k = 0; k < order_; ++k, x += n) {
-    if (k > 0) wide.order.run(rows, sums, values_.data(), k);
+    if (begins_block(k)) run(wide.calls.earlier, k);
+    if (k > 0) run(wide.calls.orders[slot_of(k)], k);
     const Slope slope{values_.data(), rows + lanes * k, inverse_of(k + 1), k};
     for (int i = 0; i < n; ++i) x[i] = slope.of(wide.rates[size(i)]);
     if (held != nullptr) hold(held, k + 1, x);
@@ -151,7 +153,7 @@ void Series::run(const std::vector<int>& numbers, int k) {
     const Call alone[] = {{handler, &program_->instructions[size(i)], sums_size * i}, {&stop}};
     handler(alone, rows_.data(), sums_.data(), values_.data(), k);
   };
-  const auto kernel = [&](int i) { return program_->instructions[size(i)].kernel; };
+  const auto kernel = [&](int i) { return &program_->instructions[size(i)].kernel->narrow; };
   if (k == 0) {
     for (const int i : numbers) call(i, kernel(i)->begin);
     return;

@@ -3,6 +3,7 @@
 #include <map>
 #include <tuple>
 
+#include "kernels.hpp"
 #include "wide.hpp"
 
 namespace saltus::tape::series {
@@ -61,13 +62,12 @@ class Widening {
     };
     for (std::size_t number = 0; number < narrow().size(); ++number) {
       const Instruction& i = narrow()[number];
-      const WideKernel* kernel = wide_kernel(i.kernel);
-      if (kernel == nullptr) return false;
+      if (i.kernel->wide.orders[1] == nullptr) return false;
       int level = std::max(level_of(i.a), level_of(i.b));  // 0 where b is computed later
       for (const Term& term : terms(i)) level = std::max(level, level_of(term.row));
       level_of(i.to) = level + 1;
-      if (kernel->has_second) level_of(i.to_second) = level + 1;
-      buckets_[{level, first_with(kernel), i.terms, i.factor}].push_back(static_cast<int>(number));
+      if (i.kernel->reads.second) level_of(i.to_second) = level + 1;
+      buckets_[{level, number_of(i.kernel), i.terms, i.factor}].push_back(static_cast<int>(number));
     }
     return true;
   }
@@ -75,7 +75,7 @@ class Widening {
     return {i.term, static_cast<std::size_t>(i.terms)};
   }
   /// A number for each kernel, in the order in which they appear.
-  int first_with(const WideKernel* kernel) {
+  int number_of(const Kernel* kernel) {
     const auto found = std::ranges::find(kernels_, kernel);
     if (found == kernels_.end()) kernels_.push_back(kernel);
     return static_cast<int>(std::ranges::find(kernels_, kernel) - kernels_.begin());
@@ -85,7 +85,7 @@ class Widening {
   /// read the same b, the first ones come first, then the second ones.
   void align(std::vector<int>& numbers) {
     const auto instruction = [&](int n) { return narrow()[static_cast<std::size_t>(n)]; };
-    if (!wide_kernel(instruction(numbers[0]).kernel)->reads_b) return;
+    if (!instruction(numbers[0]).kernel->reads.b) return;
     std::map<Index, int> readers;
     std::vector<std::tuple<int, Index, int>> sorted;
     for (const int n : numbers) {
@@ -103,10 +103,11 @@ class Widening {
       return narrow()[static_cast<std::size_t>(numbers[n])];
     };
     WideInstruction wide;
-    const WideKernel& kernel = *wide_kernel(of_lane(0).kernel);
+    wide.kernel = of_lane(0).kernel;
+    const Reads reads = wide.kernel->reads;
     wide.factor = of_lane(0).factor;
     wide.to = new_row();
-    if (kernel.has_second) wide.to_second = new_row();
+    if (reads.second) wide.to_second = new_row();
     const auto lanes_of = [&](Index Instruction::*row) {
       Lanes all{};
       for (Index l = 0; l < lanes; ++l) all[static_cast<std::size_t>(l)] = of_lane(l).*row;
@@ -115,19 +116,19 @@ class Widening {
     for (Index l = lanes - 1; l >= 0; --l) {
       wide.narrow[static_cast<std::size_t>(l)] = &of_lane(l);
       place(of_lane(l).to) = wide.to + l;
-      if (kernel.has_second) place(of_lane(l).to_second) = wide.to_second + l;
+      if (reads.second) place(of_lane(l).to_second) = wide.to_second + l;
     }
-    if (kernel.linear) {
+    if (reads.linear) {
       for (Index l = 0; l < lanes; ++l) append_terms(wide, of_lane(l));
     } else {
       const Lanes a = lanes_of(&Instruction::a);
       std::ranges::transform(a, wide.a_of_lane.begin(), [&](Index row) { return place(row); });
-      if (kernel.reads_row_a) wide.a = operand(a, numbers.size());
-      if (kernel.reads_b) wide.b = operand(lanes_of(&Instruction::b), numbers.size());
-      if (kernel.has_da) wide.da = new_row();
-      if (kernel.has_dr) wide.db = new_row();
+      if (reads.a) wide.a = operand(a, numbers.size());
+      if (reads.b) wide.b = operand(lanes_of(&Instruction::b), numbers.size());
+      if (reads.da) wide.da = new_row();
+      if (reads.db) wide.db = new_row();
     }
-    add(wide, kernel.begin, kernel.order);
+    wide_.instructions.push_back(wide);
   }
 
   void append_terms(WideInstruction& wide, const Instruction& i) {
@@ -161,48 +162,49 @@ class Widening {
 
   void add_pack(Index to, const Lanes& rows) {
     WideInstruction wide;
+    wide.kernel = &copies;
     wide.to = to;
     wide.first_term = static_cast<Index>(wide_.terms.size());
     wide.terms = 1;
     for (const Index row : rows) wide_.terms.push_back({place(row), 0});
-    add(wide, nullptr, pack);
-  }
-
-  void add(const WideInstruction& wide, Handler begin, Handler order) {
     wide_.instructions.push_back(wide);
-    handlers_.push_back({begin, order});
   }
 
- public:
-  /// Pointers to what no longer moves.
-  void connect(Wide& wide) const {
-    for (std::size_t n = 0; n < wide.instructions.size(); ++n) {
-      WideInstruction& i = wide.instructions[n];
-      i.term = wide.terms.data() + i.first_term;
-      const Index own = sums_size * static_cast<Index>(n);
-      wide.begin.append(handlers_[n].first, i, own);
-      wide.order.append(handlers_[n].second, i, own);
-    }
-  }
-
- private:
   const Program& program_;
   Wide wide_;
   std::vector<Index> place_;  ///< of each narrow row: its first number in its lane; -1: none yet
   std::map<std::tuple<int, int, Index, double>, std::vector<int>> buckets_;
-  std::vector<const WideKernel*> kernels_;
+  std::vector<const Kernel*> kernels_;
   std::map<Lanes, Index> packs_;
   std::vector<std::pair<Index, Lanes>> late_;
-  std::vector<std::pair<Handler, Handler>> handlers_;
 };
 
+/// Pointers to what no longer moves, and the calls.
+void connect(Wide& wide) {
+  Index own = 0;
+  for (WideInstruction& i : wide.instructions) {
+    i.term = wide.terms.data() + i.first_term;
+    wide.calls.append(i.kernel->wide, i, own);
+    own += wide_sums_size;
+  }
+}
+
 }  // namespace
+
+void Wide::store_states(const double* x, Index n, double* rows_of_order) const {
+  double* to = rows_of_order + states;
+  Index i = 0;
+  for (; i + lanes <= n; i += lanes, to += wide_row_size) {
+    Four{Two{x[i], x[i + 1]}, Two{x[i + 2], x[i + 3]}}.store(to);
+  }
+  for (; i < n; ++i, ++to) *to = x[i];
+}
 
 std::shared_ptr<const Wide> widen(const Program& program) {
   Widening widening(program);
   if (!widening.run()) return nullptr;
   const auto wide = std::make_shared<Wide>(widening.take());
-  widening.connect(*wide);
+  connect(*wide);
   return wide;
 }
 
