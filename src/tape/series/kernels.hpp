@@ -11,6 +11,7 @@ extern const Kernel minus;        ///< a - b
 extern const Kernel multiple;     ///< a times the value of b
 extern const Kernel combination;  ///< the sum of its terms
 extern const Kernel copies;       ///< its terms; wide only
+extern const Kernel next;         ///< of states, from multiples of their rates; wide only
 // products
 extern const Kernel product;   ///< a b
 extern const Kernel square;    ///< a a

@@ -56,7 +56,7 @@ Series::Series(const Graph& graph, std::span<const Node> rates, std::span<const 
   const auto sums = program_->instructions.size() * sums_size;
   const Wide* const wide = program_->wide.get();  // its memory follows the other
   rows_.assign(rows + (wide == nullptr ? 0 : size(wide->rows * wide_row_size)), 0.0);
-  sums_.assign(sums + (wide == nullptr ? 0 : wide->instructions.size() * wide_sums_size), 0.0);
+  sums_.assign(sums + (wide == nullptr ? 0 : size(wide->sums)), 0.0);
   computed_.assign(program_->values.size(), 0);
   done_.assign(program_->instructions.size(), 0);
   late_.reserve(done_.size());
@@ -124,18 +124,22 @@ void Series::expand_wide(const char* held, double* x) {
   const int n = program_->states;
   double* const rows = rows_.data() + row_size * program_->rows;
   double* const sums = sums_.data() + size(sums_size) * program_->instructions.size();
-  if (wide.time >= 0) rows[wide.time + lanes] = 1.0;
   const auto run = [&](const Calls& calls, int k) { calls.run(rows, sums, values_.data(), k); };
+  if (wide.time >= 0) rows[wide.time + lanes] = 1.0;
   run(wide.calls.begin, 0);
   for (int k = 0; k < order_; ++k, x += n) {
     if (begins_block(k)) run(wide.calls.earlier, k);
     if (k > 0) run(wide.calls.orders[slot_of(k)], k);
-    const Slope slope{values_.data(), rows + lanes * k, inverse_of(k + 1), k};
-    for (int i = 0; i < n; ++i) x[i] = slope.of(wide.rates[size(i)]);
-    if (held != nullptr) hold(held, k + 1, x);
-    double* to = rows_.data() + row_size + k + 1;  // outputs read the narrow rows
-    for (int i = 0; i < n; ++i, to += row_size) *to = x[i];
-    wide.store_states(x, n, rows + lanes * (k + 1));
+    double* const to = rows + lanes * (k + 1);
+    for (int i = 0; i < n; ++i) {
+      double& next = to[wide.place_of_state(i)];
+      if (k == 0) next = values_[size(program_->rates[size(i)].value)];
+      if (held != nullptr && held[i] != 0) next = 0.0;
+      x[i] = next;
+    }
+    if (program_->outputs.empty()) continue;
+    double* narrow = rows_.data() + row_size + k + 1;
+    for (int i = 0; i < n; ++i, narrow += row_size) *narrow = x[i];
   }
 }
 

@@ -21,14 +21,12 @@ struct WideInstruction : Instruction {
 /// The program for the rates with wide instructions.
 struct Wide {
   std::vector<WideInstruction> instructions;
-  std::vector<Term> terms;
+  std::vector<Term> terms;  ///< their rows are places of a single lane
   Orders calls;
-  std::vector<Rate> rates;  ///< their rows are places of a single lane
-  Index rows = 0, time = -1;
+  Index rows = 0, sums = 0, time = -1;
   Index states = 0;  ///< the first of the rows of the states, four in each
 
-  /// Writes numbers of all states to the places of one order.
-  void store_states(const double* x, Index n, double* rows_of_order) const;
+  Index place_of_state(Index i) const { return states + wide_row_size * (i / lanes) + i % lanes; }
 };
 
 /// Null if narrow instructions are as quick, or if there is one without a wide form.

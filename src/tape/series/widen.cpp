@@ -18,16 +18,15 @@ class Widening {
   explicit Widening(const Program& program)
       : program_(program), place_(static_cast<std::size_t>(program.rows), -1) {
     place(zero_row) = new_row();
-    wide_.rates = program.rates;
   }
 
   /// Whether it was worth it.
   bool run() {
     if (!sort()) return false;
     wide_.states = wide_row_size * wide_.rows;
+    wide_.rows += (program_.states + lanes - 1) / lanes;
     for (Index i = 0; i < program_.states; ++i) {
-      if (i % lanes == 0) new_row();
-      place(row_size * (1 + i)) = last_row() + i % lanes;
+      place(row_size * (1 + i)) = wide_.place_of_state(i);
     }
     if (program_.time_row != zero_row) wide_.time = place(program_.time_row) = new_row();
     for (auto& [key, numbers] : buckets_) {
@@ -38,9 +37,9 @@ class Widening {
       }
     }
     for (const auto& [to, from] : late_) add_pack(to, from);
-    for (Rate& rate : wide_.rates) rate.term.row = place(rate.term.row);
+    add_next();
     // a wide instruction takes up to twice the time of a narrow one
-    return 2 * wide_.instructions.size() <= static_cast<std::size_t>(program_.first_instructions);
+    return 2 * wide_.instructions.size() <= narrow().size() + program_.rates.size();
   }
 
   Wide take() { return std::move(wide_); }
@@ -51,7 +50,6 @@ class Widening {
   }
   Index& place(Index row) { return place_[static_cast<std::size_t>(row / row_size)]; }
   Index new_row() { return wide_row_size * wide_.rows++; }
-  Index last_row() const { return wide_row_size * (wide_.rows - 1); }
 
   /// Alike instructions that do not need each other have one key: the level is 1 + the highest level
   /// of what is read. False if an instruction has no wide kernel.
@@ -119,7 +117,9 @@ class Widening {
       if (reads.second) place(of_lane(l).to_second) = wide.to_second + l;
     }
     if (reads.linear) {
-      for (Index l = 0; l < lanes; ++l) append_terms(wide, of_lane(l));
+      std::vector<std::vector<Term>> terms;
+      for (Index l = 0; l < lanes; ++l) terms.push_back(terms_of(of_lane(l)));
+      append_terms(wide, terms);
     } else {
       const Lanes a = lanes_of(&Instruction::a);
       std::ranges::transform(a, wide.a_of_lane.begin(), [&](Index row) { return place(row); });
@@ -131,13 +131,37 @@ class Widening {
     wide_.instructions.push_back(wide);
   }
 
-  void append_terms(WideInstruction& wide, const Instruction& i) {
-    std::vector<Term> all(terms(i).begin(), terms(i).end());
-    if (i.kernel == &multiple) all = {{i.a, i.of_b}};
-    if (i.kernel == &plus || i.kernel == &minus) all = {{i.a, 0}, {i.b, 0}};
-    if (wide.terms == 0) wide.first_term = static_cast<Index>(wide_.terms.size());
-    wide.terms = static_cast<Index>(all.size());
-    for (const Term& term : all) wide_.terms.push_back({place(term.row), term.factor});
+  static std::vector<Term> terms_of(const Instruction& i) {
+    if (i.kernel == &multiple) return {{i.a, i.of_b}};
+    if (i.kernel == &plus || i.kernel == &minus) return {{i.a, 0}, {i.b, 0}};
+    return {terms(i).begin(), terms(i).end()};
+  }
+
+  /// Term n of all lanes, then the next one.
+  void append_terms(WideInstruction& wide, const std::vector<std::vector<Term>>& of_lanes) {
+    wide.first_term = static_cast<Index>(wide_.terms.size());
+    wide.terms = static_cast<Index>(of_lanes[0].size());
+    for (std::size_t n = 0; n < of_lanes[0].size(); ++n) {
+      for (const auto& all : of_lanes) {
+        wide_.terms.push_back({place(all[n].row), all[n].factor});
+      }
+    }
+  }
+
+  /// The states come last. Lanes that are left over get zeros.
+  void add_next() {
+    for (Index i = 0; i < program_.states; i += lanes) {
+      WideInstruction wide;
+      wide.kernel = &next;
+      wide.to = wide_.place_of_state(i);
+      std::vector<std::vector<Term>> of_lanes(lanes, {Term{}});
+      for (Index l = 0; l < std::min(lanes, program_.states - i); ++l) {
+        of_lanes[static_cast<std::size_t>(l)] = {
+            program_.rates[static_cast<std::size_t>(i + l)].term};
+      }
+      append_terms(wide, of_lanes);
+      wide_.instructions.push_back(wide);
+    }
   }
 
   /// A wide row whose first `count` lanes are these: one that exists, or a copy.
@@ -164,9 +188,9 @@ class Widening {
     WideInstruction wide;
     wide.kernel = &copies;
     wide.to = to;
-    wide.first_term = static_cast<Index>(wide_.terms.size());
-    wide.terms = 1;
-    for (const Index row : rows) wide_.terms.push_back({place(row), 0});
+    std::vector<std::vector<Term>> of_lanes;
+    for (const Index row : rows) of_lanes.push_back({{row, 0}});
+    append_terms(wide, of_lanes);
     wide_.instructions.push_back(wide);
   }
 
@@ -181,24 +205,14 @@ class Widening {
 
 /// Pointers to what no longer moves, and the calls.
 void connect(Wide& wide) {
-  Index own = 0;
   for (WideInstruction& i : wide.instructions) {
     i.term = wide.terms.data() + i.first_term;
-    wide.calls.append(i.kernel->wide, i, own);
-    own += wide_sums_size;
+    wide.calls.append(i.kernel->wide, i, wide.sums);
+    wide.sums += i.kernel->reads.linear ? lanes * i.terms : wide_sums_size;
   }
 }
 
 }  // namespace
-
-void Wide::store_states(const double* x, Index n, double* rows_of_order) const {
-  double* to = rows_of_order + states;
-  Index i = 0;
-  for (; i + lanes <= n; i += lanes, to += wide_row_size) {
-    Four{Two{x[i], x[i + 1]}, Two{x[i + 2], x[i + 3]}}.store(to);
-  }
-  for (; i < n; ++i, ++to) *to = x[i];
-}
 
 std::shared_ptr<const Wide> widen(const Program& program) {
   Widening widening(program);
