@@ -1,11 +1,8 @@
-// Each operation of a series: against derivatives of its tape, its order, its kinks; random
-// expressions.
+// Each operation of a series: against derivatives of its tape, the order of its error, in lanes.
 #include <cmath>
-#include <numbers>
 #include <random>
 
 #include "support/catch.hpp"
-#include "support/expressions.hpp"
 #include "support/series_world.hpp"
 
 using namespace saltus::tape;
@@ -26,7 +23,7 @@ std::vector<Named> operations(Graph& g, Node x, Node y, bool apart = false) {
   const auto n = [&](double value) { return g.constant(value); };
   const auto add = [&](std::string name, Node node) { all.push_back({std::move(name), node}); };
   const auto binary = [&](Op op, Node a, Node b) { return g.binary(op, a, b); };
-  const auto [first, second] = std::pair(x, y);
+  const Node first = x, second = y;
   const auto renew = [&] {  // a little more each time
     const double factor = 1e-3 * static_cast<double>(1 + all.size());
     if (apart) x = binary(Op::add, first, binary(Op::mul, n(factor), second));
@@ -248,167 +245,4 @@ TEST_CASE("the logarithm of a constant 0 does not reach its power") {
   const Numbers found =
       along([](Graph& g, Node x) { return g.binary(Op::pow, g.parameter(0), x); }, 0.5, 3, 0.0);
   CHECK(found == Numbers{0, 0, 0, 0});
-}
-
-TEST_CASE("at a kink the branch is that of the time just after it") {
-  CHECK(along([](Graph& g, Node x) { return g.unary(Op::abs, x); }, 0.0, 2) == Numbers{0, 1, 0});
-  const Numbers back = along(
-      [](Graph& g, Node x) { return g.unary(Op::abs, g.binary(Op::mul, g.constant(-2.0), x)); },
-      0.0, 2);
-  CHECK(back == Numbers{0, 2, 0});
-  const Numbers square = along(
-      [](Graph& g, Node x) {  // |-x^2|
-        return g.unary(Op::abs, g.unary(Op::neg, g.binary(Op::mul, x, x)));
-      },
-      0.0, 5);
-  CHECK(square == Numbers{0, 0, 1, 0, 0, 0});
-  const Numbers least = along(
-      [](Graph& g, Node x) { return g.binary(Op::minimum, g.binary(Op::mul, x, x), x); }, 0.0, 3);
-  CHECK(least == Numbers{0, 0, 1, 0});
-  const Numbers most = along(
-      [](Graph& g, Node x) { return g.binary(Op::maximum, g.binary(Op::mul, x, x), x); }, 0.0, 3);
-  CHECK(most == Numbers{0, 1, 0, 0});
-  const Numbers chosen = along(
-      [](Graph& g, Node x) {  // x > 0 ? 3 x : x
-        const Node c = g.binary(Op::gt, x, g.constant(0.0));
-        return g.select(c, g.binary(Op::mul, g.constant(3.0), x), x);
-      },
-      0.0, 2);
-  CHECK(chosen == Numbers{0, 3, 0});
-  const Numbers jump = along(
-      [](Graph& g, Node x) {  // x > 0 ? x + 1 : 2 x: not continuous
-        const Node c = g.binary(Op::gt, x, g.constant(0.0));
-        return g.select(c, g.binary(Op::add, g.constant(1.0), x),
-                        g.binary(Op::mul, g.constant(2.0), x));
-      },
-      0.0, 2);
-  CHECK(jump == Numbers{0, 2, 0});  // the branch of the value
-}
-
-TEST_CASE("remainders are linear between their jumps, steps are constant") {
-  const auto rest = [](Op op, double at) {
-    Graph g;
-    const Node x = g.continuous_state(0);
-    Series series(
-        g, std::array{g.constant(1.0)},
-        std::array{g.binary(
-            op, x, g.binary(Op::add, g.constant(1.0), g.binary(Op::mul, g.constant(0.125), x)))});
-    expanded(series, {.x = {at}}, 2);
-    return outputs_of(series, 2);
-  };
-  CHECK(rest(Op::mod, 4.0) == Numbers{1.0, 0.75, 0.0});     // 4 mod 1.5, quotient 2
-  CHECK(rest(Op::fmod, -4.0) == Numbers{0.0, 2.0, 0.0});    // -4 = -8 * 0.5
-  CHECK(rest(Op::mod, -2.0) == Numbers{0.25, 1.375, 0.0});  // -2 mod 0.75, quotient -3
-  CHECK(rest(Op::fmod, -2.0) == Numbers{-0.5, 1.25, 0.0});  // quotient -2
-  CHECK(rest(Op::floor_divide, 4.0) == Numbers{2.0, 0.0, 0.0});
-}
-
-TEST_CASE("kinks are found where an operand varies, and nowhere else") {
-  for (int o = static_cast<int>(Op::neg); o < operation_count; ++o) {
-    const Op op = static_cast<Op>(o);
-    Graph g;
-    const auto made = [&](Node a, Node b) {
-      if (operand_count(op) == 1) return g.unary(op, a);
-      if (operand_count(op) == 2) return g.binary(op, a, b);
-      return g.select(a, b, g.constant(2.0));
-    };
-    const bool known = op == Op::abs || (op >= Op::floor && op <= Op::logical_not) ||
-                       (op >= Op::copysign && op <= Op::select);
-    const Op reported = op == Op::gt ? Op::lt : op == Op::ge ? Op::le : op;  // as a graph has them
-    const std::vector<Op> expected = known ? std::vector{reported} : std::vector<Op>{};
-    INFO(name(op));
-    const Node p = g.parameter(0), u = g.input(0, 0);
-    CHECK(kinks(g, std::array{made(p, u)}).empty());
-    CHECK(kinks(g, std::array{made(g.discrete_state(0), g.mode())}).empty());
-    for (const Node varying : {g.time(), g.continuous_state(0), g.unary(Op::sin, g.time())}) {
-      CHECK(kinks(g, std::array{g.unary(Op::exp, made(varying, p))}) == expected);
-      if (operand_count(op) > 1) CHECK(kinks(g, std::array{made(p, varying)}) == expected);
-    }
-  }
-}
-
-TEST_CASE("kinks are listed once, in the order of the operations") {
-  Graph g;
-  const Node x = g.continuous_state(0);
-  const Node a = g.unary(Op::abs, x), b = g.unary(Op::abs, g.unary(Op::neg, g.unary(Op::exp, x)));
-  const Node both = g.binary(Op::minimum, a, b);
-  CHECK(kinks(g, std::array{both, a}) == std::vector{Op::abs, Op::minimum});
-  CHECK(kinks(g, {}).empty());
-}
-
-TEST_CASE("random expressions have the coefficients that repeated differentiation gives") {
-  int checked = 0;
-  for (unsigned seed = 0; seed < 200; ++seed) {
-    const RandomExpression e = random_expression(seed);
-    if (e.steps.size() > 40) continue;  // derivatives of derivatives grow
-    Graph g;
-    const std::vector<Node> outputs = write(e, g);
-    std::vector<Node> rates;
-    for (std::size_t i = 0; i < e.variables; ++i) rates.push_back(outputs[i % outputs.size()]);
-    const World world{.x = random_point(e.variables, seed)};
-    constexpr int order = 3;
-    Series series(g, rates, outputs);
-    const Numbers x = expanded(series, world, order), found = outputs_of(series, order);
-    const Numbers values = values_of(Tape(g, outputs), world);
-    const Numbers expected = by_derivatives(g, rates, outputs, world, order);
-    INFO("seed " << seed);
-    for (std::size_t i = 0; i < found.size(); ++i) {
-      INFO("output " << i / (order + 1) << ", order " << i % (order + 1));
-      // as in the test of random Jacobians, and a thousand times as much for three derivatives
-      CHECK(std::fabs(found[i] - expected[i]) <= 1e-8 * std::max(1.0, std::fabs(expected[i])));
-      if (i % (order + 1) == 0) CHECK(same_bits(found[i], values[i / (order + 1)]));
-      ++checked;
-    }
-  }
-  CHECK(checked > 500);
-}
-
-TEST_CASE("random analytic expressions have the coefficients of Cauchy's integral") {
-  // u_k = (1/N) sum of u(t + r e^(i phi)) e^(-i k phi) / r^k, with variables that are linear in t
-  constexpr int order = 20, points = 64;
-  int checked = 0;
-  for (unsigned seed = 0; seed < 300; ++seed) {
-    const RandomExpression e = random_expression(seed);
-    Graph g;
-    const Numbers start = random_point(e.variables, seed),
-                  speed = random_point(e.variables, seed + 1);
-    std::vector<Node> variables;
-    for (std::size_t i = 0; i < e.variables; ++i) {
-      const Node line = g.binary(Op::mul, g.constant(speed[i]), g.time());
-      variables.push_back(g.binary(Op::add, g.constant(start[i]), line));
-    }
-    const std::vector<Node> outputs = write(e, g, variables);
-    if (!e.analytic || !kinks(g, outputs).empty()) continue;
-    Series series(g, {}, outputs);
-    expanded(series, {.time = 0.0}, order);
-    const Numbers found = outputs_of(series, order);
-    double growth = 1.0;  // the inverse of the radius, as the last coefficients show it
-    for (std::size_t i = 0; i < found.size(); ++i) {
-      const double k = static_cast<double>(i % (order + 1));
-      if (k > 3) growth = std::max(growth, std::pow(std::fabs(found[i]), 1.0 / k));
-    }
-    const double r = 0.3 / growth;
-    std::vector<std::vector<std::complex<double>>> values;
-    for (int j = 0; j < points; ++j) {
-      const auto h = std::polar(r, 2.0 * std::numbers::pi * j / points);
-      std::vector<std::complex<double>> z;
-      for (std::size_t i = 0; i < e.variables; ++i) z.push_back(start[i] + speed[i] * h);
-      values.push_back(evaluate(e, z));
-    }
-    for (std::size_t i = 0; i < found.size(); ++i) {
-      const int k = static_cast<int>(i % (order + 1));
-      std::complex<double> sum = 0.0;
-      double largest = 1.0;
-      for (int j = 0; j < points; ++j) {
-        const auto value = values[size(j)][i / (order + 1)];
-        sum += value * std::polar(1.0, -2.0 * std::numbers::pi * j * k / points);
-        largest = std::max(largest, std::abs(value));
-      }
-      INFO("seed " << seed << ", output " << i / (order + 1) << ", order " << k);
-      // rounding of the values, and of the recurrences in units of growth^k
-      CHECK(std::fabs(sum.real() / points - found[i] * std::pow(r, k)) <= 1e-12 * largest);
-      ++checked;
-    }
-  }
-  CHECK(checked > 1000);
 }

@@ -143,6 +143,16 @@ TEST_CASE("outputs may be asked for one by one, in any order, twice, or not at a
   }
 }
 
+TEST_CASE("an expression may be an output twice") {
+  Graph graph;
+  const Node x = graph.continuous_state(0), e = graph.unary(Op::exp, x);
+  Series series(graph, std::array{graph.constant(1.0)}, std::array{e, x, e});
+  expanded(series, {.x = {0.0}}, 2);
+  Numbers second(3);
+  series.expand_outputs(2, 1, second.data());
+  CHECK(second == Numbers{1.0, 1.0, 0.5});
+}
+
 TEST_CASE("an expansion does not depend on earlier ones, not even on NaN") {
   Shared s;
   Series used(s.graph, s.rates, s.outputs), fresh(used);

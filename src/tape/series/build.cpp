@@ -5,6 +5,7 @@
 #include "../arithmetic.hpp"
 #include "../copy.hpp"
 #include "lower.hpp"
+#include "needs.hpp"
 #include "saltus/base/error.hpp"
 #include "wide.hpp"
 
@@ -37,7 +38,7 @@ class Builder {
     add_leaves();
     add_values(rates);
     program_.wide = widen(program_);
-    for (std::size_t i = 0; i < outputs.size(); ++i) find_needs(program_.outputs[i], outputs[i]);
+    find_needs(program_, graph_, place_);
     return std::move(program_);
   }
 
@@ -53,7 +54,8 @@ class Builder {
 
   void add_calls() {
     for (int i = 0; i < program_.first_instructions; ++i) {
-      program_.calls.append(instruction(i).kernel->narrow, instruction(i), sums_size * i);
+      const Instruction& one = program_.instructions[static_cast<std::size_t>(i)];
+      program_.calls.append(one.kernel->narrow, one, sums_size * i);
     }
   }
 
@@ -72,8 +74,10 @@ class Builder {
   void add_values(std::span<const Node> rates) {
     place_.assign(static_cast<std::size_t>(graph_.size()), -1);
     std::vector<Node> roots(rates.begin(), rates.end());
-    for (const Rate& rate : program_.rates) roots.push_back(node(rate.term.factor));
-    for (int i = 0; i < program_.first_instructions; ++i) append_values(roots, i);
+    for (const Rate& rate : program_.rates) roots.push_back({static_cast<int>(rate.term.factor)});
+    for (int i = 0; i < program_.first_instructions; ++i) {
+      append_values(roots, program_.instructions[static_cast<std::size_t>(i)]);
+    }
     auto first = needed(graph_, roots);
     std::ranges::sort(first);  // operands have smaller numbers
     for (const Node node : first) add_value(node);
@@ -93,65 +97,11 @@ class Builder {
     program_.values.push_back(value);
   }
 
-  const Instruction& instruction(int i) const {
-    return program_.instructions[static_cast<std::size_t>(i)];
-  }
-  static Node node(Index value) { return {static_cast<int>(value)}; }
-  static std::span<const Term> terms_of(const Instruction& i) {
-    return {i.term, static_cast<std::size_t>(i.terms)};
-  }
-  void append_values(std::vector<Node>& all, int number) const {
-    const Instruction& i = instruction(number);
-    for (const Index value : {i.value, i.of_a, i.of_b, i.of_c, i.of_d}) all.push_back(node(value));
-    for (const Term& term : terms_of(i)) all.push_back(node(term.factor));
-  }
-
-  /// The instructions and the values of an output, through the rows that they read.
-  void find_needs(Output& output, Node node) {
-    if (writers_.empty()) note_writers();
-    std::vector<Index> open{output.row};
-    std::vector<Node> roots{node};
-    while (!open.empty()) {
-      const Index row = open.back();
-      open.pop_back();
-      const int writer = writers_[static_cast<std::size_t>(row / row_size)];
-      if (writer < 0 ||
-          std::exchange(seen_[static_cast<std::size_t>(writer)], node.id) == node.id) {
-        continue;
-      }
-      output.instructions.push_back(writer);
-      append_values(roots, writer);
-      const Instruction& i = instruction(writer);
-      for (const Index read : {i.a, i.b, i.c, i.d}) open.push_back(read);
-      for (const Term& term : terms_of(i)) open.push_back(term.row);
-    }
-    std::ranges::sort(output.instructions);
-    for (const Node value : needed(graph_, roots)) {
-      const int place = place_[static_cast<std::size_t>(value.id)];
-      if (place >= program_.first_values) output.values.push_back(place);
-    }
-    std::ranges::sort(output.values);
-  }
-
-  void note_writers() {
-    writers_.assign(static_cast<std::size_t>(program_.rows), -1);
-    seen_.assign(program_.instructions.size(), -1);
-    for (std::size_t i = 0; i < program_.instructions.size(); ++i) {
-      const Instruction& one = program_.instructions[i];
-      writers_[static_cast<std::size_t>(one.to / row_size)] = static_cast<int>(i);
-      if (one.to_second != zero_row) {
-        writers_[static_cast<std::size_t>(one.to_second / row_size)] = static_cast<int>(i);
-      }
-    }
-  }
-
   Graph graph_;
   std::size_t count_;
   std::vector<Node> nodes_;
   Program program_;
-  std::vector<int> place_;    ///< of the value of a node, or -1
-  std::vector<int> writers_;  ///< of each row, or -1
-  std::vector<int> seen_;     ///< the last output that needs an instruction
+  std::vector<int> place_;  ///< of the value of a node, or -1
 };
 
 template <Op op>
