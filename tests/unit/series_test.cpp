@@ -235,6 +235,8 @@ TEST_CASE("a series refuses orders it has no room for, and states without a rate
                     "a series expects an order from 0 to 30, found 31");
   CHECK_THROWS_WITH(expanded(series, {.x = {1.0}}, -1),
                     "a series expects an order from 0 to 30, found -1");
+  CHECK_THROWS_WITH(series.expand_outputs(0, 1, nullptr),
+                    "a series of 0 outputs was asked for 1 of them from number 0 on");
   CHECK(expanded(series, {.x = {1.5}}, 0) == Numbers{1.5});
   CHECK_THROWS_WITH(
       Series(graph, std::array{x}, std::array{graph.continuous_state(3)}),

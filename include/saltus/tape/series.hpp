@@ -1,6 +1,7 @@
 // Series: the Taylor coefficients of the solution of an ODE, from the expressions of its rates.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
@@ -50,7 +51,8 @@ class Series {
 
   /// After `expand`: the coefficients of outputs first ... first + count - 1, to the order of that
   /// expansion: row m of `g` is g[m * (order + 1)] .... Outputs that nobody asks for cost nothing,
-  /// and what several of them need is computed once an expansion.
+  /// and what several of them need is computed once an expansion. ModelError if there are not so
+  /// many outputs.
   void expand_outputs(int first, int count, double* g);
 
   int states() const noexcept;
@@ -69,10 +71,11 @@ class Series {
   void run(const std::vector<int>& instructions, int k);
 
   std::shared_ptr<const series::Program> program_;
-  std::vector<double> values_, rows_, sums_;  ///< of expressions; of rows; of instructions
-  std::vector<int> computed_, done_;  ///< the last expansion of a value, and of an instruction
-  std::vector<int> late_, open_;      ///< instructions that lack the last order, or all
-  int expansion_ = 0, order_ = 0;
+  std::vector<double> values_, rows_, sums_;   ///< of expressions; of rows; of instructions
+  std::vector<std::int64_t> computed_, done_;  ///< the last expansion of values, of instructions
+  std::vector<int> late_, open_;               ///< instructions that lack the last order, or all
+  std::int64_t expansion_ = 0;                 ///< the number of the last one
+  int order_ = 0;                              ///< of that one
 };
 
 /// The operations in `nodes` and their operands that have no Taylor series where a state may pass:

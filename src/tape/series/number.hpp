@@ -8,7 +8,7 @@
 
 namespace saltus::tape::series {
 
-using Two [[gnu::vector_size(16)]] = double;
+using Two = double __attribute__((vector_size(16)));
 
 /// Four numbers.
 struct Four {

@@ -179,6 +179,10 @@ void Series::require(int output) {
 }
 
 void Series::expand_outputs(int first, int count, double* g) {
+  if (first < 0 || count < 0 || count > outputs() - first) {
+    throw ModelError(text("a series of ", outputs(), " outputs was asked for ", count,
+                          " of them from number ", first, " on"));
+  }
   late_.clear();
   open_.clear();
   for (int m = first; m < first + count; ++m) require(m);
