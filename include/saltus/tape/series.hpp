@@ -1,0 +1,88 @@
+// Series: the Taylor coefficients of the solution of an ODE, from the expressions of its rates.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "saltus/base/view.hpp"
+#include "saltus/tape/graph.hpp"
+
+namespace saltus::tape {
+
+namespace series {
+struct Program;
+}  // namespace series
+
+/// The Taylor coefficients of the solution of xdot = f(t, x), and of other functions of t and x
+/// along it.
+///
+/// The coefficient of order k of a function u(t) is u^(k)(t) / k!. Each operation has a recurrence
+/// for the coefficient of order k of its result, from those of lower orders and those of its
+/// operands (A. Jorba, M. Zou, A software package for the numerical integration of ODEs by means of
+/// high-order Taylor methods, Exp. Math. 14 (2005) 99; A. Griewank, A. Walther, Evaluating
+/// Derivatives, 2nd ed., SIAM 2008, section 13.2). Values, which are the coefficients of order 0,
+/// have the bits that a tape computes.
+///
+/// At a kink the branch is that of the time just after the point: abs, minimum, maximum, and a
+/// select by a comparison whose two values are equal there, decide by the first coefficients that
+/// differ. Apart from that, steps (floor, sign, comparisons and the like) are constants, and select,
+/// copysign, mod and fmod have the branch of the value. Where an operation has no Taylor series
+/// (sqrt at 0, hypot at the origin, pow(0, 1.5), a division by 0) coefficients are infinite or NaN.
+///
+/// A Series owns scratch memory, so one thread uses it at a time. A copy shares the list of
+/// instructions, which never changes, and has its own memory.
+class Series {
+ public:
+  static constexpr int highest_order = 30;
+
+  /// rates[i] is xdot_i, an expression of `graph`; state i is graph.continuous_state(i). `outputs`
+  /// are further expressions, such as guards. ModelError if an expression reads a state that has no
+  /// rate.
+  Series(const Graph& graph, std::span<const Node> rates, std::span<const Node> outputs);
+
+  /// Writes the coefficients of orders 0 ... `order` of every state at (at.time, at.x): row k of
+  /// `x` is x[k * states()] ..., so `x` has (order + 1) * states() numbers and must not overlap the
+  /// arrays of `at`. Inputs, parameters, discrete states, mode and entry are constant in time. State
+  /// i has the rate 0 if held[i] is not 0; a null pointer holds none. ModelError unless `order` is
+  /// from 0 to `highest_order`. Nothing is allocated.
+  void expand(const At& at, int order, const char* held, double* x);
+
+  /// After `expand`: the coefficients of outputs first ... first + count - 1, to the order of that
+  /// expansion: row m of `g` is g[m * (order + 1)] .... Outputs that nobody asks for cost nothing,
+  /// and what several of them need is computed once an expansion. ModelError if there are not so
+  /// many outputs.
+  void expand_outputs(int first, int count, double* g);
+
+  int states() const noexcept;
+  int outputs() const noexcept;
+  /// The number of instructions for each order of the states. Four alike ones count as one if they
+  /// are computed together.
+  int instruction_count() const noexcept;
+
+ private:
+  void load(const At& at);
+  void compute_values(int first, int last);
+  void expand_narrow(const char* held, double* x);
+  void expand_wide(const char* held, double* x);
+  void hold(const char* held, int k, double* x);
+  void require(int output);
+  void run(const std::vector<int>& instructions, int k);
+
+  std::shared_ptr<const series::Program> program_;
+  std::vector<double> values_, rows_, sums_;   ///< of expressions; of rows; of instructions
+  std::vector<std::int64_t> computed_, done_;  ///< the last expansion of values, of instructions
+  std::vector<int> late_, open_;               ///< instructions that lack the last order, or all
+  std::int64_t expansion_ = 0;                 ///< the number of the last one
+  int order_ = 0;                              ///< of that one
+};
+
+/// The operations in `nodes` and their operands that have no Taylor series where a state may pass:
+/// kinks (abs, minimum, maximum, select, mod, fmod, copysign) and steps (floor, ceil, trunc, rint,
+/// sign, floor_divide, comparisons, logical operations). Only those of which an operand depends on
+/// time or on a continuous state count, as others are constant. Each is listed once, in the order of
+/// `Op`; empty if all is smooth.
+std::vector<Op> kinks(const Graph& graph, std::span<const Node> nodes);
+
+}  // namespace saltus::tape

@@ -1,0 +1,107 @@
+// Makes a Kernel of a struct with the recurrence, for single numbers and for four lanes.
+#pragma once
+
+#include <array>
+
+#include "kernels.hpp"
+#include "saltus/base/view.hpp"
+#include "sums.hpp"
+#include "wide.hpp"
+
+namespace saltus::tape::series {
+
+inline double number(Index k) { return static_cast<double>(k); }
+
+/// 1 / k.
+inline constexpr auto inverse = [] {
+  std::array<double, row_size> all{};
+  for (std::size_t k = 1; k < row_size; ++k) all[k] = 1.0 / static_cast<double>(k);
+  return all;
+}();
+inline double inverse_of(Index k) { return inverse[static_cast<std::size_t>(k)]; }
+
+/// What `begin` of a recurrence works on: the values, and the numbers that it keeps.
+template <class N>
+struct Start {
+  const Instruction& i;
+  double* own;
+  const double* values;
+
+  N value(Index Instruction::*which) const {
+    if constexpr (width<N> == 1) {
+      return values[i.*which];
+    } else {
+      const auto& narrow = static_cast<const WideInstruction&>(i).narrow;
+      const auto of_lane = [&](std::size_t l) { return values[narrow[l]->*which]; };
+      return {Two{of_lane(0), of_lane(1)}, Two{of_lane(2), of_lane(3)}};
+    }
+  }
+  void keep(Index n, const N& a) const { put(own + width<N> * (8 + n), a); }
+};
+
+/// What the orders of a recurrence work on.
+template <class N>
+struct Work {
+  const Instruction& i;
+  double *rows, *own;
+  Index k;
+
+  Row<N> row(Index at) const { return {rows + at}; }
+  /// The coefficient of order k of an operand a of which no other is read.
+  [[gnu::always_inline]] N newest() const {
+    if constexpr (width<N> == 1) {
+      return rows[i.a + k];
+    } else {
+      const auto& place = static_cast<const WideInstruction&>(i).a_of_lane;
+      const double* const from = rows + lanes * k;
+      return {Two{from[place[0]], from[place[1]]}, Two{from[place[2]], from[place[3]]}};
+    }
+  }
+  Row<N> sums() const { return {own}; }
+  Row<N> second_sums() const { return {own + width<N> * 4}; }
+  N kept(Index n) const { return Row<N>{own}[8 + n]; }
+  void set(Index to, const N& a) const { put(rows + to + width<N> * k, a); }
+
+  void add_earlier(Index u, Index v) const { earlier_product(row(u), row(v), k, own); }
+  void add_second(Index u, Index v) const {
+    earlier_product(row(u), row(v), k, own + width<N> * 4);
+  }
+};
+
+/// Runs the next call, as a jump if the compiler sees that nothing is left to do here.
+#define SALTUS_SERIES_NEXT call[1].run(call + 1, rows, sums, values, k)
+
+template <class K, class N>
+void run_begin(const Call* call, double* rows, double* sums, const double* values, Index k) {
+  K::begin(Start<N>{*call->instruction, sums + call->own, values});
+  SALTUS_SERIES_NEXT;
+}
+template <class K, class N>
+void run_earlier(const Call* call, double* rows, double* sums, const double* values, Index k) {
+  K::earlier(Work<N>{*call->instruction, rows, sums + call->own, k});
+  SALTUS_SERIES_NEXT;
+}
+template <class K, class N, int slot>
+void run_order(const Call* call, double* rows, double* sums, const double* values, Index k) {
+  K::template order<slot>(Work<N>{*call->instruction, rows, sums + call->own, k});
+  SALTUS_SERIES_NEXT;
+}
+
+template <class K, class N>
+constexpr Handlers handlers() {
+  Handlers made;
+  if constexpr (requires(Start<N> s) { K::begin(s); }) made.begin = &run_begin<K, N>;
+  if constexpr (requires(Work<N> w) { K::earlier(w); }) made.earlier = &run_earlier<K, N>;
+  [&]<int... slot>(std::integer_sequence<int, slot...>) {
+    ((made.orders[slot + 1] = &run_order<K, N, slot + 1>), ...);
+  }(std::make_integer_sequence<int, 7>{});
+  return made;
+}
+
+/// A recurrence for numbers and for lanes.
+template <class K>
+constexpr Kernel kernel(Reads reads) {
+  return {handlers<K, double>(), handlers<K, Four>(), reads};
+}
+
+}  // namespace saltus::tape::series

@@ -1,0 +1,50 @@
+#include <algorithm>
+
+#include "../copy.hpp"
+#include "saltus/tape/series.hpp"
+
+namespace saltus::tape {
+
+namespace {
+
+bool is_smooth(Op op) {
+  switch (op) {
+    case Op::abs:
+    case Op::floor:
+    case Op::ceil:
+    case Op::trunc:
+    case Op::rint:
+    case Op::sign:
+    case Op::copysign:
+    case Op::mod:
+    case Op::fmod:
+    case Op::floor_divide:
+    case Op::minimum:
+    case Op::maximum:
+    case Op::select:
+      return false;
+    default:
+      return !is_truth(op);
+  }
+}
+
+}  // namespace
+
+std::vector<Op> kinks(const Graph& graph, std::span<const Node> nodes) {
+  std::vector<bool> varies(static_cast<std::size_t>(graph.size()), false);
+  std::vector<Op> found;
+  for (const Node node : needed(graph, nodes)) {
+    const Expression& e = graph[node];
+    bool any = e.op == Op::time || e.op == Op::continuous_state;
+    for (int k = 0; k < operand_count(e.op); ++k) {
+      any = any || varies[static_cast<std::size_t>(e.operands[static_cast<std::size_t>(k)].id)];
+    }
+    varies[static_cast<std::size_t>(node.id)] = any;
+    if (any && !is_smooth(e.op)) found.push_back(e.op);
+  }
+  std::ranges::sort(found);
+  found.erase(std::ranges::unique(found).begin(), found.end());
+  return found;
+}
+
+}  // namespace saltus::tape

@@ -1,0 +1,69 @@
+// Lowering: the instructions for the rows of expressions.
+#pragma once
+
+#include <unordered_map>
+#include <vector>
+
+#include "kernels.hpp"
+
+namespace saltus::tape::series {
+
+/// Appends to a program what its expressions need. Operations without a kernel of their own get
+/// helping expressions, which are added to the graph.
+class Lowering {
+ public:
+  /// The states have rows already. `roots` are the expressions that will be asked for.
+  Lowering(Graph& graph, Program& program, std::span<const Node> roots);
+
+  /// The row of an expression, with the instructions for it and for its operands.
+  Index row(Node node);
+  /// The same, or a row of which it is a multiple.
+  Term single(Node node);
+
+ private:
+  /// A sum of multiples of rows, up to a constant.
+  using Form = std::vector<Term>;
+
+  void visit(Node node);
+  Form form(Node node);
+  Form sum_of(Form a, const Form& b);
+  Form scaled(Form form, Node factor);
+  Index keep(Node node, Form form);
+  Index combine(const Form& form);
+
+  Index lower(Node node, const Expression& e);
+  Index lower_kinked(Node node, const Expression& e);
+  Index lower_unary(Node node, const Expression& e);
+  Index lower_product(Node node, Node a, Node b);
+  Index lower_quotient(Node node, Node a, Node b);
+  Index lower_power(Node node, Node a, Node b);
+  Index lower_whole_power(Node a, int exponent);
+  Index lower_angle(Node a, Node b);
+  Index lower_choice(const Expression& e);
+  Index lower_rotation(Node node, Op sine, Op cosine, Node a, double factor);
+  Index lower_growth(Node node, Node a, double factor, Node b);
+  Index lower_logarithm(Node a, double factor, Node b);
+
+  Index new_row() { return row_size * program_.rows++; }
+  Index slope(Index row);
+  Index add(const Kernel& kernel, Instruction i);
+  Index& known(Node node);
+
+  static Node node(Index value) { return {static_cast<int>(value)}; }
+  Node n(double value) { return graph_.constant(value); }
+  Node of(Op op, Node a) { return graph_.unary(op, a); }
+  Node of(Op op, Node a, Node b) { return graph_.binary(op, a, b); }
+  Node times(Node a, Node b) { return of(Op::mul, a, b); }
+  Node sum_of_squares(Node a, Node b) { return of(Op::add, times(a, a), times(b, b)); }
+
+  Graph& graph_;
+  Program& program_;
+  static constexpr Index unknown = -1, linear = -2;
+  std::vector<Index> rows_;  ///< of each node, or what is known of it: `linear` has a form, no row
+  std::unordered_map<int, Form> forms_;
+  std::vector<int> uses_;  ///< of each node, in the graph as it was
+  std::vector<Index>
+      slopes_;  ///< of each row: the row of k times the coefficient of order k, or -1
+};
+
+}  // namespace saltus::tape::series
