@@ -81,7 +81,7 @@ class Series {
 /// The operations in `nodes` and their operands that have no Taylor series where a state may pass:
 /// kinks (abs, minimum, maximum, select, mod, fmod, copysign) and steps (floor, ceil, trunc, rint,
 /// sign, floor_divide, comparisons, logical operations). Only those of which an operand depends on
-/// time or on a continuous state count, as others are constant. Each is listed once, in the order of
+/// time or on a continuous state count, as others are constant; of a select its condition. Each is listed once, in the order of
 /// `Op`; empty if all is smooth.
 std::vector<Op> kinks(const Graph& graph, std::span<const Node> nodes);
 

@@ -40,7 +40,10 @@ std::vector<Op> kinks(const Graph& graph, std::span<const Node> nodes) {
       any = any || varies[static_cast<std::size_t>(e.operands[static_cast<std::size_t>(k)].id)];
     }
     varies[static_cast<std::size_t>(node.id)] = any;
-    if (any && !is_smooth(e.op)) found.push_back(e.op);
+    // a select whose condition is constant has one branch
+    const bool turns =
+        e.op == Op::select ? varies[static_cast<std::size_t>(e.operands[0].id)] : any;
+    if (turns && !is_smooth(e.op)) found.push_back(e.op);
   }
   std::ranges::sort(found);
   found.erase(std::ranges::unique(found).begin(), found.end());
