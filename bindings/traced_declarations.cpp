@@ -54,9 +54,9 @@ class Writer {
   void note_touches(ZeroCrossing& crossing, int index);
   std::optional<Slot> slot_of(Role role, int index) const;
   VectorFunction taped(const Slot& slot) const { return python::taped(original_, slot); }
-  /// The formula, where the author of the block allows one; otherwise empty.
+  /// The formula, which is joined with others where the author of the block allows it.
   Formula formula(const Slot& slot) const {
-    return original_.function(slot->function).formula ? formula_of(slot->tape) : Formula();
+    return formula_of(slot, original_.function(slot->function).formula);
   }
 
   const PythonLeaf& original_;
@@ -154,13 +154,16 @@ void Writer::put_relations(const Slot& slot, OutputDeclaration& output) {
   std::vector<RelationIndex> relations;
   const std::size_t count = found.true_at_zero.size();
   for (std::size_t k = 0; k < count; ++k) {
+    const auto difference = std::make_shared<Trace>(*slot);
+    difference->tape = entry_of(found.differences, k);
     relations.push_back(
         add_relation({.name = count == 1 ? text(output.name, " difference")
                                          : text(output.name, " difference ", k),
-                      .guard = tape::as_vector_function(entry_of(found.differences, k)),
+                      .guard = tape::as_vector_function(difference->tape),
                       .true_at_zero = found.true_at_zero[k],
                       .reads = output.reads,
-                      .inputs = output.inputs}));
+                      .inputs = output.inputs,
+                      .formula = formula_of(difference, false)}));
   }
   output.reads = Reads::relations;
   output.inputs = std::vector<int>{};

@@ -1,6 +1,7 @@
 #include "traced_formula.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -10,6 +11,10 @@ namespace {
 
 using tape::Op;
 using tape::Symbol;
+
+Symbol mode(const EntryAt<Symbol>& at) { return at.mode(); }
+/// A formula that reads the mode is never called with numbers: see formula_of.
+Symbol mode(const EntryAt<double>&) { return std::numeric_limits<double>::quiet_NaN(); }
 
 /// A variable or a constant of a tape, as the formula of a block reads it.
 template <class Number>
@@ -21,6 +26,10 @@ Symbol variable(const EntryAt<Number>& at, const tape::Expression& e) {
       return at.time();
     case Op::continuous_state:
       return at.x(e.index);
+    case Op::discrete_state:
+      return at.z(e.index);
+    case Op::mode:
+      return mode(at);
     case Op::parameter:
       return at.p(ParameterIndex{e.index, 1}, 0);
     default:
@@ -54,22 +63,25 @@ Symbol value(const tape::Tape& tape, const EntryAt<Number>& at, Index i) {
   return values.back();
 }
 
+/// The slot has the present tape, which may be another one later in a run in pieces.
 struct TracedEntry {
-  tape::Tape tape;
+  Slot slot;
 
-  Symbol operator()(const EntryAt<Symbol>& at, Index i) const { return value(tape, at, i); }
+  Symbol operator()(const EntryAt<Symbol>& at, Index i) const { return value(slot->tape, at, i); }
   double operator()(const EntryAt<double>& at, Index i) const {
     tape::Graph constants;  // the value is one
-    return *constants.value(value(tape, at, i).in(constants));
+    return *constants.value(value(slot->tape, at, i).in(constants));
   }
 };
 
 }  // namespace
 
-Formula formula_of(const tape::Tape& tape) {
-  const Reads reads = tape.reads();
-  if (has(reads, Reads::discrete_state) || has(reads, Reads::mode) || tape.reads_entry()) return {};
-  return TracedEntry{tape};
+Formula formula_of(const Slot& slot, bool joins) {
+  const Reads reads = slot->tape.reads();
+  if (slot->tape.reads_entry()) return {};
+  const Formula formula = TracedEntry{slot};
+  const bool alone = has(reads, Reads::discrete_state) || has(reads, Reads::mode);
+  return joins && !alone ? formula : formula.called();
 }
 
 }  // namespace saltus::python

@@ -2,12 +2,13 @@
 #pragma once
 
 #include "saltus/model/formula.hpp"
-#include "saltus/tape/tape.hpp"
+#include "trace.hpp"
 
 namespace saltus::python {
 
-/// The formula of a tape, with the same numbers to the last bit. Empty if the tape reads a discrete
-/// state or the mode, which no formula reads.
-Formula formula_of(const tape::Tape& tape);
+/// The formula of the tape in the slot, with the same numbers to the last bit. A plan joins it with
+/// others only if `joins` and if it reads neither a discrete state nor the mode. Empty if the tape
+/// reads the entry of a reset map.
+Formula formula_of(const Slot& slot, bool joins);
 
 }  // namespace saltus::python

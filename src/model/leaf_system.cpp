@@ -114,6 +114,7 @@ void LeafSystem::declare_continuous_state(ContinuousState state) {
                           state.initial.size(), "; say inlined<", state.initial.size(), ">"));
   }
   take_formula(state.ode.function, state.formula, "the continuous state", name());
+  if (!state.formula) state.formula = state.ode.formula;
   const ContinuousState& before = declared_.continuous;
   if (!state.jacobian) state.jacobian = before.jacobian;
   if (!state.sparsity) {

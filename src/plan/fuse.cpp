@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "expressions.hpp"
 #include "saltus/plan/detail/needs.hpp"
 #include "saltus/tape/tape.hpp"
 
@@ -13,7 +14,10 @@ namespace {
 /// side by side.
 constexpr Index widest = 16;
 
-constexpr int variable = -1;
+/// The formula, if it may be joined with others and is narrow enough; otherwise null.
+const Formula* fusible(const Formula& formula, Index size) {
+  return formula && formula.joins() && size <= widest ? &formula : nullptr;
+}
 
 /// A consumer at the end of a list: an ode or a group of guards.
 struct Sink {
@@ -23,93 +27,41 @@ struct Sink {
   std::vector<int> needs = {};
 };
 
-/// Holds values as nodes of one graph: computed nodes, or variables for values computed elsewhere.
+/// The values of a stage and their places. `first` has room for a number for each node; writers that
+/// follow one another share it.
 class Writer {
  public:
-  /// `first` has room for a number for each node; writers that follow one another share it.
-  Writer(const Plan& plan, std::vector<int>& first) : plan_(plan), first_(first) {}
+  Writer(const Plan& plan, std::vector<int>& first)
+      : plan_(plan), first_(first), values_(plan, first) {}
 
-  void compute(int i) {
-    const Node& node = plan_.node(i);
-    const std::size_t first = values_.size();
-    write(plan_.output_of(node).formula, node.leaf, node.place.size);
-    first_[static_cast<std::size_t>(i)] = static_cast<int>(first);
-  }
+  void compute(int i) { values_.compute(i); }
   /// Stores a computed value to its own place.
-  void keep(int i) {
-    const auto first = static_cast<std::size_t>(first_[static_cast<std::size_t>(i)]);
-    put(first, plan_.node(i).place);
-  }
+  void keep(int i) { put(values_.of_node(i), plan_.node(i).place); }
   void put(const Sink& sink) {
-    const std::size_t first = values_.size();
-    write(*sink.formula, sink.leaf, sink.size);
-    put(first, {Space::y, sink.to, sink.size});
+    put(values_.add(*sink.formula, sink.leaf, sink.size), {Space::y, sink.to, sink.size});
   }
   /// The next stage reads these values as variables.
   void forget(const std::vector<int>& nodes) {
-    for (const int i : nodes) first_[static_cast<std::size_t>(i)] = variable;
+    for (const int i : nodes) first_[static_cast<std::size_t>(i)] = Expressions::variable;
   }
 
   VectorFunction function() const {
     if (outputs_.empty()) return {};
-    return tape::as_vector_function(tape::Tape(graph_, outputs_, places_));
+    return tape::as_vector_function(tape::Tape(values_.graph(), outputs_, places_));
   }
 
  private:
-  /// The symbols of one leaf.
-  class Of final : public Symbols {
-   public:
-    Of(Writer& writer, const PlanLeaf& leaf) : writer_(writer), leaf_(leaf) {}
-    tape::Symbol time() override { return symbol(graph().time()); }
-    tape::Symbol state(Index i) override { return symbol(graph().continuous_state(leaf_.x + i)); }
-    tape::Symbol parameter(Index i) override { return symbol(graph().parameter(leaf_.p + i)); }
-    tape::Symbol input(int k, Index i) override { return value(leaf_.inputs, k, i); }
-    Index width(int k) override { return leaf_.input_places[static_cast<std::size_t>(k)].size; }
-    tape::Symbol relation(RelationIndex r, Index i) override {
-      return value(leaf_.relations, r.value, i);
-    }
-
-   private:
-    tape::Graph& graph() { return writer_.graph_; }
-    tape::Symbol symbol(tape::Node node) { return {graph(), node}; }
-    tape::Symbol value(const std::vector<int>& nodes, int k, Index i) {
-      return symbol(writer_.value(nodes[static_cast<std::size_t>(k)], i));
-    }
-    Writer& writer_;
-    const PlanLeaf& leaf_;
-  };
-
-  tape::Node value(int node, Index i) {
-    const int first = first_[static_cast<std::size_t>(node)];
-    if (first != variable) return values_[static_cast<std::size_t>(first + i)];
-    const Place& place = plan_.node(node).place;
-    switch (place.space) {
-      case Space::x:
-        return graph_.continuous_state(place.offset + i);
-      case Space::p:
-        return graph_.parameter(place.offset + i);
-      case Space::z:
-        return graph_.input(input_of_z, place.offset + i);
-      default:
-        return graph_.discrete_state(place.offset + i);
-    }
-  }
-
-  void write(const Formula& formula, int leaf, Index size) {
-    Of symbols(*this, plan_.leaves[static_cast<std::size_t>(leaf)]);
-    for (Index i = 0; i < size; ++i) values_.push_back(formula.symbol(symbols, i).in(graph_));
-  }
-  void put(std::size_t first, const Place& to) {
+  void put(std::span<const tape::Node> values, const Place& to) {
     for (Index i = 0; i < to.size; ++i) {
-      outputs_.push_back(values_[first + static_cast<std::size_t>(i)]);
+      outputs_.push_back(values[static_cast<std::size_t>(i)]);
       places_.push_back(to.offset + i);
     }
   }
 
   const Plan& plan_;
-  std::vector<int>& first_;  // the first entry of each node in `values_`
-  tape::Graph graph_;
-  std::vector<tape::Node> values_, outputs_;
+  std::vector<int>& first_;
+  Expressions values_;
+  std::vector<tape::Node> outputs_;
   std::vector<Index> places_;
 };
 
@@ -140,7 +92,7 @@ class Stages {
       (fuses(i) ? formulas[s] : walk.stages[s].calls).push_back(i);
     }
     const auto kept = find_kept();
-    std::vector<int> first(plan_.nodes.size(), variable);
+    std::vector<int> first(plan_.nodes.size(), Expressions::variable);
     for (std::size_t s = 0; s < walk.stages.size(); ++s) {
       Writer writer(plan_, first);
       write(writer, formulas[s], kept);
@@ -163,7 +115,7 @@ class Stages {
 
   bool fuses(int i) const {
     const Node& node = plan_.node(i);
-    return !node.relation && plan_.output_of(node).formula && node.place.size <= widest;
+    return !node.relation && fusible(plan_.output_of(node).formula, node.place.size) != nullptr;
   }
   int& stage(int i) { return stage_[static_cast<std::size_t>(i)]; }
   int stage(int i) const { return stage_[static_cast<std::size_t>(i)]; }
@@ -209,11 +161,6 @@ class Stages {
   std::vector<int> stage_;
   int stages_ = 0;
 };
-
-/// The formula, if it is narrow enough; otherwise null.
-const Formula* fusible(const Formula& formula, Index size) {
-  return formula && size <= widest ? &formula : nullptr;
-}
 
 std::vector<Sink> odes_of(const Plan& plan) {
   static const Formula still([](const auto&) { return 0.0; });

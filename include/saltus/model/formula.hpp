@@ -19,6 +19,8 @@ class Symbols {
   virtual ~Symbols() = default;
   virtual tape::Symbol time() = 0;
   virtual tape::Symbol state(Index i) = 0;
+  virtual tape::Symbol discrete_state(Index i) = 0;
+  virtual tape::Symbol mode() = 0;
   virtual tape::Symbol parameter(Index i) = 0;
   virtual tape::Symbol input(int k, Index i) = 0;
   virtual Index width(int k) = 0;
@@ -38,6 +40,7 @@ class EntryAt {
   double time() const { return at_.time; }              ///< [s]
   Number x() const { return read(at_.x.data() + i_); }  ///< the entry of the continuous state
   double x(Index j) const { return at_.x[j]; }          ///< entry j of it
+  double z(Index j) const { return at_.z[j]; }          ///< entry j of the discrete state
   /// The entry of input k, or of a scalar input its only entry; with j, entry j.
   Number u(int k) const { return entry(at_.u[k]); }
   double u(int k, Index j) const { return at_.u[k][j]; }
@@ -82,6 +85,8 @@ class EntryAt<tape::Symbol> {
   Symbol time() const { return symbols_.time(); }
   Symbol x() const { return x(i_); }
   Symbol x(Index j) const { return symbols_.state(j); }
+  Symbol z(Index j) const { return symbols_.discrete_state(j); }
+  Symbol mode() const { return symbols_.mode(); }
   Symbol u(int k) const { return u(k, width(k) == 1 ? 0 : i_); }
   Symbol u(int k, Index j) const { return symbols_.input(k, j); }
   Index width(int k) const { return symbols_.width(k); }
@@ -129,7 +134,20 @@ class Formula {
           return f(EntryAt<tape::Symbol>(symbols, i), i);
         }) {}
 
+  /// Of a function that computes all entries, and of the expression of entry i.
+  Formula(VectorFunction function, std::function<tape::Symbol(detail::Symbols&, Index)> symbol)
+      : function_(std::move(function)), symbol_(std::move(symbol)) {}
+
   explicit operator bool() const noexcept { return static_cast<bool>(function_); }
+  /// The same formula, but its block calls its function: a plan does not join it with others. It is
+  /// read only as an expression, for example for its Taylor series.
+  Formula called() const {
+    Formula same = *this;
+    same.joins_ = false;
+    return same;
+  }
+  /// Whether a plan may compute it together with the formulas that it reads and that read it.
+  bool joins() const noexcept { return joins_; }
   /// Computes all entries, by calls with numbers.
   const VectorFunction& function() const noexcept { return function_; }
   /// Entry i, as an expression of these symbols.
@@ -138,6 +156,7 @@ class Formula {
  private:
   VectorFunction function_ = {};
   std::function<tape::Symbol(detail::Symbols&, Index)> symbol_ = {};
+  bool joins_ = true;
 };
 
 }  // namespace saltus

@@ -4,7 +4,7 @@
 #include <concepts>
 #include <utility>
 
-#include "saltus/base/callback.hpp"
+#include "saltus/model/equations.hpp"
 
 namespace saltus {
 
@@ -18,12 +18,17 @@ struct RightHandSide {
   template <class F>
     requires(!std::same_as<F, RightHandSide> && std::constructible_from<VectorFunction, F>)
   RightHandSide(F callable)  // NOLINT(google-explicit-constructor): as a VectorFunction
-      : function(std::move(callable)) {}
-  RightHandSide(VectorFunction callable, const InlinedSteps& with, Index number)
-      : function(std::move(callable)), steps(&with), states(number) {}
+      : formula(detail::formula_of(callable)), function(std::move(callable)) {}
+  template <class F>
+  RightHandSide(F callable, const InlinedSteps& with, Index number)
+      : formula(detail::formula_of(callable)),
+        function(std::move(callable)),
+        steps(&with),
+        states(number) {}
 
   explicit operator bool() const noexcept { return static_cast<bool>(function); }
 
+  Formula formula = {};  ///< the same as an expression; empty: it is only called
   VectorFunction function = {};
   const InlinedSteps* steps = nullptr;  ///< null: none
   Index states = 0;                     ///< the number of states that `steps` are for

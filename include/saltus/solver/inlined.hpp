@@ -87,7 +87,7 @@ RightHandSide inlined(F right_hand_side) {
   static_assert(
       !detail::MethodOf<F>::value,
       "a pointer says at run time only which method it is: inlined<N>(method<&Leaf::ode>)");
-  return {VectorFunction(std::move(right_hand_side)), detail::step_kernels<N, F>, N};
+  return {std::move(right_hand_side), detail::step_kernels<N, F>, N};
 }
 
 }  // namespace saltus

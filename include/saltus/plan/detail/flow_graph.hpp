@@ -1,0 +1,26 @@
+// FlowGraph: the derivatives and the guards of a whole plan as expressions.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "saltus/plan/plan.hpp"
+#include "saltus/tape/graph.hpp"
+
+namespace saltus {
+
+/// xdot(t, x) and the guards as nodes of one graph. Its variables are x, p, the held signals y as
+/// the discrete state, all of z as input 0, and the modes of the leaves, as numbers, as input 1.
+/// All but t and x are constant between two instants.
+struct FlowGraph {
+  tape::Graph graph = {};
+  std::vector<tape::Node> rates = {};                  ///< of each state; empty: see `obstacle`
+  std::vector<std::optional<tape::Node>> guards = {};  ///< by slot; none for a called guard
+  std::string obstacle = {};  ///< the first function of a derivative that is no expression
+};
+
+/// The expressions of a plan whose functions are formulas or traced.
+FlowGraph flow_graph(const Plan& plan);
+
+}  // namespace saltus
