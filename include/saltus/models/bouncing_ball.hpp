@@ -17,20 +17,20 @@ namespace saltus::models {
 class BouncingBall final : public LeafSystem {
  public:
   explicit BouncingBall(double g = 9.81, double e = 1.0) : LeafSystem("ball") {
-    declare_continuous_state(2, &BouncingBall::ode);
-    declare_continuous_state_output("ball:y");
-    declare_jacobian([](const At&, MatrixRef jacobian) { jacobian << 0.0, 1.0, 0.0, 0.0; });
     g_ = declare_dynamic_parameter("g", g);
     e_ = declare_dynamic_parameter("e", e);
+    declare_continuous_state(2, equations<2>([k = g_](const auto& at, auto& xdot) {
+                               xdot[0] = at.x(1), xdot[1] = -at.p(k, 0);
+                             }));
+    declare_continuous_state_output("ball:y");
+    declare_jacobian([](const At&, MatrixRef jacobian) { jacobian << 0.0, 1.0, 0.0, 0.0; });
     declare_zero_crossing({.name = "bounce",
-                           .guard = &BouncingBall::height,
                            .reset_map = &BouncingBall::bounce,
-                           .direction = Direction::positive_then_non_positive});
+                           .direction = Direction::positive_then_non_positive,
+                           .formula = Formula([](const auto& at) { return at.x(0); }).called()});
   }
 
  private:
-  void ode(const At& at, VectorRef xdot) const { xdot << at.x[1], -at.p[g_]; }
-  double height(const At& at) const { return at.x[0]; }
   void bounce(const At& at, Next& next) const {
     next.set_continuous_state({std::abs(at.x[0]), -at.p[e_] * at.x[1]});
   }
@@ -67,7 +67,7 @@ inline Scene bouncing_ball(const BouncingBallParameters& with = {}) {
       .options = {.recorded_signals = {{"y", ball->output(0)}}},
       .exact = std::move(exact),
       .gap = [](double, const Eigen::VectorXd& row) { return row[0]; },
-      .methods = {Method::dopri5, Method::dop853, Method::adams, Method::automatic},
+      .methods = {Method::dopri5, Method::dop853, Method::adams, Method::taylor, Method::automatic},
       .growth = 2.7e4};
   if (with.e == 1.0)
     scene.invariants = {{"energy per mass", [g = with.g](double, const Eigen::VectorXd& row) {

@@ -27,26 +27,21 @@ struct IntegrateAndFireParameters {
 
 class IntegrateAndFire final : public LeafSystem {
  public:
-  explicit IntegrateAndFire(const IntegrateAndFireParameters& with)
-      : LeafSystem("neuron"), with_(with) {
+  explicit IntegrateAndFire(const IntegrateAndFireParameters& with) : LeafSystem("neuron") {
     declare_continuous_state(
         {.initial = Eigen::VectorXd::Constant(1, with.reset),
-         .ode = &IntegrateAndFire::ode,
+         .ode = equations<1>([with](const auto& at, auto& xdot) {
+           using std::sin;
+           xdot[0] = (with.a + with.b * sin(with.w * at.time()) - at.x(0)) / with.tau;
+         }),
          .jacobian = [with](const At&, MatrixRef out) { out << -1.0 / with.tau; }});
     declare_continuous_state_output("potential");
     declare_zero_crossing(
         {.name = "spike",
-         .guard = [with](const At& at) { return at.x[0] - with.threshold; },
          .reset_map = [with](const At&, Next& next) { next.set_continuous_state({with.reset}); },
-         .direction = Direction::negative_then_non_negative});
+         .direction = Direction::negative_then_non_negative,
+         .formula = Formula([with](const auto& at) { return at.x(0) - with.threshold; }).called()});
   }
-
- private:
-  void ode(const At& at, VectorRef xdot) const {
-    xdot << (with_.a + with_.b * std::sin(with_.w * at.time) - at.x[0]) / with_.tau;
-  }
-
-  IntegrateAndFireParameters with_;
 };
 
 /// The steady answer to the drive, and the decaying part from the reset.
@@ -99,6 +94,8 @@ inline Scene integrate_and_fire(const IntegrateAndFireParameters& with = {}) {
               pieces_answer("closed form between spikes, spikes by bisection in extended precision",
                             "neuron.spike", spikes(with)),
           .gap = [with](double, const Eigen::VectorXd& row) { return with.threshold - row[0]; },
+          .methods = {Method::dopri5, Method::dop853, Method::adams, Method::bdf, Method::radau,
+                      Method::taylor, Method::automatic},
           .growth = 40.0};
 }
 

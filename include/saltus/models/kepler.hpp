@@ -22,21 +22,22 @@ class Kepler final : public LeafSystem {
       throw ModelError(text("Kepler: expected an eccentricity 0 <= e < 1, found ", e));
     declare_continuous_state(
         {.initial = Eigen::Vector4d(1.0 - e, 0.0, 0.0, std::sqrt((1.0 + e) / (1.0 - e))),
-         .ode = &Kepler::ode});
+         .ode = equations<4>([mu = declare_dynamic_parameter("mu", 1.0)](
+                                 const auto& at, auto& xdot) { flow(mu, at, xdot); })});
     declare_continuous_state_output("r");
-    mu_ = declare_dynamic_parameter("mu", 1.0);
-    declare_zero_crossing({.name = "apsis", .guard = [](const At& at) {
-                             return at.x[0] * at.x[2] + at.x[1] * at.x[3];
-                           }});
+    declare_zero_crossing({.name = "apsis", .formula = Formula([](const auto& at) {
+                                                         return at.x(0) * at.x(2) +
+                                                                at.x(1) * at.x(3);
+                                                       }).called()});
   }
 
  private:
-  void ode(const At& at, VectorRef xdot) const {
-    const double r2 = at.x[0] * at.x[0] + at.x[1] * at.x[1], w = -at.p[mu_] / (r2 * std::sqrt(r2));
-    xdot << at.x[2], at.x[3], w * at.x[0], w * at.x[1];
+  static void flow(ParameterIndex mu, const auto& at, auto& xdot) {
+    using std::sqrt;
+    const auto r2 = at.x(0) * at.x(0) + at.x(1) * at.x(1), w = -at.p(mu, 0) / (r2 * sqrt(r2));
+    xdot[0] = at.x(2), xdot[1] = at.x(3);
+    xdot[2] = w * at.x(0), xdot[3] = w * at.x(1);
   }
-
-  ParameterIndex mu_;
 };
 
 struct KeplerParameters {
@@ -94,7 +95,7 @@ inline Scene kepler(const KeplerParameters& with = {}) {
                       }},
                      {"angular momentum",
                       [](double, const Eigen::VectorXd& s) { return s[0] * s[3] - s[1] * s[2]; }}},
-      .methods = {Method::dopri5, Method::dop853, Method::adams, Method::automatic},
+      .methods = {Method::dopri5, Method::dop853, Method::adams, Method::taylor, Method::automatic},
       .growth = 1.9e4};
 }
 

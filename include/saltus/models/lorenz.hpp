@@ -15,23 +15,21 @@ class Lorenz final : public LeafSystem {
  public:
   explicit Lorenz(double sigma = 10.0, double rho = 28.0, double beta = 8.0 / 3.0)
       : LeafSystem("convection") {
-    declare_continuous_state({.initial = Eigen::Vector3d(0.0, 1.0, 0.0), .ode = &Lorenz::ode});
+    const auto s = declare_dynamic_parameter("sigma", sigma);
+    const auto r = declare_dynamic_parameter("rho", rho);
+    const auto b = declare_dynamic_parameter("beta", beta);
+    declare_continuous_state({.initial = Eigen::Vector3d(0.0, 1.0, 0.0),
+                              .ode = equations<3>([s, r, b](const auto& at, auto& xdot) {
+                                const auto x = at.x(0), y = at.x(1), z = at.x(2);
+                                xdot[0] = at.p(s, 0) * (y - x);
+                                xdot[1] = x * (at.p(r, 0) - z) - y;
+                                xdot[2] = x * y - at.p(b, 0) * z;
+                              })});
     declare_continuous_state_output("x");
-    sigma_ = declare_dynamic_parameter("sigma", sigma);
-    rho_ = declare_dynamic_parameter("rho", rho);
-    beta_ = declare_dynamic_parameter("beta", beta);
-    declare_zero_crossing({.name = "section", .guard = [rho = rho_](const At& at) {
-                             return at.x[2] - (at.p[rho] - 1.0);
-                           }});
+    declare_zero_crossing({.name = "section", .formula = Formula([r](const auto& at) {
+                                                           return at.x(2) - (at.p(r, 0) - 1.0);
+                                                         }).called()});
   }
-
- private:
-  void ode(const At& at, VectorRef xdot) const {
-    const double x = at.x[0], y = at.x[1], z = at.x[2];
-    xdot << at.p[sigma_] * (y - x), x * (at.p[rho_] - z) - y, x * y - at.p[beta_] * z;
-  }
-
-  ParameterIndex sigma_, rho_, beta_;
 };
 
 struct LorenzParameters {
@@ -79,7 +77,8 @@ inline Scene lorenz(const LorenzParameters& with = {}) {
        .span = {0.0, with.t_end},
        .options = {.rtol = 1e-6, .atol = 1e-6, .recorded_signals = {{"x", convection->output(0)}}},
        .exact = detail::until(with.t_end, 10.0, detail::lorenz_reference(with)),
-       .methods = {Method::dopri5, Method::dop853, Method::adams, Method::automatic},
+       .methods = {Method::dopri5, Method::dop853, Method::adams, Method::taylor,
+                   Method::automatic},
        .growth = 30.0});
 }
 

@@ -20,26 +20,27 @@ class Pleiades final : public LeafSystem {
     declare_continuous_state(
         {.initial = detail::column({3, 3, -1, -3, 2, -2,   2,    3, -3, 2, 0,     0, -4, 4,
                                     0, 0, 0,  0,  0, 1.75, -1.5, 0, 0,  0, -1.25, 1, 0,  0}),
-         .ode = &Pleiades::ode});
+         .ode = equations<4 * bodies>([](const auto& at, auto& xdot) { flow(at, xdot); })});
     declare_continuous_state_output("r");
   }
 
  private:
-  void ode(const At& at, VectorRef xdot) const {
-    const auto x = at.x.head<bodies>(), y = at.x.segment<bodies>(bodies);
-    xdot.head<2 * bodies>() = at.x.tail<2 * bodies>();
-    auto ax = xdot.segment<bodies>(2 * bodies), ay = xdot.tail<bodies>();
-    ax.setZero(), ay.setZero();
-    for (Index i = 0; i < bodies; ++i) {
-      for (Index j = 0; j < i; ++j) {
-        const double dx = x[j] - x[i], dy = y[j] - y[i], d2 = dx * dx + dy * dy,
-                     w = 1.0 / (d2 * std::sqrt(d2)), mi = static_cast<double>(i + 1),
-                     mj = static_cast<double>(j + 1);
-        ax[i] += mj * w * dx, ay[i] += mj * w * dy;
-        ax[j] -= mi * w * dx, ay[j] -= mi * w * dy;
+  /// x = (positions x, positions y, their derivatives).
+  static void flow(const auto& at, auto& xdot) {
+    using std::sqrt;
+    constexpr int ax = 2 * bodies, ay = 3 * bodies;
+    for (int i = 0; i < ax; ++i) entry(xdot, i) = at.x(i + ax), entry(xdot, i + ax) = 0.0;
+    for (int i = 0; i < bodies; ++i) {
+      for (int j = 0; j < i; ++j) {
+        const auto dx = at.x(j) - at.x(i), dy = at.x(j + bodies) - at.x(i + bodies),
+                   d2 = dx * dx + dy * dy, w = 1.0 / (d2 * sqrt(d2));
+        const double mi = i + 1.0, mj = j + 1.0;
+        entry(xdot, ax + i) += mj * w * dx, entry(xdot, ay + i) += mj * w * dy;
+        entry(xdot, ax + j) -= mi * w * dx, entry(xdot, ay + j) -= mi * w * dy;
       }
     }
   }
+  static auto& entry(auto& xdot, int i) { return xdot[static_cast<std::size_t>(i)]; }
 };
 
 struct PleiadesParameters {
@@ -123,7 +124,8 @@ inline Scene pleiades(const PleiadesParameters& with = {}) {
        .options = {.rtol = 1e-6, .atol = 1e-6, .recorded_signals = {{"r", bodies->output(0)}}},
        .exact = detail::until(with.t_end, with.t_end, detail::pleiades_reference()),
        .invariants = detail::pleiades_invariants(),
-       .methods = {Method::dopri5, Method::dop853, Method::adams, Method::automatic},
+       .methods = {Method::dopri5, Method::dop853, Method::adams, Method::taylor,
+                   Method::automatic},
        .growth = 9200.0});
 }
 

@@ -28,18 +28,21 @@ class RimlessWheel final : public LeafSystem {
  public:
   explicit RimlessWheel(const RimlessWheelParameters& with) : LeafSystem("wheel"), with_(with) {
     declare_continuous_state({.initial = Eigen::Vector2d(with.slope - with.alpha, with.rate),
-                              .ode = &RimlessWheel::ode,
+                              .ode = equations<2>([](const auto& at, auto& xdot) {
+                                using std::sin;
+                                xdot[0] = at.x(1), xdot[1] = sin(at.x(0));
+                              }),
                               .reads = Reads::continuous_state});
     declare_continuous_state_output("state");
     declare_zero_crossing({.name = "spoke",
-                           .guard = &RimlessWheel::beyond,
                            .reset_map = &RimlessWheel::next_spoke,
-                           .direction = Direction::negative_then_non_negative});
+                           .direction = Direction::negative_then_non_negative,
+                           .formula = Formula([with](const auto& at) {
+                                        return at.x(0) - (with.slope + with.alpha);
+                                      }).called()});
   }
 
  private:
-  void ode(const At& at, VectorRef xdot) const { xdot << at.x[1], std::sin(at.x[0]); }
-  double beyond(const At& at) const { return at.x[0] - (with_.slope + with_.alpha); }
   void next_spoke(const At& at, Next& next) const {
     next.set_continuous_state({at.x[0] - 2.0 * with_.alpha, std::cos(2.0 * with_.alpha) * at.x[1]});
   }
@@ -95,7 +98,7 @@ inline Scene rimless_wheel(const RimlessWheelParameters& with = {}) {
       .exact = rimless_wheel_answer(with),
       .gap = [with](double,
                     const Eigen::VectorXd& row) { return with.slope + with.alpha - row[0]; },
-      .methods = {Method::dopri5, Method::dop853, Method::adams, Method::automatic},
+      .methods = {Method::dopri5, Method::dop853, Method::adams, Method::taylor, Method::automatic},
       .growth = 270.0};
   for (const Sample& sample : scene.exact.samples) scene.options.save_at.push_back(sample.time);
   return scene;

@@ -25,29 +25,26 @@ class RockingBlock final : public LeafSystem {
  public:
   enum Edge { left = -1, right = 1 };
 
-  explicit RockingBlock(const RockingBlockParameters& with) : LeafSystem("block"), with_(with) {
-    declare_continuous_state(
-        {.initial = Eigen::Vector2d(with.tilt, 0.0), .ode = &RockingBlock::ode});
+  explicit RockingBlock(const RockingBlockParameters& with) : LeafSystem("block") {
+    declare_continuous_state({.initial = Eigen::Vector2d(with.tilt, 0.0),
+                              .ode = equations<2>([with](const auto& at, auto& xdot) {
+                                xdot[0] = at.x(1);
+                                xdot[1] = with.p * with.p * (at.x(0) - at.mode() * with.alpha);
+                              })});
     declare_continuous_state_output("state");
     declare_default_mode(right);
     for (const Edge edge : {right, left}) {
       declare_zero_crossing(
           {.name = edge == right ? "right_to_left" : "left_to_right",
-           .guard = [sign = double(edge)](const At& at) { return sign * at.x[0]; },
            .reset_map = [with](const At& at,
                                Next& next) { next.set_continuous_state({0.0, with.r * at.x[1]}); },
            .direction = Direction::positive_then_non_positive,
            .start_mode = edge,
-           .end_mode = -edge});
+           .end_mode = -edge,
+           .formula =
+               Formula([sign = double(edge)](const auto& at) { return sign * at.x(0); }).called()});
     }
   }
-
- private:
-  void ode(const At& at, VectorRef xdot) const {
-    xdot << at.x[1], with_.p * with_.p * (at.x[0] - at.mode * with_.alpha);
-  }
-
-  RockingBlockParameters with_;
 };
 
 /// theta = edge alpha + a cosh p d + b sinh p d, written without cancellation where theta is small.
@@ -104,7 +101,7 @@ inline Scene rocking_block(const RockingBlockParameters& with = {}) {
       .span = {0.0, with.t_end},
       .options = {.rtol = 1e-6, .atol = 1e-7, .recorded_signals = {{"state", block->output(0)}}},
       .exact = pieces_answer("closed form: cosh and sinh, Housner's times", "block.*", rocks(with)),
-      .methods = {Method::dopri5, Method::dop853, Method::automatic},
+      .methods = {Method::dopri5, Method::dop853, Method::taylor, Method::automatic},
       .growth = 1500.0};
 }
 

@@ -26,26 +26,31 @@ class StickSlip final : public LeafSystem {
   enum Mode { stick, slip };
 
   explicit StickSlip(const StickSlipParameters& with) : LeafSystem("mass"), with_(with) {
-    declare_continuous_state({.initial = Eigen::Vector2d(0.0, with.belt), .ode = &StickSlip::ode});
+    declare_continuous_state({.initial = Eigen::Vector2d(0.0, with.belt),
+                              .ode = equations<2>([with](const auto& at, auto& xdot) {
+                                xdot[0] = at.x(1);
+                                xdot[1] = at.choose(at.mode() == double(stick), 0.0,
+                                                    (with.fk - with.k * at.x(0)) / with.m);
+                              })});
     declare_continuous_state_output("state");
     declare_default_mode(stick);
     declare_zero_crossing({.name = "slips",
-                           .guard = [with](const At& at) { return with.k * at.x[0] - with.fs; },
                            .direction = Direction::negative_then_non_negative,
                            .start_mode = stick,
-                           .end_mode = slip});
-    declare_zero_crossing({.name = "sticks",
-                           .guard = [with](const At& at) { return at.x[1] - with.belt; },
-                           .reset_map = &StickSlip::catch_on,
-                           .direction = Direction::negative_then_non_negative,
-                           .start_mode = slip,
-                           .end_mode = stick});
+                           .end_mode = slip,
+                           .formula = Formula([with](const auto& at) {
+                                        return with.k * at.x(0) - with.fs;
+                                      }).called()});
+    declare_zero_crossing(
+        {.name = "sticks",
+         .reset_map = &StickSlip::catch_on,
+         .direction = Direction::negative_then_non_negative,
+         .start_mode = slip,
+         .end_mode = stick,
+         .formula = Formula([with](const auto& at) { return at.x(1) - with.belt; }).called()});
   }
 
  private:
-  void ode(const At& at, VectorRef xdot) const {
-    xdot << at.x[1], at.mode == stick ? 0.0 : (with_.fk - with_.k * at.x[0]) / with_.m;
-  }
   void catch_on(const At& at, Next& next) const {
     next.set_continuous_state({at.x[0], with_.belt});
   }
@@ -95,15 +100,16 @@ inline Pieces<Ride> rides(const StickSlipParameters& with) {
 /// total (perturbed runs at 1e-13).
 inline Scene stick_slip(const StickSlipParameters& with = {}) {
   const auto mass = std::make_shared<const StickSlip>(with);
-  return {.name = "stick-slip",
-          .system = mass,
-          .context = mass->create_context(),
-          .span = {0.0, with.t_end},
-          .options = {.rtol = 1e-6, .atol = 1e-7, .recorded_signals = {{"state", mass->output(0)}}},
-          .exact = pieces_answer("closed form: lines and circles", "mass.*", rides(with)),
-          .gap = [with](double, const Eigen::VectorXd& row) { return with.belt - row[1]; },
-          .methods = {Method::dopri5, Method::dop853, Method::adams, Method::automatic},
-          .growth = 500.0};
+  return {
+      .name = "stick-slip",
+      .system = mass,
+      .context = mass->create_context(),
+      .span = {0.0, with.t_end},
+      .options = {.rtol = 1e-6, .atol = 1e-7, .recorded_signals = {{"state", mass->output(0)}}},
+      .exact = pieces_answer("closed form: lines and circles", "mass.*", rides(with)),
+      .gap = [with](double, const Eigen::VectorXd& row) { return with.belt - row[1]; },
+      .methods = {Method::dopri5, Method::dop853, Method::adams, Method::taylor, Method::automatic},
+      .growth = 500.0};
 }
 
 }  // namespace saltus::models

@@ -24,31 +24,29 @@ class Thermostat final : public LeafSystem {
  public:
   enum Mode { off, on };
 
-  explicit Thermostat(const ThermostatParameters& with) : LeafSystem("room"), with_(with) {
+  explicit Thermostat(const ThermostatParameters& with) : LeafSystem("room") {
     declare_continuous_state(
         {.initial = Eigen::VectorXd::Constant(1, with.start),
-         .ode = &Thermostat::ode,
+         .ode = equations<1>([with](const auto& at, auto& xdot) {
+           const auto source = at.choose(at.mode() == double(on), with.heater, with.outside);
+           xdot[0] = (source - at.x(0)) / with.tau;
+         }),
          .jacobian = [with](const At&, MatrixRef out) { out << -1.0 / with.tau; }});
     declare_continuous_state_output("temperature");
     declare_default_mode(on);
-    declare_zero_crossing({.name = "warm",
-                           .guard = [with](const At& at) { return at.x[0] - with.high; },
-                           .direction = Direction::negative_then_non_negative,
-                           .start_mode = on,
-                           .end_mode = off});
-    declare_zero_crossing({.name = "cold",
-                           .guard = [with](const At& at) { return at.x[0] - with.low; },
-                           .direction = Direction::positive_then_non_positive,
-                           .start_mode = off,
-                           .end_mode = on});
+    declare_zero_crossing(
+        {.name = "warm",
+         .direction = Direction::negative_then_non_negative,
+         .start_mode = on,
+         .end_mode = off,
+         .formula = Formula([with](const auto& at) { return at.x(0) - with.high; }).called()});
+    declare_zero_crossing(
+        {.name = "cold",
+         .direction = Direction::positive_then_non_positive,
+         .start_mode = off,
+         .end_mode = on,
+         .formula = Formula([with](const auto& at) { return at.x(0) - with.low; }).called()});
   }
-
- private:
-  void ode(const At& at, VectorRef xdot) const {
-    xdot << ((at.mode == on ? with_.heater : with_.outside) - at.x[0]) / with_.tau;
-  }
-
-  ThermostatParameters with_;
 };
 
 struct Exponential {

@@ -22,19 +22,21 @@ struct TwoWallsParameters {
 class TwoWalls final : public LeafSystem {
  public:
   explicit TwoWalls(const TwoWallsParameters& with) : LeafSystem("ball"), with_(with) {
-    declare_continuous_state({.initial = Eigen::Vector2d(with.x0, with.v0),
-                              .ode = [](const At& at, VectorRef xdot) { xdot << at.x[1], 0.0; },
-                              .reads = Reads::continuous_state});
+    declare_continuous_state(
+        {.initial = Eigen::Vector2d(with.x0, with.v0),
+         .ode = equations<2>([](const auto& at, auto& xdot) { xdot[0] = at.x(1), xdot[1] = 0.0; }),
+         .reads = Reads::continuous_state});
     declare_continuous_state_output("state");
     declare_zero_crossing({.name = "wall",
-                           .guard = &TwoWalls::distances,
                            .reset_map = &TwoWalls::bounce,
                            .direction = Direction::positive_then_non_positive,
-                           .size = 2});
+                           .size = 2,
+                           .formula = Formula([with](const auto& at, Index wall) {
+                                        return wall == 0 ? at.x(0) : with.length - at.x(0);
+                                      }).called()});
   }
 
  private:
-  void distances(const At& at, VectorRef out) const { out << at.x[0], with_.length - at.x[0]; }
   void bounce(const At& at, Next& next) const {
     next.set_continuous_state({at.entry == 0 ? 0.0 : with_.length, -with_.e * at.x[1]});
   }
@@ -80,6 +82,8 @@ inline Scene two_walls(const TwoWallsParameters& with = {}) {
       .exact = pieces_answer("closed form: straight lines", "ball.wall", ways(with)),
       .gap = [with](double,
                     const Eigen::VectorXd& row) { return std::min(row[0], with.length - row[0]); },
+      .methods = {Method::dopri5, Method::dop853, Method::adams, Method::bdf, Method::radau,
+                  Method::taylor, Method::automatic},
       .growth = 2.0 * with.t_end};
   if (with.e == 1.0)
     scene.invariants = {
