@@ -64,7 +64,12 @@ class PythonSimulator {
     return last;
   }
 
-  bool replace_traces() { return plan_->replace_traces(); }
+  /// Runs the present traces from now on, see TracePass.
+  bool replace_traces() {
+    if (!plan_->replace_traces()) return false;
+    simulator_.functions_replaced();
+    return true;
+  }
 
   const Simulator& simulator() const { return simulator_; }
 

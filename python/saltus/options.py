@@ -61,7 +61,7 @@ class SimulatorOptions:
     """absolute tolerance, in the unit of the states; one number, or one for each"""
     ode_solver_method: str = "auto"
     """'auto' (dopri5 or dop853 by tolerance, radau or bdf while the scene is stiff), 'dopri5', 'dop853',
-    'adams', 'bdf', 'radau'; also 'rk45', 'RK45', 'DOP853', 'non-stiff', 'stiff', 'BDF', 'Radau'
+    'adams', 'bdf', 'radau', 'taylor'; also 'rk45', 'RK45', 'DOP853', 'non-stiff', 'stiff', 'BDF', 'Radau'
     """
     linear_solver: str = "auto"
     """how a stiff method solves its linear systems: 'auto' (by number of states and places of the

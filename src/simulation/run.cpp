@@ -18,6 +18,7 @@ SimulatorOptions checked(SimulatorOptions options) {
 SimulatorOptions checked_for(const Plan& plan, SimulatorOptions options) {
   options = checked(std::move(options));
   require_widths(options, plan);
+  require_series(plan, options.ode_solver_method);
   return options;
 }
 
@@ -26,6 +27,11 @@ SimulatorOptions checked_for(const Plan& plan, SimulatorOptions options) {
 Run::Run(const System& system, SimulatorOptions options)
     : Run(compile(system, checked(options).recorded_signals, options.refinement.get()), options) {
   options_.refinement.reset();  // the plan does not need it any more
+}
+
+void Run::functions_replaced() {
+  require_series(machine_.plan(), options_.ode_solver_method);
+  machine_.functions_replaced();
 }
 
 Run::Run(std::shared_ptr<const Plan> plan, SimulatorOptions options)

@@ -28,6 +28,10 @@ Status Simulator::advance_to(double t_end) {
   const Turn turn = run_->claim("advance_to");
   return run_->advance_to(t_end);
 }
+void Simulator::functions_replaced() {
+  const Turn turn = run_->claim("functions_replaced");
+  run_->functions_replaced();
+}
 double Simulator::time() const noexcept { return run_->time(); }
 Context Simulator::context() const {
   const Turn turn = run_->claim("context");

@@ -6,6 +6,7 @@
 #include "saltus/solver/detail/auto_solver.hpp"
 #include "saltus/solver/detail/one_step.hpp"
 #include "saltus/solver/detail/radau.hpp"
+#include "saltus/solver/detail/taylor.hpp"
 #include "saltus/solver/detail/thresholds.hpp"
 
 namespace saltus {
@@ -38,6 +39,14 @@ void require_linear_solver(LinearSolver linear_solver, Method method) {
   }
 }
 
+void require_series(const Plan& plan, Method method) {
+  if (method != Method::taylor) return;
+  const std::string obstacle = taylor_obstacle(plan);
+  if (obstacle.empty()) return;
+  throw ModelError(text("ode_solver_method 'taylor': ", obstacle,
+                        "; take the method 'auto' or 'dop853', or a mode for each branch"));
+}
+
 std::unique_ptr<Solver> make_solver(Method method, Machine& machine, GuardSet& guards,
                                     const SolverOptions& options) {
   switch (method) {
@@ -56,6 +65,8 @@ std::unique_ptr<Solver> make_solver(Method method, Machine& machine, GuardSet& g
       return make_cvode(machine, guards, options, CvodeMethod::bdf);
     case Method::radau:
       return make_radau(machine, guards, options);
+    case Method::taylor:
+      return make_taylor(machine, guards, options);
   }
   return nullptr;
 }

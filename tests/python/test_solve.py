@@ -43,7 +43,7 @@ class Ball(saltus.LeafSystem):
         )
 
 
-@pytest.mark.parametrize("method", ["auto", "dopri5", "dop853", "adams", "bdf", "radau"])
+@pytest.mark.parametrize("method", ["auto", "dopri5", "dop853", "adams", "bdf", "radau", "taylor"])
 def test_it_has_the_bits_of_the_class(method):
     short = solve(fall, (0.0, 4.0), [5.0, 0.0], method=method, rtol=1e-8, atol=1e-10, **BALL)
     ball = Ball()

@@ -11,16 +11,17 @@ namespace saltus {
 
 /// The methods that advance x between instants. `automatic` chooses among the others: dopri5 or
 /// dop853 by tolerance, bdf while the scene is stiff.
-enum class Method { automatic, dopri5, dop853, adams, bdf, radau };
+enum class Method { automatic, dopri5, dop853, adams, bdf, radau, taylor };
 
-/// The names of the methods. The first six are in the order of the enum; synonyms follow.
-inline constexpr std::array<std::pair<std::string_view, Method>, 15> method_names{{
+/// The names of the methods. The first seven are in the order of the enum; synonyms follow.
+inline constexpr std::array<std::pair<std::string_view, Method>, 16> method_names{{
     {"auto", Method::automatic},
     {"dopri5", Method::dopri5},
     {"dop853", Method::dop853},
     {"adams", Method::adams},
     {"bdf", Method::bdf},
     {"radau", Method::radau},
+    {"taylor", Method::taylor},
     {"rk45", Method::dopri5},
     {"RK45", Method::dopri5},
     {"DOP853", Method::dop853},
@@ -37,7 +38,7 @@ inline Method method_from(std::string_view name) {
   return detail::value_of(method_names, "ode_solver_method", name);
 }
 
-/// The name of the method: "auto", "dopri5", "dop853", "adams", "bdf" or "radau".
+/// The name of the method: "auto", "dopri5", "dop853", "adams", "bdf", "radau" or "taylor".
 constexpr std::string_view to_string(Method method) {
   return method_names[static_cast<std::size_t>(method)].first;
 }

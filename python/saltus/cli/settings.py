@@ -34,7 +34,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         "--t-end", type=float, metavar="T", help="[s] that of the scene if not said"
     )
     parser.add_argument(
-        "--method", metavar="NAME", help="auto, dopri5, dop853, adams, bdf or radau"
+        "--method", metavar="NAME", help="auto, dopri5, dop853, adams, bdf, radau or taylor"
     )
     parser.add_argument(
         "--rtol",

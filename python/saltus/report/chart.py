@@ -26,9 +26,10 @@ COLOURS = {
     "adams": "#009E73",
     "bdf": "#D55E00",
     "radau": "#CC79A7",
+    "taylor": "#E69F00",
     "auto": "#000000",
 }
-OTHERS = ("#E69F00", "#999999", "#F0E442")
+OTHERS = ("#999999", "#F0E442", "#8B4513")
 MARKERS = "ovs^Dp<h>*"  # one for each tolerance, the loosest first
 LEAST = 1e-17  # errors below it, zero among them, are drawn here
 STYLE: dict[Any, Any] = {

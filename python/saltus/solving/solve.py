@@ -95,7 +95,7 @@ def solve(
         A plain ``g(t, x, *args)``, perhaps with SciPy's attributes `terminal` and `direction`, is
         logged where it is zero; `Guard` says more, such as a reset.
     method : str
-        'auto', 'dopri5' ('RK45'), 'dop853' ('DOP853'), 'adams', 'bdf' ('BDF') or 'radau'
+        'auto', 'dopri5' ('RK45'), 'dop853' ('DOP853'), 'adams', 'bdf' ('BDF'), 'radau'
         ('Radau'). SciPy's 'RK23' is run by 'dopri5' and 'LSODA' by 'auto'.
     rtol, atol : float or array_like, shape (n,)
         Relative and absolute tolerance of a step, for all states or for each. A relative one below

@@ -41,7 +41,7 @@ def parts(draw: Any, most: int = 8) -> tuple[Part, ...]:
 
 
 OPTIONS = options_of(
-    ode_solver_method=st.sampled_from(["auto", "dopri5", "adams", "bdf", "radau"]),
+    ode_solver_method=st.sampled_from(["auto", "dopri5", "adams", "bdf", "radau", "taylor"]),
     rtol=st.sampled_from([1e-3, 1e-6, 1e-9]),
     event_scan_points=st.integers(0, 4),
     zeno_tolerance=st.sampled_from([1e-6, 1e-3, 1e-4, 1e-2, 1e-6, 0.0]),

@@ -10,7 +10,7 @@ import saltus
 from saltus.library import Constant, Gain, Integrator, ReduceBlock, Sine, ZeroOrderHold
 from systems import Ball, Decay, run
 
-METHODS = ["dopri5", "dop853", "adams", "bdf", "radau", "auto"]
+METHODS = ["dopri5", "dop853", "adams", "bdf", "radau", "taylor", "auto"]
 
 
 class Circle(saltus.LeafSystem):

@@ -5,7 +5,7 @@ import pytest
 import saltus
 from blocks import Ball, Block, crossing, go, kinds, ramp, x
 
-METHODS = ["dopri5", "adams", "bdf", "radau", "auto"]
+METHODS = ["dopri5", "adams", "bdf", "radau", "taylor", "auto"]
 EPS = np.finfo(float).eps
 
 

@@ -6,7 +6,7 @@ import saltus
 from blocks import Block, crossing, go, ramp, x
 from saltus.library import Comparator, Constant, Gain, Integrator, Pulse, Step, Switch, UnitDelay
 
-METHODS = ["dopri5", "adams", "bdf", "radau", "auto"]
+METHODS = ["dopri5", "adams", "bdf", "radau", "taylor", "auto"]
 
 
 def counter(*times, name="counter"):

@@ -7,7 +7,7 @@ from blocks import Ball, Block, go, kinds, x
 from saltus.library import Ramp, Step
 
 FINE = {"rtol": 1e-10, "atol": 1e-12}
-METHODS = ["dopri5", "adams", "bdf", "radau", "auto"]
+METHODS = ["dopri5", "adams", "bdf", "radau", "taylor", "auto"]
 
 
 def rest_time(y, e, g=9.81):

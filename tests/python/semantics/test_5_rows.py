@@ -150,7 +150,7 @@ def test_5_7_the_same_run_twice_gives_the_same_bits():
     assert repr(one.events) == repr(two.events)
 
 
-METHODS = ("dopri5", "dop853", "adams", "bdf", "radau")
+METHODS = ("dopri5", "dop853", "adams", "bdf", "radau", "taylor")
 
 
 def resetting(trigger, y=1.0, *more):

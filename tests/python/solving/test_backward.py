@@ -5,7 +5,7 @@ import pytest
 import saltus
 from saltus import Guard, solve
 
-METHODS = ("auto", "dopri5", "dop853", "adams", "bdf", "radau")
+METHODS = ("auto", "dopri5", "dop853", "adams", "bdf", "radau", "taylor")
 CLOSE = {"rtol": 1e-9, "atol": 1e-11}
 
 

@@ -6,7 +6,7 @@ import saltus
 from saltus import Guard, solve
 from systems import Ball
 
-METHODS = ("auto", "dopri5", "dop853", "adams", "bdf", "radau")
+METHODS = ("auto", "dopri5", "dop853", "adams", "bdf", "radau", "taylor")
 
 
 @pytest.mark.parametrize("method", METHODS)

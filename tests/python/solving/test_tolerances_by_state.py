@@ -6,7 +6,10 @@ import saltus
 from saltus import Guard, solve
 from systems import Ball
 
-METHODS = ("auto", "dopri5", "dop853", "adams", "bdf", "radau")
+METHODS = ("auto", "dopri5", "dop853", "adams", "bdf", "radau", "taylor")
+# The steps of taylor bound each term of its series, so a state with a wide tolerance costs steps,
+# and a loose tolerance means a lower order.
+WITHOUT_TAYLOR = METHODS[:-1]
 SHAKE = 1000.0  # [1/s] of the state that nobody needs exactly
 
 
@@ -45,7 +48,7 @@ def test_n_equal_numbers_are_one_number_to_the_bit(method, n):
 
 
 @pytest.mark.parametrize("which", ["atol", "rtol"])
-@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("method", WITHOUT_TAYLOR)
 def test_a_state_with_a_wide_tolerance_costs_no_steps(method, which):
     """A shaken state of size 1 that may be wrong by a thousand: the steps are those of x0."""
     span, start = (0.0, 1.0), [1.0, 0.0]
@@ -76,7 +79,7 @@ def test_a_state_with_a_tight_tolerance_is_exact(method):
     assert error([1e-17, 1e-8]) < 10 * (1e-7 * 1e-9 + 1e-17)
 
 
-@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("method", WITHOUT_TAYLOR)
 def test_rtol_by_state(method):
     """Two equal falls: the one with a hundredth of the tolerance sets the steps of both, and a
     wide one beside it costs none."""

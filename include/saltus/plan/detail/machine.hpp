@@ -117,6 +117,11 @@ class Machine : public Memory {
     run(calls_.needs_of_derivatives, t, state);
   }
 
+  /// The functions of some leaves compute something else from now on: whoever made something of
+  /// their formulas makes it anew, when it sees another number here.
+  void functions_replaced() noexcept { ++functions_; }
+  int functions() const noexcept { return functions_; }
+
   /// The entries of x that are held.
   RestingStates& resting() noexcept { return resting_; }
 
@@ -171,6 +176,7 @@ class Machine : public Memory {
   const RightHandSide* inlined_ = nullptr;
   std::vector<int> active_, called_;  // groups that can fire, and those of them that are not fused
   RestingStates resting_;
+  int functions_ = 0;           // how often they were replaced
   Carrier* carrier_ = nullptr;  // while a block rests on a surface that moves
   Eigen::VectorXd carried_x_;
 };

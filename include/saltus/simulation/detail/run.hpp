@@ -28,6 +28,8 @@ class Run {
 
   void initialize(const Context& context);
   Status advance_to(double t_end);
+  /// See Simulator::functions_replaced.
+  void functions_replaced();
   double time() const noexcept { return time_; }
   Context context() const;
   const Results& results() const noexcept { return results_; }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "saltus/solver/detail/dip_search.hpp"
+#include "saltus/solver/detail/look_points.hpp"
 #include "saltus/solver/detail/thresholds.hpp"
 
 namespace saltus {
@@ -30,8 +31,9 @@ class GuardSearch : private DipSearch {
   struct Part {
     double t0, from, to;
     const double *end = nullptr, *guards = nullptr;
-    int scan_points;       ///< interior points with a look
-    bool to_root = false;  ///< the solver stops at `to`
+    int scan_points;               ///< interior points with a look
+    LookPoints* points = nullptr;  ///< chooses them in place of even ones, where it knows them
+    bool to_root = false;          ///< the solver stops at `to`
   };
 
   /// Finds the first offset at which a guard other than a monitor fires; false if there is none.
@@ -39,7 +41,9 @@ class GuardSearch : private DipSearch {
   /// throws, GuardSet::restore restores the records.
   template <class Interpolate>
   bool find(const Part& part, const Interpolate& interpolate) {
-    t0_ = part.t0, scan_points_ = part.scan_points, to_root_ = part.to_root;
+    points_ = part.points == nullptr ? nullptr : part.points->between(*watch_, part.from, part.to);
+    t0_ = part.t0, to_root_ = part.to_root;
+    scan_points_ = points_ == nullptr ? part.scan_points : 0;
     few_.clear(), may_go_back_ = false;
     if (outdated()) look_up_guards();
     if (part.guards != nullptr)
@@ -79,7 +83,7 @@ class GuardSearch : private DipSearch {
     skipped_ = 0;
     end_.swap(high_);
     end_at_ = to;
-    const int pieces = scan_points_ + 1;
+    const int pieces = 1 + (points_ == nullptr ? scan_points_ : static_cast<int>(points_->size()));
     const double piece_length = (to - from) / pieces;
     double next = from;
     if (earlier_at_ == never && scans() && some_beyond()) {
@@ -90,7 +94,9 @@ class GuardSearch : private DipSearch {
     }
     for (int piece = 1; piece <= pieces; ++piece) {
       const bool last = piece == pieces;
-      next = last ? to : std::min(to, next + piece_length);
+      next = last                 ? to
+             : points_ == nullptr ? std::min(to, next + piece_length)
+                                  : (*points_)[static_cast<std::size_t>(piece - 1)];
       if (last)
         high_.swap(end_);
       else
@@ -250,6 +256,7 @@ class GuardSearch : private DipSearch {
   std::vector<double> at_root_, before_;
   double root_ = 0.0;
   bool to_root_ = false;
+  const std::vector<double>* points_ = nullptr;  // where to look inside; null: evenly
   std::vector<double> end_;  // guards at the end of the step, until the look at its last piece
   double end_at_ = 0.0;
   int patience_ = thresholds::least_patience;  // allowed steps in a row without a look inside

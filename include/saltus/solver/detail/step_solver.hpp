@@ -92,6 +92,8 @@ class StepSolver : public Interface {
 
  protected:
   const double* end_guards() const { return nullptr; }
+  /// See LookPoints; null: the method knows its guards by their values only.
+  LookPoints* look_points() { return nullptr; }
 
   Machine* machine_;
   GuardSet* guards_;
@@ -123,7 +125,8 @@ class StepSolver : public Interface {
   template <class Inside>
   bool find_root(const Inside& inside) {
     const auto find = [&](const double* guards) {
-      return locator_.find({t0_, offset_, length_, x1_.data(), guards, scan_points()}, inside);
+      return locator_.find(
+          {t0_, offset_, length_, x1_.data(), guards, scan_points(), self().look_points()}, inside);
     };
     if constexpr (CutsSteps<Method>) {
       before_ = guards_->g;

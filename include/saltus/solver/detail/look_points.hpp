@@ -1,0 +1,20 @@
+// LookPoints: where a search has to look at the guards inside a step.
+#pragma once
+
+#include <vector>
+
+#include "saltus/solver/detail/guard_set.hpp"
+
+namespace saltus {
+
+/// A method that knows more of its guards than their values, for example their series.
+class LookPoints {
+ public:
+  virtual ~LookPoints() = default;
+  /// Offsets inside (from, to), in ascending order, such that no guard of the watch crosses more than
+  /// once between two of them, nor before the first or after the last. Null if the method does not
+  /// know: the search then looks at evenly spaced points, and where three looks suggest a dip.
+  virtual const std::vector<double>* between(const Watch& watch, double from, double to) = 0;
+};
+
+}  // namespace saltus

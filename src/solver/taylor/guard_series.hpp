@@ -1,0 +1,83 @@
+// GuardSeries: where to look for the crossings of the guards inside a Taylor step.
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "saltus/plan/detail/flow_graph.hpp"
+#include "saltus/solver/detail/look_points.hpp"
+#include "saltus/solver/detail/taylor/root_separation.hpp"
+#include "saltus/tape/series.hpp"
+
+namespace saltus::taylor {
+
+/// The guards of a plan as series along the solution.
+class GuardSeries final : public LookPoints {
+ public:
+  explicit GuardSeries(const GuardSet& guards) : guards_(&guards) {}
+
+  /// Takes the guards that have a series; returns their expressions, as outputs of a Series.
+  std::vector<tape::Node> take(const FlowGraph& flow) {
+    std::vector<tape::Node> outputs;
+    number_.assign(flow.guards.size(), none);
+    for (std::size_t k = 0; k < flow.guards.size(); ++k) {
+      if (!flow.guards[k] || !tape::kinks(flow.graph, {&*flow.guards[k], 1}).empty()) continue;
+      number_[k] = static_cast<int>(outputs.size());
+      outputs.push_back(*flow.guards[k]);
+    }
+    return outputs;
+  }
+
+  /// The step begins: `series` is expanded to this order, and the step is h [s] long. Null: it has
+  /// no series, and the guards are known by their values only.
+  void begin_step(tape::Series* series, int order, double h) {
+    series_ = series, order_ = order, h_ = h;
+  }
+
+  const std::vector<double>* between(const Watch& watch, double from, double to) override {
+    if (series_ == nullptr) return nullptr;
+    points_.clear();
+    for (const std::size_t k : watch.slots)
+      if (number_[k] == none || !separate(k, from / h_)) return nullptr;
+    for (double& point : points_) point *= h_;
+    std::ranges::sort(points_);
+    const auto inside = [&](double u) { return u > from && u < to; };
+    std::erase_if(points_, [&](double u) { return !inside(u); });
+    points_.erase(std::ranges::unique(points_).begin(), points_.end());
+    return &points_;
+  }
+
+ private:
+  static constexpr int none = -1;
+
+  /// Adds the points of one guard, whose crossings are those of zero, of its error to both sides,
+  /// and of the value from which an edge is told.
+  bool separate(std::size_t k, double from) {
+    double* a = terms_.data();
+    series_->expand_outputs(number_[k], 1, a);
+    double power = 1.0;
+    for (int i = 1; i <= order_; ++i) a[i] *= power *= h_;
+    const Guard& guard = (*guards_)[k];
+    const bool edge = guard.watched_direction() == Direction::edge_detection;
+    const double value = a[0];
+    const auto crossings_of = [&](double level) {
+      a[0] = value - level;
+      return separation_.separate(a, order_, from, points_);
+    };
+    if (edge && !crossings_of(guard.base)) return false;
+    if (guard.error > 0.0 && !(crossings_of(guard.error) && crossings_of(-guard.error)))
+      return false;
+    return crossings_of(0.0);
+  }
+
+  const GuardSet* guards_;
+  std::vector<int> number_;  // of the output of each slot
+  tape::Series* series_ = nullptr;
+  int order_ = 0;
+  double h_ = 0.0;
+  std::array<double, most_order + 1> terms_{};
+  RootSeparation separation_;
+  std::vector<double> points_;
+};
+
+}  // namespace saltus::taylor

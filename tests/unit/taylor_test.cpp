@@ -1,0 +1,261 @@
+// The Taylor method: tolerances, orders, looks at guards, what it refuses.
+#include <numbers>
+
+#include "saltus/solver/detail/taylor.hpp"
+#include "saltus/solver/detail/taylor/hidden.hpp"
+#include "saltus/solver/detail/taylor/step_rule.hpp"
+#include "support/leaves.hpp"
+
+using namespace saltus;
+using namespace support;
+
+namespace {
+
+/// x'' = -x from (1, 0): x = cos t.
+Leaf oscillator() {
+  return Leaf("oscillator", [](Leaf& l) {
+    l.declare_continuous_state(
+        {.initial = vec({1.0, 0.0}), .ode = equations<2>([](const auto& at, auto& xdot) {
+                                       xdot[0] = at.x(1);
+                                       xdot[1] = -at.x(0);
+                                     })});
+  });
+}
+
+constexpr double gravity = 9.8;
+
+/// theta'' = -g sin(theta), released at rest.
+Leaf pendulum(double angle) {
+  return Leaf("pendulum", [angle](Leaf& l) {
+    l.declare_continuous_state(
+        {.initial = vec({angle, 0.0}), .ode = equations<2>([](const auto& at, auto& xdot) {
+                                         using std::sin;
+                                         xdot[0] = at.x(1);
+                                         xdot[1] = -gravity * sin(at.x(0));
+                                       })});
+    l.declare_zero_crossing({.name = "turn", .formula = [](const auto& at) { return at.x(1); }});
+    l.declare_zero_crossing(
+        {.name = "slow", .formula = [](const auto& at) { return at.x(1) * at.x(1) - 1e-12; }});
+  });
+}
+
+SimulatorOptions by_taylor(double rtol, double atol) {
+  return {.rtol = rtol, .atol = atol, .ode_solver_method = Method::taylor};
+}
+
+Results run(const System& system, double end, const SimulatorOptions& options) {
+  return simulate(system, system.create_context(), {0.0, end}, options);
+}
+
+/// The times of the events of this name.
+std::vector<double> times(const Results& results, std::string_view name) {
+  std::vector<double> found;
+  for (std::size_t i = 0; i < results.events.size(); ++i)
+    if (results.events[i].name == name) found.push_back(results.events[i].time);
+  return found;
+}
+
+}  // namespace
+
+TEST_CASE("the order grows with the tolerance as 1 - ln(rtol) / 2", "[taylor]") {
+  CHECK(taylor::order_of(1e-4) == 6);
+  CHECK(taylor::order_of(1e-6) == 8);
+  CHECK(taylor::order_of(1e-8) == 11);
+  CHECK(taylor::order_of(1e-10) == 13);
+  CHECK(taylor::order_of(1e-12) == 15);
+  CHECK(taylor::order_of(0.0) == 20);  // as at the rounding
+  CHECK(taylor::order_of(0.5) == taylor::least_order);
+}
+
+TEST_CASE("a step ends where one of the last two terms is a tolerance", "[taylor]") {
+  // terms of exp(t) at order 8 with a tolerance of 1e-6
+  const auto term = [](int k) { return 1e6 / std::tgamma(k + 1.0); };
+  const double h = taylor::length_of(8, term);
+  CHECK(h == std::min(std::pow(term(8), -1.0 / 8), std::pow(term(7), -1.0 / 7)));
+  // every second term vanishes
+  const auto odd = [&](int k) { return k % 2 == 1 ? term(k) : 0.0; };
+  CHECK(taylor::length_of(8, odd) == std::pow(term(7), -1.0 / 7));
+  // a polynomial of degree 2 is the solution
+  CHECK(taylor::length_of(8, [](int k) { return k > 2 ? 0.0 : 1e6; }) == infinite);
+  // one of degree 6 is bounded by its last terms, and the check of the step confirms it
+  CHECK(taylor::length_of(8, [](int k) { return k > 6 ? 0.0 : 1e6; }) < 1.0);
+}
+
+TEST_CASE("Taylor is within some tolerances of the closed form at each of them", "[taylor]") {
+  const Leaf leaf = oscillator();
+  for (const double rtol : {1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-14}) {
+    const Results results = run(leaf, 20.0, by_taylor(rtol, rtol));
+    const Eigen::VectorXd x = results.context.continuous_state();
+    const double error = std::hypot(x[0] - std::cos(20.0), x[1] + std::sin(20.0));
+    // A step leaves out a term of about exp(-2) of a tolerance and its successors. A step is above
+    // (p!)^(1/p) rtol^(1/p) > 0.4 s long, so there are at most 50 of them, and nothing grows.
+    INFO(rtol);
+    CHECK(error < 50.0 * rtol);
+    CHECK(results.statistics.steps < 50);
+  }
+}
+
+TEST_CASE("in a long run the error grows with the terms left out, not with the rounding",
+          "[taylor]") {
+  const Leaf leaf = oscillator();
+  const double end = 2000.0 * std::numbers::pi;
+  const Results results = run(leaf, end, by_taylor(1e-15, 1e-15));
+  // each step leaves out about exp(-2) of a tolerance, all with one sign at worst
+  const double bound = static_cast<double>(results.statistics.steps) * std::exp(-2.0) * 2e-15;
+  CHECK(std::abs(results.context.continuous_state()[1] + std::sin(end)) < bound);
+}
+
+TEST_CASE("free flight is one step, because the polynomial is the solution", "[taylor]") {
+  const Leaf leaf("stone", [](Leaf& l) {
+    l.declare_continuous_state(
+        {.initial = vec({10.0, 3.0}), .ode = equations<2>([](const auto& at, auto& xdot) {
+                                        xdot[0] = at.x(1);
+                                        xdot[1] = -9.81;
+                                      })});
+  });
+  const Results results = run(leaf, 7.0, by_taylor(1e-9, 1e-9));
+  CHECK(results.statistics.steps == 1);
+  const double exact = 10.0 + 3.0 * 7.0 - 0.5 * 9.81 * 49.0;
+  CHECK(std::abs(results.context.continuous_state()[0] - exact) < 4.0 * eps * 240.0);
+}
+
+TEST_CASE("no turn of a pendulum is missed, nor a pair of crossings beside it", "[taylor]") {
+  const Leaf leaf = pendulum(0.05);
+  constexpr double half_period = 1.0037017879400650;  // 2 K(sin(0.025)) / sqrt(g)
+  const Results results = run(leaf, 20.5, by_taylor(1e-13, 1e-13));
+  const auto turns = times(results, "turn"), slow = times(results, "slow");
+  // At t = 0 the pendulum is at rest: no crossing of its speed. v^2 = 1e-12 at 1e-6 / (g sin 0.05) s
+  // before and after each turn, and after the start.
+  const double apart = 1e-6 / (gravity * std::sin(0.05));
+  REQUIRE(turns.size() == 20);
+  REQUIRE(slow.size() == 41);
+  for (std::size_t i = 0; i < turns.size(); ++i) {
+    const double exact = half_period * static_cast<double>(i + 1);
+    CHECK(std::abs(turns[i] - exact) < 1e-11);
+    CHECK(std::abs(slow[2 * i + 1] - (exact - apart)) < 1e-10);
+    CHECK(std::abs(slow[2 * i + 2] - (exact + apart)) < 1e-10);
+  }
+}
+
+TEST_CASE("a pair of crossings within a step is seen however long the step is", "[taylor]") {
+  // x'' = 0: the step has no bound. The guard (t - 3)^2 - d^2 dips below zero for 2 d seconds.
+  for (const double d : {0.3, 1e-2, 1e-4, 1e-5}) {
+    const Leaf leaf("dip", [d](Leaf& l) {
+      l.declare_continuous_state(
+          {.initial = vec({0.0}),
+           .ode = equations<1>([](const auto&, auto& xdot) { xdot[0] = 1.0; })});
+      l.declare_zero_crossing({.name = "dip", .formula = [d](const auto& at) {
+                                 const auto s = at.x(0) - 3.0;
+                                 return s * s - d * d;
+                               }});
+    });
+    const Results results = run(leaf, 10.0, by_taylor(1e-9, 1e-9));
+    INFO(d);
+    const auto found = times(results, "dip");
+    REQUIRE(found.size() == 2);
+    // the root moves by the rounding of 9 over the slope 2 d
+    CHECK(std::abs(found[0] - (3.0 - d)) < 10.0 * eps * 9.0 / d);
+    CHECK(std::abs(found[1] - (3.0 + d)) < 10.0 * eps * 9.0 / d);
+  }
+}
+
+TEST_CASE("a monitor changes no bit of a run by taylor", "[taylor]") {
+  const auto rows = [](bool watched) {
+    const Leaf leaf("pendulum", [watched](Leaf& l) {
+      l.declare_continuous_state(
+          {.initial = vec({2.0, 0.0}), .ode = equations<2>([](const auto& at, auto& xdot) {
+                                         using std::sin;
+                                         xdot[0] = at.x(1);
+                                         xdot[1] = -gravity * sin(at.x(0));
+                                       })});
+      if (watched)
+        l.declare_zero_crossing(
+            {.name = "upright", .formula = [](const auto& at) { return at.x(0) - 1.9; }});
+    });
+    return run(leaf, 30.0, by_taylor(1e-10, 1e-10)).context.continuous_state();
+  };
+  CHECK(rows(true) == rows(false));
+}
+
+TEST_CASE("a solution that has no series at its start begins with dop853", "[taylor]") {
+  // x' = sqrt(x + t^2) from 0: sqrt has no series at 0
+  const Leaf leaf("root", [](Leaf& l) {
+    l.declare_continuous_state(
+        {.initial = vec({0.0}), .ode = equations<1>([](const auto& at, auto& xdot) {
+                                  using std::sqrt;
+                                  xdot[0] = sqrt(at.time() * at.time() + at.x(0));
+                                })});
+  });
+  const auto end = [&](Method method) {
+    SimulatorOptions options = by_taylor(1e-10, 1e-10);
+    options.ode_solver_method = method;
+    return run(leaf, 2.0, options).context.continuous_state()[0];
+  };
+  CHECK(std::abs(end(Method::taylor) - end(Method::dop853)) < 1e-7);
+}
+
+TEST_CASE("a solution that blows up ends with an error that says where", "[taylor]") {
+  const Leaf leaf("blow", [](Leaf& l) {
+    l.declare_continuous_state(
+        {.initial = vec({1.0}),
+         .ode = equations<1>([](const auto& at, auto& xdot) { xdot[0] = at.x(0) * at.x(0); })});
+  });
+  const std::string said = message<SimulationError>([&] { run(leaf, 2.0, by_taylor(1e-9, 1e-9)); });
+  CHECK(contains(said, "t = 1"));
+  CHECK(contains(said, "blow"));
+}
+
+TEST_CASE("a pulse that the series at the start does not show is not passed over", "[taylor]") {
+  // x' = exp(-100 (t - 13)^2): zero within the rounding at t = 0 and at the end, as are its
+  // derivatives. The integral is sqrt(pi) / 10.
+  const Leaf leaf("pulse", [](Leaf& l) {
+    l.declare_continuous_state(
+        {.initial = vec({0.0}), .ode = equations<1>([](const auto& at, auto& xdot) {
+                                  using std::exp;
+                                  const auto s = 10.0 * (at.time() - 13.0);
+                                  xdot[0] = exp(-(s * s));
+                                })});
+  });
+  for (const double rtol : {1e-6, 1e-9, 1e-12}) {
+    const Results results = run(leaf, 20.0, by_taylor(rtol, rtol));
+    INFO(rtol);
+    // at most some ten tolerances, as on the shelf
+    CHECK(std::abs(results.context.continuous_state()[0] - 0.1 * std::sqrt(std::numbers::pi)) <
+          10.0 * rtol);
+  }
+}
+
+TEST_CASE("exp and its relatives may hide a pulse; what is algebraic, or turns, may not",
+          "[taylor]") {
+  tape::Graph g;
+  const tape::Node x = g.continuous_state(0), t = g.time();
+  const tape::Node pulse =
+      g.unary(tape::Op::exp, g.unary(tape::Op::neg, g.binary(tape::Op::mul, t, t)));
+  const tape::Node sine = g.unary(tape::Op::sin, g.binary(tape::Op::div, x, t));
+  CHECK(taylor::may_hide(g, std::array{g.binary(tape::Op::add, sine, pulse)}));
+  CHECK(taylor::may_hide(g, std::array{sine, pulse}));
+  CHECK_FALSE(taylor::may_hide(g, std::array{sine, x}));  // the pulse is in the graph, not needed
+  CHECK(taylor::may_hide(g, std::array{g.binary(tape::Op::pow, x, g.constant(200.0))}));
+  CHECK(taylor::may_hide(g, std::array{g.binary(tape::Op::pow, x, t)}));
+  CHECK_FALSE(taylor::may_hide(g, std::array{g.binary(tape::Op::pow, x, g.constant(-1.5))}));
+}
+
+TEST_CASE("a derivative without a series is refused with the reason", "[taylor]") {
+  const Leaf called("called", [](Leaf& l) {
+    l.declare_continuous_state(
+        {.initial = vec({1.0}), .ode = [](const At& at, VectorRef xdot) { xdot[0] = -at.x[0]; }});
+  });
+  const std::string of_called =
+      message<ModelError>([&] { run(called, 1.0, by_taylor(1e-9, 1e-9)); });
+  CHECK(contains(of_called, "the derivative of block 'called'"));
+  CHECK(contains(of_called, "'taylor'"));
+  CHECK(contains(of_called, "equations<N>"));
+  const Leaf kinked("kinked", [](Leaf& l) {
+    l.declare_continuous_state(
+        {.initial = vec({1.0}), .ode = equations<1>([](const auto& at, auto& xdot) {
+                                  using std::abs;
+                                  xdot[0] = -abs(at.x(0) - 0.5);
+                                })});
+  });
+  CHECK(contains(message<ModelError>([&] { run(kinked, 1.0, by_taylor(1e-9, 1e-9)); }), "'abs'"));
+}
