@@ -9,6 +9,7 @@
 #include "interpreter.hpp"
 #include "names.hpp"
 #include "numbers.hpp"
+#include "plan_tapes.hpp"
 #include "python_results.hpp"
 #include "saltus/simulation/detail/option_table.hpp"
 #include "saltus/simulation/simulator.hpp"
@@ -24,20 +25,25 @@ using NamedPort = std::tuple<std::string, const System*, int>;
 class PythonSimulator {
  public:
   PythonSimulator(const System& system, SimulatorOptions options, py::object progress,
-                  const py::object& callbacks)
+                  const py::object& callbacks, const std::string& machine_code)
       : progress_(std::move(progress)),
         pass_(trace_pass(callbacks)),
-        simulator_(system, prepared(std::move(options))) {
+        simulator_(system, prepared(std::move(options))),
+        tapes_(simulator_.plan(), machine_code_when(machine_code), interpreted_by(callbacks)) {
     if (pass_) pass_->end();
   }
   PythonSimulator(const PythonSimulator&) = delete;
   PythonSimulator& operator=(const PythonSimulator&) = delete;
 
-  void initialize(const Context& context) { simulator_.initialize(context); }
+  void initialize(const Context& context) {
+    tapes_.begin();
+    simulator_.initialize(context);
+  }
 
   void advance_to(double t_end) {
     const Unlocked run;
     simulator_.advance_to(t_end);
+    tapes_.end(evaluations());
   }
 
   /// Everything since initialize(), moved out or copied, and the exception, or None. An exception
@@ -58,7 +64,14 @@ class PythonSimulator {
   }
 
   /// Runs the present traces from now on, see TracePass.
-  bool replace_traces() { return !pass_ || pass_->replace(); }
+  bool replace_traces() {
+    if (!pass_) return true;
+    const bool replaced = pass_->replace();
+    tapes_.renew();
+    return replaced;
+  }
+
+  std::string describe() const { return simulator_.describe() + tapes_.describe(); }
 
   const Simulator& simulator() const { return simulator_; }
 
@@ -69,9 +82,15 @@ class PythonSimulator {
     options.interrupt = [this, asked = std::move(options.interrupt)] {
       if (signal_arrived()) return true;
       if (!progress_.is_none()) report();
+      tapes_.consider(evaluations());
       return asked && asked();
     };
     return options;
+  }
+
+  Evaluations evaluations() const {
+    const Statistics& s = simulator_.results().statistics;
+    return {s.right_hand_side_calls, s.guard_calls, s.jacobian_calls};
   }
 
   /// Reports the progress of the run, at most ten times a second.
@@ -99,6 +118,7 @@ class PythonSimulator {
   std::chrono::steady_clock::time_point reported_{};
   std::shared_ptr<TracePass> pass_;  // null: every function is called
   Simulator simulator_;
+  PlanTapes tapes_;
 };
 
 void set_recorded_signals(SimulatorOptions& options, const std::vector<NamedPort>& signals) {
@@ -145,7 +165,8 @@ void bind_simulation(py::module_& module) {
   });
 
   py::class_<PythonSimulator>(module, "Simulator")
-      .def(py::init<const System&, SimulatorOptions, py::object, const py::object&>())
+      .def(py::init<const System&, SimulatorOptions, py::object, const py::object&,
+                    const std::string&>())
       .def("initialize", &PythonSimulator::initialize)
       .def("advance_to", &PythonSimulator::advance_to)
       .def("replace_traces", &PythonSimulator::replace_traces)
@@ -156,7 +177,7 @@ void bind_simulation(py::module_& module) {
           [](const PythonSimulator& s) { return s.simulator().results().statistics.events; })
       .def_property_readonly("context",
                              [](const PythonSimulator& s) { return s.simulator().context(); })
-      .def("describe", [](const PythonSimulator& s) { return s.simulator().describe(); });
+      .def("describe", &PythonSimulator::describe);
 }
 
 }  // namespace saltus::python

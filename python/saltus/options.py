@@ -113,6 +113,11 @@ class SimulatorOptions:
     """'traced' makes expressions of the Python callbacks that allow it, which run without the
     interpreter; 'called' calls them all. See `system.explain()`
     """
+    machine_code: str = "auto"
+    """how tapes run: 'auto' compiles them with llvmlite, the extra ``saltus[jit]``, once a run has
+    shown that it pays; 'always' compiles them before the run; 'never' interprets them. The results
+    have the same bits
+    """
     throw: bool = True
     """raise if a run does not end well; False returns the results with the status"""
     progress: bool | Callable[[Progress], object] = False

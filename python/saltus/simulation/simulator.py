@@ -81,7 +81,8 @@ class Simulator:
         self._version = self._callbacks.version if self._callbacks else 0
 
     def _core_simulator(self, callbacks: Callbacks | None) -> _core.Simulator:
-        return _core.Simulator(self.system, self._options, self._reporter, callbacks)
+        when = self.options.machine_code
+        return _core.Simulator(self.system, self._options, self._reporter, callbacks, when)
 
     @property
     def _others(self) -> list[tuple[str, Any]]:

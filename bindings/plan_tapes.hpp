@@ -1,0 +1,64 @@
+// PlanTapes: the tapes of one plan, and when they become machine code.
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "saltus/plan/plan.hpp"
+#include "saltus/tape/tape.hpp"
+
+namespace saltus::python {
+
+/// The values of the option `machine_code`.
+enum class MachineCodeWhen { never, automatic, always };
+MachineCodeWhen machine_code_when(std::string_view word);
+
+/// What the runs of one system have interpreted, and its last run alone, in instructions.
+struct Interpreted {
+  std::atomic<double> all = 0.0, last_run = 0.0;
+};
+
+/// The evaluations of a run, or of several.
+struct Evaluations {
+  std::int64_t derivatives = 0, guards = 0, jacobians = 0;
+};
+
+/// Compiles the tapes of a plan once it pays, by python/saltus/jit/. Without llvmlite nothing
+/// happens, except that `always` is an error. One thread at a time may use it, while others run the
+/// plan.
+class PlanTapes {
+ public:
+  PlanTapes(const Plan& plan, MachineCodeWhen when, std::shared_ptr<Interpreted> interpreted);
+
+  /// Before a run: compiles with `always`, and if the last run of the system was long enough.
+  void begin();
+  /// During or after a run that has made so many evaluations since it began.
+  void consider(const Evaluations& now);
+  /// After a run, or a piece of it.
+  void end(const Evaluations& now);
+  /// The plan has other tapes now, perhaps within a run.
+  void renew();
+
+  std::string describe() const;
+
+ private:
+  void read_plan();
+  void compile_if_known_to_pay();
+  double instructions(const Evaluations& evaluations) const;
+  void compile();
+
+  const Plan* plan_;
+  MachineCodeWhen when_;
+  std::shared_ptr<Interpreted> interpreted_;
+  std::vector<tape::Tape> tapes_;
+  double by_derivative_ = 0.0, by_guards_ = 0.0, by_jacobian_ = 0.0, all_ = 0.0;  // instructions
+  double counted_ = 0.0;  // of the present run, in `interpreted_`
+  bool done_ = false;
+};
+
+}  // namespace saltus::python
