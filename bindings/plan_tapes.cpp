@@ -111,71 +111,77 @@ PlanTapes::PlanTapes(const Plan& plan, MachineCodeWhen when,
   read_plan();
 }
 
-void PlanTapes::renew() {
-  read_plan();
-  compile_if_known_to_pay();
-}
-
 void PlanTapes::read_plan() {
   const Reader read(*plan_);
-  tapes_.clear();
-  const auto take = [this](const Tapes& more) {
-    tapes_.insert(tapes_.end(), more.begin(), more.end());
-    return instructions_of(more);
+  run_ = jacobians_ = {};
+  const auto take = [](TapeGroup& group, const Tapes& more) {
+    group.tapes.insert(group.tapes.end(), more.begin(), more.end());
+    const double instructions = instructions_of(more);
+    group.instructions += instructions;
+    return instructions;
   };
-  by_derivative_ = take(read.derivatives());
-  by_guards_ = take(read.guards());
-  by_jacobian_ = take(read.jacobians());
-  all_ = by_derivative_ + by_guards_ + by_jacobian_ + take(read.others());
-  done_ = when_ == MachineCodeWhen::never || tapes_.empty();
+  by_derivative_ = take(run_, read.derivatives());
+  by_guards_ = take(run_, read.guards());
+  take(run_, read.others());
+  take(jacobians_, read.jacobians());
+  for (TapeGroup* group : {&run_, &jacobians_})
+    group->done = when_ == MachineCodeWhen::never || group->tapes.empty();
 }
 
-double PlanTapes::instructions(const Evaluations& evaluations) const {
+double PlanTapes::run_instructions(const Evaluations& evaluations) const {
   return by_derivative_ * static_cast<double>(evaluations.derivatives) +
-         by_guards_ * static_cast<double>(evaluations.guards) +
-         by_jacobian_ * static_cast<double>(evaluations.jacobians);
+         by_guards_ * static_cast<double>(evaluations.guards);
 }
 
 void PlanTapes::begin() {
   counted_ = 0.0;
-  compile_if_known_to_pay();
+  compile_if_pays(run_, interpreted_->last_run);
 }
 
-void PlanTapes::compile_if_known_to_pay() {
-  if (done_) return;
-  const bool always = when_ == MachineCodeWhen::always;
-  if (always || tape::compiling_pays(interpreted_->last_run, all_, compiler_is_loaded())) compile();
+void PlanTapes::renew() {
+  read_plan();
+  compile_if_pays(run_, interpreted_->last_run);
 }
 
 void PlanTapes::consider(const Evaluations& now) {
-  if (done_) return;
-  const double so_far = interpreted_->all + instructions(now) - counted_;
-  if (tape::compiling_pays(so_far, all_, compiler_is_loaded())) compile();
+  compile_if_pays(run_, interpreted_->all + run_instructions(now) - counted_);
+  if (now.jacobians > 0)
+    compile_if_pays(jacobians_, jacobians_.instructions * static_cast<double>(now.jacobians));
 }
 
 void PlanTapes::end(const Evaluations& now) {
-  if (when_ == MachineCodeWhen::never || tapes_.empty()) return;
-  const double run = instructions(now);
-  interpreted_->last_run = run;
   consider(now);
+  const double run = run_instructions(now);
+  interpreted_->last_run = run;
   interpreted_->all += run - counted_;
   counted_ = run;
 }
 
-void PlanTapes::compile() {
-  done_ = true;
-  locked([this] { compile_tapes(tapes_, when_ == MachineCodeWhen::always); });
+void PlanTapes::compile_if_pays(TapeGroup& group, double interpreted) {
+  if (group.done) return;
+  if (!always() && !tape::compiling_pays(interpreted, group.instructions, compiler_is_loaded()))
+    return;
+  group.done = true;
+  locked([&] { compile_tapes(group.tapes, always()); });
 }
 
-std::string PlanTapes::describe() const {
-  if (tapes_.empty()) return "";
-  const auto compiled = std::ranges::count_if(tapes_, &tape::Tape::is_machine_code);
-  const auto all = static_cast<std::ptrdiff_t>(tapes_.size());
+namespace {
+
+std::string described(std::string_view what, const Tapes& tapes) {
+  if (tapes.empty()) return "";
+  const auto compiled = std::ranges::count_if(tapes, &tape::Tape::is_machine_code);
+  const auto interpreted = static_cast<std::ptrdiff_t>(tapes.size()) - compiled;
   const std::string how =
-      compiled == all ? "run as machine code"
-      : compiled == 0 ? "interpreted"
-                      : text(compiled, " run as machine code, ", all - compiled, " interpreted");
-  return text("tapes: ", all, ", ", how, "\n");
+      interpreted == 0 ? "run as machine code"
+      : compiled == 0  ? "interpreted"
+                       : text(compiled, " run as machine code, ", interpreted, " interpreted");
+  return text(what, ": ", tapes.size(), ", ", how, "\n");
+}
+
+}  // namespace
+
+std::string PlanTapes::describe() const {
+  return described("tapes of Jacobians", jacobians_.tapes) + described("tapes", run_.tapes);
 }
 
 }  // namespace saltus::python

@@ -28,6 +28,13 @@ struct Evaluations {
   std::int64_t derivatives = 0, guards = 0, jacobians = 0;
 };
 
+/// Tapes that are compiled together.
+struct TapeGroup {
+  std::vector<tape::Tape> tapes = {};
+  double instructions = 0.0;  // of all
+  bool done = false;          // compiled, or never to be
+};
+
 /// Compiles the tapes of a plan once it pays, by python/saltus/jit/. Without llvmlite nothing
 /// happens, except that `always` is an error. One thread at a time may use it, while others run the
 /// plan.
@@ -48,17 +55,17 @@ class PlanTapes {
 
  private:
   void read_plan();
-  void compile_if_known_to_pay();
-  double instructions(const Evaluations& evaluations) const;
-  void compile();
+  bool always() const { return when_ == MachineCodeWhen::always; }
+  void compile_if_pays(TapeGroup& group, double interpreted);
+  double run_instructions(const Evaluations& evaluations) const;
 
   const Plan* plan_;
   MachineCodeWhen when_;
   std::shared_ptr<Interpreted> interpreted_;
-  std::vector<tape::Tape> tapes_;
-  double by_derivative_ = 0.0, by_guards_ = 0.0, by_jacobian_ = 0.0, all_ = 0.0;  // instructions
-  double counted_ = 0.0;  // of the present run, in `interpreted_`
-  bool done_ = false;
+  // Jacobians are compiled when one was needed: their tapes are long, and most methods need none.
+  TapeGroup run_, jacobians_;
+  double by_derivative_ = 0.0, by_guards_ = 0.0;  // instructions
+  double counted_ = 0.0;                          // of the present run, in `interpreted_`
 };
 
 }  // namespace saltus::python

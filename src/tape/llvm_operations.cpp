@@ -139,11 +139,39 @@ std::string LlvmText::sign(const std::string& a, int width) {
   return choose(compare("ogt", a, zero, width), constant_of(1.0, width), below, width);
 }
 
+std::string LlvmText::binary(std::string_view how, const std::string& a, const std::string& b,
+                             int width) {
+  return define(text(how, " ", type_of(width), " ", a, ", ", b));
+}
+
+/// As `power` in arithmetic.hpp, which the called function is, without its tests where the exponent
+/// is constant.
+std::string LlvmText::power(Operands operands, int width) {
+  const std::string& a = operands[0];
+  const auto exponent = [&](double b) { return operands[1] == constant_of(b, width); };
+  const auto times = [&](const std::string& l, const std::string& r) {
+    return binary("fmul", l, r, width);
+  };
+  const auto inverse = [&](const std::string& of) {
+    return binary("fdiv", constant_of(1.0, width), of, width);
+  };
+  const auto root = [&](bool of_zero) {
+    const std::string of = of_zero ? binary("fadd", a, constant_of(0.0, width), width) : a;
+    return intrinsic("sqrt", {&of, 1}, width);
+  };
+  if (exponent(1.5)) return times(a, root(false));
+  if (exponent(2.5)) return times(times(a, a), root(true));
+  if (exponent(-0.5)) return inverse(root(true));
+  if (exponent(-1.5)) return inverse(times(a, root(false)));
+  if (exponent(-2.0)) return inverse(times(a, a));
+  if (exponent(-3.0)) return inverse(times(times(a, a), a));
+  return call(Op::pow, operands, width);
+}
+
 std::string LlvmText::apply(Op op, Operands operands, int width) {
   const std::string& a = operands[0];
   const std::string zero = constant_of(0.0, width);
-  if (const auto how = arithmetic(op); !how.empty())
-    return define(text(how, " ", type_of(width), " ", a, ", ", operands[1]));
+  if (const auto how = arithmetic(op); !how.empty()) return binary(how, a, operands[1], width);
   if (const auto function = exact(op); !function.empty())
     return intrinsic(function, operands, width);
   if (const auto how = comparison(op); !how.empty())
@@ -155,6 +183,8 @@ std::string LlvmText::apply(Op op, Operands operands, int width) {
       return sign(a, width);
     case Op::logical_not:
       return truth(compare("oeq", a, zero, width), width);
+    case Op::pow:
+      return power(operands, width);
     case Op::minimum:
       return extreme("ole", operands, width);
     case Op::maximum:

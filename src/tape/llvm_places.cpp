@@ -18,9 +18,24 @@ bool is_array(Kind kind) {
 LlvmPlaces::LlvmPlaces(LlvmText& text, const Program& program)
     : text_(text), program_(program), memory_(program.registers, 0), registers_(program.registers) {
   for (const Line& line : program.lines) {
-    if (line.to.kind != Kind::reg || line.count <= longest_written_out) continue;
-    for (std::size_t i = 0; i < line.count; ++i) memory_[index(line.to, i)] = 1;
+    if (line.count <= longest_written_out) continue;
+    keep_in_memory(line.to, line.count);
+    for (std::size_t k = 0; k < line.operands(); ++k)
+      if (line.from[k].stride != 0) keep_in_memory(line.from[k], line.count);
   }
+}
+
+void LlvmPlaces::keep_in_memory(const Place& place, std::size_t count) {
+  if (place.kind != Kind::reg) return;
+  for (std::size_t i = 0; i < count; ++i) memory_[index(place, i)] = 1;
+}
+
+/// How many of these registers are in memory.
+int LlvmPlaces::count_in_memory(const Place& place, std::size_t first, int width) const {
+  int count = 0;
+  for (int i = 0; i < width; ++i)
+    count += in_memory(place, first + static_cast<std::size_t>(i)) ? 1 : 0;
+  return count;
 }
 
 bool LlvmPlaces::in_memory(const Place& place, std::size_t i) const {
@@ -82,9 +97,9 @@ std::string LlvmPlaces::read(const Place& place, std::size_t first, int width) {
   if (width == 1) return one(place, first);
   if (place.kind == Kind::constant) return constant_of(place.value, width);
   if (place.stride == 0) return text_.splat(one(place, first), width);
-  const bool array = is_array(place.kind) || in_memory(place, first);
-  if (array && place.stride == 1) return text_.load(address(place, first), width);
-  if (!array) return of_registers(place, first, width);
+  const int loaded = is_array(place.kind) ? width : count_in_memory(place, first, width);
+  if (loaded == width && place.stride == 1) return text_.load(address(place, first), width);
+  if (loaded == 0) return of_registers(place, first, width);
   std::vector<std::string> lanes;
   for (int i = 0; i < width; ++i) lanes.push_back(one(place, first + static_cast<std::size_t>(i)));
   return text_.gather(lanes);
@@ -130,12 +145,12 @@ std::optional<std::string> LlvmPlaces::shuffled(const std::vector<Lane>& lanes) 
 
 void LlvmPlaces::write(const Place& place, std::size_t first, int width, const std::string& value) {
   if (width == 1) before_ = value;
-  const bool array = place.kind == Kind::out || in_memory(place, first);
-  if (array && (width == 1 || place.stride == 1))
+  const int stored = place.kind == Kind::out ? width : count_in_memory(place, first, width);
+  if (stored == width && (width == 1 || place.stride == 1))
     return text_.store(value, width, address(place, first));
   for (int i = 0; i < width; ++i) {
     const std::size_t n = first + static_cast<std::size_t>(i);
-    if (array)
+    if (place.kind == Kind::out || in_memory(place, n))
       text_.store(text_.lane(value, width, i), 1, address(place, n));
     else
       lane_of(place, n) = {value, width, i};

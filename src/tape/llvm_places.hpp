@@ -10,8 +10,8 @@
 
 namespace saltus::tape::detail {
 
-/// Reads and writes the places of a program. A register is a value of the text, except those of
-/// runs that are loops: they are in memory.
+/// Reads and writes the places of a program. A register is a value of the text, except those that
+/// loops write or read: they are in memory.
 class LlvmPlaces {
  public:
   LlvmPlaces(LlvmText& text, const Program& program);
@@ -31,7 +31,9 @@ class LlvmPlaces {
     int width = 1, lane = 0;
   };
 
+  void keep_in_memory(const Place& place, std::size_t count);
   bool in_memory(const Place& place, std::size_t i) const;
+  int count_in_memory(const Place& place, std::size_t first, int width) const;
   std::string array_of(const Place& place);
   std::string address(const Place& place, std::size_t i);
   std::string address_in_loop(const Place& place, const std::string& i, int lane);

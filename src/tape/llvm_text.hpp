@@ -57,6 +57,8 @@ class LlvmText {
   std::string both(std::string_view how, std::span<const std::string> operands, int width);
   std::string extreme(std::string_view how, std::span<const std::string> operands, int width);
   std::string sign(const std::string& a, int width);
+  std::string power(std::span<const std::string> operands, int width);
+  std::string binary(std::string_view how, const std::string& a, const std::string& b, int width);
 
   std::string body_;
   std::set<std::string> declarations_;

@@ -76,6 +76,17 @@ def test_every_operation_side_by_side(rows, step):
     compare(graph.tape(outputs), states)
 
 
+@pytest.mark.parametrize("exponent", [1.5, 2.5, -0.5, -1.5, -2.0, -3.0, 0.3, 5.0])
+@pytest.mark.parametrize("rows", [1, 7, 40])
+def test_powers_with_a_constant_exponent(exponent, rows):
+    graph = _core.Graph()
+    power = graph.constant(exponent)
+    outputs = [graph.apply("pow", graph.continuous_state(i), power) for i in range(rows)]
+    draw = random.Random(rows)
+    states = [[draw.choice([*SPECIAL, draw.gauss(0, 3)]) for _ in range(rows)] for _ in range(60)]
+    compare(graph.tape(outputs), states)
+
+
 def drawn(draw, graph, leaves, steps):
     nodes = list(leaves)
     for _ in range(steps):
