@@ -118,7 +118,7 @@ RISES = "negative_then_non_negative"
 
 def ball_drag():
     def ode(time, state):
-        y, v = state.continuous_state
+        _, v = state.continuous_state
         return np.array([v, -9.81 - 0.05 * v * np.abs(v)])
 
     def floor(time, state):

@@ -65,7 +65,7 @@ def core_options(options: SimulatorOptions) -> _core.SimulatorOptions:
     _require_known("python", options.python, WAYS)
     _require_known("machine_code", options.machine_code, WHEN)
     if options.machine_code == "always":
-        from saltus.jit.library import require_installed
+        from saltus.jit import require_installed
 
         require_installed()
     core.set_recorded_signals(ports_of(options.recorded_signals))

@@ -5,6 +5,6 @@ Nothing here is needed to run a model, and `import saltus` does not import it. T
 """
 
 from saltus.jit.disk import cache_directory
-from saltus.jit.library import functions, is_installed
+from saltus.jit.library import functions, is_installed, require_installed
 
-__all__ = ["cache_directory", "functions", "is_installed"]
+__all__ = ["cache_directory", "functions", "is_installed", "require_installed"]

@@ -8,8 +8,9 @@ from collections import OrderedDict
 from typing import Any
 
 from saltus.errors import ModelError
+from saltus.jit import disk
 
-__all__ = ["functions", "is_installed"]
+__all__ = ["functions", "is_installed", "require_installed"]
 
 KEPT = 64
 """libraries that are kept after their last user is gone, in case an equal system comes: about
@@ -50,7 +51,7 @@ def functions(module: str, count: int) -> tuple[list[int], Any]:
         The addresses, and the library: the addresses hold while it lives.
     """
     require_installed()
-    from saltus.jit import compiler, disk
+    from saltus.jit import compiler
 
     with _lock:
         key = compiler.key_of(module)

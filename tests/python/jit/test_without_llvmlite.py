@@ -56,7 +56,7 @@ def test_a_long_run_stays_interpreted_and_always_says_what_to_install():
     done = python("-c", LONG)
     assert done.returncode == 0, done.stderr
     assert done.stdout.splitlines() == [
-        "tapes: 2, interpreted",
+        "tapes: 1, interpreted",
         "option machine_code='always' needs llvmlite, which is not installed: "
         'pip install "saltus[jit]"',
     ]
