@@ -18,7 +18,7 @@ from dataclasses import replace
 import numpy as np
 import saltus
 
-TURNS = 25
+TURNS = 15
 LEAST = 2e-3  # [s] a shorter run is repeated
 
 

@@ -1,8 +1,6 @@
 #include "taped.hpp"
 
-#include <bit>
 #include <cmath>
-#include <cstdint>
 #include <map>
 #include <optional>
 #include <utility>
@@ -17,14 +15,12 @@ std::optional<int> as_mode(double value) {
   return static_cast<int>(value);
 }
 
-/// Without a branch for each number, so that a compiler takes several at once: the exponent of Inf
-/// and NaN has all bits set.
+/// One number after the other: a processor that loads two at once has to wait until both, which
+/// were stored one by one just now, are in its cache.
 bool all_finite(const VectorRef& numbers) {
-  constexpr std::uint64_t exponent = 0x7ff0000000000000;
-  bool finite = true;
   for (const double number : numbers)
-    finite &= (std::bit_cast<std::uint64_t>(number) & exponent) != exponent;
-  return finite;
+    if (!std::isfinite(number)) return false;
+  return true;
 }
 
 }  // namespace
@@ -58,7 +54,7 @@ void TapedReset::operator()(const At& at, Next& next) const {
   Eigen::VectorXd values(trace.tape.size());
   trace.tape.evaluate(at, values.data());
   const auto mode = trace.wrote_mode ? as_mode(values[values.size() - 1]) : 0;
-  if (!values.allFinite() || !mode) return called(*leaf, at, next);
+  if (!all_finite(VectorRef(values.data(), values.size())) || !mode) return called(*leaf, at, next);
   const Index nx = trace.wrote_x ? at.x.size() : 0;
   if (trace.wrote_x) next.set_continuous_state(values.head(nx));
   if (trace.wrote_z) next.set_discrete_state(values.segment(nx, at.z.size()));
