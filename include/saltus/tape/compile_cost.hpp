@@ -10,8 +10,8 @@ namespace saltus::tape {
 /// processor time.
 struct CompileCost {
   double instruction = 1e-9;  ///< [s] one interpreted instruction, without libm
-  double module = 6e-3;       ///< [s] a module, whatever its size: 4.5 to 6.5 ms
-  double line = 10e-6;        ///< [s] each instruction in it: 6 to 10 us
+  double module = 5e-3;       ///< [s] a module, whatever its size: 4.5 to 6 ms
+  double line = 60e-6;        ///< [s] each instruction in it: 10 us alone, 70 us with runs of ten
   double loading = 60e-3;     ///< [s] loading the compiler, once a process: 53 to 58 ms
 };
 

@@ -83,8 +83,8 @@ def test_explain_says_what_became_machine_code():
 
 
 def test_it_becomes_machine_code_when_enough_was_interpreted():
-    """After 6 ms and 10 us an instruction, at 1 ns for each that was interpreted: the tapes have
-    fewer than 100, so less than 8 million are enough, at 6 or more in a call of the derivative.
+    """After 5 ms and 60 us an instruction, at 1 ns for each that was interpreted: the tapes have
+    fewer than 50, so less than 8 million are enough, at 6 or more in a call of the derivative.
     """
     run(1.0, machine_code="always")  # the compiler is loaded
     system = Oscillator(1.5)
