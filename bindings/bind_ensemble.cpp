@@ -1,9 +1,12 @@
 // Ensembles: runs over one plan, in threads that acquire the interpreter lock only to call Python.
+#include <atomic>
+
 #include <pybind11/functional.h>
 #include <pybind11/stl.h>
 
 #include "interpreter.hpp"
 #include "numbers.hpp"
+#include "plan_tapes.hpp"
 #include "python_results.hpp"
 #include "saltus/simulation/outcomes.hpp"
 #include "trace_pass.hpp"
@@ -69,23 +72,36 @@ bool ends_all(const Results& results) {
   }
 }
 
+/// An ensemble, with the tapes of its plan.
+struct PythonEnsemble {
+  PythonEnsemble(Ensemble ensemble, const std::string& machine_code, const py::object& callbacks)
+      : runs(std::move(ensemble)),
+        tapes(runs.plan(), machine_code_when(machine_code), interpreted_by(callbacks)) {}
+
+  Ensemble runs;
+  PlanTapes tapes;
+};
+
 /// A call of Ensemble::run from Python.
 class Call {
  public:
-  Call(const Ensemble& ensemble, std::vector<double> times, py::object watch, py::object each)
-      : ensemble_(&ensemble),
-        outcomes_(ensemble, std::move(times)),
+  Call(PythonEnsemble& all, std::vector<double> times, py::object watch, py::object each)
+      : ensemble_(&all.runs),
+        tapes_(&all.tapes),
+        outcomes_(all.runs, std::move(times)),
         watch_(std::move(watch)),
         each_(std::move(each)) {}
 
   /// The columns, and the exception, or None.
   py::tuple run(int threads) {
     try {
+      tapes_->begin();
       const Unlocked runs;
       ensemble_->run([this](Index run, const Results& results) { take(run, results); },
                      {.threads = threads,
                       .watch = [this](Index done) { return look(done); },
                       .around = &with_thread_state});
+      tapes_->end(evaluations(), counted_);
     } catch (const py::error_already_set& error) {
       if (error.trace()) PyException_SetTraceback(error.value().ptr(), error.trace().ptr());
       raised_ = error.value();
@@ -94,7 +110,12 @@ class Call {
   }
 
  private:
+  Evaluations evaluations() const { return {derivatives_, guards_, jacobians_}; }
+
   void take(Index run, const Results& results) {
+    derivatives_ += results.statistics.right_hand_side_calls;
+    guards_ += results.statistics.guard_calls;
+    jacobians_ += results.statistics.jacobian_calls;
     outcomes_.take(run, results);
     if (ends_all(results)) {
       outcomes_.status[static_cast<std::size_t>(run)] = static_cast<int>(Status::interrupted);
@@ -110,6 +131,7 @@ class Call {
 
   /// Handles signals, and reports the number of finished runs.
   bool look(Index done) {
+    tapes_->consider(evaluations(), counted_);
     return locked([&] {
       if (PyErr_CheckSignals() != 0) throw py::error_already_set();
       return !watch_.is_none() && watch_(done).cast<bool>();
@@ -124,6 +146,9 @@ class Call {
   }
 
   const Ensemble* ensemble_;
+  PlanTapes* tapes_;
+  double counted_ = 0.0;  // see PlanTapes::consider
+  std::atomic<std::int64_t> derivatives_ = 0, guards_ = 0, jacobians_ = 0;  // of finished runs
   Outcomes outcomes_;
   py::object watch_, each_, raised_ = py::none();
 };
@@ -154,24 +179,27 @@ bool has_modes(const Ensemble& ensemble) {
 }  // namespace
 
 void bind_ensemble(py::module_& module) {
-  py::class_<Ensemble>(module, "Ensemble")
+  py::class_<PythonEnsemble>(module, "Ensemble")
       .def(py::init([](const System& system, const Context& base, std::pair<double, double> span,
-                       SimulatorOptions options, const py::object& callbacks) {
+                       SimulatorOptions options, const py::object& callbacks,
+                       const std::string& machine_code) {
              options.refinement = trace_pass(callbacks);
-             return std::make_unique<Ensemble>(system, base, TimeSpan{span.first, span.second},
-                                               std::move(options));
+             Ensemble runs(system, base, TimeSpan{span.first, span.second}, std::move(options));
+             return new PythonEnsemble(std::move(runs), machine_code, callbacks);
            }),
            py::keep_alive<1, 2>())
-      .def("vary", &vary)
+      .def("vary", [](PythonEnsemble& e, const std::string& name,
+                      py::handle values) { vary(e.runs, name, values); })
       .def(
           "run",
-          [](const Ensemble& ensemble, int threads, std::vector<double> times, py::object watch,
+          [](PythonEnsemble& ensemble, int threads, std::vector<double> times, py::object watch,
              py::object each) {
             return Call(ensemble, std::move(times), std::move(watch), std::move(each)).run(threads);
           })
-      .def("state_names", &state_names)
-      .def_property_readonly("has_modes", &has_modes)
-      .def_property_readonly("size", &Ensemble::size);
+      .def("state_names",
+           [](const PythonEnsemble& e, std::string_view kind) { return state_names(e.runs, kind); })
+      .def_property_readonly("has_modes", [](const PythonEnsemble& e) { return has_modes(e.runs); })
+      .def_property_readonly("size", [](const PythonEnsemble& e) { return e.runs.size(); });
 
   module.def("status_names", [] {
     std::vector<std::string> names;

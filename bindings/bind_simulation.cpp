@@ -30,6 +30,8 @@ class PythonSimulator {
   PythonSimulator& operator=(const PythonSimulator&) = delete;
 
   void initialize(const Context& context) {
+    plan_->tapes().begin();
+    counted_ = 0.0;
     simulator_.initialize(context);
     shown_ = nullptr;
   }
@@ -37,7 +39,9 @@ class PythonSimulator {
   std::string_view advance_to(double t_end) {
     put_back();
     const Unlocked run;
-    return to_string(simulator_.advance_to(t_end));
+    const Status status = simulator_.advance_to(t_end);
+    plan_->tapes().end(evaluations(), counted_);
+    return to_string(status);
   }
 
   /// Everything since initialize(), moved out, and the exception, or None. The run may go on:
@@ -71,6 +75,8 @@ class PythonSimulator {
     return true;
   }
 
+  std::string describe() const { return simulator_.describe() + plan_->tapes().describe(); }
+
   const Simulator& simulator() const { return simulator_; }
 
  private:
@@ -95,9 +101,15 @@ class PythonSimulator {
     options.interrupt = [this, asked = std::move(options.interrupt)] {
       if (signal_arrived()) return true;
       if (!progress_.is_none()) report();
+      plan_->tapes().consider(evaluations(), counted_);
       return asked && asked();
     };
     return options;
+  }
+
+  Evaluations evaluations() const {
+    const Statistics& s = simulator_.results().statistics;
+    return {s.right_hand_side_calls, s.guard_calls, s.jacobian_calls};
   }
 
   /// Reports the progress of the run, at most ten times a second.
@@ -126,6 +138,7 @@ class PythonSimulator {
   std::shared_ptr<PythonPlan> plan_;
   Simulator simulator_;
   std::shared_ptr<Record> shown_;  // results that Python has; null: the engine has them
+  double counted_ = 0.0;           // see PlanTapes::consider
 };
 
 void set_recorded_signals(SimulatorOptions& options, const std::vector<NamedPort>& signals) {
@@ -172,7 +185,7 @@ void bind_simulation(py::module_& module) {
   });
 
   py::class_<PythonPlan, std::shared_ptr<PythonPlan>>(module, "Plan")
-      .def(py::init<const System&, SimulatorOptions, const py::object&>())
+      .def(py::init<const System&, SimulatorOptions, const py::object&, const std::string&>())
       .def_property_readonly("blocks", [](const PythonPlan& p) { return p.plan()->leaves.size(); });
 
   py::class_<PythonSimulator>(module, "Simulator")
@@ -188,7 +201,7 @@ void bind_simulation(py::module_& module) {
           [](const PythonSimulator& s) { return s.simulator().results().statistics.events; })
       .def_property_readonly("context",
                              [](const PythonSimulator& s) { return s.simulator().context(); })
-      .def("describe", [](const PythonSimulator& s) { return s.simulator().describe(); });
+      .def("describe", &PythonSimulator::describe);
 }
 
 }  // namespace saltus::python

@@ -1,4 +1,5 @@
 // Expression graphs and tapes, for the tracer.
+#include <cstdint>
 #include <optional>
 
 #include <pybind11/stl.h>
@@ -6,7 +7,9 @@
 #include "numbers.hpp"
 #include "saltus/base/error.hpp"
 #include "saltus/tape/jacobian.hpp"
+#include "saltus/tape/machine_code.hpp"
 #include "saltus/tape/tape.hpp"
+#include "tape_compiler.hpp"
 
 namespace saltus::python {
 
@@ -96,6 +99,14 @@ py::tuple jacobian(const Tape& tape) {
   return py::make_tuple(rows, columns, result.values);
 }
 
+/// Names and addresses of the functions that machine code calls.
+py::dict called_functions() {
+  py::dict all;
+  for (const auto& [name, address] : tape::called_functions())
+    all[py::str(std::string(name))] = reinterpret_cast<std::uintptr_t>(address);
+  return all;
+}
+
 void bind_graph(py::module_& module) {
   py::class_<Graph>(module, "Graph")
       .def(py::init<>())
@@ -124,7 +135,11 @@ void bind_tape(py::module_& module) {
       .def_property_readonly("reads", &reads)
       .def("reads_input", &Tape::reads_input)
       .def("to_string", &Tape::to_string)
+      .def("llvm_module", [](const Tape& t) { return tape::llvm_module(std::span(&t, 1)); })
+      .def("compile", [](const Tape& t) { compile_tapes(std::span(&t, 1), true); })
+      .def_property_readonly("is_machine_code", &Tape::is_machine_code)
       .def("jacobian", &jacobian);
+  module.def("called_functions", &called_functions);
   bind_graph(module);
 }
 

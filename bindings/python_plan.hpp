@@ -2,8 +2,10 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <utility>
 
+#include "plan_tapes.hpp"
 #include "saltus/plan/compile.hpp"
 #include "saltus/simulation/detail/option_table.hpp"
 #include "trace_pass.hpp"
@@ -16,9 +18,12 @@ namespace saltus::python {
 class PythonPlan {
  public:
   /// Throws ModelError for an impossible system or option.
-  PythonPlan(const System& system, SimulatorOptions options, const py::object& callbacks)
-      : options_(checked(std::move(options))), pass_(trace_pass(callbacks)) {
-    plan_ = compile(system, std::exchange(options_.recorded_signals, {}), pass_.get());
+  PythonPlan(const System& system, SimulatorOptions options, const py::object& callbacks,
+             const std::string& machine_code)
+      : options_(checked(std::move(options))),
+        pass_(trace_pass(callbacks)),
+        plan_(compile(system, std::exchange(options_.recorded_signals, {}), pass_.get())),
+        tapes_(*plan_, machine_code_when(machine_code), interpreted_by(callbacks)) {
     options_.throw_errors = false;
     if (pass_) pass_->end();
   }
@@ -27,7 +32,14 @@ class PythonPlan {
   const std::shared_ptr<const Plan>& plan() const { return plan_; }
 
   /// Runs the present traces from now on, see TracePass. For a plan of a single simulator.
-  bool replace_traces() { return !pass_ || pass_->replace(); }
+  bool replace_traces() {
+    if (!pass_) return true;
+    const bool replaced = pass_->replace();
+    tapes_.renew();
+    return replaced;
+  }
+
+  PlanTapes& tapes() { return tapes_; }
 
  private:
   static SimulatorOptions checked(SimulatorOptions options) {
@@ -38,6 +50,7 @@ class PythonPlan {
   SimulatorOptions options_;
   std::shared_ptr<TracePass> pass_;  // null: every function is called
   std::shared_ptr<const Plan> plan_;
+  PlanTapes tapes_;
 };
 
 }  // namespace saltus::python

@@ -15,36 +15,50 @@ std::optional<int> as_mode(double value) {
   return static_cast<int>(value);
 }
 
+/// One number after the other: a processor that loads two at once has to wait until both, which
+/// were stored one by one just now, are in its cache.
+bool all_finite(const VectorRef& numbers) {
+  for (const double number : numbers)
+    if (!std::isfinite(number)) return false;
+  return true;
+}
+
 }  // namespace
 
+void Taped::operator()(const At& at, VectorRef out) const {
+  slot->tape.evaluate(at, out.data());
+  if (!all_finite(out)) called(*leaf, at, out);
+}
+
 VectorFunction taped(const PythonLeaf& leaf, const Slot& slot) {
-  return [slot, called = leaf.vector_function(slot->function), &leaf](const At& at, VectorRef out) {
-    slot->tape.evaluate(at, out.data());
-    if (!out.allFinite()) called(leaf, at, out);
-  };
+  return Taped{slot, leaf.vector_function(slot->function), &leaf};
+}
+
+void TapedMatrix::operator()(const At& at, MatrixRef out) const {
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> values(out.rows(),
+                                                                                out.cols());
+  rows(at, VectorRef(values.data(), values.size()));
+  out = values;
 }
 
 MatrixFunction taped_matrix(const PythonLeaf& leaf, const Slot& slot) {
-  return [rows = taped(leaf, slot), &leaf](const At& at, MatrixRef out) {
-    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> values(out.rows(),
-                                                                                  out.cols());
-    rows(leaf, at, VectorRef(values.data(), values.size()));
-    out = values;
-  };
+  return TapedMatrix{{slot, leaf.vector_function(slot->function), &leaf}};
 }
 
-ResetMap taped_reset(const PythonLeaf& leaf, Slot slot, ResetMap called) {
-  return [&leaf, slot = std::move(slot), called = std::move(called)](const At& at, Next& next) {
-    const Trace& trace = *slot;
-    Eigen::VectorXd values(trace.tape.size());
-    trace.tape.evaluate(at, values.data());
-    const auto mode = trace.wrote_mode ? as_mode(values[values.size() - 1]) : 0;
-    if (!values.allFinite() || !mode) return called(leaf, at, next);
-    const Index nx = trace.wrote_x ? at.x.size() : 0;
-    if (trace.wrote_x) next.set_continuous_state(values.head(nx));
-    if (trace.wrote_z) next.set_discrete_state(values.segment(nx, at.z.size()));
-    if (trace.wrote_mode) next.set_mode(*mode);
-  };
+void TapedEntries::operator()(const At& at, VectorRef out) const {
+  slot->jacobian->values.evaluate(at, out.data());
+}
+
+void TapedReset::operator()(const At& at, Next& next) const {
+  const Trace& trace = *slot;
+  Eigen::VectorXd values(trace.tape.size());
+  trace.tape.evaluate(at, values.data());
+  const auto mode = trace.wrote_mode ? as_mode(values[values.size() - 1]) : 0;
+  if (!all_finite(VectorRef(values.data(), values.size())) || !mode) return called(*leaf, at, next);
+  const Index nx = trace.wrote_x ? at.x.size() : 0;
+  if (trace.wrote_x) next.set_continuous_state(values.head(nx));
+  if (trace.wrote_z) next.set_discrete_state(values.segment(nx, at.z.size()));
+  if (trace.wrote_mode) next.set_mode(*mode);
 }
 
 tape::Jacobian at_places(const tape::Jacobian& jacobian, const std::vector<MatrixEntry>& places) {
@@ -61,6 +75,23 @@ tape::Jacobian at_places(const tape::Jacobian& jacobian, const std::vector<Matri
     values.push_back(found == known.end() ? zero : found->second);
   }
   return {places, tape::Tape(graph, values)};
+}
+
+std::vector<tape::Tape> tapes_of(const VectorFunction& function) {
+  if (const auto* tape = function.target<tape::Tape>()) return {*tape};
+  if (const auto* entries = function.target<TapedEntries>()) {
+    if (entries->slot->jacobian) return {entries->slot->jacobian->values};
+  }
+  if (const auto* traced = function.target<Taped>()) return {traced->slot->tape};
+  return {};
+}
+std::vector<tape::Tape> tapes_of(const MatrixFunction& function) {
+  if (const auto* traced = function.target<TapedMatrix>()) return {traced->rows.slot->tape};
+  return {};
+}
+std::vector<tape::Tape> tapes_of(const ResetMap& function) {
+  if (const auto* traced = function.target<TapedReset>()) return {traced->slot->tape};
+  return {};
 }
 
 }  // namespace saltus::python

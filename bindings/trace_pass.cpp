@@ -38,6 +38,11 @@ bool TracePass::replace() {
   return all;
 }
 
+std::shared_ptr<Interpreted> interpreted_by(const py::object& callbacks) {
+  if (callbacks.is_none()) return std::make_shared<Interpreted>();
+  return callbacks.attr("traces").cast<std::shared_ptr<Traces>>()->interpreted();
+}
+
 std::shared_ptr<TracePass> trace_pass(const py::object& callbacks) {
   if (callbacks.is_none()) return nullptr;
   auto traces = callbacks.attr("traces").cast<std::shared_ptr<Traces>>();

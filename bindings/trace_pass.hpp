@@ -39,6 +39,9 @@ class TracePass final : public Refinement {
   py::object trace_block_;
 };
 
+/// What the runs of a system have interpreted, which its `callbacks` keep; of nobody else if None.
+std::shared_ptr<Interpreted> interpreted_by(const py::object& callbacks);
+
 /// The pass for the object `callbacks` of python/saltus/callbacks/. Null, which leaves the system
 /// as it declares itself, if that is None or there is no Python block.
 std::shared_ptr<TracePass> trace_pass(const py::object& callbacks);

@@ -94,7 +94,7 @@ void Writer::put(const Slot& slot) {
       crossing().formula = formula(slot);
       return;
     case Role::reset_map:
-      crossing().reset_map = taped_reset(original_, slot, crossing().reset_map);
+      crossing().reset_map = TapedReset{slot, crossing().reset_map, &original_};
       return;
     case Role::relation:
       return put_relation(slot);
@@ -103,7 +103,7 @@ void Writer::put(const Slot& slot) {
       return;
     case Role::edge_reset: {
       EdgeReset& edge = declared_.edge_resets[static_cast<std::size_t>(function.index)];
-      edge.reset_map = taped_reset(original_, slot, edge.reset_map);
+      edge.reset_map = TapedReset{slot, edge.reset_map, &original_};
       edge.inputs = inputs_of(original_, slot);
       return;
     }
@@ -119,9 +119,7 @@ void Writer::put_ode(const Slot& slot) {
   if (state.jacobian || state.sparse_jacobian || !slot->jacobian) return;
   if (state.sparsity) slot->jacobian = at_places(*slot->jacobian, *state.sparsity);
   state.sparsity = slot->jacobian->entries;
-  state.sparse_jacobian = [slot](const At& at, VectorRef out) {
-    slot->jacobian->values.evaluate(at, out.data());
-  };
+  state.sparse_jacobian = TapedEntries{slot};
 }
 
 void Writer::put_output(const Slot& slot) {
@@ -156,14 +154,13 @@ void Writer::put_relations(const Slot& slot, OutputDeclaration& output) {
   for (std::size_t k = 0; k < count; ++k) {
     const auto difference = std::make_shared<Trace>(*slot);
     difference->tape = entry_of(found.differences, k);
-    relations.push_back(
-        add_relation({.name = count == 1 ? text(output.name, " difference")
-                                         : text(output.name, " difference ", k),
-                      .guard = tape::as_vector_function(difference->tape),
-                      .true_at_zero = found.true_at_zero[k],
-                      .reads = output.reads,
-                      .inputs = output.inputs,
-                      .formula = formula_of(difference, false)}));
+    relations.push_back(add_relation({.name = count == 1 ? text(output.name, " difference")
+                                                         : text(output.name, " difference ", k),
+                                      .guard = tape::as_vector_function(difference->tape),
+                                      .true_at_zero = found.true_at_zero[k],
+                                      .reads = output.reads,
+                                      .inputs = output.inputs,
+                                      .formula = formula_of(difference, false)}));
   }
   output.reads = Reads::relations;
   output.inputs = std::vector<int>{};
@@ -185,7 +182,7 @@ RelationIndex Writer::add_relation(Relation relation) {
 void Writer::put_time_event(const Slot& slot) {
   auto& event =
       declared_.time_events[static_cast<std::size_t>(original_.function(slot->function).index)];
-  event.update = taped_reset(original_, slot, event.update);
+  event.update = TapedReset{slot, event.update, &original_};
   event.inputs = inputs_of(original_, slot);
 }
 

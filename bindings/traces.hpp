@@ -7,6 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "plan_tapes.hpp"
 #include "python_leaf.hpp"
 #include "saltus/plan/plan.hpp"
 #include "trace.hpp"
@@ -40,11 +41,14 @@ class Traces {
   void set(std::size_t number, std::vector<Trace> traces);
 
   std::vector<BlockTraces>& blocks() { return blocks_; }
+  /// What the runs of the system have interpreted.
+  const std::shared_ptr<Interpreted>& interpreted() const { return interpreted_; }
   std::optional<std::size_t> number_of(const LeafSystem& leaf) const;
 
  private:
   std::vector<BlockTraces> blocks_;
   std::unordered_map<const LeafSystem*, std::size_t> numbers_;
+  std::shared_ptr<Interpreted> interpreted_ = std::make_shared<Interpreted>();
 };
 
 }  // namespace saltus::python

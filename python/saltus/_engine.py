@@ -16,10 +16,12 @@ from saltus.system import OutputPort, System
 
 __all__ = ["PYTHON_ONLY", "core_context", "core_options", "ports_of"]
 
-PYTHON_ONLY = frozenset({"recorded_signals", "python", "throw", "progress"})
+PYTHON_ONLY = frozenset({"recorded_signals", "python", "machine_code", "throw", "progress"})
 """options that the engine does not have, or not in this form"""
 WAYS = ("traced", "called")
 """how a Python callback may be asked to run: the values of the option `python`"""
+WHEN = ("auto", "always", "never")
+"""when a tape becomes machine code: the values of the option `machine_code`"""
 
 _UNBOUNDED = {
     "max_major_step_length": math.inf,
@@ -60,11 +62,20 @@ def core_options(options: SimulatorOptions) -> _core.SimulatorOptions:
             ) from None
     if not isinstance(options.throw, (bool, np.bool_)):
         raise ModelError(f"option throw: expected bool, found {options.throw!r}")
-    if options.python not in WAYS:
-        found = f"'{options.python}'{_core.known_names(str(options.python), WAYS)}"
-        raise ModelError(f"option python: unknown {found}")
+    _require_known("python", options.python, WAYS)
+    _require_known("machine_code", options.machine_code, WHEN)
+    if options.machine_code == "always":
+        from saltus.jit import require_installed
+
+        require_installed()
     core.set_recorded_signals(ports_of(options.recorded_signals))
     return core
+
+
+def _require_known(option: str, word: object, words: tuple[str, ...]) -> None:
+    if word not in words:
+        found = f"'{word}'{_core.known_names(str(word), words)}"
+        raise ModelError(f"option {option}: unknown {found}")
 
 
 def core_context(context: object) -> _core.Context:

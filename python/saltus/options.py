@@ -60,8 +60,9 @@ class SimulatorOptions:
     atol: ArrayLike = 1e-8
     """absolute tolerance, in the unit of the states; one number, or one for each"""
     ode_solver_method: str = "auto"
-    """'auto' (dopri5 or dop853 by tolerance, radau or bdf while the scene is stiff), 'dopri5', 'dop853',
-    'adams', 'bdf', 'radau', 'taylor'; also 'rk45', 'RK45', 'DOP853', 'non-stiff', 'stiff', 'BDF', 'Radau'
+    """'auto' (dopri5 or dop853 by tolerance, radau or bdf while the scene is stiff), 'dopri5',
+    'dop853', 'adams', 'bdf', 'radau', 'taylor' (derivatives that are traced, or formulas); also
+    'rk45', 'RK45', 'DOP853', 'non-stiff', 'stiff', 'BDF', 'Radau'
     """
     linear_solver: str = "auto"
     """how a stiff method solves its linear systems: 'auto' (by number of states and places of the
@@ -112,6 +113,11 @@ class SimulatorOptions:
     python: str = "traced"
     """'traced' makes expressions of the Python callbacks that allow it, which run without the
     interpreter; 'called' calls them all. See `system.explain()`
+    """
+    machine_code: str = "auto"
+    """how tapes run: 'auto' compiles them with llvmlite, the extra ``saltus[jit]``, once a run has
+    shown that it pays; 'always' compiles them before the run; 'never' interprets them. The results
+    have the same bits
     """
     throw: bool = True
     """raise if a run does not end well; False returns the results with the status"""

@@ -124,7 +124,7 @@ Status Run::run_to(double t_end) {
                       " major steps before t = ", t_end, " s; raise max_major_steps"));
     }
     if (const Status status = step(t_end); over_) return status;
-    if (interrupt_.after_step())
+    if (interrupt_.after_step([this] { count_calls(); }))
       return end(Status::interrupted, text("t = ", time_, " s: interrupted"));
   }
   return Status::reached_end;

@@ -33,10 +33,15 @@ void Run::finish() {
   results_.context = context();
   Statistics& s = results_.statistics;
   integration_.report(s);
+  count_calls();
+  s.events_by_name = instant_.journal().counts();
+}
+
+void Run::count_calls() {
+  Statistics& s = results_.statistics;
   s.right_hand_side_calls = machine_.rhs_calls;
   s.guard_calls = machine_.guard_calls;
   s.jacobian_calls = machine_.jacobian_calls;
-  s.events_by_name = instant_.journal().counts();
 }
 
 Context Run::context() const {

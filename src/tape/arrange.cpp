@@ -19,23 +19,23 @@ struct Where {
 
 class Arranger {
  public:
-  Arranger(const Graph& graph, std::vector<bool>& swapped) : graph_(graph), swapped_(swapped) {
+  explicit Arranger(const Graph& graph) : graph_(graph) {
     const auto size = static_cast<std::size_t>(graph.size());
     swapped_.assign(size, false);
     where_.resize(size);
     level_.assign(size, 0);
   }
 
-  std::vector<Group> run(const std::vector<Node>& order) {
+  Arrangement run(const std::vector<Node>& order) {
     for (const Node node : order) note(node);
     for (auto& [key, nodes] : buckets_) split(key.second, nodes);
     if (!any_run_) {  // depth first: the operand is often the last value computed
-      groups_.clear();
+      groups_.clear(), joined_.clear();
       for (const Node node : order) {
         if (operand_count(graph_[node].op) > 0) groups_.push_back({node});
       }
     }
-    return std::move(groups_);
+    return {std::move(groups_), std::move(swapped_), std::move(joined_)};
   }
 
  private:
@@ -93,20 +93,22 @@ class Arranger {
       std::ranges::transform(sorted, nodes.begin(), [](const Order& o) { return std::get<2>(o); });
     }
     for (std::size_t first = 0; first < nodes.size();) {
-      const std::size_t length =
-          run_length({nodes.begin() + static_cast<Index>(first), nodes.end()});
-      if (length < shortest_run) {
-        groups_.push_back({nodes[first++]});
-        continue;
-      }
-      any_run_ = true;
-      const int array = arrays_++;
-      groups_.emplace_back();
-      for (std::size_t i = 0; i < length; ++i, ++first) {
-        where_[index(nodes[first])] = {array, static_cast<Index>(i)};
-        groups_.back().push_back(nodes[first]);
-      }
+      std::size_t length = run_length({nodes.begin() + static_cast<Index>(first), nodes.end()});
+      if (length < shortest_run) length = 1;
+      any_run_ = any_run_ || length > 1;
+      const auto begin = nodes.begin() + static_cast<Index>(first);
+      groups_.emplace_back(begin, begin + static_cast<Index>(length));
+      first += length;
     }
+    if (nodes.size() >= shortest_run) join(nodes);
+  }
+
+  /// Gives all of them places side by side.
+  void join(const std::vector<Node>& nodes) {
+    const int array = arrays_++;
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      where_[index(nodes[i])] = {array, static_cast<Index>(i)};
+    joined_.push_back(nodes);
   }
 
   std::size_t run_length(std::span<const Node> nodes) const {
@@ -128,7 +130,8 @@ class Arranger {
   static constexpr Index no_step = -(Index{1} << 60);
 
   const Graph& graph_;
-  std::vector<bool>& swapped_;
+  std::vector<bool> swapped_;
+  std::vector<std::vector<Node>> joined_;
   std::vector<Where> where_;
   std::vector<int> level_;
   std::map<std::pair<int, Op>, std::vector<Node>> buckets_;
@@ -139,9 +142,8 @@ class Arranger {
 
 }  // namespace
 
-std::vector<Group> arrange(const Graph& graph, std::span<const Node> outputs,
-                           std::vector<bool>& swapped) {
-  return Arranger(graph, swapped).run(needed(graph, outputs));
+Arrangement arrange(const Graph& graph, std::span<const Node> outputs) {
+  return Arranger(graph).run(needed(graph, outputs));
 }
 
 }  // namespace saltus::tape::detail

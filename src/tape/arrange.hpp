@@ -11,11 +11,20 @@ namespace saltus::tape::detail {
 /// operands of a run are adjacent, or at equal distances, or the same for all.
 using Group = std::vector<Node>;
 
-/// The operations that `outputs` need, operands first. If a model has rows of similar equations, as
-/// a rod of many cells has, they become runs. Operands of commutative operations are exchanged if
-/// this brings the operands of a run into one order; `swapped` records it for each node.
-std::vector<Group> arrange(const Graph& graph, std::span<const Node> outputs,
-                           std::vector<bool>& swapped);
+/// What `arrange` decides.
+struct Arrangement {
+  std::vector<Group> groups = {};  ///< operands first
+  /// For each node whether the operands of its operation, which is commutative, are exchanged.
+  std::vector<bool> swapped = {};
+  /// Expressions that get adjacent registers, those of one operation that do not need each other.
+  /// What reads several groups of them can then be a run. Empty if there is no run.
+  std::vector<std::vector<Node>> arrays = {};
+};
+
+/// The operations that `outputs` need. If a model has rows of similar equations, as a rod of many
+/// cells has, they become runs. Operands of commutative operations are exchanged if this brings the
+/// operands of a run into one order.
+Arrangement arrange(const Graph& graph, std::span<const Node> outputs);
 
 /// Shorter runs are computed one by one.
 inline constexpr std::size_t shortest_run = 4;

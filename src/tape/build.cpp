@@ -22,7 +22,9 @@ class Builder {
   }
 
   void build() {
-    const auto groups = arrange(program_.graph, program_.outputs, swapped_);
+    arrangement_ = arrange(program_.graph, program_.outputs);
+    note_arrays();
+    const std::vector<Group>& groups = arrangement_.groups;
     for (const Group& group : groups) {
       for (const Node node : group) {
         for (const Node operand : operands(node)) ++of(operand).uses;
@@ -48,8 +50,24 @@ class Builder {
   std::vector<Node> operands(Node node) const {
     const Expression& e = at(node);
     std::vector<Node> all(e.operands.begin(), e.operands.begin() + operand_count(e.op));
-    if (swapped_[static_cast<std::size_t>(node.id)]) std::swap(all[0], all[1]);
+    if (arrangement_.swapped[static_cast<std::size_t>(node.id)]) std::swap(all[0], all[1]);
     return all;
+  }
+  void note_arrays() {
+    for (std::size_t a = 0; a < arrangement_.arrays.size(); ++a)
+      for (const Node node : arrangement_.arrays[a]) of(node).array = static_cast<int>(a);
+  }
+
+  /// Registers for adjacent values; all of an array get theirs with the first of them.
+  Place registers_for(std::span<const Node> nodes) {
+    Value& first = of(nodes[0]);
+    if (first.block < 0) {
+      if (first.array < 0) return registers_.take(nodes, values_);
+      registers_.take(arrangement_.arrays[static_cast<std::size_t>(first.array)], values_);
+    }
+    Place place = first.place;
+    place.stride = nodes.size() > 1 ? 1 : 0;
+    return place;
   }
 
   // --- one number ---
@@ -63,8 +81,7 @@ class Builder {
     for (const Node operand : all) release(operand);
     Value& value = of(node);
     const bool straight = value.uses == 0;  // directly to the first output that returns it
-    line.to =
-        straight ? Place{Kind::out, value.outputs.at(0)} : registers_.take({&node, 1}, values_);
+    line.to = straight ? Place{Kind::out, value.outputs.at(0)} : registers_for({&node, 1});
     add(line, node);
     for (std::size_t i = straight ? 1 : 0; i < value.outputs.size(); ++i) {
       program_.lines.push_back(
@@ -114,14 +131,13 @@ class Builder {
     const auto output = outputs_of(group);
     const bool unread =
         std::ranges::all_of(group, [this](Node node) { return of(node).uses == 0; });
-    line.to = output && unread ? *output : registers_.take(group, values_);
+    line.to = output && unread ? *output : registers_for(group);
     for (const Node node : group) {
       for (const Node operand : operands(node)) release(operand);
     }
     add(line, Node{});
     if (output && unread) return;
     copy_out(group);
-    if (of(group[0]).block >= 0 && unread) registers_.give_back(of(group[0]).block);
   }
 
   /// The outputs of a run, if each of its values has one and they are at equal distances.
@@ -212,7 +228,7 @@ class Builder {
   Program& program_;
   std::span<const Index> places_;
   std::vector<Value> values_;
-  std::vector<bool> swapped_;
+  Arrangement arrangement_;
   Registers registers_;
   Node before_ = {};
 };

@@ -1,13 +1,16 @@
 // The list of instructions of a tape.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <deque>
+#include <memory>
 #include <vector>
 
 #include "saltus/base/reads.hpp"
 #include "saltus/base/view.hpp"
 #include "saltus/tape/graph.hpp"
+#include "saltus/tape/machine_code.hpp"
 
 namespace saltus::tape::detail {
 
@@ -67,7 +70,14 @@ struct Instruction {
 
 inline constexpr std::size_t small_registers = 128;
 
-/// Never changes once built.
+/// Machine code of a program, if it was given any. It is set once, and other threads may run the
+/// program meanwhile.
+struct Compiled {
+  std::atomic<MachineFunction> run = nullptr;
+  std::shared_ptr<const void> owner = {};  ///< read by the destructor only
+};
+
+/// Never changes once built, except for its machine code.
 struct Program {
   Graph graph;                ///< only the nodes that the outputs need
   std::vector<Node> outputs;  ///< nodes of `graph`
@@ -81,6 +91,7 @@ struct Program {
   bool small = false;  ///< one piece, whose registers fit on the stack
   Reads reads = Reads::parameters;
   bool reads_entry = false;
+  mutable Compiled compiled;
 };
 
 /// Fills the program. Value i goes to places[i]; without places it goes to i.

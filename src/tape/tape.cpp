@@ -1,6 +1,7 @@
 #include "saltus/tape/tape.hpp"
 
 #include <algorithm>
+#include <mutex>
 #include <utility>
 
 #include "program.hpp"
@@ -28,6 +29,21 @@ bool Tape::reads_parameter() const noexcept { return program_->p > 0; }
 bool Tape::reads_entry() const noexcept { return program_->reads_entry; }
 const Graph& Tape::graph() const noexcept { return program_->graph; }
 const std::vector<Node>& Tape::outputs() const noexcept { return program_->outputs; }
+
+const std::vector<int>& Tape::inputs_read() const noexcept { return program_->inputs; }
+std::size_t Tape::memory_size() const noexcept { return program_->registers; }
+
+bool Tape::is_machine_code() const noexcept {
+  return program_->compiled.run.load(std::memory_order_relaxed) != nullptr;
+}
+
+void Tape::run_as(MachineCode code) const {
+  static std::mutex one_at_a_time;
+  const std::scoped_lock lock(one_at_a_time);
+  if (is_machine_code()) return;
+  program_->compiled.owner = std::move(code.owner);
+  program_->compiled.run.store(code.run, std::memory_order_release);
+}
 
 void Tape::check(const At& at) const {
   const auto expect = [](const std::string& what, Index needed, Index found) {

@@ -18,6 +18,7 @@ struct Value {
   std::optional<Place> loaded = {};  ///< a register that holds it too, for operations that read
                                      ///< no other
   int block = -1;                    ///< the block of its register, if any
+  int array = -1;                    ///< the array that it is one value of, if any
 };
 
 /// The distance between two places of one array.

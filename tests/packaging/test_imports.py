@@ -9,9 +9,11 @@ import pytest
 
 ROOT = Path(__file__).parents[2] / "python"
 LATE = {
+    ("saltus._engine", "saltus.jit"): "an option that most runs leave alone",
     ("saltus.ensemble.executors", "saltus.ensemble.pools"): "loads Python's machinery of processes",
     ("saltus.callbacks.callbacks", "saltus.tracing"): "a system without callbacks needs no tracer",
     ("saltus.callbacks.function", "saltus.tracing"): "a system without callbacks needs no tracer",
+    ("saltus.jit.library", "saltus.jit.compiler"): "loads llvmlite",
     ("saltus.report.table", "saltus.report.chart"): "loads matplotlib",
     ("saltus.results.outcome", "saltus.results.plot"): "loads matplotlib",
     ("saltus.system", "saltus._picture"): "loads subprocess, for Graphviz",

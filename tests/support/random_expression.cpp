@@ -72,7 +72,7 @@ class Draw {
   }
   /// None for which a graph takes products: these need not be std::pow's to the last bit.
   std::size_t exponent() {
-    constexpr std::array all = {-3.0, -2.0, 0.0, 1.0, 1.5, 5.0};
+    constexpr std::array all = {-4.0, -2.3, 0.0, 1.0, 3.5, 5.0};
     return constant(all[below(all.size())]);
   }
 

@@ -59,3 +59,22 @@ TEST_CASE("an empty callback says so; a copy calls the same", "[callback]") {
   CHECK(copy);
   CHECK(call(copy, Block(0.0)) == std::vector{1.0, 2.0});
 }
+
+TEST_CASE("a callback shows the callable that it was made from, to who knows its type",
+          "[callback]") {
+  struct Fill {
+    double value;
+    void operator()(const At&, VectorRef out) const { out.setConstant(value); }
+  };
+  struct Other {
+    double value;
+    void operator()(const At&, VectorRef out) const { out.setConstant(-value); }
+  };
+  const VectorFunction function = Fill{3.0};
+  const VectorFunction copy = function;
+  REQUIRE(copy.target<Fill>() != nullptr);
+  CHECK(copy.target<Fill>()->value == 3.0);
+  CHECK(copy.target<Other>() == nullptr);
+  CHECK(VectorFunction(&Block::fill).target<Fill>() == nullptr);
+  CHECK(VectorFunction().target<Fill>() == nullptr);
+}

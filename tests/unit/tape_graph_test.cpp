@@ -162,3 +162,29 @@ TEST_CASE("what is no operation or no node is refused", "[tape]") {
   const Node foreign{5};
   CHECK_THROWS_AS(tape_of(g, {foreign}), saltus::ModelError);
 }
+
+TEST_CASE("powers by products and roots are within half an epsilon for each rounding", "[tape]") {
+  Graph g;
+  const Node x = g.continuous_state(0);
+  struct Row {
+    double exponent;
+    int roundings;
+  };
+  for (const auto& [exponent, roundings] :
+       {Row{1.5, 2}, Row{2.5, 3}, Row{-0.5, 2}, Row{-1.5, 3}, Row{-2.0, 2}, Row{-3.0, 3}}) {
+    const auto at = [&, e = exponent](double a) {
+      return value_at(g, g.binary(Op::pow, x, g.constant(e)), a);
+    };
+    for (double a = 1e-20; a < 1e20; a *= 1.37) {
+      const long double exact = std::pow(static_cast<long double>(a), exponent);
+      const long double most = 0.5 * roundings * std::numeric_limits<double>::epsilon();
+      INFO(a << " to the power " << exponent);
+      // one more rounding of second order
+      CHECK(std::fabs(static_cast<long double>(at(a)) - exact) <= 1.001L * most * exact);
+    }
+    for (const double a : {0.0, -0.0, 1.0, infinity, quiet_nan, -1.0}) {
+      INFO(a << " to the power " << exponent);
+      CHECK(same_bits(at(a), std::pow(a, exponent)));
+    }
+  }
+}

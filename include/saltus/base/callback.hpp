@@ -91,6 +91,12 @@ class Callback<void(const At&, Out)> {
     call_(*this, leaf, at, out);
   }
 
+  /// The callable, if this was made from an F that is not a pointer to a method; otherwise null.
+  template <class F>
+  const F* target() const noexcept {
+    return call_ == &Callback::call_as<F> ? static_cast<const F*>(callable_.get()) : nullptr;
+  }
+
   /// The same call, for a caller that knows that `self` was made from an F that is not a pointer to
   /// a method.
   template <class F>

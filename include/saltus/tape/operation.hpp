@@ -9,8 +9,8 @@ namespace saltus::tape {
 /// The operation of a node. All numbers are doubles; a truth is 0.0 or 1.0, and any number except 0
 /// counts as true, including NaN. Python names an operation by the word used here.
 ///
-/// Every operation gives, to the last bit, the result of the <cmath> function of its name. NaN and
-/// infinity propagate as in NumPy.
+/// Every operation gives, to the last bit, the result of the <cmath> function of its name, except
+/// `pow` with some exponents, see Graph. NaN and infinity propagate as in NumPy.
 enum class Op : unsigned char {
   // the leaves of a graph
   constant,

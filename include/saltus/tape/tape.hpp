@@ -13,6 +13,7 @@
 
 namespace saltus::tape {
 
+struct MachineCode;
 namespace detail {
 struct Program;
 }
@@ -46,8 +47,19 @@ class Tape {
   const Graph& graph() const noexcept;  ///< the needed part of the graph it was made from
   const std::vector<Node>& outputs() const noexcept;  ///< the values, as nodes of `graph()`
 
+  /// The inputs that the results depend on, without order.
+  const std::vector<int>& inputs_read() const noexcept;
+
+  /// Runs this machine code from now on, see `compile` in machine_code.hpp. It must give the same
+  /// numbers; the first one given stays. It is released with the last tape that shares the list.
+  void run_as(MachineCode code) const;
+  bool is_machine_code() const noexcept;     ///< whether it runs as machine code
+  std::size_t memory_size() const noexcept;  ///< the numbers that machine code needs room for
+
   /// One line for each instruction, in the order in which they run, and one for each output.
   std::string to_string() const;
+
+  const detail::Program& program() const noexcept { return *program_; }  ///< of this layer only
 
  private:
   std::shared_ptr<const detail::Program> program_;

@@ -29,6 +29,8 @@ class ExplainedCallback(NamedTuple):
     """'called', 'traced' or 'compiled'"""
     reason: str
     """why it is called; empty for a traced or compiled one"""
+    machine_code: bool = False
+    """whether the tape of a traced one has become machine code, see the option `machine_code`"""
 
     @property
     def rung(self) -> str:
@@ -58,7 +60,7 @@ class Explanation(tuple[ExplainedCallback, ...]):
         names = [f"{c.block}: {c.callback}" for c in self]
         width = max(map(len, names), default=0)
         lines = [
-            f"{name:{width}}  {c.runs}" + (f": {c.reason}" if c.reason else "")
+            f"{name:{width}}  {_how(c)}" + (f": {c.reason}" if c.reason else "")
             for name, c in zip(names, self, strict=True)
         ]
         return "\n".join([*lines, *([self.note] if self.note else [])])
@@ -66,10 +68,15 @@ class Explanation(tuple[ExplainedCallback, ...]):
     __repr__ = __str__
 
 
+def _how(callback: ExplainedCallback) -> str:
+    return callback.runs + (", machine code" if callback.machine_code else "")
+
+
 def explained(block: Block, function: Block, outcome: Any) -> ExplainedCallback:
     """How one function runs, by what became of it."""
     if outcome is None:
         return ExplainedCallback(block["path"], function["what"], "compiled", "")
     if hasattr(outcome, "tape"):
-        return ExplainedCallback(block["path"], function["what"], "traced", "")
+        compiled = outcome.tape.is_machine_code
+        return ExplainedCallback(block["path"], function["what"], "traced", "", compiled)
     return ExplainedCallback(block["path"], function["what"], "called", outcome.reason)

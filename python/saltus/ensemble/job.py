@@ -84,7 +84,8 @@ class Job:
         begin = core_context(context)
 
         def plan(callbacks: Callbacks | None) -> _core.Ensemble:
-            return _core.Ensemble(system, begin, self.span, options, callbacks)
+            when = self.options.machine_code
+            return _core.Ensemble(system, begin, self.span, options, callbacks, when)
 
         ensemble = planned(system, plan)[0] if self.options.python == "traced" else plan(None)
         for name, column in values.items():

@@ -87,7 +87,7 @@ class Simulator:
         self._version = self._callbacks.version if self._callbacks else 0
 
     def _plan(self, callbacks: Callbacks | None) -> _core.Plan:
-        return _core.Plan(self.system, self._options, callbacks)
+        return _core.Plan(self.system, self._options, callbacks, self.options.machine_code)
 
     def initialize(self, context: _core.Context) -> None:
         """Begins a run with these values, at their time.

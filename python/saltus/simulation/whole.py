@@ -73,13 +73,15 @@ def _kept(system: System, key: Key) -> tuple[_core.Plan, Callbacks] | None:
 def _made(system: System, options: SimulatorOptions, key: Key | None) -> Prepared:
     reporter, core = reporter_of(options.progress), core_options(options)
     if options.python != "traced":
-        return Prepared(_core.Plan(system, core, None), None, reporter, options.throw)
+        return Prepared(
+            _core.Plan(system, core, None, options.machine_code), None, reporter, options.throw
+        )
     versions = (0, 0)
 
     def make(callbacks: Callbacks) -> _core.Plan:
         nonlocal versions
         before = callbacks.version
-        made = _core.Plan(system, core, callbacks)
+        made = _core.Plan(system, core, callbacks, options.machine_code)
         versions = before, callbacks.version  # another thread may have traced anew meanwhile
         return made
 

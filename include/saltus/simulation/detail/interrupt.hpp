@@ -20,15 +20,19 @@ class Interrupt {
   void begin() { ticks_ = 0; }
   /// The run goes on; `now` counts as the last question.
   void go_on(Clock::time_point now) { asked_ = now; }
-  /// After a minor step: whether the user asks the run to stop.
-  bool after_step() { return (++ticks_ & 15) == 0 && options_->interrupt && ask(); }
+  /// After a minor step: whether the user asks the run to stop. `count` is called before the
+  /// question, so that the user sees the present counts.
+  template <class Count>
+  bool after_step(Count count) {
+    return (++ticks_ & 15) == 0 && options_->interrupt && due() && (count(), options_->interrupt());
+  }
 
  private:
-  bool ask() {
+  bool due() {
     const auto now = Clock::now();
     if (now - asked_ < std::chrono::milliseconds(20)) return false;
     asked_ = now;
-    return options_->interrupt();
+    return true;
   }
 
   const SimulatorOptions* options_;

@@ -66,6 +66,7 @@ class Run {
   Status end(Status status, std::string message = {});
   void fail(std::string message);
   void finish();
+  void count_calls();
   void take_accepted();
   void require_ready(double t_end) const;
 

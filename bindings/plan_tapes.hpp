@@ -1,0 +1,73 @@
+// PlanTapes: the tapes of one plan, and when they become machine code.
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "saltus/plan/plan.hpp"
+#include "saltus/tape/tape.hpp"
+
+namespace saltus::python {
+
+/// The values of the option `machine_code`.
+enum class MachineCodeWhen { never, automatic, always };
+MachineCodeWhen machine_code_when(std::string_view word);
+
+/// What the runs of one system have interpreted, and its last run alone, in instructions.
+struct Interpreted {
+  std::atomic<double> all = 0.0, last_run = 0.0;
+};
+
+/// The evaluations of a run, or of several.
+struct Evaluations {
+  std::int64_t derivatives = 0, guards = 0, jacobians = 0;
+};
+
+/// Tapes that are compiled together.
+struct TapeGroup {
+  std::vector<tape::Tape> tapes = {};
+  double instructions = 0.0;  // of all
+  bool done = false;          // compiled, or never to be
+};
+
+/// Compiles the tapes of a plan once it pays, by python/saltus/jit/. Without llvmlite nothing
+/// happens, except that `always` is an error. Several runs of the plan may use it at the same time:
+/// while one of them compiles, the others go on with what they have.
+class PlanTapes {
+ public:
+  PlanTapes(const Plan& plan, MachineCodeWhen when, std::shared_ptr<Interpreted> interpreted);
+
+  /// Before a run: compiles with `always`, and if the last run of the system was long enough.
+  void begin();
+  /// During or after a run that has made so many evaluations since it began. `counted`: the
+  /// instructions of this run that `end` has counted, 0 when it begins.
+  void consider(const Evaluations& now, double counted);
+  /// After a run, or a piece of it.
+  void end(const Evaluations& now, double& counted);
+  /// The plan has other tapes now, perhaps within a run.
+  void renew();
+
+  std::string describe() const;
+
+ private:
+  void read_plan();
+  bool always() const { return when_ == MachineCodeWhen::always; }
+  void compile_if_pays(TapeGroup& group, double interpreted);
+  double run_instructions(const Evaluations& evaluations) const;
+
+  const Plan* plan_;
+  MachineCodeWhen when_;
+  std::shared_ptr<Interpreted> interpreted_;
+  // Jacobians are compiled when one was needed: their tapes are long, and most methods need none.
+  TapeGroup run_, jacobians_;
+  double by_derivative_ = 0.0, by_guards_ = 0.0;  // instructions
+  std::mutex compiling_;
+};
+
+}  // namespace saltus::python
