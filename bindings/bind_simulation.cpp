@@ -37,6 +37,7 @@ class PythonSimulator {
   }
 
   std::string_view advance_to(double t_end) {
+    plan_->tapes().begin();  // it may have other tapes since the last piece
     put_back();
     const Unlocked run;
     const Status status = simulator_.advance_to(t_end);

@@ -133,12 +133,11 @@ double PlanTapes::run_instructions(const Evaluations& evaluations) const {
          by_guards_ * static_cast<double>(evaluations.guards);
 }
 
-void PlanTapes::begin() { compile_if_pays(run_, interpreted_->last_run); }
-
-void PlanTapes::renew() {
-  read_plan();
-  compile_if_pays(run_, interpreted_->last_run);
+void PlanTapes::begin() {
+  compile_if_pays(run_, std::max(interpreted_->last_run.load(), interpreted_->all.load()));
 }
+
+void PlanTapes::renew() { read_plan(); }
 
 void PlanTapes::consider(const Evaluations& now, double counted) {
   compile_if_pays(run_, interpreted_->all + run_instructions(now) - counted);
@@ -147,21 +146,24 @@ void PlanTapes::consider(const Evaluations& now, double counted) {
 }
 
 void PlanTapes::end(const Evaluations& now, double& counted) {
-  consider(now, counted);
   const double run = run_instructions(now);
   interpreted_->last_run = run;
   interpreted_->all += run - counted;
   counted = run;
 }
 
+/// Without `always` it is tried once. What was interpreted is then paid for: other tapes, of another
+/// plan of the system, are compiled when as much has been interpreted again.
 void PlanTapes::compile_if_pays(TapeGroup& group, double interpreted) {
   // Another run may hold the lock and wait for the interpreter, which this one may hold.
   const std::unique_lock lock(compiling_, std::try_to_lock);
   if (!lock || group.done) return;
   if (!always() && !tape::compiling_pays(interpreted, group.instructions, compiler_is_loaded()))
     return;
-  group.done = true;
+  group.done = !always();
   locked([&] { compile_tapes(group.tapes, always()); });
+  group.done = true;
+  interpreted_->all = 0.0;
 }
 
 namespace {

@@ -19,7 +19,8 @@ namespace saltus::python {
 enum class MachineCodeWhen { never, automatic, always };
 MachineCodeWhen machine_code_when(std::string_view word);
 
-/// What the runs of one system have interpreted, and its last run alone, in instructions.
+/// What the runs of one system have evaluated since tapes of it were compiled last, and its last run
+/// alone, in instructions.
 struct Interpreted {
   std::atomic<double> all = 0.0, last_run = 0.0;
 };
@@ -48,7 +49,7 @@ class PlanTapes {
   /// During or after a run that has made so many evaluations since it began. `counted`: the
   /// instructions of this run that `end` has counted, 0 when it begins.
   void consider(const Evaluations& now, double counted);
-  /// After a run, or a piece of it.
+  /// After a run, or a piece of it: counts, and leaves the rest to the next one.
   void end(const Evaluations& now, double& counted);
   /// The plan has other tapes now, perhaps within a run.
   void renew();

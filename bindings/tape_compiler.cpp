@@ -23,8 +23,25 @@ std::shared_ptr<const void> kept(py::object object) {
           }};
 }
 
+/// saltus.jit.functions(module, count). Inside the call no object has a destructor: see
+/// until_shutdown.
+py::object compiled(const std::string& module, int count) {
+  const py::str name("functions"), text(module);
+  const py::int_ number(count);
+  PyObject* const result = until_shutdown([&]() -> PyObject* {
+    PyObject* const jit = PyImport_ImportModule("saltus.jit");
+    if (jit == nullptr) return nullptr;
+    PyObject* const made =
+        PyObject_CallMethodObjArgs(jit, name.ptr(), text.ptr(), number.ptr(), nullptr);
+    Py_DECREF(jit);
+    return made;
+  });
+  if (result == nullptr) throw py::error_already_set();
+  return py::reinterpret_steal<py::object>(result);
+}
+
 std::vector<tape::MachineCode> made(const std::string& module, int count) {
-  const py::object result = py::module_::import("saltus.jit").attr("functions")(module, count);
+  const py::object result = compiled(module, count);
   const auto [addresses, library] =
       result.cast<std::pair<std::vector<std::uintptr_t>, py::object>>();
   const auto owner = kept(library);

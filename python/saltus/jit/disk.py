@@ -49,7 +49,7 @@ def load(key: str) -> bytes | None:
     except OSError:
         return None
     check, code = data[:32], data[32:]
-    return code if check == hashlib.sha256(code).digest() else None
+    return code if check == _checksum(key, code) else None
 
 
 def store(key: str, code: bytes) -> None:
@@ -59,9 +59,18 @@ def store(key: str, code: bytes) -> None:
     with contextlib.suppress(OSError):
         _directory.mkdir(parents=True, exist_ok=True)
         handle, name = tempfile.mkstemp(dir=_directory)
-        with os.fdopen(handle, "wb") as file:
-            file.write(hashlib.sha256(code).digest() + code)
-        os.replace(name, _file(_directory, key))  # another process sees all of it or nothing
+        try:
+            with os.fdopen(handle, "wb") as file:
+                file.write(_checksum(key, code) + code)
+            os.replace(name, _file(_directory, key))  # another process sees all of it or nothing
+        except BaseException:
+            os.unlink(name)
+            raise
+
+
+def _checksum(key: str, code: bytes) -> bytes:
+    """Of the key too: a file under another name is damaged."""
+    return hashlib.sha256(key.encode() + code).digest()
 
 
 def _file(directory: Path, key: str) -> Path:

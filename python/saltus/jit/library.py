@@ -17,7 +17,7 @@ KEPT = 64
 10 kB each
 """
 
-_lock = threading.Lock()  # LLVM is asked by one thread at a time
+_lock = threading.RLock()  # one thread at a time; a signal handler may come in between
 _libraries: OrderedDict[str, Any] = OrderedDict()
 
 

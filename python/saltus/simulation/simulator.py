@@ -146,13 +146,13 @@ class Simulator:
         """Replaces the traces whose sources have changed since the last piece of the run."""
         if not self._callbacks or self._callbacks.refresh(self._others) == self._version:
             return
-        self._version = self._callbacks.version
+        self._version = -1  # never a version of the callbacks: without success they stay to do
         if not self._core.replace_traces():
-            self._version = -1  # never a version of the callbacks: the next run is made anew
             raise ModelError(
                 f"t = {self.time} s: a callback depends on more than when the run began; "
                 "initialize again, or use the option python='called'"
             )
+        self._version = self._callbacks.version
 
     def _taken(self) -> tuple[Results, BaseException | None]:
         """The present results, made once, and the exception the first time."""

@@ -178,6 +178,37 @@ def test_a_compiler_that_fails_is_an_error_only_where_it_is_required(monkeypatch
     assert runs_as(simulator) == "interpreted"
 
 
+def test_what_is_required_is_an_error_each_time(monkeypatch):
+    """Also where a plan is kept: it does not run without machine code afterwards."""
+    system, failing = Oscillator(1.63), True
+    compiled = compiler.compiled
+
+    def broken(module):
+        if failing:
+            raise RuntimeError("no such processor")
+        return compiled(module)
+
+    monkeypatch.setattr(compiler, "compiled", broken)
+    for _ in range(3):
+        with pytest.raises(RuntimeError, match="no such processor"):
+            saltus.simulate(system, (0.0, 1.0), machine_code="always")
+    failing = False
+    saltus.simulate(system, (0.0, 1.0), machine_code="always")
+    assert system.explain()[0].machine_code
+
+
+def test_short_runs_of_changed_systems_are_not_compiled_each():
+    """What one long run has interpreted is paid for by one compilation."""
+    system = Oscillator(1.64)
+    for _ in range(12):
+        saltus.simulate(system, (0.0, 2000.0), rtol=1e-10)
+    before = len(library._libraries)
+    for k in range(20):
+        system.k = 1.0 + 0.01 * k
+        saltus.simulate(system, (0.0, 0.1))
+    assert len(library._libraries) <= before + 1
+
+
 def test_equal_systems_share_a_library():
     a, b = run(1.7, machine_code="always"), run(1.7, machine_code="always")
     before = len(library._libraries)
