@@ -84,6 +84,32 @@ def test_a_dynamic_parameter():
         assert x[0] == pytest.approx(np.exp(-k), rel=1e-4)
 
 
+class Absent(saltus.LeafSystem):
+    """x' = -drag x, where the attribute `drag` may be missing, and a table of numbers."""
+
+    def __init__(self, read):
+        super().__init__(name="absent")
+        self.table = [1]
+        self.declare_continuous_state([1.0], ode=lambda t, s: -read(self) * s.continuous_state)
+
+
+@pytest.mark.parametrize(
+    ("read", "change", "rate"),
+    [
+        (lambda o: getattr(o, "drag", 0.5), lambda o: setattr(o, "drag", 3.0), 3.0),
+        (lambda o: 2.0 if hasattr(o, "drag") else 0.5, lambda o: setattr(o, "drag", 3.0), 2.0),
+        (lambda o: 2.0 if o.table[0] is True else 0.5, lambda o: setattr(o, "table", [True]), 2.0),
+        (lambda o: 2.0 if o.table[0] is True else 0.5, lambda o: o.table.__setitem__(0, True), 2.0),
+    ],
+)
+def test_what_was_missing_or_equal_before_a_run(read, change, rate):
+    system = Absent(read)
+    for expected in (0.5, rate):
+        x = saltus.simulate(system, (0.0, 1.0), rtol=1e-9).context.continuous_state[0]
+        assert x == pytest.approx(np.exp(-expected), rel=1e-7)
+        change(system)
+
+
 def test_between_two_pieces_of_a_run():
     pendulum, simulators = Pendulum(damping=0.0), []
     for python in ("traced", "called"):

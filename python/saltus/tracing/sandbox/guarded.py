@@ -109,6 +109,8 @@ def read(guarded: Guarded, name: str) -> Any:
     if found is None:
         if hasattr(type(value), "__getattr__"):
             refuse(f"reads {where}, which __getattr__ makes up", "make it an attribute")
+        sandbox.watch.add_entry(where, own, name, MISSING)  # hasattr, or getattr with a default
+        _watch_class(sandbox, type(value), name, where)
         raise AttributeError(f"'{type(value).__name__}' object has no attribute '{name}'")
     sandbox.watch.add_entry(where, own, name, MISSING)
     _watch_class(sandbox, type(value), name, where)

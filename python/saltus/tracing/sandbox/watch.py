@@ -45,7 +45,10 @@ def content(value: Any) -> Any:
         return (type(value), *map(content, value))
     if isinstance(value, Mapping) and isinstance(value, dict):
         return (dict, *((key, content(entry)) for key, entry in value.items()))
-    return value if isinstance(value, PLAIN) else id(value)
+    if not isinstance(value, PLAIN):
+        return id(value)
+    zero = isinstance(value, float) and value == 0.0  # 1, 1.0 and True differ, as 0.0 and -0.0 do
+    return (type(value), math.copysign(1.0, value) if zero else value, zero)
 
 
 def entries(value: Any) -> int:
