@@ -1,7 +1,6 @@
 #include "traced_formula.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 #include <vector>
 
@@ -12,13 +11,8 @@ namespace {
 using tape::Op;
 using tape::Symbol;
 
-Symbol mode(const EntryAt<Symbol>& at) { return at.mode(); }
-/// A formula that reads the mode is never called with numbers: see formula_of.
-Symbol mode(const EntryAt<double>&) { return std::numeric_limits<double>::quiet_NaN(); }
-
 /// A variable or a constant of a tape, as the formula of a block reads it.
-template <class Number>
-Symbol variable(const EntryAt<Number>& at, const tape::Expression& e) {
+Symbol variable(const EntryAt<Symbol>& at, const tape::Expression& e) {
   switch (e.op) {
     case Op::constant:
       return e.value;
@@ -29,7 +23,7 @@ Symbol variable(const EntryAt<Number>& at, const tape::Expression& e) {
     case Op::discrete_state:
       return at.z(e.index);
     case Op::mode:
-      return mode(at);
+      return at.mode();
     case Op::parameter:
       return at.p(ParameterIndex{e.index, 1}, 0);
     default:
@@ -51,35 +45,29 @@ Symbol applied(const tape::Expression& e, const std::vector<Symbol>& values) {
   }
 }
 
-/// Value i of a tape, operation by operation. Operands have smaller numbers than what uses them.
-template <class Number>
-Symbol value(const tape::Tape& tape, const EntryAt<Number>& at, Index i) {
-  const tape::Node last = tape.outputs()[static_cast<std::size_t>(i)];
-  std::vector<Symbol> values;
-  for (int id = 0; id <= last.id; ++id) {
+/// The values of a tape, operation by operation. Operands have smaller numbers than what uses them.
+std::vector<Symbol> values_of(const tape::Tape& tape, const EntryAt<Symbol>& at) {
+  std::vector<Symbol> nodes, values;
+  for (int id = 0; id < tape.graph().size(); ++id) {
     const tape::Expression& e = tape.graph()[{id}];
-    values.push_back(tape::operand_count(e.op) == 0 ? variable(at, e) : applied(e, values));
+    nodes.push_back(tape::operand_count(e.op) == 0 ? variable(at, e) : applied(e, nodes));
   }
-  return values.back();
+  for (const tape::Node output : tape.outputs())
+    values.push_back(nodes[static_cast<std::size_t>(output.id)]);
+  return values;
 }
-
-/// The slot has the present tape, which may be another one later in a run in pieces.
-struct TracedEntry {
-  Slot slot;
-
-  Symbol operator()(const EntryAt<Symbol>& at, Index i) const { return value(slot->tape, at, i); }
-  double operator()(const EntryAt<double>& at, Index i) const {
-    tape::Graph constants;  // the value is one
-    return *constants.value(value(slot->tape, at, i).in(constants));
-  }
-};
 
 }  // namespace
 
 Formula formula_of(const Slot& slot, bool joins) {
   const Reads reads = slot->tape.reads();
   if (slot->tape.reads_entry()) return {};
-  const Formula formula = TracedEntry{slot};
+  // The slot has the present tape, which may be another one later in a run in pieces.
+  const Formula formula(
+      [slot](const At& at, VectorRef out) { slot->tape.evaluate(at, out.data()); },
+      [slot](detail::Symbols& symbols) {
+        return values_of(slot->tape, EntryAt<Symbol>(symbols, 0));
+      });
   const bool alone = has(reads, Reads::discrete_state) || has(reads, Reads::mode);
   return joins && !alone ? formula : formula.called();
 }

@@ -39,7 +39,8 @@ def error(row, true):
 def times(rows, scene, method, true):
     """The time of each level, in us."""
     mine = [r for r in rows if (r["scene"], r["method"]) == (scene, method)]
-    points = [(error(r, true), 1e6 * r.get("seconds", math.inf)) for r in mine]
+    points = [(max(1e-17, error(r, true)), 1e6 * r.get("seconds", math.inf)) for r in mine]
+    points = [point for point in points if math.isfinite(point[0])]
     return [cost_at(level, points) for level in LEVELS]
 
 

@@ -108,10 +108,12 @@ void LeafSystem::declare_continuous_state(ContinuousState state) {
              "': the continuous state is declared twice; declare it once, as one vector"));
   }
   detail::require_finite(state.initial, text("block '", name(), "': initial continuous state"));
-  if (state.ode.steps != nullptr && state.ode.states != state.initial.size()) {
-    throw ModelError(text("block '", name(), "': the right-hand side is inlined for ",
-                          state.ode.states, " continuous states, the block has ",
-                          state.initial.size(), "; say inlined<", state.initial.size(), ">"));
+  if (state.ode.states != 0 && state.ode.states != state.initial.size()) {
+    throw ModelError(
+        text("block '", name(), "': the right-hand side is ",
+             state.ode.steps != nullptr ? "inlined" : "written", " for ", state.ode.states,
+             " continuous states, the block has ", state.initial.size(), "; say ",
+             state.ode.steps != nullptr ? "inlined<" : "equations<", state.initial.size(), ">"));
   }
   take_formula(state.ode.function, state.formula, "the continuous state", name());
   if (!state.formula) state.formula = state.ode.formula;

@@ -36,7 +36,8 @@ class Expressions {
   std::span<const tape::Node> add(const Formula& formula, int leaf, Index size) {
     const std::size_t first = values_.size();
     OfLeaf symbols(*this, plan_.leaf(leaf));
-    for (Index i = 0; i < size; ++i) values_.push_back(formula.symbol(symbols, i).in(graph_));
+    for (const tape::Symbol& entry : formula.symbols(symbols, size))
+      values_.push_back(entry.in(graph_));
     return std::span(values_).subspan(first);
   }
 

@@ -22,6 +22,17 @@ SolverOptions solver_options(const SimulatorOptions& options, Index n) {
 
 }  // namespace
 
+Integration::Integration(Machine& machine, GuardSet& guards, const SimulatorOptions& options)
+    : machine_(&machine), guards_(&guards), options_(&options) {
+  if (!still() && options.ode_solver_method == Method::taylor) make();
+}
+
+/// Without states, the solver only locates the zeros of guards: any method will do.
+void Integration::make() {
+  solver_ = make_solver(still() ? Method::dopri5 : options_->ode_solver_method, *machine_, *guards_,
+                        solver_options(*options_, machine_->plan().nx));
+}
+
 void Integration::begin() {
   started_ = false;
   inside_ = machine_->x;
@@ -39,11 +50,8 @@ StopReason Integration::advance(double& t, double t_stop) {
   return reason;
 }
 
-/// Without states, the solver only locates the zeros of guards: any method will do.
 void Integration::start(double t) {
-  if (!solver_)
-    solver_ = make_solver(still() ? Method::dopri5 : options_->ode_solver_method, *machine_,
-                          *guards_, solver_options(*options_, machine_->plan().nx));
+  if (!solver_) make();
   solver_->restart(t, machine_->x, {.first = true});
   started_ = true;
 }

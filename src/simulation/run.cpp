@@ -18,7 +18,6 @@ SimulatorOptions checked(SimulatorOptions options) {
 SimulatorOptions checked_for(const Plan& plan, SimulatorOptions options) {
   options = checked(std::move(options));
   require_widths(options, plan);
-  require_series(plan, options.ode_solver_method);
   return options;
 }
 
@@ -30,8 +29,8 @@ Run::Run(const System& system, SimulatorOptions options)
 }
 
 void Run::functions_replaced() {
+  machine_.functions_replaced();  // first: a method that does not suit them now must not go on
   require_series(machine_.plan(), options_.ode_solver_method);
-  machine_.functions_replaced();
 }
 
 Run::Run(std::shared_ptr<const Plan> plan, SimulatorOptions options)

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "saltus/simulation/detail/contact.hpp"
+#include "saltus/tape/series.hpp"
 
 namespace saltus {
 
@@ -36,8 +37,8 @@ void Trajectory::start(std::shared_ptr<const Plan> plan, const Context& from,
 namespace {
 
 /// The Chebyshev points of the second kind on [0, 1], including both ends, for each degree up to
-/// the degree of Adams' method.
-constexpr int most = 12;
+/// the highest order of a Taylor series.
+constexpr int most = tape::Series::highest_order;
 using Nodes = std::array<std::array<double, most + 1>, most + 1>;
 
 const Nodes& nodes() {

@@ -40,11 +40,7 @@ void require_linear_solver(LinearSolver linear_solver, Method method) {
 }
 
 void require_series(const Plan& plan, Method method) {
-  if (method != Method::taylor) return;
-  const std::string obstacle = taylor_obstacle(plan);
-  if (obstacle.empty()) return;
-  throw ModelError(text("ode_solver_method 'taylor': ", obstacle,
-                        "; take the method 'auto' or 'dop853', or a mode for each branch"));
+  if (method == Method::taylor && plan.nx > 0) require_taylor_series(plan);
 }
 
 std::unique_ptr<Solver> make_solver(Method method, Machine& machine, GuardSet& guards,

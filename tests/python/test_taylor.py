@@ -118,6 +118,41 @@ def test_a_callback_that_changes_between_two_pieces_has_a_new_series():
     assert simulator.context.continuous_state[0] == pytest.approx(np.exp(-4.0), rel=1e-10)
 
 
+def test_a_callback_that_has_no_series_any_more_is_refused_each_time():
+    class Decay(saltus.LeafSystem):
+        def __init__(self):
+            super().__init__(name="decay")
+            self.k, self.kink = 1.0, False
+            self.declare_continuous_state([1.0], ode=self.ode)
+
+        def ode(self, time, state):
+            x = state.continuous_state
+            return -self.k * (np.abs(x) if self.kink else x)
+
+    decay = Decay()
+    simulator = saltus.Simulator(decay, ode_solver_method="taylor", **FINE)
+    simulator.initialize(decay.create_context())
+    simulator.advance_to(1.0)
+    decay.k, decay.kink = 3.0, True
+    for _ in range(2):
+        with pytest.raises(saltus.ModelError, match="'abs'"):
+            simulator.advance_to(2.0)
+    decay.kink = False
+    simulator.advance_to(2.0)
+    assert simulator.context.continuous_state[0] == pytest.approx(np.exp(-4.0), rel=1e-10)
+
+
+@pytest.mark.parametrize("rtol", [1e-6, 1e-10, 1e-12, 1e-14])
+def test_dense_output_at_each_order(rtol):
+    run = saltus.solve(
+        lambda t, x: [x[1], -x[0]], (0, 6.0), [1.0, 0.0],
+        method="taylor", dense_output=True, rtol=rtol, atol=rtol,
+    )  # fmt: skip
+    t = np.linspace(0.0, 6.0, 501)
+    # some ten steps of one tolerance each, and roundings
+    np.testing.assert_allclose(run.sol(t)[0], np.cos(t), rtol=0.0, atol=20 * max(rtol, 1e-15))
+
+
 @pytest.mark.parametrize(
     ("ode", "words"),
     [

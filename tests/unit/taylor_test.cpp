@@ -225,6 +225,130 @@ TEST_CASE("a pulse that the series at the start does not show is not passed over
   }
 }
 
+TEST_CASE("windows of other kinds are not passed over either", "[taylor]") {
+  const auto end = [](auto rate, double until) {
+    const Leaf leaf("window", [&](Leaf& l) {
+      l.declare_continuous_state(
+          {.initial = vec({0.0}),
+           .ode = equations<1>([rate](const auto& at, auto& xdot) { xdot[0] = rate(at.time()); })});
+    });
+    return run(leaf, until, by_taylor(1e-8, 1e-8)).context.continuous_state()[0];
+  };
+  const double between = end(
+      [](const auto& t) {
+        using std::tanh;
+        return tanh(5.0 * (t - 10.0)) - tanh(5.0 * (t - 14.0));
+      },
+      20.0);
+  CHECK(std::abs(between - 8.0) < 1e-7);  // 2 from 10 s to 14 s, up to exp(-40)
+  const double power = end(
+      [](const auto& t) {
+        const auto w = 4.0 * t * (1.0 - t), w2 = w * w, w4 = w2 * w2, w8 = w4 * w4;
+        return w8 * w8;
+      },
+      1.0);
+  // the integral of (4 t (1 - t))^16: 4^16 B(17, 17)
+  const double exact = std::exp(16.0 * std::log(4.0) + 2.0 * std::lgamma(17.0) - std::lgamma(34.0));
+  CHECK(std::abs(power - exact) < 1e-7);
+}
+
+TEST_CASE("a guard that its series does not show is looked at as by other methods", "[taylor]") {
+  // A stone thrown over a hill: its flight is one step, and the hill is flat at its start.
+  const Leaf leaf("stone", [](Leaf& l) {
+    l.declare_continuous_state(
+        {.initial = vec({0.0, 1.0, 3.0}), .ode = equations<3>([](const auto& at, auto& xdot) {
+                                            xdot[0] = 8.0;
+                                            xdot[1] = at.x(2);
+                                            xdot[2] = -9.81;
+                                          })});
+    l.declare_zero_crossing({.name = "hill", .formula = [](const auto& at) {
+                               using std::exp;
+                               const auto s = (at.x(0) - 5.0) / 0.5;
+                               return at.x(1) - 2.0 * exp(-(s * s));
+                             }});
+  });
+  CHECK(times(run(leaf, 1.0, by_taylor(1e-9, 1e-9)), "hill").size() == 3);
+}
+
+TEST_CASE("crossings of functions of t^4 are seen, though most of their terms vanish", "[taylor]") {
+  const Leaf leaf("clock", [](Leaf& l) {
+    l.declare_continuous_state(
+        {.initial = vec({0.0}),
+         .ode = equations<1>([](const auto&, auto& xdot) { xdot[0] = 1.0; })});
+    l.declare_zero_crossing({.name = "turns", .formula = [](const auto& at) {
+                               using std::cos;
+                               const auto x2 = at.x(0) * at.x(0);
+                               return cos(3.0 * x2 * x2) - 0.5;
+                             }});
+  });
+  for (const double rtol : {1e-6, 1e-7, 1e-8, 1e-10})
+    CHECK(times(run(leaf, 1.6, by_taylor(rtol, rtol)), "turns").size() == 6);
+}
+
+TEST_CASE("a crossing at the end of the run does not hide one before it", "[taylor]") {
+  // (t - a)(t - T) is zero at the end T, where rounding decides its sign
+  for (int i = 1; i <= 40; ++i) {
+    const double end = 1.0 + 0.1 * i, a = 0.37 * end, k = 1.0 + 0.01 * i;
+    const Leaf leaf("parabola", [&](Leaf& l) {
+      l.declare_continuous_state({.initial = vec({k * a * end, -k * (a + end)}),
+                                  .ode = equations<2>([k](const auto& at, auto& xdot) {
+                                    xdot[0] = at.x(1);
+                                    xdot[1] = 2.0 * k;
+                                  })});
+      l.declare_zero_crossing({.name = "zero",
+                               .direction = Direction::positive_then_non_positive,
+                               .formula = [](const auto& at) { return at.x(0); }});
+    });
+    const auto found = times(run(leaf, end, by_taylor(1e-9, 1e-9)), "zero");
+    INFO(end);
+    REQUIRE(found.size() >= 1);
+    CHECK(std::abs(found[0] - a) < 1e-12 * end);
+  }
+}
+
+TEST_CASE("the dense output has the order of the series", "[taylor]") {
+  const Leaf leaf = oscillator();
+  for (const double rtol : {1e-6, 1e-10, 1e-12, 1e-15}) {
+    SimulatorOptions options = by_taylor(rtol, rtol);
+    options.dense_output = true;
+    const Results results = run(leaf, 20.0, options);
+    double worst = 0.0;
+    for (double t = 0.0; t <= 20.0; t += 0.01)
+      worst = std::max(worst, std::abs(results.at(t).continuous_state[0] - std::cos(t)));
+    INFO(rtol);
+    CHECK(worst < 50.0 * std::max(rtol, 10.0 * eps));  // as at the end
+  }
+}
+
+TEST_CASE("a least step that the tolerance does not allow ends the run with that reason",
+          "[taylor]") {
+  const Leaf leaf("fast", [](Leaf& l) {
+    l.declare_continuous_state(
+        {.initial = vec({1.0, 0.0}), .ode = equations<2>([](const auto& at, auto& xdot) {
+                                       xdot[0] = 30.0 * at.x(1);
+                                       xdot[1] = -30.0 * at.x(0);
+                                     })});
+  });
+  SimulatorOptions options = by_taylor(1e-9, 1e-9);
+  options.min_minor_step_size = 1.0;
+  const std::string said = message<SimulationError>([&] { run(leaf, 10.0, options); });
+  CHECK(contains(said, "min_minor_step_size"));
+}
+
+TEST_CASE("equations for another number of states are refused", "[taylor]") {
+  const std::string said = message<ModelError>([] {
+    Leaf("three", [](Leaf& l) {
+      l.declare_continuous_state(
+          {.initial = vec({1.0, 0.0, 0.0}), .ode = equations<2>([](const auto& at, auto& xdot) {
+                                              xdot[0] = at.x(1);
+                                              xdot[1] = at.x(0);
+                                            })});
+    });
+  });
+  CHECK(contains(said, "written for 2 continuous states, the block has 3"));
+  CHECK(contains(said, "equations<3>"));
+}
+
 TEST_CASE("exp and its relatives may hide a pulse; what is algebraic, or turns, may not",
           "[taylor]") {
   tape::Graph g;

@@ -5,6 +5,7 @@
 #include <concepts>
 #include <cstddef>
 #include <utility>
+#include <vector>
 
 #include "saltus/model/formula.hpp"
 
@@ -37,12 +38,13 @@ class Equations {
   void operator()(const At& at, VectorRef xdot) const { f_(EquationsAt<double>(at), xdot); }
 
   Formula formula() const {
-    return {*this, [f = f_](Symbols& symbols, Index i) {
+    return {*this, [f = f_](Symbols& symbols) {
               std::array<tape::Symbol, N> xdot;
               f(EquationsAt<tape::Symbol>(symbols), xdot);
-              return xdot[static_cast<std::size_t>(i)];
+              return std::vector<tape::Symbol>(xdot.begin(), xdot.end());
             }};
   }
+  static constexpr Index states = N;
 
  private:
   F f_;
@@ -59,6 +61,15 @@ Formula formula_of(const F& right_hand_side) {
     return {};
 }
 
+/// The number of states that a right-hand side is written for; 0 if it does not say.
+template <class F>
+constexpr Index states_of() {
+  if constexpr (requires { F::states; })
+    return F::states;
+  else
+    return 0;
+}
+
 }  // namespace detail
 
 /// The equations of N states as a function template over the kind of number:
@@ -71,7 +82,7 @@ Formula formula_of(const F& right_hand_side) {
 /// relation(r, j), choose(truth, a, b), and mode(). The function runs with numbers, as any other right-hand side,
 /// and with symbols, so that its Taylor series and its exact derivatives are known. It must read only
 /// `at` and constants, and choose between values by `at.choose` or by a constant. `inlined<N>` takes
-/// it too.
+/// it too. A block with another number of states refuses it, with a ModelError.
 template <int N, class F>
   requires(N > 0)
 detail::Equations<N, F> equations(F f) {

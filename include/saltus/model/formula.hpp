@@ -4,6 +4,7 @@
 #include <functional>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "saltus/base/callback.hpp"
 #include "saltus/base/pack.hpp"
@@ -134,9 +135,9 @@ class Formula {
           return f(EntryAt<tape::Symbol>(symbols, i), i);
         }) {}
 
-  /// Of a function that computes all entries, and of the expression of entry i.
-  Formula(VectorFunction function, std::function<tape::Symbol(detail::Symbols&, Index)> symbol)
-      : function_(std::move(function)), symbol_(std::move(symbol)) {}
+  /// Of a function that computes all entries, and of their expressions.
+  Formula(VectorFunction function, std::function<std::vector<tape::Symbol>(detail::Symbols&)> all)
+      : function_(std::move(function)), all_(std::move(all)) {}
 
   explicit operator bool() const noexcept { return static_cast<bool>(function_); }
   /// The same formula, but its block calls its function: a plan does not join it with others. It is
@@ -150,12 +151,18 @@ class Formula {
   bool joins() const noexcept { return joins_; }
   /// Computes all entries, by calls with numbers.
   const VectorFunction& function() const noexcept { return function_; }
-  /// Entry i, as an expression of these symbols.
-  tape::Symbol symbol(detail::Symbols& symbols, Index i) const { return symbol_(symbols, i); }
+  /// `size` entries, as expressions of these symbols.
+  std::vector<tape::Symbol> symbols(detail::Symbols& of, Index size) const {
+    if (all_) return all_(of);
+    std::vector<tape::Symbol> entries;
+    for (Index i = 0; i < size; ++i) entries.push_back(symbol_(of, i));
+    return entries;
+  }
 
  private:
   VectorFunction function_ = {};
   std::function<tape::Symbol(detail::Symbols&, Index)> symbol_ = {};
+  std::function<std::vector<tape::Symbol>(detail::Symbols&)> all_ = {};  // in place of symbol_
   bool joins_ = true;
 };
 

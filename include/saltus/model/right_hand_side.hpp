@@ -18,7 +18,9 @@ struct RightHandSide {
   template <class F>
     requires(!std::same_as<F, RightHandSide> && std::constructible_from<VectorFunction, F>)
   RightHandSide(F callable)  // NOLINT(google-explicit-constructor): as a VectorFunction
-      : formula(detail::formula_of(callable)), function(std::move(callable)) {}
+      : formula(detail::formula_of(callable)),
+        function(std::move(callable)),
+        states(detail::states_of<F>()) {}
   template <class F>
   RightHandSide(F callable, const InlinedSteps& with, Index number)
       : formula(detail::formula_of(callable)),
@@ -31,7 +33,7 @@ struct RightHandSide {
   Formula formula = {};  ///< the same as an expression; empty: it is only called
   VectorFunction function = {};
   const InlinedSteps* steps = nullptr;  ///< null: none
-  Index states = 0;                     ///< the number of states that `steps` are for
+  Index states = 0;                     ///< the number that it is written for; 0: any
 };
 
 }  // namespace saltus

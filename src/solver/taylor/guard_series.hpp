@@ -6,6 +6,7 @@
 
 #include "saltus/plan/detail/flow_graph.hpp"
 #include "saltus/solver/detail/look_points.hpp"
+#include "saltus/solver/detail/taylor/hidden.hpp"
 #include "saltus/solver/detail/taylor/root_separation.hpp"
 #include "saltus/tape/series.hpp"
 
@@ -16,12 +17,14 @@ class GuardSeries final : public LookPoints {
  public:
   explicit GuardSeries(const GuardSet& guards) : guards_(&guards) {}
 
-  /// Takes the guards that have a series; returns their expressions, as outputs of a Series.
+  /// Takes the guards whose series show them, and returns their expressions, as outputs of a Series.
   std::vector<tape::Node> take(const FlowGraph& flow) {
     std::vector<tape::Node> outputs;
     number_.assign(flow.guards.size(), none);
     for (std::size_t k = 0; k < flow.guards.size(); ++k) {
-      if (!flow.guards[k] || !tape::kinks(flow.graph, {&*flow.guards[k], 1}).empty()) continue;
+      if (!flow.guards[k]) continue;
+      const std::span<const tape::Node> guard(&*flow.guards[k], 1);
+      if (!tape::kinks(flow.graph, guard).empty() || may_hide(flow.graph, guard)) continue;
       number_[k] = static_cast<int>(outputs.size());
       outputs.push_back(*flow.guards[k]);
     }

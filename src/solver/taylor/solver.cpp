@@ -26,8 +26,17 @@ std::string obstacle_of(const FlowGraph& flow) {
         " is called, so it has no series; it needs a traced function, or equations<N> in C++");
   const auto kinks = tape::kinks(flow.graph, flow.rates);
   if (kinks.empty()) return {};
-  return text("a derivative reads '", tape::name(kinks.front()),
-              "', which has a kink or a jump that no guard locates");
+  return text(
+      "a derivative uses '", tape::name(kinks.front()),
+      "' of a state or of the time: it has a kink or a jump that no guard locates, and needs a "
+      "mode for each branch");
+}
+
+void require_series(const FlowGraph& flow) {
+  const std::string obstacle = obstacle_of(flow);
+  if (obstacle.empty()) return;
+  throw ModelError(
+      text("ode_solver_method 'taylor': ", obstacle, "; or take the method 'auto' or 'dop853'"));
 }
 
 class TaylorSolver final : public StepSolver<TaylorSolver> {
@@ -48,8 +57,13 @@ class TaylorSolver final : public StepSolver<TaylorSolver> {
     if (fallen_back_) return other_->inside_step(u, x);
     expansion_->state(u, x0_.data(), rest0_.data(), x);
   }
-  std::string method() const override { return "taylor"; }
-  int degree() const override { return expansion_->order(); }
+  std::string method() const override {
+    if (others_ == 0) return "taylor";
+    return text("taylor: ", others_, " of ", statistics_.steps, " steps by dop853");
+  }
+  int degree() const override { return fallen_back_ ? other_->degree() : expansion_->order(); }
+  /// A step of a series is up to three times as long as one of dop853.
+  int even_looks() const { return fallen_back_ ? degree() : 3 * degree(); }
   double joint() override { return fallen_back_ ? other_->joint() : -infinite; }
   LookPoints* look_points() { return &guard_series_; }
 
@@ -58,19 +72,20 @@ class TaylorSolver final : public StepSolver<TaylorSolver> {
   static constexpr double infinite = std::numeric_limits<double>::infinity();
 
   void make_series() {
-    functions_ = machine_->functions();
     const FlowGraph flow = flow_graph(machine_->plan());
+    require_series(flow);
     hides_ = may_hide(flow.graph, flow.rates);
     const auto outputs = guard_series_.take(flow);
     expansion_ = std::make_unique<Expansion>(
         *machine_, tape::Series(flow.graph, flow.rates, outputs), order_of(options_.rtol));
+    functions_ = machine_->functions();
   }
 
   void begin(const Start& start) {
     rest1_.setZero();
     horizon_ = start.horizon;
     first_ = start.first ? options_.first_step : 0.0;
-    longest_ = start.first ? 0.0 : longest_;
+    if (start.first) longest_ = 0.0, others_ = 0;
     fallen_back_ = false;
   }
   void undo() { x1_ = x0_, t1_ = t0_, rest1_ = rest0_, fallen_back_ = false; }
@@ -81,11 +96,11 @@ class TaylorSolver final : public StepSolver<TaylorSolver> {
     guard_series_.begin_step(nullptr, 0, 0.0);
     if (machine_->carries() || !expansion_->at(t0_, x0_.data())) return fall_back(t_stop);
     fallen_back_ = false;
-    double wish =
-        std::min({first_wish(t_stop), options_.max_step, std::exchange(horizon_, infinite)});
+    const double asked = std::max(first_wish(t_stop), options_.min_step);  // only a guess
+    double wish = std::min({asked, options_.max_step, std::exchange(horizon_, infinite)});
     const double left = t_stop - t0_;
     for (;;) {
-      const auto [h, ends] = fit(std::max(wish, options_.min_step), left);
+      const auto [h, ends] = fit(wish, left);
       if (!ends && !has_room(t0_, h, options_))
         throw_step_too_small(*machine_, t0_, h, x0_.data(), options_);
       t1_ = ends ? t_stop : t0_ + h;
@@ -163,13 +178,14 @@ class TaylorSolver final : public StepSolver<TaylorSolver> {
     t1_ = other_->step_end(), length_ = other_->step_length(), x1_ = other_->step_state();
     rest1_.setZero();
     fallen_back_ = true;
-    ++statistics_.steps;
+    ++statistics_.steps, ++others_;
   }
 
   GuardSeries guard_series_;
   std::unique_ptr<Expansion> expansion_;
   std::unique_ptr<RungeKutta<Dop853>> other_;  // made when it is first needed
   bool fallen_back_ = false;                   // it took the last step
+  std::int64_t others_ = 0;                    // steps that it took in this run
   bool hides_ = false;                         // see may_hide
   Eigen::VectorXd x0_;
   Eigen::VectorXd rest0_, rest1_;        // what rounding has cut off x0 and x1
@@ -191,6 +207,6 @@ std::unique_ptr<Solver> make_taylor(Machine& machine, GuardSet& guards,
   return std::make_unique<taylor::TaylorSolver>(machine, guards, options);
 }
 
-std::string taylor_obstacle(const Plan& plan) { return taylor::obstacle_of(flow_graph(plan)); }
+void require_taylor_series(const Plan& plan) { taylor::require_series(flow_graph(plan)); }
 
 }  // namespace saltus

@@ -10,12 +10,13 @@
 
 namespace saltus {
 
-/// Holds the solver of a run, made when a state moves for the first time. From then on the state of
+/// Holds the solver of a run, made when a state moves for the first time; at once for `taylor`, which
+/// does not suit each plan. From then on the state of
 /// the run is the solver's; before, and where no state moves, it is the machine's.
 class Integration {
  public:
-  Integration(Machine& machine, GuardSet& guards, const SimulatorOptions& options)
-      : machine_(&machine), guards_(&guards), options_(&options) {}
+  /// Throws ModelError for a method that does not suit the plan.
+  Integration(Machine& machine, GuardSet& guards, const SimulatorOptions& options);
 
   /// A run begins: no solver is at work.
   void begin();
@@ -51,6 +52,7 @@ class Integration {
 
  private:
   bool still() const { return machine_->plan().nx == 0; }
+  void make();
   void start(double t);
 
   Machine* machine_;

@@ -92,6 +92,8 @@ class StepSolver : public Interface {
 
  protected:
   const double* end_guards() const { return nullptr; }
+  /// The number of evenly spaced looks inside a step.
+  int even_looks() { return self().degree(); }
   /// See LookPoints; null: the method knows its guards by their values only.
   LookPoints* look_points() { return nullptr; }
 
@@ -125,8 +127,9 @@ class StepSolver : public Interface {
   template <class Inside>
   bool find_root(const Inside& inside) {
     const auto find = [&](const double* guards) {
-      return locator_.find(
-          {t0_, offset_, length_, x1_.data(), guards, scan_points(), self().look_points()}, inside);
+      LookPoints* const points = guards_->scan_points ? nullptr : self().look_points();
+      return locator_.find({t0_, offset_, length_, x1_.data(), guards, scan_points(), points},
+                           inside);
     };
     if constexpr (CutsSteps<Method>) {
       before_ = guards_->g;
@@ -144,7 +147,7 @@ class StepSolver : public Interface {
   /// a multistep method that begins is a line, but its guard need not be.
   int scan_points() {
     return guards_->scan_points ? *guards_->scan_points
-                                : std::max(thresholds::least_scan_points, self().degree());
+                                : std::max(thresholds::least_scan_points, self().even_looks());
   }
 
   void read_root(double root) {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <memory>
-#include <string>
 
 #include "saltus/solver/detail/solver.hpp"
 
@@ -12,11 +11,11 @@ namespace saltus {
 /// those of the expressions of f by recurrences (A. Jorba, M. Zou, "A software package for the
 /// numerical integration of ODEs by means of high-order Taylor methods", Experimental Mathematics 14
 /// (2005) 99). The series is the dense output, and those of the guards say where to look for their
-/// crossings. The derivatives of the plan must have series: see `taylor_obstacle`.
+/// crossings. Throws as `require_taylor_series`.
 std::unique_ptr<Solver> make_taylor(Machine& machine, GuardSet& guards,
                                     const SolverOptions& options);
 
-/// Why the derivatives of a plan have no Taylor series; empty if they have.
-std::string taylor_obstacle(const Plan& plan);
+/// Throws a ModelError, with the first reason, if a derivative of the plan has no Taylor series.
+void require_taylor_series(const Plan& plan);
 
 }  // namespace saltus

@@ -51,8 +51,7 @@ struct Bernstein {
   /// At least the number of roots in the interval, where a root at an end counts too: each root at a
   /// cut belongs to the parts on both of its sides.
   int crossings(double margin) const {
-    const bool begins = std::abs((*this)[0]) <= margin,
-               ends = to < 1.0 && std::abs((*this)[degree]) <= margin;
+    const bool begins = std::abs((*this)[0]) <= margin, ends = std::abs((*this)[degree]) <= margin;
     return variations(margin) + static_cast<int>(begins) + static_cast<int>(ends);
   }
 
@@ -87,13 +86,14 @@ class RootSeparation {
  public:
   /// Adds to `points`, as parts of a step, those between two crossings of `a` in [from, 1], where the
   /// guard is sum_i a_i s^i and s is the part of the step. False if the polynomial does not show its
-  /// roots: its last terms are not small, or it has too many.
+  /// roots: its later terms are not small, or it has too many.
   bool separate(const double* a, int degree, double from, std::vector<double>& points) {
-    double sum = 0.0;
-    for (int i = 1; i <= degree; ++i) sum += std::abs(a[i]);
-    if (!std::isfinite(sum + a[0])) return false;
-    const double last = std::abs(a[degree]) + std::abs(a[degree - 1]);
-    if (degree > 1 && last > poor * sum) return false;
+    double sum = 0.0, late = 0.0;
+    for (int i = 1; i <= degree; ++i) {
+      sum += std::abs(a[i]);
+      if (2 * i > degree + 1) late += std::abs(a[i]);
+    }
+    if (!std::isfinite(sum + a[0]) || late > poor * sum) return false;
     const double margin =
         roundings * degree * std::numeric_limits<double>::epsilon() * (sum + std::abs(a[0])) +
         std::abs(a[degree]) * (degree > 1 ? 1.0 : 0.0);
@@ -104,9 +104,11 @@ class RootSeparation {
   }
 
  private:
-  /// Two last terms above this part of the guard's range leave its roots open.
+  /// The largest part of the guard's range that the upper half of the terms may have. With more, terms
+  /// that are left out may move its roots, or hold others. Half of the terms, because those of even
+  /// functions, or of functions of t^4, are zero between others.
   static constexpr double poor = 1e-3;
-  /// Rounding errors of a conversion and a cut, a term.
+  /// The rounding error of a coefficient, after a conversion and the cuts, in eps for each term.
   static constexpr double roundings = 2.0;
   /// No more parts than this are cut: a polynomial of degree 30 with simple roots needs far fewer.
   static constexpr int most_cuts = 400;

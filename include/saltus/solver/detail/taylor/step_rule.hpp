@@ -33,15 +33,17 @@ inline double reach(double term, int k) {
   return term > 0.0 ? std::pow(term, -1.0 / k) : std::numeric_limits<double>::infinity();
 }
 
-/// The length [s] of a step of order p: the last two terms of the series are at most one tolerance
-/// each, so the first term that is left out is about exp(-2) of it. Two terms, because every second
-/// one vanishes for even and odd functions. If both vanish the next lower ones decide: a polynomial
-/// of lower degree is the solution itself, and the check at the end of the step confirms it.
-/// `term(k)` is the largest term of order k in tolerances, see `largest_term`.
+/// The length [s] of a step of order p: each of the last two terms of the series is at most one
+/// tolerance, so the first term that is left out is about exp(-2) tolerances. Two terms, because
+/// every second one of even and odd functions vanishes. If both vanish, the next lower one that does
+/// not decides, down to the middle: a polynomial of at most half the order is taken for the solution
+/// itself, and the check at the end of the step confirms it. `term(k)` is the largest term of order
+/// k in tolerances, see `largest_term`.
 template <class Term>
 double length_of(int p, const Term& term) {
-  const double h = std::min(reach(term(p), p), reach(term(p - 1), p - 1));
-  return std::isfinite(h) ? h : std::min(reach(term(p - 2), p - 2), reach(term(p - 3), p - 3));
+  double h = std::min(reach(term(p), p), reach(term(p - 1), p - 1));
+  for (int k = p - 2; !std::isfinite(h) && k > p / 2; --k) h = reach(term(k), k);
+  return h;
 }
 
 /// The part of a step to try next after a check found this error, above 1 tolerance: the error is of
