@@ -38,13 +38,13 @@ namespace {
 
 /// The Chebyshev points of the second kind on [0, 1], including both ends, for each degree up to
 /// the highest order of a Taylor series.
-constexpr int most = tape::Series::highest_order;
-using Nodes = std::array<std::array<double, most + 1>, most + 1>;
+constexpr int highest_degree = tape::Series::highest_order;
+using Nodes = std::array<std::array<double, highest_degree + 1>, highest_degree + 1>;
 
 const Nodes& nodes() {
   static const Nodes all = [] {
     Nodes made{};
-    for (int degree = 1; degree <= most; ++degree) {
+    for (int degree = 1; degree <= highest_degree; ++degree) {
       for (int k = 0; k <= degree; ++k) {
         const double s = std::sin(0.5 * std::numbers::pi * k / degree);
         made[static_cast<std::size_t>(degree)][static_cast<std::size_t>(k)] =
