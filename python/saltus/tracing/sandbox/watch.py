@@ -47,8 +47,9 @@ def content(value: Any) -> Any:
         return (dict, *((key, content(entry)) for key, entry in value.items()))
     if not isinstance(value, PLAIN):
         return id(value)
-    zero = isinstance(value, float) and value == 0.0  # 1, 1.0 and True differ, as 0.0 and -0.0 do
-    return (type(value), math.copysign(1.0, value) if zero else value, zero)
+    if isinstance(value, float) and value == 0.0:
+        return (type(value), value, math.copysign(1.0, value))  # 0.0 and -0.0 differ,
+    return (type(value), value)  # and so do 1, 1.0 and True
 
 
 def entries(value: Any) -> int:
