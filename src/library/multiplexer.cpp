@@ -1,6 +1,7 @@
 // y = (u_0; u_1; ...): the inputs in order.
 #include "saltus/library/multiplexer.hpp"
 
+#include "saltus/base/list.hpp"
 #include "saltus/library/arguments.hpp"
 
 namespace saltus {
@@ -27,8 +28,8 @@ Shape Multiplexer::total(std::span<const Shape> inputs) {
 }
 
 EntryRange Multiplexer::entries(Index i, int k, std::span<const Index> widths) {
-  for (int before = 0; before < k; ++before) i -= widths[static_cast<std::size_t>(before)];
-  return i >= 0 && i < widths[static_cast<std::size_t>(k)] ? EntryRange{i, i + 1} : EntryRange{};
+  for (int before = 0; before < k; ++before) i -= nth(widths, before);
+  return i >= 0 && i < nth(widths, k) ? EntryRange{i, i + 1} : EntryRange{};
 }
 
 }  // namespace saltus

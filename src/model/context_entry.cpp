@@ -109,7 +109,7 @@ void write_entry(Context& context, const ContextEntry& entry, std::span<const do
         context.z_[at] = value;
         break;
       case Kind::mode:
-        context.modes_[static_cast<std::size_t>(at)] = static_cast<int>(value);
+        context.modes_[at] = static_cast<int>(value);
     }
   }
   context.continuation_.reset();  // the continuation is not true of other values

@@ -12,12 +12,12 @@ std::vector<std::string> Diagram::input_names() const { return detail::names_of(
 std::vector<std::string> Diagram::output_names() const { return detail::names_of(outputs_); }
 
 LeafPort Diagram::output_source(int index) const {
-  const OutputPort& port = outputs_[static_cast<std::size_t>(index)].port;
+  const OutputPort& port = outputs_[index].port;
   return port.system->output_source(port.index);
 }
 
 LeafPort Diagram::input_target(int index) const {
-  const InputPort& port = inputs_[static_cast<std::size_t>(index)].port;
+  const InputPort& port = inputs_[index].port;
   return port.system->input_target(port.index);
 }
 

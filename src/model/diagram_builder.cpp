@@ -1,5 +1,6 @@
 // DiagramBuilder: blocks and wires are checked and collected.
 #include "saltus/model/diagram_builder.hpp"
+#include "saltus/base/list.hpp"
 
 #include "saltus/model/detail/names.hpp"
 #include "saltus/model/detail/soundness.hpp"
@@ -46,8 +47,7 @@ int DiagramBuilder::export_output(OutputPort port, std::string name) {
   require_mine(port.system);
   port = port.system->output(port.index);
   if (name.empty()) {
-    name = text(name_of(port.system), "_",
-                port.system->output_names()[static_cast<std::size_t>(port.index)]);
+    name = text(name_of(port.system), "_", nth(port.system->output_names(), port.index));
   }
   detail::name_it(name, diagram_.outputs_, "out_", "the diagram");
   name = detail::without_dot(std::move(name), "output");
@@ -63,8 +63,8 @@ Diagram DiagramBuilder::build(std::string name) {
     const auto ports = child.system->input_names();
     for (int i = 0; i < static_cast<int>(ports.size()); ++i) {
       if (source_of({child.system.get(), i}).empty()) {
-        throw ModelError(text("input '", ports[static_cast<std::size_t>(i)], "' of block '",
-                              child.name, "' is not connected; connect it or export it"));
+        throw ModelError(text("input '", ports[i], "' of block '", child.name,
+                              "' is not connected; connect it or export it"));
       }
     }
   }
@@ -121,7 +121,7 @@ std::string DiagramBuilder::name_of(const System* system) const {
 }
 
 std::string DiagramBuilder::port_name(InputPort port) {
-  return port.system->input_names()[static_cast<std::size_t>(port.index)];
+  return nth(port.system->input_names(), port.index);
 }
 
 }  // namespace saltus

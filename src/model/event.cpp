@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "saltus/base/list.hpp"
+
 namespace saltus {
 
 Direction direction_from(std::string_view name) {
@@ -13,8 +15,8 @@ AtStart at_start_from(std::string_view name) {
   return detail::value_of(at_start_names, "at_start", name);
 }
 
-std::vector<int> Touches::of_guard(std::size_t entry) const {
-  std::vector<int> entries = reads[entry];
+std::vector<int> Touches::of_guard(int entry) const {
+  std::vector<int> entries = nth(reads, entry);
   entries.insert(entries.end(), writes.begin(), writes.end());
   std::ranges::sort(entries);
   const auto same = std::ranges::unique(entries);

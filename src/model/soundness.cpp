@@ -1,5 +1,6 @@
 // Soundness: algebraic loops and widths of a diagram that is being built.
 #include "saltus/model/detail/soundness.hpp"
+#include "saltus/base/list.hpp"
 
 #include <algorithm>
 #include <optional>
@@ -27,8 +28,8 @@ class Wiring {
   struct Leaf {
     const LeafSystem* system;
     std::string path;
-    std::size_t first;         // its first output among the nodes
-    std::vector<int> sources;  // the node that feeds each input; -1: open
+    std::size_t first;  // its first output among the nodes
+    List<int> sources;  // the node that feeds each input; -1: open
     const Declarations& declared() const { return system->declarations(); }
   };
   struct Node {
@@ -40,7 +41,7 @@ class Wiring {
   std::size_t size() const { return nodes_.size(); }
   const Leaf& leaf_of(int node) const { return leaves_[at(node).leaf]; }
   const OutputDeclaration& output_of(int node) const {
-    return leaf_of(node).declared().outputs[static_cast<std::size_t>(at(node).output)];
+    return leaf_of(node).declared().outputs[at(node).output];
   }
   std::string name_of(int node) const {
     return text(leaf_of(node).path, ".", output_of(node).name);
@@ -61,7 +62,7 @@ class Wiring {
   }
 
  private:
-  const Node& at(int node) const { return nodes_[static_cast<std::size_t>(node)]; }
+  const Node& at(int node) const { return nodes_[node]; }
 
   void add(const System& system, const std::string& path) {
     if (const auto* diagram = dynamic_cast<const Diagram*>(&system.itself())) {
@@ -82,14 +83,14 @@ class Wiring {
       const LeafPort from = wire.from.system->output_source(wire.from.index),
                      to = wire.to.system->input_target(wire.to.index);
       Leaf& reader = leaves_[numbers_.at(to.leaf)];
-      reader.sources[static_cast<std::size_t>(to.index)] =
+      reader.sources[to.index] =
           static_cast<int>(leaves_[numbers_.at(from.leaf)].first) + from.index;
     }
     for (const Diagram::Child& child : diagram->children()) connect(*child.system);
   }
 
   std::vector<Leaf> leaves_;
-  std::vector<Node> nodes_;
+  List<Node> nodes_;
   std::unordered_map<const LeafSystem*, std::size_t> numbers_;
   std::size_t outputs_ = 0;
 };
@@ -111,7 +112,7 @@ class Widths {
         const int source = leaf.sources[i];
         const InputDeclaration& input = leaf.declared().inputs[i];
         if (source < 0 || !input.shape) continue;
-        const std::optional<Shape>& found = shapes_[static_cast<std::size_t>(source)];
+        const std::optional<Shape>& found = shapes_[source];
         if (found && found->size != input.shape->size)
           throw_wrong_width(input.name, leaf.path, input.shape->size, found->size,
                             wiring_.name_of(source));
@@ -122,7 +123,7 @@ class Widths {
  private:
   /// Whether the shape of a node has become known now.
   bool look(int i) {
-    std::optional<Shape>& shape = shapes_[static_cast<std::size_t>(i)];
+    std::optional<Shape>& shape = shapes_[i];
     if (shape) return false;
     shape = shape_of(i);
     return shape.has_value();
@@ -133,15 +134,15 @@ class Widths {
     if (output.shape) return output.shape;
     std::vector<Shape> inputs;
     for (const int source : wiring_.leaf_of(i).sources) {
-      if (source < 0 || !shapes_[static_cast<std::size_t>(source)]) return std::nullopt;
-      inputs.push_back(*shapes_[static_cast<std::size_t>(source)]);
+      if (source < 0 || !shapes_[source]) return std::nullopt;
+      inputs.push_back(*shapes_[source]);
     }
     const Shape shape = output.shape_rule ? output.shape_rule(inputs) : elementwise(inputs);
     return shape.size > 0 ? std::optional(shape) : std::nullopt;
   }
 
   const Wiring& wiring_;
-  std::vector<std::optional<Shape>> shapes_;
+  List<std::optional<Shape>> shapes_;
 };
 
 }  // namespace

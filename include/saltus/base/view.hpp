@@ -11,6 +11,7 @@
 
 #include "saltus/base/error.hpp"
 #include "saltus/base/ids.hpp"
+#include "saltus/base/list.hpp"
 
 namespace saltus {
 
@@ -46,9 +47,7 @@ class Inputs {
   int size() const noexcept { return count_; }
 
  private:
-  const double* data(int i) const {
-    return (*bases_)[static_cast<std::size_t>(places_[i].space)] + places_[i].offset;
-  }
+  const double* data(int i) const { return nth(*bases_, places_[i].space) + places_[i].offset; }
   const Place* places_;
   int count_;
   const Bases* bases_;

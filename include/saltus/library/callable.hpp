@@ -6,6 +6,7 @@
 #include <span>
 #include <type_traits>
 
+#include "saltus/base/list.hpp"
 #include "saltus/library/arguments.hpp"
 
 namespace saltus::detail {
@@ -49,7 +50,7 @@ template <OverScalars F>
 VectorFunction calculation(std::string block, F f) {
   return [block = std::move(block), f = std::move(f)](const At& at, VectorRef out) {
     std::array<double, most_scalars> scalars{};
-    for (int k = 0; k < at.u.size(); ++k) scalars[static_cast<std::size_t>(k)] = at.u(k);
+    for (int k = 0; k < at.u.size(); ++k) nth(scalars, k) = at.u(k);
     store(block, out,
           f(std::span<const double>(scalars.data(), static_cast<std::size_t>(at.u.size()))));
   };

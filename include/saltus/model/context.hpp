@@ -12,6 +12,7 @@
 
 #include "saltus/base/error.hpp"
 #include "saltus/base/ids.hpp"
+#include "saltus/base/list.hpp"
 #include "saltus/model/continuation.hpp"
 
 namespace saltus {
@@ -121,7 +122,7 @@ class Context {
   std::shared_ptr<const Layout> layout_;
   double time_ = 0.0;
   Eigen::VectorXd x_, z_, p_;
-  std::vector<int> modes_;
+  List<int> modes_;
   bool settled_ = false;
   std::shared_ptr<const Continuation> continuation_;
 };

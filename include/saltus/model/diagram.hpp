@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "saltus/base/list.hpp"
 #include "saltus/model/leaf_system.hpp"
 
 namespace saltus {
@@ -52,8 +53,8 @@ class Diagram final : public System {
 
   std::vector<Child> children_;
   std::vector<Wire> wires_;
-  std::vector<ExportedInput> inputs_;
-  std::vector<ExportedOutput> outputs_;
+  List<ExportedInput> inputs_;
+  List<ExportedOutput> outputs_;
   std::vector<std::shared_ptr<const void>> uses_;  // of its leaves, see Declarations
 };
 

@@ -12,6 +12,7 @@
 
 #include "saltus/base/callback.hpp"
 #include "saltus/base/error.hpp"
+#include "saltus/base/list.hpp"
 #include "saltus/model/port.hpp"
 
 namespace saltus {
@@ -52,7 +53,7 @@ auto value_of(const Table& table, std::string_view what, std::string_view name) 
 Direction direction_from(std::string_view name);
 
 inline std::string_view to_string(Direction direction) {
-  return direction_names[static_cast<std::size_t>(direction)].first;
+  return nth(direction_names, direction).first;
 }
 
 /// Whether a guard armed on `side` (+1, -1) fires on reaching the sign `now` (-1, 0, +1).
@@ -124,7 +125,7 @@ struct Touches {
   bool writes_discrete_state = true, writes_mode = true;  ///< by the reset map
 
   /// The entries that one of the guards reads or the reset map changes, in ascending order.
-  std::vector<int> of_guard(std::size_t entry) const;
+  std::vector<int> of_guard(int entry) const;
 };
 
 /// A guard and its effect. Without reset map, mode change and `terminal` it is a monitor: its

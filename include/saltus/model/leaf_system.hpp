@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "saltus/base/list.hpp"
 #include "saltus/base/matrix_entry.hpp"
 #include "saltus/model/event.hpp"
 #include "saltus/model/right_hand_side.hpp"
@@ -41,12 +42,12 @@ struct Declarations {
   bool has_modes = false;
   std::vector<Layout::Parameter> parameters;
   Eigen::VectorXd parameter_values;
-  std::vector<InputDeclaration> inputs;
-  std::vector<OutputDeclaration> outputs;
-  std::vector<Relation> relations;
-  std::vector<ZeroCrossing> zero_crossings;
-  std::vector<EdgeReset> edge_resets;
-  std::vector<TimeEvent> time_events;
+  List<InputDeclaration> inputs;
+  List<OutputDeclaration> outputs;
+  List<Relation> relations;
+  List<ZeroCrossing> zero_crossings;
+  List<EdgeReset> edge_resets;
+  List<TimeEvent> time_events;
   /// Held by everybody who refers to these declarations or to a copy: the leaf itself, plans,
   /// diagrams. While others hold it, each declare_* throws ModelError and changes nothing.
   std::shared_ptr<const void> use = {};

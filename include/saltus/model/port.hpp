@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "saltus/base/callback.hpp"
+#include "saltus/base/list.hpp"
 #include "saltus/base/reads.hpp"
 #include "saltus/base/view.hpp"
 #include "saltus/model/formula.hpp"
@@ -51,7 +52,7 @@ using EntryRule = std::function<EntryRange(Index i, int k, std::span<const Index
 
 /// Entry i reads entry i of each input, and of a scalar input its only entry: Gain, Adder, Abs.
 inline EntryRange entry_by_entry(Index i, int k, std::span<const Index> widths) {
-  return widths[static_cast<std::size_t>(k)] == 1 ? EntryRange{0, 1} : EntryRange{i, i + 1};
+  return nth(widths, k) == 1 ? EntryRange{0, 1} : EntryRange{i, i + 1};
 }
 
 struct InputDeclaration {

@@ -11,6 +11,7 @@
 // Electronics, chapters 2 and 4, with the parasitics of its real parts.
 #pragma once
 
+#include "saltus/base/list.hpp"
 #include "saltus/models/linear_flow.hpp"
 #include "saltus/report/scene.hpp"
 
@@ -89,7 +90,7 @@ class BuckParasitics final : public LeafSystem {
 /// From tick to tick, and from one change of the diode to the next.
 inline Pieces<LinearPiece> conduction(const BuckParasiticsParameters& with) {
   insist(with.duty > 0 && with.duty < 1, "buck converter", "0 < duty < 1", with.duty);
-  std::vector<std::shared_ptr<const LinearFlow>> flows;
+  List<std::shared_ptr<const LinearFlow>> flows;
   for (int mode = 0; mode < 4; ++mode)
     flows.push_back(std::make_shared<LinearFlow>(with.matrix<Real>(mode), with.drive<Real>(mode)));
   LinearFlow::Vector start(4);
@@ -98,7 +99,7 @@ inline Pieces<LinearPiece> conduction(const BuckParasiticsParameters& with) {
   const auto go_on = [&](Real t, int mode) {
     const LinearFlow::Vector from = all.pieces.back().at(t);
     all.times.push_back(static_cast<double>(t));
-    all.pieces.push_back({t, from, flows[static_cast<std::size_t>(mode)], mode});
+    all.pieces.push_back({t, from, flows[mode], mode});
   };
   for (int half = 1;; ++half) {
     const Real tick = half % 2 == 1 ? (half / 2) * Real(with.T) + Real(with.duty * with.T)

@@ -14,6 +14,7 @@
 #include <map>
 #include <numbers>
 
+#include "saltus/base/list.hpp"
 #include "saltus/models/emep_rates.hpp"
 #include "saltus/models/emep_reactions.hpp"
 #include "saltus/models/emep_reference.hpp"
@@ -62,16 +63,14 @@ class Emep final : public LeafSystem {
   struct Now {
     Rates k;
     std::array<double, 17> light;
-    double of(int rate) const {
-      return rate < 0 ? light[static_cast<std::size_t>(-rate)] : k[static_cast<std::size_t>(rate)];
-    }
+    double of(int rate) const { return rate < 0 ? nth(light, -rate) : nth(k, rate); }
   };
 
   void fix_constants() {
     const double t = detail::emep_temperature, air = detail::emep_air;
     constant_.fill(0.0);
     for (const auto& [rate, factor, kelvin] : detail::emep_constants)
-      constant_[static_cast<std::size_t>(rate)] = factor * std::exp(kelvin / t);
+      nth(constant_, rate) = factor * std::exp(kelvin / t);
     constant_[1] = 5.7e-34 * std::pow(t / 300.0, -2.8) * air * detail::emep_oxygen;
     constant_[5] = 9.6e-32 * std::pow(t / 300.0, -1.6) * air;
     constant_[7] = 2.0e-11 * std::exp(100.0 / t) * air;

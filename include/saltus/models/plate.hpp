@@ -11,6 +11,7 @@
 
 #include <cmath>
 
+#include "saltus/base/list.hpp"
 #include "saltus/models/plate_reference.hpp"
 
 namespace saltus::models {
@@ -61,8 +62,7 @@ class Plate final : public LeafSystem {
   void ode(const At& at, VectorRef xdot) const {
     const double h = 2.0 / 9.0, stiffness = at.p[sigma_] / (h * h * h * h);
     std::array<double, points> bent;
-    for (Index k = 0; k < points; ++k)
-      bent[static_cast<std::size_t>(k)] = bend(at.x, k % across, k / across);
+    for (Index k = 0; k < points; ++k) nth(bent, k) = bend(at.x, k % across, k / across);
     const Eigen::Map<const Eigen::VectorXd> again(bent.data(), points);
     for (Index k = 0; k < points; ++k) {
       const Index i = k % across, j = k / across;

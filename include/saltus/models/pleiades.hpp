@@ -8,6 +8,7 @@
 
 #include <cmath>
 
+#include "saltus/base/list.hpp"
 #include "saltus/models/reference.hpp"
 
 namespace saltus::models {
@@ -40,7 +41,7 @@ class Pleiades final : public LeafSystem {
       }
     }
   }
-  static auto& entry(auto& xdot, int i) { return xdot[static_cast<std::size_t>(i)]; }
+  static auto& entry(auto& xdot, int i) { return nth(xdot, i); }
 };
 
 struct PleiadesParameters {

@@ -8,6 +8,7 @@
 // Equations with Discontinuous Righthand Sides, 1988; the filter: any book on circuits.
 #pragma once
 
+#include "saltus/base/list.hpp"
 #include "saltus/models/linear_flow.hpp"
 #include "saltus/report/scene.hpp"
 
@@ -73,7 +74,7 @@ inline Pieces<LinearPiece> charges(const RelayCircuitParameters& with) {
   for (std::size_t mode = 0; mode < 2; ++mode) {
     LinearFlow::Vector drive = LinearFlow::Vector::Zero(3);
     if (mode == RelayCircuit::on) drive[0] = Real(with.E) / with.L;
-    flows[mode] = std::make_shared<LinearFlow>(a, drive);
+    nth(flows, mode) = std::make_shared<LinearFlow>(a, drive);
   }
   insist(flows[RelayCircuit::on]->rest()[2] > with.high, "relay circuit",
          "E R3 / (R1 + R2 + R3) above high", with.high);
@@ -88,7 +89,7 @@ inline Pieces<LinearPiece> charges(const RelayCircuitParameters& with) {
     if (!turn) return all;
     const int mode = 1 - now.mode;
     all.times.push_back(static_cast<double>(*turn));
-    all.pieces.push_back({*turn, now.at(*turn), flows[static_cast<std::size_t>(mode)], mode});
+    all.pieces.push_back({*turn, now.at(*turn), nth(flows, mode), mode});
   }
 }
 

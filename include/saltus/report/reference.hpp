@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "saltus/base/list.hpp"
 #include "saltus/report/achieved.hpp"
 #include "saltus/report/timing.hpp"
 
@@ -22,7 +23,7 @@ enum class ReferenceKind {
 
 inline std::string_view to_string(ReferenceKind kind) {
   constexpr std::string_view names[] = {"exact", "stored", "run"};
-  return names[static_cast<std::size_t>(kind)];
+  return nth(names, kind);
 }
 
 /// A run that other runs are compared with.

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "saltus/base/list.hpp"
 #include "saltus/model/detail/wiring_errors.hpp"
 
 namespace saltus::detail {
@@ -39,7 +40,7 @@ class FeedthroughOrder {
   };
 
   void enter(int i) {
-    Mark& mark = mark_[static_cast<std::size_t>(i)];
+    Mark& mark = mark_[i];
     if (mark == Mark::done) return;
     if (mark == Mark::open) throw_loop(i);
     mark = Mark::open;
@@ -50,7 +51,7 @@ class FeedthroughOrder {
   void go_on() {
     Open& last = path_.back();
     if (last.next < last.needs.size()) return enter(last.needs[last.next++]);
-    mark_[static_cast<std::size_t>(last.node)] = Mark::done;
+    mark_[last.node] = Mark::done;
     order_.push_back(last.node);
     path_.pop_back();
   }
@@ -64,7 +65,7 @@ class FeedthroughOrder {
 
   Needs needs_;
   Name name_;
-  std::vector<Mark> mark_;
+  List<Mark> mark_;
   std::vector<Open> path_;  // from reader to read node
   std::vector<int> order_;
 };
