@@ -1,5 +1,6 @@
 // The passes of compile(), in order.
 #include "saltus/plan/compile.hpp"
+#include "saltus/base/list.hpp"
 
 #include <string_view>
 #include <unordered_set>
@@ -29,7 +30,7 @@ void add_taps(Plan& plan, const RecordedSignals& signals) {
     }
     if (!names.insert(name).second)
       throw ModelError(text("two recorded signals are called '", name, "'"));
-    plan.taps.push_back({name, plan.leaves[*leaf].outputs[static_cast<std::size_t>(source.index)]});
+    plan.taps.push_back({name, plan.leaves[*leaf].outputs[source.index]});
   }
 }
 
@@ -80,22 +81,21 @@ class Search {
   }
   void push(const std::vector<int>& nodes) {
     for (const int i : nodes) {
-      if (std::exchange(seen_[static_cast<std::size_t>(i)], search_) != search_) open_.push_back(i);
+      if (std::exchange(seen_[i], search_) != search_) open_.push_back(i);
     }
   }
   /// A leaf with a continuous state changes the guard, and the values its derivative reads change
   /// the leaf.
   void meet(int number) {
-    const PlanLeaf& leaf = plan_.leaves[static_cast<std::size_t>(number)];
-    if (leaf.nx == 0 || std::exchange(met_[static_cast<std::size_t>(number)], search_) == search_)
-      return;
+    const PlanLeaf& leaf = plan_.leaves[number];
+    if (leaf.nx == 0 || std::exchange(met_[number], search_) == search_) return;
     leaves_.push_back(number);
     push(read_inputs(leaf.declared().continuous.inputs, leaf));
   }
 
   const Plan& plan_;
   int search_ = 0;
-  std::vector<int> seen_, met_;  // nodes and leaves: the number of the search that saw them
+  List<int> seen_, met_;  // nodes and leaves: the number of the search that saw them
   std::vector<int> open_, leaves_;
 };
 
@@ -145,11 +145,10 @@ void check_edges(const Plan& plan) {
     for (const EdgeReset& reset : leaf.declared().edge_resets) {
       const Node& trigger = plan.node(read_inputs(std::vector{reset.input}, leaf).front());
       if (trigger.rate != Rate::continuous && trigger.shape.size == 1) continue;
-      throw ModelError(text("input '",
-                            leaf.declared().inputs[static_cast<std::size_t>(reset.input)].name,
-                            "' of block '", leaf.path, "' expects one boolean, found ",
-                            trigger.shape.size, " continuous value(s) from output '",
-                            plan.name_of(trigger), "'; put a Comparator between them"));
+      throw ModelError(text("input '", leaf.declared().inputs[reset.input].name, "' of block '",
+                            leaf.path, "' expects one boolean, found ", trigger.shape.size,
+                            " continuous value(s) from output '", plan.name_of(trigger),
+                            "'; put a Comparator between them"));
     }
   }
 }

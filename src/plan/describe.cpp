@@ -35,7 +35,7 @@ void describe_guard(std::string& out, const Plan& plan, const GuardGroup& guard)
   } else if (guard.kind == Kind::relation) {
     out += "a relation, held between instants";
   } else {
-    out += text("block '", plan.leaves[static_cast<std::size_t>(guard.leaf)].path,
+    out += text("block '", plan.leaves[guard.leaf].path,
                 "' is an opaque boolean: located by bisection; a Comparator would be faster");
   }
   out += "\n";

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "saltus/base/list.hpp"
 #include "saltus/plan/plan.hpp"
 #include "saltus/tape/symbol.hpp"
 
@@ -18,19 +19,19 @@ class Expressions {
   static constexpr int variable = -1, input_of_z = 0, input_of_modes = 1;
 
   /// `first`: for each node of the plan its first entry among the values, or `variable`.
-  Expressions(const Plan& plan, std::vector<int>& first) : plan_(plan), first_(first) {}
+  Expressions(const Plan& plan, List<int>& first) : plan_(plan), first_(first) {}
 
   /// Adds the output `i`, which has a formula, as expressions of what it reads.
   void compute(int i) {
     const Node& node = plan_.node(i);
     const auto first = static_cast<int>(values_.size());
     add(plan_.output_of(node).formula, node.leaf, node.place.size);
-    first_[static_cast<std::size_t>(i)] = first;
+    first_[i] = first;
   }
   /// The entries of an output that was computed.
   std::span<const tape::Node> of_node(int i) const {
-    return std::span(values_).subspan(static_cast<std::size_t>(first_[static_cast<std::size_t>(i)]),
-                                      static_cast<std::size_t>(plan_.node(i).place.size));
+    const tape::Node* first = values_.data() + first_[i];
+    return {first, first + plan_.node(i).place.size};
   }
   /// Adds the entries of a formula of a leaf; a view that lasts until the next one.
   std::span<const tape::Node> add(const Formula& formula, int leaf, Index size) {
@@ -59,7 +60,7 @@ class Expressions {
     }
     tape::Symbol parameter(Index i) override { return symbol(graph().parameter(leaf_.p + i)); }
     tape::Symbol input(int k, Index i) override { return value(leaf_.inputs, k, i); }
-    Index width(int k) override { return leaf_.input_places[static_cast<std::size_t>(k)].size; }
+    Index width(int k) override { return leaf_.input_places[k].size; }
     tape::Symbol relation(RelationIndex r, Index i) override {
       return value(leaf_.relations, r.value, i);
     }
@@ -68,15 +69,15 @@ class Expressions {
     tape::Graph& graph() { return all_.graph_; }
     tape::Symbol symbol(tape::Node node) { return {graph(), node}; }
     tape::Symbol value(const std::vector<int>& nodes, int k, Index i) {
-      return symbol(all_.value(nodes[static_cast<std::size_t>(k)], i));
+      return symbol(all_.value(nodes[k], i));
     }
     Expressions& all_;
     const PlanLeaf& leaf_;
   };
 
   tape::Node value(int node, Index i) {
-    const int first = first_[static_cast<std::size_t>(node)];
-    if (first != variable) return values_[static_cast<std::size_t>(first + i)];
+    const int first = first_[node];
+    if (first != variable) return values_[first + i];
     const Place& place = plan_.node(node).place;
     switch (place.space) {
       case Space::x:
@@ -91,7 +92,7 @@ class Expressions {
   }
 
   const Plan& plan_;
-  std::vector<int>& first_;
+  List<int>& first_;
   tape::Graph graph_;
   std::vector<tape::Node> values_;
 };

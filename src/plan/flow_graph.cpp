@@ -1,5 +1,6 @@
 // The expressions of a whole plan: outputs in the order of the plan, then odes, then guards.
 #include "saltus/plan/detail/flow_graph.hpp"
+#include "saltus/base/list.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -24,12 +25,12 @@ class Pass {
 
   FlowGraph run() {
     add_outputs(plan_.derivatives);
-    made_.rates.assign(static_cast<std::size_t>(plan_.nx), values_.graph().constant(0.0));
+    made_.rates.assign(plan_.nx, values_.graph().constant(0.0));
     for (const int leaf : plan_.odes) {
       if (!add_rates(plan_.leaf(leaf))) return {.obstacle = obstacle_};
     }
     add_outputs(plan_.guard_needs);
-    made_.guards.resize(static_cast<std::size_t>(plan_.guard_slots));
+    made_.guards.resize(plan_.guard_slots);
     for (const GuardGroup& group : plan_.guards) add_guards(group);
     made_.graph = std::move(values_.graph());
     return std::move(made_);
@@ -39,12 +40,12 @@ class Pass {
   void add_outputs(const std::vector<int>& nodes) {
     for (const int i : nodes) {
       const Node& node = plan_.node(i);
-      const bool known = first_[index(i)] != Expressions::variable || called_[index(i)] != 0;
+      const bool known = first_[i] != Expressions::variable || called_[i] != 0;
       if (known) continue;
       if (!node.relation && plan_.output_of(node).formula && !reads_called(node.needs))
         values_.compute(i);
       else
-        called_[index(i)] = 1;
+        called_[i] = 1;
     }
   }
 
@@ -88,15 +89,14 @@ class Pass {
   }
 
   std::optional<int> first_called(const std::vector<int>& nodes) const {
-    const auto found = std::ranges::find_if(nodes, [&](int i) { return called_[index(i)] != 0; });
+    const auto found = std::ranges::find_if(nodes, [&](int i) { return called_[i] != 0; });
     return found == nodes.end() ? std::nullopt : std::optional(*found);
   }
   bool reads_called(const std::vector<int>& nodes) const { return first_called(nodes).has_value(); }
-  static std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
   const Plan& plan_;
-  std::vector<int> first_;
-  std::vector<char> called_;  // computed between instants, by a call
+  List<int> first_;
+  List<char> called_;  // computed between instants, by a call
   Expressions values_;
   FlowGraph made_;
   std::string obstacle_;

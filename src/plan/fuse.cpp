@@ -1,4 +1,5 @@
 #include "saltus/plan/detail/fuse.hpp"
+#include "saltus/base/list.hpp"
 
 #include <utility>
 
@@ -31,8 +32,7 @@ struct Sink {
 /// follow one another share it.
 class Writer {
  public:
-  Writer(const Plan& plan, std::vector<int>& first)
-      : plan_(plan), first_(first), values_(plan, first) {}
+  Writer(const Plan& plan, List<int>& first) : plan_(plan), first_(first), values_(plan, first) {}
 
   void compute(int i) { values_.compute(i); }
   /// Stores a computed value to its own place.
@@ -42,7 +42,7 @@ class Writer {
   }
   /// The next stage reads these values as variables.
   void forget(const std::vector<int>& nodes) {
-    for (const int i : nodes) first_[static_cast<std::size_t>(i)] = Expressions::variable;
+    for (const int i : nodes) first_[i] = Expressions::variable;
   }
 
   VectorFunction function() const {
@@ -53,13 +53,13 @@ class Writer {
  private:
   void put(std::span<const tape::Node> values, const Place& to) {
     for (Index i = 0; i < to.size; ++i) {
-      outputs_.push_back(values[static_cast<std::size_t>(i)]);
+      outputs_.push_back(nth(values, i));
       places_.push_back(to.offset + i);
     }
   }
 
   const Plan& plan_;
-  std::vector<int>& first_;
+  List<int>& first_;
   Expressions values_;
   std::vector<tape::Node> outputs_;
   std::vector<Index> places_;
@@ -85,14 +85,14 @@ class Stages {
 
   Walk walk() const {
     Walk walk;
-    walk.stages.resize(static_cast<std::size_t>(stages_));
-    std::vector<std::vector<int>> formulas(static_cast<std::size_t>(stages_) + 1);
+    walk.stages.resize(stages_);
+    List<std::vector<int>> formulas(stages_ + 1);
     for (const int i : list_) {
-      const auto s = static_cast<std::size_t>(stage(i));
+      const int s = stage(i);
       (fuses(i) ? formulas[s] : walk.stages[s].calls).push_back(i);
     }
     const auto kept = find_kept();
-    std::vector<int> first(plan_.nodes.size(), Expressions::variable);
+    List<int> first(plan_.nodes.size(), Expressions::variable);
     for (std::size_t s = 0; s < walk.stages.size(); ++s) {
       Writer writer(plan_, first);
       write(writer, formulas[s], kept);
@@ -117,8 +117,8 @@ class Stages {
     const Node& node = plan_.node(i);
     return !node.relation && fusible(plan_.output_of(node).formula, node.place.size) != nullptr;
   }
-  int& stage(int i) { return stage_[static_cast<std::size_t>(i)]; }
-  int stage(int i) const { return stage_[static_cast<std::size_t>(i)]; }
+  int& stage(int i) { return stage_[i]; }
+  int stage(int i) const { return stage_[i]; }
 
   /// A formula follows the calls it reads, so its stage follows theirs.
   int first_stage(int i) const {
@@ -136,19 +136,19 @@ class Stages {
     }
   }
 
-  static void write(Writer& writer, const std::vector<int>& nodes, const std::vector<char>& kept) {
+  static void write(Writer& writer, const std::vector<int>& nodes, const List<char>& kept) {
     for (const int i : nodes) {
       writer.compute(i);
-      if (kept[static_cast<std::size_t>(i)]) writer.keep(i);
+      if (kept[i]) writer.keep(i);
     }
   }
 
   /// The values that must be stored, because another function than their own reads them.
-  std::vector<char> find_kept() const {
-    std::vector<char> kept(plan_.nodes.size());
+  List<char> find_kept() const {
+    List<char> kept(plan_.nodes.size());
     const auto keep = [&](const std::vector<int>& needs, int reader) {
       for (const int need : needs)
-        if (stage(need) != reader) kept[static_cast<std::size_t>(need)] = 1;
+        if (stage(need) != reader) kept[need] = 1;
     };
     for (const int i : list_) keep(plan_.node(i).needs, fuses(i) ? stage(i) : absent);
     for (const Sink& sink : sinks_) keep(sink.needs, sink.formula != nullptr ? stages_ : absent);
@@ -158,7 +158,7 @@ class Stages {
   const Plan& plan_;
   const std::vector<int>& list_;
   const std::vector<Sink>& sinks_;
-  std::vector<int> stage_;
+  List<int> stage_;
   int stages_ = 0;
 };
 
@@ -166,7 +166,7 @@ std::vector<Sink> odes_of(const Plan& plan) {
   static const Formula still([](const auto&) { return 0.0; });
   std::vector<Sink> sinks;
   for (const int i : plan.odes) {
-    const PlanLeaf& leaf = plan.leaves[static_cast<std::size_t>(i)];
+    const PlanLeaf& leaf = plan.leaves[i];
     const ContinuousState& state = leaf.declared().continuous;
     Sink sink{i, fusible(state.ode ? state.formula : still, leaf.nx), leaf.x, leaf.nx};
     if (state.ode && has(state.reads, Reads::inputs)) sink.needs = read_inputs(state.inputs, leaf);
@@ -180,10 +180,10 @@ std::vector<Sink> odes_of(const Plan& plan) {
 std::vector<Sink> guards_of(const Plan& plan) {
   std::vector<Sink> sinks;
   for (const GuardGroup& group : plan.guards) {
-    const PlanLeaf& leaf = plan.leaves[static_cast<std::size_t>(group.leaf)];
+    const PlanLeaf& leaf = plan.leaves[group.leaf];
     Sink sink{group.leaf, nullptr, group.slot, group.size};
     if (group.kind == GuardGroup::Kind::crossing) {
-      const auto& crossing = leaf.declared().zero_crossings[static_cast<std::size_t>(group.index)];
+      const auto& crossing = leaf.declared().zero_crossings[group.index];
       if (!crossing.start_mode) sink.formula = fusible(crossing.formula, group.size);
       sink.needs = read_inputs(crossing.inputs, leaf);
       append(sink.needs, leaf.relations);

@@ -105,7 +105,7 @@ void Machine::guards_at(double t, const double* state, double* g) {
   ++guard_calls;
   const Seen seen = run(calls_.guard_needs, t, state);
   if (calls_.fused_guards) guard(*calls_.fused_guards, seen, t, g);
-  for (int i : called_) guard(calls_.guards[static_cast<std::size_t>(i)], seen, t, g);
+  for (int i : called_) guard(calls_.guards[i], seen, t, g);
 }
 
 void Machine::guards_of(std::span<const int> groups, double t, const double* state, double* g) {
@@ -114,11 +114,10 @@ void Machine::guards_of(std::span<const int> groups, double t, const double* sta
   const Seen seen = run(calls_.guard_needs, t, state);
   bool fused = false;
   for (const int i : groups) {
-    const auto group = static_cast<std::size_t>(i);
-    if (calls_.fused_guards && plan_->walks.guards.fused[group])
+    if (calls_.fused_guards && plan_->walks.guards.fused[i])
       fused = true;
     else
-      guard(calls_.guards[group], seen, t, g);
+      guard(calls_.guards[i], seen, t, g);
   }
   if (fused) guard(*calls_.fused_guards, seen, t, g);
 }
@@ -160,13 +159,11 @@ void Machine::select_guards() {
   for (std::size_t i = 0; i < plan_->guards.size(); ++i) {
     const GuardGroup& group = plan_->guards[i];
     const std::optional<int> mode = plan_->start_mode_of(group);
-    if (mode && *mode != modes[static_cast<std::size_t>(group.leaf)]) continue;
+    if (mode && *mode != modes[group.leaf]) continue;
     active_.push_back(static_cast<int>(i));
     if (!fused || !plan_->walks.guards.fused[i]) called_.push_back(static_cast<int>(i));
   }
-  const GuardCall* first = fused             ? &*fused
-                           : called_.empty() ? nullptr
-                                             : &calls_.guards[static_cast<std::size_t>(called_[0])];
+  const GuardCall* first = fused ? &*fused : called_.empty() ? nullptr : &calls_.guards[called_[0]];
   const bool lone =
       called_.size() + (fused ? 1 : 0) == 1 && calls_.guard_needs.empty() && !first->opaque;
   lone_guard_ = lone ? first : nullptr;

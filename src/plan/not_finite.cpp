@@ -16,7 +16,7 @@ std::string seen_by_block(const PlanLeaf& leaf, const At& at, Index i) {
   else if (at.x.size() > 0)
     seen = text("x = ", listed(at.x));
   for (int k = 0; k < at.u.size(); ++k) {
-    const std::string& name = leaf.declared().inputs[static_cast<std::size_t>(k)].name;
+    const std::string& name = leaf.declared().inputs[k].name;
     seen += text(seen.empty() ? "" : ", ", name, " = ", listed(at.u[k]));
   }
   return seen.empty() ? seen : text(" where ", seen);

@@ -3,6 +3,7 @@
 
 #include <numeric>
 
+#include "saltus/base/list.hpp"
 #include "saltus/plan/detail/flatten.hpp"
 #include "saltus/plan/detail/sparsity.hpp"
 
@@ -43,12 +44,10 @@ class StateSets {
   bool overflow() const { return kept_ > limit_; }
 
  private:
-  const std::vector<int>& listed(int set) const {
-    return lists_[static_cast<std::size_t>(set - 1 - n_)];
-  }
+  const std::vector<int>& listed(int set) const { return lists_[set - 1 - n_]; }
 
   Index n_, limit_, kept_ = 0;
-  std::vector<std::vector<int>> lists_;
+  List<std::vector<int>> lists_;
 };
 
 /// The states that each entry of each signal read by a derivative depends on.
@@ -65,16 +64,15 @@ class Reach {
   template <class Of>
   void behind(const PlanLeaf& leaf, const std::vector<int>& inputs, const EntryRule& rule, Index n,
               Of put) {
-    std::vector<Index> widths;
+    List<Index> widths;
     for (const int node : leaf.inputs) widths.push_back(plan_.node(node).shape.size);
     std::vector<int> found;
     const auto gather = [&](Index i) {
       found.clear();
       for (const int k : inputs) {
-        const int node = leaf.inputs[static_cast<std::size_t>(k)];
-        const EntryRange range =
-            rule ? rule(i, k, widths) : EntryRange{0, widths[static_cast<std::size_t>(k)]};
-        const Index last = std::min(range.last, widths[static_cast<std::size_t>(k)]);
+        const int node = leaf.inputs[k];
+        const EntryRange range = rule ? rule(i, k, widths) : EntryRange{0, widths[k]};
+        const Index last = std::min(range.last, widths[k]);
         for (Index e = range.first; e < last; ++e) found.push_back(set_of(node, e));
       }
       return sets_.unite(found);
@@ -90,8 +88,8 @@ class Reach {
     const Node& of = plan_.node(node);
     if (of.rate != Rate::continuous) return 0;
     if (of.view) return of.place.space == Space::x ? StateSets::single(of.place.offset + entry) : 0;
-    const auto& sets = of_node_[static_cast<std::size_t>(node)];
-    return sets.empty() ? 0 : sets[static_cast<std::size_t>(entry)];
+    const auto& sets = of_node_[node];
+    return sets.empty() ? 0 : sets[entry];
   }
 
   void visit(int number) {
@@ -104,12 +102,12 @@ class Reach {
       for (Index i = 0; i < leaf.nx; ++i) own.push_back(StateSets::single(leaf.x + i));
     }
     const int state = sets_.unite(own);
-    auto& sets = of_node_[static_cast<std::size_t>(number)];
-    sets.resize(static_cast<std::size_t>(node.shape.size));
+    auto& sets = of_node_[number];
+    sets.resize(node.shape.size);
     const auto inputs = inputs_of(leaf, output.reads, output.inputs);
     behind(leaf, inputs, output.entries, node.shape.size, [&](Index i, int set) {
       std::vector<int> both{state, set};
-      sets[static_cast<std::size_t>(i)] = state == 0 ? set : sets_.unite(both);
+      sets[i] = state == 0 ? set : sets_.unite(both);
     });
   }
 
@@ -127,7 +125,7 @@ class Reach {
  private:
   const Plan& plan_;
   StateSets sets_;
-  std::vector<std::vector<int>> of_node_;
+  List<List<int>> of_node_;
 };
 
 }  // namespace saltus::detail

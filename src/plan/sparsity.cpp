@@ -1,5 +1,6 @@
 // jacobian_pattern: sets of states, spread along the order of the plan.
 #include "saltus/plan/detail/sparsity.hpp"
+#include "saltus/base/list.hpp"
 
 #include <numeric>
 
@@ -22,14 +23,14 @@ const std::vector<MatrixEntry>* named_entries(const PlanLeaf& leaf, int number,
 /// These entries of a leaf by rows; a ModelError for an impossible entry.
 std::vector<std::vector<int>> by_rows(const PlanLeaf& leaf,
                                       const std::vector<MatrixEntry>& entries) {
-  std::vector<std::vector<int>> rows(static_cast<std::size_t>(leaf.nx));
+  List<std::vector<int>> rows(leaf.nx);
   for (const auto& [row, column] : entries) {
     if (row < 0 || row >= leaf.nx || column < 0 || column >= leaf.nx) {
       throw ModelError(text("block '", leaf.path, "': the Jacobian's sparsity names entry (", row,
                             ", ", column, "); the block has ", leaf.nx,
                             " continuous states, so rows and columns run from 0 to ", leaf.nx - 1));
     }
-    rows[static_cast<std::size_t>(row)].push_back(static_cast<int>(column));
+    rows[row].push_back(static_cast<int>(column));
   }
   for (std::size_t i = 0; i < rows.size(); ++i) {
     std::ranges::sort(rows[i]);
@@ -42,9 +43,9 @@ std::vector<std::vector<int>> by_rows(const PlanLeaf& leaf,
 
 /// Entries, and whether only differences give their values, row by row.
 struct Rows {
-  std::vector<Index> start = {0};
-  std::vector<int> columns;
-  std::vector<char> differences;
+  List<Index> start = {0};
+  List<int> columns;
+  List<char> differences;
 };
 
 /// Adds the rows of one leaf.
@@ -52,11 +53,11 @@ class RowsOfLeaf {
  public:
   RowsOfLeaf(const PlanLeaf& leaf, const std::vector<MatrixEntry>* entries, Reach& reach)
       : leaf_(leaf), state_(leaf.declared().continuous), named_(entries != nullptr) {
-    through_.resize(static_cast<std::size_t>(leaf.nx));
+    through_.resize(leaf.nx);
     if (!state_.ode) return;
     const auto inputs = Reach::inputs_of(leaf, state_.reads, state_.inputs);
     reach.behind(leaf, inputs, state_.entries, leaf.nx,
-                 [&](Index i, int set) { through_[static_cast<std::size_t>(i)] = set; });
+                 [&](Index i, int set) { through_[i] = set; });
     reads_state_ = has(state_.reads, Reads::continuous_state);
     if (reads_state_ && named_) named_rows_ = by_rows(leaf, *entries);
     exact_ = reads_state_ && (state_.jacobian || state_.sparse_jacobian) && !feeds_back(reach);
@@ -66,11 +67,12 @@ class RowsOfLeaf {
   bool exact() const { return exact_; }
 
   void add(Rows& rows, Reach& reach) const {
-    std::vector<int> own, others;
+    List<int> own;
+    std::vector<int> others;
     for (Index i = 0; i < leaf_.nx; ++i) {
       own.clear(), others.clear();
       add_own(i, own);
-      reach.sets().each(through_[static_cast<std::size_t>(i)], [&](int j) { others.push_back(j); });
+      reach.sets().each(through_[i], [&](int j) { others.push_back(j); });
       append(rows, static_cast<int>(leaf_.x + i), own, others);
     }
   }
@@ -88,13 +90,12 @@ class RowsOfLeaf {
     return found;
   }
 
-  void add_own(Index i, std::vector<int>& own) const {
+  void add_own(Index i, List<int>& own) const {
     if (!reads_state_) return;
     if (named_) {
-      for (const int j : named_rows_[static_cast<std::size_t>(i)])
-        own.push_back(static_cast<int>(leaf_.x) + j);
+      for (const int j : named_rows_[i]) own.push_back(static_cast<int>(leaf_.x) + j);
     } else {
-      own.resize(static_cast<std::size_t>(leaf_.nx));
+      own.resize(leaf_.nx);
       std::iota(own.begin(), own.end(), static_cast<int>(leaf_.x));
     }
   }
@@ -122,24 +123,23 @@ class RowsOfLeaf {
 
   const PlanLeaf& leaf_;
   const ContinuousState& state_;
-  std::vector<int> through_;  // the set of the inputs of each row
+  List<int> through_;  // the set of the inputs of each row
   bool named_;
-  std::vector<std::vector<int>> named_rows_;
+  List<std::vector<int>> named_rows_;
   bool reads_state_ = false, exact_ = false;
 };
 
 /// Turns rows into columns, in two sweeps.
 void transpose(const Rows& rows, Index n, JacobianPattern& to) {
-  std::vector<Index>& start = to.places.start;
-  start.assign(static_cast<std::size_t>(n) + 1, 0);
-  for (const int j : rows.columns) ++start[static_cast<std::size_t>(j) + 1];
+  List<Index>& start = to.places.start;
+  start.assign(n + 1, 0);
+  for (const int j : rows.columns) ++start[j + 1];
   std::partial_sum(start.begin(), start.end(), start.begin());
-  std::vector<Index> next(start.begin(), start.end() - 1);
+  List<Index> next(start.begin(), start.end() - 1);
   to.places.rows.resize(rows.columns.size()), to.differences.resize(rows.columns.size());
   for (Index i = 0; i < n; ++i) {
-    for (auto k = static_cast<std::size_t>(rows.start[static_cast<std::size_t>(i)]);
-         k < static_cast<std::size_t>(rows.start[static_cast<std::size_t>(i) + 1]); ++k) {
-      const auto at = static_cast<std::size_t>(next[static_cast<std::size_t>(rows.columns[k])]++);
+    for (Index k = rows.start[i]; k < rows.start[i + 1]; ++k) {
+      const Index at = next[rows.columns[k]]++;
       to.places.rows[at] = static_cast<int>(i), to.differences[at] = rows.differences[k];
     }
   }
@@ -166,9 +166,7 @@ Sparsity full_sparsity(Index n) {
 JacobianPattern jacobian_pattern(const Plan& plan, const FoundBlocks& found) {
   JacobianPattern pattern;
   const Index most = most_places(plan.nx);
-  const auto leaf_of = [&](int number) -> const PlanLeaf& {
-    return plan.leaves[static_cast<std::size_t>(number)];
-  };
+  const auto leaf_of = [&](int number) -> const PlanLeaf& { return plan.leaves[number]; };
   const auto entries_of = [&](int number) { return named_entries(leaf_of(number), number, found); };
   Index blocks = 0;
   for (const int leaf : plan.odes) blocks += block_size(leaf_of(leaf), entries_of(leaf));

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "saltus/base/list.hpp"
 #include "saltus/model/diagram.hpp"
 #include "saltus/plan/rate.hpp"
 
@@ -38,10 +39,10 @@ struct PlanLeaf {
   const LeafSystem* system = nullptr;
   std::string path = {};
   Index x = 0, nx = 0, z = 0, nz = 0, p = 0, np = 0;
-  std::vector<int> inputs = {};  // the node that feeds each input
-  std::vector<Place> input_places = {};
-  std::vector<int> outputs = {};    // the node of each output
-  std::vector<int> relations = {};  // the node of each relation
+  List<int> inputs = {};  // the node that feeds each input
+  List<Place> input_places = {};
+  List<int> outputs = {};    // the node of each output
+  List<int> relations = {};  // the node of each relation
   /// The declarations of the system, or the declarations with which a Refinement replaced them.
   std::shared_ptr<const Declarations> declarations = {};
 
@@ -58,8 +59,8 @@ struct GuardGroup {
   Index size = 1;
   Direction direction = Direction::crosses_zero;
   bool monitor = false;
-  std::string name = {};         // "block.guard"
-  std::vector<int> leaves = {};  // the blocks whose continuous state changes it
+  std::string name = {};  // "block.guard"
+  List<int> leaves = {};  // the blocks whose continuous state changes it
 
   bool is_crossing() const { return kind == Kind::crossing; }
   bool is_opaque() const { return kind == Kind::opaque; }
@@ -68,11 +69,11 @@ struct GuardGroup {
 /// A held signal with a reset at its edge.
 struct EdgeWatch {
   int leaf = -1;
-  int index = -1;                   // edge reset of the leaf
-  int node = -1;                    // the signal
-  std::vector<int> relations = {};  // located nodes that decide it
-  std::vector<int> reads = {};      // nodes its reset map reads
-  std::string name = {};            // "block.reset"
+  int index = -1;               // edge reset of the leaf
+  int node = -1;                // the signal
+  List<int> relations = {};     // located nodes that decide it
+  std::vector<int> reads = {};  // nodes its reset map reads
+  std::string name = {};        // "block.reset"
 };
 
 struct ScheduledEvent {
@@ -81,7 +82,7 @@ struct ScheduledEvent {
   double period = 0.0, offset = 0.0;
   std::string name = {};
   std::int64_t ticks = std::numeric_limits<std::int64_t>::max();
-  std::vector<double> times = {};  // of its ticks, in place of period and offset
+  List<double> times = {};  // of its ticks, in place of period and offset
 };
 
 struct Tap {
@@ -97,17 +98,17 @@ struct Walk {
     VectorFunction fused = {};  // into `y`; empty: no formula
     std::vector<int> calls = {};
   };
-  std::vector<Stage> stages = {};
-  VectorFunction last = {};      // into `xdot`, or the vector of guards; empty if nothing is fused
-  std::vector<int> nodes = {};   // nodes that no longer have a call
-  std::vector<char> fused = {};  // for each ode, or group of guards: it is in `last`
+  List<Stage> stages = {};
+  VectorFunction last = {};  // into `xdot`, or the vector of guards; empty if nothing is fused
+  List<int> nodes = {};      // nodes that no longer have a call
+  List<char> fused = {};     // for each ode, or group of guards: it is in `last`
 
   bool fuses() const { return last || !nodes.empty(); }
 };
 
 struct Plan {
-  std::vector<PlanLeaf> leaves;
-  std::vector<Node> nodes;
+  List<PlanLeaf> leaves;
+  List<Node> nodes;
   std::vector<int> order;  // all nodes, each after the nodes it needs
 
   // The nodes to compute at each occasion. Each list is a part of `order`; nothing else is ever
@@ -122,9 +123,9 @@ struct Plan {
   std::vector<int> restarting;
 
   std::vector<int> odes;  // leaves with a continuous state
-  std::vector<GuardGroup> guards;
-  std::vector<EdgeWatch> edges;
-  std::vector<ScheduledEvent> schedule;
+  List<GuardGroup> guards;
+  List<EdgeWatch> edges;
+  List<ScheduledEvent> schedule;
   std::vector<Tap> taps;
   struct {
     Walk derivatives, guards;
@@ -142,37 +143,33 @@ struct Plan {
   }
 
   // The lists by number, of any integer type.
-  const Node& node(std::integral auto i) const { return nodes[static_cast<std::size_t>(i)]; }
-  const PlanLeaf& leaf(std::integral auto i) const { return leaves[static_cast<std::size_t>(i)]; }
-  const GuardGroup& guard(std::integral auto i) const {
-    return guards[static_cast<std::size_t>(i)];
-  }
-  const EdgeWatch& edge(std::integral auto i) const { return edges[static_cast<std::size_t>(i)]; }
-  const ScheduledEvent& scheduled(std::integral auto i) const {
-    return schedule[static_cast<std::size_t>(i)];
-  }
+  const Node& node(std::integral auto i) const { return nodes[i]; }
+  const PlanLeaf& leaf(std::integral auto i) const { return leaves[i]; }
+  const GuardGroup& guard(std::integral auto i) const { return guards[i]; }
+  const EdgeWatch& edge(std::integral auto i) const { return edges[i]; }
+  const ScheduledEvent& scheduled(std::integral auto i) const { return schedule[i]; }
 
   // What stands behind an entry of the lists.
   const PlanLeaf& leaf_of(const Node& node) const { return leaf(node.leaf); }
   const OutputDeclaration& output_of(const Node& node) const {
-    return leaf_of(node).declared().outputs[static_cast<std::size_t>(node.index)];
+    return leaf_of(node).declared().outputs[node.index];
   }
   const Relation& relation_of(const Node& node) const {
-    return leaf_of(node).declared().relations[static_cast<std::size_t>(node.index)];
+    return leaf_of(node).declared().relations[node.index];
   }
   /// Of a group of zero crossings.
   const ZeroCrossing& crossing_of(const GuardGroup& group) const {
-    return leaf(group.leaf).declared().zero_crossings[static_cast<std::size_t>(group.index)];
+    return leaf(group.leaf).declared().zero_crossings[group.index];
   }
   /// The mode in which a group of guards is seen; none for relations.
   std::optional<int> start_mode_of(const GuardGroup& group) const {
     return group.is_crossing() ? crossing_of(group).start_mode : std::nullopt;
   }
   const EdgeReset& reset_of(const EdgeWatch& edge) const {
-    return leaf(edge.leaf).declared().edge_resets[static_cast<std::size_t>(edge.index)];
+    return leaf(edge.leaf).declared().edge_resets[edge.index];
   }
   const TimeEvent& time_event_of(const ScheduledEvent& event) const {
-    return leaf(event.leaf).declared().time_events[static_cast<std::size_t>(event.index)];
+    return leaf(event.leaf).declared().time_events[event.index];
   }
 };
 

@@ -1,5 +1,6 @@
 // A picture in the language of Graphviz, with HTML-like labels.
 #include "parts.hpp"
+#include "saltus/base/list.hpp"
 
 namespace saltus {
 
@@ -144,15 +145,15 @@ std::string end_of(const Block& block, int number, char side, int port) {
 }
 
 std::string wire_line(const Picture& picture, const Wire& wire) {
-  const Block& from = picture.blocks[static_cast<std::size_t>(wire.from)];
-  const Block& to = picture.blocks[static_cast<std::size_t>(wire.to)];
+  const Block& from = nth(picture.blocks, wire.from);
+  const Block& to = nth(picture.blocks, wire.to);
   const Style style = style_of(wire.flow);
   std::string out = text("  ", end_of(from, wire.from, 'o', wire.output), " -> ",
                          end_of(to, wire.to, 'i', wire.input), " [color=\"", style.line,
                          "\" fontcolor=\"", style.line, "\"");
   if (wire.event) out += " style=dashed weight=0";
   if (wire.width > 1) out += text(" penwidth=2 label=\"", wire.width, "\"");
-  const std::string target = to.inputs[static_cast<std::size_t>(wire.input)];
+  const std::string target = nth(to.inputs, wire.input);
   const std::string says = wire.flow == Flow::unknown ? "" : text(": ", style.says);
   return out +
          text(" edgetooltip=", quoted(text(from.name, " → ", to.name, ".", target, says)), "];\n");

@@ -3,6 +3,7 @@
 #include <set>
 
 #include "parts.hpp"
+#include "saltus/base/list.hpp"
 
 namespace saltus {
 
@@ -93,13 +94,12 @@ std::string block_line(const Block& block, std::size_t i) {
 
 /// The port names that are not obvious, and the width of a vector.
 std::string words_of(const Picture& picture, const Wire& wire) {
-  const Block& from = picture.blocks[static_cast<std::size_t>(wire.from)];
-  const Block& to = picture.blocks[static_cast<std::size_t>(wire.to)];
+  const Block& from = nth(picture.blocks, wire.from);
+  const Block& to = nth(picture.blocks, wire.to);
   std::string out;
-  if (!obvious(from.outputs, "out"))
-    out = escaped(from.outputs[static_cast<std::size_t>(wire.output)]);
+  if (!obvious(from.outputs, "out")) out = escaped(nth(from.outputs, wire.output));
   if (!obvious(to.inputs, "in"))
-    out += text(out.empty() ? "" : " → ", escaped(to.inputs[static_cast<std::size_t>(wire.input)]));
+    out += text(out.empty() ? "" : " → ", escaped(nth(to.inputs, wire.input)));
   if (wire.width > 1) out += text(out.empty() ? "" : " ", escaped(text("[", wire.width, "]")));
   return out;
 }

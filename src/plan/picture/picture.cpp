@@ -1,5 +1,6 @@
 // Makes the blocks, frames and wires of a system's picture.
 #include "saltus/plan/picture.hpp"
+#include "saltus/base/list.hpp"
 
 #include <map>
 #include <unordered_map>
@@ -19,7 +20,7 @@ using Block = Picture::Block;
 class OpenInput final : public LeafSystem {
  public:
   explicit OpenInput(LeafPort target) {
-    const auto& input = target.leaf->declarations().inputs[static_cast<std::size_t>(target.index)];
+    const auto& input = target.leaf->declarations().inputs[target.index];
     declare_output_port({.calc = [](const At&, VectorRef y) { y.setZero(); },
                          .shape = input.shape.value_or(Shape::scalar()),
                          .reads = Reads::time});
@@ -109,7 +110,7 @@ class Drawing {
     if (const auto* leaf = dynamic_cast<const LeafSystem*>(&system.itself())) {
       const int number = plan_ ? number_.at(leaf) : -1;
       block.notes = notes_of(*leaf, plan_.get(), number);
-      if (plan_) block.flow = flow_of(*plan_, plan_->leaves[static_cast<std::size_t>(number)]);
+      if (plan_) block.flow = flow_of(*plan_, plan_->leaves[number]);
     } else {
       block.kind = Block::Kind::diagram;
     }
@@ -153,13 +154,11 @@ class Drawing {
   using End = std::pair<int, int>;  // block and port
   End end_of(OutputPort port) {
     const Ends& ends = ends_[port.system];
-    return ends.block >= 0 ? End{ends.block, port.index}
-                           : End{ends.outputs[static_cast<std::size_t>(port.index)], 0};
+    return ends.block >= 0 ? End{ends.block, port.index} : End{nth(ends.outputs, port.index), 0};
   }
   End end_of(InputPort port) {
     const Ends& ends = ends_[port.system];
-    return ends.block >= 0 ? End{ends.block, port.index}
-                           : End{ends.inputs[static_cast<std::size_t>(port.index)], 0};
+    return ends.block >= 0 ? End{ends.block, port.index} : End{nth(ends.inputs, port.index), 0};
   }
 
   /// `leaf` is the leaf's port at the end of the wire: an input that reads it, or the output that
@@ -168,13 +167,12 @@ class Drawing {
     Picture::Wire wire{
         .from = from.first, .output = from.second, .to = to.first, .input = to.second};
     if (plan_) {
-      const auto leaf = static_cast<std::size_t>(number_.at(port.leaf));
-      const auto index = static_cast<std::size_t>(port.index);
+      const int leaf = number_.at(port.leaf), index = port.index;
       const PlanLeaf& of = plan_->leaves[leaf];
       const Node& node = plan_->node(input ? of.inputs[index] : of.outputs[index]);
       wire.flow = flow_of(node), wire.width = node.shape.size;
       if (input) {
-        const Reading reading = readings_[leaf][index];
+        const Reading reading = nth(nth(readings_, leaf), index);
         wire.event = reading.event && !reading.flow;
         if (!reading.event && !reading.flow) wire.flow = Picture::Flow::dropped;
       }
@@ -185,7 +183,7 @@ class Drawing {
 
   /// A port at a border has the colour of the signal through it.
   void show(int block, Picture::Flow flow) {
-    Block& port = picture_.blocks[static_cast<std::size_t>(block)];
+    Block& port = nth(picture_.blocks, block);
     if (port.kind == Block::Kind::input || port.kind == Block::Kind::output) {
       if (port.flow == Picture::Flow::unknown || port.flow == Picture::Flow::dropped)
         port.flow = flow;

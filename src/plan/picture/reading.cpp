@@ -1,5 +1,6 @@
 // Finds the readers of each input, and the rate of each value in the plan.
 #include "parts.hpp"
+#include "saltus/base/list.hpp"
 
 namespace saltus::detail {
 
@@ -12,7 +13,7 @@ void mark(std::vector<Reading>& inputs, const Named& named, bool Reading::*how) 
     for (Reading& input : inputs) input.*how = true;
     return;
   }
-  for (int i : *named) inputs[static_cast<std::size_t>(i)].*how = true;
+  for (int i : *named) nth(inputs, i).*how = true;
 }
 
 /// Marks the inputs that the derivative reads, and those of outputs that some node reads.

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "saltus/base/list.hpp"
 #include "saltus/plan/plan.hpp"
 
 namespace saltus {
@@ -36,7 +37,7 @@ struct Calls {
   std::vector<OutputCall> needs_of_derivatives;  // each with its own call, where formulas are fused
   std::vector<Call> odes;                        // of leaves that have one, and the fused function
   std::vector<Call> single_odes;                 // each with its own call
-  std::vector<GuardCall> guards;
+  List<GuardCall> guards;
   std::optional<GuardCall> fused_guards;
 };
 

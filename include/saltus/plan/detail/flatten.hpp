@@ -7,22 +7,22 @@
 #include <unordered_map>
 #include <utility>
 
+#include "saltus/base/list.hpp"
 #include "saltus/plan/detail/lists.hpp"
 #include "saltus/plan/detail/order.hpp"
 
 namespace saltus::detail {
 
 /// The inputs that a computation reads: those it names, otherwise all.
-inline std::vector<int> read_inputs(const std::optional<std::vector<int>>& named,
-                                    const PlanLeaf& leaf) {
+inline List<int> read_inputs(const std::optional<std::vector<int>>& named, const PlanLeaf& leaf) {
   if (!named) return leaf.inputs;
-  std::vector<int> nodes;
+  List<int> nodes;
   for (int i : *named) {
     if (i < 0 || i >= static_cast<int>(leaf.inputs.size())) {
       throw ModelError(text("block '", leaf.path, "': a declaration reads input ", i,
                             ", the block has ", leaf.inputs.size()));
     }
-    nodes.push_back(leaf.inputs[static_cast<std::size_t>(i)]);
+    nodes.push_back(leaf.inputs[i]);
   }
   return nodes;
 }
@@ -37,7 +37,7 @@ inline void add_nodes(Plan& plan, PlanLeaf& leaf) {
   std::iota(leaf.relations.begin(), leaf.relations.end(),
             static_cast<int>(plan.nodes.size()) + outputs);
   for (int i = 0; i < outputs; ++i) {
-    const OutputDeclaration& output = d.outputs[static_cast<std::size_t>(i)];
+    const OutputDeclaration& output = d.outputs[i];
     plan.nodes.push_back(
         {.leaf = number, .index = i, .boolean = output.boolean, .view = output.view.has_value()});
   }
@@ -95,8 +95,8 @@ class LeafNumbers {
 /// Finds the node that feeds each input; an open input of the root is an error.
 inline void add_wires(Plan& plan, const Structure& structure, const LeafNumbers& numbers) {
   for (const auto& [from, to] : structure.wires) {
-    plan.leaves[numbers.find(to.leaf).value()].inputs[static_cast<std::size_t>(to.index)] =
-        plan.leaves[numbers.find(from.leaf).value()].outputs[static_cast<std::size_t>(from.index)];
+    plan.leaves[numbers.find(to.leaf).value()].inputs[to.index] =
+        plan.leaves[numbers.find(from.leaf).value()].outputs[from.index];
   }
   for (const PlanLeaf& leaf : plan.leaves) {
     for (std::size_t i = 0; i < leaf.inputs.size(); ++i) {
@@ -172,24 +172,23 @@ class Shaping {
       const int node = known_.back();
       known_.pop_back();
       for (const int leaf : readers_[node]) {
-        const auto l = static_cast<std::size_t>(leaf);
-        if (--unknown_[l] > 0) continue;
-        for (const int output : plan_.leaves[l].outputs) shape(output);
-        for (const int relation : plan_.leaves[l].relations) shape(relation);
+        if (--unknown_[leaf] > 0) continue;
+        for (const int output : plan_.leaves[leaf].outputs) shape(output);
+        for (const int relation : plan_.leaves[leaf].relations) shape(relation);
       }
     }
   }
 
  private:
   void shape(int i) {
-    Node& node = plan_.nodes[static_cast<std::size_t>(i)];
+    Node& node = plan_.nodes[i];
     if (!node.shaped && shape_node(plan_, node)) known_.push_back(i);
   }
 
   Plan& plan_;
   Lists readers_;
-  std::vector<int> unknown_;  // number of inputs of each leaf whose shape is unknown
-  std::vector<int> known_;    // nodes whose readers do not know the shape yet
+  List<int> unknown_;       // number of inputs of each leaf whose shape is unknown
+  std::vector<int> known_;  // nodes whose readers do not know the shape yet
 };
 
 /// Spreads shapes along the wires until all are known.

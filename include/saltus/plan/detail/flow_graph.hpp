@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "saltus/base/list.hpp"
 #include "saltus/plan/plan.hpp"
 #include "saltus/tape/graph.hpp"
 
@@ -15,8 +16,8 @@ namespace saltus {
 /// All but t and x are constant between two instants.
 struct FlowGraph {
   tape::Graph graph = {};
-  std::vector<tape::Node> rates = {};                  ///< of each state; empty: see `obstacle`
-  std::vector<std::optional<tape::Node>> guards = {};  ///< by slot; none for a called guard
+  List<tape::Node> rates = {};                  ///< of each state; empty: see `obstacle`
+  List<std::optional<tape::Node>> guards = {};  ///< by slot; none for a called guard
   std::string obstacle = {};  ///< the first function of a derivative that is no expression
 };
 

@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "saltus/base/list.hpp"
+
 namespace saltus::detail {
 
 /// Built from pairs (number, follower) in any order: the followers of each number, in the order of
@@ -14,20 +16,19 @@ class Lists {
   Lists() = default;
   Lists(std::size_t numbers, const std::vector<std::pair<int, int>>& pairs)
       : start_(numbers + 1, 0), all_(pairs.size()) {
-    for (const auto& [number, follower] : pairs) ++start_[static_cast<std::size_t>(number) + 1];
+    for (const auto& [number, follower] : pairs) ++start_[number + 1];
     for (std::size_t i = 0; i < numbers; ++i) start_[i + 1] += start_[i];
-    std::vector<std::size_t> next(start_.begin(), start_.end() - 1);
-    for (const auto& [number, follower] : pairs)
-      all_[next[static_cast<std::size_t>(number)]++] = follower;
+    List<std::size_t> next(start_.begin(), start_.end() - 1);
+    for (const auto& [number, follower] : pairs) all_[next[number]++] = follower;
   }
 
   std::span<const int> operator[](int number) const {
-    const std::size_t first = start_[static_cast<std::size_t>(number)];
-    return {all_.data() + first, start_[static_cast<std::size_t>(number) + 1] - first};
+    const std::size_t first = start_[number];
+    return {all_.data() + first, start_[number + 1] - first};
   }
 
  private:
-  std::vector<std::size_t> start_ = {0};
+  List<std::size_t> start_ = {0};
   std::vector<int> all_;
 };
 

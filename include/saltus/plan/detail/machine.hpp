@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <concepts>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -93,13 +94,14 @@ class Machine : public Memory {
 
   /// The arguments of a leaf's functions at time t and this state of the whole machine; a view that
   /// lasts until the next evaluation. Inputs are those of the last evaluation.
-  At at(std::size_t leaf, double t, const double* state) {
-    const PlanLeaf& of = plan_->leaves[leaf];
+  At at(std::integral auto number, double t, const double* state) {
+    const PlanLeaf& of = plan_->leaves[number];
+    const auto leaf = static_cast<std::size_t>(number);
     return arguments_.of(state).at(
         {nullptr, of.system, leaf, &arguments_.views()[leaf], of.x, of.nx}, t);
   }
   /// xdot of one leaf at time t and this state of the whole machine.
-  void leaf_derivative(std::size_t leaf, double t, const double* state, VectorRef xdot) {
+  void leaf_derivative(std::integral auto leaf, double t, const double* state, VectorRef xdot) {
     ++rhs_calls;
     const PlanLeaf& of = plan_->leaves[leaf];
     of.declared().continuous.ode.function(*of.system, at(leaf, t, state), xdot);

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "saltus/base/list.hpp"
 #include "saltus/plan/compile.hpp"
 
 namespace saltus {
@@ -14,7 +15,7 @@ class Values {
   Values() = default;
   explicit Values(const Bases& bases) : bases_(bases) {}
   const double* operator()(const Place& place) const {
-    return bases_[static_cast<std::size_t>(place.space)] + place.offset;
+    return nth(bases_, place.space) + place.offset;
   }
   /// The continuous state that the evaluation saw, with carried entries on their surfaces.
   const double* state() const noexcept { return bases_[0]; }
@@ -50,7 +51,7 @@ class Memory {
   const std::shared_ptr<const Plan>& shared_plan() const noexcept { return plan_; }
 
   Eigen::VectorXd x, z, p, y;
-  std::vector<int> modes;
+  List<int> modes;
 
  protected:
   /// The values of a context; ModelError for a context of another system.

@@ -2,11 +2,12 @@
 // is ever computed.
 #pragma once
 
+#include "saltus/base/list.hpp"
 #include "saltus/plan/detail/flatten.hpp"
 
 namespace saltus::detail {
 
-using Marks = std::vector<char>;
+using Marks = List<char>;
 
 /// Marks nodes and everything they read, except beyond the nodes that `stop` names as not computed
 /// again.
@@ -15,7 +16,7 @@ void spread(const Plan& plan, const std::vector<int>& from, Marks& marks, Stop s
   std::vector<int> open;
   const auto mark = [&](const std::vector<int>& nodes) {
     for (int i : nodes) {
-      if (!std::exchange(marks[static_cast<std::size_t>(i)], 1)) open.push_back(i);
+      if (!std::exchange(marks[i], 1)) open.push_back(i);
     }
   };
   mark(from);
@@ -104,9 +105,9 @@ inline Rate own_rate(const Plan& plan, const Node& node) {
 
 /// The rates of all nodes before their order is known. A node whose rate rises raises its readers;
 /// no rate rises more than twice.
-inline std::vector<Rate> spread_rates(const Plan& plan) {
+inline List<Rate> spread_rates(const Plan& plan) {
   std::vector<std::pair<int, int>> reads;
-  std::vector<Rate> rates;
+  List<Rate> rates;
   std::vector<int> risen(plan.nodes.size());
   std::iota(risen.begin(), risen.end(), 0);
   for (const int i : risen) {
@@ -119,10 +120,9 @@ inline std::vector<Rate> spread_rates(const Plan& plan) {
     risen.pop_back();
     const Node& node = plan.node(i);
     const bool stepwise = node.located || (node.boolean && node.used);
-    const Rate own = rates[static_cast<std::size_t>(i)],
-               seen = stepwise ? std::min(own, Rate::held) : own;
+    const Rate own = rates[i], seen = stepwise ? std::min(own, Rate::held) : own;
     for (const int reader : readers[i]) {
-      Rate& rate = rates[static_cast<std::size_t>(reader)];
+      Rate& rate = rates[reader];
       if (seen <= rate) continue;
       rate = seen;
       risen.push_back(reader);
@@ -135,7 +135,7 @@ inline std::vector<Rate> spread_rates(const Plan& plan) {
 /// any output, and is no guard.
 inline void release_held_relations(Plan& plan) {
   const bool any = std::ranges::any_of(plan.nodes, &Node::relation);
-  const std::vector<Rate> rates = any ? spread_rates(plan) : std::vector<Rate>();
+  const List<Rate> rates = any ? spread_rates(plan) : List<Rate>();
   for (std::size_t i = 0; i < rates.size(); ++i) {
     if (plan.nodes[i].relation && rates[i] != Rate::continuous) plan.nodes[i].located = false;
   }
@@ -145,7 +145,7 @@ inline void release_held_relations(Plan& plan) {
 /// located and held.
 inline void find_rates(Plan& plan) {
   for (int i : plan.order) {
-    Node& node = plan.nodes[static_cast<std::size_t>(i)];
+    Node& node = plan.nodes[i];
     node.rate = own_rate(plan, node);
     for (int need : node.needs) node.rate = faster(node.rate, plan.node(need).rate);
     if (!node.relation && node.boolean && node.used && node.rate == Rate::continuous)
@@ -159,8 +159,7 @@ inline std::vector<int> slice(const Plan& plan, const Marks& marks, Rate rate) {
   std::vector<int> list;
   for (int i : plan.order) {
     const Node& node = plan.node(i);
-    if (marks[static_cast<std::size_t>(i)] && node.rate == rate && !node.view && !node.located)
-      list.push_back(i);
+    if (marks[i] && node.rate == rate && !node.view && !node.located) list.push_back(i);
   }
   return list;
 }
@@ -211,8 +210,7 @@ inline void find_slices(Plan& plan, const Roots& roots) {
   spread(plan, held_of(plan, used), instants, never);
   for (int i : plan.order) {
     const Node& node = plan.node(i);
-    if (instants[static_cast<std::size_t>(i)] && node.rate != Rate::constant && !node.view &&
-        !node.located) {
+    if (instants[i] && node.rate != Rate::constant && !node.view && !node.located) {
       plan.instants.push_back(i);
     }
   }

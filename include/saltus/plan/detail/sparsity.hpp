@@ -5,21 +5,20 @@
 #include <span>
 #include <vector>
 
+#include "saltus/base/list.hpp"
 #include "saltus/plan/plan.hpp"
 
 namespace saltus {
 
 /// Entries of an n by n matrix, column by column.
 struct Sparsity {
-  std::vector<Index> start = {0};  // of each column in `rows`, and the end of the last column
-  std::vector<int> rows;           // increase in each column
+  List<Index> start = {0};  // of each column in `rows`, and the end of the last column
+  List<int> rows;           // increase in each column
 
   Index columns() const { return static_cast<Index>(start.size()) - 1; }
   Index size() const { return static_cast<Index>(rows.size()); }
   std::span<const int> column(Index j) const {
-    const auto first = static_cast<std::size_t>(start[static_cast<std::size_t>(j)]);
-    return {rows.data() + first,
-            static_cast<std::size_t>(start[static_cast<std::size_t>(j) + 1]) - first};
+    return {rows.data() + start[j], rows.data() + start[j + 1]};
   }
 };
 
@@ -30,8 +29,8 @@ Sparsity full_sparsity(Index n);
 struct JacobianPattern {
   Sparsity places;       ///< a superset of the entries that differ from zero; the diagonal is in it
   std::vector<int> own;  ///< leaves whose own Jacobian gives their diagonal block
-  std::vector<char> differences;  ///< for each entry: 1 if only differences give its value
-  bool overflow = false;          ///< more than most_places(n): `places` is empty
+  List<char> differences;  ///< for each entry: 1 if only differences give its value
+  bool overflow = false;   ///< more than most_places(n): `places` is empty
 };
 
 /// A matrix with more entries is not worth building: 4 million, or 256 a state.
