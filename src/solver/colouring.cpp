@@ -1,5 +1,6 @@
 // Greedy colouring of the columns of a Jacobian.
 #include "saltus/solver/detail/colouring.hpp"
+#include "saltus/base/list.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -14,8 +15,7 @@ class SoughtRows {
   explicit SoughtRows(const JacobianPattern& pattern) : columns_of_(rows_of(pattern)) {
     const Sparsity& places = pattern.places;
     for (Index j = 0; j < places.columns(); ++j) {
-      const auto first = places.start[static_cast<std::size_t>(j)],
-                 last = places.start[static_cast<std::size_t>(j) + 1];
+      const auto first = places.start[j], last = places.start[j + 1];
       if (std::any_of(pattern.differences.begin() + first, pattern.differences.begin() + last,
                       [](char differs) { return differs != 0; }))
         to_colour_.push_back(static_cast<int>(j));
@@ -30,49 +30,48 @@ class SoughtRows {
   }
 
   /// Colour of each column, or -1 for none. Each column takes the first free colour, in this order.
-  std::vector<int> greedy(const Sparsity& places, const std::vector<int>& order) const {
-    std::vector<int> colour(static_cast<std::size_t>(places.columns()), -1);
-    std::vector<int> taken_by(order.size() + 1, -1);  // by colour: the last column beside it
+  List<int> greedy(const Sparsity& places, const std::vector<int>& order) const {
+    List<int> colour(places.columns(), -1);
+    List<int> taken_by(order.size() + 1, -1);  // by colour: the last column beside it
     for (const int j : order) {
       for (const int row : places.column(j)) {
-        for (const int other : columns_of_[static_cast<std::size_t>(row)]) {
-          const int seen = colour[static_cast<std::size_t>(other)];
-          if (seen >= 0) taken_by[static_cast<std::size_t>(seen)] = j;
+        for (const int other : columns_of_[row]) {
+          const int seen = colour[other];
+          if (seen >= 0) taken_by[seen] = j;
         }
       }
       const auto free = std::ranges::find_if(taken_by, [j](int by) { return by != j; });
-      colour[static_cast<std::size_t>(j)] = static_cast<int>(free - taken_by.begin());
+      colour[j] = static_cast<int>(free - taken_by.begin());
     }
     return colour;
   }
 
  private:
-  static std::vector<std::vector<int>> rows_of(const JacobianPattern& pattern) {
+  static List<std::vector<int>> rows_of(const JacobianPattern& pattern) {
     const Sparsity& places = pattern.places;
     Index last = places.columns() - 1;
     for (const int row : places.rows) last = std::max(last, Index{row});
-    std::vector<std::vector<int>> rows(static_cast<std::size_t>(last) + 1);
-    std::vector<char> sought(rows.size());
+    List<std::vector<int>> rows(last + 1);
+    List<char> sought(rows.size());
     for (std::size_t k = 0; k < places.rows.size(); ++k)
-      if (pattern.differences[k]) sought[static_cast<std::size_t>(places.rows[k])] = 1;
+      if (pattern.differences[k]) sought[places.rows[k]] = 1;
     for (Index j = 0; j < places.columns(); ++j) {
       for (const int row : places.column(j))
-        if (sought[static_cast<std::size_t>(row)])
-          rows[static_cast<std::size_t>(row)].push_back(static_cast<int>(j));
+        if (sought[row]) rows[row].push_back(static_cast<int>(j));
     }
     return rows;
   }
 
-  std::vector<std::vector<int>> columns_of_;
+  List<std::vector<int>> columns_of_;
   std::vector<int> to_colour_;
 };
 
 Colouring by_colour(const std::vector<int>& colours) {
   Colouring result;
   const int most = colours.empty() ? -1 : *std::ranges::max_element(colours);
-  std::vector<std::vector<int>> lists(static_cast<std::size_t>(most + 1));
+  List<std::vector<int>> lists(most + 1);
   for (std::size_t j = 0; j < colours.size(); ++j)
-    if (colours[j] >= 0) lists[static_cast<std::size_t>(colours[j])].push_back(static_cast<int>(j));
+    if (colours[j] >= 0) lists[colours[j]].push_back(static_cast<int>(j));
   for (const auto& list : lists) {
     result.columns.insert(result.columns.end(), list.begin(), list.end());
     result.start.push_back(static_cast<Index>(result.columns.size()));

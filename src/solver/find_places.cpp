@@ -1,5 +1,6 @@
 // Groups of arguments are halved, and calls find which half a value reads.
 #include "saltus/solver/detail/find_places.hpp"
+#include "saltus/base/list.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -17,7 +18,7 @@ class Groups {
   /// The first groups: one group that every value may read.
   explicit Groups(Index n) : n_(n), members_{0} {
     while (size_ < n) size_ *= 2;
-    read_by_.rows.resize(static_cast<std::size_t>(n));
+    read_by_.rows.resize(n);
     std::iota(read_by_.rows.begin(), read_by_.rows.end(), 0);
     read_by_.start.push_back(n);
   }
@@ -53,10 +54,9 @@ class Groups {
   /// Splits every group in two. Drops a value that reads neither half, and a half that no value
   /// reads.
   Groups halved(const Colouring& together, const Response& response, int& calls) const {
-    const auto groups = static_cast<std::size_t>(read_by_.columns());
-    std::vector<std::vector<int>> halves(2 * groups);
+    List<std::vector<int>> halves(2 * read_by_.columns());
     std::vector<int> moved;
-    std::vector<char> changed(static_cast<std::size_t>(n_));
+    List<char> changed(n_);
     for (Index c = 0; c < together.colours(); ++c) {
       for (const std::size_t half : {0, 1}) {
         moved.clear();
@@ -64,10 +64,8 @@ class Groups {
         if (moved.empty()) continue;
         response(moved, changed), ++calls;
         for (const int group : together.of(c))
-          std::ranges::copy_if(
-              read_by_.column(group),
-              std::back_inserter(halves[2 * static_cast<std::size_t>(group) + half]),
-              [&](int value) { return changed[static_cast<std::size_t>(value)] != 0; });
+          std::ranges::copy_if(read_by_.column(group), std::back_inserter(halves[2 * group + half]),
+                               [&](int value) { return changed[value] != 0; });
       }
     }
     return {*this, halves};
@@ -85,15 +83,14 @@ class Groups {
   }
 
   void add_half(int group, std::size_t half, std::vector<int>& to) const {
-    const Index first =
-        members_[static_cast<std::size_t>(group)] + (half == 0 ? Index{0} : size_ / 2);
+    const Index first = members_[group] + (half == 0 ? Index{0} : size_ / 2);
     for (Index j = first; j < std::min(first + size_ / 2, n_); ++j)
       to.push_back(static_cast<int>(j));
   }
 
   Index n_, size_ = 2;
-  std::vector<int> members_;  // the first argument of each group
-  Sparsity read_by_;          // column k: the values that read group k
+  List<int> members_;  // the first argument of each group
+  Sparsity read_by_;   // column k: the values that read group k
 };
 
 }  // namespace

@@ -43,8 +43,8 @@ void GuardSet::select(const std::vector<int>& groups, const Plan& plan) {
   ++version_;
   active_.clear(), stopping_.clear(), watching_.clear();
   for (const int i : groups) {
-    const GuardGroup& group = plan.guards[static_cast<std::size_t>(i)];
-    for (Index s = 0; s < group.size; ++s) watch(static_cast<std::size_t>(group.slot + s));
+    const GuardGroup& group = plan.guards[i];
+    for (Index s = 0; s < group.size; ++s) watch(group.slot + s);
   }
   for (Guard& guard : guards_) guard.was_active = std::exchange(guard.active, false);
   for (const std::size_t k : active_) {
@@ -65,7 +65,7 @@ void GuardSet::leave_rest(std::size_t k) {
 
 void GuardSet::arm_again(const std::vector<Firing>& fired) {
   for (const Firing& firing : fired) {
-    const auto k = static_cast<std::size_t>(firing.slot);
+    const std::size_t k = firing.guard();
     set(k, Phase::armed, firing.from, 0.0);
     if (k < kept_.size()) guards_[k].base = kept_[k].base;  // the value before the root
   }

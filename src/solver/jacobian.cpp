@@ -17,7 +17,7 @@ using thresholds::eps, thresholds::unexplained;
 Index entry_of(const Sparsity& places, Index row, Index column) {
   const auto rows = places.column(column);
   const auto found = std::ranges::lower_bound(rows, static_cast<int>(row));
-  return places.start[static_cast<std::size_t>(column)] + (found - rows.begin());
+  return places.start[column] + (found - rows.begin());
 }
 
 }  // namespace
@@ -50,7 +50,7 @@ void Jacobian::prepare() {
 /// Notes how the values of a leaf's own Jacobian are copied. They are in declared order, or they
 /// are a dense block, column by column.
 void Jacobian::add_own(int number) {
-  const PlanLeaf& leaf = machine_->plan().leaves[static_cast<std::size_t>(number)];
+  const PlanLeaf& leaf = machine_->plan().leaves[number];
   const ContinuousState& state = leaf.declared().continuous;
   Own own{.leaf = number, .size = leaf.nx * leaf.nx, .copies = {}};
   const auto copy = [&](Index row, Index column, Index from) {
@@ -125,12 +125,9 @@ bool Jacobian::differences(double t, const double* x, const double* xdot, const 
     for (const int j : colouring_.of(colour)) {
       const double inverse = 1.0 / (x_[j] - moved_[j]);  // the rounded increment
       x_[j] = moved_[j];
-      const auto first = static_cast<std::size_t>(places.start[static_cast<std::size_t>(j)]),
-                 last = static_cast<std::size_t>(places.start[static_cast<std::size_t>(j) + 1]);
-      for (std::size_t k = first; k < last; ++k) {
+      for (Index k = places.start[j]; k < places.start[j + 1]; ++k) {
         const int i = places.rows[k];
-        if (pattern_.differences[k])
-          out[place(static_cast<Index>(k))] = (f_[i] - xdot[i]) * inverse;
+        if (pattern_.differences[k]) out[place(k)] = (f_[i] - xdot[i]) * inverse;
       }
     }
   }
@@ -178,11 +175,11 @@ void Jacobian::move_by_values(const double* values) {
 
 bool Jacobian::take(const Own& own, double t, const double* x, const double* xdot,
                     const Increments& by, double* out) {
-  const PlanLeaf& leaf = machine_->plan().leaves[static_cast<std::size_t>(own.leaf)];
+  const PlanLeaf& leaf = machine_->plan().leaves[own.leaf];
   const ContinuousState& state = leaf.declared().continuous;
   block_.head(own.size).setZero();
   const double* seen = machine_->carries() ? x_.data() : x;
-  const At at = machine_->at(static_cast<std::size_t>(own.leaf), t, seen);
+  const At at = machine_->at(own.leaf, t, seen);
   if (state.sparse_jacobian)
     state.sparse_jacobian(*leaf.system, at, VectorRef(block_.data(), own.size));
   else
@@ -202,7 +199,7 @@ bool Jacobian::take(const Own& own, double t, const double* x, const double* xdo
 /// its inputs do not depend on its own states. False if a difference is not finite either.
 bool Jacobian::mend(const Own& own, double t, const double* x, const double* xdot,
                     const Increments& by) {
-  const PlanLeaf& leaf = machine_->plan().leaves[static_cast<std::size_t>(own.leaf)];
+  const PlanLeaf& leaf = machine_->plan().leaves[own.leaf];
   const double least = least_increment(x, xdot, by);
   begin_at(t, x, xdot);
   machine_->evaluate_derivative_needs(t, x_.data());
@@ -242,7 +239,7 @@ void Jacobian::note(const Copy& bad, const PlanLeaf& leaf, double t, double decl
 }
 
 void Jacobian::ode_of(const PlanLeaf& leaf, double t, Eigen::VectorXd& xdot) {
-  const auto number = static_cast<std::size_t>(&leaf - machine_->plan().leaves.data());
+  const auto number = &leaf - machine_->plan().leaves.data();
   machine_->leaf_derivative(number, t, x_.data(), VectorRef(xdot.data() + leaf.x, leaf.nx));
 }
 
@@ -252,7 +249,7 @@ std::string Jacobian::words() const {
 }
 
 void Jacobian::refuse(const Own& own, double t, const char* what) const {
-  const std::string& path = machine_->plan().leaves[static_cast<std::size_t>(own.leaf)].path;
+  const std::string& path = machine_->plan().leaves[own.leaf].path;
   throw SimulationError(text("t = ", t, " s: the Jacobian of block '", path, "' ", what), t, path);
 }
 

@@ -1,5 +1,6 @@
 // Bandwidth and the reverse Cuthill-McKee order.
 #include "saltus/solver/detail/ordering.hpp"
+#include "saltus/base/list.hpp"
 
 #include <algorithm>
 
@@ -10,12 +11,12 @@ namespace {
 /// The graph of a matrix: states are neighbours if they share a place.
 class Graph {
  public:
-  explicit Graph(const Sparsity& places) : neighbours_(static_cast<std::size_t>(places.columns())) {
+  explicit Graph(const Sparsity& places) : neighbours_(places.columns()) {
     for (int j = 0; j < places.columns(); ++j) {
       for (const int i : places.column(j)) {
         if (i == j) continue;
-        neighbours_[static_cast<std::size_t>(i)].push_back(j);
-        neighbours_[static_cast<std::size_t>(j)].push_back(i);
+        neighbours_[i].push_back(j);
+        neighbours_[j].push_back(i);
       }
     }
     for (auto& list : neighbours_) {
@@ -25,24 +26,24 @@ class Graph {
   }
 
   std::size_t size() const { return neighbours_.size(); }
-  const std::vector<int>& of(int i) const { return neighbours_[static_cast<std::size_t>(i)]; }
+  const std::vector<int>& of(int i) const { return neighbours_[i]; }
   std::size_t degree(int i) const { return of(i).size(); }
 
  private:
-  std::vector<std::vector<int>> neighbours_;
+  List<std::vector<int>> neighbours_;
 };
 
 /// Searches breadth first from `root`, neighbours by rising degree, and appends each state to
 /// `order`. Returns the index in `order` at which the last level begins.
 std::size_t search(const Graph& graph, int root, std::vector<char>& met, std::vector<int>& order) {
   std::size_t level = order.size(), next = order.size();
-  order.push_back(root), met[static_cast<std::size_t>(root)] = 1;
+  order.push_back(root), met[root] = 1;
   for (std::size_t level_end = order.size(); next < order.size(); level_end = order.size()) {
     level = next;
     for (; next < level_end; ++next) {
       const std::size_t first = order.size();
       for (const int neighbour : graph.of(order[next])) {
-        if (std::exchange(met[static_cast<std::size_t>(neighbour)], 1)) continue;
+        if (std::exchange(met[neighbour], 1)) continue;
         order.push_back(neighbour);
       }
       std::stable_sort(order.begin() + static_cast<std::ptrdiff_t>(first), order.end(),
@@ -59,7 +60,7 @@ int rim(const Graph& graph, int root, std::vector<char>& met, std::vector<int>& 
     const auto level = static_cast<std::ptrdiff_t>(search(graph, root, met, order));
     root = *std::min_element(order.begin() + level, order.end(),
                              [&](int a, int b) { return graph.degree(a) < graph.degree(b); });
-    for (std::size_t k = begin; k < order.size(); ++k) met[static_cast<std::size_t>(order[k])] = 0;
+    for (std::size_t k = begin; k < order.size(); ++k) met[order[k]] = 0;
     order.resize(begin);
   }
   return root;
@@ -69,9 +70,7 @@ int rim(const Graph& graph, int root, std::vector<char>& met, std::vector<int>& 
 
 Bandwidth bandwidth(const Sparsity& places, const std::vector<int>& position) {
   Bandwidth band;
-  const auto at = [&](int i) {
-    return position.empty() ? i : position[static_cast<std::size_t>(i)];
-  };
+  const auto at = [&](int i) { return position.empty() ? i : position[i]; };
   for (int j = 0; j < places.columns(); ++j) {
     for (const int i : places.column(j)) {
       const Index below = at(i) - at(j);
@@ -83,13 +82,13 @@ Bandwidth bandwidth(const Sparsity& places, const std::vector<int>& position) {
 
 std::vector<int> reverse_cuthill_mckee(const Sparsity& places) {
   const Graph graph(places);
-  std::vector<char> met(graph.size());
+  List<char> met(graph.size());
   std::vector<int> order;
   for (int i = 0; i < static_cast<int>(graph.size()); ++i)
-    if (!met[static_cast<std::size_t>(i)]) search(graph, rim(graph, i, met, order), met, order);
-  std::vector<int> position(order.size());
+    if (!met[i]) search(graph, rim(graph, i, met, order), met, order);
+  List<int> position(order.size());
   for (std::size_t k = 0; k < order.size(); ++k)
-    position[static_cast<std::size_t>(order[k])] = static_cast<int>(order.size() - 1 - k);
+    position[order[k]] = static_cast<int>(order.size() - 1 - k);
   return position;
 }
 

@@ -44,8 +44,8 @@ class Neighbourhood {
  public:
   Neighbourhood(Machine& machine, int leaf, double t, const double* x)
       : machine_(&machine),
-        leaf_(machine.plan().leaves[static_cast<std::size_t>(leaf)]),
-        number_(static_cast<std::size_t>(leaf)),
+        leaf_(machine.plan().leaves[leaf]),
+        number_(leaf),
         t_(t),
         x_(VectorView(machine.carried(t, x), machine.plan().nx)),
         here_(own()),
@@ -77,7 +77,7 @@ class Neighbourhood {
     for (const int j : moved) move(j, from.distance);
     call();
     for (Index i = 0; i < leaf_.nx; ++i)
-      if (f_[i] != from.f[i]) changed[static_cast<std::size_t>(i)] = 1;
+      if (f_[i] != from.f[i]) changed[i] = 1;
   }
 
  private:
@@ -127,8 +127,7 @@ std::string_view reason(Search search) {
 Probe::Probe(Machine& machine) : machine_(&machine) {
   const Plan& plan = machine.plan();
   for (const int leaf : plan.odes)
-    if (says_nothing(plan.leaves[static_cast<std::size_t>(leaf)]))
-      blocks_.push_back({.leaf = leaf});
+    if (says_nothing(plan.leaves[leaf])) blocks_.push_back({.leaf = leaf});
 }
 
 bool Probe::look(double t, const double* x) {
@@ -142,7 +141,7 @@ bool Probe::look_at(Block& block, double t, const double* x) {
   const auto before = machine_->rhs_calls;
   Places seen;
   std::string threw;
-  const Index n = machine_->plan().leaves[static_cast<std::size_t>(block.leaf)].nx;
+  const Index n = machine_->plan().leaves[block.leaf].nx;
   const bool well = tried(
       [&] {
         Neighbourhood around(*machine_, block.leaf, t, x);
@@ -183,7 +182,7 @@ std::string Probe::words() const {
   constexpr std::size_t shown = 3;
   for (std::size_t k = 0; k < std::min(blocks_.size(), shown); ++k) {
     const Block& block = blocks_[k];
-    const std::string& path = machine_->plan().leaves[static_cast<std::size_t>(block.leaf)].path;
+    const std::string& path = machine_->plan().leaves[block.leaf].path;
     out += text("; block '", path, "' declares no sparsity, ", block.calls, " calls ",
                 block.open ? text("found ", found_.at(block.leaf).size(), " places")
                            : std::string("did not find it"));

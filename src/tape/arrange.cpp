@@ -20,7 +20,7 @@ struct Where {
 class Arranger {
  public:
   explicit Arranger(const Graph& graph) : graph_(graph) {
-    const auto size = static_cast<std::size_t>(graph.size());
+    const int size = graph.size();
     swapped_.assign(size, false);
     where_.resize(size);
     level_.assign(size, 0);

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "saltus/base/list.hpp"
 #include "saltus/tape/graph.hpp"
 
 namespace saltus::tape::detail {
@@ -15,10 +16,10 @@ using Group = std::vector<Node>;
 struct Arrangement {
   std::vector<Group> groups = {};  ///< operands first
   /// For each node whether the operands of its operation, which is commutative, are exchanged.
-  std::vector<bool> swapped = {};
+  List<bool> swapped = {};
   /// Expressions that get adjacent registers, those of one operation that do not need each other.
   /// What reads several groups of them can then be a run. Empty if there is no run.
-  std::vector<std::vector<Node>> arrays = {};
+  List<std::vector<Node>> arrays = {};
 };
 
 /// The operations that `outputs` need. If a model has rows of similar equations, as a rod of many

@@ -18,7 +18,7 @@ class Builder {
           std::span<const Index> places)
       : program_(program), places_(places), registers_(program.registers) {
     program_.outputs = copy(graph, outputs, program_.graph);
-    values_.resize(static_cast<std::size_t>(program_.graph.size()));
+    values_.resize(program_.graph.size());
   }
 
   void build() {
@@ -45,12 +45,12 @@ class Builder {
   std::uint32_t place_of_output(std::size_t i) const {
     return static_cast<std::uint32_t>(places_.empty() ? static_cast<Index>(i) : places_[i]);
   }
-  Value& of(Node node) { return values_[static_cast<std::size_t>(node.id)]; }
+  Value& of(Node node) { return values_[node.id]; }
   const Expression& at(Node node) const { return program_.graph[node]; }
   std::vector<Node> operands(Node node) const {
     const Expression& e = at(node);
     std::vector<Node> all(e.operands.begin(), e.operands.begin() + operand_count(e.op));
-    if (arrangement_.swapped[static_cast<std::size_t>(node.id)]) std::swap(all[0], all[1]);
+    if (arrangement_.swapped[node.id]) std::swap(all[0], all[1]);
     return all;
   }
   void note_arrays() {
@@ -63,7 +63,7 @@ class Builder {
     Value& first = of(nodes[0]);
     if (first.block < 0) {
       if (first.array < 0) return registers_.take(nodes, values_);
-      registers_.take(arrangement_.arrays[static_cast<std::size_t>(first.array)], values_);
+      registers_.take(arrangement_.arrays[first.array], values_);
     }
     Place place = first.place;
     place.stride = nodes.size() > 1 ? 1 : 0;

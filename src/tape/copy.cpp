@@ -1,4 +1,5 @@
 #include "copy.hpp"
+#include "saltus/base/list.hpp"
 
 #include <utility>
 
@@ -7,14 +8,14 @@ namespace saltus::tape {
 std::vector<Node> needed(const Graph& graph, std::span<const Node> outputs) {
   std::vector<Node> order;
   enum : char { unseen, entered, done };
-  std::vector<char> state(static_cast<std::size_t>(graph.size()), unseen);
+  List<char> state(graph.size(), unseen);
   std::vector<Node> open;  // depth first, without recursion: expressions may be deep
   for (const Node output : outputs) {
     open.push_back(output);
     while (!open.empty()) {
       const Node node = open.back();
       const Expression& e = graph[node];
-      char& seen = state[static_cast<std::size_t>(node.id)];
+      char& seen = state[node.id];
       if (seen != unseen) {
         open.pop_back();
         if (std::exchange(seen, done) == entered) order.push_back(node);
@@ -22,8 +23,8 @@ std::vector<Node> needed(const Graph& graph, std::span<const Node> outputs) {
       }
       seen = entered;
       for (int i = operand_count(e.op) - 1; i >= 0; --i) {
-        const Node operand = e.operands[static_cast<std::size_t>(i)];
-        if (state[static_cast<std::size_t>(operand.id)] == unseen) open.push_back(operand);
+        const Node operand = nth(e.operands, i);
+        if (state[operand.id] == unseen) open.push_back(operand);
       }
     }
   }
@@ -31,8 +32,8 @@ std::vector<Node> needed(const Graph& graph, std::span<const Node> outputs) {
 }
 
 std::vector<Node> copy(const Graph& from, std::span<const Node> outputs, Graph& to) {
-  std::vector<Node> renamed(static_cast<std::size_t>(from.size()));
-  const auto of = [&](Node node) -> Node& { return renamed[static_cast<std::size_t>(node.id)]; };
+  List<Node> renamed(from.size());
+  const auto of = [&](Node node) -> Node& { return renamed[node.id]; };
   for (const Node node : needed(from, outputs)) {
     const Expression& e = from[node];
     switch (e.op) {

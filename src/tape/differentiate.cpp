@@ -5,6 +5,7 @@
 
 #include "copy.hpp"
 #include "partials.hpp"
+#include "saltus/base/list.hpp"
 #include "saltus/tape/jacobian.hpp"
 
 namespace saltus::tape {
@@ -19,7 +20,7 @@ class Accumulation {
       : graph_(graph), outputs_(outputs), variables_(variables) {
     for (const Node node : variables_) (void)graph_[node];  // each node must exist
     for (const Node node : outputs_) (void)graph_[node];
-    const auto size = static_cast<std::size_t>(graph_.size());
+    const int size = graph_.size();
     needed_.resize(size);
     readers_.resize(size);
     part_.resize(size);
@@ -217,7 +218,7 @@ Jacobian jacobian(const Tape& tape) {
     if (graph[Node{id}].op == Op::continuous_state) states.push_back({id});
   }
   std::ranges::sort(states, {}, [&](Node state) { return graph[state].index; });
-  const auto index = [&](Index j) { return graph[states[static_cast<std::size_t>(j)]].index; };
+  const auto index = [&](Index j) { return graph[nth(states, j)].index; };
   std::vector<MatrixEntry> entries;
   std::vector<Node> values;
   for (const Partial& partial : differentiate(graph, tape.outputs(), states)) {

@@ -5,6 +5,7 @@
 
 #include "arithmetic.hpp"
 #include "program.hpp"
+#include "saltus/base/list.hpp"
 
 namespace saltus::tape::detail {
 
@@ -114,7 +115,7 @@ Handler handler(const Line& line) {
   if (operand_count(line.op) == 1) return of_one[number(line.op) - number(Op::neg)][first];
   const auto found = std::ranges::find(common_of_two, line.op);
   if (found == common_of_two.end()) return others[number(line.op) - number(Op::add)];
-  return of_two[static_cast<std::size_t>(found - common_of_two.begin())][first * kinds + second];
+  return nth(of_two, found - common_of_two.begin())[first * kinds + second];
 }
 
 Instruction stopping() {

@@ -58,7 +58,7 @@ const Expression& Graph::operator[](Node node) const {
   if (node.id < 0 || node.id >= size()) {
     throw ModelError(text("there is no node ", node.id, " in this graph of ", size(), " nodes"));
   }
-  return expressions_[static_cast<std::size_t>(node.id)];
+  return expressions_[node.id];
 }
 
 std::optional<double> Graph::value(Node node) const {

@@ -1,4 +1,5 @@
 #include "saltus/tape/operation.hpp"
+#include "saltus/base/list.hpp"
 
 #include <algorithm>
 #include <array>
@@ -74,7 +75,7 @@ static_assert(!names.back().empty());  // one for each operation
 
 }  // namespace
 
-std::string_view name(Op op) { return names[static_cast<std::size_t>(op)]; }
+std::string_view name(Op op) { return nth(names, op); }
 
 std::optional<Op> operation(std::string_view name) {
   const auto found = std::ranges::find(names, name);

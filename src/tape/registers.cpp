@@ -1,4 +1,6 @@
 // Registers: given and taken back.
+#include "saltus/base/list.hpp"
+
 #include "value.hpp"
 
 namespace saltus::tape::detail {
@@ -14,7 +16,7 @@ Place Registers::take(std::span<const Node> nodes, std::vector<Value>& values) {
     free.pop_back();
   }
   for (std::uint32_t i = 0; i < size; ++i) {
-    Value& value = values[static_cast<std::size_t>(nodes[i].id)];
+    Value& value = nth(values, nodes[i].id);
     value.place = {Kind::reg, block.offset + i};
     value.block = static_cast<int>(blocks_.size());
     block.uses += value.uses;
@@ -24,7 +26,7 @@ Place Registers::take(std::span<const Node> nodes, std::vector<Value>& values) {
 }
 
 void Registers::give_back(int number) {
-  const Block& block = blocks_[static_cast<std::size_t>(number)];
+  const Block& block = blocks_[number];
   free_[block.size].push_back(block.offset);
 }
 

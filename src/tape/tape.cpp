@@ -1,4 +1,5 @@
 #include "saltus/tape/tape.hpp"
+#include "saltus/base/list.hpp"
 
 #include <algorithm>
 #include <mutex>
@@ -66,21 +67,19 @@ void Tape::check(const At& at) const {
 
 std::vector<std::vector<int>> Tape::states_read() const {
   std::vector<std::vector<int>> states;
-  std::vector<int> seen(static_cast<std::size_t>(graph().size()), -1), open;
+  List<int> seen(graph().size(), -1), open;
   for (const Node output : outputs()) {
     const int number = static_cast<int>(states.size());
     std::vector<int>& found = states.emplace_back();
     const auto visit = [&](Node node) {
-      if (std::exchange(seen[static_cast<std::size_t>(node.id)], number) != number)
-        open.push_back(node.id);
+      if (std::exchange(seen[node.id], number) != number) open.push_back(node.id);
     };
     for (visit(output); !open.empty();) {
       const Expression& expression = graph()[Node{open.back()}];
       open.pop_back();
       if (expression.op == Op::continuous_state)
         found.push_back(static_cast<int>(expression.index));
-      for (int k = 0; k < operand_count(expression.op); ++k)
-        visit(expression.operands[static_cast<std::size_t>(k)]);
+      for (int k = 0; k < operand_count(expression.op); ++k) visit(nth(expression.operands, k));
     }
     std::ranges::sort(found);
   }

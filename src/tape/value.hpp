@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "program.hpp"
+#include "saltus/base/list.hpp"
 
 namespace saltus::tape::detail {
 
@@ -38,7 +39,7 @@ class Registers {
   Place take(std::span<const Node> nodes, std::vector<Value>& values);
   /// One number of the block has been used once.
   void release(int block) {
-    if (block >= 0 && --blocks_[static_cast<std::size_t>(block)].uses == 0) give_back(block);
+    if (block >= 0 && --blocks_[block].uses == 0) give_back(block);
   }
   void give_back(int block);
 
@@ -48,7 +49,7 @@ class Registers {
     int uses = 0;
   };
   std::size_t* count_;  // in the program
-  std::vector<Block> blocks_;
+  List<Block> blocks_;
   std::map<std::uint32_t, std::vector<std::uint32_t>> free_;  // by size
 };
 

@@ -4,6 +4,7 @@
 
 #include "arithmetic.hpp"
 #include "program.hpp"
+#include "saltus/base/list.hpp"
 
 namespace saltus::tape::detail {
 
@@ -80,6 +81,6 @@ constexpr auto handlers = []<std::size_t... op>(std::index_sequence<op...>) {
 
 }  // namespace
 
-Handler vector_handler(Op op) { return handlers[static_cast<std::size_t>(op)]; }
+Handler vector_handler(Op op) { return nth(handlers, op); }
 
 }  // namespace saltus::tape::detail

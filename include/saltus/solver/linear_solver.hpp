@@ -5,6 +5,7 @@
 #include <string_view>
 #include <utility>
 
+#include "saltus/base/list.hpp"
 #include "saltus/model/event.hpp"
 
 namespace saltus {
@@ -28,7 +29,7 @@ inline LinearSolver linear_solver_from(std::string_view name) {
 }
 
 constexpr std::string_view to_string(LinearSolver solver) {
-  return linear_solver_names[static_cast<std::size_t>(solver)].first;
+  return nth(linear_solver_names, solver).first;
 }
 
 }  // namespace saltus

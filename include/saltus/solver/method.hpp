@@ -5,6 +5,7 @@
 #include <string_view>
 #include <utility>
 
+#include "saltus/base/list.hpp"
 #include "saltus/model/event.hpp"
 
 namespace saltus {
@@ -39,8 +40,6 @@ inline Method method_from(std::string_view name) {
 }
 
 /// The name of the method: "auto", "dopri5", "dop853", "adams", "bdf", "radau" or "taylor".
-constexpr std::string_view to_string(Method method) {
-  return method_names[static_cast<std::size_t>(method)].first;
-}
+constexpr std::string_view to_string(Method method) { return nth(method_names, method).first; }
 
 }  // namespace saltus

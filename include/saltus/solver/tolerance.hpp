@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "saltus/base/list.hpp"
 #include "saltus/base/view.hpp"
 
 namespace saltus {
@@ -19,9 +20,7 @@ class Tolerance {
   Tolerance(std::initializer_list<double> each) : Tolerance(std::vector<double>(each)) {}
 
   /// That of state i.
-  double operator[](Index i) const {
-    return by_state_ ? each_[static_cast<std::size_t>(i)] : every_;
-  }
+  double operator[](Index i) const { return by_state_ ? each_[i] : every_; }
   /// Whether each state has its own.
   bool by_state() const noexcept { return by_state_; }
   /// The numbers, one for each state; empty if one number is for all.
@@ -40,7 +39,7 @@ class Tolerance {
 
  private:
   double every_ = 0.0;
-  std::vector<double> each_;
+  List<double> each_;
   bool by_state_ = false;
 };
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "saltus/base/ids.hpp"
+#include "saltus/base/list.hpp"
 #include "saltus/tape/operation.hpp"
 
 namespace saltus::tape {
@@ -79,7 +80,7 @@ class Graph {
   Node find_or_add(const Expression& expression);
   std::optional<Node> folded(Op op, std::span<const Node> operands);
 
-  std::vector<Expression> expressions_;
+  List<Expression> expressions_;
   std::unordered_map<Key, int, Hash> known_;
 };
 

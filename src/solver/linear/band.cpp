@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "factorisation.hpp"
+#include "saltus/base/list.hpp"
 #include "scalar.hpp"
 
 namespace saltus {
@@ -20,7 +21,7 @@ class Band final : public FactorisationOf<T> {
         reach_(band.lower + band.upper),
         height_(reach_ + band.lower + 1),
         upper_(band.upper),
-        pivots_(static_cast<std::size_t>(n)),
+        pivots_(n),
         position_(std::move(position)),
         moved_(position_.size()) {}
 
@@ -33,7 +34,7 @@ class Band final : public FactorisationOf<T> {
       Index best = 0;
       for (Index i = 1; i <= below; ++i)
         if (size_of(column[i]) > size_of(column[best])) best = i;
-      pivots_[static_cast<std::size_t>(j)] = best;
+      pivots_[j] = best;
       if (!(size_of(column[best]) > 0.0)) return false;
       last = std::max(last, std::min(j + upper_ + best, n_ - 1));
       if (best != 0)
@@ -51,11 +52,9 @@ class Band final : public FactorisationOf<T> {
 
   void solve(T* b) override {
     if (position_.empty()) return solve_in_place(b);
-    for (std::size_t i = 0; i < moved_.size(); ++i)
-      moved_[static_cast<std::size_t>(position_[i])] = b[i];
+    for (std::size_t i = 0; i < moved_.size(); ++i) moved_[position_[i]] = b[i];
     solve_in_place(moved_.data());
-    for (std::size_t i = 0; i < moved_.size(); ++i)
-      b[i] = moved_[static_cast<std::size_t>(position_[i])];
+    for (std::size_t i = 0; i < moved_.size(); ++i) b[i] = moved_[position_[i]];
   }
 
  private:
@@ -63,7 +62,7 @@ class Band final : public FactorisationOf<T> {
 
   void solve_in_place(T* b) const {
     for (Index j = 0; j < n_; ++j) {
-      const Index pivot = pivots_[static_cast<std::size_t>(j)];
+      const Index pivot = pivots_[j];
       if (pivot != 0) std::swap(b[j], b[j + pivot]);
       const T* column = diagonal(j);
       const Index below = std::min(lower_, n_ - 1 - j);
@@ -79,9 +78,9 @@ class Band final : public FactorisationOf<T> {
 
   Index n_, lower_, reach_, height_, upper_;
   T* a_ = nullptr;
-  std::vector<Index> pivots_;
+  List<Index> pivots_;
   std::vector<int> position_;  // of each state; empty: natural order
-  std::vector<T> moved_;
+  List<T> moved_;
 };
 
 }  // namespace
@@ -89,9 +88,7 @@ class Band final : public FactorisationOf<T> {
 MatrixLayout band_layout(const Sparsity& places, Bandwidth band, const std::vector<int>& position) {
   const Index n = places.columns(), reach = band.lower + band.upper,
               height = reach + band.lower + 1;
-  const auto at = [&](Index i) {
-    return position.empty() ? i : Index{position[static_cast<std::size_t>(i)]};
-  };
+  const auto at = [&](Index i) { return position.empty() ? i : Index{position[i]}; };
   MatrixLayout layout{.size = n * height, .places = {}, .diagonal = {}};
   for (Index j = 0; j < n; ++j) {
     const Index diagonal = at(j) * height + reach;

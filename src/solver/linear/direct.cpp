@@ -1,5 +1,6 @@
 // Tables of functions for SUNDIALS: a matrix and a direct linear solver of our own.
 #include "direct.hpp"
+#include "saltus/base/list.hpp"
 
 #include <sundials/sundials_linearsolver.h>
 #include <sundials/sundials_matrix.h>
@@ -44,8 +45,7 @@ int copy(SUNMatrix from, SUNMatrix to) {
 int scale_add_identity(double c, SUNMatrix matrix) {
   MatrixContent& content = content_of(matrix);
   for (double& value : content.values) value *= c;
-  for (const Index place : content.layout->diagonal)
-    content.values[static_cast<std::size_t>(place)] += 1.0;
+  for (const Index place : content.layout->diagonal) nth(content.values, place) += 1.0;
   return 0;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "factorisation.hpp"
+#include "saltus/base/list.hpp"
 #include "scalar.hpp"
 
 namespace saltus {
@@ -14,7 +15,7 @@ namespace saltus {
 template <int fixed, class T>
 class Elimination final : public FactorisationOf<T> {
  public:
-  explicit Elimination(int n) : n_(n), pivots_(static_cast<std::size_t>(n)) {}
+  explicit Elimination(int n) : n_(n), pivots_(n) {}
 
   bool factor(T* a) override {
     a_ = a;
@@ -23,7 +24,7 @@ class Elimination final : public FactorisationOf<T> {
       int best = k;
       for (int i = k + 1; i < n(); ++i)
         if (size_of(column[i]) > size_of(column[best])) best = i;
-      pivots_[static_cast<std::size_t>(k)] = best;
+      pivots_[k] = best;
       if (!(size_of(column[best]) > 0.0)) return false;
       if (best != k)
         for (int j = 0; j < n(); ++j) std::swap(a[k + j * n()], a[best + j * n()]);
@@ -39,7 +40,7 @@ class Elimination final : public FactorisationOf<T> {
   }
 
   void solve(T* b) override {
-    for (int k = 0; k < n(); ++k) std::swap(b[k], b[pivots_[static_cast<std::size_t>(k)]]);
+    for (int k = 0; k < n(); ++k) std::swap(b[k], b[pivots_[k]]);
     for (int k = 0; k < n(); ++k) {
       for (int i = k + 1; i < n(); ++i) b[i] -= product(a_[i + k * n()], b[k]);
     }
@@ -54,7 +55,7 @@ class Elimination final : public FactorisationOf<T> {
 
   int n_;
   T* a_ = nullptr;
-  std::vector<int> pivots_;
+  List<int> pivots_;
 };
 
 /// For 1 to thresholds::unrolled_dense states: unrolled.

@@ -5,6 +5,7 @@
 
 #include <Eigen/OrderingMethods>
 
+#include "saltus/base/list.hpp"
 #include "sparse.hpp"
 
 namespace saltus {
@@ -16,21 +17,20 @@ Fill predicted_fill(const Sparsity& places, double most) {
   const Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> inverse = order.inverse();
   const Eigen::VectorXi position = inverse.indices();
 
-  const auto n = static_cast<std::size_t>(places.columns());
-  std::vector<std::vector<int>> before(n);  // the earlier neighbours of each state, in that order
+  const Index n = places.columns();
+  List<std::vector<int>> before(n);  // the earlier neighbours of each state, in that order
   for (int j = 0; j < places.columns(); ++j) {
     for (const int i : places.column(j)) {
       const auto [first, last] = std::minmax(position[i], position[j]);
-      if (first != last) before[static_cast<std::size_t>(last)].push_back(first);
+      if (first != last) before[last].push_back(first);
     }
   }
-  std::vector<int> parent(n, -1), seen(n, -1), count(n, 1);
+  List<int> parent(n, -1), seen(n, -1), count(n, 1);
   double entries = static_cast<double>(n);
   for (int row = 0; row < static_cast<int>(n); ++row) {
-    seen[static_cast<std::size_t>(row)] = row;
-    for (int column : before[static_cast<std::size_t>(row)]) {
-      for (auto k = static_cast<std::size_t>(column); seen[k] != row;
-           k = static_cast<std::size_t>(parent[k])) {
+    seen[row] = row;
+    for (int column : before[row]) {
+      for (int k = column; seen[k] != row; k = parent[k]) {
         if (parent[k] < 0) parent[k] = row;
         ++count[k], seen[k] = row, ++entries;
       }

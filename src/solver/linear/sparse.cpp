@@ -48,7 +48,7 @@ MatrixLayout sparse_layout(const Sparsity& places) {
   for (Index j = 0; j < places.columns(); ++j) {
     const auto rows = places.column(j);
     const auto found = std::ranges::lower_bound(rows, static_cast<int>(j));
-    layout.diagonal.push_back(places.start[static_cast<std::size_t>(j)] + (found - rows.begin()));
+    layout.diagonal.push_back(places.start[j] + (found - rows.begin()));
   }
   return layout;
 }

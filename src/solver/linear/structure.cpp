@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "saltus/base/list.hpp"
 #include "saltus/solver/detail/matrix_cost.hpp"
 #include "saltus/solver/detail/thresholds.hpp"
 #include "scalar.hpp"
@@ -79,8 +80,8 @@ bool LinearStructure::renew(bool did_not_converge) {
 const std::string& LinearStructure::describe() const {
   const int mended = jacobian_->mended();
   if (std::exchange(mended_in_words_, mended) != mended || words_.empty()) {
-    words_ = text(linear_solver_names[static_cast<std::size_t>(choice_.solver)].first, ": ",
-                  choice_.why, probe_.words(), jacobian_->words());
+    words_ = text(nth(linear_solver_names, choice_.solver).first, ": ", choice_.why, probe_.words(),
+                  jacobian_->words());
   }
   return words_;
 }

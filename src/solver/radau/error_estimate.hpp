@@ -4,6 +4,7 @@
 #include <array>
 #include <limits>
 
+#include "saltus/base/list.hpp"
 #include "saltus/solver/detail/radau/allowed_estimate.hpp"
 #include "stage_solver.hpp"
 
@@ -55,7 +56,7 @@ class ErrorEstimate {
   AllowedEstimate allowed(const Scheme& scheme, const Eigen::VectorXd& x1) const {
     const double relative = std::min(tuning::absolute_part / mean(x1), 1.0);
     if (relative > options_.rtol) return AllowedEstimate(scheme, relative, thresholds::dense_room);
-    return *allowed_[static_cast<std::size_t>(scheme.pairs() - 1)];
+    return *nth(allowed_, scheme.pairs() - 1);
   }
 
   /// Root mean square in what is allowed. `plain_` is overwritten.

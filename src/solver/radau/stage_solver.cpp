@@ -28,7 +28,7 @@ void StageSolver::use_structure(double t) {
         t, "");
   }
   systems_.emplace(*structure_), aside_.emplace(*structure_);
-  jacobian_.assign(static_cast<std::size_t>(structure_->layout().size), 0.0);
+  jacobian_.assign(structure_->layout().size, 0.0);
   known_ = false;
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "saltus/base/list.hpp"
 #include "saltus/solver/detail/one_thread.hpp"
 #include "saltus/solver/detail/radau/side_by_side.hpp"
 
@@ -14,8 +15,7 @@ bool StageSystems::System<T>::factor(const LinearStructure& structure,
   if (!solver) solver = structure.make_factorisation<T>();
   matrix.resize(jacobian.size());
   std::ranges::transform(jacobian, matrix.begin(), [h](double value) { return T(-h * value); });
-  for (const Index place : structure.layout().diagonal)
-    matrix[static_cast<std::size_t>(place)] += eigenvalue;
+  for (const Index place : structure.layout().diagonal) nth(matrix, place) += eigenvalue;
   return solver->factor(matrix.data());
 }
 
@@ -28,8 +28,7 @@ bool StageSystems::factor_pairs(int first, const std::vector<double>& jacobian,
                                 const Scheme& scheme, double h) {
   for (int k = first; k < scheme.pairs(); k += 2) {
     const Complex eigenvalue(scheme.alpha[k], scheme.beta[k]);
-    if (!pairs_[static_cast<std::size_t>(k)].factor(*structure_, jacobian, h, eigenvalue))
-      return false;
+    if (!nth(pairs_, k).factor(*structure_, jacobian, h, eigenvalue)) return false;
   }
   return true;
 }
@@ -50,7 +49,7 @@ bool StageSystems::factor(const std::vector<double>& jacobian, const Scheme& sch
 
 void StageSystems::solve_pair(int k, double* re, double* im) {
   for (std::size_t i = 0; i < right_.size(); ++i) right_[i] = {re[i], im[i]};
-  pairs_[static_cast<std::size_t>(k)].solver->solve(right_.data());
+  nth(pairs_, k).solver->solve(right_.data());
   for (std::size_t i = 0; i < right_.size(); ++i)
     re[i] = right_[i].real(), im[i] = right_[i].imag();
 }

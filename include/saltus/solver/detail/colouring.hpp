@@ -1,20 +1,19 @@
 // Colours: columns of a Jacobian with one colour are found by one difference.
 #pragma once
 
+#include "saltus/base/list.hpp"
 #include "saltus/plan/detail/sparsity.hpp"
 
 namespace saltus {
 
 /// Columns by colour: the columns of colour c are columns[start[c]] to columns[start[c + 1] - 1].
 struct Colouring {
-  std::vector<Index> start = {0};
+  List<Index> start = {0};
   std::vector<int> columns;
 
   Index colours() const { return static_cast<Index>(start.size()) - 1; }
   std::span<const int> of(Index colour) const {
-    const auto first = static_cast<std::size_t>(start[static_cast<std::size_t>(colour)]);
-    return {columns.data() + first,
-            static_cast<std::size_t>(start[static_cast<std::size_t>(colour) + 1]) - first};
+    return {columns.data() + start[colour], columns.data() + start[colour + 1]};
   }
 };
 

@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "saltus/base/list.hpp"
 #include "saltus/solver/detail/narrow.hpp"
 #include "saltus/solver/detail/thresholds.hpp"
 
@@ -19,9 +20,9 @@ class Glance : protected Narrower {
 
   Glance(Machine& machine, GuardSet& guards, const Watch& watch)
       : Narrower(machine, guards, watch) {
-    const auto slots = static_cast<std::size_t>(machine.plan().guard_slots);
+    const Index slots = machine.plan().guard_slots;
     for (auto* values : {&earlier_, &speed_}) values->assign(slots, 1.0);
-    plain_.reserve(slots);
+    plain_.reserve(earlier_.size());
   }
 
   bool scans() const { return scan_points_ > 0; }
@@ -110,15 +111,15 @@ class Glance : protected Narrower {
     }
   }
 
-  std::vector<double> earlier_;  // guards at the look before the last
-  double earlier_at_ = never;    // its offset; below zero: in the step before
+  List<double> earlier_;       // guards at the look before the last
+  double earlier_at_ = never;  // its offset; below zero: in the step before
   bool may_go_back_ =
       false;             // the piece that begins there is of this step, and nothing fired in it
   int scan_points_ = 0;  // interior points of a step with a look
 
  private:
-  std::vector<double> plain_;  // plain_side() of each active guard
-  std::vector<double> speed_;  // [1/s] recent speed of each guard
+  List<double> plain_;         // plain_side() of each active guard
+  List<double> speed_;         // [1/s] recent speed of each guard
   std::int64_t version_ = -1;  // of the records from which limits_ and plain_ were made
   bool jumps_ = false;         // some active guard takes two values only
 };

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <utility>
 
@@ -135,6 +136,9 @@ struct Firing {
   int from = 0;
   bool at_zero = false;  ///< it has not been clearly off zero since integration began
   double jump = 0.0;     ///< the size of its jump, if it seems to jump across zero
+
+  /// The number of the guard in the GuardSet.
+  std::size_t guard() const { return static_cast<std::size_t>(slot); }
 };
 
 /// A monitor's crossing inside the last step.

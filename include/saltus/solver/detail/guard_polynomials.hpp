@@ -9,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+#include "saltus/base/list.hpp"
 #include "saltus/solver/detail/dip.hpp"
 
 namespace saltus {
@@ -32,11 +33,11 @@ class GuardPolynomials {
   }
   /// The offset of point j; 0 is the beginning, `degree` the end.
   double point(int j) const {
-    return j == degree ? to_ : from_ + (to_ - from_) * table().node[static_cast<std::size_t>(j)];
+    return j == degree ? to_ : from_ + (to_ - from_) * nth(table().node, j);
   }
   /// The guards at point j.
-  std::vector<double>& values(int j) { return values_[static_cast<std::size_t>(j)]; }
-  const std::vector<double>& values(int j) const { return values_[static_cast<std::size_t>(j)]; }
+  std::vector<double>& values(int j) { return values_[j]; }
+  const std::vector<double>& values(int j) const { return values_[j]; }
   double value(int j, std::size_t k) const { return values(j)[k]; }
 
   /// Whether guard k, which is on `side` before point `first` and on the other side from there on,
@@ -68,7 +69,7 @@ class GuardPolynomials {
     found.rounding *= 8.0 * std::numeric_limits<double>::epsilon();
     for (const auto& cosines : table().last_terms) {
       double term = 0.0;
-      for (int j = 0; j <= degree; ++j) term += cosines[static_cast<std::size_t>(j)] * value(j, k);
+      for (int j = 0; j <= degree; ++j) term += nth(cosines, j) * value(j, k);
       found.truncation = std::max(found.truncation, 4.0 * std::abs(term));
     }
     return found;
@@ -100,7 +101,7 @@ class GuardPolynomials {
         t.node[i] = j == degree ? 1.0 : s * s;
         t.weight[i] = j % 2 == 0 ? end : -end;
         for (int m = 0; m < 3; ++m)
-          t.last_terms[static_cast<std::size_t>(m)][i] =
+          nth(t.last_terms, m)[i] =
               (m == 0 ? 1.0 : 2.0) / degree * end * std::cos((degree - m) * angle);
       }
       return t;
@@ -113,9 +114,9 @@ class GuardPolynomials {
     const double s = (u - from_) / (to_ - from_);
     double above = 0.0, below = 0.0;
     for (int j = 0; j <= degree; ++j) {
-      const double apart = s - table().node[static_cast<std::size_t>(j)];
+      const double apart = s - nth(table().node, j);
       if (apart == 0.0) return value(j, k);
-      const double weight = table().weight[static_cast<std::size_t>(j)] / apart;
+      const double weight = nth(table().weight, j) / apart;
       above += weight * value(j, k), below += weight;
     }
     return above / below;

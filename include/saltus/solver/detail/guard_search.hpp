@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "saltus/base/list.hpp"
 #include "saltus/solver/detail/dip_search.hpp"
 #include "saltus/solver/detail/look_points.hpp"
 #include "saltus/solver/detail/thresholds.hpp"
@@ -20,8 +21,8 @@ class GuardSearch : private DipSearch {
  public:
   GuardSearch(Machine& machine, GuardSet& guards, const Watch& watch)
       : DipSearch(machine, guards, watch) {
-    const auto slots = static_cast<std::size_t>(machine.plan().guard_slots);
-    for (auto* values : {&at_root_, &before_, &end_}) values->assign(slots, 1.0);
+    for (auto* values : {&at_root_, &before_, &end_})
+      values->assign(machine.plan().guard_slots, 1.0);
   }
 
   bool has_guards() const noexcept { return !watch_->slots.empty(); }
@@ -96,7 +97,7 @@ class GuardSearch : private DipSearch {
       const bool last = piece == pieces;
       next = last                 ? to
              : points_ == nullptr ? std::min(to, next + piece_length)
-                                  : (*points_)[static_cast<std::size_t>(piece - 1)];
+                                  : nth(*points_, piece - 1);
       if (last)
         high_.swap(end_);
       else
@@ -214,15 +215,15 @@ class GuardSearch : private DipSearch {
 
   [[noreturn]] void throw_not_finite(std::size_t k, double t) const {
     const Plan& plan = machine_->plan();
-    const GuardGroup& group = plan.guards[static_cast<std::size_t>((*guards_)[k].group)];
+    const GuardGroup& group = plan.guards[(*guards_)[k].group];
     throw SimulationError(text("t = ", t, " s: guard '", group.name,
                                "' is not finite (NaN or Inf); check it at this state"),
-                          t, plan.leaves[static_cast<std::size_t>(group.leaf)].path);
+                          t, plan.leaves[group.leaf].path);
   }
 
   /// Moves a monitor to its other side. It is at zero until it is clearly off.
   void pass_monitor(const Firing& firing, double u) {
-    const auto k = static_cast<std::size_t>(firing.slot);
+    const std::size_t k = firing.guard();
     guards_->monitors.push_back({t0_ + u, firing});
     if ((*guards_)[k].direction == Direction::edge_detection) return;
     guards_->pass(k, sign_of(high_[k]), noise_[k]);
@@ -253,11 +254,11 @@ class GuardSearch : private DipSearch {
     return stops;
   }
 
-  std::vector<double> at_root_, before_;
+  List<double> at_root_, before_;
   double root_ = 0.0;
   bool to_root_ = false;
   const std::vector<double>* points_ = nullptr;  // where to look inside; null: evenly
-  std::vector<double> end_;  // guards at the end of the step, until the look at its last piece
+  List<double> end_;  // guards at the end of the step, until the look at its last piece
   double end_at_ = 0.0;
   int patience_ = thresholds::least_patience;  // allowed steps in a row without a look inside
   int skipped_ = thresholds::least_patience;   // steps in a row without a look inside

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <algorithm>
+#include <concepts>
 #include <cstdint>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "saltus/base/list.hpp"
 #include "saltus/model/continuation.hpp"
 #include "saltus/plan/plan.hpp"
 #include "saltus/solver/detail/guard.hpp"
@@ -37,8 +39,8 @@ class GuardSet {
   void add(const GuardTraits& traits, bool active = true);
 
   std::size_t size() const noexcept { return guards_.size(); }
-  const Guard& operator[](std::size_t k) const { return guards_[k]; }
-  const std::vector<Guard>& all() const noexcept { return guards_; }
+  const Guard& operator[](std::integral auto k) const { return guards_[k]; }
+  const List<Guard>& all() const noexcept { return guards_; }
   /// The guards that can fire in the present modes.
   const std::vector<std::size_t>& active() const noexcept { return active_; }
   /// The active guards that stop the solver, and the active monitors. They are searched one after the
@@ -104,7 +106,7 @@ class GuardSet {
     if (keeps_) restore(kept_);
   }
   /// Sets all records to those of an earlier copy.
-  void restore(const std::vector<Guard>& records) { ++version_, guards_ = records; }
+  void restore(const List<Guard>& records) { ++version_, guards_ = records; }
   /// Arms guards that fired at the last root again on the sides they came from, so that they fire
   /// at their present values.
   void arm_again(const std::vector<Firing>& fired);
@@ -129,7 +131,7 @@ class GuardSet {
   /// Sets the side to which a guard leaves zero; 0: it is exactly on zero.
   void leave_to(std::size_t k, int side) { guards_[k].turn(side); }
 
-  std::vector<double> g;                 ///< values at the last look
+  List<double> g;                        ///< values at the last look
   std::vector<Firing> fired_at_root;     ///< the guards that crossed at the last root
   std::vector<std::size_t> beside_root;  ///< others within the resolution of that root from zero
   std::vector<MonitorHit> monitors;      ///< crossings of monitors in the last advance
@@ -143,12 +145,13 @@ class GuardSet {
     guard.phase = phase, guard.side = static_cast<signed char>(side), guard.error = error;
   }
 
-  void watch(std::size_t k) {
+  void watch(Index slot) {
+    const auto k = static_cast<std::size_t>(slot);
     active_.push_back(k);
     (guards_[k].monitor ? watching_ : stopping_).add(k, guards_[k].group);
   }
 
-  std::vector<Guard> guards_, kept_;
+  List<Guard> guards_, kept_;
   bool keeps_ = false;  // kept_ is of the present search
   std::vector<std::size_t> active_;
   Watch stopping_, watching_;

@@ -5,6 +5,7 @@
 #include <random>
 #include <string>
 
+#include "saltus/base/list.hpp"
 #include "saltus/plan/detail/machine.hpp"
 #include "saltus/solver/detail/colouring.hpp"
 
@@ -95,14 +96,12 @@ class Jacobian {
   void note(const Copy& bad, const PlanLeaf& leaf, double t, double declared, double found);
   void ode_of(const PlanLeaf& leaf, double t, Eigen::VectorXd& xdot);
   [[noreturn]] void refuse(const Own& own, double t, const char* what) const;
-  Index place(Index entry) const {
-    return places_.empty() ? entry : places_[static_cast<std::size_t>(entry)];
-  }
+  Index place(Index entry) const { return places_.empty() ? entry : places_[entry]; }
 
   Machine* machine_;
   JacobianPattern pattern_;
   Colouring colouring_;
-  std::vector<Index> places_;
+  List<Index> places_;
   std::vector<Own> own_;
   Eigen::VectorXd x_, f_, base_, moved_, block_;
   Eigen::VectorXd sum_, least_;  // of rows; made at their first use

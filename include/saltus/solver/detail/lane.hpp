@@ -93,7 +93,7 @@ template <int N, std::size_t Count>
 class Columns {
  public:
   explicit Columns(Index n) {
-    if constexpr (N == 0) values_.assign(static_cast<std::size_t>(n) * Count, 0.0);
+    if constexpr (N == 0) values_.assign(n * Count, 0.0);
   }
   double* data() noexcept { return values_.data(); }
   const double* data() const noexcept { return values_.data(); }

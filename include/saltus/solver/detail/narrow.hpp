@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "saltus/base/list.hpp"
 #include "saltus/plan/detail/machine.hpp"
 #include "saltus/solver/detail/guard_set.hpp"
 #include "saltus/solver/detail/thresholds.hpp"
@@ -25,14 +26,11 @@ namespace saltus {
 class Narrower {
  protected:
   Narrower(Machine& machine, GuardSet& guards, const Watch& watch)
-      : machine_(&machine),
-        guards_(&guards),
-        watch_(&watch),
-        x_(static_cast<std::size_t>(machine.plan().nx)) {
-    const auto slots = static_cast<std::size_t>(machine.plan().guard_slots);
+      : machine_(&machine), guards_(&guards), watch_(&watch), x_(machine.plan().nx) {
+    const Index slots = machine.plan().guard_slots;
     for (auto* values : {&low_, &high_, &middle_, &third_, &noise_, &jump_, &begun_})
       values->assign(slots, 1.0);
-    crossed_.reserve(slots), limits_.reserve(slots), few_.reserve(slots);
+    crossed_.reserve(low_.size()), limits_.reserve(low_.size()), few_.reserve(low_.size());
   }
 
   /// Computes the guards at offset u; while few are narrowed, only these.
@@ -89,11 +87,11 @@ class Narrower {
   Machine* machine_;
   GuardSet* guards_;
   const Watch* watch_;
-  std::vector<double> low_, high_, middle_, third_;
+  List<double> low_, high_, middle_, third_;
   double third_at_ = 0.0;
-  std::vector<double> noise_;  // of guards near their root, by the rounding of interpolants
-  std::vector<double> begun_;  // guards at the high end of the whole interval
-  std::vector<double> jump_;   // of guards that seem to jump at their root, otherwise 0
+  List<double> noise_;  // of guards near their root, by the rounding of interpolants
+  List<double> begun_;  // guards at the high end of the whole interval
+  List<double> jump_;   // of guards that seem to jump at their root, otherwise 0
   std::vector<std::size_t> crossed_;
   std::vector<std::pair<double, double>> limits_;  // of the watched guards
   std::vector<std::size_t> few_;                   // the slots that are narrowed; empty: all
@@ -255,7 +253,7 @@ class Narrower {
   }
 
   std::vector<int> few_groups_;  // the groups of few_
-  std::vector<double> x_;
+  List<double> x_;
 };
 
 }  // namespace saltus

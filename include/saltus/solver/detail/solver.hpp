@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "saltus/base/list.hpp"
 #include "saltus/plan/detail/machine.hpp"
 #include "saltus/solver/detail/guard_set.hpp"
 #include "saltus/solver/linear_solver.hpp"
@@ -35,8 +36,7 @@ struct SolverOptions {
   /// The error of state i that counts as one, where the state has this size.
   double tolerance(Index i, double size) const {
     if (rtols.empty()) return atol + rtol * size;
-    const auto k = static_cast<std::size_t>(i);
-    return atols[k] + rtols[k] * size;
+    return nth(atols, i) + nth(rtols, i) * size;
   }
 };
 

@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include "saltus/base/list.hpp"
 #include "saltus/solver/detail/radau/scheme.hpp"
 
 namespace saltus::radau {
@@ -41,7 +42,7 @@ struct StagePolynomial {
     const Eigen::Index n = z.rows();
     for (Eigen::Index i = 0; i < n; ++i) {
       double sum = 0.0;
-      for (int j = 0; j < stages; ++j) sum += l[static_cast<std::size_t>(j)] * z(i, j);
+      for (int j = 0; j < stages; ++j) sum += nth(l, j) * z(i, j);
       x[i] = x0[i] + sum;
     }
   }
