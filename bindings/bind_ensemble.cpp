@@ -8,6 +8,7 @@
 #include "numbers.hpp"
 #include "plan_tapes.hpp"
 #include "python_results.hpp"
+#include "saltus/base/list.hpp"
 #include "saltus/simulation/outcomes.hpp"
 #include "trace_pass.hpp"
 
@@ -118,7 +119,7 @@ class Call {
     jacobians_ += results.statistics.jacobian_calls;
     outcomes_.take(run, results);
     if (ends_all(results)) {
-      outcomes_.status[static_cast<std::size_t>(run)] = static_cast<int>(Status::interrupted);
+      nth(outcomes_.status, run) = static_cast<int>(Status::interrupted);
       std::rethrow_exception(results.cause);
     }
     if (each_.is_none()) return;

@@ -6,6 +6,7 @@
 
 #include "bind_traces.hpp"
 #include "bindings.hpp"
+#include "saltus/base/list.hpp"
 #include "saltus/plan/compile.hpp"
 #include "trace_pass.hpp"
 
@@ -52,7 +53,7 @@ py::dict function_of(const BlockTraces& block, int k) {
   all["convention"] = function.convention;
   all["inputs"] = function.inputs;
   all["what"] = function.what;
-  all["role"] = roles[static_cast<std::size_t>(function.role)];
+  all["role"] = nth(roles, function.role);
   all["out"] = block.leaf->in_place(function);
   all["compiled"] = function.compiled != nullptr;
   all["result_size"] = result_size(block, function);

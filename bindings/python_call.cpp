@@ -2,6 +2,7 @@
 #include <bit>
 
 #include "python_leaf.hpp"
+#include "saltus/base/list.hpp"
 
 namespace saltus::python {
 
@@ -185,11 +186,11 @@ py::list PythonLeaf::positional(const Function& function) const {
     names.append("time");
     names.append("state");
   }
-  const std::vector<std::string> ports = input_names();
+  const List<std::string> ports = input_names();
   if (!function.inputs) {
     for (const std::string& port : ports) names.append(port);
   } else {
-    for (const int i : *function.inputs) names.append(ports[static_cast<std::size_t>(i)]);
+    for (const int i : *function.inputs) names.append(ports[i]);
   }
   return names;
 }
@@ -215,14 +216,14 @@ void PythonLeaf::throw_raised(const Function& function, const Frame& frame) cons
 }
 
 py::object PythonLeaf::call(int k, const At& at, Index out_size) const {
-  Function& function = functions_[static_cast<std::size_t>(k)];
+  Function& function = functions_[k];
   Borrowed borrowed(function.spare);
   return vectorcall(function, prepare(borrowed.frame, function, at, out_size));
 }
 
 /// Writes the result of the function to `out`.
 void PythonLeaf::fill(int k, const At& at, VectorRef out) const {
-  Function& function = functions_[static_cast<std::size_t>(k)];
+  Function& function = functions_[k];
   Borrowed borrowed(function.spare);
   const Frame& frame = prepare(borrowed.frame, function, at, out.size());
   const py::object result = vectorcall(function, frame);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "python_function.hpp"
+#include "saltus/base/list.hpp"
 #include "saltus/model/leaf_system.hpp"
 
 namespace saltus::python {
@@ -51,7 +52,7 @@ class PythonLeaf final : public LeafSystem {
   const Dimensions& state_dimensions() const { return x_dimensions_; }
   const Dimensions& discrete_dimensions() const { return z_dimensions_; }
   const std::vector<Dimensions>& parameter_dimensions() const { return parameter_dimensions_; }
-  bool vector_input(int i) const { return vector_inputs_[static_cast<std::size_t>(i)]; }
+  bool vector_input(int i) const { return vector_inputs_[i]; }
   void add_parameter(const std::string& name, const py::array& value);
   int add_input(std::string name, std::optional<Shape> shape);
 
@@ -67,7 +68,7 @@ class PythonLeaf final : public LeafSystem {
   MatrixFunction matrix_function(int k) const;
   ResetMap reset_map(int k) const;
   const std::vector<Function>& functions() const { return functions_; }
-  const Function& function(int k) const { return functions_[static_cast<std::size_t>(k)]; }
+  const Function& function(int k) const { return functions_[k]; }
   /// A parameter called `out` is a parameter, not an array to fill.
   bool in_place(const Function& function) const {
     return function.in_place && !has_parameter("out");
@@ -129,11 +130,11 @@ class PythonLeaf final : public LeafSystem {
   }
 
   PyObject* self_ = nullptr;  // the Python object that owns this block
-  mutable std::vector<Function> functions_;
+  mutable List<Function> functions_;
   std::vector<Unfinished> unfinished_;
   Dimensions x_dimensions_{0}, z_dimensions_{0};
   std::vector<Dimensions> parameter_dimensions_;
-  std::vector<bool> vector_inputs_;
+  List<bool> vector_inputs_;
   py::tuple keywords_;  // names of the parameters
 };
 

@@ -115,7 +115,7 @@ void PythonLeaf::finish_outputs() {
   // The declarations are this object's own; only the interface for the engine is const.
   auto& declared = const_cast<Declarations&>(declarations());
   for (const Unfinished& entry : now) {
-    OutputDeclaration& output = declared.outputs[static_cast<std::size_t>(entry.output)];
+    OutputDeclaration& output = declared.outputs[entry.output];
     std::vector<Shape> shapes;
     for (const InputDeclaration& port : declared.inputs)
       shapes.push_back(port.shape.value_or(Shape{0, false}));

@@ -20,7 +20,7 @@ tape::Tape entry_of(const tape::Tape& tape, std::size_t k) {
 std::vector<int> changed_states(const tape::Tape& tape, Index n) {
   std::vector<int> changed;
   for (int i = 0; i < n; ++i) {
-    const tape::Expression& value = tape.graph()[tape.outputs()[static_cast<std::size_t>(i)]];
+    const tape::Expression& value = tape.graph()[tape.outputs()[i]];
     if (value.op != tape::Op::continuous_state || value.index != i) changed.push_back(i);
   }
   return changed;
@@ -76,9 +76,7 @@ Declarations Writer::write(const std::vector<Shape>& outputs) {
 
 void Writer::put(const Slot& slot) {
   const Function& function = original_.function(slot->function);
-  const auto crossing = [&]() -> ZeroCrossing& {
-    return declared_.zero_crossings[static_cast<std::size_t>(function.index)];
-  };
+  const auto crossing = [&]() -> ZeroCrossing& { return declared_.zero_crossings[function.index]; };
   switch (function.role) {
     case Role::ode:
       return put_ode(slot);
@@ -102,7 +100,7 @@ void Writer::put(const Slot& slot) {
       declared_.continuous.jacobian = taped_matrix(original_, slot);
       return;
     case Role::edge_reset: {
-      EdgeReset& edge = declared_.edge_resets[static_cast<std::size_t>(function.index)];
+      EdgeReset& edge = declared_.edge_resets[function.index];
       edge.reset_map = TapedReset{slot, edge.reset_map, &original_};
       edge.inputs = inputs_of(original_, slot);
       return;
@@ -123,8 +121,7 @@ void Writer::put_ode(const Slot& slot) {
 }
 
 void Writer::put_output(const Slot& slot) {
-  auto& output =
-      declared_.outputs[static_cast<std::size_t>(original_.function(slot->function).index)];
+  auto& output = declared_.outputs[original_.function(slot->function).index];
   const Reads said = output.reads;
   const Reads found = slot->tape.reads();
   output.inputs = inputs_of(original_, slot);
@@ -137,8 +134,7 @@ void Writer::put_output(const Slot& slot) {
 
 /// A relation that Python declares: its guard as a tape.
 void Writer::put_relation(const Slot& slot) {
-  auto& relation =
-      declared_.relations[static_cast<std::size_t>(original_.function(slot->function).index)];
+  auto& relation = declared_.relations[original_.function(slot->function).index];
   relation.guard = taped(slot);
   relation.formula = formula(slot);
   relation.reads = slot->tape.reads();
@@ -180,8 +176,7 @@ RelationIndex Writer::add_relation(Relation relation) {
 }
 
 void Writer::put_time_event(const Slot& slot) {
-  auto& event =
-      declared_.time_events[static_cast<std::size_t>(original_.function(slot->function).index)];
+  auto& event = declared_.time_events[original_.function(slot->function).index];
   event.update = TapedReset{slot, event.update, &original_};
   event.inputs = inputs_of(original_, slot);
 }

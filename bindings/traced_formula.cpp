@@ -1,4 +1,5 @@
 #include "traced_formula.hpp"
+#include "saltus/base/list.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -32,9 +33,7 @@ Symbol variable(const EntryAt<Symbol>& at, const tape::Expression& e) {
 }
 
 Symbol applied(const tape::Expression& e, const std::vector<Symbol>& values) {
-  const auto operand = [&](std::size_t k) {
-    return values[static_cast<std::size_t>(e.operands[k].id)];
-  };
+  const auto operand = [&](std::size_t k) { return nth(values, e.operands[k].id); };
   switch (tape::operand_count(e.op)) {
     case 1:
       return Symbol::apply(e.op, {operand(0)});
@@ -52,8 +51,7 @@ std::vector<Symbol> values_of(const tape::Tape& tape, const EntryAt<Symbol>& at)
     const tape::Expression& e = tape.graph()[{id}];
     nodes.push_back(tape::operand_count(e.op) == 0 ? variable(at, e) : applied(e, nodes));
   }
-  for (const tape::Node output : tape.outputs())
-    values.push_back(nodes[static_cast<std::size_t>(output.id)]);
+  for (const tape::Node output : tape.outputs()) values.push_back(nodes[output.id]);
   return values;
 }
 

@@ -36,7 +36,7 @@ bool Collector::flip_relations() {
   bool flipped = false;
   for (GuardNow& now : present_->now) now.fired_in_pass = false;
   for (const Firing& firing : present_->firings) {
-    const auto k = static_cast<std::size_t>(firing.slot);
+    const std::size_t k = firing.guard();
     present_->now[k].fired = present_->now[k].fired_in_pass = true;
     guards_->fired(k, firing.from);
     if (plan_->guard((*guards_)[k].group).is_crossing()) continue;
@@ -86,16 +86,13 @@ void Collector::collect_carried(std::size_t e) {
 void Collector::collect_crossings() {
   auto passive = present_->firings.begin();
   for (const Firing& firing : present_->firings) {
-    const auto k = static_cast<std::size_t>(firing.slot);
+    const std::size_t k = firing.guard();
     const int number = (*guards_)[k].group;
     const GuardGroup& group = plan_->guard(number);
     if (!group.is_crossing()) continue;
-    const auto same = [&](const Firing& other) {
-      return (*guards_)[static_cast<std::size_t>(other.slot)].group == number;
-    };
+    const auto same = [&](const Firing& other) { return (*guards_)[other.slot].group == number; };
     const auto waiting = std::count_if(present_->firings.begin(), passive, same);
-    if (plan_->crossing_of(group).has_effect() ||
-        journal_->ends_run(static_cast<std::size_t>(number), waiting)) {
+    if (plan_->crossing_of(group).has_effect() || journal_->ends_run(number, waiting)) {
       present_->actions.push_back({group.leaf, Cause::crossing, number, firing.slot, firing.from,
                                    holds_->of_guard(k).monitor.holding});
     } else {
@@ -108,7 +105,7 @@ void Collector::collect_crossings() {
 
 void Collector::note_passive() {
   for (const Firing& firing : present_->firings) {
-    const Guard& guard = (*guards_)[static_cast<std::size_t>(firing.slot)];
+    const Guard& guard = (*guards_)[firing.slot];
     journal_->note({.kind = EventKind::zero_crossing,
                     .source = guard.group,
                     .leaf = plan_->guard(guard.group).leaf,

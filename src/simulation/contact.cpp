@@ -16,7 +16,7 @@ Contacts::Contacts(Machine& machine, const SimulatorOptions& options)
     v->setZero(machine.plan().nx);
   z_.setZero(machine.plan().nz);
   g_.setOnes(machine.plan().guard_slots);
-  of_slot_.resize(static_cast<std::size_t>(machine.plan().guard_slots));
+  of_slot_.resize(machine.plan().guard_slots);
   present_.reserve(of_slot_.size());
 }
 
@@ -24,13 +24,13 @@ void Contacts::clear() { present_.clear(); }
 
 SurfaceContact* Contacts::on(int slot) {
   if (std::ranges::find(present_, slot) == present_.end()) return nullptr;
-  return &of_slot_[static_cast<std::size_t>(slot)];
+  return &of_slot_[slot];
 }
 
 SurfaceContact& Contacts::add(int slot) {
   remove(slot);
   present_.push_back(slot);
-  SurfaceContact& contact = of_slot_[static_cast<std::size_t>(slot)];
+  SurfaceContact& contact = of_slot_[slot];
   SurfaceContact made{.slot = slot};
   made.members.swap(contact.members), made.states.swap(contact.states);
   made.members.clear(), made.states.clear();
@@ -45,8 +45,8 @@ void Contacts::reset(const SurfaceContact& contact, double t, const double* from
   std::copy_n(from, trial_.size(), to);
   trial_ = VectorView(from, trial_.size());
   for (const SurfaceContact::Member& member : contact.members) {
-    const PlanLeaf& leaf = machine_->plan().leaves[static_cast<std::size_t>(member.leaf)];
-    At at = machine_->at(static_cast<std::size_t>(member.leaf), t, from);
+    const PlanLeaf& leaf = machine_->plan().leaves[member.leaf];
+    At at = machine_->at(member.leaf, t, from);
     at.entry = member.entry;
     z_.segment(leaf.z, leaf.nz) = at.z;
     int mode = at.mode;

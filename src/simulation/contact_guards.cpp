@@ -122,7 +122,7 @@ void ContactGuards::arm_relation(std::size_t k) {
 /// lift off the surface. The contact ends if the flow led into the surface before and leads off it
 /// now.
 void ContactGuards::arm(SurfaceContact& contact, double error) {
-  const auto k = static_cast<std::size_t>(contact.slot);
+  const std::size_t k = contact.guard();
   contact.error = error;
   if (!contact.members.empty() && !follow_surface(contact)) return;
   engage();
@@ -152,7 +152,7 @@ bool ContactGuards::follow_surface(SurfaceContact& contact) {
     return false;
   }
   contact.pressed_on = lift < 0.0;
-  if (contact.carried) guards_->g[static_cast<std::size_t>(contact.slot)] = lift;
+  if (contact.carried) guards_->g[contact.slot] = lift;
   return true;
 }
 

@@ -22,7 +22,7 @@ ContactGuards::Taken ContactGuards::take(const Firing& firing) {
 /// Handles a contact whose surface begins to move, or whose flow leads off the surface. True if it
 /// releases its blocks.
 bool ContactGuards::wake(SurfaceContact& contact) {
-  const auto k = static_cast<std::size_t>(contact.slot);
+  const std::size_t k = contact.guard();
   const double t = present_->t;
   double* x = machine_->x.data();
   if (!contact.carried) machine_->guards_at(t, x, present_->g.data());
@@ -48,7 +48,7 @@ bool ContactGuards::wake(SurfaceContact& contact) {
 /// Releases the blocks of a contact. The distance from a falling surface grows as the third power
 /// of time, so the guard is at zero until it exceeds the tolerance.
 void ContactGuards::let_go(SurfaceContact& contact) {
-  const auto k = static_cast<std::size_t>(contact.slot);
+  const std::size_t k = contact.guard();
   const GuardGroup& group = group_of(k);
   const int armed = -contact.pressed;
   const double error = std::max(contact.error, flow_->tolerance(contact.slot, contact.opaque));

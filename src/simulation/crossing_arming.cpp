@@ -147,7 +147,7 @@ bool CrossingArming::reset_turns(const GuardGroup& group, std::size_t k) {
   const PlanLeaf& of = machine_->plan().leaf(group.leaf);
   trial_ = machine_->x, trial_z_ = machine_->z;
   machine_->evaluate_instant(present_->t);
-  At at = machine_->at(static_cast<std::size_t>(group.leaf), present_->t, machine_->x.data());
+  At at = machine_->at(group.leaf, present_->t, machine_->x.data());
   at.entry = (*guards_)[k].entry;
   int mode = at.mode;
   Next next({trial_.data() + of.x, of.nx}, {trial_z_.data() + of.z, of.nz}, mode, of.path);
@@ -173,7 +173,7 @@ bool CrossingArming::turned_round(const GuardGroup& group, std::size_t k, int si
 }
 
 bool CrossingArming::goes_against(const Firing& firing) {
-  const auto k = static_cast<std::size_t>(firing.slot);
+  const std::size_t k = firing.guard();
   const Guard& guard = (*guards_)[k];
   const GuardGroup& group = group_of(k);
   if (std::isnan(guard.armed_at) || guard.monitor || guard.direction == Direction::edge_detection)

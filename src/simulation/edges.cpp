@@ -20,8 +20,6 @@ void Edges::open() {
   fired_.clear();
 }
 
-const EdgeReset& Edges::reset_of(std::size_t e) const { return machine_->plan().reset_of(edge(e)); }
-
 Edges::Look Edges::look(std::size_t e) {
   const bool now = machine_->truth(edge(e).node), before = values_[e] != 0;
   values_[e] = now;
@@ -36,10 +34,9 @@ bool Edges::has_fired(std::size_t e) const {
 
 bool Edges::set_off_by(int node) const {
   return std::ranges::any_of(fired_, [&](int number) {
-    const auto e = static_cast<std::size_t>(number);
-    const bool up = reset_of(e).edge != Edge::falling;
-    return std::ranges::find(edge(e).relations, node) != edge(e).relations.end() &&
-           machine_->truth(edge(e).node) == up;
+    const bool up = reset_of(number).edge != Edge::falling;
+    return std::ranges::find(edge(number).relations, node) != edge(number).relations.end() &&
+           machine_->truth(edge(number).node) == up;
   });
 }
 

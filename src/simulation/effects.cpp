@@ -19,12 +19,11 @@ void Effects::run_update(const Action& action) {
 
 /// The effect that the author of a zero crossing or an edge declared.
 Effects::Effect Effects::effect_of(const Action& action) {
-  const auto index = static_cast<std::size_t>(action.index);
   if (action.cause == Cause::edge)
-    return {&edges_->reset_of(index).reset_map, nullptr, &holds_->of_edge(index)};
-  const ZeroCrossing& crossing = plan_->crossing_of(plan_->guards[index]);
+    return {&edges_->reset_of(action.index).reset_map, nullptr, &holds_->of_edge(action.index)};
+  const ZeroCrossing& crossing = plan_->crossing_of(plan_->guards[action.index]);
   return {&crossing.reset_map, crossing.end_mode ? &*crossing.end_mode : nullptr,
-          &holds_->of_guard(static_cast<std::size_t>(action.slot))};
+          &holds_->of_guard(action.slot)};
 }
 
 /// Runs the effect of a zero crossing or an edge.
@@ -37,7 +36,7 @@ void Effects::run_reset(const Action& action) {
   note(action, source);
   if (!wrote || action.carry) return;
   if (holds_->look_for_accumulation(hold) && action.cause == Cause::edge)
-    contacts_->keep_relations_of(plan_->edges[static_cast<std::size_t>(action.index)]);
+    contacts_->keep_relations_of(plan_->edges[action.index]);
 }
 
 /// Runs the reset map of an effect, and enters its mode. Returns whether it wrote a state or a mode.
@@ -50,15 +49,13 @@ bool Effects::write(const Effect& effect, int leaf, const std::string& source) {
 
 /// Logs the firing of a zero crossing or an edge. It may be the last one of the run.
 void Effects::note(const Action& action, int source) {
-  const auto index = static_cast<std::size_t>(action.index);
-  const bool last = action.cause == Cause::crossing && journal_->ends_run(index);
+  const bool last = action.cause == Cause::crossing && journal_->ends_run(action.index);
   present_->outcome.terminal = present_->outcome.terminal || last;
-  journal_->note(
-      {.kind = last ? EventKind::terminal : EventKind::zero_crossing,
-       .source = source,
-       .leaf = action.leaf,
-       .direction = -action.from,
-       .entry = action.slot < 0 ? 0 : (*guards_)[static_cast<std::size_t>(action.slot)].entry});
+  journal_->note({.kind = last ? EventKind::terminal : EventKind::zero_crossing,
+                  .source = source,
+                  .leaf = action.leaf,
+                  .direction = -action.from,
+                  .entry = action.slot < 0 ? 0 : (*guards_)[action.slot].entry});
 }
 
 }  // namespace saltus

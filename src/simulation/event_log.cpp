@@ -1,5 +1,6 @@
 // Event log: events and their times by name.
 #include "saltus/simulation/event_log.hpp"
+#include "saltus/base/list.hpp"
 
 #include <algorithm>
 
@@ -18,7 +19,7 @@ bool is_firing(EventKind kind) {
 
 Event EventLog::operator[](std::size_t i) const {
   const Row& row = rows_[i];
-  const EventName& source = names_[static_cast<std::size_t>(row.source)];
+  const EventName& source = names_[row.source];
   return {row.time,
           row.jump,
           row.kind,
@@ -36,7 +37,7 @@ std::vector<double> EventLog::times(std::string_view name, std::optional<EventKi
   const std::vector<bool> wanted = called(name);
   std::vector<double> found;
   for (const Row& row : rows_) {
-    if (!wanted[static_cast<std::size_t>(row.source)]) continue;
+    if (!nth(wanted, row.source)) continue;
     if (kind ? row.kind == *kind : is_firing(row.kind)) found.push_back(row.time);
   }
   return found;

@@ -7,6 +7,8 @@
 #include <numeric>
 #include <utility>
 
+#include "saltus/base/list.hpp"
+
 namespace saltus {
 
 Holds::Holds(Machine& machine, const GuardSet& guards, const SimulatorOptions& options, Flow& flow,
@@ -17,7 +19,7 @@ Holds::Holds(Machine& machine, const GuardSet& guards, const SimulatorOptions& o
       transition_(&transition),
       journal_(&journal),
       present_(&present),
-      states_(static_cast<std::size_t>(machine.plan().nx)) {
+      states_(machine.plan().nx) {
   std::iota(states_.begin(), states_.end(), Index{0});
   add_guards(guards);
   add_edges();
@@ -25,8 +27,8 @@ Holds::Holds(Machine& machine, const GuardSet& guards, const SimulatorOptions& o
 }
 
 std::span<const Index> Holds::whole(const PlanLeaf& leaf) const {
-  return std::span<const Index>(states_).subspan(static_cast<std::size_t>(leaf.x),
-                                                 static_cast<std::size_t>(leaf.nx));
+  const Index* first = states_.data() + leaf.x;
+  return {first, first + leaf.nx};
 }
 
 void Holds::add_guards(const GuardSet& guards) {
@@ -44,11 +46,10 @@ void Holds::add_guards(const GuardSet& guards) {
             .entry = guard.entry,
             .on_zeno = crossing.on_zeno,
             .states = whole(leaf)};
-    const auto entry = static_cast<std::size_t>(guard.entry);
     if (!crossing.holds.empty())
-      hold.states = choose(leaf, crossing.holds[entry]);
+      hold.states = choose(leaf, nth(crossing.holds, guard.entry));
     else if (crossing.touches && !steers(crossing, group.leaf))
-      hold.states = choose(leaf, crossing.touches->of_guard(entry));
+      hold.states = choose(leaf, crossing.touches->of_guard(guard.entry));
   }
 }
 
@@ -122,8 +123,7 @@ bool Holds::kicked(const Hold& hold) const {
 void Holds::come_to_rest(Hold& hold, double predicted, bool in_pass) {
   using Kind = OnZeno::Kind;
   const Kind kind = hold.on_zeno.kind();
-  const bool there = kind == Kind::mode &&
-                     machine_->modes[static_cast<std::size_t>(hold.leaf)] == hold.on_zeno.mode();
+  const bool there = kind == Kind::mode && machine_->modes[hold.leaf] == hold.on_zeno.mode();
   if (kind == Kind::hold || there) return rest(hold, predicted);
   if (kind == Kind::stop && present_->outcome.zeno_stop) return;
   if (kind == Kind::error) throw_accumulation(hold, predicted);
@@ -199,7 +199,7 @@ bool Holds::hold_edges(const std::vector<int>& edges, int node) {
   bool all = true;
   for (const int e : edges) {
     const std::vector<int>& relations = machine_->plan().edge(e).relations;
-    Hold& hold = of_edges_[static_cast<std::size_t>(e)];
+    Hold& hold = of_edges_[e];
     if (hold.monitor.holding || std::ranges::find(relations, node) == relations.end()) continue;
     if (hold.monitor.on())
       come_to_rest(hold, present_->t, false);

@@ -17,7 +17,7 @@ void Instant::open(double t, const std::vector<int>& due, double longest) {
   guards_->fired_at_root.clear();
   before_.guards = guards_->all(), before_.roots = present_.firings, before_.jump = jump_;
   for (const Firing& root : present_.firings) {
-    const auto k = static_cast<std::size_t>(root.slot);
+    const std::size_t k = root.guard();
     GuardNow& now = present_.now[k];
     const bool jumped = root.jump > 0.0 && root.jump > crossings_.uncertainty(k);  // else: rounding
     now.location = location_error(guards_->g[k], jumped);

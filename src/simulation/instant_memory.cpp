@@ -110,7 +110,7 @@ bool Instant::finds_roots() {
 }
 
 void Instant::log_monitor(const MonitorHit& hit, const double* x) {
-  journal_.note_monitor(hit, (*guards_)[static_cast<std::size_t>(hit.firing.slot)], jump_, x);
+  journal_.note_monitor(hit, (*guards_)[hit.firing.slot], jump_, x);
 }
 
 }  // namespace saltus

@@ -29,15 +29,13 @@ void InstantRows::put_back_what_does_not_follow() {
   follows_.assign(plan.nodes.size(), 0);
   for (std::size_t k = 0; k < guards_->size(); ++k) {
     const GuardGroup& group = plan.guard((*guards_)[k].group);
-    if (present_->now[k].fired_in_pass && !group.is_crossing())
-      follows_[static_cast<std::size_t>(group.index)] = 1;
+    if (present_->now[k].fired_in_pass && !group.is_crossing()) follows_[group.index] = 1;
   }
   for (const int i : plan.order) {
     const Node& node = plan.node(i);
-    char& follows = follows_[static_cast<std::size_t>(i)];
-    follows = follows || std::ranges::any_of(node.needs, [&](int need) {
-                return follows_[static_cast<std::size_t>(need)] != 0;
-              });
+    char& follows = follows_[i];
+    follows =
+        follows || std::ranges::any_of(node.needs, [&](int need) { return follows_[need] != 0; });
     if (follows || node.place.space != Space::y) continue;
     machine_->y.segment(node.place.offset, node.place.size) =
         y_before_.segment(node.place.offset, node.place.size);

@@ -83,12 +83,12 @@ void Journal::note(const Entry& entry) {
   ++results_->statistics.events, ++events_;
   last_source_ = entry.source;
   if (entry.kind != EventKind::zeno_enter && entry.kind != EventKind::zeno_release)
-    ++counts_[static_cast<std::size_t>(entry.source)];
+    ++counts_[entry.source];
   add(entry, t_, jump_, machine_->x.data(), transition_->next().data());
 }
 
 void Journal::note_monitor(const MonitorHit& hit, const Guard& guard, int jump, const double* x) {
-  ++counts_[static_cast<std::size_t>(guard.group)];
+  ++counts_[guard.group];
   add({.kind = EventKind::zero_crossing,
        .source = guard.group,
        .leaf = plan_->guard(guard.group).leaf,
@@ -110,7 +110,7 @@ void Journal::cause(int source) {
   if (chain_.size() < thresholds::remembered_causes) chain_.push_back(source);
 }
 
-bool Journal::ends_run(std::size_t group, std::int64_t waiting) const {
+bool Journal::ends_run(int group, std::int64_t waiting) const {
   const ZeroCrossing& crossing = plan_->crossing_of(plan_->guards[group]);
   return crossing.terminal && earlier_[group] + counts_[group] + waiting + 1 >= crossing.max_count;
 }

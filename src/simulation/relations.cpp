@@ -50,7 +50,7 @@ void Relations::begin(double t) {
 }
 
 void Relations::flip(const Firing& firing) {
-  const auto k = static_cast<std::size_t>(firing.slot);
+  const std::size_t k = firing.guard();
   const Guard& guard = (*guards_)[k];
   if (++present_->now[k].flips == thresholds::fluttering_flips) present_->outcome.flutters = true;
   truth(k) = firing.from < 0 ? 1.0 : 0.0;

@@ -1,5 +1,6 @@
 // Trajectory: keeps steps, and reads states inside them.
 #include "saltus/simulation/detail/trajectory.hpp"
+#include "saltus/base/list.hpp"
 
 #include <algorithm>
 #include <array>
@@ -47,8 +48,7 @@ const Nodes& nodes() {
     for (int degree = 1; degree <= highest_degree; ++degree) {
       for (int k = 0; k <= degree; ++k) {
         const double s = std::sin(0.5 * std::numbers::pi * k / degree);
-        made[static_cast<std::size_t>(degree)][static_cast<std::size_t>(k)] =
-            k == degree ? 1.0 : s * s;
+        nth(nth(made, degree), k) = k == degree ? 1.0 : s * s;
       }
     }
     return made;
@@ -58,9 +58,7 @@ const Nodes& nodes() {
 
 }  // namespace
 
-double Trajectory::node(int k, int degree) {
-  return nodes()[static_cast<std::size_t>(degree)][static_cast<std::size_t>(k)];
-}
+double Trajectory::node(int k, int degree) { return nth(nodes()[degree], k); }
 
 std::size_t Trajectory::put(const Eigen::VectorXd& x) {
   values_.insert(values_.end(), x.begin(), x.end());

@@ -25,7 +25,7 @@ void Transition::begin_pass() {
 }
 
 bool Transition::run(const Call& call) {
-  const auto number = static_cast<std::size_t>(call.leaf);
+  const int number = call.leaf;
   const PlanLeaf& of = machine_->plan().leaf(number);
   At at = machine_->at(number, call.t, machine_->x.data());
   at.entry = call.entry;

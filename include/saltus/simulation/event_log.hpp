@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "saltus/base/list.hpp"
 #include "saltus/base/view.hpp"
 
 namespace saltus {
@@ -18,7 +19,7 @@ enum class EventKind { zero_crossing, time, zeno_enter, zeno_release, terminal }
 inline std::string_view to_string(EventKind kind) {
   constexpr std::string_view names[] = {"zero_crossing", "time", "zeno_enter", "zeno_release",
                                         "terminal"};
-  return names[static_cast<std::size_t>(kind)];
+  return nth(names, kind);
 }
 
 /// One event. `before` and `after` are the continuous state of its block at x- and x+.
@@ -95,7 +96,7 @@ class EventLog {
   std::vector<Row> rows_;
   std::vector<double> states_;
   std::vector<int> rests_;
-  std::vector<EventName> names_;
+  List<EventName> names_;
 };
 
 }  // namespace saltus

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "saltus/base/list.hpp"
 #include "saltus/simulation/dense_output.hpp"
 #include "saltus/simulation/event_log.hpp"
 #include "saltus/solver/statistics.hpp"
@@ -19,7 +20,7 @@ enum class Status { reached_end, terminal, zeno_stop, step_limit, chattering, in
 inline std::string_view to_string(Status status) {
   constexpr std::string_view names[] = {"reached_end", "terminal",    "zeno_stop", "step_limit",
                                         "chattering",  "interrupted", "failed"};
-  return names[static_cast<std::size_t>(status)];
+  return nth(names, status);
 }
 /// Whether a run ended well, which it can in three ways.
 constexpr bool ended_well(Status status) { return status <= Status::zeno_stop; }

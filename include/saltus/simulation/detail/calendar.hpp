@@ -70,7 +70,7 @@ class Calendar {
   double time_of(std::size_t i) const {
     const ScheduledEvent& event = plan_->schedule[i];
     if (tick_[i] >= event.ticks) return infinite;
-    if (!event.times.empty()) return event.times[static_cast<std::size_t>(tick_[i])];
+    if (!event.times.empty()) return event.times[tick_[i]];
     if (tick_[i] == 0) return event.offset;
     return std::isfinite(event.period) ? event.offset + static_cast<double>(tick_[i]) * event.period
                                        : infinite;

@@ -5,6 +5,7 @@
 #include <ranges>
 #include <vector>
 
+#include "saltus/base/list.hpp"
 #include "saltus/plan/detail/machine.hpp"
 #include "saltus/simulation/options.hpp"
 
@@ -27,6 +28,9 @@ struct SurfaceContact {
   double look_ahead = 0.0;  // [s] see lift
   std::vector<Member> members = {};
   std::vector<Index> states = {};  // entries of x that rest
+
+  /// The number of its guard in the GuardSet.
+  std::size_t guard() const { return static_cast<std::size_t>(slot); }
 };
 
 /// The state at rest on a moving surface is the fixed point of the reset maps at that time, x =
@@ -47,9 +51,8 @@ class Contacts final : public Carrier {
   bool empty() const noexcept { return present_.empty(); }
   /// The contacts present, in the order of their making.
   auto all() const {
-    return present_ | std::views::transform([this](int slot) -> const SurfaceContact& {
-             return of_slot_[static_cast<std::size_t>(slot)];
-           });
+    return present_ | std::views::transform(
+                          [this](int slot) -> const SurfaceContact& { return of_slot_[slot]; });
   }
 
   /// Moves the contact's entries of x to the fixed point. If there is no fixed point, returns false
@@ -78,9 +81,9 @@ class Contacts final : public Carrier {
   double guard_after(const SurfaceContact& contact, double t, const double* x, double d);
 
   Machine* machine_;
-  Eigen::VectorXd absolute_;             // a state below this size counts as zero
-  std::vector<SurfaceContact> of_slot_;  // made once, so that a hold allocates nothing
-  std::vector<int> present_;             // slots
+  Eigen::VectorXd absolute_;      // a state below this size counts as zero
+  List<SurfaceContact> of_slot_;  // made once, so that a hold allocates nothing
+  std::vector<int> present_;      // slots
   Eigen::VectorXd original_, begun_, once_, twice_, trial_, f_, f1_, slow_, stood_, later_, z_, g_;
 };
 

@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "saltus/base/list.hpp"
 #include "saltus/plan/detail/machine.hpp"
 #include "saltus/simulation/detail/thresholds.hpp"
 #include "saltus/simulation/options.hpp"
@@ -33,8 +34,8 @@ class Departure {
     const std::size_t groups = machine.plan().guards.size();
     looked_at_.assign(groups, 0);
     for (std::size_t i = 0; i < groups; ++i) {
-      const auto size = static_cast<std::size_t>(machine.plan().guards[i].size);
-      group_of_.insert(group_of_.end(), size, static_cast<int>(i));
+      for (Index k = 0; k < machine.plan().guards[i].size; ++k)
+        group_of_.push_back(static_cast<int>(i));
     }
   }
 
@@ -144,13 +145,12 @@ class Departure {
 
   /// Evaluates the group of one guard. All guards would cost n squared where n of them depart.
   void look(double t, const Eigen::VectorXd& x, Index slot, Eigen::VectorXd& g) {
-    machine_->guards_of({&group_of_[static_cast<std::size_t>(slot)], 1}, t, x.data(), g.data());
+    machine_->guards_of({&group_of_[slot], 1}, t, x.data(), g.data());
   }
 
   /// The guard at the point of departure, computed at the first call.
   double g0(Index slot) {
-    std::int64_t& looked_at =
-        looked_at_[static_cast<std::size_t>(group_of_[static_cast<std::size_t>(slot)])];
+    std::int64_t& looked_at = looked_at_[group_of_[slot]];
     if (looked_at != departures_) look(t_, *x_, slot, g0_);
     looked_at = departures_;
     return g0_[slot];
@@ -200,7 +200,7 @@ class Departure {
     double d = thresholds::first_look_of_run * longest_;  // for a guard that no state moves
     bool moved = false;
     for (int leaf : group.leaves) {
-      const PlanLeaf& of = machine_->plan().leaves[static_cast<std::size_t>(leaf)];
+      const PlanLeaf& of = machine_->plan().leaves[leaf];
       for (Index i = of.x; i < of.x + of.nx; ++i) {
         const double time = (rtol_[i] * std::abs((*x_)[i]) + atol_[i]) / std::abs(f_[i]);
         if (!(time <= thresholds::slow_state_of_run * longest_)) continue;
@@ -216,7 +216,7 @@ class Departure {
   double lift_time(const GuardGroup& group, double d) const {
     double time = 0.0;
     for (int leaf : group.leaves) {
-      const PlanLeaf& of = machine_->plan().leaves[static_cast<std::size_t>(leaf)];
+      const PlanLeaf& of = machine_->plan().leaves[leaf];
       for (Index i = of.x; i < of.x + of.nx; ++i) {
         const double bend = std::abs(f1_[i] - f_[i]) / d;
         if (bend > 0.0)
@@ -276,7 +276,7 @@ class Departure {
   bool has_moved(const GuardGroup& group) const {
     if (!group.is_opaque()) return true;
     for (int leaf : group.leaves) {
-      const PlanLeaf& of = machine_->plan().leaves[static_cast<std::size_t>(leaf)];
+      const PlanLeaf& of = machine_->plan().leaves[leaf];
       for (Index i = of.x; i < of.x + of.nx; ++i) {
         if (move_[i] != 0.0 &&
             std::abs(move_[i]) <= thresholds::state_roundings * eps * std::abs((*x_)[i]))
@@ -291,10 +291,10 @@ class Departure {
   double longest_step_;
   double t_ = 0.0, longest_ = 0.0;
   const Eigen::VectorXd* x_ = nullptr;
-  bool fine_ = false;                    // follow the flow with order 4
-  bool disturbed_ = false;               // f_disturbed_ belongs to x_
-  std::vector<int> group_of_;            // of each slot
-  std::vector<std::int64_t> looked_at_;  // of each group: the departure that g0_ belongs to
+  bool fine_ = false;             // follow the flow with order 4
+  bool disturbed_ = false;        // f_disturbed_ belongs to x_
+  List<int> group_of_;            // of each slot
+  List<std::int64_t> looked_at_;  // of each group: the departure that g0_ belongs to
   std::int64_t departures_ = 0;
   Eigen::VectorXd f_, f_disturbed_, f1_, x1_, move_, trial_, g_, g0_, g_disturbed_;
 };

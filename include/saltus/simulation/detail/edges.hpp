@@ -38,7 +38,9 @@ class Edges {
   /// value that fired it.
   bool set_off_by(int node) const;
 
-  const EdgeReset& reset_of(std::size_t e) const;
+  const EdgeReset& reset_of(std::integral auto e) const {
+    return machine_->plan().reset_of(edge(e));
+  }
 
   /// Saves the last values, which a continued run needs.
   std::vector<int> save() const { return {values_.begin(), values_.end()}; }
@@ -46,7 +48,7 @@ class Edges {
   void load(const Continuation& from);
 
  private:
-  const EdgeWatch& edge(std::size_t e) const { return machine_->plan().edges[e]; }
+  const EdgeWatch& edge(std::integral auto e) const { return machine_->plan().edges[e]; }
 
   const Machine* machine_;
   std::vector<char> values_, values_minus_, carried_;

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "saltus/base/list.hpp"
 #include "saltus/simulation/detail/flow.hpp"
 #include "saltus/simulation/detail/journal.hpp"
 #include "saltus/simulation/detail/zeno.hpp"
@@ -35,10 +36,10 @@ class Holds {
   /// The monitors are as before the instant.
   void undo();
 
-  Hold& of_guard(std::size_t k) { return of_guards_[k]; }
-  const Hold& of_guard(std::size_t k) const { return of_guards_[k]; }
-  Hold& of_edge(std::size_t e) { return of_edges_[e]; }
-  const Hold& of_edge(std::size_t e) const { return of_edges_[e]; }
+  Hold& of_guard(std::integral auto k) { return of_guards_[k]; }
+  const Hold& of_guard(std::integral auto k) const { return of_guards_[k]; }
+  Hold& of_edge(std::integral auto e) { return of_edges_[e]; }
+  const Hold& of_edge(std::integral auto e) const { return of_edges_[e]; }
   bool any() const noexcept { return count_ > 0; }
   /// Whether the present pass, not yet committed, has written the states that rest.
   bool kicked(const Hold& hold) const;
@@ -78,9 +79,9 @@ class Holds {
   Transition* transition_;
   Journal* journal_;
   Present* present_;
-  std::vector<Index> states_;              // all entries of x; a leaf rests with its part of them
+  List<Index> states_;                     // all entries of x; a leaf rests with its part of them
   std::deque<std::vector<Index>> chosen_;  // the states of guards that rest with a part of a leaf
-  std::vector<Hold> of_guards_, of_edges_;
+  List<Hold> of_guards_, of_edges_;
   Eigen::VectorXd gathered_;    // the states of one hold
   int count_ = 0;               // present holds
   std::vector<Hold*> changed_;  // in this instant

@@ -59,7 +59,7 @@ class Instant {
  private:
   /// What an instant changes, before it; values are in the transition.
   struct Before {
-    std::vector<Guard> guards = {};
+    List<Guard> guards = {};
     std::vector<Firing> roots = {};
     int jump = 0;
   };

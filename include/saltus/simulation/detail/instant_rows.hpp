@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "saltus/base/list.hpp"
 #include "saltus/simulation/detail/present.hpp"
 #include "saltus/simulation/detail/recorder.hpp"
 #include "saltus/solver/detail/guard_set.hpp"
@@ -33,8 +34,8 @@ class InstantRows {
   const GuardSet* guards_;
   const Present* present_;
   Recorder* recorder_ = nullptr;
-  Eigen::VectorXd y_before_;   // signals before the instant
-  std::vector<char> follows_;  // of each node: from a relation that fired
+  Eigen::VectorXd y_before_;  // signals before the instant
+  List<char> follows_;        // of each node: from a relation that fired
 };
 
 }  // namespace saltus

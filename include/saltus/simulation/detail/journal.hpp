@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "saltus/base/list.hpp"
 #include "saltus/simulation/detail/present.hpp"
 #include "saltus/simulation/detail/transition.hpp"
 #include "saltus/simulation/options.hpp"
@@ -51,7 +52,7 @@ class Journal {
 
   /// Whether a firing of a terminal guard ends the run, after `waiting` others that are not logged
   /// yet.
-  bool ends_run(std::size_t group, std::int64_t waiting = 0) const;
+  bool ends_run(int group, std::int64_t waiting = 0) const;
   /// Events noted in this instant.
   int events() const noexcept { return events_; }
   /// The name of the last event; empty before the first one.
@@ -77,7 +78,7 @@ class Journal {
   double t_ = 0.0;
   int jump_ = 0, events_ = 0;
   int last_source_ = -1;
-  std::vector<std::int64_t> counts_;        // events of each source, in this run
+  List<std::int64_t> counts_;               // events of each source, in this run
   std::vector<std::int64_t> counts_minus_;  // before this instant
   std::size_t logged_ = 0;                  // events in the log before this instant
   std::vector<std::int64_t> earlier_;       // firings of each guard before this run

@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "saltus/base/list.hpp"
 #include "saltus/simulation/options.hpp"
 
 namespace saltus {
@@ -112,7 +113,7 @@ class Trajectory {
   Index size_ = 0;
   std::vector<int> held_nodes_;
   std::vector<Piece> pieces_;
-  std::vector<double> values_;
+  List<double> values_;
   std::vector<Held> held_;
   Spot first_, last_;
   Eigen::VectorXd departed_;

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "saltus/base/list.hpp"
 #include "saltus/plan/detail/machine.hpp"
 
 namespace saltus {
@@ -34,7 +35,7 @@ class Transition {
   /// the states and the mode of its leaf (3.2, 3.3). Returns whether it had an effect: it wrote a
   /// state, or changed the mode.
   bool run(const Call& call);
-  void enter_mode(int leaf, int mode) { modes_next_[static_cast<std::size_t>(leaf)] = mode; }
+  void enter_mode(int leaf, int mode) { modes_next_[leaf] = mode; }
 
   /// The values to come become the present ones. Returns whether a mode changed.
   bool commit();
@@ -62,7 +63,7 @@ class Transition {
  private:
   Machine* machine_;
   Eigen::VectorXd x_minus_, z_minus_, y_minus_, x_next_, z_next_;
-  std::vector<int> modes_next_, modes_before_, modes_minus_;
+  List<int> modes_next_, modes_before_, modes_minus_;
   bool pass_wrote_ = false, entered_ = false, restarts_ = false;
   int effects_ = 0;
 };
