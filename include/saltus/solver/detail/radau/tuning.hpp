@@ -128,8 +128,9 @@ inline constexpr double complex_cost = 3.3;
 /// to 120 us, and a thread of less than 2 ms often waits for the core of its parent. Time in two
 /// threads, in times of one, on two cores with other work (3, 5, 7 stages): dense, 100 states 1.09,
 /// 1.06, 1.06; 200 states 1.05, 0.57, 0.5 to 1.06; 300 states 0.71, 0.58, 0.61; 600 states 0.89,
-/// 0.63, 0.67; band of 11, 5000 states (0.3 to 0.7 ms) 1.1; grid of 40 by 40 0.4, 0.6, 0.6. A solution
-/// takes 0.1 ms at 400 states, and stays in one thread. tests/unit/radau_side_by_side_test.cpp
+/// 0.63, 0.67; band of 11, 5000 states (0.3 to 0.7 ms) 1.1; grid of 40 by 40 0.4, 0.6, 0.6. A
+/// solution takes 0.1 ms at 400 states, and stays in one thread.
+/// tests/unit/radau_side_by_side_test.cpp
 inline constexpr double apart_from = 5e6;
 
 }  // namespace saltus::radau::tuning
