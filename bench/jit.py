@@ -37,23 +37,19 @@ class Model(saltus.LeafSystem):
 
 
 def kepler():
-    def ode(time, state, *, mu):
-        x, y, vx, vy = state.continuous_state
-        r = np.sqrt(x * x + y * y)
-        w = -mu / r**3
-        return np.array([vx, vy, w * x, w * y])
-
-    def apsis(time, state, *, mu):
-        x, y, vx, vy = state.continuous_state
-        return x * vx + y * vy
-
-    return Model([0.4, 0.0, 0.0, 2.0], ode, [{"guard": apsis, "name": "apsis"}], mu=1.0)
+    return orbit(lambda square: np.sqrt(square) ** 3)
 
 
 def kepler_power():
+    return orbit(lambda square: square**1.5)
+
+
+def orbit(cube):
+    """Kepler's orbit; `cube` computes r^3 of r^2."""
+
     def ode(time, state, *, mu):
         x, y, vx, vy = state.continuous_state
-        w = -mu / (x * x + y * y) ** 1.5
+        w = -mu / cube(x * x + y * y)
         return np.array([vx, vy, w * x, w * y])
 
     def apsis(time, state, *, mu):

@@ -81,8 +81,8 @@ class Ladder {
   std::vector<Rung> rungs_;
 };
 
-/// Times all rungs of all ladders in turns, for about `budget` seconds: three rounds at least. A run
-/// of 0.3 s and more keeps the time of its first run.
+/// Times all rungs of all ladders in turns, for about `budget` seconds: three rounds at least. A
+/// run of 0.3 s and more keeps the time of its first run.
 inline void time_in_turns(std::vector<Ladder>& ladders, double budget, double batch = 2e-3) {
   std::map<Rung*, double> first;
   double round = 0.0;

@@ -1,7 +1,7 @@
 // ARKODE's diagonally implicit Runge-Kutta methods, by the name of their table. With the
 // defaults of ARKODE they are up to a hundred times slower on these scenes, or give up. Some ten
-// combinations of settings were tried, and the best is used here: stage derivatives from the stages,
-// Newton's iteration to a thousandth of the tolerance, a new Jacobian for each step.
+// combinations of settings were tried, and the best is used here: stage derivatives from the
+// stages, Newton's iteration to a thousandth of the tolerance, a new Jacobian for each step.
 #pragma once
 
 #include <arkode/arkode_arkstep.h>

@@ -1,6 +1,6 @@
 // How much do stiff scenes cost at tight tolerances and with resets? The best of radau and bdf
-// against a plain CVODE loop with the same Jacobian, at equal achieved error, on the stiff scenes of
-// the shelf; and radau against bdf where events restart the method. Costs between two tolerances
+// against a plain CVODE loop with the same Jacobian, at equal achieved error, on the stiff scenes
+// of the shelf; and radau against bdf where events restart the method. Costs between two tolerances
 // are interpolated in the logarithms. Arguments: names of scenes; none means all.
 #include <span>
 

@@ -84,8 +84,9 @@ class PythonSimulator {
   /// The engine's results are const, but they are part of this object's own simulator.
   Results& own() { return const_cast<Results&>(simulator_.results()); }
 
-  /// Gives the engine the results that are shown. What Python still has does not change. A run that
-  /// Ctrl-C ended in a function of the model is one that failed, to the engine.
+  /// Gives the engine the results that are shown. What Python still has does not change. The engine
+  /// keeps its own status: where Ctrl-C ended a function of the model, Python shows "interrupted",
+  /// and the engine "failed".
   void put_back() {
     if (!shown_) return;
     Results& shown = *shown_;

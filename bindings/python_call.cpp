@@ -197,8 +197,8 @@ py::list PythonLeaf::positional(const Function& function) const {
 
 /// Rethrows the exception of the function unchanged. But a TypeError that no line of Python raised
 /// may mean that the function does not accept these arguments; then a ModelError names the
-/// arguments. A ValueError may be NumPy's refusal of a write to the state; a ModelError says what to
-/// do.
+/// arguments. A ValueError may be NumPy's refusal of a write to the state; a ModelError says what
+/// to do.
 void PythonLeaf::throw_raised(const Function& function, const Frame& frame) const {
   if (PyErr_ExceptionMatches(PyExc_Exception) == 0) throw ProgramEnd();
   py::error_already_set error;

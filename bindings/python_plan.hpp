@@ -12,9 +12,9 @@
 
 namespace saltus::python {
 
-/// A plan with the options it was made for. Any number of runs may go over it, at once too, for
-/// each has a memory of its own. It refers to the blocks of the system and keeps none alive. Only
-/// the option `interrupt` refers to an object of Python.
+/// A plan with the options it was made for. Any number of runs may use it at once, because each has
+/// a memory of its own. It refers to the blocks of the system and keeps none alive. Only the option
+/// `interrupt` keeps an object of Python alive.
 class PythonPlan {
  public:
   /// Throws ModelError for an impossible system or option.

@@ -30,8 +30,8 @@ struct TapedEntries {
   void operator()(const At& at, VectorRef out) const;
 };
 
-/// The same for a reset map or an update. Its tape returns the parts of x+, z+, mode+ that it writes,
-/// one after the other. `called` is the function itself.
+/// The same for a reset map or an update. Its tape returns the parts of x+, z+, mode+ that it
+/// writes, one after the other. `called` is the function itself.
 struct TapedReset {
   Slot slot;
   ResetMap called;

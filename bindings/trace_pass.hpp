@@ -9,8 +9,8 @@
 
 namespace saltus::python {
 
-/// A pass serves one plan at a time. Blocks that were traced for an earlier plan keep the shapes they
-/// had there, so that none of their functions is called to find them.
+/// A pass serves one plan at a time. Blocks that were traced for an earlier plan keep the shapes
+/// they had there, so that none of their functions is called to find them.
 class TracePass final : public Refinement {
  public:
   /// `trace_block(number, block)` is called for each block that is not traced yet, under the lock

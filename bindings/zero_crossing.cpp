@@ -6,8 +6,8 @@ namespace saltus::python {
 
 namespace {
 
-/// The options of one zero crossing, as python/saltus/leaf_system/guards.py passes them. Messages name the
-/// block, the zero crossing and the option.
+/// The options of one zero crossing, as python/saltus/leaf_system/guards.py passes them. Messages
+/// name the block, the zero crossing and the option.
 class Options {
  public:
   Options(const py::dict& given, std::string whose) : given_(given), whose_(std::move(whose)) {}

@@ -5,8 +5,8 @@
 
 namespace saltus::python {
 
-/// The options are one dict with every key; python/saltus/leaf_system/guards.py documents their defaults
-/// and meaning.
+/// The options are one dict with every key; python/saltus/leaf_system/guards.py documents their
+/// defaults and meaning.
 void declare_zero_crossing(py::handle self, py::object guard, py::object reset_map,
                            std::string name, const py::dict& options);
 

@@ -95,7 +95,8 @@ class Wiring {
   std::size_t outputs_ = 0;
 };
 
-/// The shapes of all nodes as far as they are known. A rule that gives no entries does not know yet.
+/// The shapes of all nodes as far as they are known. A rule that gives no entries does not know
+/// yet.
 class Widths {
  public:
   Widths(const Wiring& wiring, const std::vector<int>& order)

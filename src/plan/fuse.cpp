@@ -28,8 +28,8 @@ struct Sink {
   std::vector<int> needs = {};
 };
 
-/// The values of a stage and their places. `first` has room for a number for each node; writers that
-/// follow one another share it.
+/// The values of a stage and their places. `first` has room for a number for each node; writers
+/// that follow one another share it.
 class Writer {
  public:
   Writer(const Plan& plan, List<int>& first) : plan_(plan), first_(first), values_(plan, first) {}

@@ -39,7 +39,8 @@ void Effects::run_reset(const Action& action) {
     contacts_->keep_relations_of(plan_->edges[action.index]);
 }
 
-/// Runs the reset map of an effect, and enters its mode. Returns whether it wrote a state or a mode.
+/// Runs the reset map of an effect, and enters its mode. Returns whether it wrote a state or a
+/// mode.
 bool Effects::write(const Effect& effect, int leaf, const std::string& source) {
   const bool wrote =
       *effect.map && transition_->run({effect.map, leaf, effect.hold->entry, present_->t, source});

@@ -29,8 +29,8 @@ class Corrector {
 
  private:
   static constexpr double slowest = 0.3;  ///< q beyond which a step is refused
-  /// q above which the tolerance of the iteration shrinks as (fast / q)^3 (1 - q). It is the usual q
-  /// of scenes whose steps are bounded by their accuracy (Kepler, Lorenz, Pleiades).
+  /// q above which the tolerance of the iteration shrinks as (fast / q)^3 (1 - q). It is the usual
+  /// q of scenes whose steps are bounded by their accuracy (Kepler, Lorenz, Pleiades).
   static constexpr double fast = 0.1;
   /// [tolerances] changes below are not judged: the iteration is over.
   static constexpr double done = 0.01;

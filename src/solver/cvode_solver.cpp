@@ -26,8 +26,9 @@ namespace {
 /// need more than 60 steps for it at its limit of stability, 3.25; BDF starts in 13 to 27.
 constexpr double stiff_flight = 200.0;
 /// [steps] that have to advance by as many roundings of the time, if each is shorter than
-/// `least_step_roundings` of them. CVODE itself would go on where no time is left, before a pole or a derivative
-/// that is not finite. The jumps of Van der Pol with mu = 1e6 take steps of ten roundings.
+/// `least_step_roundings` of them. CVODE itself would go on where no time is left, before a pole or
+/// a derivative that is not finite. The jumps of Van der Pol with mu = 1e6 take steps of ten
+/// roundings.
 constexpr int watched_steps = 100;
 
 class CvodeSolver final : public StepSolver<CvodeSolver> {
@@ -140,9 +141,10 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
   }
 
   /// Without CVODE's detection of the stability limit (CVodeSetStabLimDet). It helps on B5 of
-  /// DETEST, modes of -10 +- 100i (1195 calls in place of 6255 at rtol 1e-4), and changes nothing on
-  /// the shelf. But it also lowers the order where the solution itself oscillates: a mode of -2 +-
-  /// 2000i that dies away takes 3.6 times the calls at rtol 1e-8, and errors are 500 times larger.
+  /// DETEST, modes of -10 +- 100i (1195 calls in place of 6255 at rtol 1e-4), and changes nothing
+  /// on the shelf. But it also lowers the order where the solution itself oscillates: a mode of -2
+  /// +- 2000i that dies away takes 3.6 times the calls at rtol 1e-8, and errors are 500 times
+  /// larger.
   void create() {
     void* cvode = cvode_.get();
     if (CVodeInit(cvode, CvodeScene::right_hand_side, t1_, y_.get()) < 0) fail(t1_);
@@ -165,8 +167,8 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
     started_ = true;
   }
 
-  /// CVODE's own weights for one rtol and one atol for all states or one for each; a weight function
-  /// where rtol differs from state to state.
+  /// CVODE's own weights for one rtol and one atol for all states or one for each; a weight
+  /// function where rtol differs from state to state.
   void set_tolerances() {
     void* cvode = cvode_.get();
     const SolverOptions& by = tolerances_;

@@ -61,7 +61,8 @@ TEST_CASE("a Jacobian that is not finite is replaced, and named", "[radau][error
 }
 
 TEST_CASE("a matrix that is singular makes the step shorter", "[radau][errors]") {
-  // gamma - h J = 0 for the real eigenvalue gamma of three stages, with a right and a false Jacobian.
+  // gamma - h J = 0 for the real eigenvalue gamma of three stages, with a right and a false
+  // Jacobian.
   const double gamma = RadauTable<3>::gamma, h = 0.0625, rate = gamma / h;
   for (const double slope : {rate, -1.0}) {
     const Leaf leaf("leaf", [=](Leaf& l) {

@@ -53,8 +53,8 @@ TEST_CASE(
     const auto results = run(leaf, 10.0, method, rtol);
     INFO(name << ", " << method << ", rtol " << rtol << ": " << to_string(results.status) << " at "
               << results.context.time() << ", " << results.message);
-    // A window of 1000 steps begins anew at most once before the slide. A run that needs no more may
-    // end: with large tolerances some steps pass the jump.
+    // A window of 1000 steps begins anew at most once before the slide. A run that needs no more
+    // may end: with large tolerances some steps pass the jump.
     CHECK(results.statistics.steps < 4000);
     CHECK(results.statistics.right_hand_side_calls < 100000);
     if (rtol > 1e-5 && results.status == Status::reached_end) return;

@@ -109,8 +109,8 @@ TEST_CASE(
 }
 
 TEST_CASE("auto beside a fast mode is within twenty tolerances in short slices", "[laws][auto]") {
-  // The slices are shorter than the steps that would damp the mode. So what dopri5 has excited of it
-  // stays: up to thresholds::damped_size.
+  // The slices are shorter than the steps that would damp the mode. So what dopri5 has excited of
+  // it stays: up to thresholds::damped_size.
   const double rtol = GENERATE(1e-3, 1e-4, 1e-6), slice = GENERATE(0.003, 0.02);
   const Leaf leaf = beside(1000.0, 0.0);
   Simulator simulator(leaf, {.rtol = rtol, .atol = rtol, .ode_solver_method = Method::automatic});
@@ -195,7 +195,7 @@ TEST_CASE("adams beside a fast mode that is not excited is not carried away by i
   const Leaf leaf = beside(w, d);
   const auto results = run(leaf, 30.0, Method::adams, rtol, rtol);
   INFO("mode -" << d << " +- " << w << "i, rtol " << rtol);
-  // Orders above 2 are unstable on the imaginary axis, so that some tens of tolerances remain, 60 at
-  // worst; CVODE's own test left 20 000.
+  // Orders above 2 are unstable on the imaginary axis, so that some tens of tolerances remain, 60
+  // at worst; CVODE's own test left 20 000.
   CHECK(error_beside(results, rtol) < 100.0);
 }

@@ -61,8 +61,8 @@ TEST_CASE("a stiff flight after a reset is BDF's, whatever the tolerance and the
                                 {.rtol = rtol, .atol = 1e-2 * rtol, .ode_solver_method = method});
   INFO(method << ", rtol " << rtol << ", " << n << " points: " << results.statistics.method);
   REQUIRE(results.events.size() >= 2);
-  // One flight of BDF takes 26 steps to start and then 100 at most (measured 40 to 130). An explicit
-  // method takes 0.08 (n + 1)^2 / 3.3 for each second: 60 and 970.
+  // One flight of BDF takes 26 steps to start and then 100 at most (measured 40 to 130). An
+  // explicit method takes 0.08 (n + 1)^2 / 3.3 for each second: 60 and 970.
   const auto flights = static_cast<std::int64_t>(results.events.size()) + 1;
   CHECK(results.statistics.steps < 200 * flights);
 }

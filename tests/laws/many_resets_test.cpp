@@ -26,8 +26,8 @@ Leaf ruler(int n, std::int64_t& evaluations) {
 TEST_CASE("n guards with resets that fire once each are evaluated at most 16 n^2 times",
           "[laws][guards]") {
   // Each event looks at all guards at the end of the step, at the first of its points that is
-  // behind the root, at four points before the root, at both ends of its bracket, and three times in
-  // its instant: eleven. The others are the looks on the way to the root, at some of the guards.
+  // behind the root, at four points before the root, at both ends of its bracket, and three times
+  // in its instant: eleven. The others are the looks on the way to the root, at some of the guards.
   const int n = GENERATE(20, 60, 180);
   INFO("guards " << n);
   std::int64_t evaluations = 0;

@@ -131,8 +131,8 @@ TEST_CASE("one to five monitors change no bit of rows and of other events", "[la
   CHECK(a.events.times("top") == b.events.times("top"));
   CHECK(a.context.continuous_state() == b.context.continuous_state());
   CHECK(a.context.discrete_state() == b.context.discrete_state());
-  // A monitor of the same surface fires when the guard fires. The times may differ by the rounding of
-  // the height, up to 1 m, at a speed of 1 m/s or more.
+  // A monitor of the same surface fires when the guard fires. The times may differ by the rounding
+  // of the height, up to 1 m, at a speed of 1 m/s or more.
   CHECK(worst(b.events.times("same"), a.events.times("bounce")) <= 4.0 * eps);
 }
 

@@ -1,4 +1,5 @@
-// A fast part that follows a slow solution: x' = -lambda (x - cos t) - sin t, x(0) = 1, is x = cos t.
+// A fast part that follows a slow solution: x' = -lambda (x - cos t) - sin t, x(0) = 1, is x = cos
+// t.
 #include "support/leaves.hpp"
 
 using namespace saltus;
@@ -48,7 +49,7 @@ TEST_CASE("radau follows a slow solution from however fast a part, and rejects f
   // the next terms of h may double; where h lambda is near gamma, some steps add up.
   CHECK(run.error < 6.0);
   // Four steps in five are right at once: the length is that for 0.9^(S + 1) = 0.4 to 0.66 of what
-  // is allowed, and cos changes its higher derivatives by more than that at few places. Two more may
-  // be rejected where a run has less than ten steps.
+  // is allowed, and cos changes its higher derivatives by more than that at few places. Two more
+  // may be rejected where a run has less than ten steps.
   CHECK(5 * run.rejected <= run.steps + run.rejected + 10);
 }

@@ -26,7 +26,8 @@ TEST_CASE("4.2 a sawtooth is never at rest, where its root is a short number too
 TEST_CASE("4.2 an elastic ball is a steady rhythm, however fast, at any tolerance", "[semantics]") {
   const auto method = GENERATE(from_range(methods));
   const double rtol = GENERATE(1e-6, 1e-10), height = GENERATE(1e-9, 1.0);
-  // The gap is 1 in units of sqrt(8 height / g); g makes it 2.8e-9 s, or 0.9 s below a tolerance of 10 s.
+  // The gap is 1 in units of sqrt(8 height / g); g makes it 2.8e-9 s, or 0.9 s below a tolerance of
+  // 10 s.
   const double g = height < 1.0 ? 1e9 : 9.81, half = std::sqrt(2.0 * height / g);
   const Leaf ball("ball", [=](Leaf& l) {
     l.declare_continuous_state({.initial = vec({height, 0.0}),

@@ -26,7 +26,17 @@ inline Numbers outputs_of(saltus::tape::Series& series, int order) {
   return g;
 }
 
-/// The same by repeated differentiation of the graph: u' = du/dt + sum of du/dx_i f_i.
+/// The coefficients of one function of x(t), x' = 1, to `order`.
+inline Numbers along(saltus::tape::Node (*make)(saltus::tape::Graph& g, saltus::tape::Node x),
+                     double at, int order, double parameter = 0.0) {
+  saltus::tape::Graph g;
+  saltus::tape::Series series(g, std::array{g.constant(1.0)},
+                              std::array{make(g, g.continuous_state(0))});
+  expanded(series, {.x = {at}, .p = {parameter}}, order);
+  return outputs_of(series, order);
+}
+
+/// The same coefficients by repeated differentiation of the graph: u' = du/dt + sum of du/dx_i f_i.
 inline Numbers by_derivatives(saltus::tape::Graph& g, const std::vector<saltus::tape::Node>& rates,
                               std::vector<saltus::tape::Node> outputs, const World& world,
                               int order) {

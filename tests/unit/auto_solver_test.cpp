@@ -118,7 +118,8 @@ TEST_CASE("auto follows a scene whose modes are stiff in turns, and every switch
 }
 
 TEST_CASE("auto hands back inside a stretch when the scene stops being stiff", "[auto]") {
-  // x' = L(t) (cos 10 t - x): L falls from 1e6 to 1 between t = 1 and t = 2 and stays there to t = 60.
+  // x' = L(t) (cos 10 t - x): L falls from 1e6 to 1 between t = 1 and t = 2 and stays there to t =
+  // 60.
   const Leaf leaf("thaw", [](Leaf& l) {
     l.declare_continuous_state({.initial = vec({1.0}), .ode = [](const At& at) {
                                   const double fall = std::clamp(2.0 - at.time, 0.0, 1.0);

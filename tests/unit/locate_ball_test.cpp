@@ -27,8 +27,8 @@ TEST_CASE("thirty contacts of the ball are where the closed form says", "[locate
   INFO("method " << method);
   // A relative velocity error r of a flight moves all later contacts by r times what is left of 26
   // s. One-step methods are exact for a parabola but for rounding: thirty flights, a few eps each,
-  // and what DOP853's weights, up to 44, make of that, 5 eps, and the 2 eps of the offset to which a
-  // root is located: 26 s * 30 * 7 eps = 1.2e-12 s.
+  // and what DOP853's weights, up to 44, make of that, 5 eps, and the 2 eps of the offset to which
+  // a root is located: 26 s * 30 * 7 eps = 1.2e-12 s.
   double allowed = 1.2e-12;
   // Adams is exact once its order is 2; before that a flight's error is its tolerance, 1e-12 m at
   // the floor, divided by a speed above 0.6 m/s, and thirty of them: 30 * 1e-12 / 0.6 = 5e-11 s.

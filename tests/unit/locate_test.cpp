@@ -111,7 +111,8 @@ TEST_CASE("a dip in the first piece after a restart is found by the look behind 
 }
 
 TEST_CASE("by default a step has as many points as the degree of its interpolant", "[locate]") {
-  // A step of 1 s in which the guard comes close to zero: a look at the end, then one at each point.
+  // A step of 1 s in which the guard comes close to zero: a look at the end, then one at each
+  // point.
   const Leaf leaf("near", [](Leaf& l) {
     declare_ramp(l);
     l.declare_zero_crossing(

@@ -1,5 +1,5 @@
-// The orders of the Radau methods, by halving the length of the steps: 2 S - 1 at the ends of steps and
-// at events, which end a step, with S stages; S and more inside steps.
+// The orders of the Radau methods, by halving the length of the steps: 2 S - 1 at the ends of steps
+// and at events, which end a step, with S stages; S and more inside steps.
 #include "support/leaves.hpp"
 
 using namespace saltus;

@@ -110,7 +110,8 @@ TEST_CASE("Newton's iteration is judged by how its corrections shrink", "[radau]
   // theta = 0.9 would leave too much after seven iterations; growing corrections diverge.
   CHECK(verdicts({10.0, 9.0}) == V{Verdict::go_on, Verdict::slow});
   CHECK(verdicts({10.0, 11.0}) == V{Verdict::go_on, Verdict::diverged});
-  // A correction below the tolerance that does not shrink is not converged: only rounding excuses it.
+  // A correction below the tolerance that does not shrink is not converged: only rounding excuses
+  // it.
   CHECK(verdicts({1e-3, 1e-3}) == V{Verdict::go_on, Verdict::diverged});
   CHECK(verdicts({1e-9, 1e-9}) == V{Verdict::go_on, Verdict::converged});
 }
@@ -148,8 +149,8 @@ TEST_CASE("the length of a step follows its error, and the trend of the errors",
   CHECK_THAT(first(1.0), WithinRel(0.9, 1e-12));
   CHECK_THAT(first(1e-2), WithinRel(0.9 * std::sqrt(10.0), 1e-12));
   CHECK(first(0.0) == 8.0);
-  // A step shorter than the one before expects its error to shrink by as much again: 0.9 (0.1 / 0.5^2)
-  // of the error, with half of the length.
+  // A step shorter than the one before expects its error to shrink by as much again: 0.9 (0.1 /
+  // 0.5^2) of the error, with half of the length.
   radau::PredictiveControl control;
   control.accept(0.1, 2.0, order, safety, false);
   CHECK_THAT(control.accept(0.5, 1.0, order, safety, false),
@@ -264,7 +265,8 @@ TEST_CASE("Radau damps an oscillation by five steps of its own length", "[radau]
 
 TEST_CASE("Radau is within ten tolerances where the absolute tolerance is the larger part",
           "[radau]") {
-  // At rtol 1e-12 alone a slow estimate may be 14 000 tolerances; that is an error of 14 with atol = 1e-3.
+  // At rtol 1e-12 alone a slow estimate may be 14 000 tolerances; that is an error of 14 with atol
+  // = 1e-3.
   const double rtol = GENERATE(1e-6, 1e-9, 1e-12), atol = GENERATE(1e-2, 1e-3, 1e-5);
   const Leaf leaf = oscillator();
   const auto results = simulate(leaf, leaf.create_context(), {0.0, 20.0},

@@ -80,8 +80,8 @@ TEST_CASE("Looks at the points show each simple root of a polynomial in the step
 }
 
 TEST_CASE("A pair of roots is seen however near the two are, up to the rounding") {
-  // (s - r)^2 - d^2 / 4 has its minimum -d^2 / 4 at r. Its coefficients are rounded to some 1e-16, and
-  // the margin is below 2 * 15 * 2.2e-16 * 3.8 = 2.5e-14, so a depth of 2.5e-13 shows.
+  // (s - r)^2 - d^2 / 4 has its minimum -d^2 / 4 at r. Its coefficients are rounded to some 1e-16,
+  // and the margin is below 2 * 15 * 2.2e-16 * 3.8 = 2.5e-14, so a depth of 2.5e-13 shows.
   for (const double apart : {1e-1, 1e-2, 1e-4, 1e-6}) {
     for (const double at : {0.06, 0.3, 0.5, 0.71, 0.94}) {
       auto a = from_roots({at, at}, 1.0, 15);
@@ -95,8 +95,8 @@ TEST_CASE("A pair of roots is seen however near the two are, up to the rounding"
 TEST_CASE("A double root is looked at") {
   for (const double at : {0.1, 0.37, 0.5, 0.8}) {
     const auto points = points_of(from_roots({at, at}, 1.0, 12));
-    // within the margin, 2e-14 here, around the root: its square root is 1.4e-7, and parts of the step
-    // are halved until they are that short
+    // within the margin, 2e-14 here, around the root: its square root is 1.4e-7, and parts of the
+    // step are halved until they are that short
     CAPTURE(at);
     CHECK(std::ranges::any_of(points, [&](double s) { return std::abs(s - at) < 1e-6; }));
   }

@@ -5,18 +5,6 @@
 using namespace saltus::tape;
 using namespace support;
 
-namespace {
-
-/// The coefficients of one function of x(t), x' = 1, to `order`.
-Numbers along(Node (*make)(Graph& g, Node x), double at, int order, double parameter = 0.0) {
-  Graph g;
-  Series series(g, std::array{g.constant(1.0)}, std::array{make(g, g.continuous_state(0))});
-  expanded(series, {.x = {at}, .p = {parameter}}, order);
-  return outputs_of(series, order);
-}
-
-}  // namespace
-
 TEST_CASE("at a kink the branch is that of the time just after it") {
   CHECK(along([](Graph& g, Node x) { return g.unary(Op::abs, x); }, 0.0, 2) == Numbers{0, 1, 0});
   const Numbers back = along(

@@ -70,14 +70,6 @@ Numbers random_point(std::size_t n, unsigned seed) {
   return x;
 }
 
-/// The coefficients of one function of x(t), x' = 1, to `order`.
-Numbers along(Node (*make)(Graph& g, Node x), double at, int order, double parameter = 0.0) {
-  Graph g;
-  Series series(g, std::array{g.constant(1.0)}, std::array{make(g, g.continuous_state(0))});
-  expanded(series, {.x = {at}, .p = {parameter}}, order);
-  return outputs_of(series, order);
-}
-
 }  // namespace
 
 TEST_CASE("each operation has the derivatives of its tape") {

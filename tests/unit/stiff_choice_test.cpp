@@ -9,7 +9,8 @@ namespace {
 
 constexpr double impossible = -1.0;
 
-/// The choice where a factorisation takes this long [ns] for each state; `impossible`: there is none.
+/// The choice where a factorisation takes this long [ns] for each state; `impossible`: there is
+/// none.
 StiffMethod choice(const StiffScene& scene, double time) {
   const auto cost = [&] { return MatrixCost{time != impossible, time * scene.states}; };
   return choose_stiff_method(scene, cost).method;

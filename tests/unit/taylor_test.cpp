@@ -124,8 +124,8 @@ TEST_CASE("no turn of a pendulum is missed, nor a pair of crossings beside it", 
   constexpr double half_period = 1.0037017879400650;  // 2 K(sin(0.025)) / sqrt(g)
   const Results results = run(leaf, 20.5, by_taylor(1e-13, 1e-13));
   const auto turns = times(results, "turn"), slow = times(results, "slow");
-  // At t = 0 the pendulum is at rest: no crossing of its speed. v^2 = 1e-12 at 1e-6 / (g sin 0.05) s
-  // before and after each turn, and after the start.
+  // At t = 0 the pendulum is at rest: no crossing of its speed. v^2 = 1e-12 at 1e-6 / (g sin 0.05)
+  // s before and after each turn, and after the start.
   const double apart = 1e-6 / (gravity * std::sin(0.05));
   REQUIRE(turns.size() == 20);
   REQUIRE(slow.size() == 41);

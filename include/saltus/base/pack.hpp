@@ -12,9 +12,9 @@ namespace saltus {
 
 /// Applies each operation to every number of the pack, with the same bits as one by one; the
 /// processor does several at once if it can. A comparison gives 0 or 1 for each number.
-/// tape::Symbol has the same operations. It is no Eigen::Array: that is not faster but for the roots
-/// (bench/packs), its exp, log, sin and cos have other bits, and an `auto` of a user's formula would
-/// be an expression that refers to temporaries.
+/// tape::Symbol has the same operations. It is no Eigen::Array: that is not faster but for the
+/// roots (bench/packs), its exp, log, sin and cos have other bits, and an `auto` of a user's
+/// formula would be an expression that refers to temporaries.
 class Pack {
  public:
   static constexpr int size = 8;

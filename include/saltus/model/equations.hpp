@@ -79,10 +79,11 @@ constexpr Index states_of() {
 ///       xdot[1] = -9.8 * sin(at.x(0));
 ///     })
 /// `at` has the members of EntryAt that name an entry, time(), x(j), z(j), u(k, j), p(k, j),
-/// relation(r, j), choose(truth, a, b), and mode(). The function runs with numbers, as any other right-hand side,
-/// and with symbols, so that its Taylor series and its exact derivatives are known. It must read only
-/// `at` and constants, and choose between values by `at.choose` or by a constant. `inlined<N>` takes
-/// it too. A block with another number of states refuses it, with a ModelError.
+/// relation(r, j), choose(truth, a, b), and mode(). The function runs with numbers, as any other
+/// right-hand side, and with symbols, so that its Taylor series and its exact derivatives are
+/// known. It must read only `at` and constants, and choose between values by `at.choose` or by a
+/// constant. `inlined<N>` takes it too. A block with another number of states refuses it, with a
+/// ModelError.
 template <int N, class F>
   requires(N > 0)
 detail::Equations<N, F> equations(F f) {

@@ -145,9 +145,9 @@ struct ZeroCrossing {
   AtStart at_start = AtStart::automatic;      ///< at zero, or beyond it, when integration begins
   OnZeno on_zeno = OnZeno::hold();            ///< how it continues at its Zeno points
   std::optional<double> zeno_tolerance = {};  ///< [s] overrides SimulatorOptions::zeno_tolerance
-  /// The entries of the leaf's continuous state that rest on a hold, one list for each guard. If not
-  /// given: the entries that the guard and the effect touch; all entries if `touches` is not given,
-  /// or if the effect writes a discrete state or a mode that the derivatives read.
+  /// The entries of the leaf's continuous state that rest on a hold, one list for each guard. If
+  /// not given: the entries that the guard and the effect touch; all entries if `touches` is not
+  /// given, or if the effect writes a discrete state or a mode that the derivatives read.
   std::vector<std::vector<int>> holds = {};
   std::optional<Touches> touches = {};  ///< the tapes of the guard and of the reset map give it
   std::optional<std::vector<int>> inputs = {};  ///< the inputs the guard reads; all if not given

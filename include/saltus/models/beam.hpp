@@ -86,10 +86,10 @@ struct BeamParameters {
   double t_end = 5.0;
 };
 
-/// Records "theta" at the times of the reference. The growth is the largest row of the propagator of
-/// the beam at rest, over times up to 5: nothing is damped, and an error of an angle becomes one of
-/// a rate by the frequency of its mode, up to 6400. BDF runs at the edge of its stability, with 5e4 to
-/// 1e5 steps, so it does not suit the scene.
+/// Records "theta" at the times of the reference. The growth is the largest row of the propagator
+/// of the beam at rest, over times up to 5: nothing is damped, and an error of an angle becomes one
+/// of a rate by the frequency of its mode, up to 6400. BDF runs at the edge of its stability, with
+/// 5e4 to 1e5 steps, so it does not suit the scene.
 inline Scene beam(const BeamParameters& with = {}) {
   const auto beam = std::make_shared<const Beam>(with.n);
   const Exact known =

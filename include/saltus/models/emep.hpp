@@ -1,12 +1,12 @@
 // EMEP: the chemistry of ozone in the lower air of Europe over four and a half days: 66 substances,
 // 160 reactions and losses, light by day only.
 //   dy/dt = emissions + sum over reactions of k(t) (product of the reactants) changes
-// State: concentrations y [molecules/cm^3] in the order of emep_reactions.hpp; time in seconds, from
-// 4 h of the first day to 20 h of the fifth. The rates (emep_rates.hpp) depend on the time of day:
-// light by the zenith angle, water by the humidity. Light and deposition jump at 4 h and 20 h (the
-// time event "sun", which changes the mode), and the humidity jumps at midnight (the time event
-// "midnight", which sets the discrete state, the begin of the day). J. G. Verwer, D. Simpson, Appl.
-// Numer. Math. 18 (1995) 413; Test Set for IVP Solvers, EMEP.
+// State: concentrations y [molecules/cm^3] in the order of emep_reactions.hpp; time in seconds,
+// from 4 h of the first day to 20 h of the fifth. The rates (emep_rates.hpp) depend on the time of
+// day: light by the zenith angle, water by the humidity. Light and deposition jump at 4 h and 20 h
+// (the time event "sun", which changes the mode), and the humidity jumps at midnight (the time
+// event "midnight", which sets the discrete state, the begin of the day). J. G. Verwer, D. Simpson,
+// Appl. Numer. Math. 18 (1995) 413; Test Set for IVP Solvers, EMEP.
 #pragma once
 
 #include <algorithm>

@@ -1,6 +1,6 @@
-// The rates of EMEP (emep.hpp) at 298 K: constants, the light of a cloudless day at 50 degrees north
-// in midsummer, and the humidity. Concentrations are in molecules per cm^3, times in seconds, and two-body rates in
-// cm^3/s. Test Set for IVP Solvers, EMEP.
+// The rates of EMEP (emep.hpp) at 298 K: constants, the light of a cloudless day at 50 degrees
+// north in midsummer, and the humidity. Concentrations are in molecules per cm^3, times in seconds,
+// and two-body rates in cm^3/s. Test Set for IVP Solvers, EMEP.
 #pragma once
 
 #include <array>

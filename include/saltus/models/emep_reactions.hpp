@@ -1,7 +1,7 @@
 // The reactions of EMEP (emep.hpp). Each has the number of its rate, one or two substances that
-// react, 0 for none, and what a unit of it changes: {substance, change}. Rates are numbered as in the
-// source: negative ones are photolysis, 43 to 53 deposition and loss to aerosols. Rates that the
-// source sets equal have one number here. Substances:
+// react, 0 for none, and what a unit of it changes: {substance, change}. Rates are numbered as in
+// the source: negative ones are photolysis, 43 to 53 deposition and loss to aerosols. Rates that
+// the source sets equal have one number here. Substances:
 // 1 NO, 2 NO2, 3 SO2, 4 CO, 5 CH4, 6 C2H6, 7 NC4H10, 8 C2H4, 9 C3H6, 10 OXYL, 11 HCHO, 12 CH3CHO,
 // 13 MEK, 14 O3, 15 HO2, 16 HNO3, 17 H2O2, 18 H2, 19 CH3O2, 20 C2H5OH, 21 SA, 22 CH3O2H, 23 C2H5O2,
 // 24 CH3COO, 25 PAN, 26 SECC4H, 27 MEKO2, 28 R2OOH, 29 ETRO2, 30 MGLYOX, 31 PRRO2, 32 GLYOX,

@@ -48,9 +48,9 @@ struct MedicalAkzoParameters {
   double t_end = 20.0;
 };
 
-/// Records "y" at the start and at t = 20. The growth is measured: a change of 1e-5 (1 + |y|) in every
-/// entry makes errors up to 15.8 times as large at the end, where u and v err with opposite signs
-/// from the start on; other signs and times of the change make smaller ones.
+/// Records "y" at the start and at t = 20. The growth is measured: a change of 1e-5 (1 + |y|) in
+/// every entry makes errors up to 15.8 times as large at the end, where u and v err with opposite
+/// signs from the start on; other signs and times of the change make smaller ones.
 inline Scene medical_akzo(const MedicalAkzoParameters& with = {}) {
   const auto tissue = std::make_shared<const MedicalAkzo>(with.n);
   Exact known =

@@ -52,8 +52,8 @@ struct SimulatorOptions {
   /// be resolved, whatever this value is.
   double zeno_tolerance = 1e-6;
   /// The number of interior points of a step at which guards are evaluated, to find two crossings
-  /// in one step; 0 switches this off. Empty: the degree of the method's dense output, that is 4 for
-  /// dopri5, 7 for dop853, and for adams and bdf the present order, at least 3.
+  /// in one step; 0 switches this off. Empty: the degree of the method's dense output, that is 4
+  /// for dopri5, 7 for dop853, and for adams and bdf the present order, at least 3.
   std::optional<int> event_scan_points = {};
   /// The number of passes an instant may have before it counts as a loop without end.
   int max_passes = 100;

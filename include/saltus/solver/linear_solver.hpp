@@ -10,8 +10,8 @@
 
 namespace saltus {
 
-/// How the linear systems are solved. `automatic` chooses by the number of states and the entries of
-/// the Jacobian.
+/// How the linear systems are solved. `automatic` chooses by the number of states and the entries
+/// of the Jacobian.
 enum class LinearSolver { automatic, dense, band, sparse, gmres };
 
 /// The names, in the order of the enum.

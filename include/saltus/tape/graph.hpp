@@ -41,10 +41,10 @@ struct Expression {
 ///
 /// One rule changes bits: `pow` with the constant exponent 2, 0.5 or -1 becomes x*x, sqrt(x), 1/x,
 /// as in NumPy's arrays. With 3 or 4 it becomes (x*x)*x or (x*x)*(x*x), which is much quicker than
-/// `std::pow` and within 1 or 1.5 units in the last place of the exact power. It stays `pow`, but is
-/// computed as x*sqrt(x), (x*x)*sqrt(x), 1/sqrt(x), 1/(x*sqrt(x)), 1/(x*x), 1/((x*x)*x), for the
-/// exponents 1.5, 2.5, -0.5, -1.5, -2, -3: two or three roundings, where x*x is a normal number; NaN
-/// for x = -Inf with a half exponent.
+/// `std::pow` and within 1 or 1.5 units in the last place of the exact power. It stays `pow`, but
+/// is computed as x*sqrt(x), (x*x)*sqrt(x), 1/sqrt(x), 1/(x*sqrt(x)), 1/(x*x), 1/((x*x)*x), for the
+/// exponents 1.5, 2.5, -0.5, -1.5, -2, -3: two or three roundings, where x*x is a normal number;
+/// NaN for x = -Inf with a half exponent.
 class Graph {
  public:
   Node constant(double value);

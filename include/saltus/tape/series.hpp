@@ -27,9 +27,10 @@ struct Program;
 ///
 /// At a kink the branch is that of the time just after the point: abs, minimum, maximum, and a
 /// select by a comparison whose two values are equal there, decide by the first coefficients that
-/// differ. Apart from that, steps (floor, sign, comparisons and the like) are constants, and select,
-/// copysign, mod and fmod have the branch of the value. Where an operation has no Taylor series
-/// (sqrt at 0, hypot at the origin, pow(0, 1.5), a division by 0) coefficients are infinite or NaN.
+/// differ. Apart from that, steps (floor, sign, comparisons and the like) are constants, and
+/// select, copysign, mod and fmod have the branch of the value. Where an operation has no Taylor
+/// series (sqrt at 0, hypot at the origin, pow(0, 1.5), a division by 0) coefficients are infinite
+/// or NaN.
 ///
 /// A Series owns scratch memory, so one thread uses it at a time. A copy shares the list of
 /// instructions, which never changes, and has its own memory.
@@ -44,9 +45,9 @@ class Series {
 
   /// Writes the coefficients of orders 0 ... `order` of every state at (at.time, at.x): row k of
   /// `x` is x[k * states()] ..., so `x` has (order + 1) * states() numbers and must not overlap the
-  /// arrays of `at`. Inputs, parameters, discrete states, mode and entry are constant in time. State
-  /// i has the rate 0 if held[i] is not 0; a null pointer holds none. ModelError unless `order` is
-  /// from 0 to `highest_order`. Nothing is allocated.
+  /// arrays of `at`. Inputs, parameters, discrete states, mode and entry are constant in time.
+  /// State i has the rate 0 if held[i] is not 0; a null pointer holds none. ModelError unless
+  /// `order` is from 0 to `highest_order`. Nothing is allocated.
   void expand(const At& at, int order, const char* held, double* x);
 
   /// After `expand`: the coefficients of outputs first ... first + count - 1, to the order of that
@@ -81,8 +82,8 @@ class Series {
 /// The operations in `nodes` and their operands that have no Taylor series where a state may pass:
 /// kinks (abs, minimum, maximum, select, mod, fmod, copysign) and steps (floor, ceil, trunc, rint,
 /// sign, floor_divide, comparisons, logical operations). Only those of which an operand depends on
-/// time or on a continuous state count, as others are constant; of a select its condition. Each is listed once, in the order of
-/// `Op`; empty if all is smooth.
+/// time or on a continuous state count, as others are constant; of a select its condition. Each is
+/// listed once, in the order of `Op`; empty if all is smooth.
 std::vector<Op> kinks(const Graph& graph, std::span<const Node> nodes);
 
 }  // namespace saltus::tape

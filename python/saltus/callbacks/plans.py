@@ -20,8 +20,8 @@ LARGE = 1000
 class Plans:
     """The last few plans that were made of the present traces of a system.
 
-    A plan refers to no object of Python: neither the system nor a function lives longer for it. A
-    plan never changes, so any number of runs use it at once.
+    A plan keeps neither its system nor a function of the user alive. It never changes, so any
+    number of runs use it at once.
     """
 
     def __init__(self) -> None:

@@ -33,7 +33,7 @@ def cache_directory(path: str | os.PathLike[str] | None) -> None:
     Examples
     --------
     >>> import saltus.jit
-    >>> saltus.jit.cache_directory("/tmp/saltus-code")
+    >>> saltus.jit.cache_directory("saltus-code")
     >>> saltus.jit.cache_directory(None)
     """
     global _directory

@@ -23,8 +23,8 @@ might have another shape the next time
 
 
 def key_of(options: SimulatorOptions | None, overrides: Mapping[str, Any]) -> Key | None:
-    """The options as values that can be compared. None for options no plan is kept for: those that
-    may be wrong, or that can change without being seen.
+    """The options as values that can be compared. None if no plan may be kept for them, because
+    they may be wrong, or may change without being seen.
     """
     if options is not None and type(options) is not SimulatorOptions:
         return None
@@ -45,7 +45,9 @@ def key_of(options: SimulatorOptions | None, overrides: Mapping[str, Any]) -> Ke
 
 
 def _signals(signals: Any) -> Key | None:
-    """The recorded signals. They refer to a block weakly: it may be the one that keeps the plan."""
+    """The recorded signals as values that can be compared; None if they may be wrong. They refer to
+    the blocks weakly, because a block may keep the plan, and with it this key.
+    """
     if signals is None:
         return ()
     if type(signals) is not dict:
@@ -59,7 +61,7 @@ def _signals(signals: Any) -> Key | None:
 
 
 def _fixed(value: Any) -> Any:
-    """The present value of a number, or of several, whose object may change; None for another."""
+    """The present value of a number, an array, or a list of numbers; None for any other object."""
     if isinstance(value, np.generic):
         return value
     if type(value) is np.ndarray and value.dtype.kind in "biuf":

@@ -70,9 +70,7 @@ class Simulator:
         self._options = core_options(self.options)
         self._others = functions_of(self.options)
         self._make()
-        self._shown: Callable[[], Results | None] = lambda: (
-            None
-        )  # the last results, while they live
+        self._shown: Callable[[], Results | None] = _nothing  # the last results, while they live
         self._failed: Results | None = None
         self._turn = Turn()
 
@@ -202,6 +200,10 @@ class Simulator:
         """
         self._turn.require_idle("describe", self._core)
         return self._core.describe()
+
+
+def _nothing() -> None:
+    """A reference to results that do not live any more."""
 
 
 def _seconds(time: float) -> float:

@@ -92,15 +92,16 @@ def call_of(
 
 
 def _settings(guard: Guard) -> tuple[Any, ...]:
-    """All but the functions, and the name that it goes by without one."""
-    g = guard
-    own = g.name or g.guard.__name__
-    times = (g.zeno_tolerance, g.on_zeno, g.at_start)
-    return (g.direction, own, g.name, g.terminal, g.max_count, *times)
+    """All values of a guard but its functions. A guard without a name has that of its function."""
+    name = guard.name or guard.guard.__name__
+    contact = (guard.zeno_tolerance, guard.on_zeno, guard.at_start)
+    return (guard.direction, name, guard.name, guard.terminal, guard.max_count, *contact)
 
 
 def _exact(value: Any) -> Any:
-    """The value as one that is equal only for the same bits; None for one that may change."""
+    """What stands for a value in a key: equal only if all bits of the values are equal, which 0.0
+    and -0.0, or 1 and True, are not. None for a value that may change without being seen.
+    """
     kind = type(value)
     if kind in PLAIN:
         return (kind, value)

@@ -1,5 +1,5 @@
-// Elimination for few states, unrolled. This file is compiled without vectors: a pair would be loaded
-// before the two stores of its numbers are done, and four states would take twice the time
+// Elimination for few states, unrolled. This file is compiled without vectors: a pair would be
+// loaded before the two stores of its numbers are done, and four states would take twice the time
 // (bench/factorisations).
 #include <utility>
 

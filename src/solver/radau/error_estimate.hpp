@@ -10,9 +10,9 @@
 
 namespace saltus::radau {
 
-/// The embedded formula (gamma - h J)^-1 (h f0 + sum_j e_j z_j) (Hairer, Wanner II, IV.8, (8.19)). It
-/// is not filtered a second time where it is large at a start, as (8.20) does: a transient that is
-/// damped within the step leaves no error at its end, but the collocation polynomial is wrong
+/// The embedded formula (gamma - h J)^-1 (h f0 + sum_j e_j z_j) (Hairer, Wanner II, IV.8, (8.19)).
+/// It is not filtered a second time where it is large at a start, as (8.20) does: a transient that
+/// is damped within the step leaves no error at its end, but the collocation polynomial is wrong
 /// inside.
 class ErrorEstimate {
  public:
@@ -25,8 +25,8 @@ class ErrorEstimate {
   /// Another step begins, or the same one with other stages: no try of it is known.
   void forget_tries() { tried_ = 0.0; }
 
-  /// Root mean square of the estimate, in what is allowed: infinite if it is not finite. `x1` is the
-  /// end of the step.
+  /// Root mean square of the estimate, in what is allowed: infinite if it is not finite. `x1` is
+  /// the end of the step.
   double look(StageSolver& solver, const Step& step, const StagePolynomial& stages,
               const Eigen::VectorXd& x1) {
     const Scheme scheme = scheme_of(stages.stages);
@@ -51,8 +51,8 @@ class ErrorEstimate {
   void set_size(double size) { size_ = size; }
 
  private:
-  /// What is allowed at rtol, or, where the absolute tolerances are the larger part, at the ratio of
-  /// the tolerances to the states.
+  /// What is allowed at rtol, or, where the absolute tolerances are the larger part, at the ratio
+  /// of the tolerances to the states.
   AllowedEstimate allowed(const Scheme& scheme, const Eigen::VectorXd& x1) const {
     const double relative = std::min(tuning::absolute_part / mean(x1), 1.0);
     if (relative > options_.rtol) return AllowedEstimate(scheme, relative, thresholds::dense_room);

@@ -5,9 +5,9 @@
 
 namespace saltus::radau {
 
-/// The collocation polynomial has the error h^(S + 1), the step h^(2 S): where the step is as long as
-/// its own error allows, the polynomial is far off. Two halves have 2^-(S + 1) of its error. They do
-/// not change the step, so recorded rows and monitors change no results.
+/// The collocation polynomial has the error h^(S + 1), the step h^(2 S): where the step is as long
+/// as its own error allows, the polynomial is far off. Two halves have 2^-(S + 1) of its error.
+/// They do not change the step, so recorded rows and monitors change no results.
 class Halves {
  public:
   explicit Halves(Index n) : middle_(n), shift_(n), first_(n), second_(n) {}
@@ -27,8 +27,8 @@ class Halves {
     return shift_.allFinite();
   }
 
-  /// The state at the part s of the step. The end of the second half differs from x1 by the error of
-  /// the step, which is spread over it.
+  /// The state at the part s of the step. The end of the second half differs from x1 by the error
+  /// of the step, which is spread over it.
   void read(const double* x0, double s, double* x) const {
     if (s < 0.5)
       first_.read(x0, 2.0 * s, x);

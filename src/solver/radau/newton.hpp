@@ -11,9 +11,9 @@
 
 namespace saltus::radau {
 
-/// Solves z = h (A x I) f(t0 + c h, x0 + z) by simplified Newton iterations. With r = h (A x I) f - z
-/// each is (Lambda - h J) d = Lambda (T^-1 x I) r, z += (T x I) d, which falls into systems for each
-/// eigenvalue (Hairer, Wanner II, IV.8, (8.6) to (8.13), times h).
+/// Solves z = h (A x I) f(t0 + c h, x0 + z) by simplified Newton iterations. With r = h (A x I) f -
+/// z each is (Lambda - h J) d = Lambda (T^-1 x I) r, z += (T x I) d, which falls into systems for
+/// each eigenvalue (Hairer, Wanner II, IV.8, (8.6) to (8.13), times h).
 ///
 /// The residual r is taken before it is transformed. If its two parts were transformed one by one,
 /// their roundings would grow by |T| |T^-1|, up to 1e3, and break the linear invariants of f.

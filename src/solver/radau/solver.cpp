@@ -50,8 +50,8 @@ class RadauSolver final : public StepSolver<RadauSolver> {
     return sum_;
   }
 
-  /// See StepSolver. The root is off by the error of the dense output, and the cut ends ten times as
-  /// far beyond it. Near the begin of the step the polynomial is as good as the state there.
+  /// See StepSolver. The root is off by the error of the dense output, and the cut ends ten times
+  /// as far beyond it. Near the begin of the step the polynomial is as good as the state there.
   bool cut(double root) {
     const double moved = in_tolerances(x1_ - x0_);
     const double off = dense_error() / std::max(moved, std::numeric_limits<double>::min());
@@ -129,8 +129,8 @@ class RadauSolver final : public StepSolver<RadauSolver> {
       if (error <= 1.0) return accept(error, h, wish, rejected);
       ++statistics_.rejected;
       wish = choice_.reject(error, h, stages_.convergence());
-      // Behind a jump the steps before it say nothing, and the estimate of fast parts hardly shrinks
-      // with h until it resolves them.
+      // Behind a jump the steps before it say nothing, and the estimate of fast parts hardly
+      // shrinks with h until it resolves them.
       if (!smooth_ && !rejected && !damping_.goes_on()) wish = std::min(wish, careful_step(t_stop));
     }
   }

@@ -25,8 +25,8 @@ class StageSolver {
 
   /// A new run: nothing is known.
   void forget() { structure_.reset(), doubts_ = 0; }
-  /// Makes the structure of the linear systems at the first step. Throws NoFactors if they cannot be
-  /// factorised.
+  /// Makes the structure of the linear systems at the first step. Throws NoFactors if they cannot
+  /// be factorised.
   void prepare(double t, const Eigen::VectorXd& x);
   /// What was seen of Newton's iteration says nothing about the next step.
   void distrust() { factor_ = infinite; }

@@ -20,8 +20,8 @@ class StageSystems {
   /// For matrices of this structure, which has to be direct.
   explicit StageSystems(const LinearStructure& structure) : structure_(&structure) {}
 
-  /// Factorises for a step of length h, large matrices in two threads; `jacobian` has the values of J
-  /// in the layout. False if a matrix is singular.
+  /// Factorises for a step of length h, large matrices in two threads; `jacobian` has the values of
+  /// J in the layout. False if a matrix is singular.
   bool factor(const std::vector<double>& jacobian, const Scheme& scheme, double h);
   /// Whether the last factorisation was for this step.
   bool serves(const Scheme& scheme, double h) const { return stages_ == scheme.stages && h_ == h; }

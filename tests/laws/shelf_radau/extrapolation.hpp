@@ -1,6 +1,6 @@
-// The midpoint rule of Gragg, Bulirsch and Stoer, extrapolated to order 12, in long double with equal
-// steps. It is an explicit method, so it confirms what Radau has found by other means. It suits
-// equations that oscillate or are hardly stiff.
+// The midpoint rule of Gragg, Bulirsch and Stoer, extrapolated to order 12, in long double with
+// equal steps. It is an explicit method, so it confirms what Radau has found by other means. It
+// suits equations that oscillate or are hardly stiff.
 // E. Hairer, S. P. Norsett, G. Wanner, Solving Ordinary Differential Equations I, section II.9.
 #pragma once
 

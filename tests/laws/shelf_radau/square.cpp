@@ -1,5 +1,5 @@
-// The reference of the Brusselator on a square. It has too many unknowns for Radau in 34 digits, and
-// is mildly stiff, so an explicit method can follow it. By hand:
+// The reference of the Brusselator on a square. It has too many unknowns for Radau in 34 digits,
+// and is mildly stiff, so an explicit method can follow it. By hand:
 //   g++ -std=gnu++20 -O2 square.cpp -o square && ./square 2e-3 && ./square 1e-3
 // Prints u and v along the row of nodes that the scene records; the two runs show how many digits
 // hold. Takes minutes.

@@ -13,8 +13,8 @@
 
 namespace saltus::detail {
 
-/// Depth-first topological order of the nodes 0 ... count - 1. `needs(i)` gives the nodes that node i
-/// needs, as a span or a vector; `name(i)` names it in the error of a loop.
+/// Depth-first topological order of the nodes 0 ... count - 1. `needs(i)` gives the nodes that node
+/// i needs, as a span or a vector; `name(i)` names it in the error of a loop.
 template <class Needs, class Name>
 class FeedthroughOrder {
  public:

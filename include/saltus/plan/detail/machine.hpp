@@ -119,8 +119,9 @@ class Machine : public Memory {
     run(calls_.needs_of_derivatives, t, state);
   }
 
-  /// The functions of some leaves compute something else from now on: whoever made something of
-  /// their formulas makes it anew, when it sees another number here.
+  /// Says that functions of some leaves compute something else from now on. Who has made something
+  /// of their formulas, such as a series, compares `functions()` with its last value, and makes it
+  /// anew if it differs.
   void functions_replaced() noexcept { ++functions_; }
   int functions() const noexcept { return functions_; }
 

@@ -14,8 +14,8 @@ namespace saltus {
 /// window of steps took little time, the derivative at the ends of the next steps is compared with
 /// the derivative some steps ahead, straight on along the flow. A slide is never further from its
 /// jump than that, so a derivative changes its sign. It may do so in a stiff scene too. But there
-/// it changes gradually, and a jump stays as large as it is when the way across it is halved down to
-/// neighbouring numbers.
+/// it changes gradually, and a jump stays as large as it is when the way across it is halved down
+/// to neighbouring numbers.
 ///
 /// A window costs nothing, and each look ahead two calls of the right-hand side. Looks that find
 /// nothing double the next window.
@@ -30,7 +30,8 @@ class Crawl {
     return looking_ ? compare(t, x) : ++steps_ >= window_ && start(t, length_of_run);
   }
 
-  /// The jump: which state, its derivative on both sides, the steps counted, and the time they took.
+  /// The jump: which state, its derivative on both sides, the steps counted, and the time they
+  /// took.
   struct Jump {
     Index state = 0;
     double at = 0.0, below = 0.0, above = 0.0;

@@ -9,8 +9,8 @@
 
 namespace saltus {
 
-/// Stops at `from + k length`, k = 1, 2, ..., where `from` is the time of the last instant. They are
-/// counted, not added up: an end that lies within rounding of another stop is that stop.
+/// Stops at `from + k length`, k = 1, 2, ..., where `from` is the time of the last instant. They
+/// are counted, not added up: an end that lies within rounding of another stop is that stop.
 class MajorSteps {
  public:
   explicit MajorSteps(double length) : length_(length) {}

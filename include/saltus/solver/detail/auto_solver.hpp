@@ -14,9 +14,9 @@
 namespace saltus {
 
 /// Starts with the explicit method. When the scene looks stiff, a stiff method continues from the
-/// present point: see StiffSigns and choose_stiff_method. The explicit method returns when the steps
-/// of the stiff method are stable for it: see ReturnTest. This is checked when a stiff stretch is
-/// restarted too. All methods share the guard records, so no guard is armed anew.
+/// present point: see StiffSigns and choose_stiff_method. The explicit method returns when the
+/// steps of the stiff method are stable for it: see ReturnTest. This is checked when a stiff
+/// stretch is restarted too. All methods share the guard records, so no guard is armed anew.
 class AutoSolver final : public Solver {
  public:
   AutoSolver(Machine& machine, GuardSet& guards, const SolverOptions& options,
@@ -79,7 +79,8 @@ class AutoSolver final : public Solver {
     methods_.begin_run(), radius_.forget(), test_.begin_run(), log_.clear(t);
   }
 
-  /// Takes a step. Where Radau's matrices have turned out to be impossible, another method takes it.
+  /// Takes a step. Where Radau's matrices have turned out to be impossible, another method takes
+  /// it.
   StopReason step(double t_stop) {
     try {
       return active().advance(t_stop);
@@ -105,7 +106,8 @@ class AutoSolver final : public Solver {
   bool not_stiff_again() {
     return test_.due(pace()) && test_.passes(radius_(active().time(), active().state()), pace());
   }
-  /// Changes to another method between two stretches, at (t, x), if a change is due. Returns whether.
+  /// Changes to another method between two stretches, at (t, x), if a change is due. Returns
+  /// whether.
   bool changes_at_event(double t, const Eigen::VectorXd& x) {
     if (!stiff_) return false;
     if (radius_(t, x) * test_.longest() < pace().reach) return change(t, nullptr, ""), true;
@@ -121,9 +123,9 @@ class AutoSolver final : public Solver {
     return chosen_ != nullptr;
   }
 
-  /// A fast oscillation that is as small as the errors of the explicit method is one of them, and the
-  /// stiff method damps it. A larger one may be the solution. At tight tolerances the steps that damp
-  /// it are too long for the solution, and the errors of dop853 are small there.
+  /// A fast oscillation that is as small as the errors of the explicit method is one of them, and
+  /// the stiff method damps it. A larger one may be the solution. At tight tolerances the steps
+  /// that damp it are too long for the solution, and the errors of dop853 are small there.
   Start start_of(bool stiff) const {
     Start start{.changed = true, .handover = true};
     if (!stiff || !part_.hardly_damped || !damps_) return start;

@@ -62,7 +62,8 @@ class Glance : protected Narrower {
 
   /// Whether no guard can have fired between the look at `from` and high_, at `to`: each guard is
   /// clearly on its side at both, and the parabola through the last three looks has no vertex in
-  /// between, nor in the piece before, where the look at `to` shows more. This is true in most steps.
+  /// between, nor in the piece before, where the look at `to` shows more. This is true in most
+  /// steps.
   bool calm(double from, double to) const {
     const double r = (to - from) / (from - earlier_at_);
     const bool dips = earlier_at_ != never && scans();
@@ -74,7 +75,8 @@ class Glance : protected Narrower {
       if (!(now > 0.0 && now < never)) return false;  // never is infinite
       if (!dips) continue;
       const double rise = now - before, earlier_rise = before - side * earlier_[k];
-      // The parabola falls at `from` and rises at `to`; or falls at the earlier look and rises here.
+      // The parabola falls at `from` and rises at `to`; or falls at the earlier look and rises
+      // here.
       const double turn = -earlier_rise * r * r;
       if (rise < turn ? rise * (1.0 + 2.0 * r) > -turn : may_go_back_ && rise > earlier_rise * back)
         return false;

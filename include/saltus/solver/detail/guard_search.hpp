@@ -14,9 +14,9 @@
 
 namespace saltus {
 
-/// Looks at the guards of a watch at a few interior points of a step. It also looks where three looks suggest
-/// that a guard dips across zero and back (a pair of roots). The first interval in which a guard
-/// crosses is narrowed.
+/// Looks at the guards of a watch at a few interior points of a step. It also looks where three
+/// looks suggest that a guard dips across zero and back (a pair of roots). The first interval in
+/// which a guard crosses is narrowed.
 class GuardSearch : private DipSearch {
  public:
   GuardSearch(Machine& machine, GuardSet& guards, const Watch& watch)
@@ -203,8 +203,8 @@ class GuardSearch : private DipSearch {
                                [&](std::size_t k) { return (*guards_)[k].is_beyond(); });
   }
 
-  /// Whether a guard that has a firing side, and has not crossed, is as close to zero as it moves in
-  /// four brackets of the root.
+  /// Whether a guard that has a firing side, and has not crossed, is as close to zero as it moves
+  /// in four brackets of the root.
   bool is_beside_root(std::size_t k) const {
     const Guard& guard = (*guards_)[k];
     return guard.phase == Phase::armed && !guard.monitor && !guard.jumps &&

@@ -43,8 +43,8 @@ class GuardSet {
   const List<Guard>& all() const noexcept { return guards_; }
   /// The guards that can fire in the present modes.
   const std::vector<std::size_t>& active() const noexcept { return active_; }
-  /// The active guards that stop the solver, and the active monitors. They are searched one after the
-  /// other, because no monitor may change a bit of a root.
+  /// The active guards that stop the solver, and the active monitors. They are searched one after
+  /// the other, because no monitor may change a bit of a root.
   const Watch& stopping() const noexcept { return stopping_; }
   const Watch& watching() const noexcept { return watching_; }
   std::int64_t version() const noexcept { return version_; }
@@ -91,8 +91,8 @@ class GuardSet {
   bool fits(const Continuation& from) const { return from.guards.size() == guards_.size(); }
   void load(const Continuation& from);
 
-  /// A step is searched: `keep` remembers the records once before they are written, `restore` undoes
-  /// what was written since.
+  /// A step is searched: `keep` remembers the records once before they are written, `restore`
+  /// undoes what was written since.
   void begin_search() {
     keeps_ = false;
     fired_at_root.clear(), beside_root.clear();

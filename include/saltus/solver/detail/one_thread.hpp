@@ -5,8 +5,8 @@
 
 namespace saltus {
 
-/// While it lives, the solvers that this thread calls start no other threads: an ensemble has put its
-/// runs on all cores.
+/// While it lives, the solvers that this thread calls start no other threads: an ensemble has put
+/// its runs on all cores.
 class OneThread {
  public:
   OneThread() : before_(std::exchange(asked_, true)) {}

@@ -21,10 +21,10 @@ inline constexpr CheckPace pace_of_radau{thresholds::check_every_of_radau,
                                          thresholds::short_stretch_of_radau,
                                          thresholds::stable_reach_of_radau};
 
-/// The steps of a stretch. A scene is not stiff any more when |lambda| h is small for the steps h of
-/// the stiff method, because these steps are stable for the explicit one (L. Petzold, SIAM J. Sci.
-/// Stat. Comput. 4 (1983) 136). A check has to succeed several times in a row: twice at first, and
-/// twice as often after each return that did not last, so that the methods do not alternate.
+/// The steps of a stretch. A scene is not stiff any more when |lambda| h is small for the steps h
+/// of the stiff method, because these steps are stable for the explicit one (L. Petzold, SIAM J.
+/// Sci. Stat. Comput. 4 (1983) 136). A check has to succeed several times in a row: twice at first,
+/// and twice as often after each return that did not last, so that the methods do not alternate.
 class ReturnTest {
  public:
   void begin_run() {

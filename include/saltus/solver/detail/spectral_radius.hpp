@@ -19,10 +19,11 @@ namespace saltus {
 ///
 /// A pair of complex eigenvalues turns v for ever, and one growth depends on where v is. So the
 /// last three vectors are fitted by J^2 v = a J v + b v, whose roots are the pair (Y. Saad,
-/// "Numerical Methods for Large Eigenvalue Problems", 1992, IV.1). Many pairs on the imaginary axis,
-/// those of an elastic structure, leave the span of two vectors; but J^2 has real eigenvalues -w^2
-/// then, and turns v back, while one J may lengthen it by 10 and the next by 10^6 where the states are
-/// angles and their rates. If v is turned back by most, but not by all, the iteration goes on.
+/// "Numerical Methods for Large Eigenvalue Problems", 1992, IV.1). Many pairs on the imaginary
+/// axis, those of an elastic structure, leave the span of two vectors; but J^2 has real eigenvalues
+/// -w^2 then, and turns v back, while one J may lengthen it by 10 and the next by 10^6 where the
+/// states are angles and their rates. If v is turned back by most, but not by all, the iteration
+/// goes on.
 class SpectralRadius {
  public:
   SpectralRadius(Machine& machine, const SolverOptions& options)
@@ -85,8 +86,8 @@ class SpectralRadius {
     return growth;
   }
 
-  /// Fits the last three vectors: direction_ = a last_ + b growth_before / growth before_last_, with
-  /// a and b in units of the growth.
+  /// Fits the last three vectors: direction_ = a last_ + b growth_before / growth before_last_,
+  /// with a and b in units of the growth.
   void fit(double growth) {
     const double overlap = before_last_.dot(last_);
     const double p = direction_.dot(last_);

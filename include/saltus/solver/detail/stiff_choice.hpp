@@ -24,14 +24,15 @@ struct StiffChoice {
 /// Chooses the method. `cost` returns the MatrixCost; it is called only where the choice depends on
 /// it, because it has to look for the sparsity.
 ///
-/// The figures are those of whole runs by both methods on the stiff scenes of the shelf, and on chains
-/// and full systems of 4 to 4 000 states, at rtol 1e-3 to 1e-12. At the same rtol Radau takes 1.5 to
-/// 3 times the calls and a third to a twentieth of the steps, and its errors are ten to a hundred
-/// times smaller. A step of BDF costs more than its calls where there are few states. There Radau
-/// takes less time: 0.6 to 1.2 of it at 3 to 20 states. With more states calls and matrices are all
-/// of the cost, and BDF takes 0.5 to 0.7 of the time. But at tight tolerances BDF's errors are ten to
-/// a thousand tolerances. Radau's complex matrices cost up to thirteen times a real one and are new
-/// in nearly each step: where matrices are expensive, it is too slow even then.
+/// The figures are those of whole runs by both methods on the stiff scenes of the shelf, and on
+/// chains and full systems of 4 to 4 000 states, at rtol 1e-3 to 1e-12. At the same rtol Radau
+/// takes 1.5 to 3 times the calls and a third to a twentieth of the steps, and its errors are ten
+/// to a hundred times smaller. A step of BDF costs more than its calls where there are few states.
+/// There Radau takes less time: 0.6 to 1.2 of it at 3 to 20 states. With more states calls and
+/// matrices are all of the cost, and BDF takes 0.5 to 0.7 of the time. But at tight tolerances
+/// BDF's errors are ten to a thousand tolerances. Radau's complex matrices cost up to thirteen
+/// times a real one and are new in nearly each step: where matrices are expensive, it is too slow
+/// even then.
 ///
 /// BDF of orders 3 to 5 is unstable near the imaginary axis (Hairer, Wanner II, p. 251), so
 /// a scene that is hardly damped stays with the explicit method where Radau is not possible.

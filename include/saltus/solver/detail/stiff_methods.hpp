@@ -34,8 +34,8 @@ class StiffMethods {
   }
 
   /// An event has ended a stretch of BDF after so many steps. BDF begins each stretch with order 1:
-  /// if its stretches end before the order has risen, events count as frequent. True if they do from
-  /// now on.
+  /// if its stretches end before the order has risen, events count as frequent. True if they do
+  /// from now on.
   bool count_event(int steps) {
     if (steps == 0) return false;
     brief_ = steps < thresholds::brief_stretch ? brief_ + 1 : 0;

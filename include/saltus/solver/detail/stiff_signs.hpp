@@ -28,7 +28,8 @@ class StiffSigns {
     if (part.hardly_damped) method_->stiffness().put_off(4);
   }
 
-  /// Whether the scene looks stiff at the end of a step; `longest` [s] of the steps since the restart.
+  /// Whether the scene looks stiff at the end of a step; `longest` [s] of the steps since the
+  /// restart.
   template <class Suits>
   bool look(double longest, const Suits& suits) {
     return long_since_stiff(suits) || collapsed(longest, suits) || beside_oscillation(suits);

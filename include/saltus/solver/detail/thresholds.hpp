@@ -80,16 +80,16 @@ inline constexpr int bisects_after = 60, most_looks = 200;
 /// [1] Growth of the steps back from a zero on a plateau: each look gains three of 53 bits.
 /// tests/unit/narrow_test.cpp
 inline constexpr double plateau_growth = 8.0;
-/// [1] Where at most one in so many guards has crossed, only these are narrowed. The two looks at all
-/// others at the end then cost less than is saved.
+/// [1] Where at most one in so many guards has crossed, only these are narrowed. The two looks at
+/// all others at the end then cost less than is saved.
 inline constexpr std::size_t few_guards = 8;
 /// [of the guard at the bracket's ends] Rounding of the interpolant at a root: both ends may be off
 /// by as much as they differ, twice.
 inline constexpr double root_noise = 4.0;
 /// [1] How much steeper than in the whole interval a guard has to be in its last bracket to be a
 /// jump. A bracket is narrowed by 1e12 and more: a jump is steeper by the whole factor, a smooth
-/// guard hardly. This lies between, in decades. tests/semantics/guards_jump_test.cpp fails where it is
-/// so large that nothing is a jump.
+/// guard hardly. This lies between, in decades. tests/semantics/guards_jump_test.cpp fails where it
+/// is so large that nothing is a jump.
 inline constexpr double jump_steepness = 1e6;
 /// [points] in a step of an interpolant of lower degree.
 /// tests/semantics/zeno_moving_frame_test.cpp
@@ -142,8 +142,8 @@ inline constexpr double bdf_step = 0.4, bdf_calls = 1.5, saved_calls = 0.5;
 inline constexpr double other_directions = 0.1;
 inline constexpr int power_iterations = 3;
 /// [iterations] at most, where many oscillations take part. [sine of the angle between two vectors]
-/// What the fit of one pair may leave unexplained; [cosine] of the angle by which many turn a vector
-/// back. tests/unit/spectral_radius_test.cpp
+/// What the fit of one pair may leave unexplained; [cosine] of the angle by which many turn a
+/// vector back. tests/unit/spectral_radius_test.cpp
 inline constexpr int most_power_iterations = 15;
 inline constexpr double unexplained_turn = 0.1, turned_back = 0.9;
 
@@ -160,8 +160,8 @@ inline constexpr double order_8_pays_with_guards = 1e-10;
 /// [states] Up to which Radau takes less time than BDF at equal rtol: 0.6 to 1.2 of it at 3 to 20
 /// states, 1.5 at 32. tests/unit/stiff_choice_test.cpp
 inline constexpr double few_for_radau = 16.0;
-/// [1] rtol from which on BDF's errors are more than ten tolerances on most stiff scenes of the shelf.
-/// tests/unit/stiff_choice_test.cpp
+/// [1] rtol from which on BDF's errors are more than ten tolerances on most stiff scenes of the
+/// shelf. tests/unit/stiff_choice_test.cpp
 inline constexpr double tight_for_bdf = 1e-7;
 /// [ns] of a factorisation per state, beyond which Radau takes more than five times BDF's time: a
 /// full matrix of 120 states. tests/unit/stiff_choice_test.cpp
@@ -180,27 +180,27 @@ inline constexpr double damped_size = 20.0;
 inline constexpr double tight_for_damping = 1e-7;
 /// [1] The damping ratio from which on a part does not swing. tests/laws/fast_modes_test.cpp
 inline constexpr double well_damped = 0.9;
-/// [1] h |lambda| below which the steps of BDF are stable for the explicit method (L. Petzold, SIAM J.
-/// Sci. Stat. Comput. 4 (1983) 136), and below which those of Radau cost as many calls.
+/// [1] h |lambda| below which the steps of BDF are stable for the explicit method (L. Petzold, SIAM
+/// J. Sci. Stat. Comput. 4 (1983) 136), and below which those of Radau cost as many calls.
 /// tests/unit/auto_solver_test.cpp
 inline constexpr double stable_reach = 1.0, stable_reach_of_radau = 3.0;
 /// [of the steps before] A first step shorter than this looks stiff, if also h |lambda| of the
 /// steps before was beyond ten times the bound of stability, and that of this step is not below
 /// `least_reach`.
 inline constexpr double collapse = 0.01, far_beyond_stability = 10.0;
-/// [steps] of BDF and of Radau between two checks; [checks] in a row that must succeed, at first and at most.
-/// tests/unit/auto_solver_test.cpp
+/// [steps] of BDF and of Radau between two checks; [checks] in a row that must succeed, at first
+/// and at most. tests/unit/auto_solver_test.cpp
 inline constexpr int check_every = 50, check_every_of_radau = 25;
 inline constexpr int first_checks = 2, most_checks = 64;
-/// [steps] A stretch of BDF or Radau begins with as many steps that do not count, because order and steps
-/// rise; an explicit stretch that ends sooner did not last. tests/unit/auto_solver_test.cpp
+/// [steps] A stretch of BDF or Radau begins with as many steps that do not count, because order and
+/// steps rise; an explicit stretch that ends sooner did not last. tests/unit/auto_solver_test.cpp
 inline constexpr int short_stretch = 100, short_stretch_of_radau = 25;
 
 // --- CVODE: cvode_solver.cpp, cvode_scene.hpp
 
-/// [1] From this rtol on BDF gets a smaller part of the tolerance, and of what Newton's iteration may
-/// leave of it [CVODE's unit, 0.1 otherwise]: the local errors of its low orders have one sign, and at
-/// rtol 1e-3 they add up to 1 to 11 tolerances in twenty steps. tests/python/scipy_ivp
+/// [1] From this rtol on BDF gets a smaller part of the tolerance, and of what Newton's iteration
+/// may leave of it [CVODE's unit, 0.1 otherwise]: the local errors of its low orders have one sign,
+/// and at rtol 1e-3 they add up to 1 to 11 tolerances in twenty steps. tests/python/scipy_ivp
 inline constexpr double loose_rtol = 1e-3, loose_share = 0.5, loose_newton = 0.01;
 /// [first steps of CVODE] If the next event may follow within these, a one-step method starts: a
 /// step of order 1 would draw the flight as a line.

@@ -16,8 +16,8 @@ Parts = Callable[[Any], list[Any]]
 
 
 class Looks:
-    """What one search found where, as the same objects: while that holds, another search would find
-    the same. What libraries define counts as fixed, as the search takes it.
+    """The objects that one search found, and where. While the same objects are in these places,
+    another search would find the same. What libraries define counts as fixed, for the search too.
     """
 
     __slots__ = ("_entries", "_kinds", "_parts", "whole")

@@ -9,11 +9,11 @@
 
 namespace saltus::radau {
 
-/// The error estimate that a slow part may have [tolerances]. The estimate shrinks as h^(S + 1), the
-/// error of the step as h^(2 S). 0.1 rtol^((S + 1) / (2 S)) in place of rtol lets the step be as long
-/// as its own error allows (the codes RADAU5 and RADAU by Hairer and Wanner). The collocation
-/// polynomial has the order of the estimate. Beyond `dense_room` times 2^(S + 1) of its own error
-/// two halves of a step would not bring it within the tolerance.
+/// The error estimate that a slow part may have [tolerances]. The estimate shrinks as h^(S + 1),
+/// the error of the step as h^(2 S). 0.1 rtol^((S + 1) / (2 S)) in place of rtol lets the step be
+/// as long as its own error allows (the codes RADAU5 and RADAU by Hairer and Wanner). The
+/// collocation polynomial has the order of the estimate. Beyond `dense_room` times 2^(S + 1) of its
+/// own error two halves of a step would not bring it within the tolerance.
 inline double slow_estimate(const Scheme& scheme, double rtol, double dense_room) {
   const double part = scheme.estimate_order() / scheme.local_order();
   const double by_order = 0.1 * std::pow(rtol, part - 1.0);
@@ -32,8 +32,8 @@ inline double fast_estimate(const Scheme& scheme, double slow) {
 }
 
 /// What both allow for a component, by the `share` of its estimate that the filter
-/// gamma (gamma - h J)^-1 leaves: 1 for a slow part, gamma / h |lambda| for a fast one. The logarithm
-/// is linear in between.
+/// gamma (gamma - h J)^-1 leaves: 1 for a slow part, gamma / h |lambda| for a fast one. The
+/// logarithm is linear in between.
 class AllowedEstimate {
  public:
   AllowedEstimate(const Scheme& scheme, double rtol, double dense_room)
@@ -50,10 +50,10 @@ class AllowedEstimate {
 };
 
 /// The part of a fast estimate that the step has inherited: the distance of the state at its begin
-/// from the slow solution, which the step damps, and which no shorter step has less of. Two tries of
-/// one step tell it apart: their estimates are a + b and a + `shrunk` b with a the inherited part and
-/// b the step's own, which shrinks as h^S. At most `bound` is excused: an error of that size is
-/// allowed inside of steps, a larger one is a transient to be resolved.
+/// from the slow solution, which the step damps, and which no shorter step has less of. Two tries
+/// of one step tell it apart: their estimates are a + b and a + `shrunk` b with a the inherited
+/// part and b the step's own, which shrinks as h^S. At most `bound` is excused: an error of that
+/// size is allowed inside of steps, a larger one is a transient to be resolved.
 inline double inherited_estimate(double before, double now, double shrunk, double bound) {
   return std::clamp((now - shrunk * before) / (1.0 - shrunk), -bound, bound);
 }

@@ -19,8 +19,8 @@ enum class Verdict {
 };
 
 /// Follows the corrections d_1, d_2, ... of a simplified Newton iteration (Hairer, Wanner II, IV.8,
-/// p. 120): the contraction theta is d_k / d_(k-1), from the third on the geometric mean of the last
-/// two ratios; the error left after d_k is theta / (1 - theta) d_k.
+/// p. 120): the contraction theta is d_k / d_(k-1), from the third on the geometric mean of the
+/// last two ratios; the error left after d_k is theta / (1 - theta) d_k.
 class Convergence {
  public:
   /// `tolerance`: [tolerances] of the iteration; `rounding`: [tolerances] of a correction; `most`:

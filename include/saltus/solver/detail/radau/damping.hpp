@@ -5,9 +5,9 @@
 
 namespace saltus::radau {
 
-/// See Start::damp_rate. A step of length h with h |lambda| = 10 leaves a third of an oscillation, if
-/// three stages take it. By its estimate it would be so short that it resolves the oscillation. So the
-/// estimate is allowed if it shrinks from step to step as the oscillation does.
+/// See Start::damp_rate. A step of length h with h |lambda| = 10 leaves a third of an oscillation,
+/// if three stages take it. By its estimate it would be so short that it resolves the oscillation.
+/// So the estimate is allowed if it shrinks from step to step as the oscillation does.
 class Damping {
  public:
   /// |lambda| [1/s], 0: there is no oscillation; its amplitude [tolerances]; the longest step [s].

@@ -20,8 +20,8 @@ constexpr bool side_by_side(double time, int pairs, unsigned cores, bool one_thr
   return !one_thread && cores > 1 && all >= tuning::apart_from;
 }
 
-/// Calls both, the second in a thread of its own if `apart` and if there is one to be had. Both have
-/// ended when it returns, or throws what one of them has thrown.
+/// Calls both, the second in a thread of its own if `apart` and if there is one to be had. Both
+/// have ended when it returns, or throws what one of them has thrown.
 template <class First, class Second>
 void call_both(bool apart, const First& first, const Second& second) {
   std::future<void> other;

@@ -41,7 +41,8 @@ class PredictiveControl {
   double h_ = 0.0, error_ = 0.0;  // of the last accepted step
 };
 
-/// The safety of a step size: the less, the more of the allowed iterations Newton took (IV.8, p. 124).
+/// The safety of a step size: the less, the more of the allowed iterations Newton took (IV.8, p.
+/// 124).
 inline double safety_of(int iterations, int most) {
   return tuning::safety * (1.0 + 2.0 * most) / (iterations + 2.0 * most);
 }
@@ -61,10 +62,10 @@ struct OrderFacts {
   int highest = 7;
 };
 
-/// The usual number of stages. A run begins with it, and after a fall the order soon rises to it again.
-/// Without it the order of a run would depend on its first steps. In a transient they are so short
-/// that the order rises, and then it stays high. A run that begins on a smooth solution would keep
-/// three stages: Van der Pol with mu = 1000 at rtol 1e-12 took ten times the steps.
+/// The usual number of stages. A run begins with it, and after a fall the order soon rises to it
+/// again. Without it the order of a run would depend on its first steps. In a transient they are so
+/// short that the order rises, and then it stays high. A run that begins on a smooth solution would
+/// keep three stages: Van der Pol with mu = 1000 at rtol 1e-12 took ten times the steps.
 constexpr int first_stages(double rtol) {
   return rtol <= tuning::begins_with_seven ? 7 : rtol <= tuning::begins_with_five ? 5 : 3;
 }

@@ -17,19 +17,20 @@ inline constexpr double fast_error = 2.0;
 /// tests/laws/prothero_robinson_test.cpp (as small)
 inline constexpr double alike_tries = 0.95;
 
-/// [1] The ratio of the tolerances to the states counts as this part of it: it matters where atol is
-/// ten times rtol |x|. tests/unit/radau_test.cpp
+/// [1] The ratio of the tolerances to the states counts as this part of it: it matters where atol
+/// is ten times rtol |x|. tests/unit/radau_test.cpp
 inline constexpr double absolute_part = 0.1;
 
 // --- an oscillation of the errors of the method before: solver.cpp
 
-/// [1] h |lambda| of the steps that damp it, with three stages: each leaves a third. [steps] of this
-/// kind. [1] The estimate may be as large as this many times the oscillation, of which a step has to
-/// leave no more than this. tests/laws/fast_modes_test.cpp
+/// [1] h |lambda| of the steps that damp it, with three stages: each leaves a third. [steps] of
+/// this kind. [1] The estimate may be as large as this many times the oscillation, of which a step
+/// has to leave no more than this. tests/laws/fast_modes_test.cpp
 inline constexpr double damping_reach = 10.0;
 inline constexpr int damping_steps = 5;
 inline constexpr double damping_room = 2.0, damping_left = 0.25;
-/// [of their length] A shorter step, to a stop time, damps too little. tests/laws/fast_modes_test.cpp
+/// [of their length] A shorter step, to a stop time, damps too little.
+/// tests/laws/fast_modes_test.cpp
 inline constexpr double damping_share = 0.9;
 
 // --- length and order of steps: step_control.hpp
@@ -70,13 +71,14 @@ inline constexpr double theta_memory = 0.5;
 
 // --- the stepper: solver.cpp
 
-/// [of the step] The error of the collocation polynomial has the factor s; so nearer to its begin it
-/// is a thousandth of its largest.
+/// [of the step] The error of the collocation polynomial has the factor s; so nearer to its begin
+/// it is a thousandth of its largest.
 inline constexpr double near_begin = 1e-3;
 /// [steps] The polynomial of the last step predicts no more than this.
 /// tests/laws/linear_invariants_test.cpp (as small)
 inline constexpr double furthest = 16.0;
-/// [errors of the dense output] How far beyond its root a step is cut, and [of the root] the bounds.
+/// [errors of the dense output] How far beyond its root a step is cut, and [of the root] the
+/// bounds.
 inline constexpr double beyond = 10.0, least_beyond = 1e-12, most_beyond = 1e-2;
 /// [tolerances] A step that moves by less passes a jump along the derivative, if that [of itself]
 /// changes by more than the second number.
@@ -95,8 +97,8 @@ inline constexpr double least_factor = 0.01, factor_power = 0.8;
 /// [theta] From here on corrections do not shrink (the code RADAU5).
 /// tests/unit/radau_test.cpp
 inline constexpr double no_contraction = 0.99;
-/// [1] The factor of a step whose iteration is slow, and [tolerances of the iteration] the bounds of
-/// what the last iteration would leave (IV.8, p. 121).
+/// [1] The factor of a step whose iteration is slow, and [tolerances of the iteration] the bounds
+/// of what the last iteration would leave (IV.8, p. 121).
 /// tests/unit/radau_test.cpp
 inline constexpr double slow_safety = 0.8, least_excess = 1e-4, most_excess = 20.0;
 /// [1] The factor of a step whose iteration diverges (the code RADAU5).
@@ -113,8 +115,8 @@ inline constexpr int keeps_iterations = 2;
 inline constexpr int oldest = 20;
 
 /// [failures] of the iteration with a new Jacobian, less the steps without one, from which on a
-/// leaf's own Jacobian is compared with a difference: it costs a call, and a right one has so many in
-/// a row at jumps only. tests/errors/radau_bad_input_test.cpp
+/// leaf's own Jacobian is compared with a difference: it costs a call, and a right one has so many
+/// in a row at jumps only. tests/errors/radau_bad_input_test.cpp
 inline constexpr int most_doubts = 10;
 
 // --- factorisation: side_by_side.hpp
@@ -122,12 +124,13 @@ inline constexpr int most_doubts = 10;
 /// [factorisations of a real matrix] Time of a complex one (dense, 100 to 400 states: 3.1 to 3.5).
 /// tests/unit/radau_side_by_side_test.cpp
 inline constexpr double complex_cost = 3.3;
-/// [ns] All matrices of a step together, from which on a second thread pays: to start one takes 20 to
-/// 120 us, and a thread of less than 2 ms often waits for the core of its parent. Time in two
+/// [ns] All matrices of a step together, from which on a second thread pays: to start one takes 20
+/// to 120 us, and a thread of less than 2 ms often waits for the core of its parent. Time in two
 /// threads, in times of one, on two cores with other work (3, 5, 7 stages): dense, 100 states 1.09,
-/// 1.06, 1.06; 200 states 1.05, 0.57, 0.5 to 1.06; 300 states 0.71, 0.58, 0.61; 600 states 0.89, 0.63,
-/// 0.67; band of 11, 5000 states (0.3 to 0.7 ms) 1.1; grid of 40 by 40 0.4, 0.6, 0.6. A solution
-/// takes 0.1 ms at 400 states, and stays in one thread. tests/unit/radau_side_by_side_test.cpp
+/// 1.06, 1.06; 200 states 1.05, 0.57, 0.5 to 1.06; 300 states 0.71, 0.58, 0.61; 600 states 0.89,
+/// 0.63, 0.67; band of 11, 5000 states (0.3 to 0.7 ms) 1.1; grid of 40 by 40 0.4, 0.6, 0.6. A
+/// solution takes 0.1 ms at 400 states, and stays in one thread.
+/// tests/unit/radau_side_by_side_test.cpp
 inline constexpr double apart_from = 5e6;
 
 }  // namespace saltus::radau::tuning
