@@ -2,6 +2,8 @@
 // places.
 #include <pybind11/stl.h>
 
+#include <algorithm>
+
 #include "bindings.hpp"
 #include "context_docs.hpp"
 #include "numbers.hpp"
@@ -103,9 +105,16 @@ void bind_context(py::module_& module) {
             return c.layout().systems.empty() ? 0 : c.layout().systems.front().id.value;
           },
           "The number of the system whose values these are; 0 for none.")
+      .def(
+          "has_system",
+          [](const Context& c, int id) {
+            return std::ranges::any_of(c.layout().systems,
+                                       [id](const auto& range) { return range.id.value == id; });
+          },
+          py::arg("system_id"), "Whether the system with this number is among them.")
       .def_property_readonly(
           "state", [](const py::object& self) { return self; },
-          "The context itself, which has the states and the modes.")
+          "The context itself: its states and modes are the values that a run changes.")
       .def("with_time", &Context::with_time, py::arg("time"), docs::with_time)
       .def(
           "with_continuous_state",

@@ -2,6 +2,7 @@
 #include "bindings.hpp"
 #include "numbers.hpp"
 #include "saltus/simulation/evaluate.hpp"
+#include "shared_system.hpp"
 
 namespace saltus::python {
 
@@ -14,12 +15,18 @@ py::object shown(const SignalValue& value) {
 }
 
 void fix_input(System& system, int index, py::handle value) {
-  const Array numbers =
-      to_array(value, text("the value of an input of block '", system.name(), "'"));
+  const std::string what =
+      text("the value of input '", nth(system.input_names(), system.input(index).index),
+           "' of block '", system.name(), "'");
+  const auto* shared = dynamic_cast<const SharedSystem*>(&system);
+  if (shared != nullptr && shared->is_inner()) {
+    throw ModelError(text(what,
+                          ": the block is part of a diagram that C++ made, where its inputs "
+                          "have their sources; fix an input of the diagram"));
+  }
+  const Array numbers = to_array(value, what);
   if (numbers.ndim() > 1) {
-    throw ModelError(text("the value of input '",
-                          nth(system.input_names(), system.input(index).index), "' of block '",
-                          system.name(), "': expected a number or a vector, found an array of ",
+    throw ModelError(text(what, ": expected a number or a vector, found an array of ",
                           numbers.ndim(), " dimensions"));
   }
   if (numbers.ndim() == 0) return system.fix_input(index, *numbers.data());
@@ -30,6 +37,8 @@ void fix_input(System& system, int index, py::handle value) {
 
 void bind_evaluate(py::module_& module) {
   module.def("fix_input", &fix_input);
+  module.def("free_input", [](System& system, int index) { system.free_input(index); });
+  module.def("fixes", &System::fixes);
   module.def("evaluate_time_derivatives",
              [](const System& system, const Context& context, const System& part) {
                const Eigen::VectorXd rates = evaluate_time_derivatives(system, context, part);

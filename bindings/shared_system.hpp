@@ -15,6 +15,7 @@ namespace saltus::python {
 /// system.
 struct SystemHandle {
   std::shared_ptr<const System> system;
+  bool inner = false;  ///< a block of a diagram
 };
 
 /// Keeps a system alive and represents it to the engine: the same leaves, ports and contexts. It is
@@ -22,7 +23,7 @@ struct SystemHandle {
 class SharedSystem final : public System {
  public:
   explicit SharedSystem(const SystemHandle& handle)
-      : System(handle.system->name()), system_(handle.system) {}
+      : System(handle.system->name()), system_(handle.system), inner_(handle.inner) {}
 
   const System& shared() const { return *system_; }
   /// A block of a diagram by name. Throws ModelError with the known names if there is none.
@@ -38,18 +39,24 @@ class SharedSystem final : public System {
     system_->collect(out, path);
     collect_fixed(out);
   }
+  bool fixes_input(int index) const override {
+    return System::fixes_input(index) || system_->fixes_input(index);
+  }
+  /// Whether it is a block inside of a diagram, where the diagram knows the sources of its inputs.
+  bool is_inner() const { return inner_; }
   LeafPort output_source(int index) const override { return system_->output_source(index); }
   LeafPort input_target(int index) const override { return system_->input_target(index); }
 
  private:
   std::shared_ptr<const System> system_;
+  bool inner_;
 };
 
 inline SystemHandle SharedSystem::block(std::string_view name) const {
   const auto* diagram = dynamic_cast<const Diagram*>(system_.get());
   if (diagram == nullptr)
     throw ModelError(text("block '", system_->name(), "' is no diagram: it has no blocks in it"));
-  return {{system_, &(*diagram)[name]}};  // as long as the diagram
+  return {{system_, &(*diagram)[name]}, true};  // as long as the diagram
 }
 
 inline std::vector<std::string> SharedSystem::block_names() const {

@@ -8,21 +8,22 @@ from __future__ import annotations
 import functools
 import shutil
 import subprocess
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 from saltus import _core
 from saltus._engine import ports_of
+from saltus._signals import signals_in
 from saltus.errors import ModelError
 from saltus.system import OutputPort, System
 
 __all__ = ["in_markdown", "in_svg", "to_dot", "to_mermaid"]
 
-Recorded = Mapping[str, OutputPort] | None
+Recorded = Mapping[str, OutputPort | str] | Sequence[str] | None
 TIME_LIMIT = 10.0  # [s] dot on a thousand blocks takes minutes: then the text has to do
 
 
 def to_dot(system: System, signals: Recorded, max_depth: int | None) -> str:
-    return _core.to_dot(system, _ports(signals), _depth(max_depth))
+    return _core.to_dot(system, _ports(system, signals), _depth(max_depth))
 
 
 def to_mermaid(system: System, what: str, signals: Recorded, max_depth: int | None) -> str:
@@ -33,7 +34,7 @@ def to_mermaid(system: System, what: str, signals: Recorded, max_depth: int | No
     if what != "blocks":
         known = _core.known_names(what, ["blocks", "modes"])
         raise ModelError(f"to_mermaid: no picture of '{what}'{known}")
-    return _core.to_mermaid(system, _ports(signals), _depth(max_depth))
+    return _core.to_mermaid(system, _ports(system, signals), _depth(max_depth))
 
 
 def in_svg(system: System) -> str | None:
@@ -68,10 +69,10 @@ def in_markdown(system: System) -> str | None:
     return f"```mermaid\n{text}```\n"  # no backtick in it: those of names are entities
 
 
-def _ports(signals: Recorded) -> list[tuple[str, System, int]] | None:
+def _ports(system: System, signals: Recorded) -> list[tuple[str, System, int]] | None:
     if signals is None:
         return None
-    return ports_of(signals)
+    return ports_of(signals_in(system, signals))
 
 
 def _depth(max_depth: int | None) -> int | None:

@@ -7,11 +7,12 @@ from typing import overload
 import numpy as np
 
 from saltus import _core
+from saltus._signals import block_of
 from saltus.errors import ModelError
 from saltus.ports import core_port
-from saltus.system import InputPort, OutputPort, System
+from saltus.system import InputPort, OutputPort, System, remember
 
-__all__ = ["Diagram", "DiagramBuilder", "block_of", "port_of"]
+__all__ = ["Diagram", "DiagramBuilder"]
 
 
 def _port(port: object, kind: type[OutputPort] | type[InputPort]) -> tuple[System, int]:
@@ -48,6 +49,7 @@ class Diagram(System, _core.Diagram):
     def __init__(self, builder: _core.DiagramBuilder, name: str, children: dict[str, System]):
         super().__init__(builder, name)
         self._children = children
+        remember(self)
 
     def __getitem__(self, name: str) -> System:
         """A block of this diagram by name. ModelError lists the names there are."""
@@ -72,6 +74,8 @@ class Diagram(System, _core.Diagram):
 
     def find_system_with_path(self, path: str) -> System:
         """The block at a path of names, such as "car.engine"; ModelError if there is none."""
+        if not isinstance(path, str):
+            raise ModelError(f"expected a path such as 'car.engine', found {path!r}")
         system: System = self
         for name in path.split("."):
             system = block_of(system, name)
@@ -81,29 +85,6 @@ class Diagram(System, _core.Diagram):
     def parameters(self) -> dict[str, float | np.ndarray]:
         """The default value of each parameter of its blocks, by path, such as 'gain.gain'."""
         return self.create_context().parameters
-
-    def _tree(self) -> list[str]:
-        inner = [line for block in self.blocks for line in block._tree()]
-        return [*super()._tree(), *("    " + line for line in inner)]
-
-
-def port_of(system: System, port: OutputPort | str) -> OutputPort:
-    """A port, or the one at a path: 'y' of the system itself, 'car.engine.y' of a block in it."""
-    if isinstance(port, OutputPort):
-        return port
-    if not isinstance(port, str):
-        raise ModelError(f"recorded_signals: expected a port or its path, found {port!r}")
-    *blocks, name = port.split(".")
-    for block in blocks:
-        system = block_of(system, block)
-    return system.output(name)
-
-
-def block_of(system: System, name: str) -> System:
-    """A block of a diagram by name; ModelError if there is none."""
-    if isinstance(system, Diagram):
-        return system[name]
-    raise ModelError(f"block '{system.name}' is no diagram: it has no block '{name}'")
 
 
 class DiagramBuilder:
@@ -197,30 +178,36 @@ class DiagramBuilder:
                 f"{source!r} and then {destination!r}; write connect(output, input)"
             )
         if isinstance(source, str):
-            source = port_of(*self._from(source))
+            block, port = self._from("connect", source)
+            source = block.output(port)
         if isinstance(destination, str):
-            block, port = self._from(destination)
+            block, port = self._from("connect", destination)
             destination = block.input(port)
         self._core.connect(*_port(source, OutputPort), *_port(destination, InputPort))
 
-    def _from(self, path: str) -> tuple[System, str]:
-        """The block that was added, and the rest of a path such as "gain.out"."""
-        name, dot, rest = path.partition(".")
-        if name in self._children and dot:
-            return self._children[name], rest
-        known = _core.known_names(name, list(self._children))
-        raise ModelError(
-            f"connect: expected the names of a block and of a port, such as 'gain.out', found "
-            f"'{path}'{known}"
-        )
+    def _from(self, where: str, path: str) -> tuple[System, str]:
+        """The block that was added, and the name of its port, of a path such as "gain.out"."""
+        name, dot, port = path.partition(".")
+        if name not in self._children or not dot:
+            known = _core.known_names(name, list(self._children))
+            raise ModelError(
+                f"{where}: expected the names of a block and of a port, such as 'gain.out', found "
+                f"'{path}'{known}"
+            )
+        if "." in port:
+            raise ModelError(
+                f"{where}: '{path}' is a port inside of diagram '{name}'; export it there, and take "
+                f"the exported port"
+            )
+        return self._children[name], port
 
-    def export_input(self, port: InputPort, name: str | None = None) -> int:
+    def export_input(self, port: InputPort | str, name: str | None = None) -> int:
         """Makes an input of a block one of the diagram.
 
         Parameters
         ----------
         port
-            An input of a block that was added, without a source.
+            An input of a block that was added, without a source; or its path, "block.in".
         name
             The name of the port of the diagram; 'block_port' if not said.
 
@@ -239,15 +226,18 @@ class DiagramBuilder:
         >>> builder.build().input_names
         ['u']
         """
+        if isinstance(port, str):
+            block, own = self._from("export_input", port)
+            port = block.input(own)
         return self._core.export_input(*_port(port, InputPort), name or "")
 
-    def export_output(self, port: OutputPort, name: str | None = None) -> int:
+    def export_output(self, port: OutputPort | str, name: str | None = None) -> int:
         """Makes an output of a block one of the diagram.
 
         Parameters
         ----------
         port
-            An output of a block that was added.
+            An output of a block that was added; or its path, "block.out".
         name
             The name of the port of the diagram; 'block_port' if not said.
 
@@ -266,6 +256,9 @@ class DiagramBuilder:
         >>> builder.build().output_names
         ['clock_out']
         """
+        if isinstance(port, str):
+            block, own = self._from("export_output", port)
+            port = block.output(own)
         return self._core.export_output(*_port(port, OutputPort), name or "")
 
     def build(self, name: str = "root") -> Diagram:

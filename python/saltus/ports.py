@@ -113,8 +113,8 @@ class InputPort:
         return self.system.input_names[self.index]
 
     def eval(self, context: _core.Context) -> float | np.ndarray:
-        """The value that this input has at a context, without a run; otherwise as
-        `OutputPort.eval`.
+        """The value that this input has at a context, without a run: that of the connected output,
+        or its fixed value. Otherwise as `OutputPort.eval`.
 
         Examples
         --------
@@ -128,22 +128,23 @@ class InputPort:
 
         return _evaluate.input_value(self, context)
 
-    def fix_value(self, value: ArrayLike) -> None:
+    def fix_value(self, value: ArrayLike | None) -> None:
         """Gives the input a constant value, so that nothing has to be connected to it.
 
-        It holds for runs and plans that are made afterwards, not for a `Simulator` that there is
-        already. A value that runs shall vary belongs in a `Constant`, whose value is a parameter.
+        The value holds for runs that begin afterwards. A value that is to vary from run to run
+        belongs in a `Constant`, where it is a parameter.
 
         Parameters
         ----------
         value
-            A finite number, or a vector of them.
+            A finite number, or a vector of them. None: the input is open again.
 
         Raises
         ------
         ModelError
-            For another value. `connect` refuses an input with a fixed value, and a run refuses one
-            that is connected as well.
+            For a value that is no number or vector, or is not finite, and for a block inside of a
+            diagram that C++ made. `connect` and `build` refuse an input that has a fixed value and
+            a wire, and so does a run.
 
         Examples
         --------

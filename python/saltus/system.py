@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Mapping
+import weakref
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
 
 import numpy as np
 
@@ -12,7 +14,31 @@ from saltus.callbacks import Explanation
 from saltus.errors import ModelError
 from saltus.ports import InputPort, OutputPort, key_of
 
-__all__ = ["InputPort", "OutputPort", "System"]
+__all__ = ["InputPort", "OutputPort", "System", "remember", "system_of"]
+
+_systems: weakref.WeakValueDictionary[int, System] = weakref.WeakValueDictionary()
+"""systems that may have made a context, by their number, for as long as they live"""
+
+
+def remember(system: System) -> None:
+    """Lets `system_of` find a system."""
+    _systems[system.system_id] = system
+
+
+def system_of(context: _core.Context) -> System | None:
+    """The system whose values a context has, if it still lives and made a context."""
+    return _systems.get(context.system_id)
+
+
+class Count:
+    """The length of a list of a system; a class of the user may have an attribute of that name."""
+
+    def __init__(self, of: str, doc: str):
+        self._of = of
+        self.__doc__ = doc
+
+    def __get__(self, system: Any, owner: type | None = None) -> Any:
+        return self if system is None else len(getattr(system, self._of))
 
 
 class System:
@@ -38,6 +64,8 @@ class System:
     output_names: list[str]
     interpreted_blocks: list[str]
     """the paths of the blocks in it whose Python functions a run calls"""
+    num_input_ports = Count("input_names", "How many inputs there are.")
+    num_output_ports = Count("output_names", "How many outputs there are.")
 
     @property
     def input_ports(self) -> tuple[InputPort, ...]:
@@ -48,16 +76,6 @@ class System:
     def output_ports(self) -> tuple[OutputPort, ...]:
         """All outputs, in order."""
         return tuple(OutputPort(self, i) for i in range(len(self.output_names)))
-
-    @property
-    def num_input_ports(self) -> int:
-        """How many inputs there are."""
-        return len(self.input_names)
-
-    @property
-    def num_output_ports(self) -> int:
-        """How many outputs there are."""
-        return len(self.output_names)
 
     def input(self, port: int | str = 0) -> InputPort:
         """One input.
@@ -132,6 +150,7 @@ class System:
             raise ModelError(f"a context in JSON: {error}") from None
         if not isinstance(data, dict):
             raise ModelError(f"a context in JSON: expected an object, found {type(data).__name__}")
+        remember(self)
         return _core.context_from_dict(self, data)
 
     def explain(self) -> Explanation:
@@ -169,9 +188,7 @@ class System:
         >>> Integrator([1.0, 2.0]).create_context()
         Context(time=0, continuous_state=[1, 2], mode=0)
         """
-        from saltus import _evaluate
-
-        _evaluate.made_context(self)
+        remember(self)
         return _core.System.create_context(self, time)
 
     def eval_time_derivatives(self, context: _core.Context) -> np.ndarray:
@@ -218,16 +235,14 @@ class System:
         >>> Gain(2.0, name="double").pprint()
         double  Gain  (in) -> (out)
         """
-        output("\n".join(self._tree()))
+        from saltus._tree import tree_of
 
-    def _tree(self) -> list[str]:
-        inputs, outputs = ", ".join(self.input_names), ", ".join(self.output_names)
-        return [f"{self.name}  {type(self).__name__}  ({inputs}) -> ({outputs})"]
+        output("\n".join(tree_of(self)))
 
     def to_dot(
         self,
         *,
-        recorded_signals: Mapping[str, OutputPort] | None = None,
+        recorded_signals: Mapping[str, OutputPort | str] | Sequence[str] | None = None,
         max_depth: int | None = None,
     ) -> str:
         """The system as a picture in the language of Graphviz.
@@ -270,7 +285,7 @@ class System:
         self,
         what: str = "blocks",
         *,
-        recorded_signals: Mapping[str, OutputPort] | None = None,
+        recorded_signals: Mapping[str, OutputPort | str] | Sequence[str] | None = None,
         max_depth: int | None = None,
     ) -> str:
         """The system as a picture in the language of Mermaid, which GitHub, GitLab, JupyterLab and

@@ -11,6 +11,11 @@ std::vector<std::string> Diagram::input_names() const { return detail::names_of(
 
 std::vector<std::string> Diagram::output_names() const { return detail::names_of(outputs_); }
 
+bool Diagram::fixes_input(int index) const {
+  const InputPort& port = nth(inputs_, index).port;
+  return System::fixes_input(index) || port.system->fixes_input(port.index);
+}
+
 LeafPort Diagram::output_source(int index) const {
   const OutputPort& port = outputs_[index].port;
   return port.system->output_source(port.index);

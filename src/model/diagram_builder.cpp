@@ -69,6 +69,9 @@ Diagram DiagramBuilder::build(std::string name) {
       }
     }
   }
+  for (const auto& [input, wire] : sources_) {
+    if (input.first->fixes_input(input.second)) throw_two_sources({input.first, input.second});
+  }
   detail::require_sound(diagram_);
   Diagram built(detail::without_dot(std::move(name), "diagram"));
   spent_ = true;
@@ -105,6 +108,11 @@ void DiagramBuilder::require_free(InputPort to) const {
     throw BuilderError(text("input '", port_name(to), "' of block '", name_of(to.system),
                             "' already has a source, ", source, "; an input takes one"));
   }
+}
+
+void DiagramBuilder::throw_two_sources(InputPort to) const {
+  throw BuilderError(text("input '", port_name(to), "' of block '", name_of(to.system),
+                          "' has two sources: a wire and its fixed value; an input takes one"));
 }
 
 std::string DiagramBuilder::source_of(InputPort to) const {

@@ -116,7 +116,7 @@ class Widths {
         const std::optional<Shape>& found = shapes_[source];
         if (found && found->size != input.shape->size)
           throw_wrong_width(input.name, leaf.path, input.shape->size, found->size,
-                            wiring_.name_of(source));
+                            text("output '", wiring_.name_of(source), "'"));
       }
     }
   }

@@ -75,6 +75,10 @@ std::atomic<int>& fix_count() {
 
 }  // namespace
 
+void System::free_input(int index) {
+  if (fixed_.erase(checked(index, input_names(), "input")) > 0) ++fix_count();
+}
+
 int System::fixes() noexcept { return fix_count(); }
 
 void System::fix(int index, Fixed fixed) {

@@ -171,15 +171,64 @@ def test_a_diagram_of_one_block_and_the_block_are_told_apart():
     assert x.eval_time_derivatives(begin) == x.eval_time_derivatives(begin[x]) == 7.0
 
 
-def test_a_context_without_a_system():
+def test_a_context_of_a_diagram_that_does_not_live():
     diagram, x, _ = loop()
     part = diagram.create_context()
     del diagram
     gc.collect()
-    with pytest.raises(ModelError, match="the context belongs to no system that is still there"):
+    with pytest.raises(ModelError, match="a diagram around 'x' that does not live any more"):
         x.eval_time_derivatives(part)
     with pytest.raises(ModelError, match="expected a context"):
         x.eval_time_derivatives(3.0)
+
+
+def test_contexts_from_elsewhere():
+    """From a file, of an inner diagram, of the shelf, of an equal system."""
+    diagram, x, twice = loop()
+    begin = diagram.context_from_json(diagram.create_context().to_json())
+    assert twice.output().eval(begin) == 6.0
+    builder = saltus.DiagramBuilder()
+    builder.add(diagram)
+    outer = builder.build("outer")
+    assert x.eval_time_derivatives(outer.create_context()[diagram]) == 6.0
+    other = loop()[0]
+    assert list(diagram.eval_time_derivatives(other.create_context())) == [6.0]
+    scene = saltus.scene("bouncing-ball-blocks")
+    speed = scene.system["integrator_v"]
+    assert speed.eval_time_derivatives(scene.context) == pytest.approx(-9.81)
+    with pytest.raises(ModelError, match="the context is not one of this system"):
+        diagram.eval_time_derivatives(scene.context)
+
+
+def test_a_block_of_the_shelf_keeps_its_sources():
+    block = saltus.scene("bouncing-ball-blocks").system["integrator_v"]
+    with pytest.raises(
+        ModelError, match="input 'in' of block 'integrator_v': .* that C\\+\\+ made"
+    ):
+        block.input().fix_value(99.0)
+
+
+@pytest.mark.parametrize("python", ["traced", "called"])
+def test_a_simulator_begins_with_the_present_fixed_value(python):
+    plant = Relaxation(a=0.0)
+    plant.input().fix_value(1.0)
+    simulator = saltus.Simulator(plant, python=python)
+    ends = []
+    for value in (1.0, 5.0):
+        plant.input().fix_value(value)
+        simulator.initialize(plant.create_context())
+        simulator.advance_to(1.0)
+        ends.append(simulator.context.continuous_state[0])
+    assert ends == pytest.approx([1.0, 5.0])
+
+
+def test_a_fixed_value_can_be_taken_away():
+    gain = Gain(2.0, name="gain")
+    gain.input().fix_value(3.0)
+    gain.input().fix_value(None)
+    with pytest.raises(InputNotConnectedError, match="input 'in'"):
+        gain.output().eval(gain.create_context())
+    gain.input().fix_value(None)  # nothing to take away
 
 
 def test_the_exception_of_a_function_comes_out_unchanged():
@@ -218,6 +267,9 @@ def test_a_simulator_advances_from_a_context():
     assert first.context.time == 1.0  # a context is a value
     again = simulator.advance_to(1.0, begin)
     assert again.context == first.context
+    with pytest.raises(ModelError, match="expected a time of 5.0 s or later, found 1.0 s"):
+        simulator.advance_to(1.0, begin.with_time(5.0))
+    assert simulator.time == 1.0  # the run is still there
 
 
 def test_counts_names_and_paths():
@@ -228,6 +280,8 @@ def test_counts_names_and_paths():
     assert outer.find_system_with_path("loop.twice").name == "twice"
     with pytest.raises(ModelError, match="did you mean 'twice'"):
         outer.find_system_with_path("loop.twize")
+    with pytest.raises(ModelError, match="expected a path such as 'car.engine', found 3"):
+        outer.find_system_with_path(3)
     with pytest.raises(ModelError, match="'twice' is no diagram: it has no block 'gain'"):
         outer.find_system_with_path("loop.twice.gain")
     assert (Adder(3).num_input_ports, Adder(3).num_output_ports) == (3, 1)
@@ -242,6 +296,24 @@ def test_counts_names_and_paths():
         "        x  Integrator  (in) -> (out)\n"
         "        twice  Gain  (in) -> (out)"
     ]
+
+
+def test_a_class_of_the_user_may_have_attributes_of_these_names():
+    class Plant(saltus.LeafSystem):
+        def __init__(self):
+            super().__init__(name="plant")
+            self.num_input_ports = "mine"
+            self.nodes = self.parameters = self._tree = None
+
+    lines = []
+    Plant().pprint(lines.append)
+    assert Plant().num_input_ports == "mine" and lines == ["plant  Plant  () -> ()"]
+
+
+def test_the_tree_of_a_diagram_that_was_made_in_cpp():
+    lines = []
+    saltus.scene("bouncing-ball-blocks").system.pprint(lines.append)
+    assert "    integrator_v  SharedSystem  (in, reset_trigger, reset_value) -> (out)" in lines[0]
 
 
 def twice_the_same():

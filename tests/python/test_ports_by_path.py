@@ -55,6 +55,53 @@ def test_exported_outputs_are_recorded_by_default():
     assert list(results.outputs) == ["travelled"]
 
 
+def test_what_is_recorded_does_not_depend_on_the_run_before():
+    diagram = road()
+    asked = [None, {}, ["way.out"], None, {"y": "way.out"}, {}, ["way.out"]]
+    found = [
+        list(saltus.simulate(diagram, (0.0, 1.0), recorded_signals=signals).outputs)
+        for signals in asked
+    ]
+    assert found == [["travelled"], [], ["way.out"], ["travelled"], ["y"], [], ["way.out"]]
+
+
+def test_paths_into_a_diagram_that_was_made_in_cpp():
+    scene = saltus.scene("bouncing-ball-blocks")
+    results = saltus.simulate(
+        scene.system, scene.context, (0.0, 1.0), recorded_signals=["integrator_v.out"]
+    )
+    assert results.outputs["integrator_v.out"][-1] == pytest.approx(-9.81, rel=1e-5)
+
+
+def test_sweeps_pictures_and_reports_take_paths():
+    diagram = road()
+    swept = saltus.sweep(
+        diagram,
+        {"car.engine.gain": [1.0, 2.0]},
+        (0.0, 1.0),
+        save_at=[1.0],
+        recorded_signals=["car.engine.out"],
+    )
+    assert list(swept["car.engine.out"].values[:, -1]) == [1.0, 2.0]
+    assert "car" in diagram.to_dot(recorded_signals=["car.engine.out"])
+    assert "car" in diagram.to_mermaid(recorded_signals={"y": "car.engine.out"})
+
+
+@pytest.mark.parametrize("signals", [{3: "way.out"}, ["way.out", 3], 3, "way.out"])
+def test_impossible_signals_are_refused(signals):
+    diagram = road()
+    for call in (
+        lambda: saltus.simulate(diagram, (0.0, 1.0), recorded_signals=signals),
+        lambda: saltus.Simulator(diagram, recorded_signals=signals),
+        lambda: saltus.sweep(
+            diagram, {"car.engine.gain": [1.0]}, (0.0, 1.0), recorded_signals=signals
+        ),
+        lambda: diagram.to_dot(recorded_signals=signals),
+    ):
+        with pytest.raises(ModelError, match="recorded_signals: expected a dict of names"):
+            call()
+
+
 def test_nothing_is_recorded_where_that_is_said():
     assert run(recorded_signals={}).outputs == {}
     source = Sine(name="source")  # no diagram, so it exports nothing
@@ -82,6 +129,7 @@ def test_a_wrong_path_names_the_nearest(path, message):
         ("clack.out", "gain.in", "found 'clack.out'; did you mean 'clock'"),
         ("clock.out", "gain.inn", "block 'gain' has no input 'inn'; did you mean 'in'"),
         ("clock.out", 3, "expected a port, such as block.input_ports"),
+        ("clock.x.out", "gain.in", "inside of diagram 'clock'; export it there"),
     ],
 )
 def test_a_wrong_wire_is_refused(source, target, message):
@@ -111,6 +159,28 @@ def test_rows_as_text_have_all_digits(tmp_path):
     assert np.array_equal(numbers[:, 0], results.time)
     assert np.array_equal(numbers[:, 2:4], results.outputs["v"])
     assert np.signbit(numbers[:, 3]).all()
+
+
+@pytest.mark.parametrize("name", ["time", "jump", "v[0]"])
+def test_two_columns_of_one_name_are_refused(tmp_path, name):
+    builder = saltus.DiagramBuilder()
+    vector, clock = builder.add(Constant([1.0, 2.0]), Clock())
+    diagram = builder.build()
+    signals = {"v": vector.output(), name: clock.output()}
+    results = saltus.simulate(diagram, (0.0, 1.0), recorded_signals=signals)
+    with pytest.raises(ModelError, match="two columns would be called"):
+        results.to_csv(tmp_path / "rows.csv")
+    assert not (tmp_path / "rows.csv").exists()
+
+
+def test_exports_by_path():
+    builder = saltus.DiagramBuilder()
+    builder.add(Gain(2.0, name="gain"))
+    builder.export_input("gain.in", "u")
+    builder.export_output("gain.out", "y")
+    assert builder.build().input_names == ["u"]
+    with pytest.raises(ModelError, match="export_output: expected the names of a block"):
+        saltus.DiagramBuilder().export_output("gain.out")
 
 
 def test_load_is_load_results(tmp_path):

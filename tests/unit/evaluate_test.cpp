@@ -113,10 +113,41 @@ TEST_CASE("an input has one source", "[evaluate]") {
         "input 'in' of block 'gain' already has a source, its fixed value; an input takes one");
   builder.connect(clock.output(), other.input());
   other.fix_input(0, 1.0);
+  CHECK(message<BuilderError>([&] { builder.build(); }) ==
+        "input 'in' of block 'other' has two sources: a wire and its fixed value; an input takes "
+        "one");
+  other.free_input(0);
   const Diagram diagram = builder.build();
+  compile(diagram);
+  other.fix_input(0, 1.0);  // too late for `build`
   CHECK(message<BuilderError>([&] { compile(diagram); }) ==
         "input 'in' of block 'other' has two sources: output 'clock.out' and its fixed value; an "
         "input takes one");
+}
+
+TEST_CASE("a fixed value that is exported is the default of the diagram's input", "[evaluate]") {
+  DiagramBuilder inner;
+  auto& gain = inner.add<Gain>("gain", 10.0);
+  inner.export_input(gain.input(), "u");
+  inner.export_output(gain.output(), "y");
+  const auto part = std::make_shared<Diagram>(inner.build("part"));
+  gain.fix_input(0, 3.0);  // after the export
+  DiagramBuilder outer;
+  outer.add(part);
+  const Diagram whole = outer.build();
+  CHECK(evaluate_output(whole, part->output(), whole.create_context()).values == vec({30.0}));
+  gain.free_input(0);
+  CHECK(contains(message<InputNotConnectedError>([&] { compile(whole); }), "is not connected"));
+}
+
+TEST_CASE("a fixed value of another width than the input expects is refused", "[evaluate]") {
+  Leaf leaf("leaf", [](Leaf& l) {
+    l.declare_input_port({.name = "u", .shape = Shape::of(2)});
+    l.declare_output_port({.name = "y", .calc = [](const At& at) { return at.u(0); }});
+  });
+  leaf.fix_input(0, vec({1.0, 2.0, 3.0}));
+  CHECK(message<ShapeMismatchError>([&] { compile(leaf); }) ==
+        "input 'u' of block 'leaf': expected 2 values, found 3 from its fixed value");
 }
 
 TEST_CASE("impossible fixed values are refused", "[evaluate]") {

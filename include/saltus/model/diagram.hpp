@@ -44,6 +44,7 @@ class Diagram final : public System {
   std::vector<std::string> output_names() const override;
   void collect(Structure& out, const std::string& path) const override;
 
+  bool fixes_input(int index) const override;
   LeafPort output_source(int index) const override;
   LeafPort input_target(int index) const override;
 

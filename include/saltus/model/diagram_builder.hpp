@@ -50,6 +50,7 @@ class DiagramBuilder {
   void require_unspent() const;
   void require_mine(const System* system) const;
   void require_free(InputPort to) const;
+  [[noreturn]] void throw_two_sources(InputPort to) const;
 
   /// The source of an input, in words; empty if it has none.
   std::string source_of(InputPort to) const;

@@ -68,13 +68,17 @@ class System {
   OutputPort output(std::string_view port) const;
 
   /// Gives an input a constant value, so that nothing has to be connected to it: a number, or a
-  /// vector. It counts for what is compiled afterwards. Throws ModelError for an unknown input, and
-  /// for a value that is empty or not finite. An input that has a wire cannot be fixed as well:
-  /// `connect` and `build` refuse it.
+  /// vector. It holds for plans that are compiled afterwards. Throws ModelError for an unknown
+  /// input, and for a value that is empty or not finite. An input takes one source: `connect`,
+  /// `build` and `compile` refuse an input that has a fixed value and a wire.
   void fix_input(int index, double value);
   void fix_input(int index, const Eigen::VectorXd& value);
-  bool fixes_input(int index) const { return fixed_.contains(index); }
-  /// How often inputs of any system were fixed, so that it shows whether a plan is older.
+  /// Takes the value away again.
+  void free_input(int index);
+  /// Whether this system, or a block in it, gives the input a value.
+  virtual bool fixes_input(int index) const { return fixed_.contains(index); }
+  /// How often the inputs of all systems of the process were fixed or freed. A plan that was made
+  /// at another number may have other values.
   static int fixes() noexcept;
 
   /// The default values of every block, at time t [s].

@@ -11,8 +11,8 @@ import numpy as np
 
 from saltus import _core
 from saltus._engine import core_context, core_options
+from saltus._signals import port_of
 from saltus.callbacks import Callbacks, planned
-from saltus.diagram import port_of
 from saltus.ensemble.columns import Columns, empty, failed, join
 from saltus.ensemble.table import Column
 from saltus.errors import ModelError

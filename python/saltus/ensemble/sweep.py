@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from saltus import _core
 from saltus._porting import OPTIONS, refuse
+from saltus._signals import named
 from saltus._span import span_of
 from saltus.ensemble.dataset import (
     refuse_reserved,
@@ -38,7 +39,7 @@ def sweep(
     t_span: tuple[float, float],
     *,
     options: SimulatorOptions | None = None,
-    recorded_signals: Mapping[str, OutputPort | str] | None = None,
+    recorded_signals: Mapping[str, OutputPort | str] | Sequence[str] | None = None,
     context: _core.Context | None = None,
     executor: Any = None,
     workers: int | None = None,
@@ -179,7 +180,7 @@ def _job(
         raise ModelError(f"sweep: expected SimulatorOptions, found {options!r}")
     refuse("sweep", overrides, SimulatorOptions.__dataclass_fields__, OPTIONS)
     options = replace(options, **overrides)
-    signals = dict(signals if signals is not None else options.recorded_signals or {})
+    signals = named(signals if signals is not None else options.recorded_signals or {})
     if reduce is None:  # nobody sees events and steps
         if options.save_steps:
             raise ModelError("sweep: save_steps: runs have no steps in common; say save_at=[...]")

@@ -44,10 +44,12 @@ DONE = {
 
 
 def elsewhere(name: str, known: Iterable[str]) -> AttributeError | ImportError:
-    """The error for a block that the library does not have. `from saltus.library import Sum` would
-    replace an AttributeError, and with it the advice.
+    """The error for a block that the library does not have.
+
+    `from saltus.library import Sum` would replace an AttributeError, and with it the advice. The
+    price is that `hasattr` of one of these names raises.
     """
-    if name in CALLED and CALLED[name].partition("(")[0] in known:
+    if name in CALLED:
         return ImportError(f"saltus.library has no '{name}'; it is called {CALLED[name]} here")
     if name in DONE:
         return ImportError(f"saltus.library has no '{name}'; {DONE[name]}")

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from saltus import _core
 from saltus._engine import core_context, core_options
+from saltus._signals import signals_in
 from saltus._span import span_of
 from saltus.callbacks import traced_callbacks
 from saltus.errors import ModelError
@@ -34,7 +35,7 @@ def work_precision(
     methods: Sequence[str] | None = None,
     rtols: Sequence[float] = (1e-4, 1e-6, 1e-8, 1e-10, 1e-12),
     atol_over_rtol: float | None = None,
-    recorded_signals: Mapping[str, OutputPort] | None = None,
+    recorded_signals: Mapping[str, OutputPort | str] | Sequence[str] | None = None,
     exact: Callable[[float], ArrayLike] | None = None,
     reference: Results | tuple[ArrayLike, ArrayLike] | None = None,
     provenance: str = "",
@@ -151,13 +152,15 @@ def _scene(
     system: object,
     context: object,
     span: tuple[float, float],
-    signals: Mapping[str, OutputPort] | None,
+    signals: Mapping[str, OutputPort | str] | Sequence[str] | None,
     options: dict[str, Any],
 ) -> _core.Scene:
     """The scene in the form that runs."""
     if not isinstance(system, System):
         raise ModelError(f"work_precision: expected a system or a scene, found {system!r}")
-    if signals is None:
+    if signals is not None:
+        signals = signals_in(system, signals)
+    else:
         signals = {system.output_names[0]: system.output(0)} if system.output_names else {}
     chosen = SimulatorOptions(recorded_signals=signals, **options)
     callbacks = traced_callbacks(system) if chosen.python == "traced" else None

@@ -199,6 +199,11 @@ class Results:
         path : str or path
             The file, which is written over.
 
+        Raises
+        ------
+        ModelError
+            If two columns would have one name, such as a signal called 'time'.
+
         Examples
         --------
         >>> import os, tempfile, saltus

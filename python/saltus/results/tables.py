@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import csv
 import importlib
+from collections.abc import Iterable
 from os import PathLike
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+
+from saltus.errors import ModelError
 
 if TYPE_CHECKING:
     import pandas  # type: ignore[import-untyped,import-not-found,unused-ignore]
@@ -30,19 +33,26 @@ def extra(library: str, what: str, instead: str = "") -> Any:
         ) from None
 
 
-def columns_of(results: Results) -> dict[str, np.ndarray]:
-    """The recorded signals, each entry of a vector by itself."""
-    columns = {}
+def columns_of(results: Results, taken: Iterable[str] = ()) -> dict[str, np.ndarray]:
+    """The recorded signals, each entry of a vector by itself. ModelError if two columns would have
+    one name, or one that is `taken`.
+    """
+    columns: dict[str, np.ndarray] = {}
     for name, array in results.outputs.items():
-        if array.ndim == 1:
-            columns[name] = array
-        else:
-            columns.update({f"{name}[{i}]": array[:, i] for i in range(array.shape[1])})
+        parts = [array] if array.ndim == 1 else list(array.T)
+        names = [name] if array.ndim == 1 else [f"{name}[{i}]" for i in range(len(parts))]
+        for column, part in zip(names, parts, strict=True):
+            if column in columns or column in taken:
+                raise ModelError(
+                    f"two columns would be called '{column}'; record the signal by another name"
+                )
+            columns[column] = part
     return columns
 
 
 def write_csv(results: Results, path: str | PathLike[str]) -> None:
-    columns = {"time": results.time, "jump": results.jump, **columns_of(results)}
+    columns = {"time": results.time, "jump": results.jump}
+    columns |= columns_of(results, columns)
     with open(path, "w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(columns)

@@ -49,14 +49,17 @@ def _signals(signals: Any) -> Key | None:
     the blocks weakly, because a block may keep the plan, and with it this key.
     """
     if signals is None:
-        return ()
+        return (None,)  # what the system exports
+    if type(signals) is list and {str}.issuperset(map(type, signals)):
+        signals = {path: path for path in signals}
     if type(signals) is not dict:
         return None
     key = []
     for name, port in signals.items():
-        if type(name) is not str or type(port) is not OutputPort:
+        if type(name) is not str or type(port) not in (OutputPort, str):
             return None
-        key.append((name, weakref.ref(port.system), port.index))
+        at = port if type(port) is str else (weakref.ref(port.system), port.index)
+        key.append((name, at))
     return tuple(key)
 
 

@@ -91,6 +91,7 @@ class Simulator:
             plan = self._plan(None)
         self._core = _core.Simulator(plan, self._reporter)
         self._version = self._callbacks.version if self._callbacks else 0
+        self._fixes = _core.fixes()
 
     def _plan(self, callbacks: Callbacks | None) -> _core.Plan:
         return _core.Plan(self.system, self._options, callbacks, self.options.machine_code)
@@ -108,12 +109,20 @@ class Simulator:
 
     def _initialize(self, context: _core.Context) -> None:
         callbacks = self._callbacks
-        if callbacks and (
-            callbacks.traces.stale or callbacks.refresh(self._others) != self._version
+        if self._fixes != _core.fixes() or (
+            callbacks
+            and (callbacks.traces.stale or callbacks.refresh(self._others) != self._version)
         ):
             self._make()
         self._core.initialize(core_context(context))
         self._failed = None
+
+    def _begin(self, context: _core.Context, end: float) -> None:
+        """Begins a run that ends at `end`, which is not before its beginning."""
+        begin = core_context(context).time
+        if not end >= begin:
+            raise ModelError(f"advance_to: expected a time of {begin} s or later, found {end} s")
+        self._initialize(context)
 
     def advance_to(self, time: float, context: _core.Context | None = None) -> Reached:
         """Goes on to `time`, or to where the run ends before.
@@ -143,10 +152,11 @@ class Simulator:
             until then. With the option ``throw=False`` nothing is raised, and the status says it.
         """
         with self._turn.of("advance_to", self._core):
+            end = _seconds(time)
             if context is not None:
-                self._initialize(context)
+                self._begin(context, end)
             self._follow_changes()
-            status = advance(self._core, _seconds(time), self._reporter)
+            status = advance(self._core, end, self._reporter)
             results, raised = (None, None) if status in WELL else self._ended_badly()
             refuse_stale(self._callbacks, lambda: self._taken()[0])
         if results is not None:

@@ -21,11 +21,11 @@ namespace saltus::detail {
   throw AlgebraicLoopError(message);
 }
 
-/// Refuses a wire to an input that expects another number of values.
+/// Refuses a source of an input that expects another number of values.
 [[noreturn]] inline void throw_wrong_width(std::string_view input, std::string_view block,
-                                           Index expected, Index found, std::string_view output) {
+                                           Index expected, Index found, std::string_view source) {
   throw ShapeMismatchError(text("input '", input, "' of block '", block, "': expected ", expected,
-                                " values, found ", found, " from output '", output, "'"));
+                                " values, found ", found, " from ", source));
 }
 
 }  // namespace saltus::detail

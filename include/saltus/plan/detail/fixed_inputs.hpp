@@ -47,6 +47,12 @@ inline void add_fixed(Plan& plan, const Structure::FixedInput& fixed, std::size_
   leaf.declarations = std::move(declared);
 }
 
+/// Whether a node is a fixed value.
+inline bool is_fixed(const Plan& plan, const Node& node) {
+  const auto own = std::ssize(plan.leaf_of(node).system->declarations().outputs);
+  return !node.relation && node.index >= own;
+}
+
 /// The value of the outermost system counts where several fix one input.
 inline void add_fixed_inputs(Plan& plan, const Structure& structure, const LeafNumbers& numbers) {
   std::unordered_set<int> added;

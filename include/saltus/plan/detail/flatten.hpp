@@ -199,8 +199,9 @@ inline void check_shapes(const Plan& plan) {
       const Node& source = plan.node(leaf.inputs[i]);
       const InputDeclaration& input = leaf.declared().inputs[i];
       if (input.shape && input.shape->size != source.shape.size) {
+        const bool fixed = is_fixed(plan, source);
         throw_wrong_width(input.name, leaf.path, input.shape->size, source.shape.size,
-                          plan.name_of(source));
+                          fixed ? "its fixed value" : text("output '", plan.name_of(source), "'"));
       }
     }
   }

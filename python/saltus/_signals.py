@@ -1,0 +1,67 @@
+"""Blocks and outputs by path, and the signals that a run records."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from saltus import _core
+from saltus.errors import ModelError
+from saltus.ports import OutputPort
+from saltus.system import System
+
+__all__ = ["block_of", "blocks_in", "named", "port_of", "signals_in", "signals_of"]
+
+
+def blocks_in(system: System) -> tuple[System, ...]:
+    """The blocks of a diagram, whether it was made in Python or in C++; none of a leaf."""
+    if isinstance(system, (_core.Diagram, _core.SharedSystem)):
+        return tuple(system.blocks)  # type: ignore[attr-defined]
+    return ()
+
+
+def block_of(system: System, name: str) -> System:
+    """A block of a diagram by name; ModelError if there is none."""
+    if isinstance(system, (_core.Diagram, _core.SharedSystem)) and blocks_in(system):
+        block: System = system[name]  # type: ignore[index]
+        return block
+    raise ModelError(f"block '{system.name}' is no diagram: it has no block '{name}'")
+
+
+def port_of(system: System, port: OutputPort | str) -> OutputPort:
+    """A port, or the one at a path: 'y' of the system itself, 'car.engine.y' of a block in it."""
+    if isinstance(port, OutputPort):
+        return port
+    if not isinstance(port, str):
+        raise ModelError(f"recorded_signals: expected a port or its path, found {port!r}")
+    *blocks, name = port.split(".")
+    for block in blocks:
+        system = block_of(system, block)
+    return system.output(name)
+
+
+def named(signals: Any) -> dict[str, OutputPort | str]:
+    """The signals that were asked for: a dict of names with ports or paths, or a list of paths,
+    which are the names too.
+    """
+    if isinstance(signals, (list, tuple)) and all(isinstance(path, str) for path in signals):
+        signals = {path: path for path in signals}
+    if not isinstance(signals, Mapping) or not all(isinstance(name, str) for name in signals):
+        raise ModelError(
+            "recorded_signals: expected a dict of names with ports or their paths, or a list of "
+            f"paths, found {signals!r}"
+        )
+    return dict(signals)
+
+
+def signals_in(system: System, signals: Any) -> dict[str, OutputPort]:
+    """The same with the ports of `system`."""
+    return {name: port_of(system, port) for name, port in named(signals).items()}
+
+
+def signals_of(system: System, signals: Any) -> dict[str, OutputPort]:
+    """The signals of a run: if nothing is said, the outputs that a diagram exports."""
+    if signals is not None:
+        return signals_in(system, signals)
+    exported = system.output_ports if blocks_in(system) else ()
+    return {port.name: port for port in exported}
