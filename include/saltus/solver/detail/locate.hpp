@@ -29,6 +29,14 @@ class Locator {
     }
   }
 
+  /// `find` for a whole step, of this length and with this state at its end, in a short form: true
+  /// if no guard fires in it, as in most steps; false if `find` has to decide.
+  [[gnu::always_inline]] bool passes(double t0, double length, const double* end) {
+    if (only_ == nullptr) return false;
+    guards_->begin_search();
+    return only_->passes(t0, length, end);
+  }
+
   /// Forgets the looks before a restart, which have no meaning after it.
   void forget() { stopping_.forget(), watching_.forget(); }
 
@@ -39,6 +47,7 @@ class Locator {
   bool find_both(const Part& step, const Interpolate& interpolate) {
     const bool stops = stopping_.has_guards() && stopping_.find(step, interpolate);
     if (watching_.has_guards()) watch(step, stops, interpolate);
+    only_ = !watching_.has_guards() ? &stopping_ : !stopping_.has_guards() ? &watching_ : nullptr;
     if (!stops || offset() == step.to) stopping_.end_step(step.to), watching_.end_step(step.to);
     return stops;
   }
@@ -55,6 +64,7 @@ class Locator {
 
   GuardSet* guards_;
   GuardSearch stopping_, watching_;
+  GuardSearch* only_ = nullptr;  // the search with guards, if there is one of them
 };
 
 }  // namespace saltus
