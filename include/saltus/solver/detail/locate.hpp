@@ -15,6 +15,8 @@ class Locator {
       : guards_(&guards),
         stopping_(machine, guards, guards.stopping()),
         watching_(machine, guards, guards.watching()) {}
+  Locator(const Locator&) = delete;  // only_ points into it
+  Locator& operator=(const Locator&) = delete;
 
   /// Finds the first offset at which the solver has to stop; false if there is none. If a look
   /// throws, the guards are as before.
