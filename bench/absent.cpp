@@ -24,7 +24,7 @@ void gravity(const At& at, VectorRef xdot) {
 }
 
 /// Kepler's ellipse, e = 0.6, ten turns, with the named guard: "never" stays positive, "apsis"
-/// crosses zero nineteen times. The right-hand side is called, or inlined into the steps.
+/// crosses zero twenty times. The right-hand side is called, or inlined into the steps.
 class Planet final : public saltus::LeafSystem {
  public:
   explicit Planet(const std::string& guard = "", bool inlined = false) : LeafSystem("planet") {
@@ -157,7 +157,7 @@ const std::vector<Pair> pairs{
      [](bool on, double stretch) { return planet(stretch, "", on); }, 1.15},
     {"zeno", "the Zeno monitor",
      [](bool on, double stretch) { return ball(stretch, on ? 1e-6 : 0.0); }, 1.02},
-    {"monitor", "a monitor guard, located 19 times",
+    {"monitor", "a monitor guard, located 20 times",
      [](bool on, double stretch) { return planet(stretch, on ? "apsis" : ""); }, 1.20},
     {"monitor_dop853", "the same monitor, dop853",
      [](bool on, double stretch) { return planet_by(dop853(), false, stretch, on ? "apsis" : ""); },

@@ -19,7 +19,7 @@ PAIRS = {
     "guard_plan": ("the same guard in another block", 5.0),
     "recorder": ("two signals recorded", None),  # mostly memory: judged by time
     "zeno": ("the Zeno monitor", 2.0),
-    "monitor": ("a monitor guard, located 19 times", 20.0),
+    "monitor": ("a monitor guard, located 20 times", 20.0),
     "monitor_dop853": ("the same monitor, dop853", 20.0),
     "ballast": ("unread blocks, constants to fold", 0.0),
 }
