@@ -12,10 +12,15 @@ import sys
 from pathlib import Path
 
 PAIRS = {
-    "guard": ("a guard that never fires", 10.0),
+    "guard": ("a guard that never fires", 5.0),
+    "guard_dop853": ("the same guard, dop853", 5.0),
+    "guard_inlined": ("the same guard, dopri5 inlined", 5.0),
+    "guard_inlined_853": ("the same guard, dop853 inlined", 5.0),
+    "guard_plan": ("the same guard in another block", 5.0),
     "recorder": ("two signals recorded", None),  # mostly memory: judged by time
     "zeno": ("the Zeno monitor", 2.0),
-    "monitor": ("a monitor guard, located 20 times", None),
+    "monitor": ("a monitor guard, located 20 times", 20.0),
+    "monitor_dop853": ("the same monitor, dop853", 20.0),
     "ballast": ("unread blocks, constants to fold", 0.0),
 }
 

@@ -68,7 +68,7 @@ int main() {
         {"single monitors", Form::single, Index{4'000}},
         {"guards with resets", Form::reset, Index{2'000}}}) {
     double before = 0.0;
-    for (Index n = most / 32; n <= most; n *= 2) {
+    for (Index n = most / 16; n <= most; n *= 2) {
       std::int64_t calls = 0;
       const double time = run(n, form, calls);
       bench::Row row{{"guards", name}, {"n", n}, {"time [s]", time}, {"guard calls", calls}};

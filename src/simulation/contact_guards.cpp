@@ -27,7 +27,10 @@ const GuardGroup& ContactGuards::group_of(std::size_t k) const {
   return machine_->plan().guard((*guards_)[k].group);
 }
 
-void ContactGuards::engage() { machine_->carry_by(contacts_.moving() ? &contacts_ : nullptr); }
+void ContactGuards::engage() {
+  flow_->forget_looks();  // a carried block is elsewhere
+  machine_->carry_by(contacts_.moving() ? &contacts_ : nullptr);
+}
 
 // --- the contact of a guard
 
@@ -124,6 +127,7 @@ void ContactGuards::arm_relation(std::size_t k) {
 void ContactGuards::arm(SurfaceContact& contact, double error) {
   const std::size_t k = contact.guard();
   contact.error = error;
+  flow_->forget_looks();  // the block is put on its surface
   if (!contact.members.empty() && !follow_surface(contact)) return;
   engage();
   if (contact.carried)

@@ -176,18 +176,31 @@ void Holds::release(Hold& hold) {
                   .entry = hold.entry});
 }
 
+namespace {
+
+/// Some entries of x: in place where they are a part of `all`, as for a whole leaf, otherwise in `room`.
+Eigen::Ref<const Eigen::VectorXd> gather(std::span<const Index> entries, const Index* all,
+                                         const Eigen::VectorXd& x, Eigen::VectorXd& room) {
+  const auto size = static_cast<Index>(entries.size());
+  const Index first = size > 0 ? entries.front() : 0;
+  if (entries.data() == all + first) return x.segment(first, size);
+  room.resize(size);
+  for (Index i = 0; i < size; ++i) room[i] = x[entries[static_cast<std::size_t>(i)]];
+  return room;
+}
+
+}  // namespace
+
 bool Holds::look_for_accumulation(Hold& hold) {
   Eigen::VectorXd& next = transition_->next();
-  gathered_.resize(static_cast<Index>(hold.states.size()));
-  for (std::size_t i = 0; i < hold.states.size(); ++i)
-    gathered_[static_cast<Index>(i)] = next[hold.states[i]];
   if (!hold.monitor.on() || !hold.monitor.accumulates()) {
-    changing(hold).remember(gathered_);
+    changing(hold).remember(gather(hold.states, states_.data(), next, gathered_));
     double& horizon = present_->outcome.horizon;
     if (const double gap = hold.monitor.gap(); std::isfinite(gap))
       horizon = std::min(horizon, std::max(thresholds::next_gap * gap, present_->least_time()));
     return false;
   }
+  gathered_ = gather(hold.states, states_.data(), next, gathered_);
   hold.monitor.accumulate(gathered_);
   for (std::size_t i = 0; i < hold.states.size(); ++i)
     next[hold.states[i]] = gathered_[static_cast<Index>(i)];

@@ -54,7 +54,7 @@ class Machine : public Memory {
     (*lone_ode_->function)(*lone_ode_->system, arguments_.of(state).at(*lone_ode_, t), out);
   }
   /// Evaluates all guards that can fire now, into their slots of g.
-  void guards(double t, const double* state, double* g) {
+  [[gnu::always_inline]] void guards(double t, const double* state, double* g) {
     if (lone_guard_ == nullptr || carrier_ != nullptr) return carried_guards(t, state, g);
     ++guard_calls;
     const VectorRef out(g + lone_guard_->slot, lone_guard_->width);

@@ -60,8 +60,12 @@ class Departure {
   /// f at the point it departs from.
   const Eigen::VectorXd& flow() const noexcept { return f_; }
 
+  /// What guards read, besides t and x, has changed.
+  void forget_looks() noexcept { flight_ = {}; }
+
   /// Rounding of a guard at the point of departure.
   double rounding(Index slot) {
+    forget_looks();
     x1_ = *x_;
     return rounding_after(0.0, slot, g0(slot));
   }
@@ -109,6 +113,7 @@ class Departure {
   /// d g / d t along another flow f through (t, x), to first order.
   double slope_along(const Eigen::VectorXd& f, const GuardGroup& group, Index slot) {
     const double d = first_time(group);
+    forget_looks();
     x1_ = *x_ + d * f;
     look(t_ + d, x1_, slot, g_);
     return (g_[slot] - g0(slot)) / d;
@@ -116,30 +121,45 @@ class Departure {
 
  private:
   static constexpr double amount = thresholds::disturbance, eps = thresholds::eps;
+  static constexpr double unknown = -1.0;
+
+  /// The last flight: x1_, f1_ and move_ belong to it, and g_ to its end.
+  struct Flight {
+    std::int64_t departure = 0;  // none
+    double d = 0.0;              // [s]
+    bool fine = false;
+    int group = -1;  // whose guards g_ has
+    double largest_move = unknown;
+  };
+  /// The time of the first look for the guards of one group, from one departure.
+  struct FirstLook {
+    std::int64_t departure = 0;
+    const GuardGroup* group = nullptr;
+    double d = 0.0;  // [s]
+  };
 
   Side follow(const GuardGroup& group, Index slot, double error, int expected) {
     Side result{.rounding = error};
     const bool opaque = group.is_opaque();
     double d = first_time(group);
-    double g = guard_after(d, slot);
-    // The look ends a little beyond the tolerance: the solver finds later events.
-    for (double furthest =
-             std::min(longest_, std::max(thresholds::furthest_look * d, lift_time(group, d)));
-         ; g = guard_after(d, slot)) {
+    for (double furthest = unknown;; d *= thresholds::look_growth) {
+      const double g = guard_after(d, slot);
       const int side = sign_of(g);
       const bool may_be = side != 0 && (side == expected || expected == either_side);
       if (may_be && is_beyond_doubt(g, error)) return result.side = side, result;
       const double rounding = opaque ? 0.0 : rounding_after(d, slot, g);
       result.rounding = std::max(error, rounding);
       if (std::abs(g) > result.rounding && has_moved(group)) return result.side = side, result;
+      // The look ends a little beyond the tolerance: the solver finds later events.
+      if (furthest == unknown)
+        furthest = std::min(longest_, std::max(thresholds::furthest_look * d, lift_time(group, d)));
       if (std::abs(g) > rounding && !opaque) furthest = longest_;
-      d *= thresholds::look_growth;
-      if (d > furthest) return result;
+      if (d * thresholds::look_growth > furthest) return result;
     }
   }
 
   /// Whether a guard moves as much as the states do.
-  bool is_beyond_doubt(double g, double error) const {
+  bool is_beyond_doubt(double g, double error) {
     return std::abs(g) > std::max(error, thresholds::doubtless_move * largest_move());
   }
 
@@ -156,7 +176,11 @@ class Departure {
     return g0_[slot];
   }
 
-  double largest_move() const { return move_.size() > 0 ? move_.cwiseAbs().maxCoeff() : 0.0; }
+  double largest_move() {
+    if (flight_.largest_move == unknown)
+      flight_.largest_move = move_.size() > 0 ? move_.cwiseAbs().maxCoeff() : 0.0;
+    return flight_.largest_move;
+  }
 
   /// Calls move(i, weight) for each state. The weights, from 0.5 to 1 of either sign, have no
   /// pattern, so that terms which cancel in a guard do not cancel in the disturbance.
@@ -196,7 +220,12 @@ class Departure {
   /// The time in which the fastest state that the guard depends on moves by its tolerance. A state
   /// that hardly moves so far within the run is ignored: then the time or another block moves the
   /// guard.
-  double first_time(const GuardGroup& group) const {
+  double first_time(const GuardGroup& group) {
+    if (first_.departure != departures_ || first_.group != &group)
+      first_ = {departures_, &group, find_first_time(group)};
+    return first_.d;
+  }
+  double find_first_time(const GuardGroup& group) const {
     double d = thresholds::first_look_of_run * longest_;  // for a guard that no state moves
     bool moved = false;
     for (int leaf : group.leaves) {
@@ -227,7 +256,19 @@ class Departure {
     return std::min(thresholds::lift_times * time, thresholds::lift_of_run * longest_);
   }
 
+  /// A guard after the time d. The flight, and the look at its group, serve all guards that depart
+  /// together: n balls that land together take one of each.
   double guard_after(double d, Index slot) {
+    if (flight_.departure != departures_ || flight_.d != d || flight_.fine != fine_) fly(d);
+    const int group = group_of_[slot];
+    if (flight_.group != group) look(t_ + d, x1_, slot, g_);
+    flight_.group = group;
+    return g_[slot];
+  }
+
+  /// Sets x1_ to the state after d, and move_ to the way there.
+  void fly(double d) {
+    forget_looks();
     x1_ = *x_ + (fine_ ? 0.5 * d : d) * f_;
     machine_->derivative(t_ + (fine_ ? 0.5 * d : d), x1_.data(), f1_.data());
     if (fine_)
@@ -235,8 +276,7 @@ class Departure {
     else
       move_ = 0.5 * d * (f_ + f1_);
     x1_ = *x_ + move_;
-    look(t_ + d, x1_, slot, g_);
-    return g_[slot];
+    flight_.departure = departures_, flight_.d = d, flight_.fine = fine_;
   }
 
   /// Completes a step of the classical method of order 4 after its second stage, f1_ (Hairer,
@@ -296,6 +336,8 @@ class Departure {
   List<int> group_of_;            // of each slot
   List<std::int64_t> looked_at_;  // of each group: the departure that g0_ belongs to
   std::int64_t departures_ = 0;
+  Flight flight_;
+  FirstLook first_;
   Eigen::VectorXd f_, f_disturbed_, f1_, x1_, move_, trial_, g_, g0_, g_disturbed_;
 };
 

@@ -16,6 +16,8 @@ class Flow {
   void open(double t, double longest) { t_ = t, longest_ = longest, known_ = false; }
   /// The state, or something else that f reads, was written.
   void forget() noexcept { known_ = false; }
+  /// Guards read other values than before, though f may not.
+  void forget_looks() noexcept { departure_.forget_looks(); }
   /// f at the present state, if it is known.
   const Eigen::VectorXd* known() const noexcept { return known_ ? &departure_.flow() : nullptr; }
 

@@ -49,13 +49,15 @@ class Glance : protected Narrower {
   /// zero and come back, even if it moved eight times as fast as it recently did (the bound of B.
   /// O. Shubert, "A sequential method seeking the global maximum of a function", SIAM J. Numer.
   /// Anal. 9 (1972) 379). The locator still looks into such a step from time to time.
-  bool out_of_reach(double from, double to) const {
+  [[gnu::always_inline]] bool out_of_reach(double length) const {
     if (jumps_) return false;
-    for (std::size_t i = 0; i < plain_.size(); ++i) {
-      const std::size_t k = watch_->slots[i];
-      const double now = plain_[i] * high_[k], before = plain_[i] * guards_->g[k];
-      const double moves = std::max(std::abs(now - before), speed_[k] * (to - from));
-      if (!(now > 0.0 && now + before > thresholds::speed_margin * moves)) return false;
+    const double *high = high_.data(), *last = guards_->g.data(), *speed = speed_.data();
+    const double* plain = plain_.data();
+    for (const std::size_t k : watch_->slots) {
+      const double side = *plain++, now = side * high[k], sum = now + side * last[k];
+      if (!(now > 0.0 && sum > thresholds::speed_margin * std::abs(high[k] - last[k]) &&
+            sum > thresholds::speed_margin * (speed[k] * length)))
+        return false;
     }
     return true;
   }
@@ -83,11 +85,13 @@ class Glance : protected Narrower {
     }
     return true;
   }
-  void shift_all(double from, double to) {
+  [[gnu::always_inline]] void shift_all(double from, double to) {
+    const double* high = high_.data();
+    double *last = guards_->g.data(), *speed = speed_.data(), *earlier = earlier_.data();
     for (const std::size_t k : watch_->slots) {
-      speed_[k] = std::max(thresholds::speed_memory * speed_[k],
-                           std::abs(high_[k] - guards_->g[k]) / (to - from));
-      earlier_[k] = guards_->g[k], guards_->g[k] = high_[k];
+      speed[k] =
+          std::max(thresholds::speed_memory * speed[k], std::abs(high[k] - last[k]) / (to - from));
+      earlier[k] = last[k], last[k] = high[k];
     }
     earlier_at_ = from, may_go_back_ = true;
   }

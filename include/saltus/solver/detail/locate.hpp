@@ -15,6 +15,8 @@ class Locator {
       : guards_(&guards),
         stopping_(machine, guards, guards.stopping()),
         watching_(machine, guards, guards.watching()) {}
+  Locator(const Locator&) = delete;  // only_ points into it
+  Locator& operator=(const Locator&) = delete;
 
   /// Finds the first offset at which the solver has to stop; false if there is none. If a look
   /// throws, the guards are as before.
@@ -29,6 +31,14 @@ class Locator {
     }
   }
 
+  /// `find` for a whole step, of this length and with this state at its end, in a short form: true
+  /// if no guard fires in it, as in most steps; false if `find` has to decide.
+  [[gnu::always_inline]] bool passes(double t0, double length, const double* end) {
+    if (only_ == nullptr) return false;
+    guards_->begin_search();
+    return only_->passes(t0, length, end);
+  }
+
   /// Forgets the looks before a restart, which have no meaning after it.
   void forget() { stopping_.forget(), watching_.forget(); }
 
@@ -39,6 +49,7 @@ class Locator {
   bool find_both(const Part& step, const Interpolate& interpolate) {
     const bool stops = stopping_.has_guards() && stopping_.find(step, interpolate);
     if (watching_.has_guards()) watch(step, stops, interpolate);
+    only_ = !watching_.has_guards() ? &stopping_ : !stopping_.has_guards() ? &watching_ : nullptr;
     if (!stops || offset() == step.to) stopping_.end_step(step.to), watching_.end_step(step.to);
     return stops;
   }
@@ -55,6 +66,7 @@ class Locator {
 
   GuardSet* guards_;
   GuardSearch stopping_, watching_;
+  GuardSearch* only_ = nullptr;  // the search with guards, if there is one of them
 };
 
 }  // namespace saltus

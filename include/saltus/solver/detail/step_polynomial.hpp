@@ -42,23 +42,24 @@ class StepPolynomial {
   /// Sets the polynomial of the step of length h from x0 to x1, with all stages in k.
   void set(double h, const double* x0, const double* x1, const double* k) {
     const Index n = size();
-    detail::for_lanes<W, N>(n, [&](Index i) {
+    in_pairs([&]<int P>(Index i) {
+      using detail::load, detail::store;
       double* c = c_.data() + i;
-      const Lane rise = detail::load<W>(x1 + i) - detail::load<W>(x0 + i),
-                 bend = h * detail::load<W>(k + i) - rise,
-                 end = detail::load<W>(k + i + static_cast<Index>(Method::stages - 1) * n);
-      detail::store<W>(c, rise);
-      detail::store<W>(c + n, bend);
-      detail::store<W>(c + 2 * n, rise - h * end - bend);
-      set_others(h, k + i, c + 3 * n, std::make_index_sequence<Method::d.size()>{});
+      const detail::Lane<P> rise = load<P>(x1 + i) - load<P>(x0 + i),
+                            bend = h * load<P>(k + i) - rise,
+                            end = load<P>(k + i + static_cast<Index>(Method::stages - 1) * n);
+      store<P>(c, rise);
+      store<P>(c + n, bend);
+      store<P>(c + 2 * n, rise - h * end - bend);
+      set_others<P>(h, k + i, c + 3 * n, std::make_index_sequence<Method::d.size()>{});
     });
   }
 
   void read(const double* x0, double s, double* x) const {
     const double *c = c_.data(), r = 1.0 - s;
-    detail::for_lanes<W, N>(size(), [&](Index i) {
-      detail::store<W>(
-          x + i, detail::load<W>(x0 + i) + s * detail::nested<0, terms, W>(c + i, size(), s, r));
+    in_pairs([&]<int P>(Index i) {
+      detail::store<P>(
+          x + i, detail::load<P>(x0 + i) + s * detail::nested<0, terms, P>(c + i, size(), s, r));
     });
   }
 
@@ -76,11 +77,20 @@ class StepPolynomial {
 
  private:
   Index size() const { return detail::count<N>(n_); }
-  template <std::size_t... M>
+  /// Calls body<2>(i) for pairs of states, and body<0>(i) for a last single one. The bits are those of
+  /// single states. No call of a user's function is between two of these, so pairs pay for each
+  /// number of states.
+  template <class Body>
+  [[gnu::always_inline]] void in_pairs(Body body) const {
+    Index i = 0;
+    for (const Index n = size(); i + 1 < n; i += 2) body.template operator()<2>(i);
+    if (i < size()) body.template operator()<0>(i);
+  }
+  template <int P, std::size_t... M>
   void set_others(double h, const double* k, double* c, std::index_sequence<M...>) const {
-    (detail::store<W>(
+    (detail::store<P>(
          c + static_cast<Index>(M) * size(),
-         h * detail::dot_of_differences<[] { return Method::d[M]; }, Method::rows, W>(k, size())),
+         h * detail::dot_of_differences<[] { return Method::d[M]; }, Method::rows, P>(k, size())),
      ...);
   }
 

@@ -139,7 +139,10 @@ class StepSolver : public Interface {
       guards_->g = before_;
       return find(nullptr);
     } else {
-      return find(offset_ == 0.0 ? self().end_guards() : nullptr);
+      const double* guards = offset_ == 0.0 ? self().end_guards() : nullptr;
+      if (offset_ == 0.0 && guards == nullptr && locator_.passes(t0_, length_, x1_.data()))
+        return false;
+      return find(guards);
     }
   }
 
