@@ -10,8 +10,7 @@
 
 namespace saltus {
 
-/// Holds the solver of a run, made when a state moves for the first time; at once for `taylor`, which
-/// does not suit each plan. From then on the state of
+/// Holds the solver of a run, made when a state moves for the first time. From then on the state of
 /// the run is the solver's; before, and where no state moves, it is the machine's.
 class Integration {
  public:
