@@ -71,17 +71,20 @@ class Expanding {
   /// A longer function is compiled without some passes, which takes a third of the time; it is then
   /// 15 to 25 % slower.
   static constexpr std::size_t longest_optimised = 1200;  // lines
-  /// If all would be longer, alike instructions share the code of their recurrences.
+  /// If all would be longer, alike instructions of four lanes share the code of their recurrences.
+  /// Those of one lane do not: they would take longer than the interpreter.
   static constexpr std::size_t longest_unshared = 9000;
-  /// Longer functions are not written: they would compile in more than 0.2 s.
-  static constexpr std::size_t longest = 25000;
+  /// Longer functions are not written: they would compile in 0.15 to 0.2 s.
+  static constexpr std::size_t longest = 40000;
 
   /// Decides also whether code is shared.
   bool can_be_written(const Steps& steps) {
     const auto orders = static_cast<std::size_t>(order_);
     // recurrences of order k have k products: 2 to 3 lines for each order and each of them
-    shares_ = 3 * steps.size() * orders * orders > longest_unshared;
-    return 12 * steps.size() * orders < longest && std::ranges::all_of(steps, [](const Step& s) {
+    const std::size_t unshared = 3 * steps.size() * orders * orders;
+    shares_ = writer_.width > 1 && unshared > longest_unshared;
+    const std::size_t lines = shares_ ? 20 * steps.size() * orders : unshared;
+    return lines < longest && std::ranges::all_of(steps, [](const Step& s) {
              return has_machine_code(*s.instruction);
            });
   }
