@@ -1,5 +1,5 @@
-// Runs functions of LLVM that are text, without LLVM: straight lines with branches, as the expansion
-// of a series has them.
+// Runs functions of LLVM that are text, without LLVM: straight lines with branches, as the
+// expansion of a series has them.
 #pragma once
 
 #include <memory>

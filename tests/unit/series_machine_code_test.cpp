@@ -1,5 +1,5 @@
-// The expansion of a series as machine code: the bits of the interpreted one. The text runs without a
-// compiler, see support/llvm_runner.hpp.
+// The expansion of a series as machine code: the bits of the interpreted one. The text runs without
+// a compiler, see support/llvm_runner.hpp.
 #include <random>
 
 #include "support/catch.hpp"

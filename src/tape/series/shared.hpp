@@ -10,8 +10,8 @@
 
 namespace saltus::tape::series {
 
-/// Writes a call where a recurrence would stand, with a table of the places of its rows. So the text
-/// grows with the number of instructions, not with that of their products.
+/// Writes a call where a recurrence would stand, with a table of the places of its rows. So the
+/// text grows with the number of instructions, not with that of their products.
 class SharedRecurrences {
  public:
   SharedRecurrences(const Program& program, std::string name)
