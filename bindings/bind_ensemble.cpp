@@ -75,9 +75,11 @@ bool ends_all(const Results& results) {
 
 /// An ensemble, with the tapes of its plan.
 struct PythonEnsemble {
-  PythonEnsemble(Ensemble ensemble, const std::string& machine_code, const py::object& callbacks)
+  PythonEnsemble(Ensemble ensemble, const std::string& machine_code, const py::object& callbacks,
+                 int series_order)
       : runs(std::move(ensemble)),
-        tapes(runs.plan(), machine_code_when(machine_code), interpreted_by(callbacks)) {}
+        tapes(runs.plan(), machine_code_when(machine_code), interpreted_by(callbacks),
+              series_order) {}
 
   Ensemble runs;
   PlanTapes tapes;
@@ -111,12 +113,13 @@ class Call {
   }
 
  private:
-  Evaluations evaluations() const { return {derivatives_, guards_, jacobians_}; }
+  Evaluations evaluations() const { return {derivatives_, guards_, jacobians_, steps_}; }
 
   void take(Index run, const Results& results) {
     derivatives_ += results.statistics.right_hand_side_calls;
     guards_ += results.statistics.guard_calls;
     jacobians_ += results.statistics.jacobian_calls;
+    steps_ += results.statistics.steps;
     outcomes_.take(run, results);
     if (ends_all(results)) {
       nth(outcomes_.status, run) = static_cast<int>(Status::interrupted);
@@ -149,7 +152,8 @@ class Call {
   const Ensemble* ensemble_;
   PlanTapes* tapes_;
   double counted_ = 0.0;  // see PlanTapes::consider
-  std::atomic<std::int64_t> derivatives_ = 0, guards_ = 0, jacobians_ = 0;  // of finished runs
+  std::atomic<std::int64_t> derivatives_ = 0, guards_ = 0, jacobians_ = 0,
+                            steps_ = 0;  // of finished runs
   Outcomes outcomes_;
   py::object watch_, each_, raised_ = py::none();
 };
@@ -185,8 +189,9 @@ void bind_ensemble(py::module_& module) {
                        SimulatorOptions options, const py::object& callbacks,
                        const std::string& machine_code) {
              options.refinement = trace_pass(callbacks);
+             const int order = series_order(options);
              Ensemble runs(system, base, TimeSpan{span.first, span.second}, std::move(options));
-             return new PythonEnsemble(std::move(runs), machine_code, callbacks);
+             return new PythonEnsemble(std::move(runs), machine_code, callbacks, order);
            }),
            py::keep_alive<1, 2>())
       .def("vary", [](PythonEnsemble& e, const std::string& name,

@@ -71,9 +71,10 @@ class PythonSimulator {
 
   /// Runs the present traces from now on, see TracePass.
   bool replace_traces() {
-    if (!plan_->replace_traces()) return false;
-    simulator_.functions_replaced();
-    return true;
+    const bool replaced = plan_->replace_traces();
+    if (replaced) simulator_.functions_replaced();
+    plan_->tapes().renew();  // last: the series are made anew by then
+    return replaced;
   }
 
   std::string describe() const { return simulator_.describe() + plan_->tapes().describe(); }
@@ -111,7 +112,7 @@ class PythonSimulator {
 
   Evaluations evaluations() const {
     const Statistics& s = simulator_.results().statistics;
-    return {s.right_hand_side_calls, s.guard_calls, s.jacobian_calls};
+    return {s.right_hand_side_calls, s.guard_calls, s.jacobian_calls, s.steps};
   }
 
   /// Reports the progress of the run, at most ten times a second.

@@ -136,7 +136,7 @@ void bind_tape(py::module_& module) {
       .def("reads_input", &Tape::reads_input)
       .def("to_string", &Tape::to_string)
       .def("llvm_module", [](const Tape& t) { return tape::llvm_module(std::span(&t, 1)); })
-      .def("compile", [](const Tape& t) { compile_tapes(std::span(&t, 1), true); })
+      .def("compile", [](const Tape& t) { compile_tapes(std::span(&t, 1), {}, true); })
       .def_property_readonly("is_machine_code", &Tape::is_machine_code)
       .def("jacobian", &jacobian);
   module.def("called_functions", &called_functions);

@@ -4,6 +4,7 @@
 
 #include "interpreter.hpp"
 #include "saltus/base/error.hpp"
+#include "saltus/plan/detail/flow_series.hpp"
 #include "saltus/tape/compile_cost.hpp"
 #include "tape_compiler.hpp"
 #include "taped.hpp"
@@ -106,8 +107,8 @@ MachineCodeWhen machine_code_when(std::string_view word) {
 }
 
 PlanTapes::PlanTapes(const Plan& plan, MachineCodeWhen when,
-                     std::shared_ptr<Interpreted> interpreted)
-    : plan_(&plan), when_(when), interpreted_(std::move(interpreted)) {
+                     std::shared_ptr<Interpreted> interpreted, int order)
+    : plan_(&plan), when_(when), interpreted_(std::move(interpreted)), order_(order) {
   read_plan();
 }
 
@@ -124,13 +125,28 @@ void PlanTapes::read_plan() {
   by_guards_ = take(run_, read.guards());
   take(run_, read.others());
   take(jacobians_, read.jacobians());
+  read_series();
   for (TapeGroup* group : {&run_, &jacobians_})
-    group->done = when_ == MachineCodeWhen::never || group->tapes.empty();
+    group->done =
+        when_ == MachineCodeWhen::never || (group->tapes.empty() && group->series.empty());
+}
+
+void PlanTapes::read_series() {
+  by_step_ = 0.0;
+  if (order_ == 0 || plan_->nx == 0) return;
+  const auto kept = flow_series(*plan_);
+  if (!kept->series) return;
+  run_.series = {kept->series->at_order(order_)};
+  const double interpreted = run_.series[0].instruction_count();
+  const tape::CompileCost cost;
+  by_step_ = interpreted * cost.series_instruction / cost.instruction;
+  run_.instructions += interpreted * order_ * cost.series_line / cost.line;
 }
 
 double PlanTapes::run_instructions(const Evaluations& evaluations) const {
   return by_derivative_ * static_cast<double>(evaluations.derivatives) +
-         by_guards_ * static_cast<double>(evaluations.guards);
+         by_guards_ * static_cast<double>(evaluations.guards) +
+         by_step_ * static_cast<double>(evaluations.steps);
 }
 
 void PlanTapes::begin() {
@@ -152,8 +168,8 @@ void PlanTapes::end(const Evaluations& now, double& counted) {
   counted = run;
 }
 
-/// Without `always` it is tried once. What was interpreted is then paid for: other tapes, of another
-/// plan of the system, are compiled when as much has been interpreted again.
+/// Without `always` it is tried once. What was interpreted is then paid for: other tapes, of
+/// another plan of the system, are compiled when as much has been interpreted again.
 void PlanTapes::compile_if_pays(TapeGroup& group, double interpreted) {
   // Another run may hold the lock and wait for the interpreter, which this one may hold.
   const std::unique_lock lock(compiling_, std::try_to_lock);
@@ -161,7 +177,7 @@ void PlanTapes::compile_if_pays(TapeGroup& group, double interpreted) {
   if (!always() && !tape::compiling_pays(interpreted, group.instructions, compiler_is_loaded()))
     return;
   group.done = !always();
-  locked([&] { compile_tapes(group.tapes, always()); });
+  locked([&] { compile_tapes(group.tapes, group.series, always()); });
   group.done = true;
   interpreted_->all = 0.0;
 }
@@ -179,10 +195,17 @@ std::string described(std::string_view what, const Tapes& tapes) {
   return text(what, ": ", tapes.size(), ", ", how, "\n");
 }
 
+std::string described(const std::vector<tape::SeriesOrder>& series) {
+  if (series.empty()) return "";
+  return text("Taylor series: of order ", series[0].order,
+              series[0].is_machine_code() ? ", run as machine code\n" : ", interpreted\n");
+}
+
 }  // namespace
 
 std::string PlanTapes::describe() const {
-  return described("tapes of Jacobians", jacobians_.tapes) + described("tapes", run_.tapes);
+  return described("tapes of Jacobians", jacobians_.tapes) + described(run_.series) +
+         described("tapes", run_.tapes);
 }
 
 }  // namespace saltus::python

@@ -11,6 +11,9 @@
 #include <vector>
 
 #include "saltus/plan/plan.hpp"
+#include "saltus/simulation/options.hpp"
+#include "saltus/solver/detail/taylor/step_rule.hpp"
+#include "saltus/tape/series.hpp"
 #include "saltus/tape/tape.hpp"
 
 namespace saltus::python {
@@ -19,20 +22,26 @@ namespace saltus::python {
 enum class MachineCodeWhen { never, automatic, always };
 MachineCodeWhen machine_code_when(std::string_view word);
 
-/// What the runs of one system have evaluated since tapes of it were compiled last, and its last run
-/// alone, in instructions.
+/// The order of the Taylor series of the states; 0 if the method has none.
+inline int series_order(const SimulatorOptions& options) {
+  return options.ode_solver_method == Method::taylor ? taylor::order_of(options.rtol) : 0;
+}
+
+/// What the runs of one system have evaluated since tapes of it were compiled last, and its last
+/// run alone, in instructions.
 struct Interpreted {
   std::atomic<double> all = 0.0, last_run = 0.0;
 };
 
 /// The evaluations of a run, or of several.
 struct Evaluations {
-  std::int64_t derivatives = 0, guards = 0, jacobians = 0;
+  std::int64_t derivatives = 0, guards = 0, jacobians = 0, steps = 0;
 };
 
 /// Tapes that are compiled together.
 struct TapeGroup {
   std::vector<tape::Tape> tapes = {};
+  std::vector<tape::SeriesOrder> series = {};
   double instructions = 0.0;  // of all
   bool done = false;          // compiled, or never to be
 };
@@ -42,7 +51,9 @@ struct TapeGroup {
 /// while one of them compiles, the others go on with what they have.
 class PlanTapes {
  public:
-  PlanTapes(const Plan& plan, MachineCodeWhen when, std::shared_ptr<Interpreted> interpreted);
+  /// `order`: of the Taylor series of the states; 0: the method has none.
+  PlanTapes(const Plan& plan, MachineCodeWhen when, std::shared_ptr<Interpreted> interpreted,
+            int order);
 
   /// Before a run: compiles with `always`, and if the last run of the system was long enough.
   void begin();
@@ -58,6 +69,7 @@ class PlanTapes {
 
  private:
   void read_plan();
+  void read_series();
   bool always() const { return when_ == MachineCodeWhen::always; }
   void compile_if_pays(TapeGroup& group, double interpreted);
   double run_instructions(const Evaluations& evaluations) const;
@@ -65,9 +77,10 @@ class PlanTapes {
   const Plan* plan_;
   MachineCodeWhen when_;
   std::shared_ptr<Interpreted> interpreted_;
+  int order_;
   // Jacobians are compiled when one was needed: their tapes are long, and most methods need none.
   TapeGroup run_, jacobians_;
-  double by_derivative_ = 0.0, by_guards_ = 0.0;  // instructions
+  double by_derivative_ = 0.0, by_guards_ = 0.0, by_step_ = 0.0;  // instructions
   std::mutex compiling_;
 };
 

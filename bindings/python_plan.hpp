@@ -23,7 +23,8 @@ class PythonPlan {
       : options_(checked(std::move(options))),
         pass_(trace_pass(callbacks)),
         plan_(compile(system, std::exchange(options_.recorded_signals, {}), pass_.get())),
-        tapes_(*plan_, machine_code_when(machine_code), interpreted_by(callbacks)) {
+        tapes_(*plan_, machine_code_when(machine_code), interpreted_by(callbacks),
+               series_order(options_)) {
     options_.throw_errors = false;
     if (pass_) pass_->end();
   }
@@ -32,12 +33,7 @@ class PythonPlan {
   const std::shared_ptr<const Plan>& plan() const { return plan_; }
 
   /// Runs the present traces from now on, see TracePass. For a plan of a single simulator.
-  bool replace_traces() {
-    if (!pass_) return true;
-    const bool replaced = pass_->replace();
-    tapes_.renew();
-    return replaced;
-  }
+  bool replace_traces() { return !pass_ || pass_->replace(); }
 
   PlanTapes& tapes() { return tapes_; }
 

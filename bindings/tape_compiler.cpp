@@ -56,9 +56,10 @@ std::vector<tape::MachineCode> made(const std::string& module, int count) {
 
 bool compiler_is_loaded() noexcept { return loaded; }
 
-void compile_tapes(std::span<const tape::Tape> tapes, bool required) {
+void compile_tapes(std::span<const tape::Tape> tapes, std::span<const tape::SeriesOrder> series,
+                   bool required) {
   try {
-    tape::compile(tapes, &made);
+    tape::compile(tapes, series, &made);
   } catch (py::error_already_set& error) {
     if (required || !error.matches(PyExc_Exception)) throw;
   }

@@ -3,10 +3,10 @@
 import sys
 
 import numpy as np
+import saltus
+import saltus.jit
 from common import main
 from flights import FLIGHTS
-
-import saltus
 
 DIRECTIONS = {
     -1: "positive_then_non_positive", 0: "crosses_zero", 1: "negative_then_non_negative"
@@ -40,8 +40,9 @@ def runner(method):
     def make(scene, rtol):
         flight = Flight(scene)
         simulator = saltus.Simulator(
-            flight, ode_solver_method=method, rtol=rtol, atol=rtol * scene.atol, save_steps=False
-        )
+            flight, ode_solver_method=method, rtol=rtol, atol=rtol * scene.atol, save_steps=False,
+            machine_code="always" if saltus.jit.is_installed() else "never",
+        )  # fmt: skip
         start = flight.create_context()
 
         def run():
@@ -50,7 +51,7 @@ def runner(method):
             results = simulator.results
             return results.events, results.context
 
-        run()  # heyoka compiles before its first run too
+        run()  # heyoka compiles before its first run too, always
 
         def answered():
             events, context = run()

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <unordered_set>
 
+#include "saltus/plan/detail/flow_series.hpp"
 #include "saltus/plan/detail/fuse.hpp"
 #include "saltus/plan/detail/needs.hpp"
 #include "saltus/plan/detail/order.hpp"
@@ -242,6 +243,7 @@ std::shared_ptr<const Plan> compile(const System& system, const RecordedSignals&
   add_edges(plan);
   add_schedule(plan);
   fuse(plan);
+  plan.series = std::make_shared<KeptSeries>();
   return std::make_shared<const Plan>(std::move(plan));
 }
 

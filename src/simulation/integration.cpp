@@ -24,7 +24,7 @@ SolverOptions solver_options(const SimulatorOptions& options, Index n) {
 
 Integration::Integration(Machine& machine, GuardSet& guards, const SimulatorOptions& options)
     : machine_(&machine), guards_(&guards), options_(&options) {
-  if (!still() && options.ode_solver_method == Method::taylor) make();
+  require_series(machine.plan(), options.ode_solver_method);
 }
 
 /// Without states, the solver only locates the zeros of guards: any method will do.

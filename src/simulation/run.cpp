@@ -2,6 +2,7 @@
 #include "saltus/simulation/detail/run.hpp"
 
 #include "saltus/base/detail/forced_unwind.hpp"
+#include "saltus/plan/detail/flow_series.hpp"
 #include "saltus/simulation/detail/option_table.hpp"
 #include "width.hpp"
 
@@ -29,6 +30,7 @@ Run::Run(const System& system, SimulatorOptions options)
 }
 
 void Run::functions_replaced() {
+  plan().series->forget();
   machine_.functions_replaced();  // first: a method that does not suit them now must not go on
   require_series(machine_.plan(), options_.ode_solver_method);
 }

@@ -16,6 +16,8 @@
 
 namespace saltus {
 
+class KeptSeries;
+
 /// An output or a relation: a value that other nodes read.
 struct Node {
   int leaf = -1;
@@ -132,6 +134,9 @@ struct Plan {
   } walks;  // derivatives with odes, and guard_needs with guards
 
   Index nx = 0, nz = 0, np = 0, ny = 0, guard_slots = 0;
+
+  /// For the method `taylor`; the one thing that is made later than the plan.
+  std::shared_ptr<KeptSeries> series;
 
   /// Says what was kept, folded and dropped, and why, with one line for each fact.
   std::string describe() const;

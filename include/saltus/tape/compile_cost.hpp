@@ -12,7 +12,9 @@ struct CompileCost {
   double instruction = 1e-9;  ///< [s] one interpreted instruction, without libm
   double module = 5e-3;       ///< [s] a module, whatever its size: 4.5 to 6 ms
   double line = 60e-6;        ///< [s] each instruction in it: 10 us alone, 70 us with runs of ten
-  double loading = 60e-3;     ///< [s] loading the compiler, once a process: 53 to 58 ms
+  double series_instruction = 2e-9;  ///< [s] one of a series, for one order: 2 to 4 ns
+  double series_line = 15e-6;        ///< [s] one in a module, times the order squared: 12 to 28 us
+  double loading = 60e-3;            ///< [s] loading the compiler, once a process: 53 to 58 ms
 };
 
 /// [s] The time to compile tapes of so many instructions together.

@@ -15,6 +15,17 @@ namespace series {
 struct Program;
 }  // namespace series
 
+/// A series to one order, as `compile` of machine_code.hpp makes machine code of it. Cheap to copy.
+struct SeriesOrder {
+  std::shared_ptr<const series::Program> program;
+  int order = 0;
+
+  /// Whether an expansion of the states to this order runs as machine code.
+  bool is_machine_code() const noexcept;
+  /// The instructions that an expansion of the states interprets, over all orders.
+  double instruction_count() const noexcept;
+};
+
 /// The Taylor coefficients of the solution of xdot = f(t, x), and of other functions of t and x
 /// along it.
 ///
@@ -61,9 +72,14 @@ class Series {
   /// The number of instructions for each order of the states. Four alike ones count as one if they
   /// are computed together.
   int instruction_count() const noexcept;
+  SeriesOrder at_order(int order) const { return {program_, order}; }
 
  private:
   void load(const At& at);
+  bool run_code(const char* held, double* x);
+  bool run_outputs_code();
+  void interpret_outputs(int first, int count);
+  void copy_states(const double* x);
   void compute_values(int first, int last);
   void expand_narrow(const char* held, double* x);
   void expand_wide(const char* held, double* x);
@@ -77,6 +93,7 @@ class Series {
   std::vector<int> late_, open_;               ///< instructions that lack the last order, or all
   std::int64_t expansion_ = 0;                 ///< the number of the last one
   int order_ = 0;                              ///< of that one
+  std::int64_t all_outputs_ = 0;  ///< the last expansion of which machine code computed the outputs
 };
 
 /// The operations in `nodes` and their operands that have no Taylor series where a state may pass:
@@ -85,5 +102,11 @@ class Series {
 /// time or on a continuous state count, as others are constant; of a select its condition. Each is
 /// listed once, in the order of `Op`; empty if all is smooth.
 std::vector<Op> kinks(const Graph& graph, std::span<const Node> nodes);
+
+/// Whether `nodes` may be zero within the rounding at a point, with all derivatives, and large
+/// elsewhere: a pulse such as exp(-100 (t - 13)^2) at t = 0. Neither their values nor their series
+/// show that the pulse will come. This cannot be known from a list of operations, and does not
+/// claim to be complete: sqrt((t - 0.3)^2) has a kink that no series at 0 shows.
+bool may_hide(const Graph& graph, std::span<const Node> nodes);
 
 }  // namespace saltus::tape

@@ -2,11 +2,12 @@
 #pragma once
 
 #include <algorithm>
+#include <memory>
+#include <utility>
 #include <vector>
 
-#include "saltus/plan/detail/flow_graph.hpp"
+#include "saltus/plan/detail/flow_series.hpp"
 #include "saltus/solver/detail/look_points.hpp"
-#include "saltus/solver/detail/taylor/hidden.hpp"
 #include "saltus/solver/detail/taylor/root_separation.hpp"
 #include "saltus/tape/series.hpp"
 
@@ -17,19 +18,8 @@ class GuardSeries final : public LookPoints {
  public:
   explicit GuardSeries(const GuardSet& guards) : guards_(&guards) {}
 
-  /// Takes the guards whose series show them, and returns their expressions, as outputs of a Series.
-  std::vector<tape::Node> take(const FlowGraph& flow) {
-    std::vector<tape::Node> outputs;
-    number_.assign(flow.guards.size(), none);
-    for (std::size_t k = 0; k < flow.guards.size(); ++k) {
-      if (!flow.guards[k]) continue;
-      const std::span<const tape::Node> guard(&*flow.guards[k], 1);
-      if (!tape::kinks(flow.graph, guard).empty() || may_hide(flow.graph, guard)) continue;
-      number_[k] = static_cast<int>(outputs.size());
-      outputs.push_back(*flow.guards[k]);
-    }
-    return outputs;
-  }
+  /// Takes the guards whose series show them, as outputs of the series of the plan.
+  void take(std::shared_ptr<const FlowSeries> kept) { kept_ = std::move(kept); }
 
   /// The step begins: `series` is expanded to this order, and the step is h [s] long. Null: it has
   /// no series, and the guards are known by their values only.
@@ -41,7 +31,7 @@ class GuardSeries final : public LookPoints {
     if (series_ == nullptr) return nullptr;
     points_.clear();
     for (const std::size_t k : watch.slots)
-      if (number_[k] == none || !separate(k, from / h_)) return nullptr;
+      if (number(k) == FlowSeries::no_output || !separate(k, from / h_)) return nullptr;
     for (double& point : points_) point *= h_;
     std::ranges::sort(points_);
     const auto inside = [&](double u) { return u > from && u < to; };
@@ -51,13 +41,13 @@ class GuardSeries final : public LookPoints {
   }
 
  private:
-  static constexpr int none = -1;
+  int number(std::size_t slot) const { return kept_->output_of_slot[slot]; }
 
   /// Adds the points of one guard, whose crossings are those of zero, of its error to both sides,
   /// and of the value from which an edge is told.
   bool separate(std::size_t k, double from) {
     double* a = terms_.data();
-    series_->expand_outputs(number_[k], 1, a);
+    series_->expand_outputs(number(k), 1, a);
     double power = 1.0;
     for (int i = 1; i <= order_; ++i) a[i] *= power *= h_;
     const Guard& guard = (*guards_)[k];
@@ -74,7 +64,7 @@ class GuardSeries final : public LookPoints {
   }
 
   const GuardSet* guards_;
-  std::vector<int> number_;  // of the output of each slot
+  std::shared_ptr<const FlowSeries> kept_;
   tape::Series* series_ = nullptr;
   int order_ = 0;
   double h_ = 0.0;

@@ -5,7 +5,7 @@
 
 #include "expansion.hpp"
 #include "guard_series.hpp"
-#include "saltus/plan/detail/flow_graph.hpp"
+#include "saltus/plan/detail/flow_series.hpp"
 #include "saltus/solver/detail/dop853.hpp"
 #include "saltus/solver/detail/runge_kutta.hpp"
 #include "saltus/solver/detail/step_size.hpp"
@@ -18,25 +18,12 @@ namespace saltus::taylor {
 
 namespace {
 
-/// The first reason why the derivatives have no series.
-std::string obstacle_of(const FlowGraph& flow) {
-  if (!flow.obstacle.empty())
-    return text(
-        flow.obstacle,
-        " is called, so it has no series; it needs a traced function, or equations<N> in C++");
-  const auto kinks = tape::kinks(flow.graph, flow.rates);
-  if (kinks.empty()) return {};
-  return text(
-      "a derivative uses '", tape::name(kinks.front()),
-      "' of a state or of the time: it has a kink or a jump that no guard locates, and needs a "
-      "mode for each branch");
-}
-
-void require_series(const FlowGraph& flow) {
-  const std::string obstacle = obstacle_of(flow);
-  if (obstacle.empty()) return;
-  throw ModelError(
-      text("ode_solver_method 'taylor': ", obstacle, "; or take the method 'auto' or 'dop853'"));
+/// The series of a plan; throws a ModelError if there is none.
+std::shared_ptr<const FlowSeries> series_of(const Plan& plan) {
+  auto found = flow_series(plan);
+  if (found->series) return found;
+  throw ModelError(text("ode_solver_method 'taylor': ", found->obstacle,
+                        "; or take the method 'auto' or 'dop853'"));
 }
 
 class TaylorSolver final : public StepSolver<TaylorSolver> {
@@ -72,12 +59,10 @@ class TaylorSolver final : public StepSolver<TaylorSolver> {
   static constexpr double infinite = std::numeric_limits<double>::infinity();
 
   void make_series() {
-    const FlowGraph flow = flow_graph(machine_->plan());
-    require_series(flow);
-    hides_ = may_hide(flow.graph, flow.rates);
-    const auto outputs = guard_series_.take(flow);
-    expansion_ = std::make_unique<Expansion>(
-        *machine_, tape::Series(flow.graph, flow.rates, outputs), order_of(options_.rtol));
+    const auto kept = series_of(machine_->plan());
+    hides_ = kept->hides;
+    guard_series_.take(kept);
+    expansion_ = std::make_unique<Expansion>(*machine_, *kept->series, order_of(options_.rtol));
     functions_ = machine_->functions();
   }
 
@@ -136,8 +121,8 @@ class TaylorSolver final : public StepSolver<TaylorSolver> {
   }
 
   /// Computes x1 with the rounding error that is carried to the next step, and returns the error of
-  /// the step in tolerances, as the end of the step shows it; also as its inside shows it, where the
-  /// series may hide something.
+  /// the step in tolerances, as the end of the step shows it; also as its inside shows it, where
+  /// the series may hide something.
   double end_of_step() {
     for (int j = 1; hides_ && j < hidden_looks; ++j) {
       const double error = error_at(length_ * j / hidden_looks, t0_ + length_ * j / hidden_looks);
@@ -151,9 +136,9 @@ class TaylorSolver final : public StepSolver<TaylorSolver> {
     }
     return error;
   }
-  /// Sets x1 to the state at offset u, and compares the slope of the series with f there. The series
-  /// leaves out x^[p+1] h^(p+1), so that its slope at the end differs from f by (p + 1) / h times
-  /// that. This costs one call, and also sees what no coefficient shows.
+  /// Sets x1 to the state at offset u, and compares the slope of the series with f there. The
+  /// series leaves out x^[p+1] h^(p+1), so that its slope at the end differs from f by (p + 1) / h
+  /// times that. This costs one call, and also sees what no coefficient shows.
   double error_at(double u, double t) {
     expansion_->change_and_slope(u, change_.data(), slope_.data());
     for (Index i = 0; i < n_; ++i) x1_[i] = x0_[i] + (change_[i] + rest0_[i]);
@@ -167,8 +152,8 @@ class TaylorSolver final : public StepSolver<TaylorSolver> {
     return largest * length_ / (expansion_->order() + 1);
   }
 
-  /// Takes the step with dop853: a block is carried with a surface, or the solution has no series at
-  /// this point, as sqrt(x) has none at zero.
+  /// Takes the step with dop853: a block is carried with a surface, or the solution has no series
+  /// at this point, as sqrt(x) has none at zero.
   void fall_back(double t_stop) {
     if (other_ == nullptr)
       other_ = std::make_unique<RungeKutta<Dop853>>(*machine_, *guards_, options_);
@@ -186,7 +171,7 @@ class TaylorSolver final : public StepSolver<TaylorSolver> {
   std::unique_ptr<RungeKutta<Dop853>> other_;  // made when it is first needed
   bool fallen_back_ = false;                   // it took the last step
   std::int64_t others_ = 0;                    // steps that it took in this run
-  bool hides_ = false;                         // see may_hide
+  bool hides_ = false;                         // see FlowSeries
   Eigen::VectorXd x0_;
   Eigen::VectorXd rest0_, rest1_;        // what rounding has cut off x0 and x1
   Eigen::VectorXd change_, slope_, f1_;  // at the end of the step
@@ -207,6 +192,6 @@ std::unique_ptr<Solver> make_taylor(Machine& machine, GuardSet& guards,
   return std::make_unique<taylor::TaylorSolver>(machine, guards, options);
 }
 
-void require_taylor_series(const Plan& plan) { taylor::require_series(flow_graph(plan)); }
+void require_taylor_series(const Plan& plan) { taylor::series_of(plan); }
 
 }  // namespace saltus

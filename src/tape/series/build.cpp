@@ -61,9 +61,12 @@ class Builder {
 
   void add_leaves() {
     program_.constants.assign(static_cast<std::size_t>(graph_.size()), 0.0);
+    program_.is_constant.assign(program_.constants.size(), 0);
     for (int id = 0; id < graph_.size(); ++id) {
       const Expression& e = graph_[Node{id}];
-      if (e.op == Op::constant) program_.constants[static_cast<std::size_t>(id)] = e.value;
+      const auto number = static_cast<std::size_t>(id);
+      program_.is_constant[number] = e.op == Op::constant ? 1 : 0;
+      if (e.op == Op::constant) program_.constants[number] = e.value;
       if (is_variable(e.op) && e.op != Op::continuous_state) {
         program_.loads.push_back({e.op, e.index, e.port, id});
       }
@@ -90,7 +93,7 @@ class Builder {
     int& place = place_[static_cast<std::size_t>(node.id)];
     if (operand_count(e.op) == 0 || place >= 0) return;
     place = static_cast<int>(program_.values.size());
-    Value value{.run = function(e.op), .to = node.id};
+    Value value{.run = function(e.op), .to = node.id, .op = e.op};
     for (int k = 0; k < operand_count(e.op); ++k) {
       value.from[k] = e.operands[static_cast<std::size_t>(k)].id;
     }

@@ -73,12 +73,7 @@ struct Logarithm {
 };
 
 /// b a' - a b'.
-struct Turn {
-  template <class N>
-  static void begin(Start<N> s) {
-    s.keep(0, s.value(&Instruction::of_a));
-    s.keep(1, s.value(&Instruction::of_b));
-  }
+struct Turn : OfTwo {
   template <class N>
   static void earlier(Work<N> w) {
     w.add_earlier(w.i.b, w.i.da);

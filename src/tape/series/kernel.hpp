@@ -7,6 +7,7 @@
 #include "saltus/base/view.hpp"
 #include "sums.hpp"
 #include "wide.hpp"
+#include "written.hpp"
 
 namespace saltus::tape::series {
 
@@ -19,6 +20,18 @@ inline constexpr auto inverse = [] {
   return all;
 }();
 inline double inverse_of(Index k) { return inverse[static_cast<std::size_t>(k)]; }
+
+/// The place of order k among the handlers of a kernel.
+constexpr std::size_t slot_of(int k) { return static_cast<std::size_t>(k < 4 ? k : 4 + k % 4); }
+constexpr bool begins_block(int k) { return k >= 4 && k % 4 == 0; }
+
+/// The coefficient of order k + 1 of a state, from that of order k of its rate. `rows` begin at
+/// order k; `values` and `rows` have numbers by place.
+template <class Values, class Rows>
+auto slope_of(const Rate& rate, const Values& values, const Rows& rows, int k) {
+  if (k == 0) return values[rate.value];
+  return values[rate.term.factor] * inverse_of(k + 1) * rows[rate.term.row];
+}
 
 /// What `begin` of a recurrence works on: the values, and the numbers that it keeps.
 template <class N>
@@ -63,8 +76,57 @@ struct Work {
   void set(Index to, const N& a) const { put(rows + to + width<N> * k, a); }
 
   void add_earlier(Index u, Index v) const { earlier_product(row(u), row(v), k, own); }
+  void add_earlier_square(Index u) const { earlier_square(row(u), k, own); }
   void add_second(Index u, Index v) const {
     earlier_product(row(u), row(v), k, own + width<N> * 4);
+  }
+};
+
+/// The same for a recurrence that is written down.
+template <>
+struct Start<Written> {
+  const Instruction& i;
+  WrittenPlace own;
+
+  Written value(Index Instruction::*which) const {
+    Writer& writer = *own.writer;
+    if (writer.width == 1) return writer.value(i.*which);
+    const auto& narrow = static_cast<const WideInstruction&>(i).narrow;
+    const auto of_lane = [&](std::size_t l) { return writer.value(narrow[l]->*which); };
+    return writer.joined({of_lane(0), of_lane(1), of_lane(2), of_lane(3)});
+  }
+  void keep(Index n, const Written& a) const { put(own + own.writer->width * (8 + n), a); }
+};
+template <>
+struct Work<Written> {
+  const Instruction& i;
+  WrittenPlace rows, own;
+  Index k;
+
+  int width() const { return own.writer->width; }
+  Row<Written> row(Index at) const { return {rows + at, width()}; }
+  Written newest() const {
+    if (width() == 1) return row(i.a)[k];
+    auto places = static_cast<const WideInstruction&>(i).a_of_lane;
+    for (Index& place : places) place += lanes * k;
+    return own.writer->gathered(Memory::rows, places);
+  }
+  Row<Written> sums() const { return {own, width()}; }
+  Row<Written> second_sums() const { return {own + 4 * width(), width()}; }
+  Written kept(Index n) const { return sums()[8 + n]; }
+  void set(Index to, const Written& a) const { put(rows + (to + width() * k), a); }
+
+  void add_earlier(Index u, Index v) const { earlier_product(row(u), row(v), k, own); }
+  void add_earlier_square(Index u) const { earlier_square(row(u), k, own); }
+  void add_second(Index u, Index v) const { earlier_product(row(u), row(v), k, own + 4 * width()); }
+};
+
+/// Begins a recurrence that needs the values of both operands.
+struct OfTwo {
+  template <class N>
+  static void begin(Start<N> s) {
+    s.keep(0, s.value(&Instruction::of_a));
+    s.keep(1, s.value(&Instruction::of_b));
   }
 };
 
@@ -98,10 +160,36 @@ constexpr Handlers handlers() {
   return made;
 }
 
-/// A recurrence for numbers and for lanes.
+template <class K>
+void write_begin(Writer& writer, const Instruction& i, Index own, Index) {
+  K::begin(Start<Written>{i, {&writer, Memory::own, own}});
+}
+template <class K>
+Work<Written> written_work(Writer& writer, const Instruction& i, Index own, Index k) {
+  return {i, {&writer, Memory::rows, 0}, {&writer, Memory::own, own}, k};
+}
+template <class K>
+void write_earlier(Writer& writer, const Instruction& i, Index own, Index k) {
+  K::earlier(written_work<K>(writer, i, own, k));
+}
+template <class K, int slot>
+void write_order(Writer& writer, const Instruction& i, Index own, Index k) {
+  K::template order<slot>(written_work<K>(writer, i, own, k));
+}
+
+template <class K>
+constexpr WriteHandlers writers() {
+  WriteHandlers made{.begin = &write_begin<K>, .earlier = &write_earlier<K>};
+  [&]<int... slot>(std::integer_sequence<int, slot...>) {
+    ((made.orders[slot + 1] = &write_order<K, slot + 1>), ...);
+  }(std::make_integer_sequence<int, 7>{});
+  return made;
+}
+
+/// A recurrence for numbers, for lanes and for machine code.
 template <class K>
 constexpr Kernel kernel(Reads reads) {
-  return {handlers<K, double>(), handlers<K, Four>(), reads};
+  return {handlers<K, double>(), handlers<K, Four>(), reads, writers<K>()};
 }
 
 }  // namespace saltus::tape::series

@@ -63,6 +63,20 @@ struct Choice {
   }
 };
 
+/// Of a condition that is constant in time.
+void write_choice(Writer& writer, const Instruction& i, Index, Index k) {
+  const WrittenNumbers rows{&writer, Memory::rows, k};
+  const std::array<Written, 2> compared{writer.value(i.of_c), writer.value(i.of_d)};
+  const Written condition = i.op == Op::constant ? compared[0] : writer.apply(i.op, compared);
+  const std::array<Written, 3> operands{condition, rows[i.a], rows[i.b]};
+  writer.store(Memory::rows, i.to + k, writer.apply(Op::select, operands));
+}
+constexpr WriteHandlers all_written(WriteHandler handler) {
+  WriteHandlers made;
+  for (std::size_t slot = 1; slot < 8; ++slot) made.orders[slot] = handler;
+  return made;
+}
+
 struct Remainder {
   static void begin(Start<double> s) {
     const auto& [i, own, values] = s;
@@ -79,7 +93,7 @@ struct Remainder {
 
 const Kernel magnitude = {handlers<Magnitude, double>(), {}, {}};
 const Kernel extreme = {handlers<Extreme, double>(), {}, {}};
-const Kernel choice = {handlers<Choice, double>(), {}, {}};
+const Kernel choice = {handlers<Choice, double>(), {}, {}, all_written(&write_choice)};
 const Kernel remainder = {handlers<Remainder, double>(), {}, {}};
 
 }  // namespace saltus::tape::series

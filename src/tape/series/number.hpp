@@ -37,6 +37,10 @@ template <class N>
 inline constexpr Index width = std::is_same_v<N, Four> ? 4 : 1;
 inline constexpr Index lanes = width<Four>;
 
+[[gnu::always_inline]] inline Four side_by_side(double a, double b, double c, double d) {
+  return {Two{a, b}, Two{c, d}};
+}
+
 inline void put(double* p, double a) { *p = a; }
 inline void put(double* p, const Four& a) { a.store(p); }
 
@@ -52,6 +56,9 @@ struct Row {
       return Four::load(static_cast<const double*>(__builtin_assume_aligned(p + lanes * k, 16)));
     }
   }
+  /// The coefficients of order k ... k + 3 of a single expression.
+  [[gnu::always_inline]] Four four(Index k) const { return Four::load(p + k); }
+  static N zero() { return N{}; }
   Row from(Index k) const { return {p + width<N> * k}; }
 };
 

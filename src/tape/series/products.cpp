@@ -1,5 +1,5 @@
-// Products, quotients, roots and powers. The newest coefficient of an operand has a term of its own,
-// so that nobody waits for the others.
+// Products, quotients, roots and powers. The newest coefficient of an operand has a term of its
+// own, so that nobody waits for the others.
 #include <cmath>
 
 #include "kernel.hpp"
@@ -8,12 +8,7 @@ namespace saltus::tape::series {
 
 namespace {
 
-struct Product {
-  template <class N>
-  static void begin(Start<N> s) {
-    s.keep(0, s.value(&Instruction::of_a));
-    s.keep(1, s.value(&Instruction::of_b));
-  }
+struct Product : OfTwo {
   template <class N>
   static void earlier(Work<N> w) {
     w.add_earlier(w.i.a, w.i.b);
@@ -33,7 +28,7 @@ struct Square {
   }
   template <class N>
   static void earlier(Work<N> w) {
-    earlier_square(w.row(w.i.a), w.k, w.own);
+    w.add_earlier_square(w.i.a);
   }
   template <int slot, class N>
   static void order(Work<N> w) {
@@ -71,7 +66,7 @@ struct Root {
   }
   template <class N>
   static void earlier(Work<N> w) {
-    earlier_square(w.row(w.i.to), w.k, w.own);
+    w.add_earlier_square(w.i.to);
   }
   template <int slot, class N>
   static void order(Work<N> w) {
@@ -79,6 +74,10 @@ struct Root {
     w.set(w.i.to, (w.newest() - known) * w.kept(0));
   }
 };
+
+void leave_if_zero(double) {}
+void leave_if_zero(const Four&) {}
+void leave_if_zero(const Written& a) { a.writer->leave_if_zero(a); }
 
 /// The power of a whose value is 0. The first coefficient of a that is not 0 has order m: a = s^m u
 /// with u_0 = a_m, and r = s^(m p) times a power of u, if m p is a whole number.
@@ -108,6 +107,7 @@ struct Power {
     s.keep(1, p * s.value(&Instruction::value) * inverse);
     s.keep(2, p);
     s.keep(3, base);
+    leave_if_zero(base);
   }
   template <class N>
   static void earlier(Work<N> w) {
@@ -136,6 +136,8 @@ struct Power {
       w.rows[w.i.to + n * w.k + l] = power_at_zero(at(w.i.a), at(w.i.to), w.own[10 * n + l], w.k);
     }
   }
+  /// Machine code has left before.
+  static void repair(const Work<Written>&) {}
 };
 
 }  // namespace

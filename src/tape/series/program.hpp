@@ -1,6 +1,7 @@
 // The list of instructions of a series.
 #pragma once
 
+#include <atomic>
 #include <memory>
 #include <vector>
 
@@ -9,9 +10,9 @@
 
 namespace saltus::tape::series {
 
-/// A row holds the coefficients of order 1, 2, ... of an expression at those places. The coefficient
-/// of order 0 is among the values, because expressions that differ by a constant share a row. A
-/// distance of 36 numbers keeps rows apart in the cache.
+/// A row holds the coefficients of order 1, 2, ... of an expression at those places. The
+/// coefficient of order 0 is among the values, because expressions that differ by a constant share
+/// a row. A distance of 36 numbers keeps rows apart in the cache.
 inline constexpr Index row_size = 36;
 /// The row of a constant: zeros.
 inline constexpr Index zero_row = 0;
@@ -20,6 +21,7 @@ inline constexpr Index zero_row = 0;
 inline constexpr Index sums_size = 12;
 
 struct Call;
+struct Instruction;
 
 /// Executes a call and the following ones up to the next stop. `sums` are the numbers of all
 /// instructions.
@@ -33,6 +35,17 @@ struct Handlers {
   Handler orders[8] = {};     ///< order 1, 2, 3 at [1], [2], [3]; k of a later block at [4 + k % 4]
 };
 
+class Writer;
+
+/// Writes one function of a recurrence down, for the instruction whose numbers are at `own`, and
+/// for order k.
+using WriteHandler = void (*)(Writer& writer, const Instruction& i, Index own, Index k);
+
+/// As Handlers; without orders there is no machine code.
+struct WriteHandlers {
+  WriteHandler begin = nullptr, earlier = nullptr, orders[8] = {};
+};
+
 /// What a recurrence needs in rows of its lanes.
 struct Reads {
   bool a = false, b = false;    ///< all coefficients of an operand, not only the newest
@@ -44,6 +57,7 @@ struct Reads {
 struct Kernel {
   Handlers narrow, wide;  ///< wide ones may be missing
   Reads reads;
+  WriteHandlers written = {};
 };
 
 /// A multiple of a row.
@@ -110,6 +124,7 @@ Function function(Op op);
 struct Value {
   Function run = nullptr;
   int to = 0, from[3] = {};
+  Op op = Op::constant;
 };
 
 /// The coefficient of order k + 1 of a state is that of order k of its rate, divided by k + 1. The
@@ -127,9 +142,28 @@ struct Output {
 
 struct Wide;
 
-/// Never changes once built. Value i < states is that of state i, whose row is 1 + i.
+/// Expands the rates, or all outputs, with memory of a Series; 0 if the interpreter has to do it.
+using SeriesFunction = int (*)(double* values, double* rows, double* own, double* x);
+
+/// Machine code for one order. A function that is missing is interpreted.
+struct Code {
+  int order = 0;
+  SeriesFunction states = nullptr, outputs = nullptr;
+  std::vector<std::shared_ptr<const void>> owners = {};
+};
+
+/// The machine code of a program, if it was given any. It is set once, and other threads may run
+/// the program meanwhile.
+struct Compiled {
+  std::atomic<const Code*> code = nullptr;
+  std::unique_ptr<const Code> kept = {};  ///< read by the destructor only
+};
+
+/// Never changes once built, except for its machine code. Value i < states is that of state i,
+/// whose row is 1 + i.
 struct Program {
   std::vector<double> constants;  ///< the values; those that are no constants are 0
+  std::vector<char> is_constant;  ///< of each value
   std::vector<Load> loads;
   std::vector<Value> values;
   std::vector<Instruction> instructions;
@@ -142,6 +176,7 @@ struct Program {
   std::vector<Output> outputs;
   int states = 0, rows = 0;
   Index time_row = zero_row;
+  std::shared_ptr<Compiled> compiled = std::make_shared<Compiled>();
 
   /// The number of instructions that an expansion runs in their narrow form.
   int first_narrow() const { return wide == nullptr ? first_instructions : 0; }

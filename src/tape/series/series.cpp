@@ -31,22 +31,6 @@ double loaded(const Load& load, const At& at) {
   }
 }
 
-/// The place of order k among the handlers of a kernel.
-constexpr std::size_t slot_of(int k) { return static_cast<std::size_t>(k < 4 ? k : 4 + k % 4); }
-constexpr bool begins_block(int k) { return k >= 4 && k % 4 == 0; }
-
-/// The coefficient of order k + 1 of a state, from that of order k of its rate.
-struct Slope {
-  const double *values, *rows;
-  double inverse;  ///< 1 / (k + 1)
-  int k;
-
-  double of(const Rate& rate) const {
-    if (k == 0) return values[rate.value];
-    return values[rate.term.factor] * inverse * rows[rate.term.row];
-  }
-};
-
 }  // namespace
 
 Series::Series(const Graph& graph, std::span<const Node> rates, std::span<const Node> outputs)
@@ -61,6 +45,16 @@ Series::Series(const Graph& graph, std::span<const Node> rates, std::span<const 
   done_.assign(program_->instructions.size(), 0);
   late_.reserve(done_.size());
   open_.reserve(done_.size());
+}
+
+bool SeriesOrder::is_machine_code() const noexcept {
+  const Code* const code = program->compiled->code.load(std::memory_order_acquire);
+  return code != nullptr && code->order == order && code->states != nullptr;
+}
+double SeriesOrder::instruction_count() const noexcept {
+  const std::size_t count = program->wide == nullptr ? size(program->first_instructions)
+                                                     : program->wide->instructions.size();
+  return static_cast<double>(count) * order;
 }
 
 int Series::states() const noexcept { return program_->states; }
@@ -93,10 +87,46 @@ void Series::expand(const At& at, int order, const char* held, double* x) {
   ++expansion_;
   order_ = order;
   load(at);
-  compute_values(0, program.first_values);
   if (program.time_row != zero_row) rows_[size(program.time_row + 1)] = 1.0;
+  if (program.wide != nullptr && program.wide->time >= 0)
+    rows_[size(row_size * program.rows + program.wide->time + lanes)] = 1.0;
   std::copy_n(values_.data(), n, x);
+  if (run_code(held, x)) return;
+  compute_values(0, program.first_values);
   program.wide == nullptr ? expand_narrow(held, x + n) : expand_wide(held, x + n);
+}
+
+/// Whether machine code has expanded the states; it does not know held ones.
+bool Series::run_code(const char* held, double* x) {
+  const Program& program = *program_;
+  const Code* const code = program.compiled->code.load(std::memory_order_acquire);
+  if (code == nullptr || code->order != order_ || code->states == nullptr || held != nullptr)
+    return false;
+  if (program.wide == nullptr)
+    return code->states(values_.data(), rows_.data(), sums_.data(), x) != 0;
+  double* const rows = rows_.data() + row_size * program.rows;
+  double* const own = sums_.data() + size(sums_size) * program.instructions.size();
+  if (code->states(values_.data(), rows, own, x) == 0) return false;
+  if (!program.outputs.empty()) copy_states(x);
+  return true;
+}
+
+/// Outputs read the states in their narrow rows.
+void Series::copy_states(const double* x) {
+  for (int k = 1; k <= order_; ++k) {
+    x += states();
+    for (int i = 0; i < states(); ++i) rows_[size(row_size * (1 + i) + k)] = x[i];
+  }
+}
+
+/// Whether machine code has computed the outputs of this expansion.
+bool Series::run_outputs_code() {
+  if (all_outputs_ == expansion_) return true;
+  const Code* const code = program_->compiled->code.load(std::memory_order_acquire);
+  if (code == nullptr || code->order != order_ || code->outputs == nullptr) return false;
+  if (code->outputs(values_.data(), rows_.data(), sums_.data(), nullptr) == 0) return false;
+  all_outputs_ = expansion_;
+  return true;
 }
 
 void Series::expand_narrow(const char* held, double* x) {
@@ -109,11 +139,11 @@ void Series::expand_narrow(const char* held, double* x) {
   for (int k = 0; k < order_; ++k) {
     if (begins_block(k)) run(program.calls.earlier, k);
     if (k > 0) run(program.calls.orders[slot_of(k)], k);
-    const Slope slope{values_.data(), rows + k, inverse_of(k + 1), k};
+    const double *const values = values_.data(), *const now = rows + k;
     double* to = rows + row_size + k + 1;
     const double* const end = x + program.states;
     for (const Rate* rate = program.rates.data(); x != end; ++rate, to += row_size) {
-      *x++ = *to = slope.of(*rate);
+      *x++ = *to = slope_of(*rate, values, now, k);
     }
     if (held != nullptr) hold(held, k + 1, x - program.states);
   }
@@ -125,7 +155,6 @@ void Series::expand_wide(const char* held, double* x) {
   double* const rows = rows_.data() + row_size * program_->rows;
   double* const sums = sums_.data() + size(sums_size) * program_->instructions.size();
   const auto run = [&](const Calls& calls, int k) { calls.run(rows, sums, values_.data(), k); };
-  if (wide.time >= 0) rows[wide.time + lanes] = 1.0;
   run(wide.calls.begin, 0);
   for (int k = 0; k < order_; ++k, x += n) {
     if (begins_block(k)) run(wide.calls.earlier, k);
@@ -178,11 +207,7 @@ void Series::require(int output) {
   }
 }
 
-void Series::expand_outputs(int first, int count, double* g) {
-  if (first < 0 || count < 0 || count > outputs() - first) {
-    throw ModelError(text("a series of ", outputs(), " outputs was asked for ", count,
-                          " of them from number ", first, " on"));
-  }
+void Series::interpret_outputs(int first, int count) {
   late_.clear();
   open_.clear();
   for (int m = first; m < first + count; ++m) require(m);
@@ -190,6 +215,14 @@ void Series::expand_outputs(int first, int count, double* g) {
   std::ranges::sort(open_);
   if (order_ > 0) run(late_, order_);
   for (int k = 0; k <= order_; ++k) run(open_, k);
+}
+
+void Series::expand_outputs(int first, int count, double* g) {
+  if (first < 0 || count < 0 || count > outputs() - first) {
+    throw ModelError(text("a series of ", outputs(), " outputs was asked for ", count,
+                          " of them from number ", first, " on"));
+  }
+  if (!run_outputs_code()) interpret_outputs(first, count);
   for (int m = first; m < first + count; ++m, g += order_ + 1) {
     const Output& output = program_->outputs[size(m)];
     std::copy_n(rows_.data() + output.row, order_ + 1, g);

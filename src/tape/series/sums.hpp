@@ -18,75 +18,98 @@ template <int l, class N>
   if constexpr (l < 1) sum += u[1] * v[l + 3];
   return sum;
 }
+/// Those for the four orders of a block, of single expressions.
+template <class N>
+[[gnu::always_inline]] inline auto all_first_products(Row<N> u, Row<N> v) {
+  return side_by_side(first_products<0>(u, v), first_products<1>(u, v), first_products<2>(u, v),
+                      N{});
+}
 
 /// For orders k ... k + 3 the sum of u_j v_{order - j} with both places from 1 to k - 1; k is a
-/// multiple of 4.
-[[gnu::always_inline]] inline void earlier_product(Row<double> u, Row<double> v, Index k,
-                                                   double* sums) {
-  const Row<double> last = v.from(k - 4);
-  Four even{Two{first_products<0>(u, last), first_products<1>(u, last)},
-            Two{first_products<2>(u, last), 0.0}};
-  Four odd;
+/// multiple of 4. Of single expressions, whose orders are computed side by side.
+template <class N, class Place>
+[[gnu::always_inline]] inline void earlier_narrow(Row<N> u, Row<N> v, Index k, Place sums) {
+  auto even = all_first_products(u, v.from(k - 4));
+  decltype(even) odd{};
   for (Index j = 4; j < k; j += 2) {
-    even += u[j] * Four::load(v.p + k - j);
-    odd += u[j + 1] * Four::load(v.p + k - j - 1);
+    even += u[j] * v.four(k - j);
+    odd += u[j + 1] * v.four(k - j - 1);
   }
-  (even + odd).store(sums);
+  put(sums, even + odd);
 }
-[[gnu::always_inline]] inline void earlier_product(Row<Four> u, Row<Four> v, Index k,
-                                                   double* sums) {
-  const Row<Four> last = v.from(k - 4);
-  Four s0 = first_products<0>(u, last), s1 = first_products<1>(u, last),
-       s2 = first_products<2>(u, last), s3;
+/// Of four expressions, each in a lane of its own.
+template <class N, class Place>
+[[gnu::always_inline]] inline void earlier_wide(Row<N> u, Row<N> v, Index k, Place sums) {
+  const Row<N> last = v.from(k - 4);
+  N s0 = first_products<0>(u, last), s1 = first_products<1>(u, last),
+    s2 = first_products<2>(u, last), s3 = u.zero();
   for (Index j = 4; j < k; ++j) {
-    const Four a = u[j];
+    const N a = u[j];
     s0 += a * v[k - j], s1 += a * v[k - j + 1], s2 += a * v[k - j + 2], s3 += a * v[k - j + 3];
   }
-  s0.store(sums), s1.store(sums + 4), s2.store(sums + 8), s3.store(sums + 12);
+  put(sums, s0), put(sums + 4, s1), put(sums + 8, s2), put(sums + 12, s3);
 }
 
 /// The same for u = v, with half of the products.
-[[gnu::always_inline]] inline void earlier_square(Row<double> u, Index k, double* sums) {
+template <class N, class Place>
+[[gnu::always_inline]] inline void earlier_square_narrow(Row<N> u, Index k, Place sums) {
   if (k == 4) {
-    Four{Two{2.0 * (u[1] * u[3]) + u[2] * u[2], 2.0 * (u[2] * u[3])}, Two{u[3] * u[3], 0.0}}.store(
-        sums);
+    put(sums,
+        side_by_side(2.0 * (u[1] * u[3]) + u[2] * u[2], 2.0 * (u[2] * u[3]), u[3] * u[3], N{}));
     return;
   }
-  const Row<double> last = u.from(k - 4);
-  Four even{Two{first_products<0>(u, last), first_products<1>(u, last)},
-            Two{first_products<2>(u, last), 0.0}};
-  Four odd;
+  auto even = all_first_products(u, u.from(k - 4));
+  decltype(even) odd{};
   const Index half = k / 2;
   for (Index j = 4; j < half; j += 2) {
-    even += u[j] * Four::load(u.p + k - j);
-    odd += u[j + 1] * Four::load(u.p + k - j - 1);
+    even += u[j] * u.four(k - j);
+    odd += u[j + 1] * u.four(k - j - 1);
   }
-  const double a = u[half], b = u[half + 1], c = u[half + 2], d = u[half + 3];
-  even.low += Two{0.5 * a * a, a * b};
-  even.high += Two{a * c + 0.5 * b * b, a * d + b * c};
-  (2.0 * (even + odd)).store(sums);
+  const N a = u[half], b = u[half + 1], c = u[half + 2], d = u[half + 3];
+  even += side_by_side(0.5 * a * a, a * b, a * c + 0.5 * b * b, a * d + b * c);
+  put(sums, 2.0 * (even + odd));
 }
-[[gnu::always_inline]] inline void earlier_square(Row<Four> u, Index k, double* sums) {
+template <class N, class Place>
+[[gnu::always_inline]] inline void earlier_square_wide(Row<N> u, Index k, Place sums) {
   if (k == 4) {
-    (2.0 * (u[1] * u[3]) + u[2] * u[2]).store(sums);
-    (2.0 * (u[2] * u[3])).store(sums + 4);
-    (u[3] * u[3]).store(sums + 8);
-    Four().store(sums + 12);
+    put(sums, 2.0 * (u[1] * u[3]) + u[2] * u[2]);
+    put(sums + 4, 2.0 * (u[2] * u[3]));
+    put(sums + 8, u[3] * u[3]);
+    put(sums + 12, u.zero());
     return;
   }
-  const Row<Four> last = u.from(k - 4);
-  Four s0 = first_products<0>(u, last), s1 = first_products<1>(u, last),
-       s2 = first_products<2>(u, last), s3;
+  const Row<N> last = u.from(k - 4);
+  N s0 = first_products<0>(u, last), s1 = first_products<1>(u, last),
+    s2 = first_products<2>(u, last), s3 = u.zero();
   const Index half = k / 2;
   for (Index j = 4; j < half; ++j) {
-    const Four a = u[j];
+    const N a = u[j];
     s0 += a * u[k - j], s1 += a * u[k - j + 1], s2 += a * u[k - j + 2], s3 += a * u[k - j + 3];
   }
-  const Four a = u[half], b = u[half + 1], c = u[half + 2], d = u[half + 3];
-  (2.0 * s0 + a * a).store(sums);
-  (2.0 * (s1 + a * b)).store(sums + 4);
-  (2.0 * (s2 + a * c) + b * b).store(sums + 8);
-  (2.0 * (s3 + a * d + b * c)).store(sums + 12);
+  const N a = u[half], b = u[half + 1], c = u[half + 2], d = u[half + 3];
+  put(sums, 2.0 * s0 + a * a);
+  put(sums + 4, 2.0 * (s1 + a * b));
+  put(sums + 8, 2.0 * (s2 + a * c) + b * b);
+  put(sums + 12, 2.0 * (s3 + a * d + b * c));
+}
+
+template <class N, class Place>
+[[gnu::always_inline]] inline void earlier_product(Row<N> u, Row<N> v, Index k, Place sums) {
+  if constexpr (std::is_same_v<N, double>)
+    earlier_narrow(u, v, k, sums);
+  else if constexpr (std::is_same_v<N, Four>)
+    earlier_wide(u, v, k, sums);
+  else
+    u.is_wide() ? earlier_wide(u, v, k, sums) : earlier_narrow(u, v, k, sums);
+}
+template <class N, class Place>
+[[gnu::always_inline]] inline void earlier_square(Row<N> u, Index k, Place sums) {
+  if constexpr (std::is_same_v<N, double>)
+    earlier_square_narrow(u, k, sums);
+  else if constexpr (std::is_same_v<N, Four>)
+    earlier_square_wide(u, k, sums);
+  else
+    u.is_wide() ? earlier_square_wide(u, k, sums) : earlier_square_narrow(u, k, sums);
 }
 
 /// The order of slot 1, 2 or 3 is the slot; slot 4 + p is order p of a later block.

@@ -1,4 +1,5 @@
-// Wide instructions: one for four alike ones that do not need each other, each in a lane of its own.
+// Wide instructions: one for four alike ones that do not need each other, each in a lane of its
+// own.
 //
 // A wide row holds the coefficients of four expressions: number 4 k + l is the coefficient of order
 // k in lane l.
@@ -21,6 +22,7 @@ struct WideInstruction : Instruction {
 /// The program for the rates with wide instructions.
 struct Wide {
   std::vector<WideInstruction> instructions;
+  std::vector<Index> own;   ///< where the numbers of each instruction are
   std::vector<Term> terms;  ///< their rows are places of a single lane
   Orders calls;
   Index rows = 0, sums = 0, time = -1;

@@ -51,8 +51,8 @@ class Widening {
   Index& place(Index row) { return place_[static_cast<std::size_t>(row / row_size)]; }
   Index new_row() { return wide_row_size * wide_.rows++; }
 
-  /// Alike instructions that do not need each other have one key: the level is 1 + the highest level
-  /// of what is read. False if an instruction has no wide kernel.
+  /// Alike instructions that do not need each other have one key: the level is 1 + the highest
+  /// level of what is read. False if an instruction has no wide kernel.
   bool sort() {
     std::vector<int> levels(static_cast<std::size_t>(program_.rows), 0);
     const auto level_of = [&](Index row) -> int& {
@@ -79,8 +79,8 @@ class Widening {
     return static_cast<int>(std::ranges::find(kernels_, kernel) - kernels_.begin());
   }
 
-  /// Sorts instructions so that the operands b of four of them often are a wide row. Of several that
-  /// read the same b, the first ones come first, then the second ones.
+  /// Sorts instructions so that the operands b of four of them often are a wide row. Of several
+  /// that read the same b, the first ones come first, then the second ones.
   void align(std::vector<int>& numbers) {
     const auto instruction = [&](int n) { return narrow()[static_cast<std::size_t>(n)]; };
     if (!instruction(numbers[0]).kernel->reads.b) return;
@@ -208,6 +208,7 @@ void connect(Wide& wide) {
   for (WideInstruction& i : wide.instructions) {
     i.term = wide.terms.data() + i.first_term;
     wide.calls.append(i.kernel->wide, i, wide.sums);
+    wide.own.push_back(wide.sums);
     wide.sums += i.kernel->reads.linear ? lanes * i.terms : wide_sums_size;
   }
 }

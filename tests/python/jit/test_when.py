@@ -56,7 +56,7 @@ def run(k, end=20.0, **options):
     return simulator
 
 
-@pytest.mark.parametrize("method", ["dopri5", "dop853", "adams", "bdf", "radau", "auto"])
+@pytest.mark.parametrize("method", ["dopri5", "dop853", "adams", "bdf", "radau", "taylor", "auto"])
 def test_always_and_never_are_the_same_run(method):
     always = run(1.0, machine_code="always", ode_solver_method=method)
     never = run(1.0, machine_code="never", ode_solver_method=method)
@@ -106,8 +106,9 @@ def test_it_becomes_machine_code_when_enough_was_interpreted():
     assert runs_as(again) == "interpreted"
 
 
+@pytest.mark.parametrize("method", ["auto", "taylor"])
 @pytest.mark.parametrize("threads", [1, 2])
-def test_sweeps(threads):
+def test_sweeps(threads, method):
     def sweep(when):
         done = saltus.sweep(
             Oscillator(1.0),
@@ -115,6 +116,7 @@ def test_sweeps(threads):
             (0.0, 10.0),
             executor="threads" if threads > 1 else "serial",
             machine_code=when,
+            ode_solver_method=method,
             as_dict=True,
         )
         del done["wall_time"], done["attrs"]

@@ -10,9 +10,8 @@
 
 namespace saltus {
 
-/// Holds the solver of a run. It is made when a state moves for the first time; that of `taylor` at
-/// once, because a plan may not suit it. From then on the state of the run is the solver's; before,
-/// and where no state moves, it is the machine's.
+/// Holds the solver of a run, made when a state moves for the first time. From then on the state of
+/// the run is the solver's; before, and where no state moves, it is the machine's.
 class Integration {
  public:
   /// Throws ModelError for a method that does not suit the plan.

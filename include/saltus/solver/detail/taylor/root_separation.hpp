@@ -11,10 +11,11 @@
 
 namespace saltus::taylor {
 
-/// The coefficients of a polynomial in the Bernstein basis of an interval. The number of their changes
-/// of sign is at least the number of roots in the interval, and is equal to it if it is 0 or 1
-/// (Descartes' rule; G. E. Collins, A. G. Akritas, "Polynomial real root isolation using Descartes'
-/// rule of signs", SYMSAC 1976, 272; in this basis: J. M. Lane, R. F. Riesenfeld, BIT 21 (1981) 112).
+/// The coefficients of a polynomial in the Bernstein basis of an interval. The number of their
+/// changes of sign is at least the number of roots in the interval, and is equal to it if it is 0
+/// or 1 (Descartes' rule; G. E. Collins, A. G. Akritas, "Polynomial real root isolation using
+/// Descartes' rule of signs", SYMSAC 1976, 272; in this basis: J. M. Lane, R. F. Riesenfeld, BIT 21
+/// (1981) 112).
 struct Bernstein {
   std::array<double, most_order + 1> b{};
   int degree = 0;
@@ -37,7 +38,8 @@ struct Bernstein {
   double& operator[](int j) { return b[static_cast<std::size_t>(j)]; }
   double operator[](int j) const { return b[static_cast<std::size_t>(j)]; }
 
-  /// Changes of sign among the coefficients beyond `margin`; 2 stands for 2 and more.
+  /// The number of changes of sign in the list of coefficients, without those of at most `margin`.
+  /// Counting stops at 2.
   int variations(double margin) const {
     int changes = 0, sign = 0;
     for (int j = 0; j <= degree && changes < 2; ++j) {
@@ -48,14 +50,15 @@ struct Bernstein {
     return changes;
   }
 
-  /// At least the number of roots in the interval, where a root at an end counts too: each root at a
-  /// cut belongs to the parts on both of its sides.
+  /// At least the number of roots in the interval. A root at an end counts too, so each root at a
+  /// cut is counted in both parts.
   int crossings(double margin) const {
     const bool begins = std::abs((*this)[0]) <= margin, ends = std::abs((*this)[degree]) <= margin;
     return variations(margin) + static_cast<int>(begins) + static_cast<int>(ends);
   }
 
-  /// Cuts the interval in its middle (de Casteljau): this becomes the first half; returns the second.
+  /// Cuts the interval in its middle (de Casteljau): this becomes the first half; returns the
+  /// second.
   Bernstein cut() {
     Bernstein second;
     second.degree = degree;
@@ -68,8 +71,8 @@ struct Bernstein {
     return second;
   }
 
-  /// Where the coefficients are nearest to zero inside the interval; negative if none of them is within
-  /// the margin.
+  /// Where the coefficients are nearest to zero inside the interval; negative if none of them is
+  /// within the margin.
   double touch(double margin) const {
     int nearest = 0;
     for (int j = 1; j < degree; ++j)
@@ -84,9 +87,9 @@ struct Bernstein {
 /// two of them. It decides nothing: at its points the guard itself is evaluated.
 class RootSeparation {
  public:
-  /// Adds to `points`, as parts of a step, those between two crossings of `a` in [from, 1], where the
-  /// guard is sum_i a_i s^i and s is the part of the step. False if the polynomial does not show its
-  /// roots: its later terms are not small, or it has too many.
+  /// Adds to `points`, as parts of a step, those between two crossings of `a` in [from, 1], where
+  /// the guard is sum_i a_i s^i and s is the part of the step. False if the polynomial does not
+  /// show its roots: its later terms are not small, or it has too many.
   bool separate(const double* a, int degree, double from, std::vector<double>& points) {
     double sum = 0.0, late = 0.0;
     for (int i = 1; i <= degree; ++i) {
@@ -104,9 +107,9 @@ class RootSeparation {
   }
 
  private:
-  /// The largest part of the guard's range that the upper half of the terms may have. With more, terms
-  /// that are left out may move its roots, or hold others. Half of the terms, because those of even
-  /// functions, or of functions of t^4, are zero between others.
+  /// The largest part of the guard's range that the upper half of the terms may have. With more,
+  /// terms that are left out may move its roots, or hold others. Half of the terms, because those
+  /// of even functions, or of functions of t^4, are zero between others.
   static constexpr double poor = 1e-3;
   /// The rounding error of a coefficient, after a conversion and the cuts, in eps for each term.
   static constexpr double roundings = 2.0;

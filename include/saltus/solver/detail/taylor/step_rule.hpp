@@ -6,11 +6,11 @@
 #include <limits>
 
 #include "saltus/base/ids.hpp"
+#include "saltus/tape/series.hpp"
 
 namespace saltus::taylor {
 
-/// The lowest order, and the highest for which Series has memory.
-inline constexpr int least_order = 4, most_order = 30;
+inline constexpr int least_order = 4, most_order = tape::Series::highest_order;
 
 /// The order that needs the fewest operations for a relative tolerance: their number grows with the
 /// square of the order p, and a step is exp(-2) of the radius of convergence at p = 1 - ln(rtol)/2
@@ -33,12 +33,13 @@ inline double reach(double term, int k) {
   return term > 0.0 ? std::pow(term, -1.0 / k) : std::numeric_limits<double>::infinity();
 }
 
-/// The length [s] of a step of order p: each of the last two terms of the series is at most one
-/// tolerance, so the first term that is left out is about exp(-2) tolerances. Two terms, because
-/// every second one of even and odd functions vanishes. If both vanish, the next lower one that does
-/// not decides, down to the middle: a polynomial of at most half the order is taken for the solution
-/// itself, and the check at the end of the step confirms it. `term(k)` is the largest term of order
-/// k in tolerances, see `largest_term`.
+/// The length [s] of a step of order p. Each of the last two terms of the series is at most one
+/// tolerance; the first term that is left out is then about exp(-2) tolerances. Two terms are
+/// looked at, because every second term of an even or odd function is zero. If both are zero, the
+/// highest term that is not decides instead, among those above order p/2. If all of these are zero,
+/// the length is infinite: the polynomial is taken for the solution, and the check at the end of
+/// the step confirms it. `term(k)` is the largest term of order k in tolerances, see
+/// `largest_term`.
 template <class Term>
 double length_of(int p, const Term& term) {
   double h = std::min(reach(term(p), p), reach(term(p - 1), p - 1));
@@ -46,8 +47,8 @@ double length_of(int p, const Term& term) {
   return h;
 }
 
-/// The part of a step to try next after a check found this error, above 1 tolerance: the error is of
-/// order p + 1.
+/// The part of a step to try next after a check found this error, above 1 tolerance: the error is
+/// of order p + 1.
 inline double shorter(double error, int p) {
   constexpr double safety = 0.9, least = 0.1;
   if (!std::isfinite(error)) return least;

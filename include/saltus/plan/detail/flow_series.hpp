@@ -1,0 +1,43 @@
+// FlowSeries: the derivatives and the guards of a plan as Taylor series, kept with the plan.
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "saltus/plan/plan.hpp"
+#include "saltus/tape/series.hpp"
+
+namespace saltus {
+
+/// The series of the states, with those guards as outputs whose series show them: they have no
+/// kinks, and hide nothing.
+struct FlowSeries {
+  static constexpr int no_output = -1;
+
+  std::optional<tape::Series> series = {};  ///< each user takes a copy; none: see `obstacle`
+  std::vector<int> output_of_slot = {};     ///< the number of the output of each guard, or none
+  bool hides = false;                       ///< a derivative may hide a part of itself, `may_hide`
+  std::string obstacle = {};                ///< the first reason why there is no series
+};
+
+/// The series of one plan, made when they are first asked for. Threads may ask at the same time.
+class KeptSeries {
+ public:
+  std::shared_ptr<const FlowSeries> of(const Plan& plan);
+  /// The functions of the plan have changed.
+  void forget();
+
+ private:
+  std::mutex one_at_a_time_;
+  std::shared_ptr<const FlowSeries> made_;
+};
+
+/// As the plan keeps it.
+inline std::shared_ptr<const FlowSeries> flow_series(const Plan& plan) {
+  return plan.series->of(plan);
+}
+
+}  // namespace saltus
