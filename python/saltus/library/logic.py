@@ -28,16 +28,9 @@ class Comparator(Block, _core.Comparator):
 
     Examples
     --------
-    >>> from saltus.library import Constant, Comparator
-    >>> builder = saltus.DiagramBuilder()
-    >>> a, b, block = builder.add(Constant([1.0, 4.0]), Constant(2.0), Comparator("<"))
-    >>> builder.connect(a.output(), block.input(0))
-    >>> builder.connect(b.output(), block.input(1))
-    >>> diagram = builder.build()
-    >>> saltus.simulate(
-    ...     diagram, diagram.create_context(), (0.0, 0.0), recorded_signals={"y": block.output()}
-    ... ).outputs["y"]
-    array([[1., 0.]])
+    >>> from saltus.library import Comparator
+    >>> saltus.response(Comparator("<"), [1.0, 4.0], 2.0)
+    array([1., 0.])
     """
 
     def __init__(self, operator: str, *, name: str | None = None):
@@ -63,18 +56,9 @@ class LogicalOperator(Block, _core.LogicalOperator):
 
     Examples
     --------
-    >>> from saltus.library import Constant, LogicalOperator
-    >>> builder = saltus.DiagramBuilder()
-    >>> a, b, block = builder.add(
-    ...     Constant([1.0, 1.0]), Constant([0.0, 1.0]), LogicalOperator("and")
-    ... )
-    >>> builder.connect(a.output(), block.input(0))
-    >>> builder.connect(b.output(), block.input(1))
-    >>> diagram = builder.build()
-    >>> saltus.simulate(
-    ...     diagram, diagram.create_context(), (0.0, 0.0), recorded_signals={"y": block.output()}
-    ... ).outputs["y"]
-    array([[0., 1.]])
+    >>> from saltus.library import LogicalOperator
+    >>> saltus.response(LogicalOperator("and"), [1.0, 1.0], [0.0, 1.0])
+    array([0., 1.])
     """
 
     def __init__(self, function: str, n_inputs: int = 2, *, name: str | None = None):
@@ -96,21 +80,9 @@ class Switch(Block, _core.Switch):
 
     Examples
     --------
-    >>> from saltus.library import Clock, Constant, Switch
-    >>> builder = saltus.DiagramBuilder()
-    >>> t, high, low, switch = builder.add(Clock(), Constant(5.0), Constant(1.0), Switch(2.0))
-    >>> builder.connect(high.output(), switch.input("true_value"))
-    >>> builder.connect(t.output(), switch.input("control"))
-    >>> builder.connect(low.output(), switch.input("false_value"))
-    >>> diagram = builder.build()
-    >>> results = saltus.simulate(
-    ...     diagram, diagram.create_context(), (0.0, 3.0), save_at=[1.0, 3.0],
-    ...     recorded_signals={"y": switch.output()},
-    ... )
-    >>> results.time
-    array([0., 1., 3.])
-    >>> results.outputs["y"]
-    array([1., 1., 5.])
+    >>> from saltus.library import Clock, Switch
+    >>> saltus.response(Switch(2.0), 5.0, Clock(), 1.0, t=[1.0, 3.0])
+    array([1., 5.])
     """
 
     def __init__(self, threshold: float | None = None, *, name: str | None = None):
