@@ -408,11 +408,29 @@ class Abs(System):
 class Adder(System):
     def __init__(self, arg0: str, arg1: str, /) -> None: ...
 
+class CrossProduct(System):
+    def __init__(self, arg0: str, /) -> None: ...
+
+class DeadZone(System):
+    def __init__(self, arg0: str, arg1: Any, arg2: bool, /) -> None: ...
+
 class Demultiplexer(System):
     def __init__(self, arg0: str, arg1: int, /) -> None: ...
 
+class DotProduct(System):
+    def __init__(self, arg0: str, /) -> None: ...
+
+class Exponent(System):
+    def __init__(self, arg0: str, arg1: str, /) -> None: ...
+
 class Gain(System):
     def __init__(self, arg0: str, arg1: Any, /) -> None: ...
+
+class Logarithm(System):
+    def __init__(self, arg0: str, arg1: str, /) -> None: ...
+
+class MinMax(System):
+    def __init__(self, arg0: str, arg1: str, arg2: int, /) -> None: ...
 
 class Multiplexer(System):
     def __init__(self, arg0: str, arg1: int, /) -> None: ...
@@ -420,11 +438,46 @@ class Multiplexer(System):
 class Offset(System):
     def __init__(self, arg0: str, arg1: Any, /) -> None: ...
 
+class Power(System):
+    def __init__(self, arg0: str, arg1: Any, /) -> None: ...
+
 class Product(System):
     def __init__(self, arg0: str, arg1: str, /) -> None: ...
 
+class ProductOfElements(System):
+    def __init__(self, arg0: str, /) -> None: ...
+
+class Quantizer(System):
+    def __init__(self, arg0: str, arg1: Any, /) -> None: ...
+
+class Reciprocal(System):
+    def __init__(self, arg0: str, /) -> None: ...
+
 class Saturate(System):
     def __init__(self, arg0: str, arg1: Any, arg2: Any, /) -> None: ...
+
+class ScalarBroadcast(System):
+    def __init__(self, arg0: str, arg1: int, /) -> None: ...
+
+class Sign(System):
+    def __init__(self, arg0: str, /) -> None: ...
+
+class Slice(System):
+    @overload
+    def __init__(self, arg0: str, arg1: int) -> None: ...
+    @overload
+    def __init__(self, arg0: str, arg1: Sequence[int]) -> None: ...
+    @overload
+    def __init__(self, arg0: str, arg1: int | None, arg2: int | None, arg3: int) -> None: ...
+
+class SquareRoot(System):
+    def __init__(self, arg0: str, /) -> None: ...
+
+class SumOfElements(System):
+    def __init__(self, arg0: str, /) -> None: ...
+
+class Trigonometric(System):
+    def __init__(self, arg0: str, arg1: str, /) -> None: ...
 
 class Comparator(System):
     def __init__(self, arg0: str, arg1: str, /) -> None: ...
@@ -449,6 +502,41 @@ class Integrator(System):
         arg8: bool,
         /,
     ) -> None: ...
+
+class SecondOrderIntegrator(System):
+    def __init__(
+        self, arg0: str, arg1: Any, arg2: Any, arg3: Any, arg4: Any, arg5: float, /
+    ) -> None: ...
+
+class Derivative(System):
+    def __init__(self, arg0: str, arg1: Any, arg2: Any, /) -> None: ...
+
+class LTISystem(System):
+    def __init__(
+        self, arg0: str, arg1: Any, arg2: Any, arg3: Any, arg4: Any, arg5: Any, /
+    ) -> None: ...
+
+class PID(System):
+    def __init__(
+        self,
+        arg0: str,
+        arg1: float,
+        arg2: float,
+        arg3: float,
+        arg4: float,
+        arg5: float,
+        arg6: float | None,
+        arg7: float | None,
+        arg8: float | None,
+        /,
+    ) -> None: ...
+
+class TransferFunction(System):
+    def __init__(
+        self, arg0: str, arg1: Any, arg2: Any, arg3: Any, arg4: float | None, /
+    ) -> None: ...
+    @property
+    def scales(self) -> np.ndarray: ...
 
 class UnitDelay(System):
     def __init__(self, arg0: str, arg1: float, arg2: Any, /) -> None: ...

@@ -8,33 +8,67 @@ located as an event, and its side is held in between.
 """
 
 from saltus.library.arithmetic import Abs, Adder, Gain, Offset, Product, Saturate
+from saltus.library.discrete import UnitDelay, ZeroOrderHold
 from saltus.library.functions import FunctionBlock, ReduceBlock
+from saltus.library.linear import PID, Derivative, LTISystem, TransferFunction
 from saltus.library.logic import Comparator, LogicalOperator, Switch
+from saltus.library.maps import Exponent, Logarithm, Power, Reciprocal, SquareRoot, Trigonometric
+from saltus.library.nonlinear import DeadZone, MinMax, Quantizer, Sign
 from saltus.library.sources import Clock, Constant, Pulse, Ramp, Sine, Step
-from saltus.library.state import Integrator, UnitDelay, ZeroOrderHold
-from saltus.library.vectors import Demultiplexer, Multiplexer
+from saltus.library.state import Integrator, SecondOrderIntegrator
+from saltus.library.vectors import (
+    CrossProduct,
+    Demultiplexer,
+    DotProduct,
+    Multiplexer,
+    ProductOfElements,
+    ScalarBroadcast,
+    Slice,
+    SumOfElements,
+)
 
 __all__ = [
+    "PID",
     "Abs",
     "Adder",
     "Clock",
     "Comparator",
     "Constant",
+    "CrossProduct",
+    "DeadZone",
     "Demultiplexer",
+    "Derivative",
+    "DotProduct",
+    "Exponent",
     "FunctionBlock",
     "Gain",
     "Integrator",
+    "LTISystem",
+    "Logarithm",
     "LogicalOperator",
+    "MinMax",
     "Multiplexer",
     "Offset",
+    "Power",
     "Product",
+    "ProductOfElements",
     "Pulse",
+    "Quantizer",
     "Ramp",
+    "Reciprocal",
     "ReduceBlock",
     "Saturate",
+    "ScalarBroadcast",
+    "SecondOrderIntegrator",
+    "Sign",
     "Sine",
+    "Slice",
+    "SquareRoot",
     "Step",
+    "SumOfElements",
     "Switch",
+    "TransferFunction",
+    "Trigonometric",
     "UnitDelay",
     "ZeroOrderHold",
 ]

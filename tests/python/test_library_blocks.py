@@ -1,0 +1,151 @@
+"""The blocks of everyday models from Python: their law, and the trap of each."""
+
+import numpy as np
+import pytest
+import saltus
+from saltus.library import *
+
+response = saltus.response
+
+
+@pytest.mark.parametrize(
+    ("block", "inputs", "expected"),
+    [
+        (Power(3.0), [[2.0, -2.0]], [8.0, -8.0]),
+        (Power([1.0, 2.0]), [3.0], [3.0, 9.0]),
+        (SquareRoot(), [[4.0, 0.25]], [2.0, 0.5]),
+        (Reciprocal(), [4.0], 0.25),
+        (Exponent(), [1.0], np.e),
+        (Exponent("2"), [3.0], 8.0),
+        (Logarithm(), [np.e], 1.0),
+        (Logarithm("10"), [1000.0], 3.0),
+        (Logarithm("2"), [8.0], 3.0),
+        (Trigonometric("atanh"), [0.5], np.arctanh(0.5)),
+        (Sign(), [[-2.0, 0.0, 3.0]], [-1.0, 0.0, 1.0]),
+        (MinMax("min", 3), [[1.0, 5.0], 3.0, 2.0], [1.0, 2.0]),
+        (MinMax("max"), [[1.0, 5.0], 3.0], [3.0, 5.0]),
+        (DeadZone(1.0), [[-3.0, 0.5, 3.0]], [-3.0, 0.0, 3.0]),
+        (DeadZone(1.0, shifted=True), [[-3.0, 0.5, 3.0]], [-2.0, 0.0, 2.0]),
+        (Quantizer(0.5), [[0.2, 0.7, -1.4]], [0.0, 0.5, -1.5]),
+        (SumOfElements(), [[1.0, 2.0, 4.0]], 7.0),
+        (ProductOfElements(), [[2.0, 3.0, -4.0]], -24.0),
+        (DotProduct(), [[1.0, 2.0], [3.0, 4.0]], 11.0),
+        (CrossProduct(), [[1.0, 2.0, 3.0], [-4.0, 5.0, 6.0]], [-3.0, -18.0, 13.0]),
+        (ScalarBroadcast(2), [7.0], [7.0, 7.0]),
+        (TransferFunction([3.0], [2.0]), [4.0], 6.0),
+        (LTISystem(-1, 1, 2, 5), [1.0], 5.0),
+        (Derivative(10.0), [2.0], 20.0),
+        (PID(2.0, kd=0.5, n=4.0), [3.0], 12.0),
+    ],
+    ids=lambda value: type(value).__name__ if isinstance(value, saltus.System) else "",
+)
+def test_values(block, inputs, expected):
+    assert response(block, *inputs) == pytest.approx(expected, abs=1e-15)
+
+
+@pytest.mark.parametrize(
+    "entries",
+    [0, -1, [0, 2], [-1], slice(1, 3), slice(None, None, -1), slice(-2, None), slice(3, 0, -2)],
+)
+@pytest.mark.parametrize("as_text", [False, True])
+def test_a_slice_chooses_as_an_array_does(entries, as_text):
+    u = np.array([10.0, 11.0, 12.0, 13.0])
+    expected = u[entries]
+    if as_text and isinstance(entries, slice):
+        parts = [entries.start, entries.stop, entries.step]
+        entries = ":".join("" if part is None else str(part) for part in parts)
+    elif as_text:
+        entries = str(entries)
+    np.testing.assert_array_equal(response(Slice(entries), u), expected)
+
+
+@pytest.mark.parametrize("entries", ["a", "1:b", 1.5, True, None, "1:2:3:4", [0, "b"], ""])
+def test_other_entries_are_refused(entries):
+    with pytest.raises(saltus.ModelError, match="expected a whole number, a list of them or a"):
+        Slice(entries)
+
+
+def test_a_kink_is_located_only_where_it_reaches_a_derivative():
+    builder = saltus.DiagramBuilder()
+    sine, sign, x = builder.add(Sine(name="sine"), Sign(name="sign"), Integrator(name="x"))
+    builder.connect(sine.output(), sign.input())
+    builder.connect(sign.output(), x.input())
+    diagram = builder.build()
+    results = saltus.simulate(diagram, diagram.create_context(), (0.0, 10.0), rtol=1e-10)
+    roots = results.events.times("sign.positive")
+    np.testing.assert_allclose(roots[-3:], [np.pi, 2 * np.pi, 3 * np.pi], rtol=0, atol=1e-12)
+    assert "no root-finding" in saltus.Simulator(_behind_a_sine(Sign())).describe()
+
+
+def _behind_a_sine(block):
+    builder = saltus.DiagramBuilder()
+    sine = builder.add(Sine())
+    builder.add(block)
+    builder.connect(sine.output(), block.input())
+    builder.export_output(block.output(), "y")
+    return builder.build()
+
+
+def test_the_parameters_of_a_transfer_function_are_those_of_the_context():
+    diagram = _behind_a_sine(TransferFunction([1.0], [1.0, 1.0], name="g"))
+    context = diagram.create_context().with_parameter("g.denominator", [2.0, 1.0])
+    end = saltus.simulate(diagram, context, (0.0, 1.0), rtol=1e-10, atol=1e-12).context
+    # 2 v' + v = sin t from 0: v = (sin t - 2 cos t + 2 exp(-t / 2)) / 5, and the state is 2 v
+    v = (np.sin(1.0) - 2 * np.cos(1.0) + 2 * np.exp(-0.5)) / 5
+    assert end.continuous_state[0] * diagram["g"].scales[0] == pytest.approx(2 * v, abs=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("make", "message"),
+    [
+        (lambda: TransferFunction([1, 0, 0], [1, 1], name="g"), "the degree 2 in s"),
+        (lambda: Derivative(0.0), "expected a finite number > 0"),
+        (lambda: PID(1.0, n=np.inf), "expected a finite number > 0"),
+        (lambda: LTISystem([[1, 2]], 1, 1), "A is 1 x 2"),
+        (lambda: LTISystem([1, 2], 1, 1), "expected a matrix, found an array of 1 dimensions"),
+        (lambda: MinMax("mean"), "unknown operator 'mean'"),
+        (lambda: Trigonometric("sine"), "did you mean 'sin'"),
+        (lambda: DeadZone(-1.0), "half_range = -1; expected a number >= 0"),
+        (lambda: Quantizer(0.0), "interval = 0; expected a number > 0"),
+    ],
+)
+def test_refusals(make, message):
+    with pytest.raises(saltus.ModelError, match=message.replace("(", r"\(")):
+        make()
+
+
+def test_a_second_order_integrator_stops_and_leaves():
+    block = SecondOrderIntegrator(lower_limit=-10.0, upper_limit=0.5)
+    push = Step(1.0, -1.0, step_time=3.0)
+    x, v = response(block, push, t=[0.5, 2.0, 4.0], rtol=1e-10)
+    np.testing.assert_allclose(x, [0.125, 0.5, 0.0], rtol=0, atol=1e-12)
+    np.testing.assert_allclose(v, [0.5, 0.0, -1.0], rtol=0, atol=1e-12)
+
+
+def test_a_controller_does_not_wind_up():
+    turn = Step(1.0, -1.0, step_time=4.0)
+    block = PID(1.0, ki=1.0, lower_limit=-2.0, upper_limit=2.0)
+    y = response(block, turn, t=[0.5, 3.9, 4.5, 5.5], rtol=1e-10)
+    np.testing.assert_allclose(y, [1.5, 2.0, -0.5, -1.5], rtol=0, atol=1e-12)
+
+
+class TestResponse:
+    def test_one_source_may_feed_two_inputs(self):
+        t = Clock()
+        assert response(Adder("+-"), t, t, t=3.0) == 0.0
+
+    def test_times_may_stand_in_any_order(self):
+        assert response(Clock(), t=[2.0, 0.0, 1.0, 2.0]).tolist() == [2.0, 0.0, 1.0, 2.0]
+
+    def test_of_a_vector_at_several_times(self):
+        assert response(Gain([1.0, 2.0]), Clock(), t=[1.0, 2.0]).tolist() == [[1, 2], [2, 4]]
+
+    def test_after_what_happens_at_a_time(self):
+        assert response(Step(step_time=1.0), t=1.0) == 1.0
+
+    def test_before_time_zero(self):
+        assert response(Clock(), t=[-1.0, 1.0]).tolist() == [-1.0, 1.0]
+
+    def test_another_number_of_inputs_is_refused(self):
+        with pytest.raises(saltus.ModelError, match=r"has 2 inputs \(in_0, in_1\), found 1"):
+            response(Adder(2), 1.0)
