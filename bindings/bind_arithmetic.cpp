@@ -9,6 +9,7 @@
 #include "saltus/library/exponent.hpp"
 #include "saltus/library/gain.hpp"
 #include "saltus/library/logarithm.hpp"
+#include "saltus/library/lookup_table_1d.hpp"
 #include "saltus/library/min_max.hpp"
 #include "saltus/library/multiplexer.hpp"
 #include "saltus/library/offset.hpp"
@@ -44,6 +45,14 @@ void bind_arithmetic(py::module_& module) {
     return std::make_unique<Gain>(name, Arguments(name).value(gain, "gain"));
   }));
   py::class_<Logarithm, System>(module, "Logarithm").def(py::init<std::string, std::string_view>());
+  py::class_<LookupTable1d, System>(module, "LookupTable1d")
+      .def(py::init([](const std::string& name, Handle input_array, Handle output_array,
+                       std::string_view interpolation, std::string_view extrapolation) {
+        const Arguments of(name);
+        return std::make_unique<LookupTable1d>(name, of.value(input_array, "input_array").values,
+                                               of.value(output_array, "output_array").values,
+                                               LookupTable1dOptions{interpolation, extrapolation});
+      }));
   py::class_<MinMax, System>(module, "MinMax").def(py::init<std::string, std::string_view, int>());
   py::class_<Multiplexer, System>(module, "Multiplexer").def(py::init<std::string, int>());
   py::class_<Offset, System>(module, "Offset")

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from saltus.diagram import DiagramBuilder
 from saltus.errors import ModelError
 from saltus.library.sources import Constant
-from saltus.simulation import simulate
+from saltus.simulation.simulate import simulate
 from saltus.system import System
 
 __all__ = ["response"]

@@ -36,8 +36,8 @@ void PID::require_sound(const Options& o) const {
   const double low = o.lower_limit.value_or(-HUGE_VAL), high = o.upper_limit.value_or(HUGE_VAL);
   detail::insist(low < high, name(), "lower_limit ", low, " is not below upper_limit ", high,
                  "; expected lower_limit < upper_limit");
-  detail::insist(o.band.value_or(0.0) >= 0.0, name(), "band = ", o.band.value_or(0.0),
-                 "; expected a number >= 0");
+  detail::insist(o.band.value_or(1.0) > 0.0, name(), "band = ", o.band.value_or(1.0),
+                 "; expected a number > 0");
 }
 
 void PID::declare_limits(const Options& o) {

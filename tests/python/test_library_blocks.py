@@ -149,3 +149,71 @@ class TestResponse:
     def test_another_number_of_inputs_is_refused(self):
         with pytest.raises(saltus.ModelError, match=r"has 2 inputs \(in_0, in_1\), found 1"):
             response(Adder(2), 1.0)
+
+
+@pytest.mark.parametrize(
+    ("block", "inputs", "expected"),
+    [
+        (IfThenElse(), [1.0, [5.0, 6.0], 0.0], [5.0, 6.0]),
+        (MultiportSwitch(3), [1.4, 10.0, 20.0, 30.0], 20.0),
+        (MultiportSwitch(2), [-7.0, 10.0, 20.0], 10.0),
+        (Relay(1.0, 0.0, on_value=3.0), [1.5], 3.0),
+        (Relay(1.0, 0.0, initially_on=True), [-0.5], 0.0),
+        (Relay(1.0, 0.0, initially_on=True), [0.5], 1.0),
+        (LookupTable1d([0, 1, 3], [0, 2, 1]), [[-1.0, 0.5, 2.0, 9.0]], [0.0, 1.0, 1.5, 1.0]),
+        (LookupTable1d([0, 1], [0, 2], extrapolation="linear"), [2.0], 4.0),
+        (LookupTable1d([0, 1], [0, 2], "nearest"), [0.4], 0.0),
+    ],
+    ids=lambda value: type(value).__name__ if isinstance(value, saltus.System) else "",
+)
+def test_choices(block, inputs, expected):
+    assert response(block, *inputs) == pytest.approx(expected, abs=1e-15)
+
+
+def test_a_table_that_has_no_value_ends_the_run():
+    table = LookupTable1d([0.0, 1.0], [0.0, 2.0], extrapolation="error", name="table")
+    with pytest.raises(saltus.SimulationError, match="table"):
+        response(table, Clock(), t=2.0)
+
+
+def test_a_relay_in_a_loop_oscillates_between_its_thresholds():
+    """x' = -1 while on, 1 while off: a triangle of period 2 (on - off), after a start at 0."""
+    builder = saltus.DiagramBuilder()
+    relay = builder.add(Relay(0.5, -0.5, on_value=-1.0, off_value=1.0, name="relay"))
+    x = builder.add(Integrator(name="x"))
+    builder.connect(x.output(), relay.input())
+    builder.connect(relay.output(), x.input())
+    diagram = builder.build()
+    results = saltus.simulate(diagram, diagram.create_context(), (0.0, 6.0))
+    np.testing.assert_allclose(results.events.times("relay.turn_on"), [0.5, 2.5, 4.5], atol=1e-12)
+    np.testing.assert_allclose(results.events.times("relay.turn_off"), [1.5, 3.5, 5.5], atol=1e-12)
+
+
+def test_a_counter_counts_edges():
+    block = Counter("either", limit=3)
+    pulse = Pulse(period=2.0, phase_delay=1.0)
+    assert response(block, pulse, t=[0.5, 1.5, 2.5, 3.5]).tolist() == [0.0, 1.0, 2.0, 0.0]
+
+
+def test_a_rate_limiter_starts_at_its_input():
+    block = RateLimiter(0.25, upper_limit=1.0, lower_limit=-2.0)
+    y = response(block, Step(4.0, 0.0), t=[0.1, 1.1, 1.3, 9.0])
+    assert y.tolist() == [4.0, 3.5, 3.0, 0.0]
+
+
+@pytest.mark.parametrize(
+    ("make", "message"),
+    [
+        (lambda: Relay(0.0, 1.0), "off_threshold 1 is above on_threshold 0"),
+        (lambda: LookupTable1d([0, 1], [1]), "input_array has 2 values, output_array has 1"),
+        (lambda: LookupTable1d([1, 0], [1, 2]), "expected points that increase"),
+        (lambda: LookupTable1d([0, 1], [1, 2], "cubic"), "unknown interpolation 'cubic'"),
+        (lambda: Counter("raising"), "did you mean 'rising'"),
+        (lambda: HitCrossing(0.0, "rising"), "unknown direction 'rising'"),
+        (lambda: RateLimiter(-1.0), "dt = -1 s"),
+        (lambda: MultiportSwitch(0), "expected 1 input or more"),
+    ],
+)
+def test_refusals_of_choices(make, message):
+    with pytest.raises(saltus.ModelError, match=message):
+        make()

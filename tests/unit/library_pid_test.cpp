@@ -79,6 +79,16 @@ TEST_CASE("a PID that starts beyond its limit is clamped from the start", "[libr
   CHECK(scene.run(1.0).context.continuous_state()[0] == 0.0);
 }
 
+/// With ki = 0 there is nothing to clamp: the limits are those of a Saturate.
+TEST_CASE("a PID without an integral has limits too", "[library][pid]") {
+  const Scene<PID> scene(fed_by<Sine>(Sine::Options{}),
+                         PID::Options{.kp = 2.0, .lower_limit = -1.0, .upper_limit = 1.0});
+  const Numbers y = scene.at({0.1, 1.5, 3.0, 4.5, 6.2});
+  const Numbers exact{2.0 * std::sin(0.1), 1.0, 2.0 * std::sin(3.0), -1.0, 2.0 * std::sin(6.2)};
+  for (std::size_t i = 0; i < y.size(); ++i) CHECK_THAT(y[i], WithinAbs(exact[i], rounding));
+  CHECK(scene.run(20.0).status == Status::reached_end);
+}
+
 /// The error decreases while the output is at its limit, so v would slide along the limit. The band
 /// lets the integral go and takes it back a bounded number of times, and the loop settles.
 TEST_CASE("a controller at its limit with a falling error does not chatter", "[library][pid]") {
@@ -94,5 +104,5 @@ TEST_CASE("a PID without a filter, or with limits that cross, is refused", "[lib
   CHECK(contains(model_error([] { PID("c", {.n = HUGE_VAL}); }), "expected a finite number > 0"));
   CHECK(contains(model_error([] { PID("c", {.lower_limit = 1.0, .upper_limit = 1.0}); }),
                  "lower_limit 1 is not below upper_limit 1"));
-  CHECK(contains(model_error([] { PID("c", {.upper_limit = 1.0, .band = -1.0}); }), "band = -1"));
+  CHECK(contains(model_error([] { PID("c", {.upper_limit = 1.0, .band = 0.0}); }), "band = 0"));
 }

@@ -44,6 +44,8 @@ TEST_CASE("Slice chooses entries as Python does", "[library]") {
   CHECK(sliced({.start = 1, .stop = 3}) == Numbers{11.0, 12.0});
   CHECK(sliced({.start = -3, .stop = 9}) == Numbers{11.0, 12.0, 13.0});
   CHECK(sliced({.step = 2}) == Numbers{10.0, 12.0});
+  CHECK(sliced({.step = 3}) == Numbers{10.0, 13.0});
+  CHECK(sliced({.start = 3, .step = -3}) == Numbers{13.0, 10.0});
   CHECK(sliced({.step = -1}) == Numbers{13.0, 12.0, 11.0, 10.0});
   CHECK(sliced({.start = 2, .stop = 0, .step = -1}) == Numbers{12.0, 11.0});
   CHECK(Bench<Slice>({four}, std::vector<Index>{3, 0, -1}).output() == Numbers{13.0, 10.0, 13.0});
@@ -62,6 +64,7 @@ TEST_CASE("a Slice of entries that are not there is refused", "[library]") {
   CHECK(contains(model_error([] { sliced({.start = 3, .stop = 1}); }),
                  "no entry of an input of width 4 is chosen"));
   CHECK(contains(model_error([] { sliced({.step = 0}); }), "step = 0"));
+  CHECK(contains(model_error([] { Slice("s", std::vector<Index>{}); }), "the list of entries is"));
 }
 
 TEST_CASE("ScalarBroadcast repeats a scalar", "[library]") {

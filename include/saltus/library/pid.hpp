@@ -22,7 +22,7 @@ struct PIDOptions {
   double initial_state = 0.0;  ///< of the integral i, in the unit of y
   std::optional<double> lower_limit = {};
   std::optional<double> upper_limit = {};
-  /// >= 0, in the unit of y. If not given: 1e-3 of the distance of the limits, or of the limit.
+  /// > 0, in the unit of y. If not given: 1e-3 of the distance of the limits, or of the limit.
   std::optional<double> band = {};
 };
 

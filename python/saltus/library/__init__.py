@@ -8,12 +8,22 @@ located as an event, and its side is held in between.
 """
 
 from saltus.library.arithmetic import Abs, Adder, Gain, Offset, Product, Saturate
-from saltus.library.discrete import UnitDelay, ZeroOrderHold
+from saltus.library.discrete import RateLimiter, UnitDelay, ZeroOrderHold
 from saltus.library.functions import FunctionBlock, ReduceBlock
 from saltus.library.linear import PID, Derivative, LTISystem, TransferFunction
-from saltus.library.logic import Comparator, LogicalOperator, Switch
+from saltus.library.logic import (
+    Comparator,
+    Counter,
+    HitCrossing,
+    IfThenElse,
+    LogicalOperator,
+    MultiportSwitch,
+    Relay,
+    Stop,
+    Switch,
+)
 from saltus.library.maps import Exponent, Logarithm, Power, Reciprocal, SquareRoot, Trigonometric
-from saltus.library.nonlinear import DeadZone, MinMax, Quantizer, Sign
+from saltus.library.nonlinear import DeadZone, LookupTable1d, MinMax, Quantizer, Sign
 from saltus.library.sources import Clock, Constant, Pulse, Ramp, Sine, Step
 from saltus.library.state import Integrator, SecondOrderIntegrator
 from saltus.library.vectors import (
@@ -34,6 +44,7 @@ __all__ = [
     "Clock",
     "Comparator",
     "Constant",
+    "Counter",
     "CrossProduct",
     "DeadZone",
     "Demultiplexer",
@@ -42,12 +53,16 @@ __all__ = [
     "Exponent",
     "FunctionBlock",
     "Gain",
+    "HitCrossing",
+    "IfThenElse",
     "Integrator",
     "LTISystem",
     "Logarithm",
     "LogicalOperator",
+    "LookupTable1d",
     "MinMax",
     "Multiplexer",
+    "MultiportSwitch",
     "Offset",
     "Power",
     "Product",
@@ -55,8 +70,10 @@ __all__ = [
     "Pulse",
     "Quantizer",
     "Ramp",
+    "RateLimiter",
     "Reciprocal",
     "ReduceBlock",
+    "Relay",
     "Saturate",
     "ScalarBroadcast",
     "SecondOrderIntegrator",
@@ -65,6 +82,7 @@ __all__ = [
     "Slice",
     "SquareRoot",
     "Step",
+    "Stop",
     "SumOfElements",
     "Switch",
     "TransferFunction",

@@ -114,7 +114,7 @@ class PID(Block, _core.PID):
     lower_limit, upper_limit
         In the unit of y; either may be left out.
     band
-        >= 0, in the unit of y; if not said, 1e-3 of the distance of the limits, or of the limit.
+        > 0, in the unit of y; if not said, 1e-3 of the distance of the limits, or of the limit.
         All numbers but `initial_state` are parameters of the context, the last three if there is a
         limit.
     name

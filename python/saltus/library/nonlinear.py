@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 from saltus import _core
 from saltus.library.block import Block
 
-__all__ = ["DeadZone", "MinMax", "Quantizer", "Sign"]
+__all__ = ["DeadZone", "LookupTable1d", "MinMax", "Quantizer", "Sign"]
 
 
 class DeadZone(Block, _core.DeadZone):
@@ -127,3 +127,48 @@ class Sign(Block, _core.Sign):
 
     def __init__(self, *, name: str | None = None):
         super().__init__(self._named(name))
+
+
+class LookupTable1d(Block, _core.LookupTable1d):
+    """y = the value of a table at u, entry by entry.
+
+    If y reaches a derivative, where u passes a point of the table is located as an event, by one
+    guard for all points.
+
+    Parameters
+    ----------
+    input_array
+        The points, 2 or more numbers that increase. They are fixed.
+    output_array
+        The values at the points. It is the parameter `output_array` of the context.
+    interpolation
+        "linear", "nearest", or "flat": the value of the point before.
+    extrapolation
+        "clip", the value of the outer point; "linear"; or "error": y is not a number there, and the
+        run ends with an error.
+    name
+        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+
+    Raises
+    ------
+    ModelError
+        For arrays that do not fit, points that do not increase, or other words.
+
+    Examples
+    --------
+    >>> from saltus.library import LookupTable1d
+    >>> table = LookupTable1d([0.0, 1.0, 3.0], [0.0, 2.0, 1.0])
+    >>> saltus.response(table, [-1.0, 0.5, 2.0, 9.0])
+    array([0. , 1. , 1.5, 1. ])
+    """
+
+    def __init__(
+        self,
+        input_array: ArrayLike,
+        output_array: ArrayLike,
+        interpolation: str = "linear",
+        extrapolation: str = "clip",
+        *,
+        name: str | None = None,
+    ):
+        super().__init__(self._named(name), input_array, output_array, interpolation, extrapolation)
