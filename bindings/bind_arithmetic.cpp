@@ -2,12 +2,29 @@
 #include "blocks.hpp"
 #include "saltus/library/abs.hpp"
 #include "saltus/library/adder.hpp"
+#include "saltus/library/cross_product.hpp"
+#include "saltus/library/dead_zone.hpp"
 #include "saltus/library/demultiplexer.hpp"
+#include "saltus/library/dot_product.hpp"
+#include "saltus/library/exponent.hpp"
 #include "saltus/library/gain.hpp"
+#include "saltus/library/logarithm.hpp"
+#include "saltus/library/lookup_table_1d.hpp"
+#include "saltus/library/min_max.hpp"
 #include "saltus/library/multiplexer.hpp"
 #include "saltus/library/offset.hpp"
+#include "saltus/library/power.hpp"
 #include "saltus/library/product.hpp"
+#include "saltus/library/product_of_elements.hpp"
+#include "saltus/library/quantizer.hpp"
+#include "saltus/library/reciprocal.hpp"
 #include "saltus/library/saturate.hpp"
+#include "saltus/library/scalar_broadcast.hpp"
+#include "saltus/library/sign.hpp"
+#include "saltus/library/slice.hpp"
+#include "saltus/library/square_root.hpp"
+#include "saltus/library/sum_of_elements.hpp"
+#include "saltus/library/trigonometric.hpp"
 
 namespace saltus::python {
 
@@ -15,16 +32,44 @@ void bind_arithmetic(py::module_& module) {
   using Handle = const py::object&;
   py::class_<Abs, System>(module, "Abs").def(py::init<std::string>());
   py::class_<Adder, System>(module, "Adder").def(py::init<std::string, std::string_view>());
+  py::class_<CrossProduct, System>(module, "CrossProduct").def(py::init<std::string>());
+  py::class_<DeadZone, System>(module, "DeadZone")
+      .def(py::init([](const std::string& name, Handle half_range, bool shifted) {
+        return std::make_unique<DeadZone>(
+            name, DeadZoneOptions{Arguments(name).value(half_range, "half_range"), shifted});
+      }));
   py::class_<Demultiplexer, System>(module, "Demultiplexer").def(py::init<std::string, int>());
+  py::class_<DotProduct, System>(module, "DotProduct").def(py::init<std::string>());
+  py::class_<Exponent, System>(module, "Exponent").def(py::init<std::string, std::string_view>());
   py::class_<Gain, System>(module, "Gain").def(py::init([](const std::string& name, Handle gain) {
     return std::make_unique<Gain>(name, Arguments(name).value(gain, "gain"));
   }));
+  py::class_<Logarithm, System>(module, "Logarithm").def(py::init<std::string, std::string_view>());
+  py::class_<LookupTable1d, System>(module, "LookupTable1d")
+      .def(py::init([](const std::string& name, Handle input_array, Handle output_array,
+                       std::string_view interpolation, std::string_view extrapolation) {
+        const Arguments of(name);
+        return std::make_unique<LookupTable1d>(name, of.value(input_array, "input_array").values,
+                                               of.value(output_array, "output_array").values,
+                                               LookupTable1dOptions{interpolation, extrapolation});
+      }));
+  py::class_<MinMax, System>(module, "MinMax").def(py::init<std::string, std::string_view, int>());
   py::class_<Multiplexer, System>(module, "Multiplexer").def(py::init<std::string, int>());
   py::class_<Offset, System>(module, "Offset")
       .def(py::init([](const std::string& name, Handle offset) {
         return std::make_unique<Offset>(name, Arguments(name).value(offset, "offset"));
       }));
+  py::class_<Power, System>(module, "Power")
+      .def(py::init([](const std::string& name, Handle exponent) {
+        return std::make_unique<Power>(name, Arguments(name).value(exponent, "exponent"));
+      }));
   py::class_<Product, System>(module, "Product").def(py::init<std::string, std::string_view>());
+  py::class_<ProductOfElements, System>(module, "ProductOfElements").def(py::init<std::string>());
+  py::class_<Quantizer, System>(module, "Quantizer")
+      .def(py::init([](const std::string& name, Handle interval) {
+        return std::make_unique<Quantizer>(name, Arguments(name).value(interval, "interval"));
+      }));
+  py::class_<Reciprocal, System>(module, "Reciprocal").def(py::init<std::string>());
   py::class_<Saturate, System>(module, "Saturate")
       .def(py::init([](const std::string& name, Handle lower_limit, Handle upper_limit) {
         const Arguments of(name);
@@ -32,6 +77,19 @@ void bind_arithmetic(py::module_& module) {
                                           SaturateOptions{of.optional(lower_limit, "lower_limit"),
                                                           of.optional(upper_limit, "upper_limit")});
       }));
+  py::class_<ScalarBroadcast, System>(module, "ScalarBroadcast").def(py::init<std::string, int>());
+  py::class_<Sign, System>(module, "Sign").def(py::init<std::string>());
+  py::class_<Slice, System>(module, "Slice")
+      .def(py::init<std::string, Index>())
+      .def(py::init<std::string, std::vector<Index>>())
+      .def(py::init(
+          [](std::string name, std::optional<Index> start, std::optional<Index> stop, Index step) {
+            return std::make_unique<Slice>(std::move(name), SliceRange{start, stop, step});
+          }));
+  py::class_<SquareRoot, System>(module, "SquareRoot").def(py::init<std::string>());
+  py::class_<SumOfElements, System>(module, "SumOfElements").def(py::init<std::string>());
+  py::class_<Trigonometric, System>(module, "Trigonometric")
+      .def(py::init<std::string, std::string_view>());
 }
 
 }  // namespace saltus::python

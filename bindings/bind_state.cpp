@@ -1,8 +1,7 @@
-// Blocks with a state.
+// Blocks with a continuous state.
 #include "blocks.hpp"
 #include "saltus/library/integrator.hpp"
-#include "saltus/library/unit_delay.hpp"
-#include "saltus/library/zero_order_hold.hpp"
+#include "saltus/library/second_order_integrator.hpp"
 
 namespace saltus::python {
 
@@ -24,15 +23,16 @@ void bind_state(py::module_& module) {
                                     .upper_limit = of.optional(upper_limit, "upper_limit"),
                                     .enable_hold = enable_hold});
       }));
-  py::class_<UnitDelay, System>(module, "UnitDelay")
-      .def(py::init([](const std::string& name, double dt, Handle initial_state) {
-        return std::make_unique<UnitDelay>(
-            name, dt, UnitDelayOptions{Arguments(name).value(initial_state, "initial_state")});
-      }));
-  py::class_<ZeroOrderHold, System>(module, "ZeroOrderHold")
-      .def(py::init([](const std::string& name, double dt, Handle initial_state) {
-        return std::make_unique<ZeroOrderHold>(
-            name, dt, ZeroOrderHoldOptions{Arguments(name).value(initial_state, "initial_state")});
+  py::class_<SecondOrderIntegrator, System>(module, "SecondOrderIntegrator")
+      .def(py::init([](const std::string& name, Handle position, Handle velocity,
+                       Handle lower_limit, Handle upper_limit, double restitution) {
+        const Arguments of(name);
+        return std::make_unique<SecondOrderIntegrator>(
+            name,
+            SecondOrderIntegratorOptions{of.value(position, "initial_position"),
+                                         of.value(velocity, "initial_velocity"),
+                                         of.optional(lower_limit, "lower_limit"),
+                                         of.optional(upper_limit, "upper_limit"), restitution});
       }));
 }
 

@@ -26,6 +26,8 @@ void bind_sources(py::module_& module);
 void bind_arithmetic(py::module_& module);
 void bind_logic(py::module_& module);
 void bind_state(py::module_& module);
+void bind_linear(py::module_& module);
+void bind_discrete(py::module_& module);
 void bind_results(py::module_& module);
 void bind_simulation(py::module_& module);
 void bind_evaluate(py::module_& module);

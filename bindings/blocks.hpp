@@ -18,6 +18,17 @@ class Arguments {
     return to_optional_value(numbers, what(name));
   }
 
+  /// A matrix; a number counts as one of a single entry.
+  Eigen::MatrixXd matrix(py::handle numbers, std::string_view name) const {
+    const Array array = to_array(numbers, what(name));
+    if (array.ndim() == 0) return Eigen::MatrixXd::Constant(1, 1, *array.data());
+    if (array.ndim() != 2)
+      throw ModelError(
+          text(what(name), ": expected a matrix, found an array of ", array.ndim(), " dimensions"));
+    using ByRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+    return Eigen::Map<const ByRows>(array.data(), array.shape(0), array.shape(1));
+  }
+
  private:
   std::string what(std::string_view name) const { return text("block '", block_, "': ", name); }
   std::string block_;

@@ -16,6 +16,8 @@ PYBIND11_MODULE(_core, module) {
   bind_arithmetic(module);
   bind_logic(module);
   bind_state(module);
+  bind_linear(module);
+  bind_discrete(module);
   bind_results(module);
   bind_simulation(module);
   bind_evaluate(module);

@@ -2,8 +2,9 @@
 
     ./dev new-block NAME [GROUP]
 
-NAME is the class, such as DeadZone; GROUP is one of arithmetic, logic, sources, state. The files
-are checked before any of them is written: a block that is there already is refused.
+NAME is the class, such as DeadZone; GROUP is one of arithmetic, discrete, linear,
+logic, sources, state. The files are checked before any of them is written: a block that is there
+already is refused.
 """
 
 from __future__ import annotations
@@ -14,7 +15,7 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
-GROUPS = ["arithmetic", "logic", "sources", "state"]
+GROUPS = ["arithmetic", "discrete", "linear", "logic", "sources", "state"]
 
 HEADER = """\
 // y = u, elementwise.
@@ -77,16 +78,9 @@ class NAME(Block, _core.NAME):
 
     Examples
     --------
-    >>> from saltus.library import Constant, NAME
-    >>> builder = saltus.DiagramBuilder()
-    >>> u, block = builder.add(Constant([1.0, 3.0]), NAME())
-    >>> builder.connect(u.output(), block.input())
-    >>> _ = builder.export_output(block.output(), "y")
-    >>> diagram = builder.build()
-    >>> saltus.simulate(
-    ...     diagram, diagram.create_context(), (0.0, 0.0), recorded_signals={"y": diagram.output()}
-    ... ).outputs["y"]
-    array([[1., 3.]])
+    >>> from saltus.library import NAME
+    >>> saltus.response(NAME(), [1.0, 3.0])
+    array([1., 3.])
     """
 
     def __init__(self, *, name: str | None = None):
@@ -116,17 +110,24 @@ def sorted_in(text: str, line: str, key: str, pattern: str, end: str | None = No
     return text[:place] + line + text[place:]
 
 
+def in_order(name: str) -> tuple[bool, str]:
+    """The order in which ruff sorts names: those in capitals come first."""
+    return not name.isupper(), name
+
+
 def with_python_name(text: str, name: str, group: str) -> str:
     """The import of its group and __all__, as ruff formats them."""
     start = f"from saltus.library.{group} import "
     found = re.search(re.escape(start) + r"(\([^)]*\)|.*)", text)
     assert found
-    names = sorted([*re.findall(r"\w+", found[1]), name])
+    names = sorted([*re.findall(r"\w+", found[1]), name], key=in_order)
     line = start + ", ".join(names)
     if len(line) > 100:
         line = f"{start}(\n" + "".join(f"    {each},\n" for each in names) + ")"
     text = text[: found.start()] + line + text[found.end() :]
-    return sorted_in(text, f'    "{name}",\n', name, r'^    "(\w+)",$')
+    start = text.index("__all__ = [")
+    listed = sorted([*re.findall(r'"(\w+)"', text[start:]), name], key=in_order)
+    return text[:start] + "__all__ = [\n" + "".join(f'    "{each}",\n' for each in listed) + "]\n"
 
 
 def with_row(text: str, row: str, group: str) -> str:

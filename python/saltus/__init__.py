@@ -14,6 +14,7 @@ from saltus.errors import Error, ModelError, SimulationError
 from saltus.leaf_system import LeafSystem
 from saltus.progress import Progress
 from saltus.report import WorkPrecision, work_precision
+from saltus.response import response
 from saltus.results import Event, EventLog, Results, Statistics, Values, load_results
 from saltus.results import load_results as load
 from saltus.scenes import Scene, scene, shelf
@@ -55,6 +56,7 @@ __all__ = [
     "library",
     "load",
     "load_results",
+    "response",
     "scene",
     "shelf",
     "simulate",

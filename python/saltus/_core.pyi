@@ -432,11 +432,32 @@ class Abs(System):
 class Adder(System):
     def __init__(self, arg0: str, arg1: str, /) -> None: ...
 
+class CrossProduct(System):
+    def __init__(self, arg0: str, /) -> None: ...
+
+class DeadZone(System):
+    def __init__(self, arg0: str, arg1: Any, arg2: bool, /) -> None: ...
+
 class Demultiplexer(System):
     def __init__(self, arg0: str, arg1: int, /) -> None: ...
 
+class DotProduct(System):
+    def __init__(self, arg0: str, /) -> None: ...
+
+class Exponent(System):
+    def __init__(self, arg0: str, arg1: str, /) -> None: ...
+
 class Gain(System):
     def __init__(self, arg0: str, arg1: Any, /) -> None: ...
+
+class Logarithm(System):
+    def __init__(self, arg0: str, arg1: str, /) -> None: ...
+
+class LookupTable1d(System):
+    def __init__(self, arg0: str, arg1: Any, arg2: Any, arg3: str, arg4: str, /) -> None: ...
+
+class MinMax(System):
+    def __init__(self, arg0: str, arg1: str, arg2: int, /) -> None: ...
 
 class Multiplexer(System):
     def __init__(self, arg0: str, arg1: int, /) -> None: ...
@@ -444,17 +465,72 @@ class Multiplexer(System):
 class Offset(System):
     def __init__(self, arg0: str, arg1: Any, /) -> None: ...
 
+class Power(System):
+    def __init__(self, arg0: str, arg1: Any, /) -> None: ...
+
 class Product(System):
     def __init__(self, arg0: str, arg1: str, /) -> None: ...
+
+class ProductOfElements(System):
+    def __init__(self, arg0: str, /) -> None: ...
+
+class Quantizer(System):
+    def __init__(self, arg0: str, arg1: Any, /) -> None: ...
+
+class Reciprocal(System):
+    def __init__(self, arg0: str, /) -> None: ...
 
 class Saturate(System):
     def __init__(self, arg0: str, arg1: Any, arg2: Any, /) -> None: ...
 
+class ScalarBroadcast(System):
+    def __init__(self, arg0: str, arg1: int, /) -> None: ...
+
+class Sign(System):
+    def __init__(self, arg0: str, /) -> None: ...
+
+class Slice(System):
+    @overload
+    def __init__(self, arg0: str, arg1: int) -> None: ...
+    @overload
+    def __init__(self, arg0: str, arg1: Sequence[int]) -> None: ...
+    @overload
+    def __init__(self, arg0: str, arg1: int | None, arg2: int | None, arg3: int) -> None: ...
+
+class SquareRoot(System):
+    def __init__(self, arg0: str, /) -> None: ...
+
+class SumOfElements(System):
+    def __init__(self, arg0: str, /) -> None: ...
+
+class Trigonometric(System):
+    def __init__(self, arg0: str, arg1: str, /) -> None: ...
+
 class Comparator(System):
     def __init__(self, arg0: str, arg1: str, /) -> None: ...
 
+class Counter(System):
+    def __init__(self, arg0: str, arg1: str, arg2: int | None, arg3: int, /) -> None: ...
+
+class HitCrossing(System):
+    def __init__(self, arg0: str, arg1: float, arg2: str, /) -> None: ...
+
+class IfThenElse(System):
+    def __init__(self, arg0: str, /) -> None: ...
+
 class LogicalOperator(System):
     def __init__(self, arg0: str, arg1: str, arg2: int, /) -> None: ...
+
+class MultiportSwitch(System):
+    def __init__(self, arg0: str, arg1: int, /) -> None: ...
+
+class Relay(System):
+    def __init__(
+        self, arg0: str, arg1: float, arg2: float, arg3: float, arg4: float, arg5: bool, /
+    ) -> None: ...
+
+class Stop(System):
+    def __init__(self, arg0: str, /) -> None: ...
 
 class Switch(System):
     def __init__(self, arg0: str, arg1: float | None, /) -> None: ...
@@ -473,6 +549,44 @@ class Integrator(System):
         arg8: bool,
         /,
     ) -> None: ...
+
+class SecondOrderIntegrator(System):
+    def __init__(
+        self, arg0: str, arg1: Any, arg2: Any, arg3: Any, arg4: Any, arg5: float, /
+    ) -> None: ...
+
+class Derivative(System):
+    def __init__(self, arg0: str, arg1: Any, arg2: Any, /) -> None: ...
+
+class LTISystem(System):
+    def __init__(
+        self, arg0: str, arg1: Any, arg2: Any, arg3: Any, arg4: Any, arg5: Any, /
+    ) -> None: ...
+
+class PID(System):
+    def __init__(
+        self,
+        arg0: str,
+        arg1: float,
+        arg2: float,
+        arg3: float,
+        arg4: float,
+        arg5: float,
+        arg6: float | None,
+        arg7: float | None,
+        arg8: float | None,
+        /,
+    ) -> None: ...
+
+class TransferFunction(System):
+    def __init__(
+        self, arg0: str, arg1: Any, arg2: Any, arg3: Any, arg4: float | None, /
+    ) -> None: ...
+    @property
+    def scales(self) -> np.ndarray: ...
+
+class RateLimiter(System):
+    def __init__(self, arg0: str, arg1: float, arg2: float, arg3: float, arg4: Any, /) -> None: ...
 
 class UnitDelay(System):
     def __init__(self, arg0: str, arg1: float, arg2: Any, /) -> None: ...

@@ -40,8 +40,8 @@ def new_block(tree, *arguments):
     )
 
 
-@pytest.mark.parametrize("group", ["arithmetic", "logic", "sources", "state"])
-@pytest.mark.parametrize(("name", "file"), [("DeadZone", "dead_zone"), ("Zap", "zap")])
+@pytest.mark.parametrize("group", ["arithmetic", "discrete", "linear", "logic", "sources", "state"])
+@pytest.mark.parametrize(("name", "file"), [("HalfWave", "half_wave"), ("Zap", "zap")])
 def test_every_place_is_written(tree, name, file, group):
     done = new_block(tree, name, group)
     assert done.returncode == 0, done.stderr
@@ -61,19 +61,19 @@ def test_every_place_is_written(tree, name, file, group):
 
 
 def test_the_package_and_its_stub_name_the_block_in_order(tree):
-    assert new_block(tree, "DeadZone").returncode == 0
+    assert new_block(tree, "HalfWave").returncode == 0
     init = ast.parse((tree / "python/saltus/library/__init__.py").read_text())
     names = {
         alias.name for node in init.body if isinstance(node, ast.ImportFrom) for alias in node.names
     }
     (listed,) = (ast.literal_eval(node.value) for node in init.body if isinstance(node, ast.Assign))
-    assert listed == sorted(names)
-    assert "DeadZone" in listed
+    assert listed == sorted(names, key=lambda name: (not name.isupper(), name))
+    assert "HalfWave" in listed
     stub = ast.parse((tree / "python/saltus/_core.pyi").read_text())
-    assert "DeadZone" in {node.name for node in stub.body if isinstance(node, ast.ClassDef)}
+    assert "HalfWave" in {node.name for node in stub.body if isinstance(node, ast.ClassDef)}
 
 
-@pytest.mark.parametrize("name", ["Gain", "dead_zone", "Dead-Zone", ""])
+@pytest.mark.parametrize("name", ["Gain", "half_wave", "Half-Wave", ""])
 def test_a_name_that_is_taken_or_is_none_changes_nothing(tree, name):
     before = {path: path.read_text() for path in tree.rglob("*.*pp")}
     done = new_block(tree, name)

@@ -9,35 +9,87 @@ located as an event, and its side is held in between.
 
 from saltus.library.arithmetic import Abs, Adder, Gain, Offset, Product, Saturate
 from saltus.library.called import elsewhere
+from saltus.library.discrete import RateLimiter, UnitDelay, ZeroOrderHold
 from saltus.library.functions import FeedthroughBlock, FunctionBlock, ReduceBlock, SourceBlock
-from saltus.library.logic import Comparator, LogicalOperator, Switch
+from saltus.library.linear import PID, Derivative, LTISystem, TransferFunction
+from saltus.library.logic import (
+    Comparator,
+    Counter,
+    HitCrossing,
+    IfThenElse,
+    LogicalOperator,
+    MultiportSwitch,
+    Relay,
+    Stop,
+    Switch,
+)
+from saltus.library.maps import Exponent, Logarithm, Power, Reciprocal, SquareRoot, Trigonometric
+from saltus.library.nonlinear import DeadZone, LookupTable1d, MinMax, Quantizer, Sign
 from saltus.library.sources import Clock, Constant, Pulse, Ramp, Sine, Step
-from saltus.library.state import Integrator, UnitDelay, ZeroOrderHold
-from saltus.library.vectors import Demultiplexer, Multiplexer
+from saltus.library.state import Integrator, SecondOrderIntegrator
+from saltus.library.vectors import (
+    CrossProduct,
+    Demultiplexer,
+    DotProduct,
+    Multiplexer,
+    ProductOfElements,
+    ScalarBroadcast,
+    Slice,
+    SumOfElements,
+)
 
 __all__ = [
+    "PID",
     "Abs",
     "Adder",
     "Clock",
     "Comparator",
     "Constant",
+    "Counter",
+    "CrossProduct",
+    "DeadZone",
     "Demultiplexer",
+    "Derivative",
+    "DotProduct",
+    "Exponent",
     "FeedthroughBlock",
     "FunctionBlock",
     "Gain",
+    "HitCrossing",
+    "IfThenElse",
     "Integrator",
+    "LTISystem",
+    "Logarithm",
     "LogicalOperator",
+    "LookupTable1d",
+    "MinMax",
     "Multiplexer",
+    "MultiportSwitch",
     "Offset",
+    "Power",
     "Product",
+    "ProductOfElements",
     "Pulse",
+    "Quantizer",
     "Ramp",
+    "RateLimiter",
+    "Reciprocal",
     "ReduceBlock",
+    "Relay",
     "Saturate",
+    "ScalarBroadcast",
+    "SecondOrderIntegrator",
+    "Sign",
     "Sine",
+    "Slice",
     "SourceBlock",
+    "SquareRoot",
     "Step",
+    "Stop",
+    "SumOfElements",
     "Switch",
+    "TransferFunction",
+    "Trigonometric",
     "UnitDelay",
     "ZeroOrderHold",
 ]

@@ -51,16 +51,9 @@ class Gain(Block, _core.Gain):
 
     Examples
     --------
-    >>> from saltus.library import Constant, Gain
-    >>> builder = saltus.DiagramBuilder()
-    >>> u, block = builder.add(Constant([1.0, 3.0]), Gain(-2.0))
-    >>> builder.connect(u.output(), block.input())
-    >>> _ = builder.export_output(block.output(), "y")
-    >>> diagram = builder.build()
-    >>> saltus.simulate(
-    ...     diagram, diagram.create_context(), (0.0, 0.0), recorded_signals={"y": diagram.output()}
-    ... ).outputs["y"]
-    array([[-2., -6.]])
+    >>> from saltus.library import Gain
+    >>> saltus.response(Gain(-2.0), [1.0, 3.0])
+    array([-2., -6.])
     """
 
     def __init__(self, gain: ArrayLike, *, name: str | None = None):
@@ -79,16 +72,9 @@ class Offset(Block, _core.Offset):
 
     Examples
     --------
-    >>> from saltus.library import Constant, Offset
-    >>> builder = saltus.DiagramBuilder()
-    >>> u, block = builder.add(Constant([1.0, 3.0]), Offset(10.0))
-    >>> builder.connect(u.output(), block.input())
-    >>> _ = builder.export_output(block.output(), "y")
-    >>> diagram = builder.build()
-    >>> saltus.simulate(
-    ...     diagram, diagram.create_context(), (0.0, 0.0), recorded_signals={"y": diagram.output()}
-    ... ).outputs["y"]
-    array([[11., 13.]])
+    >>> from saltus.library import Offset
+    >>> saltus.response(Offset(10.0), [1.0, 3.0])
+    array([11., 13.])
     """
 
     def __init__(self, offset: ArrayLike, *, name: str | None = None):
@@ -115,16 +101,9 @@ class Adder(Block, _core.Adder):
 
     Examples
     --------
-    >>> from saltus.library import Constant, Adder
-    >>> builder = saltus.DiagramBuilder()
-    >>> a, b, block = builder.add(Constant(5.0), Constant(2.0), Adder("+-"))
-    >>> builder.connect(a.output(), block.input(0))
-    >>> builder.connect(b.output(), block.input(1))
-    >>> diagram = builder.build()
-    >>> saltus.simulate(
-    ...     diagram, diagram.create_context(), (0.0, 0.0), recorded_signals={"y": block.output()}
-    ... ).outputs["y"]
-    array([3.])
+    >>> from saltus.library import Adder
+    >>> saltus.response(Adder("+-"), 5.0, 2.0)
+    3.0
     """
 
     def __init__(
@@ -158,16 +137,9 @@ class Product(Block, _core.Product):
 
     Examples
     --------
-    >>> from saltus.library import Constant, Product
-    >>> builder = saltus.DiagramBuilder()
-    >>> a, b, block = builder.add(Constant(6.0), Constant(4.0), Product("*/"))
-    >>> builder.connect(a.output(), block.input(0))
-    >>> builder.connect(b.output(), block.input(1))
-    >>> diagram = builder.build()
-    >>> saltus.simulate(
-    ...     diagram, diagram.create_context(), (0.0, 0.0), recorded_signals={"y": block.output()}
-    ... ).outputs["y"]
-    array([1.5])
+    >>> from saltus.library import Product
+    >>> saltus.response(Product("*/"), 6.0, 4.0)
+    1.5
     """
 
     def __init__(
@@ -191,16 +163,9 @@ class Abs(Block, _core.Abs):
 
     Examples
     --------
-    >>> from saltus.library import Constant, Abs
-    >>> builder = saltus.DiagramBuilder()
-    >>> u, block = builder.add(Constant([-2.0, 3.0]), Abs())
-    >>> builder.connect(u.output(), block.input())
-    >>> _ = builder.export_output(block.output(), "y")
-    >>> diagram = builder.build()
-    >>> saltus.simulate(
-    ...     diagram, diagram.create_context(), (0.0, 0.0), recorded_signals={"y": diagram.output()}
-    ... ).outputs["y"]
-    array([[2., 3.]])
+    >>> from saltus.library import Abs
+    >>> saltus.response(Abs(), [-2.0, 3.0])
+    array([2., 3.])
     """
 
     def __init__(self, *, name: str | None = None):
@@ -225,16 +190,9 @@ class Saturate(Block, _core.Saturate):
 
     Examples
     --------
-    >>> from saltus.library import Constant, Saturate
-    >>> builder = saltus.DiagramBuilder()
-    >>> u, block = builder.add(Constant([-5.0, 0.5, 5.0]), Saturate(-1.0, 1.0))
-    >>> builder.connect(u.output(), block.input())
-    >>> _ = builder.export_output(block.output(), "y")
-    >>> diagram = builder.build()
-    >>> saltus.simulate(
-    ...     diagram, diagram.create_context(), (0.0, 0.0), recorded_signals={"y": diagram.output()}
-    ... ).outputs["y"]
-    array([[-1. ,  0.5,  1. ]])
+    >>> from saltus.library import Saturate
+    >>> saltus.response(Saturate(-1.0, 1.0), [-5.0, 0.5, 5.0])
+    array([-1. ,  0.5,  1. ])
     """
 
     def __init__(

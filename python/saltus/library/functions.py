@@ -67,18 +67,9 @@ class ReduceBlock(LeafSystem):
 
     Examples
     --------
-    >>> from saltus.library import Constant, ReduceBlock
-    >>> builder = saltus.DiagramBuilder()
-    >>> a, b, block = builder.add(
-    ...     Constant(3.0), Constant(1.0), ReduceBlock(2, lambda u: u[0] ** 2 + u[1])
-    ... )
-    >>> builder.connect(a.output(), block.input(0))
-    >>> builder.connect(b.output(), block.input(1))
-    >>> diagram = builder.build()
-    >>> saltus.simulate(
-    ...     diagram, diagram.create_context(), (0.0, 0.0), recorded_signals={"y": block.output()}
-    ... ).outputs["y"]
-    array([10.])
+    >>> from saltus.library import ReduceBlock
+    >>> saltus.response(ReduceBlock(2, lambda u: u[0] ** 2 + u[1]), 3.0, 1.0)
+    10.0
     """
 
     @refusing
@@ -123,16 +114,9 @@ class FunctionBlock(LeafSystem):
 
     Examples
     --------
-    >>> from saltus.library import Constant, FunctionBlock
-    >>> builder = saltus.DiagramBuilder()
-    >>> u, block = builder.add(Constant([1.0, 2.0, 3.0]), FunctionBlock(np.cumsum))
-    >>> builder.connect(u.output(), block.input())
-    >>> _ = builder.export_output(block.output(), "y")
-    >>> diagram = builder.build()
-    >>> saltus.simulate(
-    ...     diagram, diagram.create_context(), (0.0, 0.0), recorded_signals={"y": diagram.output()}
-    ... ).outputs["y"]
-    array([[1., 3., 6.]])
+    >>> from saltus.library import FunctionBlock
+    >>> saltus.response(FunctionBlock(np.cumsum), [1.0, 2.0, 3.0])
+    array([1., 3., 6.])
     """
 
     @refusing

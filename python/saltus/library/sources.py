@@ -23,13 +23,8 @@ class Constant(Block, _core.Constant):
     Examples
     --------
     >>> from saltus.library import Constant
-    >>> block = Constant([1.0, 2.0])
-    >>> results = saltus.simulate(
-    ...     block, block.create_context(), (0.0, 0.0),
-    ...     recorded_signals={"y": block.output()},
-    ... )
-    >>> results.outputs["y"]
-    array([[1., 2.]])
+    >>> saltus.response(Constant([1.0, 2.0]))
+    array([1., 2.])
     """
 
     def __init__(self, value: ArrayLike, *, name: str | None = None):
@@ -51,15 +46,8 @@ class Step(Block, _core.Step):
     Examples
     --------
     >>> from saltus.library import Step
-    >>> block = Step(0.0, 5.0, step_time=2.0)
-    >>> results = saltus.simulate(
-    ...     block, block.create_context(), (0.0, 3.0), save_at=[1.0, 3.0],
-    ...     recorded_signals={"y": block.output()},
-    ... )
-    >>> results.time
-    array([0., 1., 2., 2., 3.])
-    >>> results.outputs["y"]
-    array([0., 0., 0., 5., 5.])
+    >>> saltus.response(Step(0.0, 5.0, step_time=2.0), t=[1.0, 2.0, 3.0])
+    array([0., 5., 5.])
     """
 
     def __init__(
@@ -90,14 +78,7 @@ class Sine(Block, _core.Sine):
     Examples
     --------
     >>> from saltus.library import Sine
-    >>> block = Sine(2.0, frequency=np.pi / 2)
-    >>> results = saltus.simulate(
-    ...     block, block.create_context(), (0.0, 3.0), save_at=[1.0, 3.0],
-    ...     recorded_signals={"y": block.output()},
-    ... )
-    >>> results.time
-    array([0., 1., 3.])
-    >>> results.outputs["y"]
+    >>> saltus.response(Sine(2.0, frequency=np.pi / 2), t=[0.0, 1.0, 3.0])
     array([ 0.,  2., -2.])
     """
 
@@ -124,15 +105,8 @@ class Clock(Block, _core.Clock):
     Examples
     --------
     >>> from saltus.library import Clock
-    >>> block = Clock()
-    >>> results = saltus.simulate(
-    ...     block, block.create_context(), (0.0, 1.5), save_at=[0.5, 1.5],
-    ...     recorded_signals={"y": block.output()},
-    ... )
-    >>> results.time
-    array([0. , 0.5, 1.5])
-    >>> results.outputs["y"]
-    array([0. , 0.5, 1.5])
+    >>> saltus.response(Clock(), t=[0.5, 1.5])
+    array([0.5, 1.5])
     """
 
     def __init__(self, *, name: str | None = None):
@@ -154,15 +128,8 @@ class Ramp(Block, _core.Ramp):
     Examples
     --------
     >>> from saltus.library import Ramp
-    >>> block = Ramp(1.0, slope=2.0, start_time=1.0)
-    >>> results = saltus.simulate(
-    ...     block, block.create_context(), (0.0, 2.0), save_at=[0.5, 2.0],
-    ...     recorded_signals={"y": block.output()},
-    ... )
-    >>> results.time
-    array([0. , 0.5, 1. , 1. , 2. ])
-    >>> results.outputs["y"]
-    array([1., 1., 1., 1., 3.])
+    >>> saltus.response(Ramp(1.0, slope=2.0, start_time=1.0), t=[0.5, 1.0, 2.0])
+    array([1., 1., 3.])
     """
 
     def __init__(
@@ -200,15 +167,8 @@ class Pulse(Block, _core.Pulse):
     Examples
     --------
     >>> from saltus.library import Pulse
-    >>> block = Pulse(3.0, period=2.0, pulse_width=0.25)
-    >>> results = saltus.simulate(
-    ...     block, block.create_context(), (0.0, 2.2), save_at=[0.25, 1.0, 2.25],
-    ...     recorded_signals={"y": block.output()},
-    ... )
-    >>> results.time
-    array([0.  , 0.  , 0.25, 0.5 , 0.5 , 1.  , 2.  , 2.  , 2.2 ])
-    >>> results.outputs["y"]
-    array([3., 3., 3., 3., 0., 0., 0., 3., 3.])
+    >>> saltus.response(Pulse(3.0, period=2.0, pulse_width=0.25), t=[0.25, 1.0, 2.25])
+    array([3., 0., 3.])
     """
 
     def __init__(

@@ -1,4 +1,4 @@
-"""Blocks with a state."""
+"""Blocks with a continuous state."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from numpy.typing import ArrayLike
 from saltus import _core
 from saltus.library.block import Block
 
-__all__ = ["Integrator", "UnitDelay", "ZeroOrderHold"]
+__all__ = ["Integrator", "SecondOrderIntegrator"]
 
 
 class Integrator(Block, _core.Integrator):
@@ -84,77 +84,58 @@ class Integrator(Block, _core.Integrator):
         )
 
 
-class UnitDelay(Block, _core.UnitDelay):
-    """y[k] = u[k - 1], y[0] = initial_state; held from tick k to the next.
+class SecondOrderIntegrator(Block, _core.SecondOrderIntegrator):
+    """d2x/dt2 = u: the position and the velocity of a body, entry by entry, with stops.
+
+    Outputs: `x`, the position, and `dx`, the velocity. Where x reaches a limit outward it becomes
+    the limit, and the velocity becomes -restitution times what it was. A body with restitution 0,
+    or whose rebounds accumulate, rests at the limit until u points inward.
 
     Parameters
     ----------
-    dt
-        [s] From one tick to the next; ticks are at 0, dt, 2 dt, ..., counted by integers.
-    initial_state
-        A number or a vector: y before the first value, and the shape of the signal.
+    initial_position
+        A number or a vector: the shape of the signal.
+    initial_velocity
+        A number or a vector.
+    lower_limit, upper_limit
+        Of the position, a number or a vector each; either may be left out. Parameters of the
+        context.
+    restitution
+        0 to 1. Parameter of the context, if there is a limit.
     name
         How messages, contexts and `diagram[...]` know it; if not said, its class and number.
 
     Raises
     ------
     ModelError
-        For a dt that is not above 0.
+        For limits that cross, a start outside of them, or another restitution.
 
     Examples
     --------
-    >>> from saltus.library import Clock, UnitDelay
-    >>> builder = saltus.DiagramBuilder()
-    >>> t, block = builder.add(Clock(), UnitDelay(dt=1.0))
-    >>> builder.connect(t.output(), block.input())
-    >>> diagram = builder.build()
-    >>> results = saltus.simulate(
-    ...     diagram, diagram.create_context(), (0.0, 2.0), save_at=[0.5, 1.5],
-    ...     recorded_signals={"y": block.output()},
-    ... )
-    >>> results.time
-    array([0. , 0. , 0.5, 1. , 1. , 1.5, 2. , 2. ])
-    >>> results.outputs["y"]
-    array([0., 0., 0., 0., 0., 0., 0., 1.])
+    A body pushed against a stop at 0.5 m:
+
+    >>> from saltus.library import SecondOrderIntegrator
+    >>> block = SecondOrderIntegrator(upper_limit=0.5)
+    >>> x, v = saltus.response(block, 1.0, t=[0.5, 2.0])
+    >>> x, v
+    (array([0.125, 0.5  ]), array([0.5, 0. ]))
     """
 
-    def __init__(self, dt: float, initial_state: ArrayLike = 0.0, *, name: str | None = None):
-        super().__init__(self._named(name), dt, initial_state)
-
-
-class ZeroOrderHold(Block, _core.ZeroOrderHold):
-    """y(t) = u(k dt) for k dt <= t < (k + 1) dt: what the input was at the last tick.
-
-    Parameters
-    ----------
-    dt
-        [s] From one tick to the next; ticks are at 0, dt, 2 dt, ..., counted by integers.
-    initial_state
-        A number or a vector: y before the first value, and the shape of the signal.
-    name
-        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
-
-    Raises
-    ------
-    ModelError
-        For a dt that is not above 0.
-
-    Examples
-    --------
-    >>> from saltus.library import Clock, ZeroOrderHold
-    >>> builder = saltus.DiagramBuilder()
-    >>> t, block = builder.add(Clock(), ZeroOrderHold(dt=1.0))
-    >>> builder.connect(t.output(), block.input())
-    >>> diagram = builder.build()
-    >>> results = saltus.simulate(
-    ...     diagram, diagram.create_context(), (0.0, 2.0), save_at=[0.5, 1.5],
-    ...     recorded_signals={"y": block.output()},
-    ... )
-    >>> results.time
-    array([0. , 0. , 0.5, 1. , 1. , 1.5, 2. , 2. ])
-    >>> results.outputs["y"]
-    array([0., 0., 0., 0., 1., 1., 1., 2.])
-    """
-
-    def __init__(self, dt: float, initial_state: ArrayLike = 0.0, *, name: str | None = None):
-        super().__init__(self._named(name), dt, initial_state)
+    def __init__(
+        self,
+        initial_position: ArrayLike = 0.0,
+        initial_velocity: ArrayLike = 0.0,
+        *,
+        lower_limit: ArrayLike | None = None,
+        upper_limit: ArrayLike | None = None,
+        restitution: float = 0.0,
+        name: str | None = None,
+    ):
+        super().__init__(
+            self._named(name),
+            initial_position,
+            initial_velocity,
+            lower_limit,
+            upper_limit,
+            restitution,
+        )

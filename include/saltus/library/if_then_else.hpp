@@ -1,0 +1,15 @@
+// y = true_value if condition is true, otherwise false_value; elementwise.
+// condition: one boolean, true if not 0. true_value, false_value: scalars and vectors of one width.
+// out: that width. It is a Switch whose ports stand in the order of the sentence.
+#pragma once
+
+#include "saltus/model/leaf_system.hpp"
+
+namespace saltus {
+
+class IfThenElse final : public LeafSystem {
+ public:
+  explicit IfThenElse(std::string name);
+};
+
+}  // namespace saltus

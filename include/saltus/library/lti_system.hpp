@@ -1,0 +1,36 @@
+// dx/dt = A x + B u, y = C x + D u: a linear system with constant coefficients.
+// in: scalar if B has one column, otherwise a vector. out: scalar if C has one row, otherwise a
+// vector. Parameters "A", "B", "C", "D", each matrix row by row. Without D, or with a D of zeros,
+// there is no feedthrough and no parameter "D": the block may close a loop.
+#pragma once
+
+#include <optional>
+
+#include "saltus/library/arguments.hpp"
+
+namespace saltus {
+
+struct LTISystemMatrices {
+  Eigen::MatrixXd A;                      ///< n x n [1/s]
+  Eigen::MatrixXd B;                      ///< n x inputs
+  Eigen::MatrixXd C;                      ///< outputs x n
+  std::optional<Eigen::MatrixXd> D = {};  ///< outputs x inputs
+};
+
+struct LTISystemOptions {
+  std::optional<Eigen::VectorXd> initial_state = {};  ///< x at the start: n numbers, otherwise 0
+};
+
+class LTISystem final : public LeafSystem {
+ public:
+  using Matrices = LTISystemMatrices;
+  using Options = LTISystemOptions;
+
+  LTISystem(std::string name, const Matrices& matrices, const Options& options = {});
+
+ private:
+  void require_sizes(const Matrices& matrices, const Options& options) const;
+  ParameterIndex declare_matrix(const char* parameter, const Eigen::MatrixXd& matrix);
+};
+
+}  // namespace saltus

@@ -1,0 +1,37 @@
+// d2x/dt2 = u: position x and velocity dx, elementwise; at a limit of x the body stops, or rebounds.
+// in: acceleration. x, dx: outputs, views of the state. All have the shape of initial_position.
+// Parameters "lower_limit", "upper_limit", if given, and then "restitution". Where x reaches a limit
+// outward, x becomes the limit and dx becomes -restitution dx. With restitution 0, and where
+// rebounds accumulate, the entry rests at the limit until u points inward.
+#pragma once
+
+#include <optional>
+
+#include "saltus/library/arguments.hpp"
+
+namespace saltus {
+
+struct SecondOrderIntegratorOptions {
+  Value initial_position = 0.0;
+  Value initial_velocity = 0.0;
+  std::optional<Value> lower_limit = {};  ///< of x
+  std::optional<Value> upper_limit = {};
+  double restitution = 0.0;  ///< 0 to 1: speed after a limit over speed before it
+};
+
+class SecondOrderIntegrator final : public LeafSystem {
+ public:
+  using Options = SecondOrderIntegratorOptions;
+
+  explicit SecondOrderIntegrator(std::string name, const Options& options = {});
+
+ private:
+  void require_sound(const Options& options) const;
+  void require_inside(const Options& options) const;
+  void declare_limit(const char* parameter, const Value& limit, double outward,
+                     ParameterIndex restitution);
+
+  Index n_ = 1;  // width
+};
+
+}  // namespace saltus

@@ -1,0 +1,26 @@
+// Options that are words, each with a meaning.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "saltus/library/arguments.hpp"
+
+namespace saltus::detail {
+
+/// What `word` means by a table of words; a ModelError with the nearest known word if it is none.
+template <class Table>
+auto meaning(const std::string& block, std::string_view what, std::string_view word,
+             const Table& table) {
+  std::vector<std::string> known;
+  for (const auto& [text_form, value] : table) {
+    if (text_form == word) return value;
+    known.emplace_back(text_form);
+  }
+  require_known(block, what, word, known);
+  return std::begin(table)->second;  // not reached: the line above throws
+}
+
+}  // namespace saltus::detail

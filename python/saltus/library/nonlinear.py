@@ -1,0 +1,174 @@
+"""Blocks with kinks, jumps and hysteresis. A kink is located where it reaches a derivative, a guard
+or a reset, and costs nothing elsewhere.
+"""
+
+from __future__ import annotations
+
+from numpy.typing import ArrayLike
+
+from saltus import _core
+from saltus.library.block import Block
+
+__all__ = ["DeadZone", "LookupTable1d", "MinMax", "Quantizer", "Sign"]
+
+
+class DeadZone(Block, _core.DeadZone):
+    """y = 0 for abs(u) < half_range, entry by entry; outside u, or u -+ half_range if
+    `shifted`.
+
+    If y reaches a derivative, where u passes an edge is located as an event.
+
+    Parameters
+    ----------
+    half_range
+        >= 0, a number, or a vector as wide as the input. It is the parameter `half_range` of the
+        context.
+    shifted
+        Whether the edge is subtracted outside, so that y is continuous, as in Simulink. Otherwise y
+        jumps there, as in Collimator.
+    name
+        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+
+    Raises
+    ------
+    ModelError
+        For a half_range below 0.
+
+    Examples
+    --------
+    >>> from saltus.library import DeadZone
+    >>> saltus.response(DeadZone(1.0), [-3.0, 0.5, 3.0])
+    array([-3.,  0.,  3.])
+    >>> saltus.response(DeadZone(1.0, shifted=True), [-3.0, 0.5, 3.0])
+    array([-2.,  0.,  2.])
+    """
+
+    def __init__(
+        self, half_range: ArrayLike = 1.0, *, shifted: bool = False, name: str | None = None
+    ):
+        super().__init__(self._named(name), half_range, shifted)
+
+
+class MinMax(Block, _core.MinMax):
+    """y = the smallest, or the largest, of u_0, u_1, ..., entry by entry.
+
+    If y reaches a derivative, where another input takes over is located as an event.
+
+    Parameters
+    ----------
+    operator
+        "min" or "max".
+    n_inputs
+        How many inputs there are, 1 or more.
+    name
+        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+
+    Raises
+    ------
+    ModelError
+        For another operator, or no input.
+
+    Examples
+    --------
+    >>> from saltus.library import MinMax
+    >>> saltus.response(MinMax("max"), [1.0, 5.0], 3.0)
+    array([3., 5.])
+    """
+
+    def __init__(self, operator: str, n_inputs: int = 2, *, name: str | None = None):
+        super().__init__(self._named(name), operator, n_inputs)
+
+
+class Quantizer(Block, _core.Quantizer):
+    """y = interval round(u / interval), entry by entry: the nearest level, with a level at 0.
+
+    If y reaches a derivative, where the level changes is located as an event.
+
+    Parameters
+    ----------
+    interval
+        > 0, a number, or a vector as wide as the input. It is the parameter `interval` of the
+        context.
+    name
+        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+
+    Raises
+    ------
+    ModelError
+        For an interval that is not above 0.
+
+    Examples
+    --------
+    >>> from saltus.library import Quantizer
+    >>> saltus.response(Quantizer(0.5), [0.2, 0.7, -1.4])
+    array([ 0. ,  0.5, -1.5])
+    """
+
+    def __init__(self, interval: ArrayLike, *, name: str | None = None):
+        super().__init__(self._named(name), interval)
+
+
+class Sign(Block, _core.Sign):
+    """y = -1 for u < 0, 0 for u = 0, 1 for u > 0, entry by entry.
+
+    If y reaches a derivative, where u passes zero is located as an event.
+
+    Parameters
+    ----------
+    name
+        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+
+    Examples
+    --------
+    >>> from saltus.library import Sign
+    >>> saltus.response(Sign(), [-2.0, 0.0, 3.0])
+    array([-1.,  0.,  1.])
+    """
+
+    def __init__(self, *, name: str | None = None):
+        super().__init__(self._named(name))
+
+
+class LookupTable1d(Block, _core.LookupTable1d):
+    """y = the value of a table at u, entry by entry.
+
+    If y reaches a derivative, where u passes a point of the table is located as an event, by one
+    guard for all points.
+
+    Parameters
+    ----------
+    input_array
+        The points, 2 or more numbers that increase. They are fixed.
+    output_array
+        The values at the points. It is the parameter `output_array` of the context.
+    interpolation
+        "linear", "nearest", or "flat": the value of the point before.
+    extrapolation
+        "clip", the value of the outer point; "linear"; or "error": y is not a number there, and the
+        run ends with an error.
+    name
+        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+
+    Raises
+    ------
+    ModelError
+        For arrays that do not fit, points that do not increase, or other words.
+
+    Examples
+    --------
+    >>> from saltus.library import LookupTable1d
+    >>> table = LookupTable1d([0.0, 1.0, 3.0], [0.0, 2.0, 1.0])
+    >>> saltus.response(table, [-1.0, 0.5, 2.0, 9.0])
+    array([0. , 1. , 1.5, 1. ])
+    """
+
+    def __init__(
+        self,
+        input_array: ArrayLike,
+        output_array: ArrayLike,
+        interpolation: str = "linear",
+        extrapolation: str = "clip",
+        *,
+        name: str | None = None,
+    ):
+        super().__init__(self._named(name), input_array, output_array, interpolation, extrapolation)

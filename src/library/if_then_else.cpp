@@ -1,0 +1,22 @@
+// y = true_value if condition is true, otherwise false_value; elementwise.
+#include "saltus/library/if_then_else.hpp"
+
+#include "saltus/library/elementwise.hpp"
+
+namespace saltus {
+
+IfThenElse::IfThenElse(std::string name) : LeafSystem(std::move(name)) {
+  const int condition = declare_input_port({.name = "condition", .shape = Shape::scalar()});
+  const int yes = declare_input_port({.name = "true_value"});
+  const int no = declare_input_port({.name = "false_value"});
+  declare_output_port({.name = "out",
+                       .shape = {},
+                       .shape_rule = detail::stretch(this->name()),
+                       .reads = Reads::inputs,
+                       .entries = entry_by_entry,
+                       .formula = [=](const auto& at) {
+                         return at.choose(at.u(condition) != 0.0, at.u(yes), at.u(no));
+                       }});
+}
+
+}  // namespace saltus

@@ -1,0 +1,71 @@
+// dx/dt = A x + B u, y = C x + D u: a linear system with constant coefficients.
+#include "saltus/library/lti_system.hpp"
+
+namespace saltus {
+
+namespace {
+
+/// Entry i of M v, where `v(j)` is entry j of a vector of `columns` numbers.
+template <class At, class Entry>
+auto entry_of_product(const At& at, ParameterIndex matrix, Index columns, Index i, Entry v) {
+  auto sum = at.p(matrix, i * columns) * v(0);
+  for (Index j = 1; j < columns; ++j) sum += at.p(matrix, i * columns + j) * v(j);
+  return sum;
+}
+
+}  // namespace
+
+LTISystem::LTISystem(std::string name, const Matrices& matrices, const Options& options)
+    : LeafSystem(std::move(name)) {
+  require_sizes(matrices, options);
+  const Index n = matrices.A.rows(), inputs = matrices.B.cols(), outputs = matrices.C.rows();
+  const ParameterIndex a = declare_matrix("A", matrices.A), b = declare_matrix("B", matrices.B),
+                       c = declare_matrix("C", matrices.C);
+  std::optional<ParameterIndex> d;
+  if (matrices.D && !matrices.D->isZero(0.0)) d = declare_matrix("D", *matrices.D);
+  const auto signal = [](Index size) { return size == 1 ? Shape::scalar() : Shape::of(size); };
+  declare_input_port({.name = "in", .shape = signal(inputs)});
+  declare_continuous_state(
+      {.initial = options.initial_state.value_or(Eigen::VectorXd::Zero(n)),
+       .reads = Reads::continuous_state | Reads::inputs,
+       .formula = [=](const auto& at, Index i) {
+         return entry_of_product(at, a, n, i, [&](Index j) { return at.x(j); }) +
+                entry_of_product(at, b, inputs, i, [&](Index j) { return at.u(0, j); });
+       }});
+  declare_output_port(
+      {.name = "out",
+       .shape = signal(outputs),
+       .reads = d ? Reads::continuous_state | Reads::inputs : Reads::continuous_state,
+       .inputs = d ? std::vector{0} : std::vector<int>{},
+       .formula = [=](const auto& at, Index i) {
+         auto y = entry_of_product(at, c, n, i, [&](Index j) { return at.x(j); });
+         if (d) y += entry_of_product(at, *d, inputs, i, [&](Index j) { return at.u(0, j); });
+         return y;
+       }});
+}
+
+void LTISystem::require_sizes(const Matrices& m, const Options& options) const {
+  const Index n = m.A.rows();
+  const auto sized = [this](const char* what, const Eigen::MatrixXd& found, Index rows,
+                            Index columns) {
+    detail::insist(found.rows() == rows && found.cols() == columns, name(), what, " is ",
+                   found.rows(), " x ", found.cols(), "; expected ", rows, " x ", columns,
+                   ", as A, B and C say");
+  };
+  detail::insist(n > 0 && m.B.cols() > 0 && m.C.rows() > 0, name(),
+                 "A, B or C is empty; expected a state, an input and an output or more");
+  sized("A", m.A, n, n);
+  sized("B", m.B, n, m.B.cols());
+  sized("C", m.C, m.C.rows(), n);
+  if (m.D) sized("D", *m.D, m.C.rows(), m.B.cols());
+  const Index found = options.initial_state ? options.initial_state->size() : n;
+  detail::insist(found == n, name(), "initial_state has ", found, " values; expected ", n,
+                 ", one for each row of A");
+}
+
+ParameterIndex LTISystem::declare_matrix(const char* parameter, const Eigen::MatrixXd& matrix) {
+  const Eigen::MatrixXd by_rows = matrix.transpose();
+  return declare_dynamic_parameter(parameter, Eigen::VectorXd(by_rows.reshaped()));
+}
+
+}  // namespace saltus

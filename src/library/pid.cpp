@@ -1,0 +1,112 @@
+// v = kp u + i + kd n (u - f), di/dt = ki u, df/dt = n (u - f); y = v, or v between the limits.
+#include "saltus/library/pid.hpp"
+
+#include <cmath>
+
+#include "saltus/library/operations.hpp"
+
+namespace saltus {
+
+namespace {
+
+/// v; x is (i, f).
+template <class At, class Gains>
+auto pid_sum(const At& at, const Gains& k) {
+  const auto u = at.u(0, 0);
+  return at.p(k.kp, 0) * u + at.x(0) + at.p(k.kd, 0) * at.p(k.n, 0) * (u - at.x(1));
+}
+
+}  // namespace
+
+PID::PID(std::string name, const Options& options) : LeafSystem(std::move(name)) {
+  require_sound(options);
+  k_.kp = declare_dynamic_parameter("kp", options.kp);
+  k_.ki = declare_dynamic_parameter("ki", options.ki);
+  k_.kd = declare_dynamic_parameter("kd", options.kd);
+  k_.n = declare_dynamic_parameter("n", options.n);
+  declare_input_port({.name = "in", .shape = Shape::scalar()});
+  if (options.lower_limit || options.upper_limit) declare_limits(options);
+  declare_state(options.initial_state);
+  declare_output();
+}
+
+void PID::require_sound(const Options& o) const {
+  detail::insist(o.n > 0.0 && std::isfinite(o.n), name(), "n = ", o.n,
+                 " 1/s; expected a finite number > 0: the derivative needs its filter");
+  const double low = o.lower_limit.value_or(-HUGE_VAL), high = o.upper_limit.value_or(HUGE_VAL);
+  detail::insist(low < high, name(), "lower_limit ", low, " is not below upper_limit ", high,
+                 "; expected lower_limit < upper_limit");
+  detail::insist(o.band.value_or(1.0) > 0.0, name(), "band = ", o.band.value_or(1.0),
+                 "; expected a number > 0");
+}
+
+void PID::declare_limits(const Options& o) {
+  const double size = o.lower_limit && o.upper_limit
+                          ? *o.upper_limit - *o.lower_limit
+                          : o.upper_limit.value_or(0.0) + o.lower_limit.value_or(0.0);
+  const double usual = 1e-3 * (size == 0.0 ? 1.0 : std::abs(size));
+  const ParameterIndex band = declare_dynamic_parameter("band", o.band.value_or(usual));
+  declare_discrete_state(Eigen::VectorXd::Zero((o.lower_limit ? 1 : 0) + (o.upper_limit ? 1 : 0)));
+  if (o.lower_limit) declare_limit("lower_limit", *o.lower_limit, -1.0, band);
+  if (o.upper_limit) declare_limit("upper_limit", *o.upper_limit, 1.0, band);
+}
+
+/// Its guard is how far v is beyond the limit, or how much the error pushes, whichever is less;
+/// while the integral is clamped, how far it is from being released.
+void PID::declare_limit(const char* parameter, double value, double outward, ParameterIndex band) {
+  const Index entry = static_cast<Index>(limits_.size());
+  const ParameterIndex limit = declare_dynamic_parameter(parameter, value);
+  const auto excess = [k = k_, limit, outward](const auto& at) {
+    return outward * (pid_sum(at, k) - at.p(limit, 0));
+  };
+  const auto guard = [=, k = k_](const auto& at) {
+    const auto push = outward * at.p(k.ki, 0) * at.u(0, 0);
+    const auto enter = detail::operation(tape::Op::minimum, excess(at), push);
+    const auto stay = detail::operation(tape::Op::minimum, excess(at) + at.p(band, 0), push);
+    return at.choose(at.z(entry) != 0.0, -stay, enter);
+  };
+  declare_zero_crossing({.name = text("clamp_at_", parameter),
+                         .reset_map =
+                             [entry](const At& at, Next& next) {
+                               Eigen::VectorXd z = at.z;
+                               z[entry] = 1.0 - z[entry];
+                               next.set_discrete_state(z);
+                             },
+                         .direction = Direction::negative_then_non_negative,
+                         .at_start = AtStart::fire,
+                         .zeno_tolerance = 0.0,
+                         .formula = guard});
+  const RelationIndex beyond =
+      declare_relation({.name = text("beyond_", parameter), .formula = excess});
+  limits_.push_back({entry, outward, limit, beyond});
+}
+
+void PID::declare_state(double initial) {
+  const bool limited = !limits_.empty();
+  declare_continuous_state({.initial = Eigen::Vector2d(initial, 0.0),
+                            .reads = Reads::continuous_state | Reads::inputs |
+                                     (limited ? Reads::discrete_state : Reads::parameters),
+                            .formula = [k = k_, clamps = limits_](const auto& at, Index i) {
+                              auto slope = i == 0 ? at.p(k.ki, 0) * at.u(0, 0)
+                                                  : at.p(k.n, 0) * (at.u(0, 0) - at.x(1));
+                              if (i == 0) {
+                                for (const Limit& clamp : clamps)
+                                  slope = at.choose(at.z(clamp.entry) != 0.0, 0.0, slope);
+                              }
+                              return slope;
+                            }});
+}
+
+void PID::declare_output() {
+  const Reads linear = Reads::continuous_state | Reads::inputs;
+  declare_output_port({.name = "out",
+                       .reads = limits_.empty() ? linear : linear | Reads::relations,
+                       .formula = [k = k_, clamps = limits_](const auto& at, Index) {
+                         auto y = pid_sum(at, k);
+                         for (const Limit& clamp : clamps)
+                           y = at.choose(at.relation(clamp.beyond, 0), at.p(clamp.value, 0), y);
+                         return y;
+                       }});
+}
+
+}  // namespace saltus
