@@ -13,8 +13,8 @@ class Locator {
 
   Locator(Machine& machine, GuardSet& guards)
       : guards_(&guards),
-        stopping_(machine, guards, guards.stopping()),
-        watching_(machine, guards, guards.watching()) {}
+        stopping_(machine, guards, guards.active().stopping),
+        watching_(machine, guards, guards.active().monitors) {}
 
   /// Finds the first offset at which the solver has to stop; false if there is none. If a look
   /// throws, the guards are as before.

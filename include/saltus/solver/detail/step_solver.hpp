@@ -111,7 +111,7 @@ class StepSolver : public Interface {
   /// Delivers the step to its first root, or to its end.
   StopReason deliver(double t_stop) {
     const auto inside = [this](double u, double* x) { self().inside_step(u, x); };
-    if (!guards_->active().empty() && find_root(inside)) {
+    if (!guards_->active().all.empty() && find_root(inside)) {
       const double root = locator_.offset();
       if (root < length_) read_root(root);
       offset_ = root;
