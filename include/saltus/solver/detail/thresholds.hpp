@@ -210,6 +210,13 @@ inline constexpr double start_horizons = 4.0;
 /// [eps |t|] and [s]: CVODE takes no step within a few roundings of the time, nor below the least
 /// double of full precision.
 inline constexpr double cvode_roundings = 64.0, cvode_shortest = 1e-290;
+/// [time constants of the fastest part] A flight of more is left to BDF. An explicit method would
+/// need more than 60 steps for it at its limit of stability, 3.25; BDF starts in 13 to 27.
+inline constexpr double stiff_flight = 200.0;
+/// [steps] that have to advance by as many roundings of the time, if each is shorter than
+/// `least_step_roundings` of them. The jumps of Van der Pol with mu = 1e6 take steps of ten
+/// roundings. tests/unit/progress_test.cpp
+inline constexpr int watched_steps = 100;
 /// [steps] of order 1 after CVODE's start.
 inline constexpr int coarse_steps = 2;
 /// [failures] of Newton's iteration in one step; CVODE's own ten are too few for a stiff contact.
