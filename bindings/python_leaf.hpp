@@ -82,7 +82,7 @@ class PythonLeaf final : public LeafSystem {
     return std::ranges::any_of(functions_, [](const Function& f) { return f.compiled == nullptr; });
   }
 
-  /// For the garbage collector.
+  /// These two serve the garbage collector.
   int traverse(visitproc visit, void* argument) const;
   void clear() { functions_.clear(); }
 

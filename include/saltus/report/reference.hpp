@@ -36,8 +36,8 @@ struct ReferenceRun {
 struct Reference {
   ReferenceKind kind = ReferenceKind::exact;
   std::string provenance = {};
-  /// Of kind run: a bound of its error, in states and [s] in event times. NaN for the other kinds,
-  /// whose provenance gives it.
+  /// A bound of the error of a reference of kind run, in states and [s] in event times. It is NaN
+  /// for the other kinds, whose provenance gives it.
   double bound = Achieved::unknown, event_bound = Achieved::unknown;
   std::vector<ReferenceRun> runs = {};  ///< one, or two by different methods
 };

@@ -192,7 +192,7 @@ class RadauSolver final : public StepSolver<RadauSolver> {
     return true;
   }
 
-  /// The error of a step of length h, in what is allowed. A step that damps may have more.
+  /// The error of a step of length h, in allowed errors. A step that damps may have more.
   double judged(double h) {
     const double error = estimate(h);
     if (!damping_.by(h) || !std::isfinite(error)) return error;

@@ -143,7 +143,7 @@ class StepSolver : public Interface {
     }
   }
 
-  /// By default as many points as the degree of the interpolant, at least three: the interpolant of
+  /// The default is as many points as the degree of the interpolant, at least three: that of
   /// a multistep method that begins is a line, but its guard need not be.
   int scan_points() {
     return guards_->scan_points ? *guards_->scan_points

@@ -142,8 +142,8 @@ inline constexpr double bdf_step = 0.4, bdf_calls = 1.5, saved_calls = 0.5;
 inline constexpr double other_directions = 0.1;
 inline constexpr int power_iterations = 3;
 /// [iterations] at most, where many oscillations take part. [sine of the angle between two vectors]
-/// What the fit of one pair may leave unexplained; [cosine] of the angle by which many turn a
-/// vector back. tests/unit/spectral_radius_test.cpp
+/// The part that the fit of one pair may leave unexplained; [cosine] of the angle by which many
+/// turn a vector back. tests/unit/spectral_radius_test.cpp
 inline constexpr int most_power_iterations = 15;
 inline constexpr double unexplained_turn = 0.1, turned_back = 0.9;
 
@@ -275,7 +275,7 @@ inline constexpr Index fresh_jacobian = 16;
 inline constexpr int setup_steps = 5;
 /// [vectors] of GMRES's Krylov space, at most.
 inline constexpr int krylov_vectors = 20;
-/// [1] and [entries of a row]: what the incomplete factorisation drops and keeps (Eigen's ILUT).
+/// [1] and [entries of a row]: the incomplete factorisation drops and keeps them (Eigen's ILUT).
 inline constexpr double dropped = 1e-3;
 inline constexpr int kept_fill = 10;
 /// [times] that a search may find new places before it is given up.
