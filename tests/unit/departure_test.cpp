@@ -162,3 +162,15 @@ TEST_CASE("an expected side costs no more calls, and gives the same side", "[dep
   CHECK(calls(Departure::either_side) < measured);
   CHECK(calls(1) == measured);  // the other side has to be proved
 }
+
+TEST_CASE("neither rounding nor curvature is much of the speed of a guard", "[departure]") {
+  const SimulatorOptions options{.rtol = 1e-8, .atol = 1e-8};
+  // A guard that is computed with a rounding of 1e-6, beside a movement that is not seen before.
+  Chain rounded({0.3, 1.0}, 0.0, [](const At& at) { return (at.x[0] + 1e10) - 1e10; }, options);
+  rounded.departure.from(0.0, rounded.machine.x, 10.0);
+  CHECK_THAT(rounded.departure.speed(rounded.group(), 0, 10.0), WithinRel(1.0, 1e-3));
+  // A flight that turns after 0.1 s.
+  Chain bent({1.0, 1.0}, -9.81, height, options);
+  bent.departure.from(0.0, bent.machine.x, 10.0);
+  CHECK_THAT(bent.departure.speed(bent.group(), 0, 10.0), WithinRel(1.0, 0.1));
+}

@@ -61,7 +61,7 @@ inline constexpr double lift_of_run = 1e-2;
 inline constexpr double short_run = 1.0;
 inline constexpr double short_run_looks = 1e9;
 /// [first looks] The time over which the speed of a guard is bounded: long enough that its rounding
-/// does not count, and short enough that no flow leaves its range.
+/// does not count, and short enough that no flow leaves its range. tests/unit/departure_test.cpp
 inline constexpr double speed_looks = 1e6;
 /// [of the difference of two slopes] The curvature that extrapolation leaves in the slope.
 inline constexpr double slope_noise = 1e-6;
