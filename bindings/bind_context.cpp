@@ -91,6 +91,21 @@ void bind_context(py::module_& module) {
       .def_property_readonly(
           "parameters", &parameters,
           "Every parameter by name, a number or a read-only vector; in a diagram by 'block.name'.")
+      .def_property_readonly(
+          "num_continuous_states", [](const Context& c) { return c.continuous_state().size(); },
+          "How many numbers `continuous_state` has.")
+      .def_property_readonly(
+          "num_discrete_states", [](const Context& c) { return c.discrete_state().size(); },
+          "How many numbers `discrete_state` has.")
+      .def_property_readonly(
+          "system_id",
+          [](const Context& c) {
+            return c.layout().systems.empty() ? 0 : c.layout().systems.front().id.value;
+          },
+          "The number of the system whose values these are; 0 for none.")
+      .def_property_readonly(
+          "state", [](const py::object& self) { return self; },
+          "The context itself, which has the states and the modes.")
       .def("with_time", &Context::with_time, py::arg("time"), docs::with_time)
       .def(
           "with_continuous_state",

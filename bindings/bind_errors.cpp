@@ -2,12 +2,33 @@
 // does not pass here: pybind11 rethrows it unchanged.
 #include <pybind11/stl.h>
 
+#include <type_traits>
+
 #include "bindings.hpp"
-#include "saltus/base/error.hpp"
+#include "saltus/base/model_errors.hpp"
 
 namespace saltus::python {
 
 py::object error_class(const char* name) { return py::module_::import("saltus.errors").attr(name); }
+
+namespace {
+
+/// The name of the class of a model error.
+const char* class_of(const ModelError& error) {
+  const auto is = [&]<class Kind>(std::type_identity<Kind>) {
+    return dynamic_cast<const Kind*>(&error) != nullptr;
+  };
+  if (is(std::type_identity<SystemNameNotUniqueError>())) return "SystemNameNotUniqueError";
+  if (is(std::type_identity<EmptyDiagramError>())) return "EmptyDiagramError";
+  if (is(std::type_identity<BuilderError>())) return "BuilderError";
+  if (is(std::type_identity<BlockParameterError>())) return "BlockParameterError";
+  if (is(std::type_identity<InputNotConnectedError>())) return "InputNotConnectedError";
+  if (is(std::type_identity<AlgebraicLoopError>())) return "AlgebraicLoopError";
+  if (is(std::type_identity<ShapeMismatchError>())) return "ShapeMismatchError";
+  return is(std::type_identity<StaticError>()) ? "StaticError" : "ModelError";
+}
+
+}  // namespace
 
 void bind_errors(py::module_& module) {
   py::register_local_exception_translator([](std::exception_ptr thrown) {
@@ -18,7 +39,7 @@ void bind_errors(py::module_& module) {
           error_class("SimulationError")(error.what(), error.time(), error.block());
       py::set_error(py::type::of(python), python);
     } catch (const ModelError& error) {
-      py::set_error(error_class("ModelError"), error.what());
+      py::set_error(error_class(class_of(error)), error.what());
     } catch (const Error& error) {
       py::set_error(error_class("Error"), error.what());
     }

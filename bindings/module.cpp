@@ -18,6 +18,7 @@ PYBIND11_MODULE(_core, module) {
   bind_state(module);
   bind_results(module);
   bind_simulation(module);
+  bind_evaluate(module);
   bind_ensemble(module);
   bind_shelf(module);
   bind_report(module);

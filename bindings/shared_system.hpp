@@ -36,6 +36,7 @@ class SharedSystem final : public System {
   std::vector<std::string> output_names() const override { return system_->output_names(); }
   void collect(Structure& out, const std::string& path) const override {
     system_->collect(out, path);
+    collect_fixed(out);
   }
   LeafPort output_source(int index) const override { return system_->output_source(index); }
   LeafPort input_target(int index) const override { return system_->input_target(index); }

@@ -18,7 +18,8 @@ std::size_t declared_by(const PythonLeaf& leaf) {
 void BlockTraces::take_shapes(const Plan& plan, const PlanLeaf& where) {
   inputs.clear(), outputs.clear();
   for (const int node : where.inputs) inputs.push_back(plan.node(node).shape);
-  for (const int node : where.outputs) outputs.push_back(plan.node(node).shape);
+  const std::size_t own = leaf->declarations().outputs.size();  // before those of fixed inputs
+  for (std::size_t i = 0; i < own; ++i) outputs.push_back(plan.node(where.outputs[i]).shape);
 }
 
 void BlockTraces::guess_shapes() {
@@ -42,6 +43,7 @@ Traces::Traces(const System& system) {
 }
 
 bool Traces::stale() const {
+  if (fixes_ != System::fixes()) return true;
   return std::ranges::any_of(
       blocks_, [](const BlockTraces& block) { return block.declared != declared_by(*block.leaf); });
 }

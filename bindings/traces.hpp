@@ -35,7 +35,7 @@ class Traces {
  public:
   explicit Traces(const System& system);
 
-  /// Whether some block has declared more since.
+  /// Whether some block has declared more since, or the value of an open input was fixed.
   bool stale() const;
   bool complete() const;
   void guess_shapes();
@@ -49,6 +49,7 @@ class Traces {
  private:
   std::vector<BlockTraces> blocks_;
   std::unordered_map<const LeafSystem*, std::size_t> numbers_;
+  int fixes_ = System::fixes();
   std::shared_ptr<Interpreted> interpreted_ = std::make_shared<Interpreted>();
 };
 

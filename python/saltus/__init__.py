@@ -15,6 +15,7 @@ from saltus.leaf_system import LeafSystem
 from saltus.progress import Progress
 from saltus.report import WorkPrecision, work_precision
 from saltus.results import Event, EventLog, Results, Statistics, Values, load_results
+from saltus.results import load_results as load
 from saltus.scenes import Scene, scene, shelf
 from saltus.simulation import Simulator, SimulatorOptions, simulate
 from saltus.solving.guard import Guard
@@ -52,6 +53,7 @@ __all__ = [
     "__version__",
     "compiled",
     "library",
+    "load",
     "load_results",
     "scene",
     "shelf",

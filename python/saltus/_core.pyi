@@ -229,9 +229,33 @@ class Context:
         """
 
     @property
+    def num_continuous_states(self) -> int:
+        """
+        How many numbers `continuous_state` has.
+        """
+
+    @property
+    def num_discrete_states(self) -> int:
+        """
+        How many numbers `discrete_state` has.
+        """
+
+    @property
     def parameters(self) -> dict[str, float | NDArray[np.float64]]:
         """
         Every parameter by name, a number or a read-only vector; in a diagram by 'block.name'.
+        """
+
+    @property
+    def state(self) -> Any:
+        """
+        The context itself, which has the states and the modes.
+        """
+
+    @property
+    def system_id(self) -> int:
+        """
+        The number of the system whose values these are; 0 for none.
         """
 
     @property
@@ -711,7 +735,11 @@ def context_from_dict(system: AnySystem, data: dict[str, Any]) -> Context:
     """
 
 def entry_names(arg0: Context, /) -> list[str]: ...
+def evaluate_input(arg0: AnySystem, arg1: AnySystem, arg2: int, arg3: Context, /) -> Any: ...
+def evaluate_output(arg0: AnySystem, arg1: AnySystem, arg2: int, arg3: Context, /) -> Any: ...
+def evaluate_time_derivatives(arg0: AnySystem, arg1: Context, arg2: AnySystem, /) -> np.ndarray: ...
 def find_entry(arg0: Context, arg1: str, /) -> int: ...
+def fix_input(arg0: AnySystem, arg1: int, arg2: Any, /) -> None: ...
 def known_names(arg0: str, arg1: Sequence[str], /) -> str:
     """
     The end of a message about an unknown name.

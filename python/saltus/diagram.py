@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from typing import overload
 
+import numpy as np
+
 from saltus import _core
 from saltus.errors import ModelError
 from saltus.ports import core_port
 from saltus.system import InputPort, OutputPort, System
 
-__all__ = ["Diagram", "DiagramBuilder"]
+__all__ = ["Diagram", "DiagramBuilder", "block_of", "port_of"]
 
 
 def _port(port: object, kind: type[OutputPort] | type[InputPort]) -> tuple[System, int]:
@@ -57,6 +59,51 @@ class Diagram(System, _core.Diagram):
     def blocks(self) -> tuple[System, ...]:
         """The blocks of this diagram, in the order of `add`."""
         return tuple(self._children.values())
+
+    @property
+    def nodes(self) -> tuple[System, ...]:
+        """The blocks of this diagram, as `blocks`."""
+        return self.blocks
+
+    @property
+    def num_systems(self) -> int:
+        """How many blocks this diagram has, an inner diagram counted as one."""
+        return len(self._children)
+
+    def find_system_with_path(self, path: str) -> System:
+        """The block at a path of names, such as "car.engine"; ModelError if there is none."""
+        system: System = self
+        for name in path.split("."):
+            system = block_of(system, name)
+        return system
+
+    @property
+    def parameters(self) -> dict[str, float | np.ndarray]:
+        """The default value of each parameter of its blocks, by path, such as 'gain.gain'."""
+        return self.create_context().parameters
+
+    def _tree(self) -> list[str]:
+        inner = [line for block in self.blocks for line in block._tree()]
+        return [*super()._tree(), *("    " + line for line in inner)]
+
+
+def port_of(system: System, port: OutputPort | str) -> OutputPort:
+    """A port, or the one at a path: 'y' of the system itself, 'car.engine.y' of a block in it."""
+    if isinstance(port, OutputPort):
+        return port
+    if not isinstance(port, str):
+        raise ModelError(f"recorded_signals: expected a port or its path, found {port!r}")
+    *blocks, name = port.split(".")
+    for block in blocks:
+        system = block_of(system, block)
+    return system.output(name)
+
+
+def block_of(system: System, name: str) -> System:
+    """A block of a diagram by name; ModelError if there is none."""
+    if isinstance(system, Diagram):
+        return system[name]
+    raise ModelError(f"block '{system.name}' is no diagram: it has no block '{name}'")
 
 
 class DiagramBuilder:
@@ -116,17 +163,17 @@ class DiagramBuilder:
             self._children[system.name] = system
         return systems[0] if len(systems) == 1 else systems
 
-    def connect(self, source: OutputPort, destination: InputPort) -> None:
+    def connect(self, source: OutputPort | str, destination: InputPort | str) -> None:
         """A wire from an output to an input.
 
         Parameters
         ----------
         source
-            An output of a block that was added, such as `block.output()`; it may feed many
-            inputs.
+            An output of a block that was added, such as `block.output()` or "block.out"; it may
+            feed many inputs.
         destination
-            An input of a block that was added, such as `block.input("reset_trigger")`; it takes one
-            wire.
+            An input of a block that was added, such as `block.input("reset_trigger")` or
+            "block.reset_trigger"; it takes one wire.
 
         Raises
         ------
@@ -149,7 +196,23 @@ class DiagramBuilder:
                 f"connect: the ports are swapped: expected an output and then an input, found "
                 f"{source!r} and then {destination!r}; write connect(output, input)"
             )
+        if isinstance(source, str):
+            source = port_of(*self._from(source))
+        if isinstance(destination, str):
+            block, port = self._from(destination)
+            destination = block.input(port)
         self._core.connect(*_port(source, OutputPort), *_port(destination, InputPort))
+
+    def _from(self, path: str) -> tuple[System, str]:
+        """The block that was added, and the rest of a path such as "gain.out"."""
+        name, dot, rest = path.partition(".")
+        if name in self._children and dot:
+            return self._children[name], rest
+        known = _core.known_names(name, list(self._children))
+        raise ModelError(
+            f"connect: expected the names of a block and of a port, such as 'gain.out', found "
+            f"'{path}'{known}"
+        )
 
     def export_input(self, port: InputPort, name: str | None = None) -> int:
         """Makes an input of a block one of the diagram.

@@ -7,7 +7,19 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from saltus.results import Results
 
-__all__ = ["Error", "ModelError", "SimulationError"]
+__all__ = [
+    "AlgebraicLoopError",
+    "BlockParameterError",
+    "BuilderError",
+    "EmptyDiagramError",
+    "Error",
+    "InputNotConnectedError",
+    "ModelError",
+    "ShapeMismatchError",
+    "SimulationError",
+    "StaticError",
+    "SystemNameNotUniqueError",
+]
 
 
 class Error(Exception):
@@ -37,6 +49,49 @@ class ModelError(Error, ValueError):
         ...
     saltus.errors.ModelError: SimulatorOptions: unknown option 'rtoll'; did you mean 'rtol'? ...
     """
+
+
+class BuilderError(ModelError):
+    """A call of `DiagramBuilder` is wrong.
+
+    Examples
+    --------
+    >>> from saltus.errors import BuilderError
+    >>> builder = saltus.DiagramBuilder()
+    >>> try:
+    ...     builder.export_output(saltus.library.Clock(name="clock").output())
+    ... except BuilderError as error:
+    ...     print(error)
+    block 'clock' was not added to this diagram; its blocks: none
+    """
+
+
+class SystemNameNotUniqueError(BuilderError):
+    """Two blocks of a diagram have one name."""
+
+
+class EmptyDiagramError(BuilderError):
+    """A diagram without a block was built."""
+
+
+class StaticError(ModelError):
+    """A block, or the way the blocks are connected, is wrong."""
+
+
+class BlockParameterError(StaticError):
+    """A value or a word that a block was made with is impossible."""
+
+
+class InputNotConnectedError(StaticError):
+    """An input has no source."""
+
+
+class AlgebraicLoopError(StaticError):
+    """Outputs depend on one another at the same time."""
+
+
+class ShapeMismatchError(StaticError):
+    """An input expects another number of values than its source has."""
 
 
 class SimulationError(Error, RuntimeError):

@@ -6,6 +6,9 @@ import operator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+import numpy as np
+from numpy.typing import ArrayLike
+
 from saltus import _core
 from saltus.errors import ModelError
 
@@ -47,6 +50,35 @@ class OutputPort:
         """The name of the port in its system."""
         return self.system.output_names[self.index]
 
+    def eval(self, context: _core.Context) -> float | np.ndarray:
+        """The value of this output at a context, without a run: a float, or a read-only array.
+
+        Parameters
+        ----------
+        context
+            The values of the system that the port belongs to, or of the diagram around it. No event
+            happens; a comparison that a run would locate has the truth that its guard has there.
+
+        Raises
+        ------
+        ModelError
+            For a context of another system, an open input, and as a run with this system would.
+
+        Examples
+        --------
+        >>> from saltus.library import Gain, Integrator
+        >>> builder = saltus.DiagramBuilder()
+        >>> x, twice = builder.add(Integrator(3.0, name="x"), Gain(2.0, name="twice"))
+        >>> builder.connect(x.output(), twice.input())
+        >>> builder.connect(twice.output(), x.input())
+        >>> diagram = builder.build()
+        >>> twice.output().eval(diagram.create_context())
+        6.0
+        """
+        from saltus import _evaluate
+
+        return _evaluate.output_value(self, context)
+
     def __repr__(self) -> str:
         return f"<output '{self.name}' of '{self.system.name}'>"
 
@@ -79,6 +111,51 @@ class InputPort:
     def name(self) -> str:
         """The name of the port in its system."""
         return self.system.input_names[self.index]
+
+    def eval(self, context: _core.Context) -> float | np.ndarray:
+        """The value that this input has at a context, without a run; otherwise as
+        `OutputPort.eval`.
+
+        Examples
+        --------
+        >>> from saltus.library import Gain
+        >>> gain = Gain(2.0)
+        >>> gain.input().fix_value(4.0)
+        >>> gain.input().eval(gain.create_context())
+        4.0
+        """
+        from saltus import _evaluate
+
+        return _evaluate.input_value(self, context)
+
+    def fix_value(self, value: ArrayLike) -> None:
+        """Gives the input a constant value, so that nothing has to be connected to it.
+
+        It holds for runs and plans that are made afterwards, not for a `Simulator` that there is
+        already. A value that runs shall vary belongs in a `Constant`, whose value is a parameter.
+
+        Parameters
+        ----------
+        value
+            A finite number, or a vector of them.
+
+        Raises
+        ------
+        ModelError
+            For another value. `connect` refuses an input with a fixed value, and a run refuses one
+            that is connected as well.
+
+        Examples
+        --------
+        >>> from saltus.library import Integrator
+        >>> x = Integrator(1.0)
+        >>> x.input().fix_value(-2.0)
+        >>> saltus.simulate(x, x.create_context(), (0.0, 3.0)).context.continuous_state
+        array([-5.])
+        """
+        from saltus import _evaluate
+
+        _evaluate.fix(self, value)
 
     def __repr__(self) -> str:
         return f"<input '{self.name}' of '{self.system.name}'>"

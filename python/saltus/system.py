@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+
+import numpy as np
 
 from saltus import _core, callbacks
 from saltus.callbacks import Explanation
@@ -46,6 +48,16 @@ class System:
     def output_ports(self) -> tuple[OutputPort, ...]:
         """All outputs, in order."""
         return tuple(OutputPort(self, i) for i in range(len(self.output_names)))
+
+    @property
+    def num_input_ports(self) -> int:
+        """How many inputs there are."""
+        return len(self.input_names)
+
+    @property
+    def num_output_ports(self) -> int:
+        """How many outputs there are."""
+        return len(self.output_names)
 
     def input(self, port: int | str = 0) -> InputPort:
         """One input.
@@ -157,7 +169,60 @@ class System:
         >>> Integrator([1.0, 2.0]).create_context()
         Context(time=0, continuous_state=[1, 2], mode=0)
         """
+        from saltus import _evaluate
+
+        _evaluate.made_context(self)
         return _core.System.create_context(self, time)
+
+    def eval_time_derivatives(self, context: _core.Context) -> np.ndarray:
+        """dx/dt of the continuous states of this system at a context, without a run.
+
+        Parameters
+        ----------
+        context
+            The values of this system, or of a diagram around it. No event happens.
+
+        Returns
+        -------
+        numpy.ndarray
+            A number for each continuous state, in the order of `context.continuous_state`.
+
+        Raises
+        ------
+        ModelError
+            For a context of another system, an open input, and as a run with this system would.
+
+        Examples
+        --------
+        >>> from saltus.library import Integrator
+        >>> x = Integrator([1.0, 2.0])
+        >>> x.input().fix_value([0.5, -1.0])
+        >>> x.eval_time_derivatives(x.create_context())
+        array([ 0.5, -1. ])
+        """
+        from saltus import _evaluate
+
+        return _evaluate.rates(self, context)
+
+    def pprint(self, output: Callable[[str], object] = print) -> None:
+        """Prints the blocks of the system as a tree, each with its class and its ports.
+
+        Parameters
+        ----------
+        output
+            What takes the text in place of `print`.
+
+        Examples
+        --------
+        >>> from saltus.library import Gain
+        >>> Gain(2.0, name="double").pprint()
+        double  Gain  (in) -> (out)
+        """
+        output("\n".join(self._tree()))
+
+    def _tree(self) -> list[str]:
+        inputs, outputs = ", ".join(self.input_names), ", ".join(self.output_names)
+        return [f"{self.name}  {type(self).__name__}  ({inputs}) -> ({outputs})"]
 
     def to_dot(
         self,

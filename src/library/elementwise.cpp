@@ -14,9 +14,10 @@ Shape stretched(const std::string& block, std::span<const Shape> shapes) {
   if (fit) return result;
   std::string widths;
   for (const Shape& shape : shapes) widths += text(widths.empty() ? "" : ", ", shape.size);
-  insist(fit, block, "expected scalars and vectors of one width, found the widths ", widths,
-         "; bring them to one width, for example with a Multiplexer");
-  return result;
+  throw ShapeMismatchError(text("block '", block,
+                                "': expected scalars and vectors of one width, found the widths ",
+                                widths,
+                                "; bring them to one width, for example with a Multiplexer"));
 }
 
 ShapeRule stretch(std::string block, std::vector<Shape> parameters) {

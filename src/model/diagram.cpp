@@ -40,6 +40,7 @@ void Diagram::collect(Structure& out, const std::string& path) const {
                          wire.to.system->input_target(wire.to.index)});
   }
   out.systems[mine].last = out.leaves.size();
+  collect_fixed(out);
 }
 
 }  // namespace saltus

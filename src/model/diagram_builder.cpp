@@ -2,6 +2,7 @@
 #include "saltus/model/diagram_builder.hpp"
 #include "saltus/base/list.hpp"
 
+#include "saltus/base/model_errors.hpp"
 #include "saltus/model/detail/names.hpp"
 #include "saltus/model/detail/soundness.hpp"
 #include "saltus/model/leaf_system.hpp"
@@ -17,9 +18,9 @@ void DiagramBuilder::add(std::shared_ptr<const System> block) {
   require_unspent();
   std::string name =
       block->name().empty() ? text("block_", block->system_id().value) : block->name();
-  if (mine_.contains(block.get())) throw ModelError(text("block '", name, "' is added twice"));
+  if (mine_.contains(block.get())) throw BuilderError(text("block '", name, "' is added twice"));
   if (!names_.insert(name).second) {
-    throw ModelError(
+    throw SystemNameNotUniqueError(
         text("two blocks are called '", name, "'; give each block of a diagram its own name"));
   }
   mine_.emplace(block.get(), diagram_.children_.size());
@@ -58,13 +59,13 @@ int DiagramBuilder::export_output(OutputPort port, std::string name) {
 Diagram DiagramBuilder::build(std::string name) {
   require_unspent();
   if (diagram_.children_.empty())
-    throw ModelError("build: the diagram has no block; add one first");
+    throw EmptyDiagramError("build: the diagram has no block; add one first");
   for (const auto& child : diagram_.children_) {
     const auto ports = child.system->input_names();
     for (int i = 0; i < static_cast<int>(ports.size()); ++i) {
-      if (source_of({child.system.get(), i}).empty()) {
-        throw ModelError(text("input '", ports[i], "' of block '", child.name,
-                              "' is not connected; connect it or export it"));
+      if (!child.system->fixes_input(i) && source_of({child.system.get(), i}).empty()) {
+        throw InputNotConnectedError(text("input '", ports[i], "' of block '", child.name,
+                                          "' is not connected; connect it or export it"));
       }
     }
   }
@@ -83,17 +84,17 @@ Diagram DiagramBuilder::build(std::string name) {
 }
 
 void DiagramBuilder::require_unspent() const {
-  if (spent_) throw ModelError("this DiagramBuilder was spent by build(); make a new one");
+  if (spent_) throw BuilderError("this DiagramBuilder was spent by build(); make a new one");
 }
 
 void DiagramBuilder::require_mine(const System* system) const {
   require_unspent();
   if (system == nullptr)
-    throw ModelError("the port belongs to no block; take it from one, such as block.output()");
+    throw BuilderError("the port belongs to no block; take it from one, such as block.output()");
   if (!mine_.contains(system)) {
-    throw ModelError(text("block '", system->name(),
-                          "' was not added to this diagram; its blocks: ",
-                          quoted_list(detail::names_of(diagram_.children_))));
+    throw BuilderError(text("block '", system->name(),
+                            "' was not added to this diagram; its blocks: ",
+                            quoted_list(detail::names_of(diagram_.children_))));
   }
 }
 
@@ -101,12 +102,13 @@ void DiagramBuilder::require_free(InputPort to) const {
   require_mine(to.system);
   to = to.system->input(to.index);
   if (const std::string source = source_of(to); !source.empty()) {
-    throw ModelError(text("input '", port_name(to), "' of block '", name_of(to.system),
-                          "' already has a source, ", source, "; an input takes one"));
+    throw BuilderError(text("input '", port_name(to), "' of block '", name_of(to.system),
+                            "' already has a source, ", source, "; an input takes one"));
   }
 }
 
 std::string DiagramBuilder::source_of(InputPort to) const {
+  if (to.system->fixes_input(to.index)) return "its fixed value";
   if (const auto wire = sources_.find({to.system, to.index}); wire != sources_.end())
     return text("block '", name_of(diagram_.wires_[wire->second].from.system), "'");
   for (const auto& input : diagram_.inputs_) {

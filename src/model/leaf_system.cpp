@@ -98,6 +98,7 @@ void LeafSystem::collect(Structure& out, const std::string& path) const {
   std::string known_as = path.empty() ? name() : path;
   out.systems.push_back({system_id(), known_as, out.leaves.size(), out.leaves.size() + 1});
   out.leaves.push_back({this, std::move(known_as)});
+  collect_fixed(out);
 }
 
 void LeafSystem::declare_continuous_state(ContinuousState state) {

@@ -28,8 +28,10 @@ std::shared_ptr<const Layout> part_layout(const Layout& whole, const Layout::Ran
     if (!prefix.empty() && leaf.path.starts_with(prefix)) leaf.path.erase(0, prefix.size());
     part->leaves.push_back(std::move(leaf));
   }
+  bool inside = false;  // a system comes before the systems in it
   for (Layout::Range inner : whole.systems) {
-    if (inner.first < range.first || inner.last > range.last) continue;
+    inside = inside || inner.id == range.id;
+    if (!inside || inner.first < range.first || inner.last > range.last) continue;
     inner.first -= range.first, inner.last -= range.first;
     part->systems.push_back(std::move(inner));
   }

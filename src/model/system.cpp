@@ -58,6 +58,41 @@ OutputPort System::output(std::string_view port) const {
   return {this, find(port, output_names(), "output")};
 }
 
+void System::fix_input(int index, double value) {
+  fix(index, {Eigen::VectorXd::Constant(1, value), Shape::scalar()});
+}
+
+void System::fix_input(int index, const Eigen::VectorXd& value) {
+  fix(index, {value, Shape::of(value.size())});
+}
+
+namespace {
+
+std::atomic<int>& fix_count() {
+  static std::atomic<int> count{0};
+  return count;
+}
+
+}  // namespace
+
+int System::fixes() noexcept { return fix_count(); }
+
+void System::fix(int index, Fixed fixed) {
+  const List<std::string> names(input_names());
+  const auto& name = names[checked(index, names, "input")];
+  const std::string what = text("the value of input '", name, "' of block '", name_, "'");
+  if (fixed.value.size() == 0)
+    throw ModelError(text(what, ": expected a number or a vector, found an empty vector"));
+  detail::require_finite(fixed.value, what);
+  fixed_.insert_or_assign(index, std::move(fixed));
+  ++fix_count();
+}
+
+void System::collect_fixed(Structure& out) const {
+  for (const auto& [index, fixed] : fixed_)
+    out.fixed.push_back({input_target(index), fixed.value, fixed.shape});
+}
+
 int System::checked(int index, const std::vector<std::string>& names, std::string_view kind) const {
   if (index >= 0 && index < static_cast<int>(names.size())) return index;
   throw ModelError(text("block '", name_, "' has no ", kind, " ", index, ": it has ", names.size(),

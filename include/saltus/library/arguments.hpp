@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "saltus/base/model_errors.hpp"
 #include "saltus/model/leaf_system.hpp"
 
 namespace saltus {
@@ -29,10 +30,10 @@ struct Value {
 
 namespace detail {
 
-/// Throws a ModelError for a block; `what` begins with the value found and ends with a remedy.
+/// Throws a BlockParameterError for a block; `what` begins with the value found and ends with a remedy.
 template <class... Pieces>
 void insist(bool good, const std::string& block, const Pieces&... what) {
-  if (!good) throw ModelError(text("block '", block, "': ", what...));
+  if (!good) throw BlockParameterError(text("block '", block, "': ", what...));
 }
 
 /// Refuses a word that is not one of the known ones.

@@ -2,6 +2,7 @@
 // construction.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -28,8 +29,15 @@ struct Structure {
   struct Wire {
     LeafPort from, to;
   };
+  /// The value of an input that no wire leads to.
+  struct FixedInput {
+    LeafPort to;
+    Eigen::VectorXd value;
+    Shape shape;
+  };
   std::vector<Leaf> leaves;
   std::vector<Wire> wires;
+  std::vector<FixedInput> fixed;  ///< of two for one input the last one counts
   std::vector<Layout::Range> systems;
 };
 
@@ -59,6 +67,16 @@ class System {
   OutputPort output(int index = 0) const;
   OutputPort output(std::string_view port) const;
 
+  /// Gives an input a constant value, so that nothing has to be connected to it: a number, or a
+  /// vector. It counts for what is compiled afterwards. Throws ModelError for an unknown input, and
+  /// for a value that is empty or not finite. An input that has a wire cannot be fixed as well:
+  /// `connect` and `build` refuse it.
+  void fix_input(int index, double value);
+  void fix_input(int index, const Eigen::VectorXd& value);
+  bool fixes_input(int index) const { return fixed_.contains(index); }
+  /// How often inputs of any system were fixed, so that it shows whether a plan is older.
+  static int fixes() noexcept;
+
   /// The default values of every block, at time t [s].
   Context create_context(double t = 0.0) const;
 
@@ -69,7 +87,16 @@ class System {
   /// The leaf input that an input port feeds.
   virtual LeafPort input_target(int index) const = 0;
 
+ protected:
+  /// Appends the values of the inputs that were fixed.
+  void collect_fixed(Structure& out) const;
+
  private:
+  struct Fixed {
+    Eigen::VectorXd value;
+    Shape shape;
+  };
+  void fix(int index, Fixed value);
   static int next_id();
   int checked(int index, const std::vector<std::string>& names, std::string_view kind) const;
   int find(std::string_view port, const std::vector<std::string>& names,
@@ -77,6 +104,7 @@ class System {
 
   std::string name_;
   SystemId id_;
+  std::map<int, Fixed> fixed_;
 };
 
 /// All leaves and wires of a system, with its nesting resolved. The root's own name is not part of

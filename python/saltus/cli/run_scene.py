@@ -21,7 +21,7 @@ from saltus.cli.files import require_picture, require_suffix
 from saltus.cli.scene_of import Chosen, chosen_scene
 from saltus.cli.settings import add_options, add_scene, options_of, settings_of
 from saltus.cli.table import print_table
-from saltus.ensemble.job import port_of
+from saltus.diagram import port_of
 from saltus.errors import ModelError
 from saltus.results import Results
 from saltus.simulation import simulate

@@ -12,6 +12,7 @@ import numpy as np
 from saltus import _core
 from saltus._engine import core_context, core_options
 from saltus.callbacks import Callbacks, planned
+from saltus.diagram import port_of
 from saltus.ensemble.columns import Columns, empty, failed, join
 from saltus.ensemble.table import Column
 from saltus.errors import ModelError
@@ -19,22 +20,10 @@ from saltus.options import SimulatorOptions
 from saltus.results import Results
 from saltus.system import OutputPort, System
 
-__all__ = ["Job", "NoSystem", "Watch", "port_of"]
+__all__ = ["Job", "NoSystem", "Watch"]
 
 Watch = Callable[[int], bool]
 Values = Mapping[str, Column]
-
-
-def port_of(system: System, port: OutputPort | str) -> OutputPort:
-    """A port, or the one of a name: 'y' of the system itself, 'ball.y' of a block in it."""
-    if isinstance(port, OutputPort):
-        return port
-    if not isinstance(port, str):
-        raise ModelError(f"recorded_signals: expected a port or its name, found {port!r}")
-    *path, name = [port] if port in system.output_names else port.split(".")
-    for block in path:
-        system = system[block]  # type: ignore[index]
-    return system.output(name)
 
 
 class NoSystem(ModelError):

@@ -8,7 +8,8 @@ located as an event, and its side is held in between.
 """
 
 from saltus.library.arithmetic import Abs, Adder, Gain, Offset, Product, Saturate
-from saltus.library.functions import FunctionBlock, ReduceBlock
+from saltus.library.called import elsewhere
+from saltus.library.functions import FeedthroughBlock, FunctionBlock, ReduceBlock, SourceBlock
 from saltus.library.logic import Comparator, LogicalOperator, Switch
 from saltus.library.sources import Clock, Constant, Pulse, Ramp, Sine, Step
 from saltus.library.state import Integrator, UnitDelay, ZeroOrderHold
@@ -21,6 +22,7 @@ __all__ = [
     "Comparator",
     "Constant",
     "Demultiplexer",
+    "FeedthroughBlock",
     "FunctionBlock",
     "Gain",
     "Integrator",
@@ -33,8 +35,13 @@ __all__ = [
     "ReduceBlock",
     "Saturate",
     "Sine",
+    "SourceBlock",
     "Step",
     "Switch",
     "UnitDelay",
     "ZeroOrderHold",
 ]
+
+
+def __getattr__(name: str) -> None:
+    raise elsewhere(name, __all__)

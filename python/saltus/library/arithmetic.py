@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from saltus import _core
-from saltus.errors import ModelError
+from saltus.errors import BlockParameterError
 from saltus.library.block import Block
 
 __all__ = ["Abs", "Adder", "Gain", "Offset", "Product", "Saturate"]
@@ -22,18 +22,20 @@ def _operators(block: str, usual: str, n_in: object, operators: object) -> str:
     counts: list[Any] = [len(v) if isinstance(v, str) else v for v in given]
     for count in counts:
         if not isinstance(count, (int, np.integer)) or isinstance(count, bool) or count < 1:
-            raise ModelError(
+            raise BlockParameterError(
                 f"block '{block}': expected the number of inputs, or an operator for each such as "
                 f"'{usual}{usual}', found {count!r}"
             )
     if len(set(counts)) > 1:
-        raise ModelError(
+        raise BlockParameterError(
             f"block '{block}': {counts[0]} inputs and {counts[1]} operators {given[1]!r}; expected "
             "one operator for each input"
         )
     signs = [v for v in given if isinstance(v, str)]
     if len(set(signs)) > 1:
-        raise ModelError(f"block '{block}': operators {signs[0]!r} and {signs[1]!r}; say them once")
+        raise BlockParameterError(
+            f"block '{block}': operators {signs[0]!r} and {signs[1]!r}; say them once"
+        )
     return signs[0] if signs else usual * counts[0]
 
 

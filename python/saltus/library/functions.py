@@ -10,10 +10,10 @@ from numpy.typing import ArrayLike
 from saltus import _core
 from saltus._declarations import callback_of, shape_of
 from saltus._porting import refusing
-from saltus.errors import ModelError
+from saltus.errors import BlockParameterError
 from saltus.leaf_system import LeafSystem
 
-__all__ = ["FunctionBlock", "ReduceBlock"]
+__all__ = ["FeedthroughBlock", "FunctionBlock", "ReduceBlock", "SourceBlock"]
 
 
 def _declare_function(
@@ -62,7 +62,7 @@ class ReduceBlock(LeafSystem):
 
     Raises
     ------
-    ModelError
+    BlockParameterError
         For fewer than one input.
 
     Examples
@@ -94,7 +94,9 @@ class ReduceBlock(LeafSystem):
     ):
         super().__init__(name)
         if n_inputs < 1:
-            raise ModelError(f"block '{self.name}': expected 1 input or more, found {n_inputs}")
+            raise BlockParameterError(
+                f"block '{self.name}': expected 1 input or more, found {n_inputs}"
+            )
         for _ in range(n_inputs):
             self.declare_input_port()
         _declare_function(self, function, shape, boolean, _core.Convention.inputs, formula)
@@ -146,3 +148,68 @@ class FunctionBlock(LeafSystem):
         super().__init__(name)
         self.declare_input_port("in")
         _declare_function(self, function, shape, boolean, _core.Convention.input, formula)
+
+
+class FeedthroughBlock(FunctionBlock):
+    """y = f(u): another name of `FunctionBlock`.
+
+    Examples
+    --------
+    >>> from saltus.library import FeedthroughBlock
+    >>> square = FeedthroughBlock(lambda u: u**2)
+    >>> square.input().fix_value(3.0)
+    >>> square.output().eval(square.create_context())
+    9.0
+    """
+
+
+class SourceBlock(LeafSystem):
+    """y = f(t): a Python function of the time.
+
+    Parameters
+    ----------
+    function
+        Takes the time [s], a float; returns a number or an array. Otherwise as that of
+        `ReduceBlock`.
+    shape
+        The shape of y, where the call before the run would not show it.
+    boolean
+        Whether y is true or false, as for `ReduceBlock`.
+    formula
+        Whether a run may compute the function together with the blocks around it; see
+        `LeafSystem.declare_output_port`.
+    name
+        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+
+    Examples
+    --------
+    >>> from saltus.library import SourceBlock
+    >>> parabola = SourceBlock(lambda t: t**2)
+    >>> parabola.output().eval(parabola.create_context(time=3.0))
+    9.0
+    """
+
+    @refusing
+    def __init__(
+        self,
+        function: Callable[..., ArrayLike],
+        *,
+        shape: int | tuple[int, ...] | None = None,
+        boolean: bool | None = None,
+        formula: bool = False,
+        name: str | None = None,
+    ):
+        super().__init__(name)
+        if not callable(function):
+            raise BlockParameterError(
+                f"block '{self.name}': expected a function, found {function!r}"
+            )
+        self.declare_output_port(
+            lambda time, state: function(time),
+            name="out",
+            requires_inputs=False,
+            shape=shape,
+            boolean=boolean,
+            reads=["time"],
+            formula=formula,
+        )

@@ -15,7 +15,7 @@ from saltus.results.events import EventLog
 from saltus.results.record import KINDS, KeptRun, Record
 from saltus.results.saving import save
 from saltus.results.statistics import Statistics
-from saltus.results.tables import to_pandas, to_xarray
+from saltus.results.tables import to_pandas, to_xarray, write_csv
 from saltus.results.text import as_html, as_text
 from saltus.results.values import Values, values_at
 
@@ -188,6 +188,26 @@ class Results:
         (3, 1)
         """
         return to_pandas(self)
+
+    def to_csv(self, path: str | PathLike[str]) -> None:
+        """Writes the rows as text, with a line for each row: time, jump, then the signals.
+
+        Numbers have all their digits, so that reading them gives the same bits.
+
+        Parameters
+        ----------
+        path : str or path
+            The file, which is written over.
+
+        Examples
+        --------
+        >>> import os, tempfile, saltus
+        >>> path = os.path.join(tempfile.mkdtemp(), "decay.csv")
+        >>> saltus.solve(lambda t, x: -x, (0, 1), [1.0], t_eval=[0, 1]).to_csv(path)
+        >>> print(open(path).read().splitlines()[0])
+        time,jump,x[0]
+        """
+        write_csv(self, path)
 
     def to_xarray(self) -> xarray.Dataset:
         """A variable for each signal over 'time', with 'jump' beside it; vectors have a second

@@ -25,7 +25,7 @@ __all__ = ["load_results", "save"]
 
 FORMAT = "saltus results 2"
 OTHERS = {
-    ".csv": "results.to_pandas().to_csv(path) writes the rows as text",
+    ".csv": "results.to_csv(path) writes the rows as text",
     ".tsv": "results.to_pandas().to_csv(path, sep='\\t') writes the rows as text",
     ".txt": "results.to_pandas().to_string(path) writes the rows as text",
     ".json": "results.to_pandas().to_json(path) writes the rows so",

@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+import csv
 import importlib
+from os import PathLike
 from typing import TYPE_CHECKING, Any
+
+import numpy as np
 
 if TYPE_CHECKING:
     import pandas  # type: ignore[import-untyped,import-not-found,unused-ignore]
@@ -11,7 +15,7 @@ if TYPE_CHECKING:
 
     from saltus.results.outcome import Results
 
-__all__ = ["extra", "to_pandas", "to_xarray"]
+__all__ = ["extra", "to_pandas", "to_xarray", "write_csv"]
 
 
 def extra(library: str, what: str, instead: str = "") -> Any:
@@ -26,16 +30,29 @@ def extra(library: str, what: str, instead: str = "") -> Any:
         ) from None
 
 
-def to_pandas(results: Results) -> pandas.DataFrame:
-    library = extra("pandas", "to_pandas")
+def columns_of(results: Results) -> dict[str, np.ndarray]:
+    """The recorded signals, each entry of a vector by itself."""
     columns = {}
     for name, array in results.outputs.items():
         if array.ndim == 1:
             columns[name] = array
         else:
             columns.update({f"{name}[{i}]": array[:, i] for i in range(array.shape[1])})
+    return columns
+
+
+def write_csv(results: Results, path: str | PathLike[str]) -> None:
+    columns = {"time": results.time, "jump": results.jump, **columns_of(results)}
+    with open(path, "w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(columns)
+        writer.writerows(zip(*(column.tolist() for column in columns.values()), strict=True))
+
+
+def to_pandas(results: Results) -> pandas.DataFrame:
+    library = extra("pandas", "to_pandas")
     index = library.MultiIndex.from_arrays([results.time, results.jump], names=["time", "jump"])
-    frame: pandas.DataFrame = library.DataFrame(columns, index=index)
+    frame: pandas.DataFrame = library.DataFrame(columns_of(results), index=index)
     return frame
 
 

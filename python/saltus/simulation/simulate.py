@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from saltus import _core
@@ -21,7 +21,7 @@ def simulate(
     context: _core.Context | tuple[float, float] | None = None,
     time_span: tuple[float, float] | None = None,
     options: SimulatorOptions | None = None,
-    recorded_signals: Mapping[str, OutputPort] | None = None,
+    recorded_signals: Mapping[str, OutputPort | str] | Sequence[str] | None = None,
     **option_overrides: Any,
 ) -> Results:
     """Runs `system` from the values of `context`: ``simulate(system, context, (0.0, 1.0))``.
@@ -37,8 +37,9 @@ def simulate(
         [s] begin and end.
     options : SimulatorOptions, optional
         How the run is done.
-    recorded_signals : dict of str to OutputPort, optional
-        The outputs to record, by name.
+    recorded_signals : dict of str to OutputPort or str, or a list of str, optional
+        The outputs to record, by name: ports, or paths such as "car.engine.torque". A list of
+        paths names each signal by its path. If not said: the outputs that a diagram exports.
     **option_overrides
         Any option by name; it replaces the one in `options`: ``rtol=1e-9``,
         ``dense_output=True``, ``progress=True``, ...

@@ -24,7 +24,15 @@ from saltus.simulation.whole import (
 )
 from saltus.system import System
 
-__all__ = ["Simulator"]
+__all__ = ["Reached", "Simulator"]
+
+
+class Reached(str):
+    """The status of a run that went on, as text, with the values it has reached."""
+
+    __slots__ = ("context",)
+
+    context: _core.Context
 
 
 class Simulator:
@@ -87,14 +95,16 @@ class Simulator:
     def _plan(self, callbacks: Callbacks | None) -> _core.Plan:
         return _core.Plan(self.system, self._options, callbacks, self.options.machine_code)
 
-    def initialize(self, context: _core.Context) -> None:
-        """Begins a run with these values, at their time.
+    def initialize(self, context: _core.Context) -> Simulator:
+        """Begins a run with these values, at their time. Returns the simulator itself, which has
+        the `context`.
 
         With the context at the end of an earlier run, the new run continues that run. Raises
         ModelError for a context of another system.
         """
         with self._turn.of("initialize", self._core):
             self._initialize(context)
+        return self
 
     def _initialize(self, context: _core.Context) -> None:
         callbacks = self._callbacks
@@ -105,18 +115,21 @@ class Simulator:
         self._core.initialize(core_context(context))
         self._failed = None
 
-    def advance_to(self, time: float) -> str:
+    def advance_to(self, time: float, context: _core.Context | None = None) -> Reached:
         """Goes on to `time`, or to where the run ends before.
 
         Parameters
         ----------
         time : float
             [s] not before the present one.
+        context : Context, optional
+            Begins a new run with these values, as `initialize` does, before it goes on.
 
         Returns
         -------
-        str
-            The status, see `Results.status`.
+        Reached
+            The status as text, see `Results.status`; its attribute `context` has the present
+            values.
 
         Raises
         ------
@@ -130,15 +143,19 @@ class Simulator:
             until then. With the option ``throw=False`` nothing is raised, and the status says it.
         """
         with self._turn.of("advance_to", self._core):
+            if context is not None:
+                self._initialize(context)
             self._follow_changes()
             status = advance(self._core, _seconds(time), self._reporter)
             results, raised = (None, None) if status in WELL else self._ended_badly()
             refuse_stale(self._callbacks, lambda: self._taken()[0])
-        if results is None:
-            return status
-        if self.options.throw:
-            raise_for(results, raised)
-        return results.status
+        if results is not None:
+            if self.options.throw:
+                raise_for(results, raised)
+            status = results.status
+        reached = Reached(status)
+        reached.context = self._core.context
+        return reached
 
     def _follow_changes(self) -> None:
         """Replaces the traces whose sources have changed since the last piece of the run."""

@@ -11,6 +11,7 @@ from saltus._engine import core_options
 from saltus._porting import OPTIONS, refuse
 from saltus.callbacks import Callbacks, planned
 from saltus.callbacks.plans import Key
+from saltus.diagram import Diagram, port_of
 from saltus.errors import ModelError, SimulationError
 from saltus.options import SimulatorOptions
 from saltus.progress import Reporter, reporter_of
@@ -28,6 +29,7 @@ __all__ = [
     "prepared",
     "refuse_stale",
     "run_whole",
+    "signals_of",
 ]
 
 WELL = frozenset({"reached_end", "terminal", "zeno_stop"})
@@ -101,7 +103,26 @@ def checked_options(
     if not isinstance(options, SimulatorOptions):
         raise ModelError(f"expected SimulatorOptions, found {options!r}")
     refuse(where, overrides, (field.name for field in fields(options)), OPTIONS)
-    return replace(options, **overrides)
+    options = replace(options, **overrides)
+    return replace(options, recorded_signals=signals_of(system, options.recorded_signals))
+
+
+def signals_of(system: System, signals: Any) -> Any:
+    """The signals to record, with ports in place of their paths; by default what a diagram exports.
+
+    What makes no sense stays as it is: the engine's options refuse it.
+    """
+    if signals is None:
+        exported = system.output_ports if isinstance(system, Diagram) else ()
+        return {port.name: port for port in exported} or None
+    if isinstance(signals, (list, tuple)) and all(isinstance(path, str) for path in signals):
+        signals = {path: path for path in signals}
+    if not isinstance(signals, Mapping):
+        return signals
+    return {
+        name: port_of(system, port) if isinstance(port, str) else port
+        for name, port in signals.items()
+    }
 
 
 def functions_of(options: SimulatorOptions) -> list[tuple[str, Any]]:

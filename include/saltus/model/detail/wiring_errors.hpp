@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "saltus/base/error.hpp"
 #include "saltus/base/ids.hpp"
+#include "saltus/base/model_errors.hpp"
 
 namespace saltus::detail {
 
@@ -18,14 +18,14 @@ namespace saltus::detail {
   message += text("  '", loop.front(),
                   "'\nput a block without feedthrough into the loop (Integrator, UnitDelay), or "
                   "declare which inputs an output does not read");
-  throw ModelError(message);
+  throw AlgebraicLoopError(message);
 }
 
 /// Refuses a wire to an input that expects another number of values.
 [[noreturn]] inline void throw_wrong_width(std::string_view input, std::string_view block,
                                            Index expected, Index found, std::string_view output) {
-  throw ModelError(text("input '", input, "' of block '", block, "': expected ", expected,
-                        " values, found ", found, " from output '", output, "'"));
+  throw ShapeMismatchError(text("input '", input, "' of block '", block, "': expected ", expected,
+                                " values, found ", found, " from output '", output, "'"));
 }
 
 }  // namespace saltus::detail

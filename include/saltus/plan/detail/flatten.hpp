@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <numeric>
 #include <optional>
-#include <unordered_map>
 #include <utility>
 
 #include "saltus/base/list.hpp"
+#include "saltus/plan/detail/fixed_inputs.hpp"
 #include "saltus/plan/detail/lists.hpp"
 #include "saltus/plan/detail/order.hpp"
 
@@ -76,33 +76,19 @@ inline void add_leaves(Plan& plan, Structure& structure, const Replacements& rep
   }
 }
 
-/// Finds the number of a system's leaf in a plan.
-class LeafNumbers {
- public:
-  explicit LeafNumbers(const Plan& plan) {
-    numbers_.reserve(plan.leaves.size());
-    for (std::size_t i = 0; i < plan.leaves.size(); ++i) numbers_.emplace(plan.leaves[i].system, i);
-  }
-  std::optional<std::size_t> find(const LeafSystem* system) const {
-    const auto found = numbers_.find(system);
-    return found == numbers_.end() ? std::nullopt : std::optional(found->second);
-  }
-
- private:
-  std::unordered_map<const LeafSystem*, std::size_t> numbers_;
-};
-
 /// Finds the node that feeds each input; an open input of the root is an error.
 inline void add_wires(Plan& plan, const Structure& structure, const LeafNumbers& numbers) {
   for (const auto& [from, to] : structure.wires) {
     plan.leaves[numbers.find(to.leaf).value()].inputs[to.index] =
         plan.leaves[numbers.find(from.leaf).value()].outputs[from.index];
   }
+  if (!structure.fixed.empty()) add_fixed_inputs(plan, structure, numbers);
   for (const PlanLeaf& leaf : plan.leaves) {
     for (std::size_t i = 0; i < leaf.inputs.size(); ++i) {
       if (leaf.inputs[i] < 0) {
-        throw ModelError(text("input '", leaf.declared().inputs[i].name, "' of block '", leaf.path,
-                              "' is not connected; connect it to a block, for example a Constant"));
+        throw InputNotConnectedError(
+            text("input '", leaf.declared().inputs[i].name, "' of block '", leaf.path,
+                 "' is not connected; connect it to a block, for example a Constant"));
       }
     }
   }

@@ -1,0 +1,55 @@
+"""Blocks of other tools, and how the same is done here."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from saltus._core import known_names
+
+__all__ = ["elsewhere"]
+
+CALLED = {
+    "Add": "Adder",
+    "Bias": "Offset",
+    "Demux": "Demultiplexer",
+    "Divide": "Product",
+    "Fcn": "FunctionBlock",
+    "Logic": "LogicalOperator",
+    "MATLABFcn": "ReduceBlock",
+    "MatlabFunction": "ReduceBlock",
+    "Mux": "Multiplexer",
+    "PulseGenerator": "Pulse",
+    "Relational": "Comparator",
+    "RelationalOperator": "Comparator",
+    "Saturation": "Saturate",
+    "SineWave": "Sine",
+    "Subtract": "Adder",
+    "Sum": "Adder",
+}
+"""names of blocks in Simulink, Modelica and Drake"""
+DONE = {
+    "Display": "record the signal: simulate(..., recorded_signals={...})",
+    "From": "connect the output where the Goto block begins",
+    "Goto": "an output may be connected to many inputs",
+    "Ground": "give the input a fixed value: port.fix_value(0.0)",
+    "Inport": "builder.export_input",
+    "LogVectorOutput": "record the signal: simulate(..., recorded_signals={...})",
+    "Outport": "builder.export_output",
+    "Scope": "record the signal: simulate(..., recorded_signals={...}), then results.plot()",
+    "Subsystem": "a diagram: DiagramBuilder",
+    "Terminator": "leave it out: an output may be unconnected",
+    "ToWorkspace": "record the signal: simulate(..., recorded_signals={...})",
+}
+"""blocks that are none here"""
+
+
+def elsewhere(name: str, known: Iterable[str]) -> AttributeError | ImportError:
+    """The error for a block that the library does not have. `from saltus.library import Sum` would
+    replace an AttributeError, and with it the advice.
+    """
+    if name in CALLED and CALLED[name].partition("(")[0] in known:
+        return ImportError(f"saltus.library has no '{name}'; it is called {CALLED[name]} here")
+    if name in DONE:
+        return ImportError(f"saltus.library has no '{name}'; {DONE[name]}")
+    found = "" if name.startswith("_") else known_names(name, sorted(known))
+    return AttributeError(f"module 'saltus.library' has no attribute '{name}'{found}")
