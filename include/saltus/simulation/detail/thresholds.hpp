@@ -48,9 +48,10 @@ inline constexpr double furthest_look = 3e5;
 /// tests/semantics/zeno_false_rest_test.cpp
 inline constexpr double first_look_of_run = 1e-9;
 /// [of the run] A state that takes longer than this to move by its tolerance is ignored.
+/// tests/unit/departure_test.cpp (as large)
 inline constexpr double slow_state_of_run = 1e-3;
 /// [of the largest move of the states] A guard that moves by this moves as the states do: its side
-/// is beyond doubt, and its rounding need not be measured.
+/// is beyond doubt, and its rounding need not be measured. tests/unit/departure_test.cpp (as large)
 inline constexpr double doubtless_move = 1e-3;
 /// [lift times] and [of the run]: the furthest look that waits for curvature to exceed rounding.
 /// tests/laws/ball_far_test.cpp
