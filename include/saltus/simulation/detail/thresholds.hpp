@@ -78,7 +78,7 @@ inline constexpr int fixed_point_rounds = 6;
 /// [eps of the size of a state] A reset that moves a state by less has reached its fixed point.
 inline constexpr double fixed_point_roundings = 64.0;
 /// [eps] Relative movement of a state by curvature. It leaves nine digits above the rounding,
-/// enough to know the sign.
+/// enough to know the sign. tests/semantics/zeno_moving_frame_test.cpp (as small)
 inline constexpr double visible_lift = 1e9 * eps;
 /// [of the run] and [eps |t|]: the shortest and the longest look ahead.
 inline constexpr double brief_of_run = 1e-9;
