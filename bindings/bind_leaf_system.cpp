@@ -66,7 +66,8 @@ void declare_continuous_state(py::handle self, py::handle initial, py::object od
   leaf.set_state_dimensions(dimensions_of(values));
 }
 
-/// What a function reads, by the names in Python. Everything includes the relations of the block.
+/// The values that a function reads, by their names in Python. Everything includes the relations of
+/// the block.
 Reads reads_of(const PythonLeaf& leaf, const std::string& what,
                const std::vector<std::string>& words) {
   static const std::vector<std::pair<std::string, Reads>> known{

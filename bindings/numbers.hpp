@@ -22,7 +22,7 @@ Array to_array(py::handle numbers, const std::string& what);
 Eigen::VectorXd to_vector(py::handle numbers, const std::string& what);
 /// A number makes a scalar signal, a vector a vector signal.
 Value to_value(py::handle numbers, const std::string& what);
-/// As to_value; empty for None.
+/// The value of numbers; empty for None.
 std::optional<Value> to_optional_value(py::handle numbers, const std::string& what);
 
 /// Numbers in the form in which most functions return them: a float, an array of doubles, a list or

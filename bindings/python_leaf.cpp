@@ -110,7 +110,7 @@ bool PythonLeaf::means_discrete(const Function& function, bool has_x, bool has_z
            has_x ? "`return state.with_continuous_state(...)`" : "`return state.with_mode(...)`"));
 }
 
-/// Writes what a reset map or an update returned: a state, or the numbers of the one state that the
+/// Writes the result of a reset map or an update: a state, or the numbers of the one state that the
 /// block has.
 void PythonLeaf::write(int k, py::handle result, Next& next) const {
   if (py::isinstance<State>(result)) return result.cast<const State&>().write_to(next);

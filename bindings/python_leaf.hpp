@@ -82,7 +82,7 @@ class PythonLeaf final : public LeafSystem {
     return std::ranges::any_of(functions_, [](const Function& f) { return f.compiled == nullptr; });
   }
 
-  /// For the garbage collector.
+  /// These two serve the garbage collector.
   int traverse(visitproc visit, void* argument) const;
   void clear() { functions_.clear(); }
 
@@ -125,6 +125,7 @@ class PythonLeaf final : public LeafSystem {
   void write(int k, py::handle result, Next& next) const;
   void require_shape(int k, const std::optional<Shape>& shape) const;
   void finish_outputs();
+  void finish(OutputDeclaration& output, const Unfinished& entry, const Declarations& declared);
   std::string whose(const Function& function) const {
     return text("block '", name(), "': ", function.what);
   }

@@ -106,29 +106,33 @@ Shape PythonLeaf::shape_of(int k, std::span<const Shape> inputs) const {
   });
 }
 
+/// Whether an output reads an input of its block.
+static bool reads_inputs(const OutputDeclaration& output, const Declarations& declared) {
+  const bool reads_none = output.inputs && output.inputs->empty();
+  return has(output.reads, Reads::inputs) && !reads_none && !declared.inputs.empty();
+}
+
 /// Runs once, before anyone reads the declarations of this block: outputs get their final shapes.
 void PythonLeaf::finish_outputs() {
   const Locked lock;
   const auto in_use = declarations().use;  // the functions called here must not declare
-  constexpr std::array<Index, 7> guesses{0, 1, 2, 3, 4, 6, 12};
   const std::vector<Unfinished> now = std::exchange(unfinished_, {});
   // The declarations are this object's own; only the interface for the engine is const.
   auto& declared = const_cast<Declarations&>(declarations());
-  for (const Unfinished& entry : now) {
-    OutputDeclaration& output = declared.outputs[entry.output];
-    std::vector<Shape> shapes;
-    for (const InputDeclaration& port : declared.inputs)
-      shapes.push_back(port.shape.value_or(Shape{0, false}));
-    const bool reads_inputs = has(output.reads, Reads::inputs) &&
-                              !(output.inputs && output.inputs->empty()) && !shapes.empty();
-    const auto found =
-        sample(entry.function, shapes,
-               reads_inputs ? std::span<const Index>(guesses) : std::span(guesses).first(1));
-    if (!entry.boolean) output.boolean = found && found->dtype().kind() == 'b';
-    if (!entry.shape && !reads_inputs) {
-      output.shape = !found || found->ndim() == 0 ? Shape::scalar() : Shape::of(found->size());
-    }
-  }
+  for (const Unfinished& entry : now) finish(declared.outputs[entry.output], entry, declared);
+}
+
+void PythonLeaf::finish(OutputDeclaration& output, const Unfinished& entry,
+                        const Declarations& declared) {
+  constexpr std::array<Index, 7> guesses{0, 1, 2, 3, 4, 6, 12};
+  std::vector<Shape> shapes;
+  for (const InputDeclaration& port : declared.inputs)
+    shapes.push_back(port.shape.value_or(Shape{0, false}));
+  const bool reads = reads_inputs(output, declared);
+  const auto found = sample(entry.function, shapes, std::span(guesses).first(reads ? 7 : 1));
+  if (!entry.boolean) output.boolean = found && found->dtype().kind() == 'b';
+  if (!entry.shape && !reads)
+    output.shape = !found || found->ndim() == 0 ? Shape::scalar() : Shape::of(found->size());
 }
 
 void PythonLeaf::collect(Structure& out, const std::string& path) const {

@@ -1,4 +1,4 @@
-// PythonPlan: what a run of a system needs and does not change.
+// PythonPlan: the parts of a run that it does not change.
 #pragma once
 
 #include <memory>

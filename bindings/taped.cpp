@@ -9,7 +9,7 @@ namespace saltus::python {
 
 namespace {
 
-/// The mode among what a tape gives; empty if it is no mode.
+/// The mode among the results of a tape; empty if it is no mode.
 std::optional<int> as_mode(double value) {
   if (value != std::nearbyint(value) || std::abs(value) > 1e9) return std::nullopt;
   return static_cast<int>(value);

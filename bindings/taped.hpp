@@ -7,8 +7,8 @@
 
 namespace saltus::python {
 
-/// Runs the tape in the slot. What is not finite is left to the function itself, which may raise,
-/// or warn.
+/// Runs the tape in the slot. A result that is not finite is left to the function itself, which may
+/// raise, or warn.
 struct Taped {
   Slot slot;
   VectorFunction called;  // the function itself

@@ -22,7 +22,7 @@ struct Trace {
   int function;  // its number in the block
   tape::Tape tape;
   std::optional<TracedRelations> relations;
-  bool wrote_x = false, wrote_z = false, wrote_mode = false;  // what a reset or an update gives
+  bool wrote_x = false, wrote_z = false, wrote_mode = false;  // the outputs of a reset or an update
   std::optional<tape::Jacobian> jacobian;                     // of an ode
 };
 

@@ -168,7 +168,7 @@ void Writer::put_relations(const Slot& slot, OutputDeclaration& output) {
   };
 }
 
-/// As LeafSystem::declare_relation.
+/// Declares a relation, as LeafSystem::declare_relation does.
 RelationIndex Writer::add_relation(Relation relation) {
   detail::name_it(relation.name, declared_.relations, "relation_", original_.name());
   declared_.relations.push_back(std::move(relation));

@@ -24,7 +24,8 @@ struct BlockTraces {
   std::vector<Trace> traces = {};  // of the functions that have one
 
   void take_shapes(const Plan& plan, const PlanLeaf& where);
-  /// For a system that cannot run yet. Open inputs count as their ports say, or as single numbers.
+  /// Guesses the shapes of a system that cannot run yet. Open inputs count as their ports say, or
+  /// as single numbers.
   void guess_shapes();
 };
 

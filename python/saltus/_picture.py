@@ -1,4 +1,4 @@
-"""What a notebook shows of a system: the picture that Graphviz' `dot` draws, or Mermaid text.
+"""How a notebook shows a system: the picture that Graphviz' `dot` draws, or Mermaid text.
 
 Imported when a picture is asked for, not before.
 """

@@ -1,4 +1,4 @@
-"""What a callback is called with, said where its signature does not take that."""
+"""The arguments of a callback, named where its signature does not take them."""
 
 from __future__ import annotations
 

@@ -50,7 +50,7 @@ class SharedSystem(System, _core.SharedSystem):
 
 
 class Scene:
-    """A system with all that a run of it needs, and what is known about the outcome.
+    """A system with all that a run of it needs, and its known answer.
 
     Made by `saltus.scene`.
 

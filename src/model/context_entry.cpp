@@ -7,6 +7,8 @@
 #include <optional>
 #include <utility>
 
+#include "saltus/base/list.hpp"
+
 namespace saltus {
 
 namespace {
@@ -54,6 +56,19 @@ void add_names(std::vector<std::string>& names, const std::string& name,
   for (Index i = 0; i < entry.size; ++i) names.push_back(text(name, "[", i, "]"));
 }
 
+/// The largest number of a mode: a double has all integers up to here, and so has an int.
+constexpr double most_mode = 1e9;
+
+/// Throws unless an entry of this kind may have the value.
+void require_possible(double value, ContextEntry::Kind kind, std::string_view name) {
+  const bool mode = kind == ContextEntry::Kind::mode;
+  const bool possible =
+      mode ? value == std::trunc(value) && std::abs(value) <= most_mode : std::isfinite(value);
+  if (!possible)
+    throw ModelError(
+        text("'", name, "' is ", value, "; give ", mode ? "an integer" : "a finite value"));
+}
+
 }  // namespace
 
 std::vector<std::string> entry_names(const Layout& layout) {
@@ -92,11 +107,8 @@ void write_entry(Context& context, const ContextEntry& entry, std::span<const do
   if (given != 1 && given != entry.size)
     throw ModelError(text("'", name, "': expected ", entry.size, " values, found ", given));
   for (Index i = 0; i < entry.size; ++i) {
-    const double value = values[given == 1 ? 0 : static_cast<std::size_t>(i)];
-    const bool integer = entry.kind != Kind::mode || value == std::trunc(value);
-    if (!std::isfinite(value) || !integer || (entry.kind == Kind::mode && std::abs(value) > 1e9))
-      throw ModelError(text("'", name, "' is ", value, "; give ",
-                            entry.kind == Kind::mode ? "an integer" : "a finite value"));
+    const double value = nth(values, given == 1 ? 0 : i);
+    require_possible(value, entry.kind, name);
     const Index at = entry.first + i;
     switch (entry.kind) {
       case Kind::parameter:

@@ -1,4 +1,4 @@
-// TimeEvent: how many ticks it has, and what is wrong with one.
+// TimeEvent: the number of its ticks, and the errors of a declaration.
 #include <algorithm>
 #include <cmath>
 

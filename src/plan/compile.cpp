@@ -223,7 +223,7 @@ bool refine(const Plan& plan, Refinement& refinement, Replacements& replacements
   return any;
 }
 
-/// A system is sound or not by what it declares, not by what a refinement makes of it: an algebraic
+/// The declarations of a system decide whether it is sound, not its refinement: an algebraic
 /// loop through an input that a traced function does not read stays an error.
 Sound refined(const System& system, const RecordedSignals& recorded, Refinement& refinement) {
   Replacements replacements = before(system, refinement);

@@ -21,7 +21,7 @@ class Expressions {
   /// `first`: for each node of the plan its first entry among the values, or `variable`.
   Expressions(const Plan& plan, List<int>& first) : plan_(plan), first_(first) {}
 
-  /// Adds the output `i`, which has a formula, as expressions of what it reads.
+  /// Adds the output `i`, which has a formula, as expressions of the values that it reads.
   void compute(int i) {
     const Node& node = plan_.node(i);
     const auto first = static_cast<int>(values_.size());

@@ -161,7 +161,7 @@ bool ContactGuards::follow_surface(SurfaceContact& contact) {
 }
 
 void ContactGuards::load() {
-  for (const std::size_t k : guards_->active()) {
+  for (const std::size_t k : guards_->active().all) {
     if (SurfaceContact* contact = contact_of(k)) arm(*contact, (*guards_)[k].error);
   }
 }

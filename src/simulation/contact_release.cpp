@@ -79,7 +79,7 @@ bool ContactGuards::still_at_rest(std::size_t k) {
 }
 
 void ContactGuards::keep_relations_of(const EdgeWatch& edge) {
-  for (std::size_t k = 0; k < guards_->size(); ++k) {
+  for (std::size_t k = 0; k < guards_->all().size(); ++k) {
     const GuardGroup& group = group_of(k);
     if (group.is_crossing() ||
         std::ranges::find(edge.relations, group.index) == edge.relations.end())
@@ -92,7 +92,7 @@ void ContactGuards::keep_relations_of(const EdgeWatch& edge) {
 // --- holds that end in a commit
 
 void ContactGuards::release_unseen() {
-  for (std::size_t k = 0; k < guards_->size(); ++k) {
+  for (std::size_t k = 0; k < guards_->all().size(); ++k) {
     Holds::Hold& hold = holds_->of_guard(k);
     if (!hold.monitor.holding || present_->now[k].fired_in_pass || (*guards_)[k].active) continue;
     leave(k);
@@ -101,7 +101,7 @@ void ContactGuards::release_unseen() {
 }
 
 void ContactGuards::release_kicked() {
-  for (std::size_t k = 0; k < guards_->size(); ++k) {
+  for (std::size_t k = 0; k < guards_->all().size(); ++k) {
     Holds::Hold& hold = holds_->of_guard(k);
     if (!holds_->kicked(hold) || present_->now[k].fired_in_pass) continue;
     leave(k);
@@ -117,7 +117,7 @@ void ContactGuards::release_kicked() {
 void ContactGuards::release_kicked_edge(std::size_t e) {
   holds_->release(holds_->of_edge(e));
   const std::vector<int>& relations = machine_->plan().edges[e].relations;
-  for (std::size_t k = 0; k < guards_->size(); ++k) {
+  for (std::size_t k = 0; k < guards_->all().size(); ++k) {
     if (!(*guards_)[k].rests || std::ranges::find(relations, group_of(k).index) == relations.end())
       continue;
     leave(k);

@@ -1,4 +1,4 @@
-// Holds: what they save and load between runs.
+// Holds: their part of a continuation.
 #include <algorithm>
 
 #include "saltus/simulation/detail/holds.hpp"

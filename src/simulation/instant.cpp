@@ -106,7 +106,7 @@ void Instant::commit() {
 
 /// Zero crossings that the commit moved across zero in their direction fire in the next pass.
 void Instant::find_next() {
-  for (const std::size_t k : guards_->active()) {
+  for (const std::size_t k : guards_->active().all) {
     const Guard& guard = (*guards_)[k];
     const double g = present_.g[k];
     if (!plan().guard(guard.group).is_crossing()) continue;
@@ -128,7 +128,7 @@ void Instant::find_next() {
 /// Arms all active guards for the solver. A guard at zero, or a guard that just fired, gets its
 /// side from the flow.
 void Instant::arm(bool at_start) {
-  for (const std::size_t k : guards_->active()) {
+  for (const std::size_t k : guards_->active().all) {
     const Guard& guard = (*guards_)[k];
     guards_->g[k] = present_.g[k];
     guards_->set_base(k, present_.g[k]);

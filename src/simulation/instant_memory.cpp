@@ -11,7 +11,7 @@ Instant::Instant(Machine& machine, GuardSet& guards, const SimulatorOptions& opt
     : machine_(&machine),
       guards_(&guards),
       options_(&options),
-      present_(guards.size()),
+      present_(guards.all().size()),
       rows_(machine, guards, present_),
       transition_(machine),
       journal_(machine, transition_, options, results),
@@ -46,7 +46,7 @@ void Instant::begin(double t, Recorder* recorder) {
 
 /// Looks at the first values. A zero crossing off zero is on its side.
 void Instant::look_at_guards() {
-  for (std::size_t k = 0; k < guards_->size(); ++k) {
+  for (std::size_t k = 0; k < guards_->all().size(); ++k) {
     if (plan().guard((*guards_)[k].group).is_crossing())
       guards_->see(k, present_.g[k]);
     else
@@ -62,15 +62,15 @@ void Instant::select_guards() {
 Continuation Instant::save() const {
   return {.jump = jump_,
           .relations = relations_.save(),
-          .guards = guards_->save(),
+          .guards = records_of(*guards_),
           .firings = holds_.save(),
           .edges = edges_.save(),
           .counts = journal_.save()};
 }
 
 bool Instant::fits(const Continuation& from) const {
-  return relations_.fits(from) && guards_->fits(from) && holds_.fits(from) && edges_.fits(from) &&
-         journal_.fits(from);
+  return relations_.fits(from) && from.guards.size() == guards_->all().size() &&
+         holds_.fits(from) && edges_.fits(from) && journal_.fits(from);
 }
 
 void Instant::resume(double t, Recorder* recorder, const Continuation& from, double longest) {
@@ -84,7 +84,7 @@ void Instant::resume(double t, Recorder* recorder, const Continuation& from, dou
   journal_.load(from);
   machine_->evaluate_instant(t);
   if (!plan().guards.empty()) machine_->guards(t, machine_->x.data(), present_.g.data());
-  guards_->load(from);
+  load_records(*guards_, from.guards);
   guards_->g = present_.g;
   contacts_.load();
 }
@@ -101,7 +101,7 @@ void Instant::undo() {
 
 bool Instant::finds_roots() {
   guards_->fired_at_root.clear();
-  for (const std::size_t k : guards_->active()) {
+  for (const std::size_t k : guards_->active().all) {
     const Guard& guard = (*guards_)[k];
     if (guard.monitor || guard.phase != Phase::armed || !guard.crossed(guards_->g[k])) continue;
     guards_->fired_at_root.push_back({static_cast<int>(k), guard.side, false});

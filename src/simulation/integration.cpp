@@ -40,7 +40,7 @@ void Integration::begin() {
 
 StopReason Integration::advance(double& t, double t_stop) {
   guards_->monitors.clear();
-  if (still() && guards_->active().empty()) {
+  if (still() && guards_->active().all.empty()) {
     t = t_stop;
     return StopReason::stop_time;
   }

@@ -34,7 +34,7 @@ void Relations::begin(double t) {
     bool changed = false;
     machine_->evaluate_instant(t);
     if (!plan.guards.empty()) machine_->guards(t, machine_->x.data(), present_->g.data());
-    for (std::size_t k = 0; k < guards_->size(); ++k) {
+    for (std::size_t k = 0; k < guards_->all().size(); ++k) {
       const GuardGroup& group = plan.guard((*guards_)[k].group);
       if (group.is_crossing()) continue;
       const Node& node = plan.node(group.index);
@@ -67,7 +67,7 @@ void Relations::read_again() {
   for (int round = 0; round < options_->max_passes; ++round) {
     bool flipped = false;
     machine_->guards_at(present_->t, machine_->x.data(), present_->g.data());
-    for (const std::size_t k : guards_->active()) {
+    for (const std::size_t k : guards_->active().all) {
       const GuardGroup& group = machine_->plan().guard((*guards_)[k].group);
       if (!group.is_crossing()) flipped = read(group, k) || flipped;
     }
@@ -166,7 +166,7 @@ void Relations::arm(std::size_t k) {
 
 std::vector<double> Relations::save() const {
   std::vector<double> truths;
-  for (std::size_t k = 0; k < guards_->size(); ++k) {
+  for (std::size_t k = 0; k < guards_->all().size(); ++k) {
     if (!machine_->plan().guard((*guards_)[k].group).is_crossing()) truths.push_back(truth(k));
   }
   return truths;
@@ -181,7 +181,7 @@ bool Relations::fits(const Continuation& from) const {
 
 void Relations::load(const Continuation& from) {
   auto saved = from.relations.begin();
-  for (std::size_t k = 0; k < guards_->size(); ++k) {
+  for (std::size_t k = 0; k < guards_->all().size(); ++k) {
     if (!machine_->plan().guard((*guards_)[k].group).is_crossing()) truth(k) = *saved++;
   }
 }

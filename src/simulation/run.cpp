@@ -188,7 +188,7 @@ Status Run::settle(StopReason reason, double t_end, bool at_start) {
   if (reason != StopReason::root && due_.empty() && !at_start)
     return Status::reached_end;  // only the end of a major step
   major_.begin(time_);
-  rows_.record(time_, instant_.jump(), machine_.x.data());  // what a failure leaves
+  rows_.record(time_, instant_.jump(), machine_.x.data());  // the row that a failure leaves
   accepted_.rows = results_.time.size();
   const bool at_root = reason == StopReason::root, idle = at_root && chattering_.idle(machine_.x);
   accepted_.in_instant = true;

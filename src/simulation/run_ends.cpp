@@ -1,4 +1,4 @@
-// Run: how it ends, and what a failure leaves.
+// Run: how it ends, and the state that a failure leaves.
 #include "saltus/base/detail/forced_unwind.hpp"
 #include "saltus/simulation/detail/run.hpp"
 

@@ -8,12 +8,13 @@
 
 #include "corrector.hpp"
 #include "cvode_scene.hpp"
+#include "cvode_setup.hpp"
 #include "saltus/solver/detail/dopri5.hpp"
+#include "saltus/solver/detail/progress.hpp"
 #include "saltus/solver/detail/runge_kutta.hpp"
 #include "saltus/solver/detail/step_size.hpp"
 #include "saltus/solver/detail/step_solver.hpp"
 #include "saltus/solver/detail/thresholds.hpp"
-#include "small_vector.hpp"
 #include "sundials_compat.hpp"
 
 namespace saltus {
@@ -21,15 +22,6 @@ namespace saltus {
 extern template class RungeKutta<Dopri5>;  // dopri5_solver.cpp
 
 namespace {
-
-/// [time constants of the fastest part] A flight of more is left to BDF. An explicit method would
-/// need more than 60 steps for it at its limit of stability, 3.25; BDF starts in 13 to 27.
-constexpr double stiff_flight = 200.0;
-/// [steps] that have to advance by as many roundings of the time, if each is shorter than
-/// `least_step_roundings` of them. CVODE itself would go on where no time is left, before a pole or
-/// a derivative that is not finite. The jumps of Van der Pol with mu = 1e6 take steps of ten
-/// roundings.
-constexpr int watched_steps = 100;
 
 class CvodeSolver final : public StepSolver<CvodeSolver> {
  public:
@@ -43,17 +35,17 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
         x0_(n_),
         scene_(machine, guards),
         cvode_(CVodeCreate(method == CvodeMethod::adams ? CV_ADAMS : CV_BDF, context_.get())),
-        starter_(machine, guards, without_first_step(options)) {
+        starter_{RungeKutta<Dopri5>(machine, guards, without_first_step(options))} {
     if (!cvode_ || !y_ || !dky_) throw Error("SUNDIALS: out of memory");
     hook_ = {
         [](const char* message, void* self) { static_cast<CvodeSolver*>(self)->note(message); },
         this};
     sun::hook_errors(context_.get(), cvode_.get(), &hook_);
-    if (method_ == CvodeMethod::bdf) starter_.watch_stiffness();
+    if (method_ == CvodeMethod::bdf) starter_.method.watch_stiffness();
   }
 
   void inside_step(double u, double* x) {
-    if (starting_) return starter_.inside_step(u, x);
+    if (starter_.runs) return starter_.method.inside_step(u, x);
     if (CVodeGetDky(cvode_.get(), t0_ + u, 0, dky_.get()) < 0) fail(t0_ + u);
     std::copy_n(N_VGetArrayPointer(dky_.get()), n_, x);
   }
@@ -66,7 +58,7 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
   }
 
   int degree() const override {
-    if (starting_) return starter_.degree();
+    if (starter_.runs) return starter_.method.degree();
     int order = 0;
     CVodeGetLastOrder(cvode_.get(), &order);
     return order;
@@ -78,7 +70,7 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
   friend StepSolver<CvodeSolver>;
 
   void begin(const Start& how) {
-    if (how.first) first_step_ = 0.0, short_steps_ = 0;
+    if (how.first) first_step_ = 0.0, progress_.begin();
     last_message_.clear();
     x0_at_ = std::numeric_limits<double>::quiet_NaN();
     scene_.begin_at(t1_);
@@ -87,23 +79,11 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
     // the start, and the ball would fall through the floor. So a one-step method starts if an event
     // may follow so soon (C. W. Gear, "Runge-Kutta starters for multistep methods", ACM TOMS 6
     // (1980) 263), and CVODE continues if the flight is longer.
-    starting_ = how.horizon < thresholds::one_step_flight * first_step_;
-    if (starting_)
+    starter_.runs = how.horizon < thresholds::one_step_flight * first_step_;
+    if (starter_.runs)
       start_with_one_step(t1_, x1_, how.horizon);
     else
       start_cvode(how.first);
-  }
-
-  /// See thresholds::loose_rtol.
-  static SolverOptions tolerances_for(CvodeMethod method, SolverOptions options) {
-    if (!is_loose(method, options)) return options;
-    options.rtol *= thresholds::loose_share, options.atol *= thresholds::loose_share;
-    for (auto* each : {&options.rtols, &options.atols})
-      for (double& tolerance : *each) tolerance *= thresholds::loose_share;
-    return options;
-  }
-  static bool is_loose(CvodeMethod method, const SolverOptions& options) {
-    return method == CvodeMethod::bdf && options.rtol >= thresholds::loose_rtol;
   }
 
   /// The starter begins stretches inside a run.
@@ -112,21 +92,14 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
     return options;
   }
 
-  static N_Vector make_vector(Index n, SUNContext context) {
-    N_Vector vector = N_VNew_Serial(static_cast<sunindextype>(n), context);
-    if (vector == nullptr) throw Error("SUNDIALS: out of memory");
-    sun::use_small_operations(vector);
-    return vector;
-  }
-
   void start_with_one_step(double t, const Eigen::VectorXd& x, double horizon) {
-    starting_ = true;
-    starter_until_ = t + thresholds::start_horizons * horizon;
-    starter_.begin_at(t, x, {.horizon = horizon, .first = true});
+    starter_.runs = true;
+    starter_.until = t + thresholds::start_horizons * horizon;
+    starter_.method.begin_at(t, x, {.horizon = horizon, .first = true});
   }
 
   void start_cvode(bool first = false) {
-    starting_ = false;
+    starter_.runs = false;
     steps_ = 0;
     std::copy_n(x1_.data(), n_, N_VGetArrayPointer(y_.get()));
     if (!started_) {
@@ -149,11 +122,8 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
     void* cvode = cvode_.get();
     if (CVodeInit(cvode, CvodeScene::right_hand_side, t1_, y_.get()) < 0) fail(t1_);
     CVodeSetUserData(cvode, &scene_);
-    set_tolerances();
-    CVodeSetMaxHnilWarns(cvode, -1);
-    CVodeSetMaxConvFails(cvode, thresholds::convergence_failures);
-    if (options_.min_step > 0.0) CVodeSetMinStep(cvode, options_.min_step);
-    if (std::isfinite(options_.max_step)) CVodeSetMaxStep(cvode, options_.max_step);
+    set_tolerances(cvode, y_.get(), scene_, tolerances_);
+    set_limits(cvode, options_);
     if (method_ == CvodeMethod::adams) {
       nonlinear_.reset(SUNNonlinSol_FixedPoint(y_.get(), 0, context_.get()));
       CVodeSetNonlinearSolver(cvode, nonlinear_.get());
@@ -167,54 +137,37 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
     started_ = true;
   }
 
-  /// CVODE's own weights for one rtol and one atol for all states or one for each; a weight
-  /// function where rtol differs from state to state.
-  void set_tolerances() {
-    void* cvode = cvode_.get();
-    const SolverOptions& by = tolerances_;
-    if (by.rtols.empty()) {
-      CVodeSStolerances(cvode, by.rtol, by.atol);
-    } else if (std::ranges::all_of(by.rtols, [&](double r) { return r == by.rtol; })) {
-      const sun::Vector atol(N_VClone(y_.get()));
-      if (!atol) throw Error("SUNDIALS: out of memory");
-      std::ranges::copy(by.atols, N_VGetArrayPointer(atol.get()));
-      CVodeSVtolerances(cvode, by.rtol, atol.get());  // CVODE copies it
-    } else {
-      scene_.weigh_by(by);
-      CVodeWFtolerances(cvode, CvodeScene::weights);
-    }
-  }
-
   void undo() { t1_ = t0_, x1_ = x0_; }
 
   /// The guards at the end of the step, where CVODE has just looked at them.
-  const double* end_guards() const { return starting_ ? nullptr : scene_.guards_at(t1_); }
+  const double* end_guards() const { return starter_.runs ? nullptr : scene_.guards_at(t1_); }
 
   void step(double t_stop) {
     // Steps within a rounding of the time add up to none: the first state at a time is the one that
     // a failure leaves, as in the rows.
     if (t1_ != x0_at_) x0_ = x1_, x0_at_ = t1_;
-    if (starting_ && (t1_ >= starter_until_ || flight_is_stiff())) start_cvode();
+    if (starter_.runs && (t1_ >= starter_.until || flight_is_stiff())) start_cvode();
     // CVODE takes no step within a few roundings of the time.
     const double latest = std::isfinite(t_stop) ? std::abs(t_stop) : 0.0;
     const double shortest =
         std::max(thresholds::cvode_roundings * thresholds::eps * std::max(latest, std::abs(t1_)),
                  thresholds::cvode_shortest);
-    if (!starting_ && t_stop - t1_ < shortest) {
+    if (!starter_.runs && t_stop - t1_ < shortest) {
       start_with_one_step(t1_, x1_, t_stop - t1_);
-      starter_until_ = t_stop;
+      starter_.until = t_stop;
     }
-    if (!starting_) cvode_step(t_stop);
-    if (!starting_) return;
-    starter_.bare_step(t_stop);
+    if (!starter_.runs) cvode_step(t_stop);
+    if (!starter_.runs) return;
+    starter_.method.bare_step(t_stop);
     ++statistics_.steps;
-    t1_ = starter_.step_end(), length_ = starter_.step_length(), x1_ = starter_.step_state();
+    t1_ = starter_.method.step_end(), length_ = starter_.method.step_length(),
+    x1_ = starter_.method.step_state();
   }
 
   /// Whether the rest of the starter's flight is long for an explicit method. The rate is 0, and
   /// the answer no, before its first step and with Adams.
   bool flight_is_stiff() {
-    return starter_.stiffness().rate() * (starter_until_ - t1_) > stiff_flight;
+    return starter_.method.stiffness().rate() * (starter_.until - t1_) > thresholds::stiff_flight;
   }
 
   void cvode_step(double t_stop) {
@@ -239,22 +192,9 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
     ++steps_;
     t1_ = flag == CV_TSTOP_RETURN ? t_stop : t;
     length_ = t1_ - t0_;
-    require_progress();
-    std::copy_n(N_VGetArrayPointer(y_.get()), n_, x1_.data());
-  }
-
-  /// Throws if the last steps were so short that the time hardly advanced.
-  void require_progress() {
-    const double rounding = thresholds::eps * std::abs(t0_);
-    if (length_ > thresholds::least_step_roundings * rounding) {
-      short_steps_ = 0, advanced_ = 0.0;
-      return;
-    }
-    advanced_ += length_;
-    if (++short_steps_ < watched_steps) return;
-    if (advanced_ < watched_steps * rounding || advanced_ == 0.0)
+    if (progress_.stops_at(t0_, length_))
       throw_step_too_small(*machine_, t0_, length_, x1_.data(), options_);
-    short_steps_ = 0, advanced_ = 0.0;
+    std::copy_n(N_VGetArrayPointer(y_.get()), n_, x1_.data());
   }
 
   /// Whether a guard that was at zero when this stretch began may have a false root, because it was
@@ -307,12 +247,16 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
   sun::Corrector corrector_;  // CVODE keeps its address
   CvodeScene scene_;          // it needs the context, and CVODE needs it
   sun::Cvode cvode_;
-  RungeKutta<Dopri5> starter_;
-  bool started_ = false, starting_ = false;
-  double first_step_ = 0.0, starter_until_ = 0.0;
-  int steps_ = 0;          // CVODE's steps since its start
-  int short_steps_ = 0;    // in a row
-  double advanced_ = 0.0;  // [s] by them
+  /// A one-step method that begins stretches in which an event may follow soon.
+  struct Starter {
+    RungeKutta<Dopri5> method;
+    bool runs = false;
+    double until = 0.0;  // [s]
+  } starter_;
+  bool started_ = false;
+  double first_step_ = 0.0;
+  int steps_ = 0;  // CVODE's steps since its start
+  Progress progress_;
   mutable SolverStatistics sum_;
 };
 

@@ -5,33 +5,31 @@
 
 namespace saltus {
 
-GuardSet::GuardSet(const Plan& plan) {
-  for (std::size_t i = 0; i < plan.guards.size(); ++i) {
-    const GuardGroup& group = plan.guards[i];
-    for (int entry = 0; entry < group.size; ++entry) {
-      add({.direction = group.direction,
-           .monitor = group.monitor,
-           .jumps = group.is_opaque(),
-           .group = static_cast<int>(i),
-           .entry = entry},
-          false);
-    }
+GuardSet::GuardSet(std::initializer_list<GuardTraits> guards) : g(guards.size(), 1.0) {
+  for (const GuardTraits& traits : guards) {
+    active_.add(guards_.size(), traits);
+    guards_.push_back({traits});
+    guards_.back().active = true;
   }
 }
 
-void GuardSet::add(const GuardTraits& traits, bool active) {
-  guards_.push_back({});
-  static_cast<GuardTraits&>(guards_.back()) = traits;
-  guards_.back().active = active;
-  if (active) watch(guards_.size() - 1);
-  g.push_back(1.0);
-  ++version_;
+GuardSet::GuardSet(const Plan& plan) : g(plan.guard_slots, 1.0) {
+  for (std::size_t i = 0; i < plan.guards.size(); ++i) {
+    const GuardGroup& group = plan.guards[i];
+    for (int entry = 0; entry < group.size; ++entry) {
+      guards_.push_back({{.direction = group.direction,
+                          .monitor = group.monitor,
+                          .jumps = group.is_opaque(),
+                          .group = static_cast<int>(i),
+                          .entry = entry}});
+    }
+  }
 }
 
 void GuardSet::clear() {
   ++version_;
   fired_at_root.clear(), beside_root.clear(), monitors.clear(), kept_.clear();
-  active_.clear(), stopping_.clear(), watching_.clear();
+  active_.clear();
   for (Guard& guard : guards_) {
     const GuardTraits traits = guard;
     guard = {};
@@ -41,13 +39,14 @@ void GuardSet::clear() {
 
 void GuardSet::select(const std::vector<int>& groups, const Plan& plan) {
   ++version_;
-  active_.clear(), stopping_.clear(), watching_.clear();
+  active_.clear();
   for (const int i : groups) {
     const GuardGroup& group = plan.guards[i];
-    for (Index s = 0; s < group.size; ++s) watch(group.slot + s);
+    for (Index s = group.slot; s < group.slot + group.size; ++s)
+      active_.add(static_cast<std::size_t>(s), guards_[s]);
   }
   for (Guard& guard : guards_) guard.was_active = std::exchange(guard.active, false);
-  for (const std::size_t k : active_) {
+  for (const std::size_t k : active_.all) {
     Guard& guard = guards_[k];
     guard.active = true;
     if (guard.was_active) continue;
@@ -71,24 +70,25 @@ void GuardSet::arm_again(const std::vector<Firing>& fired) {
   }
 }
 
-std::vector<Continuation::Guard> GuardSet::save() const {
+std::vector<Continuation::Guard> records_of(const GuardSet& guards) {
   std::vector<Continuation::Guard> saved;
-  for (const Guard& guard : guards_)
+  for (const Guard& guard : guards.all())
     saved.push_back(
         {guard.side, guard.came_from, guard.at_zero(), guard.rests, guard.error, guard.base});
   return saved;
 }
 
-void GuardSet::load(const Continuation& from) {
-  ++version_;
-  for (std::size_t k = 0; k < guards_.size(); ++k) {
-    Guard& guard = guards_[k];
-    const Continuation::Guard& saved = from.guards[k];
-    set(k, saved.at_zero ? Phase::waiting : Phase::unseen, 0, saved.error);
-    guard.turn(saved.side);
-    guard.came_from = static_cast<signed char>(saved.from);
-    guard.rests = saved.resting, guard.base = saved.base;
+void load_records(GuardSet& guards, const std::vector<Continuation::Guard>& from) {
+  List<Guard> records = guards.all();
+  for (std::size_t k = 0; k < records.size(); ++k) {
+    Guard& guard = records[k];
+    guard.phase = from[k].at_zero ? Phase::waiting : Phase::unseen;
+    guard.error = from[k].error;
+    guard.turn(from[k].side);
+    guard.came_from = static_cast<signed char>(from[k].from);
+    guard.rests = from[k].resting, guard.base = from[k].base;
   }
+  guards.restore(records);
 }
 
 }  // namespace saltus

@@ -15,7 +15,7 @@ using Group = std::vector<Node>;
 /// What `arrange` decides.
 struct Arrangement {
   std::vector<Group> groups = {};  ///< operands first
-  /// For each node whether the operands of its operation, which is commutative, are exchanged.
+  /// Says for each node whether the operands of its commutative operation are exchanged.
   List<bool> swapped = {};
   /// Expressions that get adjacent registers, those of one operation that do not need each other.
   /// What reads several groups of them can then be a run. Empty if there is no run.

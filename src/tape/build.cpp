@@ -116,17 +116,21 @@ class Builder {
 
   // --- many numbers ---
 
+  /// Where a run reads an operand; `next` is the operand of its second value.
+  Place operand_of_run(Node first, Node next) {
+    const Kind kind = of(first).place.kind;
+    const bool alone = kind == Kind::time || kind == Kind::mode || kind == Kind::entry;
+    if (alone) load(first);
+    Place from = alone ? *of(first).loaded : of(first).place;
+    from.stride = first == next ? 0 : distance(of(first).place.offset, of(next).place.offset);
+    return from;
+  }
+
   void many(const Group& group) {
     Line line{.op = at(group[0]).op, .count = group.size()};
     const auto first = operands(group[0]), second = operands(group[1]);
-    for (std::size_t k = 0; k < first.size(); ++k) {
-      const Kind kind = of(first[k]).place.kind;
-      const bool alone = kind == Kind::time || kind == Kind::mode || kind == Kind::entry;
-      if (alone) load(first[k]);
-      line.from[k] = alone ? *of(first[k]).loaded : of(first[k]).place;
-      line.from[k].stride = distance(of(first[k]).place.offset, of(second[k]).place.offset);
-      if (first[k] == second[k]) line.from[k].stride = 0;
-    }
+    for (std::size_t k = 0; k < first.size(); ++k)
+      line.from[k] = operand_of_run(first[k], second[k]);
     // Nothing is released before the run has its place: a run must not write where it reads.
     const auto output = outputs_of(group);
     const bool unread =

@@ -117,7 +117,7 @@ Found quotient(Graph& graph, Node a, Node b) {
   return graph.binary(Op::mul, a, graph.constant(1.0 / *number));
 }
 
-/// As NumPy's arrays do for 2, 0.5 and -1; see Graph for 3 and 4.
+/// The powers 2, 0.5 and -1 are those of NumPy's arrays; see Graph for 3 and 4.
 Found power(Graph& graph, Node a, Node b) {
   const auto number = graph.value(b);
   if (!number) return {};

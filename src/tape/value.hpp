@@ -1,4 +1,4 @@
-// Value: what the builder of a tape knows of one number; Registers: who has which scratch memory.
+// Value: the builder's record of one number of a tape; Registers: the owners of scratch memory.
 #pragma once
 
 #include <map>

@@ -1,4 +1,4 @@
-// The variables and constants of a tape, and what it needs of each array.
+// The variables and constants of a tape, and the entries of each array that it needs.
 #include "variables.hpp"
 
 #include <algorithm>

@@ -162,3 +162,31 @@ TEST_CASE("an expected side costs no more calls, and gives the same side", "[dep
   CHECK(calls(Departure::either_side) < measured);
   CHECK(calls(1) == measured);  // the other side has to be proved
 }
+
+TEST_CASE("neither rounding nor curvature is much of the speed of a guard", "[departure]") {
+  const SimulatorOptions options{.rtol = 1e-8, .atol = 1e-8};
+  // A guard that is computed with a rounding of 1e-6, beside a movement that is not seen before.
+  Chain rounded({0.3, 1.0}, 0.0, [](const At& at) { return (at.x[0] + 1e10) - 1e10; }, options);
+  rounded.departure.from(0.0, rounded.machine.x, 10.0);
+  CHECK_THAT(rounded.departure.speed(rounded.group(), 0, 10.0), WithinRel(1.0, 1e-3));
+  // A flight that turns after 0.1 s.
+  Chain bent({1.0, 1.0}, -9.81, height, options);
+  bent.departure.from(0.0, bent.machine.x, 10.0);
+  CHECK_THAT(bent.departure.speed(bent.group(), 0, 10.0), WithinRel(1.0, 0.1));
+}
+
+TEST_CASE("a guard that time moves has the side to which time takes it first", "[departure]") {
+  // It rises, and falls below zero after 0.01 s; the state moves by its tolerance in 0.05 s, which
+  // is long for a run of 10 s.
+  const SimulatorOptions options{.rtol = 0.0, .atol = 1e-8};
+  Chain chain({0.0}, 2e-7, [](const At& at) { return at.time * (0.01 - at.time); }, options);
+  CHECK(chain.side().side == 1);
+}
+
+TEST_CASE("a guard that moves a hundredth as far as the states has a side without a doubt",
+          "[departure]") {
+  Chain chain({0.0, -1.0}, 0.0, [](const At& at) { return 0.01 * at.x[0]; });
+  const auto before = chain.machine.guard_calls;
+  CHECK(chain.side(0.0, 10.0, 0.0, Departure::either_side).side == -1);
+  CHECK(chain.machine.guard_calls - before == 1);  // its rounding is not measured
+}

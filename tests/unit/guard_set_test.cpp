@@ -15,11 +15,7 @@ namespace {
 constexpr auto falls = Direction::positive_then_non_positive;
 constexpr auto rises = Direction::negative_then_non_negative;
 
-GuardSet one(Direction direction) {
-  GuardSet guards;
-  guards.add({.direction = direction});
-  return guards;
-}
+GuardSet one(Direction direction) { return {{.direction = direction}}; }
 
 }  // namespace
 
@@ -94,7 +90,7 @@ TEST_CASE("A guard whose mode is entered has no side; others keep theirs") {
   CHECK(guards[1].side == 0);
   CHECK(guards[1].phase == Phase::unseen);
   CHECK_FALSE(guards[1].was_active);
-  CHECK(guards.active() == std::vector<std::size_t>{0, 1});
+  CHECK(guards.active().all == std::vector<std::size_t>{0, 1});
 }
 
 TEST_CASE("What the engine writes counts the version up; what a locator sees does not") {
@@ -117,7 +113,7 @@ TEST_CASE("What the engine writes counts the version up; what a locator sees doe
       [](GuardSet& g) { g.set_error(0, 0.1); },
       [](GuardSet& g) { g.set_base(0, 1.0); },
       [](GuardSet& g) { g.clear(); },
-      [](GuardSet& g) { g.load({.guards = g.save()}); }};
+      [](GuardSet& g) { load_records(g, records_of(g)); }};
   for (const auto write : written) {
     write(guards);
     CHECK(counted());
@@ -162,11 +158,10 @@ TEST_CASE("A run that goes on knows what the records knew, in every phase but th
     guards.fired(0, 1);
     guards.keep_truth(0, true);
     guards.set_base(0, 3.0);
-    const Continuation saved{.guards = guards.save()};
+    const Continuation saved{.guards = records_of(guards)};
     GuardSet later = one(falls);
-    REQUIRE(later.fits(saved));
-    later.load(saved);
-    CHECK(later.save() == saved.guards);
+    load_records(later, saved.guards);
+    CHECK(records_of(later) == saved.guards);
     CHECK(later[0].phase == guards[0].phase);
   }
 }

@@ -154,9 +154,9 @@ TEST_CASE("a guard of another mode neither fires nor keeps a side", "[instant]")
                              .end_mode = 0});
   }));
   run.begin(0.0, vec({0.0}));
-  CHECK(run.guards.active() == std::vector<std::size_t>{0});
+  CHECK(run.guards.active().all == std::vector<std::size_t>{0});
   CHECK(run.fire(1.0, vec({1.0}), 0, -1).restart);
   CHECK(run.machine.modes[0] == 1);
-  CHECK(run.guards.active() == std::vector<std::size_t>{1});
+  CHECK(run.guards.active().all == std::vector<std::size_t>{1});
   CHECK(run.guards[1].side == -1);
 }

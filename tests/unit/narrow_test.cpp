@@ -36,13 +36,13 @@ class Crossings : private Narrower {
   };
 
   explicit Crossings(Parts& parts)
-      : Narrower(parts.machine, parts.guards, parts.guards.watching()) {}
+      : Narrower(parts.machine, parts.guards, parts.guards.active().monitors) {}
 
   /// Arms all guards by their values at `low`, and narrows [low, high].
   double find(double low, double high) {
     const auto at = [](double u, double* x) { x[0] = u; };
     look(low, nullptr, at, low_);
-    for (std::size_t k = 0; k < guards_->size(); ++k) {
+    for (std::size_t k = 0; k < guards_->all().size(); ++k) {
       if ((*guards_)[k].phase != Phase::waiting) guards_->arm(k, sign_of(low_[k]));
       guards_->g[k] = low_[k];
     }

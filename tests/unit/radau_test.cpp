@@ -3,6 +3,7 @@
 #include "saltus/solver/detail/radau/convergence.hpp"
 #include "saltus/solver/detail/radau/damping.hpp"
 #include "saltus/solver/detail/radau/stage_polynomial.hpp"
+#include "saltus/solver/detail/radau/step_choice.hpp"
 #include "saltus/solver/detail/radau/step_control.hpp"
 #include "support/leaves.hpp"
 
@@ -132,6 +133,24 @@ TEST_CASE("the order of the Radau methods follows Newton's iteration", "[radau]"
   CHECK(next_stages({.stages = 3, .theta = 0.01, .ratio = 1.0, .steps = 10, .usual = 7}) == 5);
   CHECK(next_stages({.stages = 5, .theta = 0.01, .ratio = 1.0, .steps = 10, .usual = 5}) == 5);
   CHECK(next_stages({.stages = 5, .theta = 0.03, .ratio = 1.0, .steps = 10, .usual = 7}) == 5);
+}
+
+TEST_CASE("one fast iteration of Newton does not raise the order, and a slow one is forgotten",
+          "[radau]") {
+  radau::StepChoice choice(1e-3);
+  const auto step = [&](double theta) {
+    radau::Convergence newton(1e-9, 0.0, 10, std::numeric_limits<double>::infinity());
+    newton.look(1.0), newton.look(theta);
+    REQUIRE(newton.theta() == theta);
+    choice.accept(
+        {.h = 1.0, .error = 0.5, .ratio = 1.0, .rejected_before = false, .jacobian_kept = true},
+        newton);
+  };
+  for (int pair = 0; pair < 20; ++pair) step(0.01), step(1e-6);  // the first alone keeps the order
+  CHECK(choice.stages() == 3);
+  step(0.01);
+  for (int fast = 0; fast < 10; ++fast) step(1e-6);
+  CHECK(choice.stages() == 5);
 }
 
 TEST_CASE("the first steps have more stages at a tighter tolerance", "[radau]") {

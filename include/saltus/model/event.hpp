@@ -200,7 +200,7 @@ struct TimeEvent {
 
   /// The number of ticks; the largest number of its type if they do not end.
   std::int64_t ticks() const;
-  /// What is wrong with it, in words; empty if nothing is.
+  /// The error in it, in words; empty if there is none.
   std::string fault() const;
 };
 

@@ -107,7 +107,7 @@ class EntryAt<tape::Symbol> {
 /// A function template that computes one entry of an output, a derivative or a guard. It is
 /// `[](const auto& at) { return at.u(0) * at.u(1); }` if all entries are alike, with `at` an
 /// EntryAt; otherwise `[](const auto& at, Index i) { ... }` with the index of the entry. A block
-/// that stands alone calls it with numbers. A plan calls it with symbols, and computes the formulas
+/// that runs alone calls it with numbers. A plan calls it with symbols, and computes the formulas
 /// of blocks that feed one another together, to the same bits. So the function must read only `at`
 /// and constants, and must choose between values by `at.choose` or by a constant.
 class Formula {
@@ -135,7 +135,7 @@ class Formula {
           return f(EntryAt<tape::Symbol>(symbols, i), i);
         }) {}
 
-  /// Of a function that computes all entries, and of their expressions.
+  /// Makes a formula of a function that computes all entries, and of their expressions.
   Formula(VectorFunction function, std::function<std::vector<tape::Symbol>(detail::Symbols&)> all)
       : function_(std::move(function)), all_(std::move(all)) {}
 

@@ -9,7 +9,7 @@
 namespace saltus {
 
 /// Steps of an integration method that were compiled together with a right-hand side. The solver
-/// defines them, and alone knows what is in them: see `inlined`.
+/// defines them, and alone knows their contents: see `inlined`.
 struct InlinedSteps {};
 
 /// xdot = function(t, x, z, m, u, p).

@@ -61,7 +61,7 @@ inline constexpr double emep_darkness = 1e-40;
 inline constexpr double emep_layer = 1.2e5;
 inline constexpr std::array<double, 7> emep_deposition{0.5, 0.2, 0.5, 0.2, 0.1, 0.5, 0.3};
 
-/// What is emitted [molecules/(cm^2 s)] of a substance. Hydrocarbons share 2.5e11 by mass.
+/// The emission [molecules/(cm^2 s)] of a substance. Hydrocarbons share 2.5e11 by mass.
 struct EmepShare {
   int substance;
   double fraction, weight;

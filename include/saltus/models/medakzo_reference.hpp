@@ -1,4 +1,4 @@
-// The reference of Medical Akzo Nobel (medakzo.hpp); what is below 1e-30 stands as 0.
+// The reference of Medical Akzo Nobel (medakzo.hpp); values below 1e-30 are 0.
 #pragma once
 
 #include "saltus/models/reference.hpp"

@@ -17,7 +17,7 @@ namespace saltus::models {
 struct RelayCircuitParameters {
   double E = 10.0;                         ///< [V] source
   double L = 1e-4, R1 = 100.0, C1 = 1e-8;  ///< [H], [Ohm], [F] filter
-  double R2 = 1e5, C2 = 1e-5, R3 = 2e5;    ///< [Ohm], [F], [Ohm] what it charges
+  double R2 = 1e5, C2 = 1e-5, R3 = 2e5;    ///< [Ohm], [F], [Ohm] the charged part
   double low = 2.0, high = 4.0;            ///< [V] between them v2 is kept
   double t_end = 20.0;                     ///< [s]
 

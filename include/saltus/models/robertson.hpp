@@ -54,8 +54,9 @@ struct RobertsonParameters {
 
 namespace detail {
 
-/// To 16 digits, by Radau IIA of order 13 in 40 digits, 20 steps to a decade; order 9 gives the
-/// same to 6e-13. The known value at 1e11 s (Test Set for IVP Solvers, ROBER: 2.083340149701255e-8,
+/// The values have 16 digits, by Radau IIA of order 13 in 40 digits, 20 steps to a decade; order 9
+/// gives the same to 6e-13. The known value at 1e11 s (Test Set for IVP Solvers, ROBER:
+/// 2.083340149701255e-8,
 /// 8.333360770334713e-14, 0.9999999791665050) differs from the result by 2e-14 of its size. The
 /// value at 4e10 s in cvRoberts_dns (5.20834743e-8, 2.08333908e-13) is good to 6 digits.
 inline const std::vector<Sample>& robertson_samples() {

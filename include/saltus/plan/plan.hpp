@@ -154,7 +154,7 @@ struct Plan {
   const EdgeWatch& edge(std::integral auto i) const { return edges[i]; }
   const ScheduledEvent& scheduled(std::integral auto i) const { return schedule[i]; }
 
-  // What stands behind an entry of the lists.
+  // The declarations of which the entries of the lists were made.
   const PlanLeaf& leaf_of(const Node& node) const { return leaf(node.leaf); }
   const OutputDeclaration& output_of(const Node& node) const {
     return leaf_of(node).declared().outputs[node.index];
@@ -162,7 +162,7 @@ struct Plan {
   const Relation& relation_of(const Node& node) const {
     return leaf_of(node).declared().relations[node.index];
   }
-  /// Of a group of zero crossings.
+  /// The declaration of a group of zero crossings.
   const ZeroCrossing& crossing_of(const GuardGroup& group) const {
     return leaf(group.leaf).declared().zero_crossings[group.index];
   }

@@ -36,8 +36,8 @@ struct ReferenceRun {
 struct Reference {
   ReferenceKind kind = ReferenceKind::exact;
   std::string provenance = {};
-  /// Of kind run: a bound of its error, in states and [s] in event times. NaN for the other kinds,
-  /// whose provenance gives it.
+  /// A bound of the error of a reference of kind run, in states and [s] in event times. It is NaN
+  /// for the other kinds, whose provenance gives it.
   double bound = Achieved::unknown, event_bound = Achieved::unknown;
   std::vector<ReferenceRun> runs = {};  ///< one, or two by different methods
 };
@@ -204,6 +204,22 @@ inline void judge(Reference& reference, const Scene& scene) {
 
 }  // namespace detail
 
+namespace detail {
+
+/// Runs of two methods that come to the end; fewer if only fewer do. `reasons` says why the others
+/// did not.
+inline std::vector<ReferenceRun> two_runs(const Scene& scene, const ReferenceOptions& with,
+                                          std::string& reasons) {
+  std::vector<ReferenceRun> runs;
+  for (const Method method : reference_methods(scene)) {
+    if (auto run = reference_run(scene, method, with, reasons)) runs.push_back(*run);
+    if (runs.size() == 2) break;
+  }
+  return runs;
+}
+
+}  // namespace detail
+
 /// The known answer of a scene. If states are unknown, or the event times of a scene with guards,
 /// they come from two runs by different methods at the output times, so that each method is
 /// compared with another one. Throws ModelError if no state is known and no method reaches the end.
@@ -218,11 +234,7 @@ inline Reference reference_for(const Scene& scene, const ReferenceOptions& with)
   const bool events = !exact.events.empty() || detail::guard_names(scene, scene.options).empty();
   if (states && events) return reference;
   std::string reasons;
-  for (const Method method : detail::reference_methods(scene)) {
-    if (auto run = detail::reference_run(scene, method, with, reasons))
-      reference.runs.push_back(*run);
-    if (reference.runs.size() == 2) break;
-  }
+  reference.runs = detail::two_runs(scene, with, reasons);
   if (reference.runs.empty() && !states) {
     throw ModelError(text("no reference for '", scene.name,
                           "': nothing is known about it, and no method came to the end within ",

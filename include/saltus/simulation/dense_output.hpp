@@ -37,7 +37,7 @@ class DenseOutput {
 struct Moment {
   double time = 0.0;  ///< [s]
   Eigen::VectorXd continuous_state;
-  std::vector<std::pair<std::string, Eigen::VectorXd>> outputs;  ///< what was recorded, by name
+  std::vector<std::pair<std::string, Eigen::VectorXd>> outputs;  ///< the recorded signals, by name
 
   /// A recorded signal by name; a ModelError lists the names there are.
   const Eigen::VectorXd& output(std::string_view name) const;

@@ -40,7 +40,7 @@ class Simulator {
   /// advance_to without it throws ModelError.
   Status advance_to(double t_end);
 
-  /// To call after a function of a leaf of the plan has changed what it computes, between two
+  /// Has to be called after a function of a leaf of the plan has changed its formula between two
   /// pieces of a run: series that were made of formulas are made anew. Throws ModelError if the
   /// method of the run does not suit them any more.
   void functions_replaced();

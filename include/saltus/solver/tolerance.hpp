@@ -34,7 +34,7 @@ class Tolerance {
     for (double& tolerance : each_) tolerance *= factor;
     return *this;
   }
-  /// As one number: the smallest.
+  /// One number in place of all: the smallest.
   operator double() const { return smallest(); }
 
  private:

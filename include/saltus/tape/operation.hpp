@@ -100,7 +100,7 @@ constexpr bool is_commutative(Op op) {
 std::string_view name(Op op);
 /// The operation with this name; empty if there is none.
 std::optional<Op> operation(std::string_view name);
-/// As `operation`, but throws ModelError with the nearest known name if there is none.
+/// The operation of that name. Throws ModelError with the nearest known name if there is none.
 Op known_operation(std::string_view name);
 
 }  // namespace saltus::tape

@@ -1,4 +1,4 @@
-"""saltus describe: what a scene consists of, what a run of it computes, and what is known of it.
+"""saltus describe: the parts of a scene, the values that a run computes, and its known answer.
 
 saltus describe water-tanks
 saltus describe ball.py:make_ball --set e=0.5 --method bdf

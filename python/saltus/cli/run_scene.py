@@ -1,4 +1,4 @@
-"""saltus run: one run of a scene; how it ended, its events, the values at the end, what it cost.
+"""saltus run: one run of a scene; how it ended, its events, the values at the end, its cost.
 
 saltus run bouncing-ball --set e=0.9 --t-end 12 --plot ball.svg --csv ball.csv
 saltus run robertson --method bdf --rtol 1e-8 --json

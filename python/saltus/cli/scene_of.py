@@ -107,7 +107,7 @@ def _own(name: str, settings: dict[str, Any]) -> Chosen:
 
 
 def _module(place: str) -> Any:
-    """A module by name, from where the command was given, or a file. What it prints is its own."""
+    """A module by name, from where the command was given, or a file. It prints what it likes."""
     try:
         if not place.endswith(".py"):
             sys.path.insert(0, "")

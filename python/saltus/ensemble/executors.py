@@ -48,7 +48,7 @@ def run(job: Job, table: Table, executor: Any, workers: int | None, watch: Watch
 
 
 def _run_as_suits(job: Job, table: Table, workers: int | None, count: int, watch: Watch) -> Outcome:
-    """What the system and `workers` decide, never the clock: the same call runs the same way."""
+    """The system and `workers` decide, never the clock: the same call runs the same way."""
     if not job.needs_interpreter:
         return *job.run(table.columns, count, watch), "threads", count
     if workers is None or count == 1:

@@ -105,7 +105,7 @@ def sweep(
         Over the names of a grid, or over ``run``: the recorded signals, ``continuous_state``,
         ``discrete_state`` and ``modes`` at the end, or what `reduce` gave; ``status``, ``message``
         and ``block`` of each run, ``end_time`` and ``wall_time`` [s], ``events`` and ``steps``.
-        nan stands where a run has no value: where it failed, or after its end. A signal at the time
+        A value is nan where a run has none: where it failed, or after its end. A signal at the time
         of an event has the value after it. ``attrs`` has the failures by reason, the wall time and
         the runs per second of the whole.
 

@@ -45,7 +45,7 @@ def _linker() -> Any:
 
 @functools.cache
 def _here() -> str:
-    """What the object code of a module depends on beside its text."""
+    """The facts on which the object code of a module depends, beside its text."""
     machine = _machine()
     features = llvm.get_host_cpu_features().flatten()
     return "\n".join(

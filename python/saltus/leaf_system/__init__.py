@@ -1,4 +1,4 @@
-"""Blocks of your own: the class, and what it declares, one idea a module."""
+"""Blocks of your own: the class, and its declarations, one idea a module."""
 
 from saltus.leaf_system.leaf_system import LeafSystem
 

@@ -14,7 +14,7 @@ __all__ = ["DeclaresGuards"]
 
 
 class DeclaresGuards(_core.LeafSystem):
-    """Declares what the engine locates by the zeros of a function, or by an edge of an input."""
+    """Declares events that are located by the zeros of a function, or by an edge of an input."""
 
     __slots__ = ()
 

@@ -16,7 +16,7 @@ __all__ = ["DeclaresTimes"]
 
 
 class DeclaresTimes(_core.LeafSystem):
-    """Declares what happens at times that are known before the run."""
+    """Declares updates at times that are known before the run."""
 
     __slots__ = ()
 

@@ -83,7 +83,7 @@ class UnitDelay(Block, _core.UnitDelay):
 
 
 class ZeroOrderHold(Block, _core.ZeroOrderHold):
-    """y(t) = u(k dt) for k dt <= t < (k + 1) dt: what the input was at the last tick.
+    """y(t) = u(k dt) for k dt <= t < (k + 1) dt: the input at the last tick.
 
     Parameters
     ----------

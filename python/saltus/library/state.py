@@ -34,7 +34,7 @@ class Integrator(Block, _core.Integrator):
         A number or a vector each, one of them may be left out. They count only with
         `enable_limits`, and are parameters of the context then.
     enable_hold
-        Gives the input `hold_trigger`, a boolean while which is true x stands still.
+        Gives the input `hold_trigger`, a boolean. While it is true, x does not change.
     name
         How messages, contexts and `diagram[...]` know it; if not said, its class and number.
 

@@ -47,7 +47,7 @@ def work_precision(
     time_limit: float = 5.0,
     **options: Any,
 ) -> WorkPrecision:
-    """Runs a scene by each method at each tolerance and compares what comes out.
+    """Runs a scene by each method at each tolerance and compares the results.
 
     A *row* is one vector: the numbers of the recorded signals one after the other. What is known
     comes, in this order, from `exact`, from `reference`, else from two runs by different methods,

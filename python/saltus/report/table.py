@@ -42,7 +42,7 @@ COLUMNS = (
 
 
 class WorkPrecision(Sequence[dict[str, Any]]):
-    """A row for each method at each tolerance, as a dict; what is not known is nan.
+    """A row for each method at each tolerance, as a dict; unknown values are nan.
 
     Rows of runs that failed are here too: 'status' says how, 'message' why, and no 'seconds' is
     known of them. docs/work_precision.md explains each column. Made by `work_precision`.

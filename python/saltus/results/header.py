@@ -1,4 +1,4 @@
-"""The checks of what a results file says, before any of it is used."""
+"""The checks of the header of a results file, before any of it is used."""
 
 from __future__ import annotations
 

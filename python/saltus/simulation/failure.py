@@ -1,4 +1,4 @@
-"""What a run that ended badly raises."""
+"""The error that a run raises when it ends badly."""
 
 from __future__ import annotations
 

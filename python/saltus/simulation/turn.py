@@ -39,7 +39,7 @@ class Turn:
         self._lock.release()
 
     def require_idle(self, call: str, run: _core.Simulator) -> None:
-        """Refuses a call that reads what a call under way changes."""
+        """Refuses a call that reads values which a call under way changes."""
         if self._lock.locked():
             self._refuse(call, run)
 

@@ -39,7 +39,7 @@ R = TypeVar("R", bound=Results)
 
 @dataclass(frozen=True, slots=True)
 class Prepared:
-    """What a run needs: the plan, and how it is made and reported."""
+    """The plan of a run, and how it is made and reported."""
 
     plan: _core.Plan
     callbacks: Callbacks | None = None
@@ -95,7 +95,7 @@ def _made(system: System, options: SimulatorOptions, key: Key | None) -> Prepare
 def checked_options(
     where: str, system: System, options: SimulatorOptions | None, overrides: Mapping[str, Any]
 ) -> SimulatorOptions:
-    """The options with those by name. ModelError for what is no system, and for unknown names."""
+    """The options with those by name. ModelError if it is no system, and for unknown names."""
     if not isinstance(system, System):
         raise ModelError(f"expected a system, found {system!r}")
     options = options or SimulatorOptions()

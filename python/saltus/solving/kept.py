@@ -30,7 +30,7 @@ REDIRECTED = {"__wrapped__", "__signature__"}
 
 @dataclass(frozen=True)
 class Call:
-    """What a call of `solve` makes its system of."""
+    """The arguments of which a call of `solve` makes its system."""
 
     owner: FunctionType
     """the function that keeps it"""
@@ -99,8 +99,8 @@ def _settings(guard: Guard) -> tuple[Any, ...]:
 
 
 def _exact(value: Any) -> Any:
-    """What stands for a value in a key: equal only if all bits of the values are equal, which 0.0
-    and -0.0, or 1 and True, are not. None for a value that may change without being seen.
+    """A value's part of a key: equal only if all bits of the values are equal, which 0.0 and -0.0,
+    or 1 and True, are not. None for a value that may change without being seen.
     """
     kind = type(value)
     if kind in PLAIN:

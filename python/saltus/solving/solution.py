@@ -31,7 +31,7 @@ WELL = {
 
 @dataclass(frozen=True)
 class Known:
-    """What a solution knows of the call of `solve` that made it."""
+    """The record that a solution keeps of the call of `solve` that made it."""
 
     names: list[str] | None = None
     """of the events; None if there is no argument `events`"""

@@ -31,7 +31,7 @@ def tolerances_of(rtol: ArrayLike, atol: ArrayLike, size: int, form: Form) -> di
 
 
 def _possible(rtol: ArrayLike) -> Any:
-    """rtol, with what is positive and too small raised to the least."""
+    """rtol, with positive values that are too small raised to the least."""
     try:
         given = np.asarray(rtol, dtype=float)
     except (TypeError, ValueError):

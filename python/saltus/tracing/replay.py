@@ -33,7 +33,7 @@ class Replay:
         )
 
     def watch(self, watch: Watch) -> Watch | None:
-        """What the other function reads, if it is the same; or nothing."""
+        """The objects that the other function reads, if it is the same; or nothing."""
         return watch.moved(self._moved, self._equal) if self._paired else None
 
     def _moved(self, value: Any) -> Any:
@@ -56,7 +56,7 @@ class Replay:
         return isinstance(value, NUMBERS) and not isinstance(value, bool)
 
     def _pair(self, value: Any, other: Any) -> bool:
-        """Whether two objects may take each other's place, if what is read from them is equal."""
+        """Whether two objects may take each other's place if the values read are equal."""
         if value is other:
             return True
         if id(value) in self._pairs:

@@ -22,7 +22,7 @@ class TracedState:
     entry: Any
     mode: Any
     written: str
-    """letters of what was written: x, z, m for the mode"""
+    """letters of the parts that were written: x, z, m for the mode"""
 
     __slots__ = ("continuous_state", "discrete_state", "entry", "mode", "written")
 

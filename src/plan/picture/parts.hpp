@@ -11,7 +11,7 @@ struct Reading {
   bool event = false;  // by a guard, a reset map or an update
 };
 
-/// For each leaf of a plan and each of its inputs.
+/// The readings of each input of each leaf of a plan.
 using Readings = std::vector<std::vector<Reading>>;
 Readings readings_of(const Plan& plan);
 

@@ -58,7 +58,7 @@ class Elimination final : public FactorisationOf<T> {
   List<int> pivots_;
 };
 
-/// For 1 to thresholds::unrolled_dense states: unrolled.
+/// Unrolled elimination for 1 to thresholds::unrolled_dense states.
 template <class T>
 std::unique_ptr<FactorisationOf<T>> make_unrolled(int n);
 

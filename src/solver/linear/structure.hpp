@@ -1,4 +1,4 @@
-// What the linear systems of a stiff method are made of: the Jacobian, the choice of a solver, and
+// The parts of the linear systems of a stiff method: the Jacobian, the choice of a solver, and
 // the layout of its matrices.
 #pragma once
 
@@ -22,7 +22,7 @@ class LinearStructure {
   const JacobianPattern& pattern() const { return jacobian_->pattern(); }
   const LinearChoice& choice() const { return choice_; }
   bool direct() const { return choice_.solver != LinearSolver::gmres; }
-  /// Of a matrix, if the solver is direct.
+  /// The layout of a matrix, if the solver is direct.
   const MatrixLayout& layout() const { return layout_; }
   /// A direct solver for matrices of this layout.
   template <class T>

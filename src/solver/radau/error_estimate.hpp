@@ -25,7 +25,7 @@ class ErrorEstimate {
   /// Another step begins, or the same one with other stages: no try of it is known.
   void forget_tries() { tried_ = 0.0; }
 
-  /// Root mean square of the estimate, in what is allowed: infinite if it is not finite. `x1` is
+  /// Root mean square of the estimate, in allowed errors: infinite if it is not finite. `x1` is
   /// the end of the step.
   double look(StageSolver& solver, const Step& step, const StagePolynomial& stages,
               const Eigen::VectorXd& x1) {
@@ -33,7 +33,7 @@ class ErrorEstimate {
     before_.swap(estimate_);
     estimate_ = step.h * *step.f;
     for (int j = 0; j < stages.stages; ++j) estimate_ += scheme.e[j] * stages.z.col(j);
-    plain_ = estimate_ / scheme.gamma;  // what a filter without J leaves
+    plain_ = estimate_ / scheme.gamma;  // the part that a filter without J leaves
     solver.filter(estimate_);
     for (Index i = 0; i < estimate_.size(); ++i)
       tolerance_[i] = options_.tolerance(i, std::max(std::abs((*step.x)[i]), std::abs(x1[i])));
@@ -47,19 +47,19 @@ class ErrorEstimate {
   double size() const { return size_; }
   /// [tolerances] The largest part of it.
   double largest() const { return estimate_.cwiseQuotient(tolerance_).cwiseAbs().maxCoeff(); }
-  /// For a step that is accepted without an estimate.
+  /// Sets the error of a step that is accepted without an estimate.
   void set_size(double size) { size_ = size; }
 
  private:
-  /// What is allowed at rtol, or, where the absolute tolerances are the larger part, at the ratio
-  /// of the tolerances to the states.
+  /// The error that is allowed at rtol, or, where the absolute tolerances are the larger part, at
+  /// the ratio of the tolerances to the states.
   AllowedEstimate allowed(const Scheme& scheme, const Eigen::VectorXd& x1) const {
     const double relative = std::min(tuning::absolute_part / mean(x1), 1.0);
     if (relative > options_.rtol) return AllowedEstimate(scheme, relative, thresholds::dense_room);
     return *nth(allowed_, scheme.pairs() - 1);
   }
 
-  /// Root mean square in what is allowed. `plain_` is overwritten.
+  /// Root mean square in allowed errors. `plain_` is overwritten.
   double in_allowed(const AllowedEstimate& allowed, double h, int stages) {
     const bool again = h < tuning::alike_tries * tried_;
     const double shrunk = again ? std::pow(h / tried_, stages) : 0.0;

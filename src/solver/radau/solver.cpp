@@ -26,21 +26,21 @@ class RadauSolver final : public StepSolver<RadauSolver> {
         stages_(machine, options),
         step_(n_),
         last_(n_),
-        halves_(n_),
+        inside_{Halves(n_)},
         error_(n_, options) {}
 
   void inside_step(double u, double* x) {
-    if (!looked_) look_inside();
-    if (halved_)
-      halves_.read(x0_.data(), u / length_, x);
+    if (!inside_.known) look_inside();
+    if (inside_.halved)
+      inside_.halves.read(x0_.data(), u / length_, x);
     else
       step_.read(x0_.data(), u / length_, x);
   }
 
   int degree() const override { return step_.stages; }
   double joint() override {
-    if (!looked_) look_inside();
-    return halved_ ? t0_ + 0.5 * length_ : -infinite;
+    if (!inside_.known) look_inside();
+    return inside_.halved ? t0_ + 0.5 * length_ : -infinite;
   }
   std::string method() const override { return "radau"; }
   const SolverStatistics& statistics() const override {
@@ -111,28 +111,39 @@ class RadauSolver final : public StepSolver<RadauSolver> {
       t1_ = ends ? t_stop : t0_ + h;
       if (!stages_.solve({t0_, &x0_, &f0_, h}, step_, [&, h = h] { predict(h); })) {
         if (creep(h)) return;
-        if (!stages_.finite()) note_not_finite(h);
-        wish = h * stages_.shorter(), damping_.end();
-        choice_.newton_failed();
-        step_.stages = choice_.stages();
-        error_.forget_tries();
-        ++statistics_.rejected;
+        wish = retry_after_failure(h);
         continue;
       }
       const double error = judged(h);
-      if (error <= 1.0 && !ends_finite()) {
-        ++statistics_.rejected;
-        note_not_finite(h);
-        wish = h * thresholds::blind_retry;
-        continue;
-      }
-      if (error <= 1.0) return accept(error, h, wish, rejected);
-      ++statistics_.rejected;
-      wish = choice_.reject(error, h, stages_.convergence());
-      // Behind a jump the steps before it say nothing, and the estimate of fast parts hardly
-      // shrinks with h until it resolves them.
-      if (!smooth_ && !rejected && !damping_.goes_on()) wish = std::min(wish, careful_step(t_stop));
+      if (error <= 1.0 && ends_finite()) return accept(error, h, wish, rejected);
+      wish = error <= 1.0 ? retry_after_jump(h) : retry_after_error(error, h, rejected, t_stop);
     }
+  }
+
+  // The length of the next try, after one that Newton's iteration, a value that is not finite, or the
+  // error has ended.
+  double retry_after_failure(double h) {
+    ++statistics_.rejected;
+    if (!stages_.finite()) note_not_finite(h);
+    const double shorter = h * stages_.shorter();
+    damping_.end();
+    choice_.newton_failed();
+    step_.stages = choice_.stages();
+    error_.forget_tries();
+    return shorter;
+  }
+  double retry_after_jump(double h) {
+    ++statistics_.rejected;
+    note_not_finite(h);
+    return h * thresholds::blind_retry;
+  }
+  double retry_after_error(double error, double h, bool rejected, double t_stop) {
+    ++statistics_.rejected;
+    const double shorter = choice_.reject(error, h, stages_.convergence());
+    // Behind a jump the steps before it say nothing, and the estimate of fast parts hardly shrinks
+    // with h until it resolves them.
+    if (smooth_ || rejected || damping_.goes_on()) return shorter;
+    return std::min(shorter, careful_step(t_stop));
   }
 
   Scheme scheme() const { return scheme_of(step_.stages); }
@@ -181,7 +192,7 @@ class RadauSolver final : public StepSolver<RadauSolver> {
     return true;
   }
 
-  /// The error of a step of length h, in what is allowed. A step that damps may have more.
+  /// The error of a step of length h, in allowed errors. A step that damps may have more.
   double judged(double h) {
     const double error = estimate(h);
     if (!damping_.by(h) || !std::isfinite(error)) return error;
@@ -203,7 +214,7 @@ class RadauSolver final : public StepSolver<RadauSolver> {
   void finish_stages(double h) {
     length_ = h;
     x1_ = x0_ + step_.end();
-    looked_ = halved_ = f1_known_ = false;
+    inside_.known = inside_.halved = f1_known_ = false;
   }
 
   template <class Vector>
@@ -238,9 +249,9 @@ class RadauSolver final : public StepSolver<RadauSolver> {
   /// [tolerances] Of the collocation polynomial inside the step.
   double dense_error() const { return error_.size() * scheme().dense_share; }
   void look_inside() {
-    looked_ = true;
-    halved_ = dense_error() > thresholds::dense_room &&
-              halves_.solve(stages_, t0_, x0_, x1_, length_, step_);
+    inside_.known = true;
+    inside_.halved = dense_error() > thresholds::dense_room &&
+                     inside_.halves.solve(stages_, t0_, x0_, x1_, length_, step_);
   }
 
   /// The lengths of the next steps are no trend of the error.
@@ -261,9 +272,12 @@ class RadauSolver final : public StepSolver<RadauSolver> {
   Eigen::VectorXd residual_, scratch_;
   StageSolver stages_;
   StagePolynomial step_, last_;  // of the present step, and of the step before
-  Halves halves_;
+  /// The looks inside the step: by its polynomial, or by those of two halves.
+  struct Inside {
+    Halves halves;
+    bool known = false, halved = false;
+  } inside_;
   ErrorEstimate error_;
-  bool looked_ = false, halved_ = false;
   bool f1_known_ = false;
   Damping damping_;
   bool smooth_ = false;  // the solution of the last step continues in the present one

@@ -28,7 +28,7 @@ class StageSolver {
   /// Makes the structure of the linear systems at the first step. Throws NoFactors if they cannot
   /// be factorised.
   void prepare(double t, const Eigen::VectorXd& x);
-  /// What was seen of Newton's iteration says nothing about the next step.
+  /// The last iterations of Newton's method say nothing about the next step.
   void distrust() { factor_ = infinite; }
 
   /// Solves the stages of a step from their first values, which `start` writes to the polynomial.

@@ -17,7 +17,7 @@ namespace saltus::radau {
 /// of stages, except within Eigen's sparse factorisation.
 class StageSystems {
  public:
-  /// For matrices of this structure, which has to be direct.
+  /// Solves with matrices of this structure, which has to be direct.
   explicit StageSystems(const LinearStructure& structure) : structure_(&structure) {}
 
   /// Factorises for a step of length h, large matrices in two threads; `jacobian` has the values of
@@ -43,7 +43,7 @@ class StageSystems {
   };
 
   bool factor_real(const std::vector<double>& jacobian, const Scheme& scheme, double h);
-  /// Of every second pair, from `first` on.
+  /// Factorises every second pair, from `first` on.
   bool factor_pairs(int first, const std::vector<double>& jacobian, const Scheme& scheme, double h);
 
   const LinearStructure* structure_;

@@ -130,7 +130,7 @@ inline std::vector<double> numbers_of(const Eigen::Ref<const Eigen::VectorXd>& v
   return {values.begin(), values.end()};
 }
 
-/// The values of a context, leaf by leaf, and what the run that ended with it knew.
+/// The values of a context, leaf by leaf, and the continuation of the run that ended with it.
 template <class Tree>
 typename Tree::Value data_of(const Context& context) {
   const ContextValues v = context.values();

@@ -1,4 +1,4 @@
-// Names of what a system has: ports, guards, parameters, blocks.
+// Names of the parts of a system: ports, guards, parameters, blocks.
 #pragma once
 
 #include <string>

@@ -7,7 +7,7 @@ namespace saltus::detail {
 
 /// Refuses algebraic loops, and inputs of another width than their source, as far as the
 /// declarations of the blocks tell: an input of the diagram is open, and no function of a user is
-/// called. What is left is refused before a run.
+/// called. Every other shape is refused before a run.
 void require_sound(const Diagram& diagram);
 
 }  // namespace saltus::detail

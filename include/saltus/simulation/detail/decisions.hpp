@@ -59,6 +59,14 @@ struct CrossingFacts {
 
   bool either() const { return direction == Direction::crosses_zero; }
   bool wrote() const { return resets > 0; }
+  /// The side that it fires from. A guard of either direction is armed where it is.
+  int armed_side() const { return either() ? side : -firing_side(direction); }
+  /// Whether it is on its firing side already; a guard of either direction never is.
+  bool is_beyond() const { return !either() && side == firing_side(direction); }
+  /// Whether a flow to this side crosses zero in its direction.
+  bool crosses_to(int to) const { return to != 0 && to == -armed_side(); }
+  /// Whether a reset turned the flow round, to this side.
+  bool is_turned_to(int to) const { return wrote() && crosses_to(to) && !is_beyond(); }
 };
 
 /// Whether a zero crossing has to be armed by the flow. `uncertainty()` is the error of its value
@@ -96,6 +104,19 @@ struct Arming {
   bool operator==(const Arming&) const = default;
 };
 
+/// Whether a run begins in contact with the surface of a guard: see decide_at_zero.
+template <class Ask>
+bool begins_in_contact(const CrossingFacts& guard, int flow_to, const Ask& ask) {
+  return guard.at_start && flow_to == firing_side(guard.direction) &&
+         (!guard.either() || ask.slope() == 0.0);
+}
+
+/// Whether a guard leaves zero along the surface: see decide_at_zero.
+template <class Ask>
+bool leaves_along_surface(const CrossingFacts& guard, bool to_armed_side, const Ask& ask) {
+  return guard.entered && guard.effect && to_armed_side && ask.slope() == 0.0;
+}
+
 /// Decides about a guard at zero that has not fired. A guard with an effect is in contact if the
 /// flow takes it to its firing side. It fires at once if the run begins so, or if a reset just
 /// turned the flow round. All other guards wait until they have been clearly off zero (2.3). If the
@@ -121,23 +142,30 @@ struct Arming {
 /// already.
 template <class Ask>
 Arming decide_at_zero(const CrossingFacts& guard, FlowSide flow, const Ask& ask) {
-  const int firing = firing_side(guard.direction);
-  const int armed = guard.either() ? guard.side : -firing;
-  const bool not_beyond = guard.either() || guard.side != firing;
-  const bool across =
-      flow.side != 0 && (guard.either() ? flow.side == -armed : flow.side == firing);
-  const bool begins =
-      guard.at_start && flow.side == firing && (!guard.either() || ask.slope() == 0.0);
-  const bool turned = guard.wrote() && across && not_beyond;
-  const bool dormant = flow.side == 0 && guard.effect && not_beyond;
+  const int armed = guard.armed_side();
+  const bool begins = begins_in_contact(guard, flow.side, ask);
+  const bool dormant = flow.side == 0 && guard.effect && !guard.is_beyond();
   Arming arming{.phase = Phase::waiting, .side = dormant ? armed : flow.side};
-  const bool leaves = flow.side == 0 ? dormant : flow.side == armed;
-  if (guard.entered && guard.effect && leaves && ask.slope() == 0.0)
+  if (leaves_along_surface(guard, flow.side == 0 ? dormant : flow.side == armed, ask))
     arming.within = Arming::Within::tolerance;
   if (guard.put_at_zero && flow.side != armed)
     arming.then = Arming::Then::fire, arming.from = armed;
-  else if (guard.effect && (begins || turned))
+  else if (guard.effect && (begins || guard.is_turned_to(flow.side)))
     arming.then = Arming::Then::fire, arming.from = -flow.side;
+  return arming;
+}
+
+/// The part of decide_fired for a guard with a reset map that is at zero or beyond it: whether it
+/// fires again or rests. `arming` says how it waits if it does neither.
+template <class Ask>
+Arming decide_return(const CrossingFacts& guard, FlowSide flow, const Ask& ask, Arming arming) {
+  const int from = guard.came_from;
+  const bool low = ask.too_low(), back = low || flow.side == -from;
+  if (!back || !(std::abs(guard.g) <= flow.error)) return arming;
+  if (guard.resets > 1 && ask.reset_turns())
+    arming.then = Arming::Then::fire, arming.from = from;
+  else if (low || ask.leads_back())
+    arming.then = Arming::Then::rest, arming.side = from;
   return arming;
 }
 
@@ -165,15 +193,8 @@ Arming decide_fired(const CrossingFacts& guard, FlowSide flow, const Ask& ask) {
   const int from = guard.came_from;
   if (guard.reset && from * guard.g > flow.error) return {.phase = Phase::armed, .side = from};
   const int kept = guard.reset && guard.wrote() ? from : 0;
-  Arming arming{.phase = Phase::waiting, .side = flow.side != 0 ? flow.side : kept};
-  if (!guard.reset) return arming;
-  const bool low = ask.too_low();
-  if (!(flow.side == -from || low) || !(std::abs(guard.g) <= flow.error)) return arming;
-  if (guard.resets > 1 && ask.reset_turns())
-    arming.then = Arming::Then::fire, arming.from = from;
-  else if (low || ask.leads_back())
-    arming.then = Arming::Then::rest, arming.side = from;
-  return arming;
+  const Arming waits{.phase = Phase::waiting, .side = flow.side != 0 ? flow.side : kept};
+  return guard.reset ? decide_return(guard, flow, ask, waits) : waits;
 }
 
 /// Decides about a zero crossing that needs the flow.

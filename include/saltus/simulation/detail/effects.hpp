@@ -7,8 +7,9 @@
 
 namespace saltus {
 
-/// Runs the reset maps, the changes of mode and the updates of a pass. What they write is committed
-/// later, together. Each is logged, and the Zeno monitor of its guard or edge counts it.
+/// Runs the reset maps, the changes of mode and the updates of a pass. The values that they write
+/// are committed later, together. Each is logged, and the Zeno monitor of its guard or edge counts
+/// it.
 class Effects {
  public:
   Effects(const Plan& plan, const GuardSet& guards, const Edges& edges, Holds& holds,

@@ -28,7 +28,7 @@ inline double location_error(double g_at_root, bool jumped) {
   return jumped ? 0.0 : thresholds::location_error * std::abs(g_at_root);
 }
 
-/// What is known of the error of a guard before the flow is asked.
+/// The parts of the error of a guard that are known before the flow is asked.
 struct ErrorFacts {
   double g = 0.0;               ///< its value
   double location = 0.0;        ///< the term by location, of a guard that fired; 0 where it jumped

@@ -39,7 +39,7 @@ class Recorder {
     }
   }
 
-  /// As `record`; a row at (t, j) that is there already is replaced.
+  /// Records a row, and replaces a row at (t, j) that is there already.
   void replace(double t, int jump, const double* x) {
     if (has_row(t, jump)) drop();
     record(t, jump, x);

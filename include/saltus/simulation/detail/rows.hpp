@@ -1,4 +1,5 @@
-// Rows: what a run records between instants. The rows of an instant are in instant_rows.hpp.
+// Rows: the rows that a run records between instants. The rows of an instant are in
+// instant_rows.hpp.
 #pragma once
 
 #include <cstddef>

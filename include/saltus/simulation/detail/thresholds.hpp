@@ -48,9 +48,10 @@ inline constexpr double furthest_look = 3e5;
 /// tests/semantics/zeno_false_rest_test.cpp
 inline constexpr double first_look_of_run = 1e-9;
 /// [of the run] A state that takes longer than this to move by its tolerance is ignored.
+/// tests/unit/departure_test.cpp (as large)
 inline constexpr double slow_state_of_run = 1e-3;
 /// [of the largest move of the states] A guard that moves by this moves as the states do: its side
-/// is beyond doubt, and its rounding need not be measured.
+/// is beyond doubt, and its rounding need not be measured. tests/unit/departure_test.cpp (as large)
 inline constexpr double doubtless_move = 1e-3;
 /// [lift times] and [of the run]: the furthest look that waits for curvature to exceed rounding.
 /// tests/laws/ball_far_test.cpp
@@ -61,7 +62,7 @@ inline constexpr double lift_of_run = 1e-2;
 inline constexpr double short_run = 1.0;
 inline constexpr double short_run_looks = 1e9;
 /// [first looks] The time over which the speed of a guard is bounded: long enough that its rounding
-/// does not count, and short enough that no flow leaves its range.
+/// does not count, and short enough that no flow leaves its range. tests/unit/departure_test.cpp
 inline constexpr double speed_looks = 1e6;
 /// [of the difference of two slopes] The curvature that extrapolation leaves in the slope.
 inline constexpr double slope_noise = 1e-6;
@@ -77,7 +78,7 @@ inline constexpr int fixed_point_rounds = 6;
 /// [eps of the size of a state] A reset that moves a state by less has reached its fixed point.
 inline constexpr double fixed_point_roundings = 64.0;
 /// [eps] Relative movement of a state by curvature. It leaves nine digits above the rounding,
-/// enough to know the sign.
+/// enough to know the sign. tests/semantics/zeno_moving_frame_test.cpp (as small)
 inline constexpr double visible_lift = 1e9 * eps;
 /// [of the run] and [eps |t|]: the shortest and the longest look ahead.
 inline constexpr double brief_of_run = 1e-9;

@@ -31,9 +31,9 @@ class Transition {
     double t;                 ///< [s]
     std::string_view source;  ///< "block.event", for errors
   };
-  /// Runs a reset map or an update of a leaf. It sees what the earlier ones of this pass wrote to
-  /// the states and the mode of its leaf (3.2, 3.3). Returns whether it had an effect: it wrote a
-  /// state, or changed the mode.
+  /// Runs a reset map or an update of a leaf. It sees the values that the earlier ones of this pass
+  /// wrote to the states and the mode of its leaf (3.2, 3.3). Returns whether it had an effect: it
+  /// wrote a state, or changed the mode.
   bool run(const Call& call);
   void enter_mode(int leaf, int mode) { modes_next_[leaf] = mode; }
 

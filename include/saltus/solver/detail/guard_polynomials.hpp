@@ -122,27 +122,39 @@ class GuardPolynomials {
     return above / below;
   }
 
-  /// The root of the polynomial of guard k between the points first - 1 and first: Illinois, then
-  /// bisection.
+  /// A bracket of a root with the values at its ends, and how often in a row the upper end (> 0) or
+  /// the lower end (< 0) was moved. As in Narrower::narrow.
+  struct Bracket {
+    double low, high, a, b;
+    int moved = 0;
+
+    /// The part of the bracket at which to look next: by Illinois, and by bisection from the 40th
+    /// look on.
+    double part(int looks) const {
+      const double wa = std::abs(a) * (moved > 1 ? 0.5 : 1.0),
+                   wb = std::abs(b) * (moved < -1 ? 0.5 : 1.0);
+      return looks > 40 || !(wa + wb > 0.0) ? 0.5 : wa / (wa + wb);
+    }
+    void take(double u, double g, bool crossed) {
+      if (crossed)
+        high = u, b = g, moved = std::max(moved, 0) + 1;
+      else
+        low = u, a = g, moved = std::min(moved, 0) - 1;
+    }
+  };
+
+  /// The root of the polynomial of guard k between the points first - 1 and first.
   double root_of(std::size_t k, int first) const {
-    double low = point(first - 1), high = point(first);
-    double a = value(first - 1, k), b = value(first, k);
-    const double sign = b == 0.0 ? -a : b;
-    int kept = 0;  // as in Narrower::narrow
-    for (int count = 0; count < 120 && b != 0.0; ++count) {
+    Bracket bracket{point(first - 1), point(first), value(first - 1, k), value(first, k)};
+    const auto& [low, high, a, b, moved] = bracket;
+    const bool rises = (b == 0.0 ? -a : b) > 0.0;
+    for (int looks = 0; looks < 120 && b != 0.0; ++looks) {
       const double resolution = std::numeric_limits<double>::epsilon() * high;
       if (high - low <= 2.0 * resolution) break;
-      const double weight = kept > 1 || kept < -1 ? 0.5 : 1.0;
-      const double wa = std::abs(a) * (kept > 1 ? weight : 1.0),
-                   wb = std::abs(b) * (kept < -1 ? weight : 1.0);
-      const double part = count > 40 || !(wa + wb > 0.0) ? 0.5 : wa / (wa + wb);
-      const double u = std::clamp(low + part * (high - low), low + resolution, high - resolution);
+      const double u =
+          std::clamp(low + bracket.part(looks) * (high - low), low + resolution, high - resolution);
       const double g = at(k, u);
-      const bool crossed = g == 0.0 || (g > 0.0) == (sign > 0.0);
-      if (crossed)
-        high = u, b = g, kept = std::max(kept, 0) + 1;
-      else
-        low = u, a = g, kept = std::min(kept, 0) - 1;
+      bracket.take(u, g, g == 0.0 || (g > 0.0) == rises);
     }
     return high;
   }

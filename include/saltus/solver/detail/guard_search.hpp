@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "saltus/base/list.hpp"
-#include "saltus/solver/detail/dip_search.hpp"
+#include "saltus/solver/detail/found_root.hpp"
 #include "saltus/solver/detail/look_points.hpp"
 #include "saltus/solver/detail/thresholds.hpp"
 
@@ -18,10 +18,10 @@ namespace saltus {
 /// Looks at the guards of a watch at a few interior points of a step. It also looks where three
 /// looks suggest that a guard dips across zero and back (a pair of roots). The first interval in
 /// which a guard crosses is narrowed.
-class GuardSearch : private DipSearch {
+class GuardSearch : private FoundRoot {
  public:
   GuardSearch(Machine& machine, GuardSet& guards, const Watch& watch)
-      : DipSearch(machine, guards, watch) {
+      : FoundRoot(machine, guards, watch) {
     for (auto* values : {&at_root_, &before_, &end_})
       values->assign(machine.plan().guard_slots, 1.0);
   }
@@ -93,38 +93,42 @@ class GuardSearch : private DipSearch {
   [[gnu::noinline]] bool find_inside(const Part& part, bool needless,
                                      const Interpolate& interpolate) {
     guards_->keep();
-    double from = part.from;
-    const double to = part.to, *end = part.end;
-    // If the look was not needed, the next one comes later: after 7 steps, 15, 31, then 63.
-    patience_ = needless && skipped_ > 0 ? std::min(2 * patience_ + 1, thresholds::most_patience)
-                                         : thresholds::least_patience;
-    skipped_ = 0;
+    choose_patience(needless);
     end_.swap(high_);
-    end_at_ = to;
+    end_at_ = part.to;
+    double from = part.from;
     const int pieces = 1 + (points_ == nullptr ? scan_points_ : static_cast<int>(points_->size()));
-    const double piece_length = (to - from) / pieces;
+    const double length = (part.to - from) / pieces;
     double next = from;
     if (earlier_at_ == never && scans() && some_beyond()) {
-      const double early = from + thresholds::first_look * piece_length;
+      const double early = from + thresholds::first_look * length;
       look(early, nullptr, interpolate, high_);
       if (find_in(from, early, nullptr, interpolate)) return true;
       from = early;
     }
-    for (int piece = 1; piece <= pieces; ++piece) {
-      const bool last = piece == pieces;
-      next = last                 ? to
-             : points_ == nullptr ? std::min(to, next + piece_length)
-                                  : nth(*points_, piece - 1);
-      if (last)
-        high_.swap(end_);
-      else
-        look(next, nullptr, interpolate, high_);
-      if (calm(from, next))
-        shift_all(from, next);
-      else if (from < next && find_in(from, next, last ? end : nullptr, interpolate))
-        return true;
+    for (int piece = 1; piece < pieces; ++piece) {
+      next = points_ == nullptr ? std::min(part.to, next + length) : nth(*points_, piece - 1);
+      look(next, nullptr, interpolate, high_);
+      if (find_in_piece(from, next, nullptr, interpolate)) return true;
       from = next;
     }
+    high_.swap(end_);
+    return find_in_piece(from, part.to, part.end, interpolate);
+  }
+
+  /// If the look was not needed, the next one comes later: after 7 steps, 15, 31, then 63.
+  void choose_patience(bool needless) {
+    patience_ = needless && skipped_ > 0 ? std::min(2 * patience_ + 1, thresholds::most_patience)
+                                         : thresholds::least_patience;
+    skipped_ = 0;
+  }
+
+  /// `find_in`, unless the looks at both ends show that nothing happens in between.
+  template <class Interpolate>
+  bool find_in_piece(double from, double to, const double* end, const Interpolate& interpolate,
+                     bool between = true) {
+    if (!calm(from, to)) return from < to && find_in(from, to, end, interpolate, between);
+    shift_all(from, to);
     return false;
   }
 
@@ -149,22 +153,29 @@ class GuardSearch : private DipSearch {
           continue;
         }
       }
-      const double before = from;
-      before_ = guards_->g;
-      third_ = end_, third_at_ = high < end_at_ ? end_at_ : never;
-      from = narrow(from, high, interpolate);
-      if (between && watch_->slots.size() > 1 && scans()) {
-        if (find_before(before, from, interpolate)) return true;
-      } else if (from - before > thresholds::short_share * (to - before)) {
-        earlier_.swap(before_);
-        earlier_at_ = before;
-      }
-      from = at_root_of_step(from, interpolate);
-      may_go_back_ = false;
-      if (take(from)) return true;
+      if (locate(from, high, to, interpolate, between)) return true;
       leave_zero_of_monitors(from, to, interpolate);
     }
     return false;
+  }
+
+  /// Narrows the crossing in (from, high], moves `from` to it, and notes it. Returns whether the
+  /// search ends there, or in the part before it.
+  template <class Interpolate>
+  bool locate(double& from, double high, double to, const Interpolate& interpolate, bool between) {
+    const double before = from;
+    before_ = guards_->g;
+    third_ = end_, third_at_ = high < end_at_ ? end_at_ : never;
+    from = narrow(from, high, interpolate);
+    if (between && watch_->slots.size() > 1 && scans()) {
+      if (find_before(before, from, interpolate)) return true;
+    } else if (from - before > thresholds::short_share * (to - before)) {
+      earlier_.swap(before_);
+      earlier_at_ = before;
+    }
+    from = at_root_of_step(from, interpolate);
+    may_go_back_ = false;
+    return take(from);
   }
 
   /// A monitor that crosses within the bracket of the root at which the solver stops crosses there:
@@ -188,30 +199,12 @@ class GuardSearch : private DipSearch {
       const double next = std::min(root, from + piece);
       if (!(from < next)) break;
       look(next, nullptr, interpolate, high_);
-      if (calm(from, next))
-        shift_all(from, next);
-      else if (find_in(from, next, nullptr, interpolate, false))
-        return true;
+      if (find_in_piece(from, next, nullptr, interpolate, false)) return true;
       from = next;
     }
     high_ = at_root_;
     if (!note_crossed(high_)) crossed_.clear();  // a monitor was found one rounding before it
     return false;
-  }
-
-  /// Gives a monitor located exactly on zero its side: the sign at a point slightly later.
-  template <class Interpolate>
-  void leave_zero_of_monitors(double from, double to, const Interpolate& interpolate) {
-    const auto unsure = [&](std::size_t k) { return (*guards_)[k].side == 0; };
-    if (std::ranges::none_of(crossed_, unsure)) return;
-    const double resolution = thresholds::eps * (std::abs(t0_) + from);
-    look(std::min(to, from + std::max(thresholds::leave_roundings * resolution,
-                                      thresholds::leave_share * (to - from))),
-         nullptr, interpolate, middle_);
-    for (const std::size_t k : crossed_) {
-      if (unsure(k)) guards_->leave_to(k, sign_of(middle_[k]));
-    }
-    look_up_guards();
   }
 
   /// Whether some guard with one direction is on its firing side.
@@ -220,59 +213,7 @@ class GuardSearch : private DipSearch {
                                [&](std::size_t k) { return (*guards_)[k].is_beyond(); });
   }
 
-  /// Whether a guard that has a firing side, and has not crossed, is as close to zero as it moves
-  /// in four brackets of the root.
-  bool is_beside_root(std::size_t k) const {
-    const Guard& guard = (*guards_)[k];
-    return guard.phase == Phase::armed && !guard.monitor && !guard.jumps &&
-           guard.has_one_direction() &&
-           std::abs(high_[k]) <= thresholds::root_noise * std::abs(high_[k] - low_[k]) &&
-           !guard.crossed(high_[k]);
-  }
-
-  [[noreturn]] void throw_not_finite(std::size_t k, double t) const {
-    const Plan& plan = machine_->plan();
-    const GuardGroup& group = plan.guards[(*guards_)[k].group];
-    throw SimulationError(text("t = ", t, " s: guard '", group.name,
-                               "' is not finite (NaN or Inf); check it at this state"),
-                          t, plan.leaves[group.leaf].path);
-  }
-
-  /// Moves a monitor to its other side. It is at zero until it is clearly off.
-  void pass_monitor(const Firing& firing, double u) {
-    const std::size_t k = firing.guard();
-    guards_->monitors.push_back({t0_ + u, firing});
-    if ((*guards_)[k].direction == Direction::edge_detection) return;
-    guards_->pass(k, sign_of(high_[k]), noise_[k]);
-  }
-
-  /// Notes the guards that fired at offset u; true if one of them is not a monitor.
-  bool take(double u) {
-    root_ = u;
-    bool stops = false;
-    for (const std::size_t k : crossed_) {
-      const Guard& guard = (*guards_)[k];
-      if (!std::isfinite(high_[k])) throw_not_finite(k, t0_ + u);
-      const Firing firing{static_cast<int>(k), guard.side, guard.at_zero(), jump_[k]};
-      if (guard.monitor)
-        pass_monitor(firing, u);
-      else
-        guards_->fired_at_root.push_back(firing), stops = true;
-    }
-    for (const std::size_t k : watch_->slots) {
-      const Guard& guard = (*guards_)[k];
-      guards_->g[k] = high_[k];
-      if (is_beside_root(k)) guards_->beside_root.push_back(k);
-      guards_->follow(k, high_[k]);
-      // A guard exactly on zero takes the side to which it leaves.
-      if (guard.phase != Phase::resting && guard.crossed(high_[k])) guards_->leave_to(k, 0);
-    }
-    stops ? forget_guards() : look_up_guards();
-    return stops;
-  }
-
   List<double> at_root_, before_;
-  double root_ = 0.0;
   bool to_root_ = false;
   const std::vector<double>* points_ = nullptr;  // where to look inside; null: evenly
   List<double> end_;  // guards at the end of the step, until the look at its last piece

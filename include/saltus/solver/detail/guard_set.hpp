@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <concepts>
 #include <cstdint>
+#include <initializer_list>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -27,26 +28,32 @@ struct Watch {
   void clear() { slots.clear(), groups.clear(); }
 };
 
+/// The guards that can fire in the present modes. Those that stop the solver and the monitors are
+/// searched one after the other, because no monitor may change a bit of a root.
+struct ActiveGuards {
+  std::vector<std::size_t> all;
+  Watch stopping, monitors;
+
+  void add(std::size_t slot, const GuardTraits& guard) {
+    all.push_back(slot);
+    (guard.monitor ? monitors : stopping).add(slot, guard.group);
+  }
+  void clear() { all.clear(), stopping.clear(), monitors.clear(); }
+};
+
 /// The only writer of guard records. Each write by the engine increments the version, so that a
 /// locator knows when the values derived from the records are outdated. Writes by the locator do
 /// not change the version.
 class GuardSet {
  public:
-  GuardSet() = default;
+  /// Guards that are unseen and active.
+  GuardSet(std::initializer_list<GuardTraits> guards = {});
+  /// The guards of a plan, unseen and inactive.
   explicit GuardSet(const Plan& plan);
 
-  /// Adds an unseen guard.
-  void add(const GuardTraits& traits, bool active = true);
-
-  std::size_t size() const noexcept { return guards_.size(); }
   const Guard& operator[](std::integral auto k) const { return guards_[k]; }
   const List<Guard>& all() const noexcept { return guards_; }
-  /// The guards that can fire in the present modes.
-  const std::vector<std::size_t>& active() const noexcept { return active_; }
-  /// The active guards that stop the solver, and the active monitors. They are searched one after
-  /// the other, because no monitor may change a bit of a root.
-  const Watch& stopping() const noexcept { return stopping_; }
-  const Watch& watching() const noexcept { return watching_; }
+  const ActiveGuards& active() const noexcept { return active_; }
   std::int64_t version() const noexcept { return version_; }
 
   // --- written by the engine
@@ -85,11 +92,6 @@ class GuardSet {
   void keep_truth(std::size_t k, bool yes) { guards_[k].rests = yes; }
   /// Sets the time at which the guard began to wait after a firing; NaN for none.
   void mark_armed_at(std::size_t k, double t) { guards_[k].armed_at = t; }
-
-  /// Saves the records, which a continued run needs.
-  std::vector<Continuation::Guard> save() const;
-  bool fits(const Continuation& from) const { return from.guards.size() == guards_.size(); }
-  void load(const Continuation& from);
 
   /// A step is searched: `keep` remembers the records once before they are written, `restore`
   /// undoes what was written since.
@@ -145,17 +147,14 @@ class GuardSet {
     guard.phase = phase, guard.side = static_cast<signed char>(side), guard.error = error;
   }
 
-  void watch(Index slot) {
-    const auto k = static_cast<std::size_t>(slot);
-    active_.push_back(k);
-    (guards_[k].monitor ? watching_ : stopping_).add(k, guards_[k].group);
-  }
-
   List<Guard> guards_, kept_;
   bool keeps_ = false;  // kept_ is of the present search
-  std::vector<std::size_t> active_;
-  Watch stopping_, watching_;
+  ActiveGuards active_;
   std::int64_t version_ = 0;
 };
+
+// The part of a continuation that a run needs to continue with the same records.
+std::vector<Continuation::Guard> records_of(const GuardSet& guards);
+void load_records(GuardSet& guards, const std::vector<Continuation::Guard>& from);
 
 }  // namespace saltus

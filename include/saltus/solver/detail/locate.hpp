@@ -13,8 +13,8 @@ class Locator {
 
   Locator(Machine& machine, GuardSet& guards)
       : guards_(&guards),
-        stopping_(machine, guards, guards.stopping()),
-        watching_(machine, guards, guards.watching()) {}
+        stopping_(machine, guards, guards.active().stopping),
+        watching_(machine, guards, guards.active().monitors) {}
   Locator(const Locator&) = delete;  // only_ points into it
   Locator& operator=(const Locator&) = delete;
 

@@ -1,4 +1,4 @@
-// What the matrices of a stiff method cost.
+// The cost of the matrices of a stiff method.
 #pragma once
 
 #include "saltus/solver/detail/solver.hpp"

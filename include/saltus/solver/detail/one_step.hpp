@@ -12,7 +12,7 @@ class OneStepSolver : public Solver {
  public:
   /// Tests for stiffness from now on.
   virtual void watch_stiffness() = 0;
-  /// What the last steps have shown.
+  /// The record of the last steps.
   virtual StiffnessTest& stiffness() = 0;
   /// h |lambda| beyond which stability bounds the step.
   virtual double stability() const = 0;

@@ -14,7 +14,7 @@ class OneThread {
   OneThread(const OneThread&) = delete;
   OneThread& operator=(const OneThread&) = delete;
 
-  /// For the calling thread.
+  /// Whether the calling thread asked for it.
   static bool asked() { return asked_; }
 
  private:

@@ -193,7 +193,7 @@ class RungeKutta final : public StepSolver<RungeKutta<Method, N>, OneStepSolver>
            detail::load<W>(options_.each_rtol() + i) * size;
   }
 
-  /// Whether the error of the dense output is above what is allowed. It is not if its last term
+  /// Whether the error of the dense output is above the allowed one. It is not if its last term
   /// is small, which costs no call. Otherwise the largest defect decides.
   [[gnu::noinline]] bool dense_is_off()
     requires checks_dense

@@ -111,7 +111,7 @@ class StepSolver : public Interface {
   /// Delivers the step to its first root, or to its end.
   StopReason deliver(double t_stop) {
     const auto inside = [this](double u, double* x) { self().inside_step(u, x); };
-    if (!guards_->active().empty() && find_root(inside)) {
+    if (!guards_->active().all.empty() && find_root(inside)) {
       const double root = locator_.offset();
       if (root < length_) read_root(root);
       offset_ = root;
@@ -146,7 +146,7 @@ class StepSolver : public Interface {
     }
   }
 
-  /// By default as many points as the degree of the interpolant, at least three: the interpolant of
+  /// The default is as many points as the degree of the interpolant, at least three: that of
   /// a multistep method that begins is a line, but its guard need not be.
   int scan_points() {
     return guards_->scan_points ? *guards_->scan_points

@@ -6,7 +6,7 @@
 
 namespace saltus {
 
-/// What the choice depends on.
+/// The facts on which the choice depends.
 struct StiffScene {
   double states = 0.0;
   double rtol = 1e-6;          ///< the smallest

@@ -142,8 +142,8 @@ inline constexpr double bdf_step = 0.4, bdf_calls = 1.5, saved_calls = 0.5;
 inline constexpr double other_directions = 0.1;
 inline constexpr int power_iterations = 3;
 /// [iterations] at most, where many oscillations take part. [sine of the angle between two vectors]
-/// What the fit of one pair may leave unexplained; [cosine] of the angle by which many turn a
-/// vector back. tests/unit/spectral_radius_test.cpp
+/// The part that the fit of one pair may leave unexplained; [cosine] of the angle by which many
+/// turn a vector back. tests/unit/spectral_radius_test.cpp
 inline constexpr int most_power_iterations = 15;
 inline constexpr double unexplained_turn = 0.1, turned_back = 0.9;
 
@@ -210,6 +210,13 @@ inline constexpr double start_horizons = 4.0;
 /// [eps |t|] and [s]: CVODE takes no step within a few roundings of the time, nor below the least
 /// double of full precision.
 inline constexpr double cvode_roundings = 64.0, cvode_shortest = 1e-290;
+/// [time constants of the fastest part] A flight of more is left to BDF. An explicit method would
+/// need more than 60 steps for it at its limit of stability, 3.25; BDF starts in 13 to 27.
+inline constexpr double stiff_flight = 200.0;
+/// [steps] that have to advance by as many roundings of the time, if each is shorter than
+/// `least_step_roundings` of them. The jumps of Van der Pol with mu = 1e6 take steps of ten
+/// roundings. tests/unit/progress_test.cpp
+inline constexpr int watched_steps = 100;
 /// [steps] of order 1 after CVODE's start.
 inline constexpr int coarse_steps = 2;
 /// [failures] of Newton's iteration in one step; CVODE's own ten are too few for a stiff contact.
@@ -268,7 +275,7 @@ inline constexpr Index fresh_jacobian = 16;
 inline constexpr int setup_steps = 5;
 /// [vectors] of GMRES's Krylov space, at most.
 inline constexpr int krylov_vectors = 20;
-/// [1] and [entries of a row]: what the incomplete factorisation drops and keeps (Eigen's ILUT).
+/// [1] and [entries of a row]: the incomplete factorisation drops and keeps them (Eigen's ILUT).
 inline constexpr double dropped = 1e-3;
 inline constexpr int kept_fill = 10;
 /// [times] that a search may find new places before it is given up.

@@ -1,4 +1,4 @@
-"""What a function that is called may write, by its code and the objects that it can reach.
+"""The objects that a called function may write, by its code and the objects that it can reach.
 
 `writes_of(roots)` gives the `Writes` of one callback. `Changes` collects them, and says which value
 that a trace was made from may change during a run.

@@ -51,7 +51,7 @@ class Facts:
     cells: frozenset[str]
     """the variables of functions around it that it binds"""
     mutates: bool
-    """it writes to an entry of something, or calls what may"""
+    """it writes to an entry of something, or calls a function that may"""
     arguments: int
     """how many the longest call has; one more than a function of NumPy needs may be its `out`"""
     dynamic: str
@@ -90,7 +90,7 @@ def _arguments(instruction: dis.Instruction) -> int:
 
 
 def _stores(parts: list[CodeType]) -> tuple[set[str], set[str], bool, int]:
-    """What it binds, there and in functions around; whether it writes entries; its longest call."""
+    """The names it binds there and around it; whether it writes entries; its longest call."""
     binds: set[str] = set()
     cells: set[str] = set()
     writes, arguments = False, 0

@@ -67,5 +67,5 @@ def only_attributes(kind: type) -> bool:
 
 
 def harmless(value: Any) -> bool:
-    """Whether a function or class of a library leaves what it is given unchanged."""
+    """Whether a function or class of a library leaves its arguments unchanged."""
     return _root(value) in HARMLESS

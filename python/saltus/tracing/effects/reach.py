@@ -46,7 +46,7 @@ WRAPPERS = {
     "classmethod": ("__func__",),
     "cached_property": ("func",),
 }
-"""types of what stands in a class for a function -> the attributes with the function"""
+"""types that wrap a function in a class -> the attributes with the function"""
 
 
 def memory_of(array: np.ndarray) -> Any:
@@ -84,7 +84,7 @@ class Reach:
         self.unknown = ""
         """why it may write anything; or nothing"""
         self.looks = Looks()
-        """at what it has looked"""
+        """objects at which it has looked"""
         self._arguments = 0  # of the longest call
         self._fills = NEVER  # with so many arguments a function of NumPy may fill an array
         self._foreign = False  # a library that may call methods gets the objects

@@ -26,11 +26,11 @@ class Writes:
     unknown: str
     """why it may write anything else; or nothing"""
     looks: Looks
-    """at what the search has looked"""
+    """objects at which the search has looked"""
 
 
 def writes_of(roots: Iterable[Any]) -> Writes:
-    """What the functions and objects in `roots` may write when they are called."""
+    """The objects that the functions and objects in `roots` may write when they are called."""
     reach = Reach(roots)
     touched = reach.touched if reach.mutates or reach.unknown else {}
     return Writes(frozenset(reach.binds), reach.cells, touched, reach.unknown, reach.looks)

@@ -68,7 +68,7 @@ def _flat(container: Any) -> list[Any]:
 
 
 class Sandbox:
-    """The copies made for one trace, and the `Watch` over what they read."""
+    """The copies made for one trace, and the `Watch` over the objects they read."""
 
     def __init__(self) -> None:
         self.watch = Watch()

@@ -64,7 +64,7 @@ class Convergence {
   }
 
  private:
-  /// [tolerances] What the last allowed iteration would leave.
+  /// [tolerances] The error that the last allowed iteration would leave.
   double remaining() const {
     return factor_ * last_ * std::pow(theta_, most_ - 1 - iterations_) / tolerance_;
   }

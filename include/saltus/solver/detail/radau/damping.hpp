@@ -23,7 +23,7 @@ class Damping {
 
   /// Whether a step of length h damps: a shorter one, to a stop time, is a step like any other.
   bool by(double h) const { return left_ > 0 && h >= tuning::damping_share * length_; }
-  /// Whether the estimate, its largest part [tolerances], is no more than what is damped.
+  /// Whether the estimate, its largest part [tolerances], is no more than the damped oscillation.
   bool allows(double estimate) const { return estimate <= tuning::damping_room * size_; }
   /// A step has damped, with this estimate.
   void accept(double estimate) { --left_, size_ = tuning::damping_left * estimate; }

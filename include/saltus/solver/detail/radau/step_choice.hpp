@@ -12,7 +12,7 @@ struct Accepted {
   bool rejected_before, jacobian_kept;
 };
 
-/// The one record of what the steps have shown.
+/// The one record of the last steps: errors, lengths, convergence.
 class StepChoice {
  public:
   /// See first_stages.

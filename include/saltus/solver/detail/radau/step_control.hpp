@@ -1,4 +1,4 @@
-// Length and order of the next step: functions of what the last steps have shown.
+// Length and order of the next step: functions of the record of the last steps.
 #pragma once
 
 #include <algorithm>
@@ -51,7 +51,7 @@ inline double safety_of(int iterations, int most) {
 /// RADAU5).
 constexpr bool not_worth_it(double factor) { return factor >= 1.0 && factor < tuning::worth_it; }
 
-/// What a choice of the order depends on.
+/// The facts on which a choice of the order depends.
 struct OrderFacts {
   int stages = 3;
   double theta = 0.0;  ///< contraction of Newton's iteration in the last steps

@@ -5,10 +5,10 @@ namespace saltus {
 
 // clang-format off
 
-/// Of the method with S stages: nodes c, matrix a; the eigenvalues gamma and alpha +- i beta of its
-/// inverse and the transformation t with t_inverse a^-1 t block diagonal; weights e of the error
-/// estimate; barycentric weights of the nodes 0, c; dense_share: the largest error of the
-/// collocation polynomial in a step, in error estimates.
+/// The coefficients of the method with S stages: nodes c, matrix a; the eigenvalues gamma and alpha
+/// +- i beta of its inverse and the transformation t with t_inverse a^-1 t block diagonal; weights
+/// e of the error estimate; barycentric weights of the nodes 0, c; dense_share: the largest error
+/// of the collocation polynomial in a step, in error estimates.
 template <int S>
 struct RadauTable;
 

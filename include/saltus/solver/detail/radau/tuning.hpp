@@ -66,7 +66,7 @@ inline constexpr double begins_with_five = 1e-6, begins_with_seven = 1e-9;
 inline constexpr double least_even = 0.8, most_even = 1.2;
 inline constexpr int even_steps = 10;
 /// [1] Part of the contraction before that counts in the next step, so that a step of one iteration
-/// does not forget it.
+/// does not forget it. tests/unit/radau_test.cpp fails at twice the number, and at a hundredth.
 inline constexpr double theta_memory = 0.5;
 
 // --- the stepper: solver.cpp
@@ -86,8 +86,8 @@ inline constexpr double small_move = 0.5, large_turn = 0.1;
 
 // --- Newton's iteration: convergence.hpp, newton.hpp, stage_solver.hpp
 
-/// [tolerances] What the iteration may leave: 0.05 moves the estimate by a twentieth of what a fast
-/// part may have; and [eps / rtol] what rounding leaves.
+/// [tolerances] The error that the iteration may leave: 0.05 moves the estimate by a twentieth of
+/// what a fast part may have; and [eps / rtol] what rounding leaves.
 /// tests/errors/radau_bad_input_test.cpp (as large)
 inline constexpr double newton_room = 0.05, room_roundings = 10.0;
 /// [1] A contraction known from before judges the first correction as this at least, to the power
@@ -98,7 +98,7 @@ inline constexpr double least_factor = 0.01, factor_power = 0.8;
 /// tests/unit/radau_test.cpp
 inline constexpr double no_contraction = 0.99;
 /// [1] The factor of a step whose iteration is slow, and [tolerances of the iteration] the bounds
-/// of what the last iteration would leave (IV.8, p. 121).
+/// of the error that the last iteration would leave (IV.8, p. 121).
 /// tests/unit/radau_test.cpp
 inline constexpr double slow_safety = 0.8, least_excess = 1e-4, most_excess = 20.0;
 /// [1] The factor of a step whose iteration diverges (the code RADAU5).
