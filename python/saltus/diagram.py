@@ -196,8 +196,8 @@ class DiagramBuilder:
             )
         if "." in port:
             raise ModelError(
-                f"{where}: '{path}' is a port inside of diagram '{name}'; export it there, and take "
-                f"the exported port"
+                f"{where}: '{path}' is a port inside of diagram '{name}'; export it there, and "
+                f"take the exported port"
             )
         return self._children[name], port
 

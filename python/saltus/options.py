@@ -94,8 +94,8 @@ class SimulatorOptions:
     max_passes: int = 100
     """passes an instant may have before it counts as a loop without end"""
     recorded_signals: Mapping[str, OutputPort | str] | Sequence[str] | None = None
-    """the outputs to record: a dict of names with ports or paths such as "car.engine.out", or a list
-    of paths. None: the outputs that a diagram exports, in a sweep nothing; {}: nothing
+    """the outputs to record: a dict of names with ports or paths such as "car.engine.out", or a
+    list of paths. None: the outputs that a diagram exports, in a sweep nothing; {}: nothing
     """
     save_at: Sequence[float] = ()
     """[s] increasing times to record at. If there are any, solver steps are recorded only with

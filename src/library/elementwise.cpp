@@ -14,10 +14,9 @@ Shape stretched(const std::string& block, std::span<const Shape> shapes) {
   if (fit) return result;
   std::string widths;
   for (const Shape& shape : shapes) widths += text(widths.empty() ? "" : ", ", shape.size);
-  throw ShapeMismatchError(text("block '", block,
-                                "': expected scalars and vectors of one width, found the widths ",
-                                widths,
-                                "; bring them to one width, for example with a Multiplexer"));
+  throw ShapeMismatchError(
+      text("block '", block, "': expected scalars and vectors of one width, found the widths ",
+           widths, "; bring them to one width, for example with a Multiplexer"));
 }
 
 ShapeRule stretch(std::string block, std::vector<Shape> parameters) {
