@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import fields
+from typing import Any
 
 import numpy as np
 
@@ -30,7 +31,7 @@ _UNBOUNDED = {
 }
 
 
-def ports_of(signals: Mapping[str, OutputPort] | None) -> list[tuple[str, System, int]]:
+def ports_of(signals: Any) -> list[tuple[str, System, int]]:
     if not isinstance(signals, Mapping | None):
         raise ModelError(f"recorded_signals: expected a dict of names and ports, found {signals!r}")
     for name, port in (signals or {}).items():

@@ -12,18 +12,20 @@ from saltus.system import System
 
 __all__ = ["block_of", "blocks_in", "named", "port_of", "signals_in", "signals_of"]
 
+DIAGRAMS = (_core.Diagram, _core.SharedSystem)
+
 
 def blocks_in(system: System) -> tuple[System, ...]:
     """The blocks of a diagram, whether it was made in Python or in C++; none of a leaf."""
-    if isinstance(system, (_core.Diagram, _core.SharedSystem)):
-        return tuple(system.blocks)  # type: ignore[attr-defined]
-    return ()
+    inside: Any = system
+    return tuple(inside.blocks) if isinstance(system, DIAGRAMS) else ()
 
 
 def block_of(system: System, name: str) -> System:
     """A block of a diagram by name; ModelError if there is none."""
-    if isinstance(system, (_core.Diagram, _core.SharedSystem)) and blocks_in(system):
-        block: System = system[name]  # type: ignore[index]
+    if blocks_in(system):
+        inside: Any = system
+        block: System = inside[name]
         return block
     raise ModelError(f"block '{system.name}' is no diagram: it has no block '{name}'")
 

@@ -162,7 +162,7 @@ def _job(
     system: object,
     t_span: object,
     options: SimulatorOptions | None,
-    signals: Mapping[str, OutputPort | str] | None,
+    signals: Mapping[str, OutputPort | str] | Sequence[str] | None,
     context: _core.Context | None,
     reduce: Callable[[Results], Any] | None,
     overrides: dict[str, Any],
