@@ -43,6 +43,11 @@ class Context:
         The context of one block or inner diagram, given it or its `system_id`.
         """
 
+    def has_system(self, system_id: int) -> bool:
+        """
+        Whether the system with this number is among them.
+        """
+
     def to_dict(self) -> dict[str, Any]:
         """
         Everything in it as plain data, block by block.
@@ -249,7 +254,7 @@ class Context:
     @property
     def state(self) -> Any:
         """
-        The context itself, which has the states and the modes.
+        The context itself: its states and modes are the values that a run changes.
         """
 
     @property
@@ -854,6 +859,8 @@ def evaluate_output(arg0: AnySystem, arg1: AnySystem, arg2: int, arg3: Context, 
 def evaluate_time_derivatives(arg0: AnySystem, arg1: Context, arg2: AnySystem, /) -> np.ndarray: ...
 def find_entry(arg0: Context, arg1: str, /) -> int: ...
 def fix_input(arg0: AnySystem, arg1: int, arg2: Any, /) -> None: ...
+def fixes() -> int: ...
+def free_input(arg0: AnySystem, arg1: int, /) -> None: ...
 def known_names(arg0: str, arg1: Sequence[str], /) -> str:
     """
     The end of a message about an unknown name.

@@ -61,13 +61,14 @@ Eigen::VectorXd evaluate_time_derivatives(const System& system, const Context& c
 Eigen::VectorXd evaluate_time_derivatives(const System& system, const Context& context,
                                           const System& part) {
   const Eigen::VectorXd rates = evaluate_time_derivatives(system, context);
-  const Layout& layout = context.layout();
+  const Structure structure = structure_of(system);  // the context may be one of an equal system
   const SystemId id = part.itself().system_id();
-  const auto range = std::ranges::find(layout.systems, id, &Layout::Range::id);
-  if (range == layout.systems.end()) {
+  const auto range = std::ranges::find(structure.systems, id, &Layout::Range::id);
+  if (range == structure.systems.end()) {
     throw ModelError(text("block '", part.name(), "' is not part of system '", system.name(), "'"));
   }
-  const auto [first, count] = detail::extent(layout, *range, &Layout::Leaf::x, &Layout::Leaf::nx);
+  const auto [first, count] =
+      detail::extent(context.layout(), *range, &Layout::Leaf::x, &Layout::Leaf::nx);
   return rates.segment(first, count);
 }
 
