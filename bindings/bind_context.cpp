@@ -111,7 +111,7 @@ void bind_context(py::module_& module) {
             return std::ranges::any_of(c.layout().systems,
                                        [id](const auto& range) { return range.id.value == id; });
           },
-          py::arg("system_id"), "Whether the system with this number is among them.")
+          py::arg("system_id"), docs::has_system)
       .def_property_readonly(
           "state", [](const py::object& self) { return self; },
           "The context itself: its states and modes are the values that a run changes.")

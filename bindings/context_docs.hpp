@@ -33,6 +33,22 @@ array([1., 2.])
 (Context(time=0, continuous_state=[1, 2], mode=0), 0)
 )";
 
+inline constexpr const char* has_system =
+    R"(Whether these are values of a system or of a block in it.
+
+Parameters
+----------
+system_id : int
+    The number of the system.
+
+Examples
+--------
+>>> from saltus.library import Clock
+>>> clock = Clock()
+>>> clock.create_context().has_system(clock.system_id)
+True
+)";
+
 inline constexpr const char* with_time = R"(This context at another time.
 
 Parameters

@@ -45,7 +45,19 @@ class Context:
 
     def has_system(self, system_id: int) -> bool:
         """
-        Whether the system with this number is among them.
+        Whether these are values of a system or of a block in it.
+
+        Parameters
+        ----------
+        system_id : int
+            The number of the system.
+
+        Examples
+        --------
+        >>> from saltus.library import Clock
+        >>> clock = Clock()
+        >>> clock.create_context().has_system(clock.system_id)
+        True
         """
 
     def to_dict(self) -> dict[str, Any]:

@@ -30,12 +30,14 @@ def block_of(system: System, name: str) -> System:
     raise ModelError(f"block '{system.name}' is no diagram: it has no block '{name}'")
 
 
-def port_of(system: System, port: OutputPort | str) -> OutputPort:
+def port_of(system: System, port: OutputPort | str, what: str = "recorded_signals") -> OutputPort:
     """A port, or the one at a path: 'y' of the system itself, 'car.engine.y' of a block in it."""
     if isinstance(port, OutputPort):
         return port
     if not isinstance(port, str):
-        raise ModelError(f"recorded_signals: expected a port or its path, found {port!r}")
+        raise ModelError(
+            f"{what}: expected a port, such as block.output_ports[0], or its path, found {port!r}"
+        )
     *blocks, name = port.split(".")
     for block in blocks:
         system = block_of(system, block)
@@ -58,7 +60,10 @@ def named(signals: Any) -> dict[str, OutputPort | str]:
 
 def signals_in(system: System, signals: Any) -> dict[str, OutputPort]:
     """The same with the ports of `system`."""
-    return {name: port_of(system, port) for name, port in named(signals).items()}
+    return {
+        name: port_of(system, port, f"recorded signal '{name}'")
+        for name, port in named(signals).items()
+    }
 
 
 def signals_of(system: System, signals: Any) -> dict[str, OutputPort]:

@@ -73,7 +73,16 @@ class Diagram(System, _core.Diagram):
         return len(self._children)
 
     def find_system_with_path(self, path: str) -> System:
-        """The block at a path of names, such as "car.engine"; ModelError if there is none."""
+        """The block at a path of names, such as "car.engine"; ModelError if there is none.
+
+        Examples
+        --------
+        >>> from saltus.library import Clock
+        >>> builder = saltus.DiagramBuilder()
+        >>> clock = builder.add(Clock(name="clock"))
+        >>> builder.build().find_system_with_path("clock")
+        <Clock 'clock'>
+        """
         if not isinstance(path, str):
             raise ModelError(f"expected a path such as 'car.engine', found {path!r}")
         system: System = self
@@ -170,7 +179,7 @@ class DiagramBuilder:
         >>> builder.connect(t.output(), double.input())
         Traceback (most recent call last):
             ...
-        saltus.errors.ModelError: input 'in' of block 'double' already has a source, ...
+        saltus.errors.BuilderError: input 'in' of block 'double' already has a source, ...
         """
         if isinstance(source, InputPort) and isinstance(destination, OutputPort):
             raise ModelError(
@@ -282,6 +291,6 @@ class DiagramBuilder:
         >>> builder.build()
         Traceback (most recent call last):
             ...
-        saltus.errors.ModelError: input 'in' of block 'gain' is not connected; ...
+        saltus.errors.InputNotConnectedError: input 'in' of block 'gain' is not connected; ...
         """
         return Diagram(self._core, name, self._children)

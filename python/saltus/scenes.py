@@ -11,7 +11,7 @@ from saltus._engine import PYTHON_ONLY
 from saltus.errors import ModelError
 from saltus.results import Results
 from saltus.simulation import SimulatorOptions, simulate
-from saltus.system import OutputPort, System
+from saltus.system import OutputPort, System, remember
 
 __all__ = ["Scene", "SharedSystem", "scene", "shelf"]
 
@@ -31,6 +31,7 @@ class SharedSystem(System, _core.SharedSystem):
     def __init__(self, handle: _core.SystemHandle, again: tuple[Any, ...] | None = None):
         super().__init__(handle)
         self._again = again
+        remember(self)
 
     def __reduce__(self) -> tuple[Any, ...]:
         """A system of the shelf, or a block in it, is made again where it is unpickled."""

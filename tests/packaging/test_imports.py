@@ -15,8 +15,12 @@ LATE = {
     ("saltus.callbacks.function", "saltus.tracing"): "a system without callbacks needs no tracer",
     ("saltus.jit.library", "saltus.jit.compiler"): "loads llvmlite",
     ("saltus.report.table", "saltus.report.chart"): "loads matplotlib",
+    ("saltus.library", "saltus.library.called"): "answers names that are wrong",
+    ("saltus.ports", "saltus._evaluate"): "a system has ports, and these are evaluated with it",
     ("saltus.results.outcome", "saltus.results.plot"): "loads matplotlib",
+    ("saltus.system", "saltus._evaluate"): "reads contexts, which are those of systems",
     ("saltus.system", "saltus._picture"): "loads subprocess, for Graphviz",
+    ("saltus.system", "saltus._tree"): "reads the blocks of a diagram, which is a system",
 }
 """(module, what a function of it imports) -> why this waits until the function is called"""
 ROOMS = {

@@ -135,7 +135,7 @@ def test_bad_calls():
         match="recorded signal 'y' belongs to block 'ball', which is not part of this system",
     ):
         saltus.simulate(ball, context, (0.0, 1.0), recorded_signals={"y": Ball().output()})
-    with pytest.raises(saltus.ModelError, match="expected a dict of names and ports, found"):
+    with pytest.raises(saltus.ModelError, match="expected a dict of names with ports"):
         saltus.simulate(ball, context, (0.0, 1.0), recorded_signals=[ball.output()])
     with pytest.raises(saltus.ModelError, match="expected a system, found 3"):
         saltus.simulate(3, context, (0.0, 1.0))

@@ -8,7 +8,6 @@ located as an event, and its side is held in between.
 """
 
 from saltus.library.arithmetic import Abs, Adder, Gain, Offset, Product, Saturate
-from saltus.library.called import elsewhere
 from saltus.library.discrete import RateLimiter, UnitDelay, ZeroOrderHold
 from saltus.library.functions import FeedthroughBlock, FunctionBlock, ReduceBlock, SourceBlock
 from saltus.library.linear import PID, Derivative, LTISystem, TransferFunction
@@ -96,4 +95,6 @@ __all__ = [
 
 
 def __getattr__(name: str) -> None:
+    from saltus.library.called import elsewhere
+
     raise elsewhere(name, __all__)

@@ -209,7 +209,8 @@ class Results:
         >>> import os, tempfile, saltus
         >>> path = os.path.join(tempfile.mkdtemp(), "decay.csv")
         >>> saltus.solve(lambda t, x: -x, (0, 1), [1.0], t_eval=[0, 1]).to_csv(path)
-        >>> print(open(path).read().splitlines()[0])
+        >>> with open(path) as file:
+        ...     print(file.readline().strip())
         time,jump,x[0]
         """
         write_csv(self, path)

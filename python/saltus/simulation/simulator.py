@@ -64,7 +64,7 @@ class Simulator:
     >>> import saltus
     >>> scene = saltus.scene("bouncing-ball")
     >>> simulator = saltus.Simulator(scene.system, scene.options)
-    >>> simulator.initialize(scene.context)
+    >>> _ = simulator.initialize(scene.context)
     >>> simulator.advance_to(1.0), simulator.advance_to(3.0)
     ('reached_end', 'reached_end')
     >>> simulator.time

@@ -89,7 +89,7 @@ struct Start<Written> {
   WrittenPlace own;
 
   Written value(Index Instruction::*which) const {
-    Writer& writer = *own.writer;
+    SeriesWriter& writer = *own.writer;
     if (writer.width == 1) return writer.value(i.*which);
     const auto& narrow = static_cast<const WideInstruction&>(i).narrow;
     const auto of_lane = [&](std::size_t l) { return writer.value(narrow[l]->*which); };
@@ -161,19 +161,19 @@ constexpr Handlers handlers() {
 }
 
 template <class K>
-void write_begin(Writer& writer, const Instruction& i, Index own, Index) {
+void write_begin(SeriesWriter& writer, const Instruction& i, Index own, Index) {
   K::begin(Start<Written>{i, {&writer, Memory::own, own}});
 }
 template <class K>
-Work<Written> written_work(Writer& writer, const Instruction& i, Index own, Index k) {
+Work<Written> written_work(SeriesWriter& writer, const Instruction& i, Index own, Index k) {
   return {i, {&writer, Memory::rows, 0}, {&writer, Memory::own, own}, k};
 }
 template <class K>
-void write_earlier(Writer& writer, const Instruction& i, Index own, Index k) {
+void write_earlier(SeriesWriter& writer, const Instruction& i, Index own, Index k) {
   K::earlier(written_work<K>(writer, i, own, k));
 }
 template <class K, int slot>
-void write_order(Writer& writer, const Instruction& i, Index own, Index k) {
+void write_order(SeriesWriter& writer, const Instruction& i, Index own, Index k) {
   K::template order<slot>(written_work<K>(writer, i, own, k));
 }
 

@@ -98,7 +98,7 @@ void run_next(const Call* call, double* rows, double* sums, const double* values
   SALTUS_SERIES_NEXT;
 }
 
-void write_begin_wide(Writer& writer, const Instruction& i, Index own, Index) {
+void write_begin_wide(SeriesWriter& writer, const Instruction& i, Index own, Index) {
   if (writer.width == 1) return;
   for (Index n = 0; n < lanes * i.terms; n += lanes) {
     const auto of_lane = [&](Index l) { return writer.value(i.term[n + l].factor); };
@@ -107,7 +107,7 @@ void write_begin_wide(Writer& writer, const Instruction& i, Index own, Index) {
   }
 }
 template <class K>
-void write_linear(Writer& writer, const Instruction& i, Index own, Index k) {
+void write_linear(SeriesWriter& writer, const Instruction& i, Index own, Index k) {
   const WrittenNumbers rows{&writer, Memory::rows, writer.width * k};
   const Row<Written> factors{{&writer, Memory::own, own}, writer.width};
   const WrittenPlace to{&writer, Memory::rows, i.to + writer.width * k};
@@ -115,7 +115,7 @@ void write_linear(Writer& writer, const Instruction& i, Index own, Index k) {
     if (writer.width == 1) return put(to, K::narrow(i, rows, {&writer, Memory::values, 0}));
   put(to, K::wide(i, rows, factors));
 }
-void write_next(Writer& writer, const Instruction& i, Index own, Index k) {
+void write_next(SeriesWriter& writer, const Instruction& i, Index own, Index k) {
   const WrittenNumbers rows{&writer, Memory::rows, lanes * k};
   const Written rates = Multiple::wide(i, rows, Row<Written>{{&writer, Memory::own, own}, lanes});
   writer.store(Memory::rows, i.to + lanes * (k + 1), inverse_of(k + 1) * rates);

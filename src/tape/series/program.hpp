@@ -35,11 +35,11 @@ struct Handlers {
   Handler orders[8] = {};     ///< order 1, 2, 3 at [1], [2], [3]; k of a later block at [4 + k % 4]
 };
 
-class Writer;
+class SeriesWriter;
 
 /// Writes one function of a recurrence down, for the instruction whose numbers are at `own`, and
 /// for order k.
-using WriteHandler = void (*)(Writer& writer, const Instruction& i, Index own, Index k);
+using WriteHandler = void (*)(SeriesWriter& writer, const Instruction& i, Index own, Index k);
 
 /// As Handlers; without orders there is no machine code.
 struct WriteHandlers {

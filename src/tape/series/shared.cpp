@@ -16,8 +16,8 @@ WideInstruction by_table(const Instruction& i) {
   WideInstruction made;
   made.kernel = i.kernel, made.factor = i.factor;
   Index entry = 1;
-  for (Index Instruction::*const row : rows_in_table) made.*row = Writer::in_table * entry++;
-  for (Index& lane : made.a_of_lane) lane = Writer::in_table * entry++;
+  for (Index Instruction::*const row : rows_in_table) made.*row = SeriesWriter::in_table * entry++;
+  for (Index& lane : made.a_of_lane) lane = SeriesWriter::in_table * entry++;
   return made;
 }
 
@@ -48,7 +48,7 @@ std::string SharedRecurrences::function(int width, const Instruction& i, WriteHa
   const auto [known, is_new] = functions_.try_emplace({handler, k, i.factor});
   if (!is_new) return known->second;
   known->second = text("@", name_, "_order_", functions_.size());
-  Writer body(program_);
+  SeriesWriter body(program_);
   body.width = width, body.by_table = true;
   handler(body, by_table(i), 0, k);
   text_ += text("define private void ", known->second,
@@ -58,8 +58,8 @@ std::string SharedRecurrences::function(int width, const Instruction& i, WriteHa
   return known->second;
 }
 
-void SharedRecurrences::call(Writer& writer, const Instruction& i, Index own, WriteHandler handler,
-                             Index k) {
+void SharedRecurrences::call(SeriesWriter& writer, const Instruction& i, Index own,
+                             WriteHandler handler, Index k) {
   if (handler == nullptr) return;
   writer.text().add(text("  call void ", function(writer.width, i, handler, k),
                          "(ptr %rows, ptr %own, ptr ", table(writer.width, i, own), ")"));

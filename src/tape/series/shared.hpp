@@ -20,7 +20,7 @@ class SharedRecurrences {
   /// Whether the recurrence is long enough to be worth a function.
   static bool takes(const Instruction& i);
   /// Writes the call of `handler`, which is the one of `earlier` or of an order.
-  void call(Writer& writer, const Instruction& i, Index own, WriteHandler handler, Index k);
+  void call(SeriesWriter& writer, const Instruction& i, Index own, WriteHandler handler, Index k);
   /// The functions and the tables.
   const std::string& functions() const { return text_; }
 

@@ -15,7 +15,7 @@ struct Step {
   const Instruction* instruction;
   Index own;
 
-  void write(Writer& writer, WriteHandler handler, Index k) const {
+  void write(SeriesWriter& writer, WriteHandler handler, Index k) const {
     if (handler != nullptr) handler(writer, *instruction, own, k);
   }
   const WriteHandlers& handlers() const { return instruction->kernel->written; }
@@ -173,7 +173,7 @@ class Expanding {
   const Program& program_;
   int order_;
   std::string name_;
-  Writer writer_;
+  SeriesWriter writer_;
   SharedRecurrences shared_;
   bool shares_ = false;
 };

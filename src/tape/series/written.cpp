@@ -21,7 +21,7 @@ const char* name_of(Memory memory) {
   }
 }
 
-Writer& writer_of(const Written& a, const Written& b) {
+SeriesWriter& writer_of(const Written& a, const Written& b) {
   return a.writer != nullptr ? *a.writer : *b.writer;
 }
 
@@ -51,29 +51,29 @@ Written operator/(double a, const Written& b) {
   return b.writer->binary("fdiv", b.writer->constant(a, b.lanes), b);
 }
 
-Written Writer::constant(double value, int count) {
+Written SeriesWriter::constant(double value, int count) {
   return {this, detail::constant_of(value, count), count};
 }
 
-std::string Writer::in_lanes(const Written& a, int count) {
+std::string SeriesWriter::in_lanes(const Written& a, int count) {
   if (a.writer == nullptr) return detail::constant_of(0.0, count);
   return a.lanes == count ? a.value : text_.splat(a.value, count);
 }
 
-Written Writer::binary(const char* how, Written a, Written b) {
+Written SeriesWriter::binary(const char* how, Written a, Written b) {
   const int count = std::max(a.lanes, b.lanes);
   const std::string left = in_lanes(a, count), right = in_lanes(b, count);
   const char* const type = count == 1 ? " double " : " <4 x double> ";
   return {this, text_.define(saltus::text(how, type, left, ", ", right)), count};
 }
 
-Written Writer::apply(Op op, std::span<const Written> operands) {
+Written SeriesWriter::apply(Op op, std::span<const Written> operands) {
   std::vector<std::string> values;
   for (const Written& operand : operands) values.push_back(in_lanes(operand, 1));
   return {this, text_.apply(op, values, 1), 1};
 }
 
-std::string Writer::begin_in_table(Memory memory, Index entry) {
+std::string SeriesWriter::begin_in_table(Memory memory, Index entry) {
   const auto [known, is_new] = begins_.try_emplace(entry);
   if (!is_new) return known->second;
   const std::string place =
@@ -82,7 +82,7 @@ std::string Writer::begin_in_table(Memory memory, Index entry) {
   return known->second = text_.address(name_of(memory), offset);
 }
 
-std::string Writer::address(Memory memory, Index offset) {
+std::string SeriesWriter::address(Memory memory, Index offset) {
   if (by_table) {
     const Index rest = offset % in_table;
     const std::string begin = begin_in_table(memory, offset / in_table);
@@ -98,7 +98,7 @@ std::string Writer::address(Memory memory, Index offset) {
 }
 
 /// What was stored as one there, or as a lane of several.
-const Writer::Stored* Writer::whole(Memory memory, Index offset, int count) const {
+const SeriesWriter::Stored* SeriesWriter::whole(Memory memory, Index offset, int count) const {
   const auto first = stored_.find(key(memory, offset));
   if (first == stored_.end()) return nullptr;
   const Stored& stored = first->second;
@@ -112,7 +112,7 @@ const Writer::Stored* Writer::whole(Memory memory, Index offset, int count) cons
   return &stored;
 }
 
-Written Writer::read(Memory memory, Index offset, int count) {
+Written SeriesWriter::read(Memory memory, Index offset, int count) {
   if (const Stored* const stored = whole(memory, offset, count); stored != nullptr) {
     if (stored->lanes == count) return {this, stored->value, count};
     return {this, text_.lane(stored->value, stored->lanes, stored->lane), 1};
@@ -120,14 +120,14 @@ Written Writer::read(Memory memory, Index offset, int count) {
   return {this, text_.load(address(memory, offset), count), count};
 }
 
-void Writer::store(Memory memory, Index offset, const Written& a) {
+void SeriesWriter::store(Memory memory, Index offset, const Written& a) {
   const std::string value = in_lanes(a, a.lanes);
   for (int l = 0; l < a.lanes; ++l) stored_[key(memory, offset + l)] = {value, a.lanes, l};
   text_.store(value, a.lanes, address(memory, offset));
 }
 
 /// As few instructions as the places allow: they may be in order already.
-Written Writer::gathered(Memory memory, const std::array<Index, lanes>& offsets) {
+Written SeriesWriter::gathered(Memory memory, const std::array<Index, lanes>& offsets) {
   bool in_order = true, same = true;
   for (std::size_t l = 1; l < offsets.size(); ++l) {
     in_order = in_order && offsets[l] == offsets[0] + static_cast<Index>(l);
@@ -142,26 +142,26 @@ Written Writer::gathered(Memory memory, const std::array<Index, lanes>& offsets)
   return joined(all);
 }
 
-Written Writer::joined(const std::array<Written, lanes>& all) {
+Written SeriesWriter::joined(const std::array<Written, lanes>& all) {
   std::array<std::string, 4> values;
   for (std::size_t l = 0; l < 4; ++l) values[l] = in_lanes(all[l], 1);
   return {this, text_.gather(values), 4};
 }
 
-Written Writer::value(Index number) {
+Written SeriesWriter::value(Index number) {
   if (program_.is_constant[static_cast<std::size_t>(number)] != 0)
     return constant(program_.constants[static_cast<std::size_t>(number)]);
   return read(Memory::values, number, 1);
 }
 
-void Writer::pause() {
+void SeriesWriter::pause() {
   const int label = text_.number();
   text_.add(saltus::text("  br label %b", label, "\nb", label, ":"));
   stored_.clear();
   addresses_.clear();
 }
 
-void Writer::leave_if_zero(const Written& a) {
+void SeriesWriter::leave_if_zero(const Written& a) {
   for (int l = 0; l < a.lanes; ++l) {
     const std::string lane = text_.lane(a.value, a.lanes, l);
     const std::string zero =

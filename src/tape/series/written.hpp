@@ -13,11 +13,11 @@
 
 namespace saltus::tape::series {
 
-class Writer;
+class SeriesWriter;
 
 /// A number, or four of them side by side. One without a writer is 0, in as many lanes as it meets.
 struct Written {
-  Writer* writer = nullptr;
+  SeriesWriter* writer = nullptr;
   std::string value = {};
   int lanes = 1;
 };
@@ -35,7 +35,7 @@ enum class Memory { values, rows, own, x };
 
 /// A place in it.
 struct WrittenPlace {
-  Writer* writer = nullptr;
+  SeriesWriter* writer = nullptr;
   Memory memory = Memory::rows;
   Index offset = 0;
 
@@ -46,9 +46,9 @@ struct WrittenPlace {
 };
 
 /// Writes the body of a function. What was stored since the last `pause` is not loaded again.
-class Writer {
+class SeriesWriter {
  public:
-  explicit Writer(const Program& program) : program_(program) {}
+  explicit SeriesWriter(const Program& program) : program_(program) {}
 
   Written read(Memory memory, Index offset, int count);
   void store(Memory memory, Index offset, const Written& a);
@@ -120,7 +120,7 @@ inline Written side_by_side(const Written& a, const Written& b, const Written& c
 
 /// The numbers at any places, as linear recurrences read them.
 struct WrittenNumbers {
-  Writer* writer;
+  SeriesWriter* writer;
   Memory memory;
   Index shift;
 

@@ -149,7 +149,7 @@ def test_it_can_be_saved(ball, tmp_path):
         ({"context": 3}, "expected a context"),
         ({"recorded_signals": {"status": "ball:y"}}, "this name is taken"),
         ({"recorded_signals": {"e": "ball:y"}}, "this name is taken"),
-        ({"recorded_signals": {"y": 3}}, "expected a port or its path"),
+        ({"recorded_signals": {"y": 3}}, "expected a port, such as"),
     ],
 )
 def test_arguments_that_cannot_be_meant(ball, how, says):
