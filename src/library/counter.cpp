@@ -8,7 +8,10 @@ namespace saltus {
 Counter::Counter(std::string name, const Options& options) : LeafSystem(std::move(name)) {
   detail::insist(options.limit.value_or(1) > 0, this->name(), "limit = ", options.limit.value_or(1),
                  "; expected a whole number > 0");
-  declare_discrete_state(Eigen::VectorXd::Constant(1, options.initial_state));
+  const int first = options.initial_state, limit = options.limit.value_or(first + 1);
+  detail::insist(first < limit && (first >= 0.0 || !options.limit), this->name(),
+                 "initial_state = ", first, "; expected 0 to limit - 1, with limit = ", limit);
+  declare_discrete_state(Eigen::VectorXd::Constant(1, first));
   const int trigger = declare_input_port({.name = "trigger", .shape = Shape::scalar()});
   declare_edge_reset({.name = "count",
                       .input = trigger,

@@ -51,8 +51,9 @@ void PID::declare_limits(const Options& o) {
   if (o.upper_limit) declare_limit("upper_limit", *o.upper_limit, 1.0, band);
 }
 
-/// Its guard is how far v is beyond the limit, or how much the error pushes, whichever is less;
-/// while the integral is clamped, how far it is from being released.
+/// The integral is clamped where v is beyond the limit while the error pushes outward, and released
+/// where v is inside by the band, or the error pushes inward. An error of exactly 0 does neither, so
+/// no guard is at zero then, and an error that jumps from 0 is seen.
 void PID::declare_limit(const char* parameter, double value, double outward, ParameterIndex band) {
   const Index entry = static_cast<Index>(limits_.size());
   const ParameterIndex limit = declare_dynamic_parameter(parameter, value);
@@ -61,9 +62,9 @@ void PID::declare_limit(const char* parameter, double value, double outward, Par
   };
   const auto guard = [=, k = k_](const auto& at) {
     const auto push = outward * at.p(k.ki, 0) * at.u(0, 0);
-    const auto enter = detail::operation(tape::Op::minimum, excess(at), push);
-    const auto stay = detail::operation(tape::Op::minimum, excess(at) + at.p(band, 0), push);
-    return at.choose(at.z(entry) != 0.0, -stay, enter);
+    const auto enter = at.choose(push > 0.0, excess(at), -at.p(band, 0));
+    const auto leave = at.choose(push < 0.0, at.p(band, 0), -excess(at) - at.p(band, 0));
+    return at.choose(at.z(entry) != 0.0, leave, enter);
   };
   declare_zero_crossing({.name = text("clamp_at_", parameter),
                          .reset_map =

@@ -1,6 +1,7 @@
 // A function of one number that is a line or a constant between knots, with one guard for all knots.
 #include "saltus/library/pieces.hpp"
 
+#include <cmath>
 #include <utility>
 
 namespace saltus::detail {
@@ -11,6 +12,8 @@ Pieces::Pieces(const std::string& block, std::vector<double> points, std::string
   require_known(block, "interpolation", interpolation, {"linear", "nearest", "flat"});
   require_known(block, "extrapolation", extrapolation, {"clip", "linear", "error"});
   insist(points_.size() >= 2, block, "expected 2 points or more, found ", points_.size());
+  for (const double point : points_)
+    insist(std::isfinite(point), block, "point ", point, "; expected finite points");
   for (std::size_t i = 1; i < points_.size(); ++i) {
     insist(points_[i - 1] < points_[i], block, "point ", i, " is ", points_[i], " after ",
            points_[i - 1], "; expected points that increase");

@@ -27,7 +27,8 @@ RateLimiter::RateLimiter(std::string name, double dt, const Options& options)
     const double down = dt * at.p[lower], up = dt * at.p[upper];
     for (Index i = 0; i < n; ++i) {
       const double u = at.u[0][i];
-      now[i] = at.z[n] == 0.0 ? u : std::clamp(u, at.z[i] + down, at.z[i] + up);
+      // not std::clamp: a context may have limits that cross
+      now[i] = at.z[n] == 0.0 ? u : std::max(at.z[i] + down, std::min(u, at.z[i] + up));
     }
     now[n] = 1.0;
     next.set_discrete_state(now);

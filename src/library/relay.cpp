@@ -10,18 +10,19 @@ Relay::Relay(std::string name, const Options& options) : LeafSystem(std::move(na
                  options.off_threshold, " is above on_threshold ", options.on_threshold,
                  "; expected off_threshold <= on_threshold");
   const ParameterIndex on = declare_dynamic_parameter("on_threshold", options.on_threshold);
-  const ParameterIndex off = declare_dynamic_parameter("off_threshold", options.off_threshold);
   const ParameterIndex high = declare_dynamic_parameter("on_value", options.on_value);
   const ParameterIndex low = declare_dynamic_parameter("off_value", options.off_value);
   declare_input_port({.name = "in", .shape = Shape::scalar()});
-  if (options.on_threshold == options.off_threshold)
-    declare_comparison(on, high, low);
-  else
+  if (options.on_threshold == options.off_threshold) {
+    declare_comparison(on, high, low);  // one threshold, so it is one parameter
+  } else {
+    const ParameterIndex off = declare_dynamic_parameter("off_threshold", options.off_threshold);
     declare_modes(options.initially_on, {on, off}, high, low);
+  }
 }
 
 /// Two modes at one level would not chatter but leave it: the guard of the mode that is entered
-/// stands at zero and has just fired. A relation keeps the side that u has.
+/// is at zero and has just fired. A relation keeps the side that u has.
 void Relay::declare_comparison(ParameterIndex threshold, ParameterIndex high, ParameterIndex low) {
   const RelationIndex reached = declare_relation(
       {.name = "on",

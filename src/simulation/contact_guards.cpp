@@ -155,7 +155,7 @@ bool ContactGuards::follow_surface(SurfaceContact& contact) {
     present_->firings.push_back({contact.slot, Firing::lifts_off});
     return false;
   }
-  contact.pressed_on = lift < 0.0;
+  if (lift != 0.0) contact.pressed_on = lift < 0.0;  // without a force the block stays where it is
   if (contact.carried) guards_->g[contact.slot] = lift;
   return true;
 }

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 import saltus
+from saltus.errors import ModelError
 from saltus.library import *
 
 response = saltus.response
@@ -259,3 +260,77 @@ def test_the_methods_agree(method, make):
             integral_by(method, make)
         return
     assert integral_by(method, make) == pytest.approx(integral_by("dopri5", make), abs=2e-7)
+
+
+def three_levels(block, *levels):
+    """A diagram in which an input is one level after the other, for a second each."""
+    builder = saltus.DiagramBuilder()
+    builder.add(block)
+    total = builder.add(Adder(len(levels)))
+    for k, level in enumerate(levels):
+        before = levels[k - 1] if k else 0.0
+        step = builder.add(Step(0.0, level - before, step_time=float(k)))
+        builder.connect(step.output(), total.input(k))
+    builder.connect(total.output(), block.input())
+    return builder.build()
+
+
+SOLVERS = ["dopri5", "dop853", "taylor", "radau", "bdf", "adams", "auto"]
+
+
+@pytest.mark.parametrize("method", SOLVERS)
+@pytest.mark.parametrize("between", [0.0, 1e-9, -1e-9, 0.5])
+@pytest.mark.parametrize("restitution", [0.0, 0.5])
+def test_a_body_at_rest_leaves_when_it_is_pushed_away(method, between, restitution):
+    """However it was pushed before, also not at all: x = -t^2 / 2 after the push turns."""
+    body = SecondOrderIntegrator(upper_limit=0.0, restitution=restitution)
+    diagram = three_levels(body, 1.0, between, -1.0)
+    end = saltus.simulate(diagram, (0.0, 3.0), ode_solver_method=method).context[body]
+    early = min(between, 0.0)  # a push of -1e-9 for a second
+    exact = [-0.5 + early, -1.0 + early]
+    assert end.continuous_state == pytest.approx(exact, abs=1e-5)  # ten tolerances
+
+
+@pytest.mark.parametrize("method", SOLVERS)
+def test_an_error_of_zero_does_not_undo_the_clamp(method):
+    """v = i grows to its limit 1 in the first second, and stays there."""
+    pid = PID(0.0, 1.0, upper_limit=1.0)
+    pulse = Pulse(amplitude=1.0, period=4.0)
+    builder = saltus.DiagramBuilder()
+    builder.add(pid, pulse)
+    builder.connect(pulse.output(), pid.input())
+    diagram = builder.build()
+    end = saltus.simulate(diagram, (0.0, 20.0), ode_solver_method=method).context[pid]
+    assert end.continuous_state[0] == pytest.approx(1.0, abs=1e-5)
+
+
+def test_the_integral_waits_while_the_error_is_zero_and_falls_with_it():
+    pid = PID(1.0, 1.0, upper_limit=1.0, initial_state=5.0)
+    diagram = three_levels(pid, 0.0, 2.0, 0.0, -1.0)
+    end = saltus.simulate(diagram, (0.0, 4.0)).context[pid]
+    assert end.continuous_state[0] == pytest.approx(4.0, abs=1e-5)
+
+
+def test_limits_that_a_context_crosses_do_not_end_the_process():
+    limiter = RateLimiter(0.1, name="limiter")
+    limiter.input().fix_value(1.0)
+    begin = limiter.create_context().with_parameter("upper_limit", -2.0)
+    assert saltus.simulate(limiter, begin, (0.0, 1.0)).status == "reached_end"
+
+
+def test_a_relay_of_one_threshold_has_one_parameter():
+    assert "off_threshold" not in Relay(1.0, 1.0).create_context().parameters
+    assert "off_threshold" in Relay(1.0, 0.5).create_context().parameters
+
+
+@pytest.mark.parametrize(
+    "make, message",
+    [
+        (lambda: LookupTable1d([0.0, 1.0, np.inf], [0.0, 1.0, 2.0]), "finite points"),
+        (lambda: Counter(limit=3, initial_state=7), "expected 0 to limit - 1"),
+        (lambda: Counter(limit=3, initial_state=-2), "expected 0 to limit - 1"),
+    ],
+)
+def test_impossible_tables_and_counts_are_refused(make, message):
+    with pytest.raises(ModelError, match=message):
+        make()

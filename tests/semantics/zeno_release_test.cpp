@@ -72,3 +72,28 @@ TEST_CASE("4.5 an update that throws a held ball at its floor makes it bounce", 
   CHECK(results.events.times("bounce", EventKind::zeno_release) == std::vector{1.0});
   CHECK_THAT(results.context.continuous_state()[0], WithinAbs(1.5 * 0.2 - 5.0 * 0.04, 1e-7));
 }
+
+TEST_CASE("4.5 a held ball is released when its force turns, after no force as well",
+          "[semantics]") {
+  const auto method = GENERATE(from_range(methods));
+  const double e = GENERATE(0.0, 0.5), between = GENERATE(0.0, 1e-9, -1e-9, -3.0);
+  INFO("method " << method << ", e = " << e << ", force between " << between);
+  const Leaf ball("ball", [=](Leaf& l) {
+    l.declare_continuous_state(
+        {.initial = vec({0.0, 0.0}),
+         .ode = [](const At& at, VectorRef xdot) { xdot << at.x[1], at.z[0]; }});
+    l.declare_discrete_state(vec({-10.0}));
+    l.declare_zero_crossing(
+        {.name = "bounce",
+         .guard = [](const At& at) { return at.x[0]; },
+         .reset_map = [=](const At& at,
+                          Next& next) { next.set_continuous_state({0.0, -e * at.x[1]}); },
+         .direction = Direction::positive_then_non_positive});
+    l.declare_one_shot(1.0, [=](const At&, Next& next) { next.set_discrete_state({between}); });
+    l.declare_one_shot(2.0, [=](const At&, Next& next) { next.set_discrete_state({10.0}); });
+  });
+  const auto results = simulate(ball, ball.create_context(), {0.0, 2.5},
+                                {.rtol = 1e-9, .atol = 1e-11, .ode_solver_method = method});
+  // 5 t^2 after the force has turned; a force of 1e-9 for a second adds less than 1e-9 to it
+  CHECK_THAT(results.context.continuous_state()[0], WithinAbs(1.25, 1e-7));
+}

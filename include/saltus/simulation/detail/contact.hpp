@@ -23,7 +23,7 @@ struct SurfaceContact {
   int pressed = -1;  // sign of the guard where the flow presses on the surface
   bool opaque = false;
   bool carried = false;     // the surface moves, and the blocks move with it
-  bool pressed_on = false;  // the flow led into the surface at the last look
+  bool pressed_on = false;  // the flow led into the surface when it last led anywhere
   double error = 0.0;       // the guard is at zero within it
   double look_ahead = 0.0;  // [s] see lift
   std::vector<Member> members = {};
