@@ -12,18 +12,23 @@ from saltus.system import System
 
 __all__ = ["block_of", "blocks_in", "named", "port_of", "signals_in", "signals_of"]
 
-DIAGRAMS = (_core.Diagram, _core.SharedSystem)
+
+def is_diagram(system: System) -> bool:
+    """Whether a system has blocks, in Python or in C++."""
+    return isinstance(system, _core.Diagram) or (
+        isinstance(system, _core.SharedSystem) and bool(system.block_names)
+    )
 
 
 def blocks_in(system: System) -> tuple[System, ...]:
     """The blocks of a diagram, whether it was made in Python or in C++; none of a leaf."""
     inside: Any = system
-    return tuple(inside.blocks) if isinstance(system, DIAGRAMS) else ()
+    return tuple(inside.blocks) if is_diagram(system) else ()
 
 
 def block_of(system: System, name: str) -> System:
     """A block of a diagram by name; ModelError if there is none."""
-    if blocks_in(system):
+    if is_diagram(system):
         inside: Any = system
         block: System = inside[name]
         return block
@@ -70,5 +75,5 @@ def signals_of(system: System, signals: Any) -> dict[str, OutputPort]:
     """The signals of a run: if nothing is said, the outputs that a diagram exports."""
     if signals is not None:
         return signals_in(system, signals)
-    exported = system.output_ports if blocks_in(system) else ()
+    exported = system.output_ports if is_diagram(system) else ()
     return {port.name: port for port in exported}

@@ -102,8 +102,8 @@ def checked_options(
     if not isinstance(options, SimulatorOptions):
         raise ModelError(f"expected SimulatorOptions, found {options!r}")
     refuse(where, overrides, (field.name for field in fields(options)), OPTIONS)
-    options = replace(options, **overrides)
-    return replace(options, recorded_signals=signals_of(system, options.recorded_signals))
+    signals = signals_of(system, overrides.get("recorded_signals", options.recorded_signals))
+    return replace(options, **{**overrides, "recorded_signals": signals})
 
 
 def functions_of(options: SimulatorOptions) -> list[tuple[str, Any]]:
