@@ -186,13 +186,20 @@ class DiagramBuilder:
                 f"connect: the ports are swapped: expected an output and then an input, found "
                 f"{source!r} and then {destination!r}; write connect(output, input)"
             )
-        if isinstance(source, str):
-            block, port = self._from("connect", source)
-            source = block.output(port)
-        if isinstance(destination, str):
-            block, port = self._from("connect", destination)
-            destination = block.input(port)
-        self._core.connect(*_port(source, OutputPort), *_port(destination, InputPort))
+        begin, end = self._output("connect", source), self._input("connect", destination)
+        self._core.connect(*_port(begin, OutputPort), *_port(end, InputPort))
+
+    def _output(self, where: str, port: OutputPort | str) -> OutputPort:
+        if not isinstance(port, str):
+            return port
+        block, name = self._from(where, port)
+        return block.output(name)
+
+    def _input(self, where: str, port: InputPort | str) -> InputPort:
+        if not isinstance(port, str):
+            return port
+        block, name = self._from(where, port)
+        return block.input(name)
 
     def _from(self, where: str, path: str) -> tuple[System, str]:
         """The block that was added, and the name of its port, of a path such as "gain.out"."""
@@ -235,10 +242,8 @@ class DiagramBuilder:
         >>> builder.build().input_names
         ['u']
         """
-        if isinstance(port, str):
-            block, own = self._from("export_input", port)
-            port = block.input(own)
-        return self._core.export_input(*_port(port, InputPort), name or "")
+        own = self._input("export_input", port)
+        return self._core.export_input(*_port(own, InputPort), name or "")
 
     def export_output(self, port: OutputPort | str, name: str | None = None) -> int:
         """Makes an output of a block one of the diagram.
@@ -265,10 +270,8 @@ class DiagramBuilder:
         >>> builder.build().output_names
         ['clock_out']
         """
-        if isinstance(port, str):
-            block, own = self._from("export_output", port)
-            port = block.output(own)
-        return self._core.export_output(*_port(port, OutputPort), name or "")
+        own = self._output("export_output", port)
+        return self._core.export_output(*_port(own, OutputPort), name or "")
 
     def build(self, name: str = "root") -> Diagram:
         """The diagram of the blocks and wires so far.
