@@ -3,8 +3,6 @@
 
 #include <cmath>
 
-#include "saltus/library/operations.hpp"
-
 namespace saltus {
 
 namespace {

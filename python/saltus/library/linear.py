@@ -98,10 +98,10 @@ class PID(Block, _core.PID):
     """v = kp u + i + kd n (u - f), with di/dt = ki u and df/dt = n (u - f); y is v, or v between
     the limits. u is the error.
 
-    The derivative has a filter, always. With a limit the integral i is clamped: it stands still
-    from when v is beyond the limit and the error pushes outward, until the error turns or v is
-    inside again by `band`. Both are located as events. The band prevents chattering while the error
-    falls.
+    The derivative has a filter, always. With a limit the integral i is clamped: it does
+    not change from when v is beyond the limit and the error pushes outward, until the error turns
+    or v is inside again by `band`. Both are located as events. The band prevents chattering while
+    the error falls.
 
     Parameters
     ----------
