@@ -20,7 +20,7 @@ Numbers random_point(std::size_t n, unsigned seed) {
   return x;
 }
 
-/// One that is interpreted, and one that is compiled.
+/// The same series twice: one is interpreted, the other is compiled.
 struct Pair {
   Pair(const Graph& g, const std::vector<Node>& rates, const std::vector<Node>& outputs, int order)
       : interpreted(g, rates, outputs), compiled(g, rates, outputs) {

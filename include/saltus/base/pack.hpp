@@ -12,8 +12,8 @@ namespace saltus {
 
 /// Applies each operation to every number of the pack, with the same bits as one by one; the
 /// processor does several at once if it can. A comparison gives 0 or 1 for each number.
-/// tape::Symbol has the same operations. It is no Eigen::Array: that is not faster but for the
-/// roots (bench/packs), its exp, log, sin and cos have other bits, and an `auto` of a user's
+/// tape::Symbol has the same operations. An Eigen::Array does not take its place: only its roots
+/// are faster (bench/packs), its exp, log, sin and cos have other bits, and an `auto` in a user's
 /// formula would be an expression that refers to temporaries.
 class Pack {
  public:

@@ -45,8 +45,8 @@ def _is_whole(value: Any) -> TypeGuard[int]:
 
 
 def _read(words: str) -> object:
-    """What stands within brackets: "1:3", "2" or "[0, 2]"; the text itself if it is none of
-    them.
+    """The slice, number or list of a text such as "1:3", "2" or "[0, 2]"; any other text is
+    returned as it is.
     """
     bare = words.strip().removeprefix("[").removesuffix("]")
     listed = bare != words.strip()

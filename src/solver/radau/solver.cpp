@@ -120,8 +120,8 @@ class RadauSolver final : public StepSolver<RadauSolver> {
     }
   }
 
-  // The length of the next try, after one that Newton's iteration, a value that is not finite, or the
-  // error has ended.
+  // The length of the next try of a step. The last try failed: Newton's iteration did not converge,
+  // a value was not finite, or the error was too large.
   double retry_after_failure(double h) {
     ++statistics_.rejected;
     if (!stages_.finite()) note_not_finite(h);

@@ -14,7 +14,7 @@ Written gathered(const Term* term, const WrittenNumbers& from) {
   return from.writer->gathered(from.memory, {place(0), place(1), place(2), place(3)});
 }
 
-/// `rows` and `values` have numbers by place; `factors` are those that `begin_wide` has gathered.
+/// `rows` and `values` are indexed by place; `factors` has the numbers that `begin_wide` gathered.
 struct Sum {
   template <class Numbers>
   static auto narrow(const Instruction& i, const Numbers& rows, const Numbers&) {

@@ -52,7 +52,7 @@ class SeriesWriter {
 
   Written read(Memory memory, Index offset, int count);
   void store(Memory memory, Index offset, const Written& a);
-  /// Four numbers that stand at any places.
+  /// Four numbers, each with a place of its own.
   Written gathered(Memory memory, const std::array<Index, lanes>& offsets);
   Written joined(const std::array<Written, lanes>& all);
   /// A value of the program, in as many lanes as there are numbers.
@@ -69,8 +69,9 @@ class SeriesWriter {
 
   /// How many numbers each instruction works on.
   int width = 1;
-  /// Rows begin where a table says, so that alike instructions share the code: offset `in_table` n
-  /// stands for entry n. The numbers of the instruction itself begin at entry 0.
+  /// Rows begin where a table says, so that alike instructions share the code: the offset
+  /// `in_table` n means entry n of the table. The entries from 0 on belong to the instruction
+  /// itself.
   bool by_table = false;
   static constexpr Index in_table = 4096;
 

@@ -28,8 +28,9 @@ struct Watch {
   void clear() { slots.clear(), groups.clear(); }
 };
 
-/// The guards that can fire in the present modes. Those that stop the solver and the monitors are
-/// searched one after the other, because no monitor may change a bit of a root.
+/// The guards that can fire in the present modes: all, the guards that stop the solver, and the
+/// monitors. The last two are searched one after the other, because no monitor may change a bit of
+/// a root.
 struct ActiveGuards {
   std::vector<std::size_t> all;
   Watch stopping, monitors;
