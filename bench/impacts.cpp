@@ -4,6 +4,7 @@
 #include <cstring>
 #include <saltus/library/library.hpp>
 
+#include "balls.hpp"
 #include "interleave.hpp"
 #include "runner.hpp"
 #include "sheet.hpp"
@@ -12,37 +13,14 @@ namespace {
 
 using namespace saltus;
 
-constexpr double g = 9.81, e = 0.9, height = 10.0, ten_impacts = 18.2;  // [m/s^2], 1, [m], [s]
+constexpr double height = 10.0, ten_impacts = 18.2;  // [m], [s]
 
-/// Heights first, then speeds; one call computes all guards.
-class Balls final : public LeafSystem {
- public:
-  explicit Balls(Index n, std::string name = "balls") : LeafSystem(std::move(name)), n_(n) {
-    Eigen::VectorXd start = Eigen::VectorXd::Zero(2 * n);
-    start.head(n).setConstant(height);
-    declare_continuous_state({.initial = start, .ode = [n](const At& at, VectorRef xdot) {
-                                xdot.head(n) = at.x.tail(n);
-                                xdot.tail(n).setConstant(-g);
-                              }});
-    declare_zero_crossing({.name = "bounce",
-                           .guard = [n](const At& at, VectorRef out) { out = at.x.head(n); },
-                           .reset_map = &Balls::bounce,
-                           .direction = Direction::positive_then_non_positive,
-                           .size = n});
-  }
-
- private:
-  void bounce(const At& at, Next& next) const {
-    Eigen::VectorXd x = at.x;
-    x[at.entry] = std::abs(x[at.entry]);
-    x[n_ + at.entry] *= -e;
-    next.set_continuous_state(x);
-  }
-  Index n_;
-};
+std::shared_ptr<bench::Balls> balls(Index n) {
+  return std::make_shared<bench::Balls>(Eigen::VectorXd::Constant(n, height));
+}
 
 bench::Runner in_one_leaf(Index n) {
-  const auto system = std::make_shared<Balls>(n);
+  const auto system = balls(n);
   return {system,
           system->create_context(),
           ten_impacts,
@@ -51,7 +29,8 @@ bench::Runner in_one_leaf(Index n) {
 
 bench::Runner in_leaves(Index n) {
   DiagramBuilder builder;
-  for (Index i = 0; i < n; ++i) builder.add<Balls>(1, text("ball_", i));
+  for (Index i = 0; i < n; ++i)
+    builder.add<bench::Balls>(Eigen::VectorXd::Constant(1, height), text("ball_", i));
   const auto system = std::make_shared<const Diagram>(builder.build("balls"));
   return {system,
           system->create_context(),

@@ -4,6 +4,7 @@
 #include <saltus/library/library.hpp>
 
 #include "ball.hpp"
+#include "balls.hpp"
 #include "interleave.hpp"
 #include "runner.hpp"
 #include "sheet.hpp"
@@ -21,32 +22,11 @@ SimulatorOptions dopri5() {
 
 double height_of(int i, int n) { return 10.0 + 5.0 * i / n; }  // [m] no two land together
 
-/// Heights first, then speeds; one call computes all guards.
-class Balls final : public LeafSystem {
- public:
-  explicit Balls(int n) : LeafSystem("balls"), n_(n) {
-    Eigen::VectorXd start = Eigen::VectorXd::Zero(2 * n);
-    for (int i = 0; i < n; ++i) start[i] = height_of(i, n);
-    declare_continuous_state({.initial = start, .ode = [n](const At& at, VectorRef xdot) {
-                                xdot.head(n) = at.x.tail(n);
-                                xdot.tail(n).setConstant(-g);
-                              }});
-    declare_zero_crossing({.name = "bounce",
-                           .guard = [n](const At& at, VectorRef out) { out = at.x.head(n); },
-                           .reset_map = &Balls::bounce,
-                           .direction = Direction::positive_then_non_positive,
-                           .size = n});
-  }
-
- private:
-  void bounce(const At& at, Next& next) const {
-    Eigen::VectorXd x = at.x;
-    x[at.entry] = std::abs(x[at.entry]);
-    x[n_ + at.entry] *= -e;
-    next.set_continuous_state(x);
-  }
-  int n_;
-};
+std::shared_ptr<bench::Balls> balls(int n) {
+  Eigen::VectorXd heights(n);
+  for (int i = 0; i < n; ++i) heights[i] = height_of(i, n);
+  return std::make_shared<bench::Balls>(heights);
+}
 
 class OneBall final : public LeafSystem {
  public:
@@ -125,8 +105,7 @@ void grow(bench::Sheet& sheet, const char* what, const std::vector<int>& sizes, 
 int main() {
   bench::Sheet sheet("many", "How does the engine grow with balls and blocks?");
   const std::vector<int> counts{1, 10, 100, 1000};
-  grow(sheet, "balls in one leaf", counts, balls_end,
-       [](int n) { return std::make_shared<Balls>(n); });
+  grow(sheet, "balls in one leaf", counts, balls_end, balls);
   grow(sheet, "a leaf for each ball", counts, balls_end, leaves);
   grow(sheet, "lags, three blocks each", {4, 32, 256, 1024, 4096}, 5.0, chain);
 }
