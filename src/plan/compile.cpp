@@ -5,7 +5,9 @@
 #include <string_view>
 #include <unordered_set>
 
+#include "saltus/plan/detail/flow_divisors.hpp"
 #include "saltus/plan/detail/flow_series.hpp"
+#include "saltus/plan/detail/kept.hpp"
 #include "saltus/plan/detail/fuse.hpp"
 #include "saltus/plan/detail/needs.hpp"
 #include "saltus/plan/detail/order.hpp"
@@ -243,7 +245,8 @@ std::shared_ptr<const Plan> compile(const System& system, const RecordedSignals&
   add_edges(plan);
   add_schedule(plan);
   fuse(plan);
-  plan.series = std::make_shared<KeptSeries>();
+  plan.series = std::make_shared<Kept<FlowSeries>>();
+  plan.divisors = std::make_shared<Kept<FlowDivisors>>();
   return std::make_shared<const Plan>(std::move(plan));
 }
 

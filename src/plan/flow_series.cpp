@@ -1,6 +1,7 @@
 #include "saltus/plan/detail/flow_series.hpp"
 
 #include "saltus/plan/detail/flow_graph.hpp"
+#include "saltus/plan/detail/kept.hpp"
 
 namespace saltus {
 
@@ -43,15 +44,8 @@ FlowSeries made_of(const FlowGraph& flow) {
 
 }  // namespace
 
-std::shared_ptr<const FlowSeries> KeptSeries::of(const Plan& plan) {
-  const std::scoped_lock lock(one_at_a_time_);
-  if (made_ == nullptr) made_ = std::make_shared<const FlowSeries>(made_of(flow_graph(plan)));
-  return made_;
-}
-
-void KeptSeries::forget() {
-  const std::scoped_lock lock(one_at_a_time_);
-  made_ = nullptr;
+std::shared_ptr<const FlowSeries> flow_series(const Plan& plan) {
+  return plan.series->get([&] { return made_of(flow_graph(plan)); });
 }
 
 }  // namespace saltus

@@ -2,7 +2,7 @@
 #include "saltus/simulation/detail/run.hpp"
 
 #include "saltus/base/detail/forced_unwind.hpp"
-#include "saltus/plan/detail/flow_series.hpp"
+#include "saltus/plan/detail/kept.hpp"
 #include "saltus/simulation/detail/option_table.hpp"
 #include "width.hpp"
 
@@ -31,6 +31,7 @@ Run::Run(const System& system, SimulatorOptions options)
 
 void Run::functions_replaced() {
   plan().series->forget();
+  plan().divisors->forget();
   machine_.functions_replaced();  // first: a method that does not suit them now must not go on
   require_series(machine_.plan(), options_.ode_solver_method);
 }
@@ -46,6 +47,7 @@ Run::Run(std::shared_ptr<const Plan> plan, SimulatorOptions options)
       rows_(machine_, results_, options_),
       chattering_(options_),
       crawl_(machine_),
+      poles_(machine_, options_),
       interrupt_(options_) {}
 
 /// A context that is refused leaves the run as it is.
@@ -68,7 +70,7 @@ void Run::initialize(const Context& context) {
   begun_ = over_ = false;
   accepted_ = {.settled = context.settled()};
   interrupt_.begin();
-  chattering_.begin(time_, machine_.x), crawl_.begin(time_);
+  chattering_.begin(time_, machine_.x), crawl_.begin(time_), poles_.begin();
 }
 
 Results Run::take_results() {
@@ -155,7 +157,9 @@ Status Run::step(double t_end) {
   const double t_stop = major_.next(time_, std::min(t_end, calendar_.next()));
   const double from = time_;
   if (options_.dense_output) results_.trajectory.depart(integration_.state());
+  poles_.depart(from, integration_.state());
   const StopReason reason = integration_.advance(time_, t_stop);
+  if (integration_.started() && poles_.passed(from, time_, integration_)) fail_at_pole(from);
   accepted_.settled = false;
   accepted_.place = integration_.started() ? Place::solver : Place::machine;
   if (options_.dense_output) keep_step(from);

@@ -30,9 +30,7 @@ Status Run::end_chattering() {
 
 Status Run::end_crawl() {
   const Crawl::Jump& jump = crawl_.jump();
-  const PlanLeaf& leaf = *std::ranges::find_if(plan().leaves, [&](const PlanLeaf& each) {
-    return each.x <= jump.state && jump.state < each.x + each.nx;
-  });
+  const PlanLeaf& leaf = leaf_of_state(jump.state);
   results_.block = leaf.path;
   return end(Status::chattering,
              text("t = ", time_, " s: ", jump.steps, " steps took ", jump.took,
@@ -42,6 +40,30 @@ Status Run::end_crawl() {
                   ": the solution slides along the jump, and no step passes it. Write the branch "
                   "as a relation or as two modes with a guard each, with a mode of its own for the "
                   "motion along the jump, or make it steep but continuous"));
+}
+
+/// The step is taken back: the run ends at its begin, the last state before the pole.
+void Run::fail_at_pole(double from) {
+  const Poles::Pole& pole = poles_.pole();
+  const PlanLeaf& leaf = leaf_of_state(pole.state);
+  const double to = std::exchange(time_, from);
+  machine_.x = integration_.at(from);
+  accepted_.place = Place::machine;
+  throw SimulationError(
+      text(
+          "t = ", from, " s: the derivative of state x[", pole.state - leaf.x, "] of block '",
+          leaf.path, "' has a pole at t = ", pole.t,
+          " s, where a divisor crosses zero, and a step to t = ", to,
+          " s passed it, because the tolerance is loose. Expected: a derivative that stays finite. "
+          "End the run before the pole, for example with a terminal guard on the divisor, or "
+          "change the model"),
+      from, leaf.path);
+}
+
+const PlanLeaf& Run::leaf_of_state(Index state) const {
+  return *std::ranges::find_if(plan().leaves, [&](const PlanLeaf& each) {
+    return each.x <= state && state < each.x + each.nx;
+  });
 }
 
 /// Ends the run with an error. Called in a handler: the present exception is the cause.

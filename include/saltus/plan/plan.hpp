@@ -16,7 +16,10 @@
 
 namespace saltus {
 
-class KeptSeries;
+template <class T>
+class Kept;
+struct FlowSeries;
+struct FlowDivisors;
 
 /// An output or a relation: a value that other nodes read.
 struct Node {
@@ -135,8 +138,9 @@ struct Plan {
 
   Index nx = 0, nz = 0, np = 0, ny = 0, guard_slots = 0;
 
-  /// For the method `taylor`; the one thing that is made later than the plan.
-  std::shared_ptr<KeptSeries> series;
+  // Made later than the plan, by whoever first needs them.
+  std::shared_ptr<Kept<FlowSeries>> series;      ///< for the method `taylor`
+  std::shared_ptr<Kept<FlowDivisors>> divisors;  ///< for the search for poles
 
   /// Says what was kept, folded and dropped, and why, with one line for each fact.
   std::string describe() const;

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "saltus/plan/detail/machine.hpp"
+#include "saltus/plan/detail/flow_variables.hpp"
 #include "saltus/tape/series.hpp"
 
 namespace saltus::taylor {
@@ -19,10 +19,8 @@ class Expansion {
         series_(std::move(series)),
         order_(order),
         n_(machine.plan().nx),
-        modes_(machine.modes.size()),
+        variables_(machine),
         held_(static_cast<std::size_t>(n_)),
-        places_{Place{Space::z, 0, machine.plan().nz},
-                Place{Space::y, 0, static_cast<Index>(modes_.size())}},
         x_(static_cast<std::size_t>(n_ * (order + 1))) {}
   Expansion(const Expansion&) = delete;  // views point into it
   Expansion& operator=(const Expansion&) = delete;
@@ -31,12 +29,7 @@ class Expansion {
   /// right-hand side.
   bool at(double t, const double* x) {
     ++machine_->rhs_calls;
-    for (std::size_t i = 0; i < modes_.size(); ++i) modes_[i] = machine_->modes[i];
-    const Machine& m = *machine_;
-    const Bases bases{x, m.z.data(), m.p.data(), modes_.data()};
-    const At here(t, {x, n_}, {m.y.data(), m.y.size()}, {m.p.data(), m.p.size()}, 0,
-                  Inputs(places_, 2, &bases), nullptr);
-    series_.expand(here, order_, held(), x_.data());
+    variables_.at(t, x, [&](const At& here) { series_.expand(here, order_, held(), x_.data()); });
     const VectorView all(x_.data(), n_ * (order_ + 1));
     return std::isfinite(all.sum()) || all.allFinite();  // a sum of finite numbers may overflow
   }
@@ -108,9 +101,8 @@ class Expansion {
   tape::Series series_;
   int order_;
   Index n_;
-  std::vector<double> modes_;  // as the expressions read them
+  FlowVariables variables_;
   std::vector<char> held_;
-  Place places_[2];
   std::vector<double> x_;
 };
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,21 +22,7 @@ struct FlowSeries {
   std::string obstacle = {};                ///< the first reason why there is no series
 };
 
-/// The series of one plan, made when they are first asked for. Threads may ask at the same time.
-class KeptSeries {
- public:
-  std::shared_ptr<const FlowSeries> of(const Plan& plan);
-  /// The functions of the plan have changed.
-  void forget();
-
- private:
-  std::mutex one_at_a_time_;
-  std::shared_ptr<const FlowSeries> made_;
-};
-
 /// As the plan keeps it.
-inline std::shared_ptr<const FlowSeries> flow_series(const Plan& plan) {
-  return plan.series->of(plan);
-}
+std::shared_ptr<const FlowSeries> flow_series(const Plan& plan);
 
 }  // namespace saltus

@@ -13,6 +13,7 @@
 #include "saltus/simulation/detail/integration.hpp"
 #include "saltus/simulation/detail/interrupt.hpp"
 #include "saltus/simulation/detail/major_steps.hpp"
+#include "saltus/simulation/detail/poles.hpp"
 #include "saltus/simulation/detail/rows.hpp"
 #include "saltus/simulation/detail/turn.hpp"
 
@@ -63,6 +64,8 @@ class Run {
   void keep_step(double from);
   Status end_chattering();
   Status end_crawl();
+  [[noreturn]] void fail_at_pole(double from);
+  const PlanLeaf& leaf_of_state(Index state) const;
   Status end(Status status, std::string message = {});
   void fail(std::string message);
   void finish();
@@ -87,6 +90,7 @@ class Run {
   std::vector<int> due_;
   Chattering chattering_;
   Crawl crawl_;
+  Poles poles_;
   Interrupt interrupt_;
 };
 
