@@ -36,7 +36,8 @@ CrossingFacts CrossingArming::facts_of(std::size_t k, bool at_start) const {
           .came_from = guard.came_from,
           .effect = crossing.has_effect(),
           .reset = static_cast<bool>(crossing.reset_map),
-          .resets = transition_->effects()};
+          .resets = transition_->effects(),
+          .jumped = present_->now[k].jumped};
 }
 
 /// The facts about guard k that the decisions ask the flow for.
@@ -62,6 +63,9 @@ struct CrossingArming::Ask {
   }
   bool leads_back() const {
     return arming->transition_->wrote_x() && flow().leads_back(*group, slot(), from, before());
+  }
+  bool stops_at_jump() const {
+    return arming->transition_->wrote_x() && flow().stops_at_jump(*group, slot(), from, before());
   }
   bool reset_turns() const { return arming->reset_turns(*group, k); }
   bool turned_round(int side) const { return arming->turned_round(*group, k, side); }

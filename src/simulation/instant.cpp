@@ -19,9 +19,9 @@ void Instant::open(double t, const std::vector<int>& due, double longest) {
   for (const Firing& root : present_.firings) {
     const std::size_t k = root.guard();
     GuardNow& now = present_.now[k];
-    const bool jumped = root.jump > 0.0 && root.jump > crossings_.uncertainty(k);  // else: rounding
-    now.location = location_error(guards_->g[k], jumped);
-    if (root.at_zero && !jumped) now.flight = t - (*guards_)[k].armed_at;
+    now.jumped = root.jump > 0.0 && root.jump > crossings_.uncertainty(k);  // else: rounding
+    now.location = location_error(guards_->g[k], now.jumped);
+    if (root.at_zero && !now.jumped) now.flight = t - (*guards_)[k].armed_at;
   }
   flow_.forget();  // it belongs to x-
   for (const int event : due)

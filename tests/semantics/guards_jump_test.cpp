@@ -106,6 +106,63 @@ TEST_CASE("2.1 a ball whose guard is the truth `above the floor` bounces and sta
   CHECK(results.context.continuous_state()[0] >= 0.0);
 }
 
+namespace {
+
+/// A block that falls onto a floor; its guard is the truth `above the floor`. The reset map keeps a
+/// part of the speed.
+Leaf falling_onto(double floor, double kept, double g = 10.0) {
+  return Leaf("block", [=](Leaf& l) {
+    l.declare_continuous_state({.initial = vec({floor + 5.0, -1.0}),
+                                .ode = [=](const At& at, VectorRef xdot) { xdot << at.x[1], -g; }});
+    l.declare_zero_crossing(
+        {.name = "impact",
+         .guard = [=](const At& at) { return at.x[0] > floor ? 1.0 : -1.0; },
+         .reset_map = [=](const At& at,
+                          Next& next) { next.set_continuous_state({at.x[0], kept * at.x[1]}); },
+         .direction = Direction::positive_then_non_positive});
+  });
+}
+
+}  // namespace
+
+TEST_CASE("2.1 a block that a truth stops at once rests there, wherever its floor is",
+          "[semantics]") {
+  const auto method = GENERATE(from_range(methods));
+  const double floor = GENERATE(0.0, 3.0, -1e5);
+  const Leaf block = falling_onto(floor, 0.0);
+  const auto results =
+      simulate(block, block.create_context(), {0.0, 7.0}, {.ode_solver_method = method});
+  INFO(method << ", floor at " << floor);
+  CHECK(results.events.times("impact").size() == 1);
+  CHECK(count(results.events, EventKind::zeno_enter) == 1);
+  // It rests where the impact was located: the tolerance of the fall.
+  CHECK(results.context.continuous_state()[0] == Approx(floor).margin(1e-4));
+  CHECK(results.context.continuous_state()[1] == 0.0);
+}
+
+TEST_CASE("2.1 a block that a truth only slows, or that nothing pulls on, does not rest",
+          "[semantics]") {
+  const auto method = GENERATE(from_range(methods));
+  const double kept = GENERATE(1.0, 0.5, 0.01);
+  const Leaf block = falling_onto(2.0, kept);
+  const auto results =
+      simulate(block, block.create_context(), {0.0, 3.0}, {.ode_solver_method = method});
+  INFO(method << ", kept " << kept);
+  CHECK(results.events.times("impact").size() == 1);
+  CHECK(count(results.events, EventKind::zeno_enter) == 0);
+  // From 7 m with 1 m/s down it reaches 2 m with sqrt(101) m/s.
+  const double t = (std::sqrt(101.0) - 1.0) / 10.0, left = 3.0 - t;
+  CHECK(results.context.continuous_state()[0] ==
+        Approx(2.0 - kept * std::sqrt(101.0) * left - 5.0 * left * left).margin(1e-3));
+
+  const Leaf lift = falling_onto(2.0, 0.0, 0.0);
+  const auto stopped =
+      simulate(lift, lift.create_context(), {0.0, 9.0}, {.ode_solver_method = method});
+  CHECK(stopped.events.times("impact").size() == 1);
+  CHECK(count(stopped.events, EventKind::zeno_enter) == 0);
+  CHECK(stopped.context.continuous_state()[0] == Approx(2.0).margin(1e-4));
+}
+
 TEST_CASE("2.1 edge_detection compares with the value at which its mode was entered",
           "[semantics]") {
   const auto method = GENERATE(from_range(methods));

@@ -21,7 +21,7 @@ constexpr double eps = 1e-12;  // an error bound for the rows
 /// What a row says of the flow. Asking for anything else fails the test: it costs right-hand sides.
 struct Answers {
   std::optional<double> slope_ = {};
-  std::optional<bool> low = {}, back = {}, turns = {}, round = {};
+  std::optional<bool> low = {}, back = {}, turns = {}, round = {}, stops = {};
 
   template <class T>
   static T said(const std::optional<T>& answer, const char* what) {
@@ -31,6 +31,7 @@ struct Answers {
   double slope() const { return said(slope_, "the slope"); }
   bool too_low() const { return said(low, "the height of the flight"); }
   bool leads_back() const { return said(back, "the flow before"); }
+  bool stops_at_jump() const { return said(stops, "the distance from the jump"); }
   bool reset_turns() const { return said(turns, "another reset"); }
   bool turned_round(int) const { return said(round, "the flow of the mode before"); }
 };
@@ -256,6 +257,16 @@ TEST_CASE("A guard that fired: off, back, at rest, or passed through") {
        with([](auto& f) { f.g = -1.0; }),
        {-1, eps},
        {.low = false},
+       waits_at(-1)},
+      {"jumped, at its jump and left from rest: at rest",
+       with([](auto& f) { f.g = -1.0, f.jumped = true; }),
+       {-1, eps},
+       {.low = false, .back = true, .stops = true},
+       rests_at(1)},
+      {"jumped, and beyond its jump or passed through: no rest",
+       with([](auto& f) { f.g = -1.0, f.jumped = true; }),
+       {-1, eps},
+       {.low = false, .stops = false},
        waits_at(-1)},
       {"another reset sent it back, its own turns it: again",
        two,

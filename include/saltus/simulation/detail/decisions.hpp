@@ -56,6 +56,7 @@ struct CrossingFacts {
   bool effect = false;       ///< it writes a state or a mode
   bool reset = false;        ///< by a reset map
   int resets = 0;            ///< reset maps that wrote continuous state in this instant
+  bool jumped = false;       ///< at its root: its value does not say how far its zero is
 
   bool either() const { return direction == Direction::crosses_zero; }
   bool wrote() const { return resets > 0; }
@@ -161,7 +162,8 @@ template <class Ask>
 Arming decide_return(const CrossingFacts& guard, FlowSide flow, const Ask& ask, Arming arming) {
   const int from = guard.came_from;
   const bool low = ask.too_low(), back = low || flow.side == -from;
-  if (!back || !(std::abs(guard.g) <= flow.error)) return arming;
+  if (!back) return arming;
+  if (std::abs(guard.g) > flow.error && !(guard.jumped && ask.stops_at_jump())) return arming;
   if (guard.resets > 1 && ask.reset_turns())
     arming.then = Arming::Then::fire, arming.from = from;
   else if (low || ask.leads_back())
@@ -181,7 +183,9 @@ Arming decide_return(const CrossingFacts& guard, FlowSide flow, const Ask& ask, 
 ///     yes         back             within its error   rest, if the flight was too low, or the
 ///                                                     guard was not merely passed through
 ///     yes         back             within its error   otherwise go on; waits on the flow's side
-///     yes         back             beyond it, firing  go on; waits on the flow's side
+///     yes         back             beyond it, firing  as within its error, if it jumped, the states
+///                                  side               are at its jump, and leave it as from rest
+///     yes         back             beyond it, firing  otherwise go on; waits on the flow's side
 ///                                  side
 ///     yes         off              -                  go on; waits on the flow's side
 ///     no          -                -                  go on; waits on the flow's side

@@ -84,6 +84,28 @@ class Departure : public FlowProbe {
     return (g_[slot] - g0(slot)) / d;
   }
 
+  /// Whether the states are at the jump of a guard, whose value does not say so, and leave it as from
+  /// rest, that is much more slowly than they came, with the flow `approach`. The guard came from the
+  /// side `from`. The distance from the jump is measured in time: at the jump, and for as long as the
+  /// states have not left it, going back along `approach` for the resolution of the time shows the
+  /// guard before its jump. A block that stops keeps to `stopped_share` of its way; one that was
+  /// merely passed through does not.
+  bool stops_at_jump(const GuardGroup& group, Index slot, int from,
+                     const Eigen::VectorXd& approach) {
+    const double resolution = resolution_along(approach, group);
+    const auto is_before = [&](double d, double back) {
+      fly(d);
+      x1_ -= back * approach;
+      look(t_ + d - back, x1_, slot, g_);
+      forget_looks();
+      return from * g_[slot] > 0.0;
+    };
+    if (!is_before(0.0, resolution)) return false;  // beyond its jump
+    for (double d = first_time(group); d <= longest_; d *= thresholds::look_growth)
+      if (!is_before(d, resolution)) return is_before(d, thresholds::stopped_share * d);
+    return false;  // the flow stays at the jump
+  }
+
  private:
   /// The time of the first look for the guards of one group, from one departure.
   struct FirstLook {
@@ -147,6 +169,20 @@ class Departure : public FlowProbe {
       }
     }
     return std::max(d, thresholds::time_roundings * eps * std::abs(t_));
+  }
+
+  /// [s] in which a flow moves each state of some leaves by its rounding, and the time by its own. A
+  /// state that hardly moves is ignored, as in find_first_time.
+  double resolution_along(const Eigen::VectorXd& flow, const GuardGroup& group) const {
+    double time = 0.0;
+    for (int leaf : group.leaves) {
+      const PlanLeaf& of = machine_->plan().leaves[leaf];
+      for (Index i = of.x; i < of.x + of.nx; ++i) {
+        const double one = thresholds::state_roundings * eps * std::abs((*x_)[i] / flow[i]);
+        if (one <= thresholds::slow_state_of_run * longest_) time = std::max(time, one);
+      }
+    }
+    return time + thresholds::time_roundings * eps * std::abs(t_);
   }
 
   /// The time after which curvature has moved the states by more than their own rounding, from f

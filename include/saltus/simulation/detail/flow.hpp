@@ -67,6 +67,15 @@ class Flow {
     if (!(onward > 0.0)) return true;
     return !passed_through(onward, -from * slope_from(x_before, group, slot));
   }
+  /// Whether the states are at the jump of a guard that came from `from`, and leave it as from rest:
+  /// see Departure::stops_at_jump. The flow before the reset is that from x_before.
+  bool stops_at_jump(const GuardGroup& group, Index slot, int from,
+                     const Eigen::VectorXd& x_before) {
+    depart_from(x_before, longest_);
+    approach_ = departure_.flow();
+    depart();
+    return departure_.stops_at_jump(group, slot, from, approach_);
+  }
   /// The error of a guard at the present state by the tolerance of the run; zero for an opaque
   /// guard, which is only a sign.
   double tolerance(Index slot, bool opaque) {
@@ -87,7 +96,8 @@ class Flow {
   Machine* machine_;
   Departure departure_;
   double t_ = 0.0, longest_ = 0.0;
-  bool known_ = false;  // departure_ belongs to the present state
+  bool known_ = false;        // departure_ belongs to the present state
+  Eigen::VectorXd approach_;  // the flow before a reset
 };
 
 }  // namespace saltus

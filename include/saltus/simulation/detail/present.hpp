@@ -48,6 +48,7 @@ struct GuardNow {
   /// [s] from its last firing to this one; NaN if it was clearly off zero in between
   double flight = std::numeric_limits<double>::quiet_NaN();
   int flips = 0;               ///< flips of a relation in this instant
+  bool jumped = false;         ///< it jumped at its root
   bool fired = false;          ///< it fired in this instant
   bool fired_in_pass = false;  ///< it fired in this pass
   bool frozen = false;         ///< a relation: it keeps its side through this instant
