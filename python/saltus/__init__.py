@@ -22,6 +22,7 @@ from saltus.simulation import Simulator, SimulatorOptions, simulate
 from saltus.solving.guard import Guard
 from saltus.solving.solution import Solution
 from saltus.solving.solve import solve
+from saltus.solving.system_of import system_of
 from saltus.system import InputPort, OutputPort, System
 
 __all__ = [
@@ -63,5 +64,6 @@ __all__ = [
     "simulation",
     "solve",
     "sweep",
+    "system_of",
     "work_precision",
 ]

@@ -279,7 +279,6 @@ def test_guards_in_a_loop_have_names_of_their_own():
     [
         ({"rtoll": 1e-3}, "solve: unknown option 'rtoll'; did you mean 'rtol'"),
         ({"jac": None}, "no option 'jac': it is called jacobian here"),
-        ({"y0": [1.0]}, "no option 'y0': the initial state is the third argument, x0"),
         ({"save_at": [1.0]}, "no option 'save_at': it is called t_eval here"),
         ({"method": "dopri"}, "did you mean 'dopri5'"),
         ({"x0": [[1.0, 2.0]]}, r"x0: expected shape \(n,\), found \(1, 2\)"),

@@ -14,9 +14,11 @@ from numpy.typing import ArrayLike
 
 from saltus._declarations import places_of
 
-__all__ = ["PLAIN", "Form", "form_of"]
+__all__ = ["PLAIN", "Form", "Names", "chosen", "form_of"]
 
 Function = Callable[..., Any]
+Names = tuple[str, ...] | None
+"""of the values that a function gets by keyword; None where a run has no such values"""
 
 
 @dataclass(frozen=True)
@@ -49,22 +51,33 @@ class Form:
             return np.asarray(x)
         return np.array(x, dtype=complex).reshape(-1).view(float)
 
-    def value(self, function: Function, args: tuple[Any, ...]) -> Function:
-        """function(t, x, *args) as a callback of a leaf, whose result stays as it is.
+    def value(self, function: Function, args: tuple[Any, ...], names: Names = None) -> Function:
+        """function(t, x, *args) as a callback of a leaf, whose result stays as it is. It gets the
+        values of `names`, parameters and the mode, by keyword.
 
         Such callbacks close over the user's function, this form and constants, no more: two of them
         that do the same share their traces.
         """
+        if names is not None:
+            return lambda time, state, **given: function(
+                self.time(time),
+                self.state(state.continuous_state),
+                *args,
+                **chosen(names, state, given),
+            )
         if self.plain:
             return lambda time, state: function(time, state.continuous_state, *args)
         return lambda time, state: function(
             self.time(time), self.state(state.continuous_state), *args
         )
 
-    def flow(self, function: Function, args: tuple[Any, ...]) -> Function:
+    def flow(self, function: Function, args: tuple[Any, ...], names: Names = None) -> Function:
         """dx/ds of the engine's state from function(t, x, *args), which returns dx/dt."""
+        value = self.value(function, args, names)
         if self.plain:
-            return self.value(function, args)
+            return value
+        if names is not None:
+            return lambda time, state, **given: self.rate(value(time, state, **given))
         return lambda time, state: self.rate(
             function(self.time(time), self.state(state.continuous_state), *args)
         )
@@ -73,13 +86,16 @@ class Form:
         """dx/ds of the engine's state from dx/dt."""
         return xdot if self.plain else self.time(self.flat(xdot))
 
-    def matrix(self, function: Function, args: tuple[Any, ...], size: int) -> Function:
+    def matrix(
+        self, function: Function, args: tuple[Any, ...], size: int, names: Names = None
+    ) -> Function:
         """d(dx/ds)/dx of the engine's state from function(t, x, *args), which returns df/dx as an
         array, as a sparse matrix, or as a number for one state.
         """
 
-        def entries(time: float, state: Any) -> Any:
-            found = function(self.time(time), self.state(state.continuous_state), *args)
+        def entries(time: float, state: Any, **given: Any) -> Any:
+            named = chosen(names, state, given)
+            found = function(self.time(time), self.state(state.continuous_state), *args, **named)
             if hasattr(found, "toarray"):
                 found = found.toarray()
             if size == 1 and np.ndim(found) == 0:
@@ -113,6 +129,11 @@ class Form:
         if not self.is_complex or np.ndim(tolerance) == 0:
             return tolerance
         return np.repeat(np.asarray(tolerance), 2)
+
+
+def chosen(names: Names, state: Any, given: dict[str, Any]) -> dict[str, Any]:
+    """The keywords of a function that takes `names`."""
+    return {name: state.mode if name == "mode" else given[name] for name in names or ()}
 
 
 PLAIN = Form()

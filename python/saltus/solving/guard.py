@@ -51,6 +51,9 @@ class Guard:
         `LeafSystem.declare_zero_crossing`.
     at_start : {'auto', 'ignore', 'fire', 'error'}
         The effect of a guard that is zero at the beginning; see the same.
+    start_mode, end_mode : int, optional
+        The mode in which it can fire (all modes if not said), and the mode after it. Functions
+        with an argument `mode` get the present one.
 
     Raises
     ------
@@ -75,6 +78,8 @@ class Guard:
     zeno_tolerance: float | None = None
     on_zeno: str = "hold"
     at_start: str = "auto"
+    start_mode: int | None = None
+    end_mode: int | None = None
 
     def __post_init__(self) -> None:
         for what, function in (("guard", self.guard), ("reset", self.reset)):

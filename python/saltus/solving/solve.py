@@ -19,6 +19,7 @@ from saltus.solving.form import form_of
 from saltus.solving.formed import formed
 from saltus.solving.guard import Guard, guards_of
 from saltus.solving.kept import call_of, find, keep
+from saltus.solving.named import named_of
 from saltus.solving.solution import Known, Solution
 from saltus.solving.solved_system import SolvedSystem, arguments_of, state_of, times_of
 from saltus.solving.tolerances import first_step_of, tolerances_of
@@ -27,7 +28,6 @@ __all__ = ["solve"]
 
 HINTS = OPTIONS | {
     "fun": "the function is the first argument, f",
-    "y0": "the initial state is the third argument, x0",
     "jac": "it is called jacobian here",
     "jac_sparsity": "it is called jacobian_sparsity here",
     "lband": "say with jacobian_sparsity which entries may differ from zero",
@@ -56,8 +56,11 @@ OWN = (
 def solve(
     f: Callable[..., ArrayLike | None],
     t_span: tuple[float, float],
-    x0: ArrayLike,
+    x0: ArrayLike | None = None,
     *,
+    y0: ArrayLike | None = None,
+    parameters: Mapping[str, Any] | None = None,
+    mode: int | None = None,
     events: Guard | Callable[..., Any] | Sequence[Guard | Callable[..., Any]] | None = None,
     method: str = "auto",
     rtol: ArrayLike = 1e-6,
@@ -91,6 +94,15 @@ def solve(
     x0 : array_like, shape (n,), or a number
         The state at the beginning. A complex one is run as 2n real states, its real and imaginary
         parts, each within the tolerances; then `f` returns complex numbers, and guards real ones.
+    y0 : array_like, optional
+        SciPy's name for `x0`.
+    parameters : mapping of str to number or array, optional
+        Values that `f`, `jacobian`, guards and resets get by keyword, those that have an argument
+        of that name: ``f(t, x, k)`` with ``parameters={"k": 0.05}``. `sweep` varies those of
+        `system_of`.
+    mode : int, optional
+        The mode at the beginning, for guards with `start_mode` and `end_mode`; 0 if one of them
+        has such a mode. Functions with an argument `mode` get the present one.
     events : Guard or callable, or a list of them, optional
         A plain ``g(t, x, *args)``, perhaps with SciPy's attributes `terminal` and `direction`, is
         logged where it is zero; `Guard` says more, such as a reset.
@@ -150,8 +162,9 @@ def solve(
     """
     _refuse(options)
     begin, end = span_of("solve: t_span", t_span, backward=True)
-    start = state_of(x0)
+    start = state_of(_one_of(x0, y0))
     guards = None if events is None else guards_of(events)
+    named = named_of(parameters, mode, guards or [])
     if np.isinf(end) and start.size:
         _require_terminal(guards or [])
     form = form_of(end < begin, start.dtype.kind == "c")
@@ -159,12 +172,12 @@ def solve(
     shape = (jacobian_sparsity is None, bool(vectorized))
     call = (
         call_of(f, begin, start, given, guards or [], jacobian, form, shape)
-        if jacobian_sparsity is None
+        if jacobian_sparsity is None and not named
         else None
     )
     kept = None if call is None else find(call)
     system = kept or SolvedSystem(
-        f, begin, start, given, guards or [], jacobian, jacobian_sparsity, vectorized, form
+        f, begin, start, given, guards or [], jacobian, jacobian_sparsity, vectorized, form, named
     )
     settings: dict[str, Any] = {
         **options,
@@ -188,6 +201,13 @@ def solve(
         keep(call, system)
     context = system.create_context(form.time(begin))
     return run_whole(run, context, form.time(end), _Outcome(system, known))
+
+
+def _one_of(x0: ArrayLike | None, y0: ArrayLike | None) -> ArrayLike:
+    if (x0 is None) == (y0 is None):
+        found = "none" if x0 is None else "both"
+        raise ModelError(f"solve: expected the initial state as x0 or as y0, found {found}")
+    return y0 if x0 is None else x0  # type: ignore[return-value]
 
 
 def _require_terminal(guards: Sequence[Guard]) -> None:

@@ -17,8 +17,9 @@ from saltus._wrapped import wrapping
 from saltus.calling import refuse_writing
 from saltus.errors import ModelError
 from saltus.leaf_system import LeafSystem
-from saltus.solving.form import PLAIN, Form
+from saltus.solving.form import PLAIN, Form, Names, chosen
 from saltus.solving.guard import Guard
+from saltus.solving.named import NONE, Named
 from saltus.solving.solution import BLOCK
 
 __all__ = ["SolvedSystem", "arguments_of", "state_of", "times_of"]
@@ -46,25 +47,33 @@ class SolvedSystem(LeafSystem):
         jacobian_sparsity: Any,
         vectorized: bool,
         form: Form,
+        named: Named = NONE,
     ):
+        named.require_use([f, jacobian, *(each for g in guards for each in (g.guard, g.reset))])
         super().__init__(name=BLOCK)
         self._form = form
-        flow = _flow(_one_column(f) if vectorized else f, form, x0, args)
-        self.check = functools.partial(_checked, flow, f, begin, x0, form)
+        self._named = named
+        for name, value in named.parameters.items():
+            self.declare_dynamic_parameter(name, value)
+        if named.mode is not None:
+            self.declare_default_mode(named.mode)
+        names = named.of(f)
+        flow = _flow(_one_column(f) if vectorized else f, form, x0, args, names)
+        self.check = functools.partial(_checked, flow, f, begin, x0, form, named)
         self.declare_continuous_state(
             default_value=form.flat(x0),
-            ode=wrapping(f, self.check()),
-            **_derivatives(jacobian, jacobian_sparsity, len(x0), form, args),
+            ode=self._owned(f, self.check()),
+            **_derivatives(jacobian, jacobian_sparsity, len(x0), form, args, named.of(jacobian)),
         )
         self.declare_continuous_state_output(name="x")
         for number, guard in enumerate(guards):
             self._declare_guard(guard, guard.named(number), args)
 
     def _declare_guard(self, guard: Guard, name: str, args: tuple[Any, ...]) -> None:
-        reset = guard.reset
+        value = self._form.value(guard.guard, args, self._named.of(guard.guard))
         self.declare_zero_crossing(
-            guard=wrapping(guard.guard, self._form.value(guard.guard, args)),
-            reset_map=None if reset is None else _reset(reset, name, self._form, args),
+            guard=self._owned(guard.guard, value),
+            reset_map=self._reset_of(guard.reset, name, args),
             name=name,
             direction=guard.engine_direction,
             terminal=bool(guard.terminal),
@@ -72,42 +81,61 @@ class SolvedSystem(LeafSystem):
             zeno_tolerance=guard.zeno_tolerance,
             on_zeno=guard.on_zeno,
             at_start=guard.at_start,
+            start_mode=guard.start_mode,
+            end_mode=guard.end_mode,
         )
+
+    def _reset_of(self, reset: Function | None, name: str, args: tuple[Any, ...]) -> Any:
+        if reset is None:
+            return None
+        return self._owned(reset, _reset(reset, name, self._form, args, self._named.of(reset)))
+
+    def _owned(self, owner: Function, function: Function) -> Function:
+        """Traces are kept with the user's function unless it gets values by name."""
+        return function if self._named else wrapping(owner, function)
 
 
 def _one_column(f: Function) -> Function:
     """f(t, x) of one state from SciPy's f(t, x) of k states, the columns of x."""
     if not callable(f):
         return f  # which is refused
-    return lambda t, x, *args: np.reshape(f(t, x[:, None], *args), -1)
+    return lambda t, x, *args, **named: np.reshape(f(t, x[:, None], *args, **named), -1)
 
 
-def _flow(f: Function, form: Form, x0: np.ndarray, args: tuple[Any, ...]) -> Function:
+def _flow(f: Function, form: Form, x0: np.ndarray, args: tuple[Any, ...], names: Names) -> Function:
     """dx/ds of the engine's state as a callback."""
     if not callable(f):
         raise ModelError(f"solve: f: expected a function f(t, x), found {f!r}")
-    if not _takes_out(f, len(args)):
-        return form.flow(f, args)
+    if not _takes_out(f, len(args), names):
+        return form.flow(f, args, names)
     size, kind = len(x0), complex if form.is_complex else float
 
-    def in_place(time: float, state: Any) -> Any:
+    def in_place(time: float, state: Any, **given: Any) -> Any:
         out = np.zeros(size, kind)
-        returned = f(form.time(time), form.state(state.continuous_state), out, *args)
+        named = chosen(names, state, given)
+        returned = f(form.time(time), form.state(state.continuous_state), out, *args, **named)
         if returned is not None:
             raise ModelError(
                 f"solve: f takes one argument more than (t, x{', *args' if args else ''}), so it "
                 "is called as f(t, x, out), to fill out and return nothing; it returned "
-                f"{returned!r}. Is a parameter missing in args=(...)?"
+                f"{returned!r}. Is a parameter missing in "
+                "args=(...) or parameters={...}?"
             )
         return form.rate(out)
 
     return in_place
 
 
-def _takes_out(f: Function, extra: int) -> bool:
-    """Whether f needs one argument more than t, x and `args`: one to write to."""
+def _takes_out(f: Function, extra: int, names: Names) -> bool:
+    """Whether f needs one argument more than t, x, `args` and those it gets by name: one to write
+    to.
+    """
     try:
-        parameters = inspect.signature(f).parameters.values()
+        parameters = [
+            each
+            for name, each in inspect.signature(f).parameters.items()
+            if name not in (names or ())
+        ]
     except (TypeError, ValueError):  # written in C, of unknown signature
         return False
     positional = (inspect.Parameter.POSITIONAL_ONLY, inspect.Parameter.POSITIONAL_OR_KEYWORD)
@@ -116,20 +144,23 @@ def _takes_out(f: Function, extra: int) -> bool:
     if needed > 3 + extra or (
         taken < 2 + extra and all(p.kind is not p.VAR_POSITIONAL for p in parameters)
     ):
-        names = ", ".join(map(str, parameters))
+        arguments = ", ".join(map(str, parameters))
         raise ModelError(
-            f"solve: f takes ({names}), but it is called with t, x and {extra} arguments of args; "
-            "expected f(t, x, *args), or f(t, x, out, *args)"
+            f"solve: f takes ({arguments}), but it is called with t, x and {extra} arguments of "
+            "args; expected f(t, x, *args), or f(t, x, out, *args)"
         )
     return needed == 3 + extra
 
 
-def _checked(flow: Function, f: Function, begin: float, x0: np.ndarray, form: Form) -> Function:
+def _checked(
+    flow: Function, f: Function, begin: float, x0: np.ndarray, form: Form, named: Named
+) -> Function:
     """Calls f once, so that the message about a wrong shape speaks of f and not of the engine."""
     state = form.flat(x0).copy()
     state.flags.writeable = False
     try:
-        returned = flow(form.time(begin), SimpleNamespace(continuous_state=state))
+        at = SimpleNamespace(continuous_state=state, mode=named.mode)
+        returned = flow(form.time(begin), at, **named.parameters)
     except ValueError as error:
         refuse_writing(f"solve: {getattr(f, '__name__', 'f')}", error, error.__traceback__)
         raise
@@ -156,22 +187,28 @@ def _label(name: str) -> SimpleNamespace:
     return SimpleNamespace(name=name)
 
 
-def _reset(reset: Function, name: str, form: Form, args: tuple[Any, ...]) -> Function:
+def _reset(reset: Function, name: str, form: Form, args: tuple[Any, ...], names: Names) -> Function:
     label = _label(name)
 
-    def reset_map(time: float, state: Any) -> Any:
-        after = reset(form.time(time), form.state(state.continuous_state.copy()), *args)
+    def reset_map(time: float, state: Any, **given: Any) -> Any:
+        before = form.state(state.continuous_state.copy())
+        after = reset(form.time(time), before, *args, **chosen(names, state, given))
         if after is None:
             raise ModelError(
                 f"solve: the reset of '{label.name}' returned None; return the new state"
             )
         return form.flat(after) if form.is_complex else after
 
-    return wrapping(reset, reset_map)
+    return reset_map
 
 
 def _derivatives(
-    jacobian: Any, sparsity: Any, size: int, form: Form, args: tuple[Any, ...]
+    jacobian: Any,
+    sparsity: Any,
+    size: int,
+    form: Form,
+    args: tuple[Any, ...],
+    names: Names,
 ) -> dict[str, Any]:
     """The Jacobian as arguments of `declare_continuous_state`. What SciPy takes: a function or a
     matrix, dense or sparse; the places of a sparse one are its sparsity.
@@ -180,7 +217,8 @@ def _derivatives(
     if jacobian is None:
         return {"jacobian": None, "jacobian_sparsity": places}
     if callable(jacobian):
-        function = wrapping(jacobian, form.matrix(jacobian, args, size))
+        function = form.matrix(jacobian, args, size, names)
+        function = function if names is not None else wrapping(jacobian, function)
         return {"jacobian": function, "jacobian_sparsity": places}
     sparse = hasattr(jacobian, "tocoo")
     given: Any = jacobian if sparse else _dense(jacobian)

@@ -1,0 +1,100 @@
+"""`Named`: what the functions of `solve` get by name, the parameters and the mode."""
+
+from __future__ import annotations
+
+import inspect
+import operator
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from saltus._core import known_names, numbers
+from saltus.errors import ModelError
+from saltus.solving.form import Names
+from saltus.solving.guard import Guard
+
+__all__ = ["NONE", "Named", "named_of"]
+
+Function = Callable[..., Any]
+
+
+class Named:
+    """Parameters by name, and the mode in which the run begins, if there are modes."""
+
+    def __init__(self, parameters: Mapping[str, np.ndarray], mode: int | None):
+        self.parameters = parameters
+        self.mode = mode
+        self._known = {*parameters, *([] if mode is None else ["mode"])}
+
+    def __bool__(self) -> bool:
+        return bool(self._known)
+
+    def of(self, function: Any) -> Names:
+        """The names that a function has arguments for; None if there are no names at all."""
+        if not self._known:
+            return None
+        try:
+            arguments = inspect.signature(function).parameters
+        except (TypeError, ValueError):  # no function, or one of unknown signature
+            return ()
+        takes_all = any(each.kind is each.VAR_KEYWORD for each in arguments.values())
+        return tuple(sorted(self._known if takes_all else self._known & set(arguments)))
+
+    def require_use(self, functions: Sequence[Any]) -> None:
+        """Raises ModelError for a parameter that no function takes."""
+        taken = {name for function in functions for name in self.of(function) or ()}
+        for name in self.parameters:
+            if name in taken:
+                continue
+            arguments = [
+                argument
+                for function in functions
+                if callable(function)
+                for argument in _arguments_of(function)
+            ]
+            raise ModelError(
+                f"solve: parameters: no function has an argument '{name}'"
+                f"{known_names(name, arguments)}; expected f(t, x, {name})"
+            )
+
+
+NONE = Named({}, None)
+
+
+def named_of(
+    parameters: Mapping[str, Any] | None, mode: int | None, guards: Sequence[Guard]
+) -> Named:
+    """What the arguments of `solve` say. Guards with a mode make a run with modes, from mode 0 if
+    nothing else is said.
+    """
+    if parameters is not None and not isinstance(parameters, Mapping):
+        raise ModelError(
+            f"solve: parameters: expected a dict of names and numbers, found {parameters!r}"
+        )
+    found = {
+        _name_of(name): np.array(numbers(value, f"solve: parameter '{name}'"))
+        for name, value in (parameters or {}).items()
+    }
+    if mode is None:
+        moded = any(each.start_mode is not None or each.end_mode is not None for each in guards)
+        return Named(found, 0 if moded else None) if found or moded else NONE
+    try:
+        return Named(found, operator.index(mode))
+    except TypeError:
+        raise ModelError(f"solve: mode: expected a whole number, found {mode!r}") from None
+
+
+def _name_of(name: Any) -> str:
+    if not isinstance(name, str) or not name.isidentifier() or name == "mode":
+        raise ModelError(
+            f"solve: parameters: expected the name of an argument other than 'mode', found {name!r}"
+        )
+    return name
+
+
+def _arguments_of(function: Function) -> list[str]:
+    try:
+        return list(inspect.signature(function).parameters)[2:]
+    except (TypeError, ValueError):
+        return []
