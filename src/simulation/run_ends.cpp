@@ -50,13 +50,12 @@ void Run::fail_at_pole(double from) {
   machine_.x = integration_.at(from);
   accepted_.place = Place::machine;
   throw SimulationError(
-      text(
-          "t = ", from, " s: the derivative of state x[", pole.state - leaf.x, "] of block '",
-          leaf.path, "' has a pole at t = ", pole.t,
-          " s, where a divisor crosses zero, and a step to t = ", to,
-          " s passed it, because the tolerance is loose. Expected: a derivative that stays finite. "
-          "End the run before the pole, for example with a terminal guard on the divisor, or "
-          "change the model"),
+      text("t = ", from, " s: the derivative of state x[", pole.state - leaf.x, "] of block '",
+           leaf.path, "' has a pole at t = ", pole.t,
+           " s, where a divisor crosses zero: a step to ", to,
+           " s passed it, and its ends do not show it. Expected: a derivative that stays finite. "
+           "If it does, choose a smaller rtol and atol; if not, end the run before the pole, for "
+           "example with a terminal guard where the divisor is small"),
       from, leaf.path);
 }
 

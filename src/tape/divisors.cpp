@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <limits>
 #include <optional>
 
 #include "copy.hpp"
@@ -9,13 +10,29 @@ namespace saltus::tape {
 
 namespace {
 
-/// What is known of the values of an expression.
-enum class Sign : char { any, not_negative, positive };
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+/// Bounds of the values of an expression; each side is infinite if nothing is known.
+struct Range {
+  double low = -infinite, high = infinite;
+
+  bool changes_sign() const { return low < 0.0 && high > 0.0; }
+};
+
+Range operator+(const Range& a, const Range& b) { return {a.low + b.low, a.high + b.high}; }
+Range operator-(const Range& a) { return {-a.high, -a.low}; }
+/// A product of unbounded factors that keep their signs keeps its sign too.
+Range operator*(const Range& a, const Range& b) {
+  const auto product = [](double x, double y) { return x == 0.0 || y == 0.0 ? 0.0 : x * y; };
+  const auto [low, high] = std::minmax({product(a.low, b.low), product(a.low, b.high),
+                                        product(a.high, b.low), product(a.high, b.high)});
+  return {low, high};
+}
 
 class Search {
  public:
   Search(Graph& graph, std::span<const Node> nodes)
-      : graph_(graph), order_(needed(graph, nodes)), sign_(graph.size()), varies_(graph.size()) {
+      : graph_(graph), order_(needed(graph, nodes)), range_(graph.size()), varies_(graph.size()) {
     for (const Node node : order_) read(node);
   }
 
@@ -31,41 +48,52 @@ class Search {
  private:
   void read(Node node) {
     const Expression& e = graph_[node];
-    char varies = e.op == Op::time || e.op == Op::continuous_state ? 1 : 0;
+    char varies = e.op == Op::time ? in_time : e.op == Op::continuous_state ? with_states : 0;
     for (int k = 0; k < operand_count(e.op); ++k) {
       const char operand = varies_[nth(e.operands, k).id];
       varies = std::max(varies, operand);
     }
     varies_[node.id] = varies;
-    sign_[node.id] = sign_of(e);
+    range_[node.id] = range_of(e);
   }
 
-  Sign sign(Node node) const { return sign_[node.id]; }
-  Sign sign_of(const Expression& e) const {
+  const Range& range(Node node) const { return range_[node.id]; }
+  Range range_of(const Expression& e) const {
     const auto [a, b, c] = e.operands;
     switch (e.op) {
       case Op::constant:
-        return e.value > 0.0 ? Sign::positive : e.value == 0.0 ? Sign::not_negative : Sign::any;
+        return {e.value, e.value};
+      case Op::sin:
+      case Op::cos:
+      case Op::tanh:
+      case Op::sign:
+        return {-1.0, 1.0};
       case Op::exp:
       case Op::exp2:
-      case Op::cosh:
-        return Sign::positive;
       case Op::abs:
       case Op::sqrt:
       case Op::hypot:
-        return Sign::not_negative;
+        return {0.0, infinite};
+      case Op::cosh:
+        return {1.0, infinite};
+      case Op::neg:
+        return -range(a);
       case Op::add:
-        return std::min(sign(a), sign(b)) == Sign::any ? Sign::any : std::max(sign(a), sign(b));
+        return range(a) + range(b);
+      case Op::sub:
+        return range(a) + -range(b);
       case Op::mul:
-        return a == b && sign(a) == Sign::any ? Sign::not_negative : std::min(sign(a), sign(b));
-      case Op::div:
-        return std::min(sign(a), sign(b));
+        return a == b ? Range{0.0, infinite} : range(a) * range(b);
       case Op::pow:
-        return sign(a);
+        return range(a).low >= 0.0 ? Range{0.0, infinite} : Range{};
+      case Op::minimum:
+        return {std::min(range(a).low, range(b).low), std::min(range(a).high, range(b).high)};
+      case Op::maximum:
+        return {std::max(range(a).low, range(b).low), std::max(range(a).high, range(b).high)};
       case Op::select:
-        return std::min(sign(b), sign(c));
+        return {std::min(range(b).low, range(c).low), std::max(range(b).high, range(c).high)};
       default:
-        return Sign::any;
+        return {};
     }
   }
 
@@ -73,7 +101,7 @@ class Search {
   std::optional<Node> divisor_of(const Expression& e) {
     const Node a = e.operands[0], b = e.operands[1];
     if (e.op == Op::div) return b;
-    if (e.op == Op::tan && varies(a)) return cosine(a);
+    if (e.op == Op::tan) return cosine(a);
     if (e.op == Op::pow && !(graph_.value(b) >= 0.0)) return a;
     return {};
   }
@@ -81,11 +109,12 @@ class Search {
   Node cosine(Node a) {
     const Node node = graph_.unary(Op::cos, a);
     varies_.resize(static_cast<std::size_t>(graph_.size()));
-    sign_.resize(static_cast<std::size_t>(graph_.size()));
-    varies_[node.id] = 1;
+    range_.resize(static_cast<std::size_t>(graph_.size()));
+    varies_[node.id] = varies_[a.id];
     return node;
   }
-  bool varies(Node node) const { return varies_[node.id] != 0; }
+  /// Whether an expression changes with the time, and with no state.
+  bool is_of_time(Node node) const { return varies_[node.id] == in_time; }
 
   /// Notes the parts of a divisor that may change their sign.
   void add(Node divisor) {
@@ -93,22 +122,23 @@ class Search {
     while (!open.empty()) {
       const Node node = open.back();
       open.pop_back();
-      if (!varies(node)) continue;
       const Expression& e = graph_[node];
       if (e.op == Op::mul) {
         open.push_back(e.operands[1]);
         open.push_back(e.operands[0]);
       } else if (e.op == Op::neg || e.op == Op::abs || e.op == Op::div || e.op == Op::pow) {
         open.push_back(e.operands[0]);
-      } else if (sign(node) == Sign::any) {
+      } else if (is_of_time(node) && range(node).changes_sign()) {
         found_.push_back(node);
       }
     }
   }
 
+  static constexpr char in_time = 1, with_states = 2;
+
   Graph& graph_;
   std::vector<Node> order_;
-  List<Sign> sign_;
+  List<Range> range_;
   List<char> varies_;
   std::vector<Node> found_;
 };

@@ -163,6 +163,29 @@ TEST_CASE("2.1 a block that a truth only slows, or that nothing pulls on, does n
   CHECK(stopped.context.continuous_state()[0] == Approx(2.0).margin(1e-4));
 }
 
+TEST_CASE("2.1 a block that goes on slowly through a truth does not rest", "[semantics]") {
+  const auto method = GENERATE(from_range(methods));
+  const double kept = GENERATE(1e-2, 1e-4, 1e-6);
+  // A filling tank: its valve closes nearly at level 1, and a clock beside it goes on.
+  const Leaf tank("tank", [=](Leaf& l) {
+    l.declare_continuous_state(
+        {.initial = vec({0.0, 1.0, 0.0}),
+         .ode = [](const At& at, VectorRef xdot) { xdot << at.x[1], 0.0, 1.0; }});
+    l.declare_zero_crossing(
+        {.name = "full",
+         .guard = [](const At& at) { return at.x[0] < 1.0 ? 1.0 : -1.0; },
+         .reset_map = [=](const At& at,
+                          Next& next) { next.set_continuous_state({at.x[0], kept, at.x[2]}); },
+         .direction = Direction::positive_then_non_positive});
+  });
+  const auto results =
+      simulate(tank, tank.create_context(), {0.0, 11.0}, {.ode_solver_method = method});
+  INFO(method << ", kept " << kept);
+  CHECK(count(results.events, EventKind::zeno_enter) == 0);
+  CHECK(results.context.continuous_state()[0] == Approx(1.0 + 10.0 * kept).margin(1e-4));
+  CHECK(results.context.continuous_state()[2] == Approx(11.0));
+}
+
 TEST_CASE("2.1 edge_detection compares with the value at which its mode was entered",
           "[semantics]") {
   const auto method = GENERATE(from_range(methods));

@@ -85,25 +85,31 @@ class Departure : public FlowProbe {
   }
 
   /// Whether the states are at the jump of a guard, whose value does not say so, and leave it as from
-  /// rest, that is much more slowly than they came, with the flow `approach`. The guard came from the
-  /// side `from`. The distance from the jump is measured in time: at the jump, and for as long as the
-  /// states have not left it, going back along `approach` for the resolution of the time shows the
-  /// guard before its jump. A block that stops keeps to `stopped_share` of its way; one that was
-  /// merely passed through does not.
+  /// rest. The guard came from the side `from`, with the flow `approach`. The distance from the jump
+  /// is measured by the time for which going back along `approach` shows the guard before its jump.
+  /// At the jump that is the resolution of the time. From rest it grows as the square of the time
+  /// since, or faster, and is a small share of it; after a passage it grows in proportion. A guard
+  /// that time alone turns has a surface that moves: nothing rests on it here.
   bool stops_at_jump(const GuardGroup& group, Index slot, int from,
                      const Eigen::VectorXd& approach) {
     const double resolution = resolution_along(approach, group);
     const auto is_before = [&](double d, double back) {
       fly(d);
       x1_ -= back * approach;
-      look(t_ + d - back, x1_, slot, g_);
-      forget_looks();
-      return from * g_[slot] > 0.0;
+      return shows_side(t_ + d - back, slot, from);
     };
     if (!is_before(0.0, resolution)) return false;  // beyond its jump
-    for (double d = first_time(group); d <= longest_; d *= thresholds::look_growth)
-      if (!is_before(d, resolution)) return is_before(d, thresholds::stopped_share * d);
-    return false;  // the flow stays at the jump
+    using namespace thresholds;
+    const double clearly = state_roundings * resolution;  // so that the first distance is none
+    double d = first_time(group);
+    while (is_before(d, clearly))
+      if ((d *= look_growth) > longest_) return false;  // the flow stays at the jump
+    double back = clearly;
+    while (!is_before(d, back))
+      if ((back *= 2.0) > stopped_share * d) return false;  // passed through
+    const double later = look_growth * look_growth * d;
+    return !is_before(later, look_growth * look_growth * look_growth * back) &&
+           !time_turns(slot, from, later);
   }
 
  private:
@@ -169,6 +175,20 @@ class Departure : public FlowProbe {
       }
     }
     return std::max(d, thresholds::time_roundings * eps * std::abs(t_));
+  }
+
+  /// Whether a guard at the state x1_ is on a side.
+  bool shows_side(double t, Index slot, int side) {
+    look(t, x1_, slot, g_);
+    forget_looks();
+    return side * g_[slot] > 0.0;
+  }
+  /// Whether the guard at the point of departure changes with the time alone, within d before and
+  /// after.
+  bool time_turns(Index slot, int from, double d) {
+    x1_ = *x_;
+    const bool now = shows_side(t_, slot, from);
+    return shows_side(t_ - d, slot, from) != now || shows_side(t_ + d, slot, from) != now;
   }
 
   /// [s] in which a flow moves each state of some leaves by its rounding, and the time by its own. A

@@ -1,6 +1,8 @@
 // Poles: a step at a loose tolerance has passed a pole of a derivative.
 #pragma once
 
+#include <array>
+#include <limits>
 #include <memory>
 #include <utility>
 
@@ -13,14 +15,16 @@
 
 namespace saltus {
 
-/// Looks for poles inside the steps of a run, as that of x' = 1/(0.5 - t) at t = 0.5. A long step
-/// may have finite slopes on both sides of a pole, and by chance a small error estimate. But a
-/// divisor of the derivative changes its sign there. Where one does, its zero is narrowed on the
-/// solver's own interpolant, and the derivatives near it decide: at a pole they grow as fast as the
-/// distance from it shrinks, or faster, while sin(t)/t does not grow, and 1/cbrt(t) grows less.
+/// Looks for poles in time inside the steps of a run, as that of x' = 1/(0.5 - t) at t = 0.5. A long
+/// step may have finite slopes on both sides of a pole, and by chance a small error estimate. But a
+/// divisor of the derivative changes its sign there. Where one does, its zero is narrowed, and the
+/// derivatives near it decide. Their area, |f| times the distance, stays as large as in the rest of
+/// the step at a pole of order one, or grows. That of 1/cbrt(t) and of sin(t)/t shrinks with the
+/// distance; that of a numerator that should vanish there is as small as its error.
 ///
-/// Nothing is looked at where tolerances are tight, because there no step passes a pole, nor where
-/// no divisor can change its sign, or a derivative is a call.
+/// Only divisors of the time alone are looked at: the sign of one that a state moves is as uncertain
+/// as that state. Nothing is looked at where tolerances are tight, because there steps hardly ever
+/// pass a pole, nor where a derivative is a call.
 class Poles {
  public:
   Poles(Machine& machine, const SimulatorOptions& options);
@@ -30,8 +34,8 @@ class Poles {
   /// A step leaves t [s] and the state x.
   void depart(double t, const Eigen::VectorXd& x) {
     if (!loose_ || !looks()) return;
-    x_ = x;
-    look(t, x, now_), keep(now_);
+    remember(t, x);
+    look(t, now_), keep(now_);
   }
   /// Whether the step between these times [s] has passed a pole.
   bool passed(double from, double to, Integration& integration) {
@@ -46,17 +50,23 @@ class Poles {
   const Pole& pole() const noexcept { return pole_; }
 
  private:
+  /// Where a step began.
+  struct Departed {
+    double t = -std::numeric_limits<double>::infinity();
+    Eigen::VectorXd x = {};
+  };
+
   bool looks();
   bool find(double from, double to, Integration& integration);
-  void look(double t, const Eigen::VectorXd& x, List<double>& values);
+  void look(double t, List<double>& values);
   void keep(const List<double>& values);
-  double narrow(Index divisor, double from, double to, Integration& integration);
+  void remember(double t, const Eigen::VectorXd& x);
+  double narrow(Index divisor, double from, double to);
   bool is_pole(double t, double from, double to, Integration& integration);
-  bool grows(double t, double near, Integration& integration);
-  bool fills(double t, double end, Integration& integration);
-  template <class Test>
-  bool has_state(double t, const Test& test);
-  bool derivative_at(double t, Integration& integration, Eigen::VectorXd& f);
+  bool side_shows(double t, double end, double least, Integration& integration);
+  bool earlier_steps_show(double t, double least);
+  bool stays_large(double t);
+  bool area(double t, double at, const Eigen::VectorXd& x, Eigen::VectorXd& out);
 
   Machine* machine_;
   const SimulatorOptions* options_;
@@ -65,8 +75,10 @@ class Poles {
   std::shared_ptr<const FlowDivisors> divisors_;
   FlowVariables variables_;
   List<double> before_, now_, inside_;  // the divisors at looks; before_ is never zero again
-  Eigen::VectorXd x_;                   // at the begin of the step
-  Eigen::VectorXd f_far_, f_near_;
+  std::array<Departed, 32> departed_;   // the last steps
+  std::size_t newest_ = 0;
+  Eigen::VectorXd x_;  // at the begin of the step
+  Eigen::VectorXd area_, area_far_;
   Pole pole_;
 };
 

@@ -156,24 +156,22 @@ inline constexpr int crawl_halvings = 200;
 /// [1] and [of a state] Above this tolerance steps may pass a pole. Of eight scenes with 600 places
 /// of the pole each, dop853 passed 7 of 4800 at 1e-4, and no method any at 3e-5 and 1e-5.
 inline constexpr double loose_tolerance = 1e-5;
-/// [looks a step] at the divisors: steps of the highest order at loose tolerances are a fifth of a
-/// period of a tangent.
-inline constexpr int pole_looks = 5;
-/// [of the step] and [eps |t|] How near the derivative is evaluated: where a weak pole already
-/// outweighs the rest of the derivative, and where the rounding of the time is small.
+/// [of a side of the step] and [eps |t|] How near to the zero of a divisor the derivative is
+/// evaluated: so near that a power of the distance above -1 has lost its area, and so far that the
+/// rounding of the time is an eighth of the distance.
 inline constexpr double near_pole = 1e-9;
-inline constexpr double near_pole_roundings = 1e5;
-/// [near distances] The second distance. A pole of order one grows by this factor in between.
-inline constexpr double far_from_pole = 100.0;
-/// [1] A derivative that grows by more has a pole: below the 100 of a pole of order one, because of
-/// the rest of the derivative, and above the 10 of 1/sqrt(distance), which has an integral.
-inline constexpr double growth_at_pole = 30.0;
-/// [tolerances] The area of a pole within the near distance: far above the rounding of a derivative
-/// that is zero in exact arithmetic.
+inline constexpr double near_pole_roundings = 8.0;
+/// [1] The least ratio of two distances that are compared: 1/sqrt(t) loses a factor of four.
+inline constexpr double least_ratio = 16.0;
+/// [of the area in the rest of the step] A pole of order one keeps its area; 1/sqrt(t) has a quarter
+/// at most, and the error of a numerator some tolerances.
+inline constexpr double area_at_pole = 0.3;
+/// [sides of the step] How far back steps are compared: where a divisor decays into its rounding, the
+/// area of the last steps outweighs that of the noise.
+inline constexpr double steps_around = 8.0;
+/// [tolerances] The least area of a pole: far above the rounding of a derivative that is zero in
+/// exact arithmetic.
 inline constexpr double least_pole = 1e-6;
-/// [tolerances] In a step shorter than the far distance, some 1e7 roundings, 1/cbrt(t) moves a state
-/// by less than 1e-6, and a pole by about its coefficient, however short the step is.
-inline constexpr double short_pole = 0.01;
 
 // --- journal and calendar
 
