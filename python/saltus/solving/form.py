@@ -59,7 +59,7 @@ class Form:
         that do the same share their traces.
         """
         if names is not None:
-            return lambda time, state, **given: function(
+            return lambda time, state, /, **given: function(
                 self.time(time),
                 self.state(state.continuous_state),
                 *args,
@@ -77,7 +77,7 @@ class Form:
         if self.plain:
             return value
         if names is not None:
-            return lambda time, state, **given: self.rate(value(time, state, **given))
+            return lambda time, state, /, **given: self.rate(value(time, state, **given))
         return lambda time, state: self.rate(
             function(self.time(time), self.state(state.continuous_state), *args)
         )
@@ -93,7 +93,7 @@ class Form:
         array, as a sparse matrix, or as a number for one state.
         """
 
-        def entries(time: float, state: Any, **given: Any) -> Any:
+        def entries(time: float, state: Any, /, **given: Any) -> Any:
             named = chosen(names, state, given)
             found = function(self.time(time), self.state(state.continuous_state), *args, **named)
             if hasattr(found, "toarray"):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import operator
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -13,7 +13,7 @@ from saltus._core import known_names
 from saltus._declarations import SHORT
 from saltus.errors import ModelError
 
-__all__ = ["Guard", "guards_of"]
+__all__ = ["Guard", "functions_of", "guards_of"]
 
 DIRECTIONS = SHORT | {
     "crosses_zero": "crosses_zero",
@@ -131,6 +131,11 @@ class Guard:
         """
         own = getattr(self.guard, "__name__", "<lambda>")
         return self.name or (f"event_{number}" if own.startswith("<") else own)
+
+
+def functions_of(guards: Sequence[Guard]) -> list[Callable[..., Any] | None]:
+    """The guards and resets of several guards."""
+    return [each for guard in guards for each in (guard.guard, guard.reset)]
 
 
 def guards_of(events: Any) -> list[Guard]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import inspect
 import operator
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -16,7 +16,7 @@ from saltus.solving.guard import Guard
 
 __all__ = ["NONE", "Named", "named_of"]
 
-Function = Callable[..., Any]
+PLACED = (inspect.Parameter.POSITIONAL_ONLY, inspect.Parameter.POSITIONAL_OR_KEYWORD)
 
 
 class Named:
@@ -41,17 +41,25 @@ class Named:
         takes_all = any(each.kind is each.VAR_KEYWORD for each in arguments.values())
         return tuple(sorted(self._known if takes_all else self._known & set(arguments)))
 
-    def require_use(self, functions: Sequence[Any]) -> None:
-        """Raises ModelError for a parameter that no function takes."""
+    def require_use(self, functions: Sequence[Any], extra: int) -> None:
+        """Raises ModelError for a parameter that no function takes, or that has the place of t, x
+        or one of the `extra` arguments in `args`.
+        """
+        for function in functions:
+            for name in _positional(function)[: 2 + extra]:
+                if name in (self.of(function) or ()):
+                    raise ModelError(
+                        f"solve: '{name}' is one of the first {2 + extra} arguments of "
+                        f"{getattr(function, '__name__', 'a function')}, which are t, x and those "
+                        "of args; expected an argument after them, such as "
+                        f"f(t, x, {'*args, ' if extra else ''}{name})"
+                    )
         taken = {name for function in functions for name in self.of(function) or ()}
         for name in self.parameters:
             if name in taken:
                 continue
             arguments = [
-                argument
-                for function in functions
-                if callable(function)
-                for argument in _arguments_of(function)
+                argument for function in functions for argument in _positional(function)[2:]
             ]
             raise ModelError(
                 f"solve: parameters: no function has an argument '{name}'"
@@ -63,10 +71,15 @@ NONE = Named({}, None)
 
 
 def named_of(
-    parameters: Mapping[str, Any] | None, mode: int | None, guards: Sequence[Guard]
+    parameters: Mapping[str, Any] | None,
+    mode: int | None,
+    guards: Sequence[Guard],
+    functions: Sequence[Any],
+    extra: int,
 ) -> Named:
-    """What the arguments of `solve` say. Guards with a mode make a run with modes, from mode 0 if
-    nothing else is said.
+    """What the arguments of `solve` say. Guards with a mode, and functions with an argument `mode`
+    after t, x and the `extra` arguments in `args`, make a run with modes, from mode 0 if nothing
+    else is said.
     """
     if parameters is not None and not isinstance(parameters, Mapping):
         raise ModelError(
@@ -78,6 +91,7 @@ def named_of(
     }
     if mode is None:
         moded = any(each.start_mode is not None or each.end_mode is not None for each in guards)
+        moded = moded or any("mode" in _positional(each)[2 + extra :] for each in functions)
         return Named(found, 0 if moded else None) if found or moded else NONE
     try:
         return Named(found, operator.index(mode))
@@ -93,8 +107,10 @@ def _name_of(name: Any) -> str:
     return name
 
 
-def _arguments_of(function: Function) -> list[str]:
+def _positional(function: Any) -> list[str]:
+    """The names of a function's arguments that have a place."""
     try:
-        return list(inspect.signature(function).parameters)[2:]
-    except (TypeError, ValueError):
+        arguments = inspect.signature(function).parameters.values()
+    except (TypeError, ValueError):  # no function, or one of unknown signature
         return []
+    return [each.name for each in arguments if each.kind in PLACED]

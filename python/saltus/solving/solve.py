@@ -17,7 +17,7 @@ from saltus.simulation import SimulatorOptions
 from saltus.simulation.whole import prepared, run_whole
 from saltus.solving.form import form_of
 from saltus.solving.formed import formed
-from saltus.solving.guard import Guard, guards_of
+from saltus.solving.guard import Guard, functions_of, guards_of
 from saltus.solving.kept import call_of, find, keep
 from saltus.solving.named import named_of
 from saltus.solving.solution import Known, Solution
@@ -98,8 +98,8 @@ def solve(
         SciPy's name for `x0`.
     parameters : mapping of str to number or array, optional
         Values that `f`, `jacobian`, guards and resets get by keyword, those that have an argument
-        of that name: ``f(t, x, k)`` with ``parameters={"k": 0.05}``. `sweep` varies those of
-        `system_of`.
+        of that name: ``f(t, x, k)`` with ``parameters={"k": 0.05}``. They arrive as arrays, also
+        whole numbers. `sweep` varies those of `system_of`, quicker than a loop of calls.
     mode : int, optional
         The mode at the beginning, for guards with `start_mode` and `end_mode`; 0 if one of them
         has such a mode. Functions with an argument `mode` get the present one.
@@ -164,11 +164,12 @@ def solve(
     begin, end = span_of("solve: t_span", t_span, backward=True)
     start = state_of(_one_of(x0, y0))
     guards = None if events is None else guards_of(events)
-    named = named_of(parameters, mode, guards or [])
+    given = arguments_of(args)
+    functions = [f, jacobian, *functions_of(guards or [])]
+    named = named_of(parameters, mode, guards or [], functions, len(given))
     if np.isinf(end) and start.size:
         _require_terminal(guards or [])
     form = form_of(end < begin, start.dtype.kind == "c")
-    given = arguments_of(args)
     shape = (jacobian_sparsity is None, bool(vectorized))
     call = (
         call_of(f, begin, start, given, guards or [], jacobian, form, shape)

@@ -18,7 +18,7 @@ from saltus.calling import refuse_writing
 from saltus.errors import ModelError
 from saltus.leaf_system import LeafSystem
 from saltus.solving.form import PLAIN, Form, Names, chosen
-from saltus.solving.guard import Guard
+from saltus.solving.guard import Guard, functions_of
 from saltus.solving.named import NONE, Named
 from saltus.solving.solution import BLOCK
 
@@ -49,7 +49,7 @@ class SolvedSystem(LeafSystem):
         form: Form,
         named: Named = NONE,
     ):
-        named.require_use([f, jacobian, *(each for g in guards for each in (g.guard, g.reset))])
+        named.require_use([f, jacobian, *functions_of(guards)], len(args))
         super().__init__(name=BLOCK)
         self._form = form
         self._named = named
@@ -110,7 +110,7 @@ def _flow(f: Function, form: Form, x0: np.ndarray, args: tuple[Any, ...], names:
         return form.flow(f, args, names)
     size, kind = len(x0), complex if form.is_complex else float
 
-    def in_place(time: float, state: Any, **given: Any) -> Any:
+    def in_place(time: float, state: Any, /, **given: Any) -> Any:
         out = np.zeros(size, kind)
         named = chosen(names, state, given)
         returned = f(form.time(time), form.state(state.continuous_state), out, *args, **named)
@@ -190,7 +190,7 @@ def _label(name: str) -> SimpleNamespace:
 def _reset(reset: Function, name: str, form: Form, args: tuple[Any, ...], names: Names) -> Function:
     label = _label(name)
 
-    def reset_map(time: float, state: Any, **given: Any) -> Any:
+    def reset_map(time: float, state: Any, /, **given: Any) -> Any:
         before = form.state(state.continuous_state.copy())
         after = reset(form.time(time), before, *args, **chosen(names, state, given))
         if after is None:
@@ -233,7 +233,7 @@ def _derivatives(
         values = np.array(matrix.data, dtype=float)
         return {
             "jacobian_sparsity": (matrix.row.tolist(), matrix.col.tolist()),
-            "sparse_jacobian": lambda time, state: values,
+            "sparse_jacobian": lambda time, state, /, **given: values,
         }
     dense = np.array(given.toarray() if sparse else given)
     dense = dense.astype(complex if form.is_complex else float)

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from saltus.errors import ModelError
 from saltus.leaf_system import LeafSystem
 from saltus.solving.form import form_of
-from saltus.solving.guard import Guard, guards_of
+from saltus.solving.guard import Guard, functions_of, guards_of
 from saltus.solving.named import named_of
 from saltus.solving.solved_system import SolvedSystem, arguments_of, state_of
 
@@ -51,8 +51,9 @@ def system_of(
     if start.dtype.kind == "c":
         raise ModelError("system_of: x0: expected real numbers, found complex ones; use solve")
     guards = [] if events is None else guards_of(events)
-    named = named_of(parameters, mode, guards)
     given = arguments_of(args)
+    functions = [f, jacobian, *functions_of(guards)]
+    named = named_of(parameters, mode, guards, functions, len(given))
     form = form_of(False, False)
     return SolvedSystem(
         f, t0, start, given, guards, jacobian, jacobian_sparsity, False, form, named

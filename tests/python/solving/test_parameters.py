@@ -83,6 +83,36 @@ def test_modes_and_parameters_are_not_shared_by_two_calls():
     assert ends[0] == ends[2] != ends[1]
 
 
+def test_a_parameter_may_have_any_name_that_an_argument_may_have():
+    for f in (
+        lambda t, x, time: [-time * x[0]],
+        lambda t, x, state: [-state * x[0]],
+        lambda t, x, self: [-self * x[0]],
+    ):
+        name = f.__code__.co_varnames[2]
+        run = saltus.solve(f, (0, 1), [1.0], parameters={name: 2.0}, rtol=1e-9)
+        np.testing.assert_allclose(run.y[0, -1], np.exp(-2), atol=1e-7)
+
+
+def test_an_argument_mode_makes_a_run_with_modes():
+    run = saltus.solve(lambda t, x, mode: [1.0 + mode], (0, 1), [0.0])
+    np.testing.assert_allclose(run.y[0, -1], 1.0)
+    args = saltus.solve(lambda t, x, mode: [mode], (0, 1), [0.0], args=(4.0,))
+    np.testing.assert_allclose(args.y[0, -1], 4.0)
+
+
+@pytest.mark.parametrize("sparse", [False, True])
+def test_a_constant_jacobian_goes_with_parameters(sparse):
+    import scipy.sparse
+
+    matrix = [[-2.0]]
+    run = saltus.solve(
+        decay, (0, 1), [1.0], parameters={"k": 2.0}, method="bdf", rtol=1e-9,
+        jacobian=scipy.sparse.csr_matrix(matrix) if sparse else matrix,
+    )  # fmt: skip
+    np.testing.assert_allclose(run.y[0, -1], np.exp(-2), atol=1e-6)
+
+
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
@@ -92,6 +122,8 @@ def test_modes_and_parameters_are_not_shared_by_two_calls():
         ({"parameters": {"mode": 1}}, "other than 'mode'"),
         ({"parameters": {"k": 1.0}, "mode": 1.5}, "mode: expected a whole number, found 1.5"),
         ({"parameters": {"k": 1.0}, "y0": [1.0]}, "as x0 or as y0, found both"),
+        ({"parameters": {"x": 1.0}}, "'x' is one of the first 2 arguments of decay"),
+        ({"parameters": {"k": 1.0}, "args": (2,)}, "'k' is one of the first 3 arguments"),
         ({}, r"Is a parameter missing in args=\(...\) or parameters=\{...\}"),
     ],
 )
