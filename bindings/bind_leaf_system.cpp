@@ -41,10 +41,10 @@ using Places = std::vector<std::pair<Index, Index>>;
 void declare_continuous_state(py::handle self, py::handle initial, py::object ode,
                               const InputList& inputs, py::object jacobian,
                               const std::optional<Places>& sparsity, py::object sparse_jacobian,
-                              bool formula) {
+                              bool formula, std::vector<std::string> names) {
   PythonLeaf& leaf = leaf_of(self);
   const Array values = to_array(initial, text("block '", leaf.name(), "': continuous state"));
-  ContinuousState state{.initial = as_vector(values), .inputs = inputs};
+  ContinuousState state{.initial = as_vector(values), .names = std::move(names), .inputs = inputs};
   if (!ode.is_none())
     state.ode = leaf.vector_function(
         leaf.add(self, std::move(ode),

@@ -32,6 +32,8 @@ std::vector<std::pair<std::string, ContextEntry>> entries_of(const Layout::Leaf&
   for (const auto& parameter : leaf.parameters)
     all.push_back({parameter.name, {Kind::parameter, leaf.p + parameter.offset, parameter.size}});
   if (leaf.nx > 0) all.push_back({"x", {Kind::continuous_state, leaf.x, leaf.nx}});
+  for (Index i = 0; i < std::ssize(leaf.states); ++i)
+    all.push_back({nth(leaf.states, i), {Kind::continuous_state, leaf.x + i, 1}});
   if (leaf.nz > 0) all.push_back({"z", {Kind::discrete_state, leaf.z, leaf.nz}});
   all.push_back({"mode", {Kind::mode, number, 1}});
   return all;
@@ -46,14 +48,12 @@ void require_single(const Layout::Leaf& leaf, const std::string& local, std::str
   }
 }
 
-/// Adds an entry to a list of names: a short vector entry by entry.
-void add_names(std::vector<std::string>& names, const std::string& name,
+/// Adds an entry to a list of names: a short vector entry by entry, and a state too.
+void add_names(std::vector<std::string>& names, const std::string& prefix, const std::string& local,
                const ContextEntry& entry) {
-  using Kind = ContextEntry::Kind;
-  const bool one =
-      entry.size == 1 && entry.kind != Kind::continuous_state && entry.kind != Kind::discrete_state;
-  if (one || entry.size > 4) return names.push_back(name);
-  for (Index i = 0; i < entry.size; ++i) names.push_back(text(name, "[", i, "]"));
+  const bool one = entry.size == 1 && local != "x" && local != "z";
+  if (one || entry.size > 4) return names.push_back(prefix + local);
+  for (Index i = 0; i < entry.size; ++i) names.push_back(text(prefix, local, "[", i, "]"));
 }
 
 /// The largest number of a mode: a double has all integers up to here, and so has an int.
@@ -77,7 +77,7 @@ std::vector<std::string> entry_names(const Layout& layout) {
     const Layout::Leaf& leaf = layout.leaves[l];
     const std::string prefix = layout.leaves.size() == 1 ? "" : leaf.path + ".";
     for (const auto& [name, entry] : entries_of(leaf, static_cast<Index>(l)))
-      add_names(names, prefix + name, entry);
+      if (name != "x" || leaf.states.empty()) add_names(names, prefix, name, entry);
   }
   return names;
 }

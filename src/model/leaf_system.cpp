@@ -101,6 +101,24 @@ void LeafSystem::collect(Structure& out, const std::string& path) const {
   collect_fixed(out);
 }
 
+/// All states have names or none has, and each name is one word that nothing else has.
+void LeafSystem::require_state_names(const ContinuousState& state) const {
+  const auto& names = state.names;
+  if (!names.empty() && std::ssize(names) != state.initial.size())
+    throw ModelError(text("block '", name(), "': continuous state: expected ", state.initial.size(),
+                          " names, one for each state, found ", names.size()));
+  for (const std::string& each : names) {
+    const bool taken = each == "x" || each == "z" || each == "mode";
+    if (each.empty() || taken || each.find_first_of("[].") != std::string::npos)
+      throw ModelError(text("block '", name(), "': continuous state: '", each,
+                            "' cannot be the name of a state; expected a word without dots and "
+                            "brackets, other than 'x', 'z' and 'mode'"));
+    if (std::ranges::count(names, each) > 1)
+      throw ModelError(
+          text("block '", name(), "': continuous state: the name '", each, "' is given twice"));
+  }
+}
+
 void LeafSystem::declare_continuous_state(ContinuousState state) {
   require_unused();
   if (declared_.continuous.initial.size() > 0) {
@@ -116,6 +134,7 @@ void LeafSystem::declare_continuous_state(ContinuousState state) {
              " continuous states, the block has ", state.initial.size(), "; say ",
              state.ode.steps != nullptr ? "inlined<" : "equations<", state.initial.size(), ">"));
   }
+  require_state_names(state);
   take_formula(state.ode.function, state.formula, "the continuous state", name());
   if (!state.formula) state.formula = state.ode.formula;
   const ContinuousState& before = declared_.continuous;
@@ -124,7 +143,13 @@ void LeafSystem::declare_continuous_state(ContinuousState state) {
     state.sparsity = before.sparsity;
     state.sparse_jacobian = before.sparse_jacobian;
   }
+  const std::vector<std::string> names = state.names;
   declared_.continuous = std::move(state);
+  for (std::size_t i = 0; i < names.size(); ++i)
+    declare_output_port({.name = names[i],
+                         .shape = Shape::scalar(),
+                         .reads = Reads::continuous_state,
+                         .view = Place{Space::x, static_cast<Index>(i), 1}});
 }
 
 void LeafSystem::declare_discrete_state(const Eigen::VectorXd& initial) {

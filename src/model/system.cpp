@@ -130,7 +130,7 @@ Context System::create_context(double t) const {
   for (const auto& [leaf, path] : structure.leaves) {
     const Declarations& d = leaf->declarations();
     layout->leaves.push_back({path, nx, d.continuous.initial.size(), nz, d.discrete.size(), np,
-                              d.parameter_values.size(), d.parameters});
+                              d.parameter_values.size(), d.parameters, d.continuous.names});
     nx += d.continuous.initial.size(), nz += d.discrete.size(), np += d.parameter_values.size();
   }
   Context context(layout);

@@ -1,4 +1,5 @@
 // What declarations refuse, and the names they give.
+#include "saltus/model/context_entry.hpp"
 #include "support/leaves.hpp"
 
 using namespace saltus;
@@ -92,4 +93,35 @@ TEST_CASE("nameless declarations get names", "[declare]") {
         "block 'leaf' has no output 2: it has 2 ('out_0', 'x')");
   CHECK(message<ModelError>([&] { leaf.output(-1); }) ==
         "block 'leaf' has no output -1: it has 2 ('out_0', 'x')");
+}
+
+TEST_CASE("the name of a state is an output that shows it, and a value of the context",
+          "[declare]") {
+  const auto ball = [](std::vector<std::string> names) {
+    return Leaf("ball", [&](Leaf& l) {
+      l.declare_continuous_state(
+          {.initial = vec({2.0, -1.0}), .names = names, .ode = [](const At& at, VectorRef xdot) {
+             xdot << at.x[1], 0.0;
+           }});
+    });
+  };
+  const Leaf named = ball({"height", "velocity"});
+  CHECK(named.output_names() == std::vector<std::string>{"height", "velocity"});
+  const auto results = simulate(named, named.create_context(), {0.0, 1.0},
+                                {.recorded_signals = {{"h", named.output("height")}}});
+  const auto heights = results.output("h");
+  CHECK(heights(0, 0) == 2.0);
+  CHECK(heights(heights.rows() - 1, 0) == Approx(1.0).margin(1e-9));  // a straight line
+  Context context = named.create_context();
+  write_entry(context, find_entry(context.layout(), "velocity"), std::vector{3.0}, "velocity");
+  CHECK(context.continuous_state() == vec({2.0, 3.0}));
+  CHECK(entry_names(context.layout()) == std::vector<std::string>{"height", "velocity", "mode"});
+
+  const auto refused_for = [&](std::vector<std::string> names) {
+    return message<ModelError>([&] { ball(names); });
+  };
+  CHECK(contains(refused_for({"height"}), "expected 2 names, one for each state, found 1"));
+  CHECK(contains(refused_for({"y", "y"}), "the name 'y' is given twice"));
+  CHECK(contains(refused_for({"x", "v"}), "'x' cannot be the name of a state"));
+  CHECK(contains(refused_for({"a.b", "v"}), "'a.b' cannot be the name of a state"));
 }

@@ -30,6 +30,7 @@ struct Layout {
     std::string path;
     Index x = 0, nx = 0, z = 0, nz = 0, p = 0, np = 0;
     std::vector<Parameter> parameters;
+    std::vector<std::string> states = {};  ///< names of the continuous states, or none
   };
   struct Range {  // the leaves of one system: [first, last)
     SystemId id;

@@ -13,7 +13,7 @@ namespace saltus {
 /// Some values of a context, found by name once and written often. Names are the names of
 /// parameters, "g", and of the states: "x" and "z" for the whole state of a block, "x[0]" for one
 /// entry, "mode". In a diagram the path of the block is put before the name: "ball.g", "ball.x[0]".
-/// An entry of a vector parameter is "k[2]". A parameter called x hides the state x.
+/// An entry of a vector parameter is "k[2]". A state that has a name is found by it too, "height".
 struct ContextEntry {
   enum class Kind { parameter, continuous_state, discrete_state, mode };
   Kind kind = Kind::parameter;

@@ -20,6 +20,9 @@ namespace saltus {
 /// reads.
 struct ContinuousState {
   Eigen::VectorXd initial = {};
+  /// Names of the entries, all or none. Each is an output of the block, a view of its entry, and the
+  /// name of the entry as a value of a context: `ensemble.vary("height", ...)`.
+  std::vector<std::string> names = {};
   RightHandSide ode = {};  ///< empty: xdot = 0
   /// d(xdot)/d(x), optional; a stiff method uses it. Differences replace entries that are not
   /// finite.
@@ -123,6 +126,7 @@ class LeafSystem : public System {
   void declare_one_shot(double time, ResetMap update = {}, std::string name = {});
 
  private:
+  void require_state_names(const ContinuousState& state) const;
   Declarations declared_;
 };
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 from numpy.typing import ArrayLike
@@ -13,6 +13,13 @@ from saltus._porting import refusing
 from saltus.errors import ModelError
 
 __all__ = ["DeclaresValues"]
+
+
+def names_of(what: str, names: Any) -> list[str]:
+    """The names of a state; ModelError unless they are texts."""
+    if isinstance(names, str) or any(not isinstance(name, str) for name in names):
+        raise ModelError(f'{what}: names: expected ["height", "velocity"], found {names!r}')
+    return list(names)
 
 
 class DeclaresValues(_core.LeafSystem):
@@ -31,6 +38,7 @@ class DeclaresValues(_core.LeafSystem):
         jacobian_sparsity: Any = None,
         sparse_jacobian: Callable[..., ArrayLike] | None = None,
         formula: bool = False,
+        names: Sequence[str] = (),
     ) -> None:
         """The continuous state x, with dx/dt = ode(time, state, *inputs, **parameters), in units of
         x per second.
@@ -45,6 +53,10 @@ class DeclaresValues(_core.LeafSystem):
         a stiff method then needs neither memory nor calls for the others. Name too many rather than
         too few. `sparse_jacobian` gives the values there, in that order (for a matrix that of its
         `nonzero()`).
+
+        `names` names the entries, ``names=["height", "velocity"]``: each is an output of the block,
+        which costs nothing, and a value of the context: ``results["height"]``, the columns of
+        tables, ``sweep(ball, {"height": [5.0, 10.0]}, ...)``, ``--set height=5``.
 
         `formula` is as for `declare_output_port`.
         """
@@ -61,6 +73,7 @@ class DeclaresValues(_core.LeafSystem):
             places,
             callback_of(sparse_jacobian),
             bool(formula),
+            names_of(what, names),
         )
 
     @refusing

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from functools import cached_property
 from os import PathLike
 from typing import TYPE_CHECKING, Any
@@ -78,6 +79,24 @@ class Results:
     def outputs(self) -> dict[str, np.ndarray]:
         """Recorded signals by name: one value a row for a scalar, a row of values for a vector."""
         return _Outputs(self._core.outputs)
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        """A recorded signal, as ``outputs[name]``.
+
+        Examples
+        --------
+        >>> import saltus
+        >>> results = saltus.scene("bouncing-ball").simulate()
+        >>> results["x"].shape == results.outputs["x"].shape
+        True
+        """
+        return self.outputs[name]
+
+    def __contains__(self, name: object) -> bool:
+        return name in self.outputs
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.outputs)
 
     @cached_property
     def events(self) -> EventLog:
