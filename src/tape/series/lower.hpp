@@ -32,6 +32,7 @@ class Lowering {
   Index combine(const Form& form);
 
   Index lower(Node node, const Expression& e);
+  Index lower_varying(Node node, const Expression& e);
   Index lower_kinked(Node node, const Expression& e);
   Index lower_unary(Node node, const Expression& e);
   Index lower_product(Node node, Node a, Node b);
