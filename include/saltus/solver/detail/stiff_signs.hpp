@@ -34,7 +34,8 @@ class StiffSigns {
 
   /// After a restart; `before` [s] is the longest step before it, 0: there is none to compare with.
   void restart(double before) { before_ = before, unchecked_ = true; }
-  /// The method is back from a part of this kind in vain: the next question comes later.
+  /// The last stretch of a stiff method for a part of this kind did not last: the next question
+  /// comes later.
   void be_patient(const FastPart& part) {
     if (part.hardly_damped) method_->stiffness().put_off(4);
   }
