@@ -10,7 +10,7 @@ bool is_smooth_unary(Op op) { return operand_count(op) == 1 && op < Op::floor &&
 }  // namespace
 
 Lowering::Lowering(Graph& graph, Program& program, std::span<const Node> roots)
-    : graph_(graph), program_(program) {
+    : Helpers(graph), program_(program) {
   program_.rows = 1 + program_.states;  // the row of zeros, the states
   uses_.assign(static_cast<std::size_t>(graph_.size()), 0);
   for (const Node wanted : roots) ++uses_[static_cast<std::size_t>(wanted.id)];
