@@ -1,8 +1,8 @@
 // The tuning numbers of the solvers: name, unit and derivation or source. Where a test is named, it
-// fails if the number is a hundred times as large, or as small. No test holds short_share, nor those
-// that only trade time: small_vector, most_factor_entries, krylov_vectors, dropped, unrolled_dense
-// and large_dense. Coefficients of a method, and its bounds of step factors, are in dopri5.hpp and
-// dop853.hpp.
+// fails if the number is a hundred times as large, or as small. No test holds short_share,
+// latest_question, slowest_ratio and ratio_memory, nor those that only trade time: small_vector,
+// most_factor_entries, krylov_vectors, dropped, unrolled_dense and large_dense. Coefficients of a
+// method, and its bounds of step factors, are in dopri5.hpp and dop853.hpp.
 #pragma once
 
 #include <limits>
@@ -171,6 +171,12 @@ inline constexpr double smooth_turn = 0.1;
 /// tests/unit/stiffness_test.cpp
 inline constexpr double bdf_step = 0.4, bdf_calls = 1.5, saved_calls = 0.5;
 
+/// [steps] until the next question at most, after returns that did not last.
+inline constexpr int latest_question = 100000;
+/// [of the size of a state] An oscillation up to this amplitude may be one of the errors.
+/// tests/laws/fast_modes_test.cpp (as small)
+inline constexpr double part_of_solution = 0.3;
+
 // --- spectral radius: spectral_radius.hpp
 
 /// [1] Part of every other direction that an iteration starts with; [iterations], for an order of
@@ -264,6 +270,20 @@ inline constexpr int convergence_failures = 20;
 inline constexpr double least_shown = 1e-100;
 /// [states] The general vector operations are as fast from here on.
 inline constexpr int small_vector = 16;
+
+// --- Adams' corrector: corrector.hpp; q is the ratio of two changes of its iteration
+
+/// [q] A step whose iteration is slower is refused.
+inline constexpr double slowest_ratio = 0.3;
+/// [q] Above this the tolerance of the iteration shrinks as (fast_ratio / q)^3 (1 - q). It is the
+/// usual q of scenes whose steps are bounded by their accuracy (Kepler, Lorenz, Pleiades).
+/// tests/laws/fast_modes_test.cpp (as large)
+inline constexpr double fast_ratio = 0.1;
+/// [tolerances of the iteration] Smaller changes are not judged: the iteration is over.
+/// tests/laws/fast_modes_test.cpp (as large)
+inline constexpr double judged_change = 0.01;
+/// [1] CVODE's own memory of q from step to step, CRDOWN.
+inline constexpr double ratio_memory = 0.3;
 
 // --- Jacobian and sparsity: jacobian.cpp, probe.cpp, find_places.cpp
 
