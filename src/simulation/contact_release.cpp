@@ -36,7 +36,7 @@ bool ContactGuards::wake(SurfaceContact& contact) {
       contact.carried = true;
       return false;
     case Waking::stay:
-      contact.error = std::max(contact.error, thresholds::wavered * std::abs(g));
+      contact.error = error_after_wavering(contact.error, g);
       return false;
     case Waking::release:
       break;

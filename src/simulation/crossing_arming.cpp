@@ -93,9 +93,9 @@ double CrossingArming::uncertainty(std::size_t k) {
 
 bool CrossingArming::is_at_zero(std::size_t k) {
   if ((*guards_)[k].direction == Direction::edge_detection) return false;
-  const double g = present_->g[k], moved = std::abs(g - guards_->g[k]);
+  const double g = present_->g[k];
   if (g == 0.0) return true;
-  return std::abs(g) <= thresholds::clearly_across * moved && std::abs(g) <= uncertainty(k);
+  return stops_near_zero(guards_->g[k], g) && std::abs(g) <= uncertainty(k);
 }
 
 /// Obeys the author's wish for a guard that begins at zero or beyond it. False if the flow has to

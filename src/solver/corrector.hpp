@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "saltus/solver/detail/thresholds.hpp"
 #include "sundials_compat.hpp"
 
 namespace saltus::sun {
@@ -28,14 +29,6 @@ class Corrector {
   }
 
  private:
-  static constexpr double slowest = 0.3;  ///< q beyond which a step is refused
-  /// q above which the tolerance of the iteration shrinks as (fast / q)^3 (1 - q). It is the usual
-  /// q of scenes whose steps are bounded by their accuracy (Kepler, Lorenz, Pleiades).
-  static constexpr double fast = 0.1;
-  /// [tolerances] changes below are not judged: the iteration is over.
-  static constexpr double done = 0.01;
-  static constexpr double kept = 0.3;  ///< CVODE's own memory of q from step to step: CRDOWN
-
   static int converged(SUNNonlinearSolver solver, N_Vector y, N_Vector change,
                        sunrealtype tolerance, N_Vector weights, void* self) {
     return static_cast<Corrector*>(self)->test(solver, y, change, tolerance, weights);
@@ -46,12 +39,15 @@ class Corrector {
     SUNNonlinSolGetCurIter(solver, &iteration);
     const double size = N_VWrmsNorm(change, weights), before = std::exchange(before_, size);
     if (iteration > 0) {
-      if (size > slowest * before && size > done * tolerance) return SUN_NLS_CONV_RECVR;
-      ratio_ = std::max(kept * ratio_, std::min(size / before, slowest));
+      using namespace thresholds;
+      if (size > slowest_ratio * before && size > judged_change * tolerance)
+        return SUN_NLS_CONV_RECVR;
+      ratio_ = std::max(ratio_memory * ratio_, std::min(size / before, slowest_ratio));
     }
     return test_(solver, y, change, tolerance * share(), weights, data_);
   }
   double share() const {
+    const double fast = thresholds::fast_ratio;
     return ratio_ <= fast ? 1.0 : std::pow(fast / ratio_, 3) * (1.0 - ratio_);
   }
 

@@ -9,6 +9,7 @@
 #include "corrector.hpp"
 #include "cvode_scene.hpp"
 #include "cvode_setup.hpp"
+#include "saltus/solver/detail/cvode_start.hpp"
 #include "saltus/solver/detail/dopri5.hpp"
 #include "saltus/solver/detail/progress.hpp"
 #include "saltus/solver/detail/runge_kutta.hpp"
@@ -74,13 +75,9 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
     last_message_.clear();
     x0_at_ = std::numeric_limits<double>::quiet_NaN();
     scene_.begin_at(t1_);
-    // A multistep method begins with order 1, and with steps so short that order 1 is within the
-    // tolerance. It would draw a flight hardly longer than these steps as a line that falls from
-    // the start, and the ball would fall through the floor. So a one-step method starts if an event
-    // may follow so soon (C. W. Gear, "Runge-Kutta starters for multistep methods", ACM TOMS 6
-    // (1980) 263), and CVODE continues if the flight is longer.
-    starter_.runs = how.horizon < thresholds::one_step_flight * first_step_;
-    if (starter_.runs)
+    // A one-step method starts if an event may follow soon, and CVODE continues if the flight is
+    // longer.
+    if (cvode::is_event_near(how.horizon, first_step_))
       start_with_one_step(t1_, x1_, how.horizon);
     else
       start_cvode(how.first);
@@ -94,7 +91,7 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
 
   void start_with_one_step(double t, const Eigen::VectorXd& x, double horizon) {
     starter_.runs = true;
-    starter_.until = t + thresholds::start_horizons * horizon;
+    starter_.until = cvode::start_ends(t, horizon);
     starter_.method.begin_at(t, x, {.horizon = horizon, .first = true});
   }
 
@@ -149,9 +146,7 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
     if (starter_.runs && (t1_ >= starter_.until || flight_is_stiff())) start_cvode();
     // CVODE takes no step within a few roundings of the time.
     const double latest = std::isfinite(t_stop) ? std::abs(t_stop) : 0.0;
-    const double shortest =
-        std::max(thresholds::cvode_roundings * thresholds::eps * std::max(latest, std::abs(t1_)),
-                 thresholds::cvode_shortest);
+    const double shortest = cvode::shortest_step(std::max(latest, std::abs(t1_)));
     if (!starter_.runs && t_stop - t1_ < shortest) {
       start_with_one_step(t1_, x1_, t_stop - t1_);
       starter_.until = t_stop;
@@ -167,7 +162,7 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
   /// Whether the rest of the starter's flight is long for an explicit method. The rate is 0, and
   /// the answer no, before its first step and with Adams.
   bool flight_is_stiff() {
-    return starter_.method.stiffness().rate() * (starter_.until - t1_) > thresholds::stiff_flight;
+    return cvode::is_flight_stiff(starter_.method.stiffness().rate(), starter_.until - t1_);
   }
 
   void cvode_step(double t_stop) {
@@ -197,11 +192,9 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
     std::copy_n(N_VGetArrayPointer(y_.get()), n_, x1_.data());
   }
 
-  /// Whether a guard that was at zero when this stretch began may have a false root, because it was
-  /// found within the two steps of order 1.
+  /// Whether a guard that was at zero when this stretch began may have a false root.
   bool too_coarse() const {
-    return steps_ < thresholds::coarse_steps &&
-           std::ranges::any_of(guards_->all(), [](const Guard& guard) {
+    return cvode::is_coarse(steps_) && std::ranges::any_of(guards_->all(), [](const Guard& guard) {
              return guard.active && guard.at_zero() && !guard.monitor;
            });
   }

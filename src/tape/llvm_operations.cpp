@@ -170,12 +170,18 @@ std::string LlvmText::power(Operands operands, int width) {
 
 std::string LlvmText::apply(Op op, Operands operands, int width) {
   const std::string& a = operands[0];
-  const std::string zero = constant_of(0.0, width);
   if (const auto how = arithmetic(op); !how.empty()) return binary(how, a, operands[1], width);
   if (const auto function = exact(op); !function.empty())
     return intrinsic(function, operands, width);
   if (const auto how = comparison(op); !how.empty())
     return truth(compare(how, a, operands[1], width), width);
+  return compose(op, operands, width);
+}
+
+/// An operation that is neither arithmetic, nor a function of LLVM, nor a comparison.
+std::string LlvmText::compose(Op op, Operands operands, int width) {
+  const std::string& a = operands[0];
+  const std::string zero = constant_of(0.0, width);
   switch (op) {
     case Op::neg:
       return define(text("fneg ", type_of(width), " ", a));

@@ -48,6 +48,7 @@ class LlvmText {
   const std::set<std::string>& declarations() const { return declarations_; }
 
  private:
+  std::string compose(Op op, std::span<const std::string> operands, int width);
   std::string intrinsic(std::string_view name, std::span<const std::string> operands, int width);
   std::string call(Op op, std::span<const std::string> operands, int width);
   std::string compare(std::string_view how, const std::string& a, const std::string& b, int width);

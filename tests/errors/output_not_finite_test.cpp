@@ -1,4 +1,4 @@
-// Semantics 6.2: NaN or Inf from a recorded output is a SimulationError that names the block.
+// NaN or Inf from a recorded output is a SimulationError that names the block.
 
 #include "support/leaves.hpp"
 #include "support/quiet.hpp"

@@ -33,7 +33,7 @@ TEST_CASE("a guard on time only is located, with continuous state and without", 
   const auto results =
       simulate(leaf, leaf.create_context(), {0.0, 1.0}, {.ode_solver_method = method});
   REQUIRE(results.events.size() == 1);
-  CHECK_THAT(results.events[0].time, WithinAbs(at, 100.0 * eps * 2.0));  // semantics 2.9
+  CHECK_THAT(results.events[0].time, WithinAbs(at, 100.0 * eps * 2.0));  // 100 eps (|t| + |h|)
   CHECK(results.events[0].time >= at);
   CHECK(results.context.discrete_state()[0] == 1.0);
 }

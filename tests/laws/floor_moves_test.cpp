@@ -60,7 +60,7 @@ TEST_CASE("the tutorial's third scene: to rest, let go at 1 s, seven bounces by 
         times.push_back(event.time);
     }
     REQUIRE(times.size() == 7);
-    // The ball leaves rest with y = v = 0 to 1e-9 (semantics 4.3): contact k moves by 1e-9 (1 + 2
+    // The ball leaves rest with y = v = 0 to 1e-9: contact k moves by 1e-9 (1 + 2
     // k) / (g t1) at most.
     for (int k = 1; k <= 7; ++k) {
       CHECK_THAT(times[static_cast<std::size_t>(k - 1)], WithinAbs(1.0 + exact.contact(k), 1e-7));

@@ -77,7 +77,7 @@ struct Fired {
 };
 
 /// All events until t = 10 s, by hand. A guard that a reset or a mode change put beyond zero waits
-/// until it has been back (2.4) where its mode was entered, and fires next where a jump carried it.
+/// until it has been back where its mode was entered, and fires next where a jump carried it.
 Fired by_hand(const Draw& draw) {
   Fired fired;
   Eigen::Vector3d x = draw.start;
@@ -116,7 +116,7 @@ Fired by_hand(const Draw& draw) {
       fired.close = std::min(fired.close, std::abs(b));
       fired.turned |= draw.rates(g.state, before) * draw.rates(g.state, mode) < 0.0;
     } else if (g.in < 0 && draw.rates(g.state, before) * draw.rates(g.state, mode) < 0.0) {
-      return fired.close = 0.0, fired;  // the flow turns round on the level: 2.5, not for here
+      return fired.close = 0.0, fired;  // the flow turns round on the level: not for here
     }
   }
   return fired.close = 0.0, fired;

@@ -116,7 +116,7 @@ TEST_CASE("a ball whose guard is scaled bounces and rests as if it were not",
     INFO(form.name << ", scale " << scale << ", e " << e);
     CHECK(results.status == Status::reached_end);
     CHECK(count(results.events, EventKind::zeno_enter) == 1);
-    // Rest to 1e-9 (4.3); a multistep method is blind to flights lower than 40 (rtol + atol).
+    // Rest to 1e-9; a multistep method is blind to flights lower than 40 (rtol + atol).
     const double blind = one_step(method) ? 0.0 : std::sqrt(2.0 * 9.81 * 40.0 * (1e-9 + 1e-11));
     within(text("scaled guard, rest, ", form.name), method,
            results.context.continuous_state().cwiseAbs().maxCoeff(), 1e-9 + blind);

@@ -81,7 +81,7 @@ TEST_CASE("past their Zeno time the tanks rest at their marks", "[laws][zeno]") 
       CHECK(results.status == Status::reached_end);
       CHECK(results.message == "");
       const auto& x = results.context.continuous_state();
-      // Semantics 4.3: time and state to 1e-9; q is off by 400 eps t / gap, amplified as for a
+      // The time and the state of rest to 1e-9; q is off by 400 eps t / gap, amplified as for a
       // ball, which is less.
       within(text("tanks level w=", tanks.w, " ", form.name), method,
              std::max(std::abs(x[0] - tanks.r1), std::abs(x[1] - tanks.r2)), 1e-9);

@@ -16,6 +16,9 @@ CASE = re.compile(r'TEST_CASE\(\s*"(\d+\.\d+[a-z]?) ')
 # How many sentences each section of the contract has; 2.9a and 5.6a are of their own.
 SECTIONS = {1: 2, 2: 12, 3: 10, 4: 7, 5: 9, 6: 8}
 PYTHON = {"6.5"}
+PYTHON_TESTS = ROOT / "tests" / "python"
+# def test_6_5_..., or a docstring or comment that begins with 6.5: or cites semantics 6.5
+IN_PYTHON = re.compile(r'def test_[1-6]_\d|"""[1-6]\.\d+[a-z]?[:,]|semantics,? [1-6]\.\d')
 
 SENTENCES = SENTENCE.findall(DOCUMENT.read_text())
 
@@ -51,7 +54,7 @@ def test_a_sentence_has_a_test(number):
 @pytest.mark.parametrize("number", sorted(PYTHON))
 def test_a_sentence_about_python_has_a_test(number):
     name = f"def test_{number.replace('.', '_')}_"
-    files = (ROOT / "tests" / "python").rglob("test_*.py")
+    files = (PYTHON_TESTS / "semantics").glob("test_*.py")
     assert number in SENTENCES and any(name in file.read_text() for file in files)
 
 
@@ -61,3 +64,14 @@ def test_no_test_carries_a_number_that_is_no_sentence():
 
 def test_numbered_tests_are_in_one_folder():
     assert numbered_cases(ROOT / "tests") == CASES
+
+
+def test_numbers_in_python_are_in_one_folder():
+    files = (file for file in PYTHON_TESTS.rglob("*.py") if file.parent.name != "semantics")
+    assert [str(file) for file in files if IN_PYTHON.search(file.read_text())] == []
+
+
+def test_no_other_folder_cites_a_number():
+    cites = re.compile(r"[Ss]emantics(\.md)?,? [1-6]\.\d")
+    files = (file for file in (ROOT / "tests").rglob("*.?pp") if file.parent.name != "semantics")
+    assert [str(file) for file in files if cites.search(file.read_text())] == []

@@ -146,7 +146,7 @@ def parameter_block(name, parameter):
 
 
 @pytest.mark.parametrize("name, parameter", [("a", "spring"), ("b", "mass"), ("b", "spring")])
-def test_6_7_a_context_of_another_system_of_the_same_size_is_refused(name, parameter):
+def test_a_context_of_another_system_of_the_same_size_is_refused(name, parameter):
     a, other = parameter_block("a", "mass"), parameter_block(name, parameter).create_context()
     message = "the context is not one of this system"
     with pytest.raises(saltus.ModelError, match=message):
@@ -159,7 +159,7 @@ def test_6_7_a_context_of_another_system_of_the_same_size_is_refused(name, param
     assert saltus.simulate(a, same, (0, 1)).status == "reached_end"
 
 
-def test_6_7_a_refused_context_leaves_the_simulator_as_it_was():
+def test_a_refused_context_leaves_the_simulator_as_it_was():
     a = parameter_block("a", "mass")
     simulator = saltus.Simulator(a)
     simulator.initialize(a.create_context())

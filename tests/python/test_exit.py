@@ -1,4 +1,4 @@
-"""6.4: a program ends with exit code 0 while threads of it still run."""
+"""A program ends with exit code 0 while threads of it still run."""
 
 import os
 import subprocess
@@ -39,14 +39,14 @@ def ends(target, arguments=(), options=""):
 
 
 @pytest.mark.parametrize("method", ["auto", "dopri5", "dop853", "adams", "bdf", "radau"])
-def test_6_4_daemon_threads_whose_callbacks_are_called(method):
+def test_daemon_threads_whose_callbacks_are_called(method):
     assert ends("run", (f"'{method}'", "called", "'called'")) == (0, "")
 
 
-def test_6_4_daemon_threads_whose_callbacks_are_traced():
+def test_daemon_threads_whose_callbacks_are_traced():
     assert ends("run", ("'auto'", "circle", "'traced'")) == (0, "")
 
 
-def test_6_4_daemon_threads_that_report_their_progress():
+def test_daemon_threads_that_report_their_progress():
     arguments = ("'auto'", "called", "'called'")
     assert ends("run", arguments, "progress=lambda progress: None") == (0, "")

@@ -57,7 +57,7 @@ def test_what_is_raised_beside_the_state_is_told_and_ends_no_run():
     assert "it threw: ValueError: not here" in results.statistics.linear_solver
 
 
-def test_6_4_ctrl_c_is_no_failure_of_the_function():
+def test_ctrl_c_is_no_failure_of_the_function():
     with pytest.raises(KeyboardInterrupt) as caught:
         run(Rod(check=beside(KeyboardInterrupt())))
     assert caught.value.results.status == "interrupted"

@@ -1,4 +1,4 @@
-"""6.6: one caller at a time uses a simulator, and a block in use declares nothing more."""
+"""One caller at a time uses a simulator, and a block in use declares nothing more."""
 
 import threading
 
@@ -48,7 +48,7 @@ def refusal(act):
 
 @pytest.mark.parametrize("method", METHODS)
 @pytest.mark.parametrize("call", CALLS)
-def test_6_6_a_call_from_a_callback_is_an_error_and_changes_nothing(call, method):
+def test_a_call_from_a_callback_is_an_error_and_changes_nothing(call, method):
     block = Decay()
     plain = started(block, ode_solver_method=method)
     plain.advance_to(1.0)
@@ -62,7 +62,7 @@ def test_6_6_a_call_from_a_callback_is_an_error_and_changes_nothing(call, method
 
 
 @pytest.mark.parametrize("call", CALLS)
-def test_6_6_a_call_from_another_thread_is_an_error_and_changes_nothing(call):
+def test_a_call_from_another_thread_is_an_error_and_changes_nothing(call):
     block = Decay()
     plain = started(block)
     plain.advance_to(1.0)
@@ -82,7 +82,7 @@ def test_6_6_a_call_from_another_thread_is_an_error_and_changes_nothing(call):
     assert simulator.context == plain.context
 
 
-def test_6_6_the_time_may_be_read_by_a_callback():
+def test_the_time_may_be_read_by_a_callback():
     block, seen = Decay(), []
     simulator = started(block)
     block.inside = lambda: seen.append(simulator.time)
@@ -90,7 +90,7 @@ def test_6_6_the_time_may_be_read_by_a_callback():
     assert 0.0 <= seen[0] < 0.5
 
 
-def test_6_6_an_exception_of_a_call_from_within_is_that_of_the_run():
+def test_an_exception_of_a_call_from_within_is_that_of_the_run():
     block = Decay()
     simulator = started(block)
     block.inside = lambda: simulator.advance_to(2.0)
@@ -99,7 +99,7 @@ def test_6_6_an_exception_of_a_call_from_within_is_that_of_the_run():
     assert simulator.advance_to(1.0) == "reached_end"
 
 
-def test_6_6_another_simulator_may_run_within_a_callback():
+def test_another_simulator_may_run_within_a_callback():
     block, other = Decay(), Decay()
     simulator, ends = started(block), []
     block.inside = lambda: ends.append(started(other).advance_to(1.0))
@@ -107,7 +107,7 @@ def test_6_6_another_simulator_may_run_within_a_callback():
 
 
 @pytest.mark.parametrize("attempt", range(5))
-def test_6_6_threads_that_share_a_simulator_get_errors_or_the_right_state(attempt):
+def test_threads_that_share_a_simulator_get_errors_or_the_right_state(attempt):
     block = Decay()
     simulator = started(block)
 
@@ -146,7 +146,7 @@ DECLARATIONS = {
 
 @pytest.mark.parametrize("python", ["called", "traced"])
 @pytest.mark.parametrize("what", DECLARATIONS)
-def test_6_6_a_block_in_use_declares_nothing_more(what, python):
+def test_a_block_in_use_declares_nothing_more(what, python):
     def refused():
         with pytest.raises(saltus.ModelError, match="block 'decay' is in use"):
             DECLARATIONS[what](block)
@@ -161,7 +161,7 @@ def test_6_6_a_block_in_use_declares_nothing_more(what, python):
 
 
 @pytest.mark.parametrize("what", DECLARATIONS)
-def test_6_6_a_block_of_a_diagram_declares_nothing_more(what):
+def test_a_block_of_a_diagram_declares_nothing_more(what):
     block = Decay()
     builder = saltus.DiagramBuilder()
     builder.add(block)
@@ -172,7 +172,7 @@ def test_6_6_a_block_of_a_diagram_declares_nothing_more(what):
     del diagram
 
 
-def test_6_6_an_output_that_is_called_for_its_shape_cannot_declare():
+def test_an_output_that_is_called_for_its_shape_cannot_declare():
     block = saltus.LeafSystem(name="block")
     said = []
 
@@ -185,7 +185,7 @@ def test_6_6_an_output_that_is_called_for_its_shape_cannot_declare():
     assert said and all("is in use" in one for one in said)
 
 
-def test_6_6_a_block_that_nobody_uses_any_more_may_declare():
+def test_a_block_that_nobody_uses_any_more_may_declare():
     block = Decay()
     saltus.simulate(block, block.create_context(), (0, 1))
     block.explain()

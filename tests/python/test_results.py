@@ -33,7 +33,7 @@ def test_shapes_and_types():
 
 
 def test_rows_around_an_event(ball_results):
-    """5.1: one row before and one after, told apart by j."""
+    """One row before and one after, told apart by j."""
     time, jump, (y, v) = ball_results.time, ball_results.jump, ball_results.outputs["state"].T
     for k, t in enumerate(ball_results.events.times("bounce")):
         rows = np.flatnonzero(time == t)
@@ -117,7 +117,7 @@ def test_the_same_run_twice_gives_the_same_bits(ball_results):
 
 
 def test_a_run_in_pieces(ball_results):
-    """5.6: the same events, and the same numbers to solver tolerance."""
+    """The same events, and the same numbers to solver tolerance."""
     ball = Ball()
     simulator = saltus.Simulator(
         ball, rtol=1e-10, atol=1e-12, recorded_signals={"state": ball.output()}
@@ -186,5 +186,5 @@ def test_a_span_of_no_length_has_the_rows_of_the_start():
 
 
 def test_events_are_counted_by_name(ball_results):
-    """5.4: six bounces by 12 s (t_k = t1 + 2 t1 (e + ... + e^(k-1)); the seventh is at 13.5 s)."""
+    """Six bounces by 12 s (t_k = t1 + 2 t1 (e + ... + e^(k-1)); the seventh is at 13.5 s)."""
     assert ball_results.statistics.events_by_name == {"ball.bounce": 6}

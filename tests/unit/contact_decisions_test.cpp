@@ -36,3 +36,12 @@ TEST_CASE("A contact whose guard leaves its error is carried, wavers, or release
   CHECK(decide_waking(false, 0.0, pressed, no) == Waking::stay);
   CHECK(decide_waking(false, pressed * -1.0, pressed, no) == Waking::release);
 }
+
+TEST_CASE("A guard that wavered once stays at rest at the same value, and leaves at ten times it") {
+  const int pressed = GENERATE(-1, 1);
+  const double g = -pressed * 3e-12, error = error_after_wavering(1e-15, g);
+  CHECK(decide_held(g, error, pressed) == Held::stay);
+  CHECK(decide_held(-g, error, pressed) == Held::stay);
+  CHECK(decide_held(10.0 * g, error, pressed) == Held::release);
+  CHECK(error_after_wavering(1.0, g) == 1.0);  // an error never shrinks
+}

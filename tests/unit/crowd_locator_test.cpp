@@ -173,3 +173,82 @@ TEST_CASE("a crowd changes no bit of a trajectory with resets", "[crowd_locator]
   // The ball falls through 80 levels; its flights rise to 0.8^2k m and pass the levels below twice.
   CHECK(found.events.times("level").size() >= 390);
 }
+
+namespace {
+
+/// A crowd of equal monitors g(u), looked at from u = 0 to `to` in a step that begins at t = 1.
+class Crowded : private CrowdLocator {
+ public:
+  struct Parts {
+    explicit Parts(const Function& g) : leaf(monitors(std::vector<Function>(10, g))) {
+      machine.load(leaf->create_context());
+      guards.select(machine.active_guards(), machine.plan());
+    }
+    std::shared_ptr<Leaf> leaf;
+    Machine machine{compile(*leaf)};
+    GuardSet guards{machine.plan()};
+  };
+
+  explicit Crowded(Parts& parts)
+      : CrowdLocator(parts.machine, parts.guards, parts.guards.active().monitors) {
+    t0_ = 1.0;
+  }
+  bool is_located(double to) {
+    const auto at = [](double u, double* x) { x[0] = u; };
+    look(0.0, nullptr, at, guards_->g);
+    for (std::size_t k = 0; k < guards_->all().size(); ++k) guards_->arm(k, sign_of(guards_->g[k]));
+    look_up_guards();
+    look(to, nullptr, at, high_);
+    REQUIRE(note_crossed(high_));
+    return locate_crowd(0.0, to, at) == Crowd::located;
+  }
+};
+
+bool is_located(const Function& g, double to) {
+  Crowded::Parts parts(g);
+  return Crowded(parts).is_located(to);
+}
+
+}  // namespace
+
+TEST_CASE("an interval of some roundings of the time has no room for a polynomial",
+          "[crowd_locator]") {
+  const auto located_in = [](double roundings) {
+    const double to = roundings * eps;
+    return is_located([=](double u) { return u - 0.37 * to; }, to);
+  };
+  CHECK_FALSE(located_in(100.0));
+  CHECK(located_in(3e4));
+}
+
+TEST_CASE("a crowd is located together only where its times are as exact as one by one",
+          "[crowd_locator]") {
+  CHECK(is_located([](double u) { return u - 0.3; }, 1.0));
+  // The formula rounds by 8 eps of the largest value, 38: 100 eps where the slope is 3.
+  CHECK_FALSE(
+      is_located([](double u) { return 3.0 * (u - 0.3) + 105.0 * std::pow(u - 0.3, 3.0); }, 1.0));
+}
+
+TEST_CASE("a monitor that has passed with a crowd is at zero until it is clearly off",
+          "[crowd_locator]") {
+  // The polynomial is known to 8 eps of 0.3.
+  const auto is_at_zero = [](double roundings) {
+    Crowded::Parts parts([](double u) { return u - 0.3; });
+    REQUIRE(Crowded(parts).is_located(0.3 + roundings * eps));
+    return parts.guards[0].at_zero();
+  };
+  CHECK(is_at_zero(2.0));
+  CHECK_FALSE(is_at_zero(200.0));
+}
+
+TEST_CASE("many monitors cost as many looks as one, and few are located one by one",
+          "[crowd_locator]") {
+  const auto looks = [](int count) {
+    const std::vector<Function> all = differences(levels(count), [](double x) { return x; });
+    return simulate(*monitors(all), monitors(all)->create_context(), {0.0, 1.0},
+                    {.ode_solver_method = Method::dopri5, .first_step = 1.0})
+        .statistics.guard_calls;
+  };
+  CHECK(looks(1) < 12);     // a line is located by two looks
+  CHECK(looks(400) < 100);  // eleven a piece
+}

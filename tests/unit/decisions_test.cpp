@@ -416,3 +416,13 @@ TEST_CASE("A relation at its zero follows the flow, and rests where the flow lea
   CHECK(decide_relation_side(to, to, false, unasked) == RelationSide{to, false});
   CHECK(decide_relation_side(-to, to, true, unasked) == RelationSide{-to, false});
 }
+
+TEST_CASE("a commit that leaves a thousandth of its way beyond zero has put the guard there") {
+  const double way = GENERATE(1.0, -1.0, 1e-200, 1e200);
+  CHECK(stops_near_zero(way, 0.0));
+  CHECK(stops_near_zero(way, -1e-4 * way));
+  CHECK(stops_near_zero(way, 1e-4 * way));
+  CHECK_FALSE(stops_near_zero(way, -1e-2 * way));
+  CHECK_FALSE(stops_near_zero(way, -way));
+  CHECK_FALSE(stops_near_zero(way, way));
+}

@@ -1,6 +1,8 @@
 // Departure: the side to which the flow takes a guard that is at zero, and how well it is known.
 #include "saltus/simulation/detail/departure.hpp"
 
+#include <functional>
+
 #include "support/leaves.hpp"
 
 using namespace saltus;
@@ -12,6 +14,8 @@ namespace {
 
 /// A chain of integrators x0' = x1, x1' = x2, ..., with the last derivative constant, and a guard.
 struct Chain {
+  using Call = std::function<double(const At&)>;
+
   template <class Guard>
   Chain(std::initializer_list<double> x, double last, Guard guard, SimulatorOptions options = {})
       : leaf("leaf",
@@ -189,4 +193,114 @@ TEST_CASE("a guard that moves a hundredth as far as the states has a side withou
   const auto before = chain.machine.guard_calls;
   CHECK(chain.side(0.0, 10.0, 0.0, Departure::either_side).side == -1);
   CHECK(chain.machine.guard_calls - before == 1);  // its rounding is not measured
+}
+
+TEST_CASE("a speed far below the curvature of a flight is a speed", "[departure]") {
+  // The height bends by 2.5e-9 m/s within the first look, and is known to 1e-22 m there.
+  const double speed = 1e-13;
+  CHECK_THAT(Chain({0.0, speed}, -9.81, height).slope(), WithinRel(speed, 1e-6));
+}
+
+TEST_CASE("the curvature that extrapolation leaves is no speed", "[departure]") {
+  // g = x (1 + 100 t) with x = a t^2 / 2: of the bend over a first look d, extrapolation leaves the
+  // part 100 d, and d = 1e-9 s.
+  const Chain::Call guard = [](const At& at) { return at.x[0] * (1.0 + 100.0 * at.time); };
+  CHECK(Chain({0.0, 0.0}, -9.81, guard).slope() == 0.0);
+}
+
+TEST_CASE("the rounding of a guard has seven digits, curved or not", "[departure]") {
+  // The first state is disturbed by 0.618 of the others' most: sixteen roundings of it.
+  const double size = GENERATE(1.0, 3.0);
+  const double expected = 16.0 * eps * 0.618 * size;
+  const auto rounding = [&](const Chain::Call& guard) {
+    Chain chain({size}, 1.0, guard);
+    chain.departure.from(0.0, chain.machine.x, 10.0);
+    return chain.departure.rounding(0);
+  };
+  CHECK_THAT(rounding([=](const At& at) { return at.x[0] - size; }), WithinRel(expected, 2e-8));
+  CHECK_THAT(rounding([=](const At& at) { return at.x[0] * at.x[0] - size * size; }),
+             WithinRel(2.0 * size * expected, 2e-7));
+}
+
+TEST_CASE("a guard within its rounding is followed for some hundred thousand first looks",
+          "[departure]") {
+  // x0 moves by its tolerance in 1e-8 s. The rounding of x1 - x2 hides x0 for `looks` times that.
+  const auto seen_after = [](double looks) {
+    const SimulatorOptions options{.rtol = 0.0, .atol = 1e-8};
+    const double weight = 16.0 * eps / (looks * 1e-8);
+    const Leaf leaf("leaf", [&](Leaf& l) {
+      l.declare_continuous_state({.initial = vec({0.0, 1.0, 1.0}),
+                                  .ode = [](const At&, VectorRef xdot) { xdot << 1.0, 0.0, 0.0; }});
+      l.declare_zero_crossing({.name = "g", .guard = [=](const At& at) {
+                                 return weight * at.x[0] + (at.x[1] - at.x[2]);
+                               }});
+    });
+    Machine machine{compile(leaf)};
+    machine.load(leaf.create_context());
+    Departure departure(machine, options);
+    departure.from(0.0, machine.x, 10.0);
+    return departure.of(machine.plan().guards[0], 0, 0.0, 0).side != 0;
+  };
+  CHECK(seen_after(3e4));
+  CHECK_FALSE(seen_after(4e6));  // the solver finds it
+}
+
+namespace {
+
+/// A height of 1e12 m, known to 2e-3 m, falls from rest. A guard reads it or a drift at `speed`
+/// from the same height.
+struct Far {
+  explicit Far(double speed, bool falls)
+      : leaf("leaf", [=](Leaf& l) {
+          l.declare_continuous_state(
+              {.initial = vec({1e12, 0.0, 1e12}),
+               .ode = [=](const At& at, VectorRef xdot) { xdot << at.x[1], -9.81, speed; }});
+          l.declare_zero_crossing(
+              {.name = "g", .guard = [=](const At& at) { return at.x[falls ? 0 : 2] - 1e12; }});
+        }) {
+    machine.load(leaf.create_context());
+  }
+  int side(double longest) {
+    departure.from(0.0, machine.x, longest);
+    return departure.of(machine.plan().guards[0], 0, 0.0, 0).side;
+  }
+
+  Leaf leaf;
+  Machine machine{compile(leaf)};
+  Departure departure{machine, SimulatorOptions{.rtol = 1e-8, .atol = 1e-8}};
+};
+
+}  // namespace
+
+TEST_CASE("a fall is followed until it exceeds the rounding of a large height, within the run",
+          "[departure]") {
+  // The fall exceeds the rounding of 2e-3 m after 0.02 s: in a run of 100 s this is soon.
+  CHECK(Far(0.0, true).side(100.0) == -1);
+  CHECK(Far(0.0, true).side(20.0) == -1);
+}
+
+TEST_CASE("a drift that shows long after a fall would have shown is left to the solver",
+          "[departure]") {
+  CHECK(Far(6e-4, false).side(1e4) == 0);   // 5 s: a hundred times as long as a fall
+  CHECK(Far(3e-2, false).side(10.0) == 0);  // 0.08 s: a fall, but a hundredth of the run
+}
+
+TEST_CASE("a run of no length has the time scale of its fastest state", "[departure]") {
+  // The state moves by its tolerance in 1e-12 s.
+  const SimulatorOptions options{.rtol = 0.0, .atol = 1e-8};
+  const double scale = 1e-12;
+  // A guard that time moves is looked at first after that time, and followed for 1e9 times as long.
+  Chain turns(
+      {0.0}, 1e4, [=](const At& at) { return at.time * (10.0 * scale - at.time); }, options);
+  CHECK(turns.side(0.0, 0.0).side == 1);
+  Chain rises({0.0}, 1e4, [](const At& at) { return at.time; }, options);
+  CHECK(rises.side(1e8 * scale, 0.0).side == 1);
+  CHECK(rises.side(1e10 * scale, 0.0).side == 0);
+}
+
+TEST_CASE("a run of less than a second is looked beyond, by a second at most", "[departure]") {
+  const SimulatorOptions options{.rtol = 0.0, .atol = 1e-8};
+  Chain rises({0.0}, 1e-2, [](const At& at) { return at.time; }, options);  // 1e-6 s
+  CHECK(rises.side(0.2, 0.05).side == 1);
+  CHECK(rises.side(2.0, 0.05).side == 0);
 }

@@ -120,3 +120,31 @@ TEST_CASE("a Jacobian explains how f moves unless a place is missing", "[jacobia
   CHECK_FALSE(explains(all_but_one, 0.1));
   CHECK(explains(all_but_one, 1e-6));  // too short a step for Newton's iteration to notice
 }
+
+TEST_CASE("a difference at a state of zero exceeds the rounding of f, and not its bend",
+          "[jacobian]") {
+  // f = C + x + b x^2 at x = 0, where a stiff step has h = 1. A change of f by 1e3 eps C has three
+  // digits, and b is such that it bends by 1e-3 over that change.
+  for (const double c : {1.0, 3.0, 7.7, 123.0}) {
+    const double b = 1e-3 / (1e3 * eps * c);
+    const auto slope = [&](double bend) {
+      const Leaf leaf("leaf", [&](Leaf& l) {
+        l.declare_continuous_state(
+            {.initial = vec({0.0}), .ode = [=](const At& at, VectorRef xdot) {
+               xdot[0] = c + at.x[0] + bend * at.x[0] * at.x[0];
+             }});
+      });
+      Machine machine(compile(leaf));
+      machine.load(leaf.create_context());
+      Jacobian jacobian(machine);
+      double xdot = 0.0, value = 0.0;
+      machine.flow(0.0, machine.x.data(), &xdot);
+      REQUIRE(
+          jacobian(0.0, machine.x.data(), &xdot, {.rtol = 1e-6, .atol = 1e-8, .h = 1.0}, &value));
+      return value;
+    };
+    INFO("f(0) = " << c);
+    CHECK(std::abs(slope(0.0) - 1.0) < 4e-3);
+    CHECK(std::abs(slope(b) - 1.0) < 1e-2);
+  }
+}

@@ -68,7 +68,7 @@ TEST_CASE("the state handed on is at the root or beyond it, never before", "[loc
     const auto results = run(ruler({root}, scale), method);
     REQUIRE(results.events.size() == 1);
     CHECK(results.events[0].before[0] >= root);
-    // 100 eps (|t| + |h|), semantics 2.9, on an interpolant that is exact for a straight line but
+    // 100 eps (|t| + |h|) on an interpolant that is exact for a straight line but
     // for rounding.
     CHECK_THAT(results.events[0].time, WithinAbs(root, 100.0 * eps * 2.0));
     CHECK(results.events[0].direction == (scale > 0.0 ? 1 : -1));
@@ -127,6 +127,26 @@ TEST_CASE("by default a step has as many points as the degree of its interpolant
     CHECK(looks(method, {}) == looks(method, degree));
     CHECK(looks(method, degree) == looks(method, 0) + degree);
   }
+}
+
+TEST_CASE("looks inside steps that need none come after 7 of them, then 15, 31 and 63",
+          "[locate]") {
+  const Leaf leaf("far", [](Leaf& l) {
+    declare_ramp(l);
+    l.declare_zero_crossing({.name = "far", .guard = [](const At& at) { return at.x[0] + 1e6; }});
+  });
+  const auto looks_inside = [&](int steps) {
+    SimulatorOptions options{.first_step = 1.0 / steps, .event_scan_points = 5};
+    options.max_minor_step_size = 1.0 / steps;
+    const Statistics all = run(leaf, Method::dopri5, options).statistics;
+    return static_cast<double>(all.guard_calls - all.steps) / 5.0;
+  };
+  // Those at 0, 8, 24 and 56: a trend is seen early, and costs little.
+  CHECK(looks_inside(60) >= 3.0);
+  CHECK(looks_inside(60) < 6.0);
+  // One in 64 in the long run: no pair of crossings stays unseen for more than some steps.
+  CHECK(looks_inside(6400) > 60.0);
+  CHECK(looks_inside(6400) < 200.0);
 }
 
 TEST_CASE("a guard with a steep and one with a flat root are located alike", "[locate]") {

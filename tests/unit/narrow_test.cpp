@@ -57,6 +57,9 @@ class Crossings : private Narrower {
     return u;
   }
 
+  /// The error of a guard at the root, by the rounding of interpolants.
+  double noise(std::size_t k) const { return noise_[k]; }
+
   std::int64_t looks = 0;
   std::vector<std::size_t> crossed;
 };
@@ -196,4 +199,30 @@ TEST_CASE("a guard that waits at zero is armed by a look on its side, and then c
   CHECK(parts.guards[0].phase == Phase::armed);
   CHECK(arc(u) <= 0.0);
   CHECK(u - 0.8 <= 4.0 * eps);
+}
+
+TEST_CASE("the noise of a smooth guard is some times its movement in a rounding of its root",
+          "[narrow]") {
+  const double slope = GENERATE(1e-200, 1.0, 1e200), root = GENERATE(1.0 / 3.0, 1e-3, 0.7);
+  INFO("slope " << slope << ", root " << root);
+  Crossings::Parts parts({[=](double u) { return slope * (root - u); }});
+  Crossings step(parts);
+  step.find(0.0, 1.0);
+  CHECK(step.noise(0) > slope * eps * root);
+  CHECK(step.noise(0) < slope * 16.0 * eps * root);
+}
+
+TEST_CASE("where few of many guards cross, the looks on the way are at these", "[narrow]") {
+  // Twenty guards, of which the last `count` cross at 0.84.
+  const auto calls_a_look = [](int count) {
+    int calls = 0;
+    std::vector<Function> functions;
+    for (int k = 0; k < 20; ++k)
+      functions.push_back(
+          [=, &calls](double u) { return ++calls, (k < 20 - count ? 2.0 : 0.6) - u * u * u; });
+    const auto looks = find(functions).looks;
+    return static_cast<double>(calls) / static_cast<double>(looks + 2);  // and one at each end
+  };
+  CHECK(calls_a_look(1) < 10.0);
+  CHECK(calls_a_look(5) > 18.0);
 }

@@ -141,3 +141,16 @@ TEST_CASE("A series that does not converge within the step leaves its roots open
   a.assign(16, 0.0), a[3] = std::numeric_limits<double>::quiet_NaN();
   CHECK_FALSE(separation.separate(a.data(), 15, 0.0, points));
 }
+
+TEST_CASE("A series whose later terms are small shows its roots") {
+  RootSeparation separation;
+  const auto shows = [&](double late) {
+    std::vector<double> a(16, 0.0), points;
+    a[0] = 0.5, a[1] = -1.0, a[12] = late;
+    return separation.separate(a.data(), 15, 0.0, points);
+  };
+  CHECK(shows(0.0));
+  CHECK(shows(1e-4));
+  CHECK_FALSE(shows(1e-2));
+  CHECK_FALSE(shows(0.5));
+}

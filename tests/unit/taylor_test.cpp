@@ -80,6 +80,21 @@ TEST_CASE("a step ends where one of the last two terms is a tolerance", "[taylor
   CHECK(taylor::length_of(8, [](int k) { return k > 6 ? 0.0 : 1e6; }) < 1.0);
 }
 
+TEST_CASE("a step that failed is followed by a shorter one, by its error", "[taylor]") {
+  const int p = GENERATE(4, 15, 30);
+  using taylor::shorter;
+  CHECK(shorter(1.0 + 1e-9, p) < 0.99);  // just too long
+  CHECK(shorter(1.0 + 1e-9, p) > 0.5);
+  // The error is of order p + 1: the step that has the right one, and a margin.
+  const double error = std::pow(2.0, p + 1);
+  CHECK(shorter(error, p) < 0.5);
+  CHECK(shorter(error, p) > 0.25);
+  for (const double none : {infinite, std::nan(""), 1e300}) {
+    CHECK(shorter(none, p) < 0.25);  // it says nothing of the length
+    CHECK(shorter(none, p) > 0.01);
+  }
+}
+
 TEST_CASE("Taylor is within some tolerances of the closed form at each of them", "[taylor]") {
   const Leaf leaf = oscillator();
   for (const double rtol : {1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-14}) {

@@ -13,7 +13,7 @@ Preconditioner::Preconditioner(const Sparsity& places)
       diagonal_(sparse_layout(places).diagonal),
       matrix_(sparse_matrix(places)),
       lu_() {
-  lu_.setDroptol(thresholds::dropped), lu_.setFillfactor(thresholds::kept_fill);
+  lu_.setDroptol(thresholds::dropped);
   lu_.analyzePattern(matrix_);
 }
 

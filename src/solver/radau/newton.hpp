@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "saltus/solver/detail/radau/convergence.hpp"
+#include "saltus/solver/detail/radau/residual.hpp"
 #include "saltus/solver/detail/radau/stage_polynomial.hpp"
 #include "saltus/solver/detail/solver.hpp"
 #include "saltus/solver/detail/thresholds.hpp"
@@ -85,16 +86,11 @@ class Newton {
     residual = z.col(S - 1);
     for (int j = 0; j < S; ++j) residual -= problem.h * RadauTable<S>::a[S - 1][j] * f.col(j);
     if (residual.cwiseProduct(tolerance_).norm() <= problem.allowed) return true;
-    for (Index i = 0; i < n_; ++i)
-      x_[i] = (problem.x0[i] + z(i, S - 1)) * (1.0 + tuning::seen_change);
+    for (Index i = 0; i < n_; ++i) x_[i] = slightly_changed(problem.x0[i] + z(i, S - 1));
     auto moved = d_.col(1);
     machine_->derivative(problem.t0 + problem.h, x_.data(), &d_(0, 1));
-    constexpr double roundings = tuning::residual_roundings * thresholds::eps;
     for (Index i = 0; i < n_; ++i) {
-      const double noise =
-          std::abs(moved[i] - f(i, S - 1)) / tuning::seen_change + std::abs(f(i, S - 1));
-      if (!(std::abs(residual[i]) <= roundings * (std::abs(x_[i]) + problem.h * noise)))
-        return false;
+      if (!rounding_explains(residual[i], x_[i], problem.h, f(i, S - 1), moved[i])) return false;
     }
     return true;
   }
@@ -151,7 +147,7 @@ class Newton {
     return Eigen::Map<const Eigen::Matrix<double, S, S, Eigen::RowMajor>>(&values[0][0]);
   }
   /// [tolerances] Some roundings of the states, which are at least rtol of their size.
-  double rounding() const { return tuning::room_roundings * thresholds::eps / options_.rtol; }
+  double rounding() const { return rounding_of(options_.rtol); }
 
   Machine* machine_;
   SolverOptions options_;

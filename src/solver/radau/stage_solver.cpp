@@ -85,10 +85,8 @@ bool StageSolver::keep() {
   factor_ = newton.factor();
   ++age_;
   if (!std::exchange(failed_, false)) doubts_ = std::max(doubts_ - 1, 0);
-  const bool contracts =
-      newton.iterations() <= tuning::keeps_iterations || newton.theta() <= tuning::keeps_to;
   const bool old = machine_->plan().nx <= thresholds::fresh_jacobian && age_ >= tuning::oldest;
-  known_ = known_ && contracts && !old;
+  known_ = known_ && newton.keeps_jacobian() && !old;
   return known_;
 }
 

@@ -66,10 +66,8 @@ class StageSolver {
   bool recover(Verdict verdict, const Step& step);
   /// Whether the leaves' own Jacobians are found wrong, and differences will take their place.
   bool doubt(const Step& step);
-  /// [tolerances] What Newton's iteration may leave.
-  double room() const {
-    return std::max(tuning::newton_room, tuning::room_roundings * thresholds::eps / options_.rtol);
-  }
+  /// [tolerances] The error that Newton's iteration may leave.
+  double room() const { return newton_room(options_.rtol); }
 
   Machine* machine_;
   SolverOptions options_;

@@ -11,8 +11,8 @@
 #include "saltus/solver/detail/step_size.hpp"
 #include "saltus/solver/detail/step_solver.hpp"
 #include "saltus/solver/detail/taylor.hpp"
-#include "saltus/solver/detail/taylor/hidden.hpp"
 #include "saltus/solver/detail/taylor/step_rule.hpp"
+#include "saltus/solver/detail/taylor/tuning.hpp"
 
 namespace saltus::taylor {
 
@@ -109,7 +109,7 @@ class TaylorSolver final : public StepSolver<TaylorSolver> {
     });
     const bool bounded = std::isfinite(h) || std::isfinite(t_stop);
     if (bounded && !hides_) return h;
-    return std::min(h, longest_ > 0.0 ? hidden_growth * longest_ : short_step(t_stop));
+    return std::min(h, longest_ > 0.0 ? tuning::hidden_growth * longest_ : short_step(t_stop));
   }
   /// The first step of a run for which the series sets no bound, or may hide one.
   double short_step(double t_stop) {
@@ -124,8 +124,9 @@ class TaylorSolver final : public StepSolver<TaylorSolver> {
   /// the step in tolerances, as the end of the step shows it; also as its inside shows it, where
   /// the series may hide something.
   double end_of_step() {
-    for (int j = 1; hides_ && j < hidden_looks; ++j) {
-      const double error = error_at(length_ * j / hidden_looks, t0_ + length_ * j / hidden_looks);
+    for (int j = 1; hides_ && j < tuning::hidden_looks; ++j) {
+      const double error =
+          error_at(length_ * j / tuning::hidden_looks, t0_ + length_ * j / tuning::hidden_looks);
       if (!(error <= 1.0)) return error;
     }
     const double error = error_at(length_, t1_);

@@ -44,7 +44,7 @@ Lowering::Form Lowering::scaled(Form form, Node factor) {
   return form;
 }
 
-/// The row of a form that is one; otherwise the form is kept until somebody needs its row.
+/// The row of a form that is one; otherwise the form is kept until its row is needed.
 Index Lowering::keep(Node node, Form form) {
   if (form.empty()) return zero_row;
   if (form.size() == 1 && form[0].factor == n(1.0).id) return form[0].row;

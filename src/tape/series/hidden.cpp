@@ -20,17 +20,32 @@ bool decays(Op op) {
          op == Op::tanh;
 }
 
+/// The degree of a power. That of an exponent which varies has no bound.
+double degree_of_power(const Graph& graph, const Expression& e, const std::array<double, 3>& of) {
+  if (const auto exponent = graph.value(e.operands[1])) return of[0] * std::abs(*exponent);
+  return of[0] + of[1] > 0.0 ? hidden_degree : 0.0;
+}
+
 /// The degree of an expression in functions of time and states, from those of its operands.
 double degree_of(const Graph& graph, const Expression& e, const std::array<double, 3>& of) {
-  if (e.op == Op::time || e.op == Op::continuous_state) return 1.0;
-  if (e.op == Op::mul || e.op == Op::div) return of[0] + of[1];
   const double largest = *std::ranges::max_element(of);
-  if (e.op == Op::add || e.op == Op::sub || e.op == Op::neg || e.op == Op::select) return largest;
-  if (e.op == Op::pow) {
-    const auto exponent = graph.value(e.operands[1]);
-    return exponent ? of[0] * std::abs(*exponent) : of[0] + of[1] > 0.0 ? hidden_degree : 0.0;
+  switch (e.op) {
+    case Op::time:
+    case Op::continuous_state:
+      return 1.0;
+    case Op::mul:
+    case Op::div:
+      return of[0] + of[1];
+    case Op::add:
+    case Op::sub:
+    case Op::neg:
+    case Op::select:
+      return largest;
+    case Op::pow:
+      return degree_of_power(graph, e, of);
+    default:
+      return largest > 0.0 ? 1.0 : 0.0;
   }
-  return largest > 0.0 ? 1.0 : 0.0;
 }
 
 }  // namespace

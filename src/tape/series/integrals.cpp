@@ -1,5 +1,5 @@
 // Functions that are known by their derivative. The newest coefficient of an operand has a term of
-// its own, so that nobody waits for the others.
+// its own, so that the others are summed before it is known.
 #include "kernel.hpp"
 
 namespace saltus::tape::series {

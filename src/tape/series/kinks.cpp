@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <iterator>
 
 #include "../copy.hpp"
 #include "saltus/tape/series.hpp"
@@ -7,26 +8,12 @@ namespace saltus::tape {
 
 namespace {
 
-bool is_smooth(Op op) {
-  switch (op) {
-    case Op::abs:
-    case Op::floor:
-    case Op::ceil:
-    case Op::trunc:
-    case Op::rint:
-    case Op::sign:
-    case Op::copysign:
-    case Op::mod:
-    case Op::fmod:
-    case Op::floor_divide:
-    case Op::minimum:
-    case Op::maximum:
-    case Op::select:
-      return false;
-    default:
-      return !is_truth(op);
-  }
-}
+/// The operations with a jump or a kink, besides those that compare.
+constexpr Op kinked[] = {Op::abs,      Op::floor,   Op::ceil,  Op::trunc,        Op::rint,
+                         Op::sign,     Op::mod,     Op::fmod,  Op::floor_divide, Op::minimum,
+                         Op::copysign, Op::maximum, Op::select};
+
+bool is_smooth(Op op) { return !is_truth(op) && std::ranges::find(kinked, op) == std::end(kinked); }
 
 }  // namespace
 

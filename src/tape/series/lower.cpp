@@ -2,8 +2,15 @@
 
 namespace saltus::tape::series {
 
+namespace {
+
+/// Whether an operation of one operand has a derivative everywhere: those before `floor`.
+bool is_smooth_unary(Op op) { return operand_count(op) == 1 && op < Op::floor && op != Op::abs; }
+
+}  // namespace
+
 Lowering::Lowering(Graph& graph, Program& program, std::span<const Node> roots)
-    : graph_(graph), program_(program) {
+    : Helpers(graph), program_(program) {
   program_.rows = 1 + program_.states;  // the row of zeros, the states
   uses_.assign(static_cast<std::size_t>(graph_.size()), 0);
   for (const Node wanted : roots) ++uses_[static_cast<std::size_t>(wanted.id)];
@@ -70,7 +77,10 @@ Index Lowering::lower(Node node, const Expression& e) {
   for (int k = 0; k < operand_count(e.op); ++k) {
     varies = varies || known(e.operands[static_cast<std::size_t>(k)]) != zero_row;
   }
-  if (!varies) return zero_row;
+  return varies ? lower_varying(node, e) : zero_row;
+}
+
+Index Lowering::lower_varying(Node node, const Expression& e) {
   const auto [a, b, c] = e.operands;
   switch (e.op) {
     case Op::add:
@@ -87,9 +97,7 @@ Index Lowering::lower(Node node, const Expression& e) {
     case Op::hypot:
       return add(root, {.a = row(sum_of_squares(a, b)), .value = node.id});
     default:
-      return operand_count(e.op) == 1 && e.op < Op::floor && e.op != Op::abs
-                 ? lower_unary(node, e)
-                 : lower_kinked(node, e);
+      return is_smooth_unary(e.op) ? lower_unary(node, e) : lower_kinked(node, e);
   }
 }
 

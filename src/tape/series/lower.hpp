@@ -4,13 +4,14 @@
 #include <unordered_map>
 #include <vector>
 
+#include "helpers.hpp"
 #include "kernels.hpp"
 
 namespace saltus::tape::series {
 
 /// Appends to a program what its expressions need. Operations without a kernel of their own get
 /// helping expressions, which are added to the graph.
-class Lowering {
+class Lowering : Helpers {
  public:
   /// The states have rows already. `roots` are the expressions that will be asked for.
   Lowering(Graph& graph, Program& program, std::span<const Node> roots);
@@ -32,6 +33,7 @@ class Lowering {
   Index combine(const Form& form);
 
   Index lower(Node node, const Expression& e);
+  Index lower_varying(Node node, const Expression& e);
   Index lower_kinked(Node node, const Expression& e);
   Index lower_unary(Node node, const Expression& e);
   Index lower_product(Node node, Node a, Node b);
@@ -50,13 +52,7 @@ class Lowering {
   Index& known(Node node);
 
   static Node node(Index value) { return {static_cast<int>(value)}; }
-  Node n(double value) { return graph_.constant(value); }
-  Node of(Op op, Node a) { return graph_.unary(op, a); }
-  Node of(Op op, Node a, Node b) { return graph_.binary(op, a, b); }
-  Node times(Node a, Node b) { return of(Op::mul, a, b); }
-  Node sum_of_squares(Node a, Node b) { return of(Op::add, times(a, a), times(b, b)); }
 
-  Graph& graph_;
   Program& program_;
   static constexpr Index unknown = -1, linear = -2;
   std::vector<Index> rows_;  ///< of each node, or what is known of it: `linear` has a form, no row

@@ -1,5 +1,5 @@
 // Products, quotients, roots and powers. The newest coefficient of an operand has a term of its
-// own, so that nobody waits for the others.
+// own, so that the others are summed before it is known.
 #include <cmath>
 
 #include "kernel.hpp"

@@ -1,4 +1,4 @@
-"""5.6a: after a failure the context is the last accepted state, and a run goes on from it."""
+"""After a failure the context is the last accepted state, and a run goes on from it."""
 
 import math
 
@@ -58,7 +58,7 @@ def simulate(block, context, method):
 @pytest.mark.parametrize("since", [0.0, 0.7, 1.3])
 @pytest.mark.parametrize("place", PLACES)
 @pytest.mark.parametrize("method", METHODS)
-def test_5_6a_the_context_is_accepted_and_the_run_goes_on(method, place, since, failure):
+def test_the_context_is_accepted_and_the_run_goes_on(method, place, since, failure):
     block = Fragile(place, since, failure)
     failed = simulate(block, block.create_context(), method)
     assert failed.status in ("failed", "interrupted")
@@ -74,13 +74,13 @@ def test_5_6a_the_context_is_accepted_and_the_run_goes_on(method, place, since, 
     rest = simulate(block, context, method)
     names = [(event.name, event.kind) for event in whole.events]
     assert [(e.name, e.kind) for e in [*failed.events, *rest.events]] == names
-    # Two runs within the tolerances 1e-6 |x| + 1e-8, with |x| <= 1; ten tolerances each (2.9).
+    # Two runs within the tolerances 1e-6 |x| + 1e-8, with |x| <= 1; ten tolerances each.
     assert rest.context.continuous_state == pytest.approx(whole.context.continuous_state, abs=2e-5)
     assert np.array_equal(rest.context.discrete_state, whole.context.discrete_state)
 
 
 @pytest.mark.parametrize("method", METHODS)
-def test_5_6a_a_guard_that_is_not_finite_leaves_the_state_of_the_last_row(method):
+def test_a_guard_that_is_not_finite_leaves_the_state_of_the_last_row(method):
     """x' = 1 from 0.25; a step ends where the guard is NaN."""
     block = saltus.LeafSystem(name="leaf")
     block.declare_continuous_state([0.25], ode=lambda t, s: [1.0])

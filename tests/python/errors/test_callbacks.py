@@ -1,4 +1,4 @@
-"""6.2: what a callback raises comes out as it was, from every kind of callback, by every method."""
+"""What a callback raises comes out as it was, from every kind of callback, by every method."""
 
 import traceback
 
@@ -30,7 +30,7 @@ def check_arrived(raised, error, where):
 
 
 @pytest.mark.parametrize(("where", "method"), CASES)
-def test_6_2_what_a_callback_raises_comes_out_as_it_was(where, method):
+def test_what_a_callback_raises_comes_out_as_it_was(where, method):
     error = Trouble("mine", 3)
     system = Everything(after(0.6, where, lambda: say(error)))
     with pytest.raises(Trouble) as caught:
@@ -40,7 +40,7 @@ def test_6_2_what_a_callback_raises_comes_out_as_it_was(where, method):
 
 
 @pytest.mark.parametrize(("where", "method"), CASES)
-def test_6_2_with_throw_off_it_is_the_cause_beside_what_was_computed(where, method):
+def test_with_throw_off_it_is_the_cause_beside_what_was_computed(where, method):
     error = Trouble("mine", 3)
     system = Everything(after(0.6, where, lambda: say(error)))
     results = go(system, method=method, throw=False)
@@ -51,7 +51,7 @@ def test_6_2_with_throw_off_it_is_the_cause_beside_what_was_computed(where, meth
 
 
 @pytest.mark.parametrize(("where", "method"), CASES)
-def test_6_4_a_simulator_shows_what_it_had_and_can_be_initialized_again(where, method):
+def test_a_simulator_shows_what_it_had_and_can_be_initialized_again(where, method):
     error = Trouble("mine", 3)
     system = Everything(after(0.6, where, lambda: say(error)))
     simulator = saltus.Simulator(
@@ -74,7 +74,7 @@ def test_6_4_a_simulator_shows_what_it_had_and_can_be_initialized_again(where, m
 
 @pytest.mark.parametrize("method", METHODS)
 @pytest.mark.parametrize("where", CALLBACKS)
-def test_6_2_a_callback_that_raises_at_once_is_called_no_more(where, method):
+def test_a_callback_that_raises_at_once_is_called_no_more(where, method):
     """Neither the solver nor the shrinking of its step tries again."""
     calls = []
 
@@ -88,7 +88,7 @@ def test_6_2_a_callback_that_raises_at_once_is_called_no_more(where, method):
 
 
 @pytest.mark.parametrize("method", METHODS)
-def test_6_2_an_interrupt_that_raises_ends_the_run_like_a_callback(method):
+def test_an_interrupt_that_raises_ends_the_run_like_a_callback(method):
     """An endless span, so that the 20 ms after which it is asked come."""
     error = Trouble("mine", 3)
     x = Integrator(name="x")
@@ -109,7 +109,7 @@ def test_6_2_an_interrupt_that_raises_ends_the_run_like_a_callback(method):
 
 @pytest.mark.parametrize("method", METHODS)
 @pytest.mark.parametrize("block", [FunctionBlock, ReduceBlock])
-def test_6_2_a_function_in_a_diagram_raises_as_it_was(block, method):
+def test_a_function_in_a_diagram_raises_as_it_was(block, method):
     error = Trouble("mine", 3)
     bad = [True]
 

@@ -1,4 +1,4 @@
-"""6.4: Ctrl-C ends a run at once with the partial result, whatever the run is doing."""
+"""Ctrl-C ends a run at once with the partial result, whatever the run is doing."""
 
 import os
 import signal
@@ -54,7 +54,7 @@ def check_partial(results):
 
 @pytest.mark.parametrize("method", METHODS)
 @pytest.mark.parametrize("where", ["ode", "guard", "update"])
-def test_6_4_ctrl_c_in_a_python_callback(where, method):
+def test_ctrl_c_in_a_python_callback(where, method):
     system = Slow(where)
     error = pressed(system.begun, lambda: go(system, end=1e9, method=method))
     assert system.calls < 50 + 200  # 0.2 s of calls at most
@@ -63,7 +63,7 @@ def test_6_4_ctrl_c_in_a_python_callback(where, method):
 
 
 @pytest.mark.parametrize("method", METHODS)
-def test_6_4_ctrl_c_in_blocks_without_python(method):
+def test_ctrl_c_in_blocks_without_python(method):
     """x rises to 1 and is set back to 0, for ever."""
     builder = saltus.DiagramBuilder()
     one, x, full = builder.add(
@@ -87,7 +87,7 @@ def test_6_4_ctrl_c_in_blocks_without_python(method):
     assert saltus.simulate(diagram, context, (0.0, 1.5), **options).status == "reached_end"
 
 
-def test_6_4_the_simulator_can_be_initialized_again():
+def test_the_simulator_can_be_initialized_again():
     system = Slow("ode")
     simulator = saltus.Simulator(system, recorded_signals={"y": system.output()})
     simulator.initialize(system.create_context())

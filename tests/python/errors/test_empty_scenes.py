@@ -1,4 +1,4 @@
-"""6.3: no time, no state, no guard, no output: a legal scene each."""
+"""No time, no state, no guard, no output: a legal scene each."""
 
 import pytest
 import saltus
@@ -8,7 +8,7 @@ from troubles import METHODS, Everything, go
 
 @pytest.mark.parametrize("method", METHODS)
 @pytest.mark.parametrize("time", [0.0, 0.25, -1.0])
-def test_6_3_a_run_of_no_length_has_the_rows_of_its_instant(method, time):
+def test_a_run_of_no_length_has_the_rows_of_its_instant(method, time):
     system = Everything()
     context = system.create_context(time)
     results = saltus.simulate(
@@ -28,7 +28,7 @@ def test_6_3_a_run_of_no_length_has_the_rows_of_its_instant(method, time):
 
 
 @pytest.mark.parametrize("method", METHODS)
-def test_6_3_a_block_with_nothing_in_it_runs(method):
+def test_a_block_with_nothing_in_it_runs(method):
     system = saltus.LeafSystem(name="nothing")
     results = go(system, method=method)
     assert (results.status, results.context.time) == ("reached_end", 2.0)
@@ -40,7 +40,7 @@ def test_6_3_a_block_with_nothing_in_it_runs(method):
     ("source", "expected"),
     [(Constant(2.0), {2.0}), (Pulse(period=1.0), {0.0, 1.0}), (Sine(name="sine"), None)],
 )
-def test_6_3_a_scene_without_state_shows_its_outputs(source, expected):
+def test_a_scene_without_state_shows_its_outputs(source, expected):
     results = go(source)
     assert results.status == "reached_end"
     assert (results.time[0], results.time[-1]) == (0.0, 2.0)
@@ -48,7 +48,7 @@ def test_6_3_a_scene_without_state_shows_its_outputs(source, expected):
 
 
 @pytest.mark.parametrize("method", METHODS)
-def test_6_3_a_guard_without_state_is_located(method):
+def test_a_guard_without_state_is_located(method):
     class Alarm(saltus.LeafSystem):
         def __init__(self):
             super().__init__(name="alarm")
@@ -59,7 +59,7 @@ def test_6_3_a_guard_without_state_is_located(method):
 
 
 @pytest.mark.parametrize("method", METHODS)
-def test_6_3_a_state_without_equation_guard_or_output_stays(method):
+def test_a_state_without_equation_guard_or_output_stays(method):
     class Still(saltus.LeafSystem):
         def __init__(self):
             super().__init__(name="still")

@@ -1,4 +1,4 @@
-"""6.1: a name with a dot is refused where names make paths; that of an event may have one."""
+"""A name with a dot is refused where names make paths; that of an event may have one."""
 
 import pytest
 import saltus
@@ -25,7 +25,7 @@ def leaf(name=None, **declared):
         (lambda: leaf("b").declare_dynamic_parameter("k.l", 1.0), "block 'b': parameter 'k.l'"),
     ],
 )
-def test_6_1_a_dot_is_refused_where_the_name_is_made(make, what):
+def test_a_dot_is_refused_where_the_name_is_made(make, what):
     with pytest.raises(saltus.ModelError) as caught:
         make()
     assert str(caught.value) == (
@@ -34,7 +34,7 @@ def test_6_1_a_dot_is_refused_where_the_name_is_made(make, what):
     )
 
 
-def test_6_1_a_diagram_and_its_ports_have_no_dot_and_the_builder_goes_on():
+def test_a_diagram_and_its_ports_have_no_dot_and_the_builder_goes_on():
     builder = saltus.DiagramBuilder()
     gain = builder.add(Gain(2.0, name="gain"))
     with pytest.raises(saltus.ModelError, match=r"input 'u\.v': a dot separates"):
@@ -84,7 +84,7 @@ def test_3_guards_of_solve_may_have_dots():
 
 
 @pytest.mark.parametrize("kept", [False, True])
-def test_5_3_times_of_a_name_are_all_its_firings(kept, tmp_path):
+def test_times_of_a_name_are_all_its_firings(kept, tmp_path):
     block = leaf("block")
     block.declare_discrete_state([0.0])
     block.declare_zero_crossing(
@@ -109,7 +109,7 @@ def test_5_3_times_of_a_name_are_all_its_firings(kept, tmp_path):
 
 
 @pytest.mark.parametrize("name", ["x", "z", "mode"])
-def test_6_1_a_parameter_called_as_a_state_is_two_things(name):
+def test_a_parameter_called_as_a_state_is_two_things(name):
     block = leaf("b")
     block.declare_discrete_state([0.0])
     block.declare_dynamic_parameter(name, 1.0)

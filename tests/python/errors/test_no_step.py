@@ -1,4 +1,4 @@
-"""6.2: a run that cannot take another step says so, and keeps what it has."""
+"""A run that cannot take another step says so, and keeps what it has."""
 
 import numpy as np
 import pytest
@@ -16,7 +16,7 @@ class Blow(saltus.LeafSystem):
 
 
 @pytest.mark.parametrize("method", METHODS)
-def test_6_2_a_solution_that_blows_up_ends_at_that_time(method):
+def test_a_solution_that_blows_up_ends_at_that_time(method):
     system = Blow()
     with np.errstate(over="ignore", invalid="ignore"):
         with pytest.raises(
@@ -37,7 +37,7 @@ def test_6_2_a_solution_that_blows_up_ends_at_that_time(method):
 
 
 @pytest.mark.parametrize("method", ["dopri5", "auto", "adams", "bdf", "radau"])
-def test_6_2_a_step_below_the_least_names_the_option(method):
+def test_a_step_below_the_least_names_the_option(method):
     system = Blow()
     with pytest.raises(saltus.SimulationError, match="below min_minor_step_size") as caught:
         go(system, method=method, min_minor_step_size=1e-3)
@@ -47,7 +47,7 @@ def test_6_2_a_step_below_the_least_names_the_option(method):
     assert go(system, end=0.4, method=method).status == "reached_end"
 
 
-def test_6_2_a_first_step_below_the_least_is_raised_to_it():
+def test_a_first_step_below_the_least_is_raised_to_it():
     class Still(saltus.LeafSystem):
         def __init__(self):
             super().__init__(name="still")
@@ -57,7 +57,7 @@ def test_6_2_a_first_step_below_the_least_is_raised_to_it():
 
 
 @pytest.mark.parametrize("method", METHODS)
-def test_5_5_a_step_limit_keeps_the_rows_and_the_events(method):
+def test_a_step_limit_keeps_the_rows_and_the_events(method):
     system = Everything()
     with pytest.raises(saltus.SimulationError, match=r"^t = 0.5 s: .*max_major_steps") as caught:
         go(system, method=method, max_major_steps=3)

@@ -1,4 +1,4 @@
-"""6.2: NaN or Inf ends a run, and the message says from which function of which block, and when."""
+"""NaN or Inf ends a run, and the message says from which function of which block, and when."""
 
 import re
 
@@ -29,7 +29,7 @@ CASES = [(where, value) for where in CALLBACKS for value in (np.nan, np.inf)]
 
 @pytest.mark.parametrize("method", METHODS)
 @pytest.mark.parametrize(("where", "value"), CASES)
-def test_6_2_a_value_that_is_not_finite_is_named_with_its_block_and_its_time(where, value, method):
+def test_a_value_that_is_not_finite_is_named_with_its_block_and_its_time(where, value, method):
     system = Everything(after(0.6, where, lambda: value))
     with np.errstate(invalid="ignore"), pytest.raises(saltus.SimulationError) as caught:
         go(system, method=method)
@@ -50,7 +50,7 @@ def test_6_2_a_value_that_is_not_finite_is_named_with_its_block_and_its_time(whe
     check_works(system, method)
 
 
-def test_6_2_the_row_of_an_output_that_is_not_finite_is_left_out_or_shows_it():
+def test_the_row_of_an_output_that_is_not_finite_is_left_out_or_shows_it():
     results = go(Everything(after(0.6, "output", lambda: np.nan)), throw=False)
     y = results.outputs["y"]
     assert np.isnan(y[-1]) or y[-1] == pytest.approx(np.exp(-results.time[-1]), abs=1e-4)
@@ -58,7 +58,7 @@ def test_6_2_the_row_of_an_output_that_is_not_finite_is_left_out_or_shows_it():
 
 @pytest.mark.parametrize("method", METHODS)
 @pytest.mark.parametrize("where", ["ode", "guard", "output"])
-def test_6_2_not_finite_from_the_start_leaves_the_start(where, method):
+def test_not_finite_from_the_start_leaves_the_start(where, method):
     system = Everything(after(-1.0, where, lambda: np.nan))
     with (
         np.errstate(invalid="ignore"),
@@ -83,7 +83,7 @@ def test_where_a_jacobian_is_not_finite_differences_stand_in_and_that_is_told(va
 
 
 @pytest.mark.parametrize("method", METHODS)
-def test_6_2_with_throw_off_it_is_the_cause_in_what_is_returned(method):
+def test_with_throw_off_it_is_the_cause_in_what_is_returned(method):
     results = go(Everything(after(0.6, "reset", lambda: np.nan)), method=method, throw=False)
     assert isinstance(results.cause, saltus.SimulationError)
     assert results.message == str(results.cause)
@@ -91,7 +91,7 @@ def test_6_2_with_throw_off_it_is_the_cause_in_what_is_returned(method):
     check_kept(results, method)
 
 
-def test_2_9a_a_value_behind_an_event_that_is_not_finite_is_no_error():
+def test_a_value_behind_an_event_that_is_not_finite_is_no_error():
     """The square root of x is NaN for x < 0, where the run never gets."""
 
     class Tank(saltus.LeafSystem):

@@ -1,4 +1,4 @@
-"""6.1: values and options that make no sense are refused before a run."""
+"""Values and options that make no sense are refused before a run."""
 
 import math
 
@@ -47,7 +47,7 @@ def refused(call):
         ),
     ],
 )
-def test_6_1_a_context_refuses_wrong_shapes_and_values_that_are_not_finite(system, change, message):
+def test_a_context_refuses_wrong_shapes_and_values_that_are_not_finite(system, change, message):
     context = system.create_context()
     assert refused(lambda: change(context)) == message
     assert context == system.create_context()
@@ -55,7 +55,7 @@ def test_6_1_a_context_refuses_wrong_shapes_and_values_that_are_not_finite(syste
 
 
 @pytest.mark.parametrize("value", [math.nan, math.inf, [1.0, math.nan]])
-def test_6_1_a_parameter_that_is_not_finite_is_refused_where_it_is_given(value):
+def test_a_parameter_that_is_not_finite_is_refused_where_it_is_given(value):
     class Spring(saltus.LeafSystem):
         def __init__(self, k):
             super().__init__(name="spring")
@@ -95,13 +95,13 @@ def test_6_1_a_parameter_that_is_not_finite_is_refused_where_it_is_given(value):
         ),
     ],
 )
-def test_6_1_an_option_that_makes_no_sense_is_refused(system, options, message):
+def test_an_option_that_makes_no_sense_is_refused(system, options, message):
     run = lambda: saltus.simulate(system, system.create_context(), (0.0, 1.0), **options)  # noqa: E731
     assert refused(run).startswith(message)
     check_works(system)
 
 
-def test_6_1_a_time_to_save_at_that_is_not_finite_is_refused(system):
+def test_a_time_to_save_at_that_is_not_finite_is_refused(system):
     refused(
         lambda: saltus.simulate(system, system.create_context(), (0.0, 1.0), save_at=[math.nan])
     )
@@ -120,13 +120,13 @@ def test_6_1_a_time_to_save_at_that_is_not_finite_is_refused(system):
         ((0.0, 1.0, 2.0), "expected a span (begin, end) in seconds, found (0.0, 1.0, 2.0)"),
     ],
 )
-def test_6_1_a_span_that_makes_no_sense_is_refused(system, span, message):
+def test_a_span_that_makes_no_sense_is_refused(system, span, message):
     run = lambda: saltus.simulate(system, system.create_context(), span)  # noqa: E731
     assert refused(run) == f"simulate: {message}"
     check_works(system)
 
 
-def test_6_1_a_run_does_not_go_back(system):
+def test_a_run_does_not_go_back(system):
     simulator = saltus.Simulator(system)
     simulator.initialize(system.create_context())
     simulator.advance_to(1.0)
@@ -141,7 +141,7 @@ def test_6_1_a_run_does_not_go_back(system):
     assert simulator.context.continuous_state == pytest.approx(whole.continuous_state, rel=1e-4)
 
 
-def test_6_1_a_context_that_is_no_context_or_of_another_system_is_refused(system):
+def test_a_context_that_is_no_context_or_of_another_system_is_refused(system):
     for context in (3, {}, "x"):
         message = f"expected a context, such as system.create_context(), found {context!r}"
         run = lambda context=context: saltus.simulate(system, context, (0.0, 1.0))  # noqa: E731
@@ -180,7 +180,7 @@ def test_6_1_a_context_that_is_no_context_or_of_another_system_is_refused(system
         ),
     ],
 )
-def test_6_1_a_declaration_that_is_refused_leaves_the_block_as_it_was(system, declare, message):
+def test_a_declaration_that_is_refused_leaves_the_block_as_it_was(system, declare, message):
     assert refused(lambda: declare(system)).startswith(message)
     check_works(system)
 
@@ -215,5 +215,5 @@ def test_6_1_a_declaration_that_is_refused_leaves_the_block_as_it_was(system, de
         (lambda: saltus.LeafSystem(3), "LeafSystem: expected name: str | None; found name = 3"),
     ],
 )
-def test_6_1_an_argument_of_a_block_that_makes_no_sense_is_refused(make, message):
+def test_an_argument_of_a_block_that_makes_no_sense_is_refused(make, message):
     assert refused(make).startswith(message)

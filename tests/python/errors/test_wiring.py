@@ -1,4 +1,4 @@
-"""6.1: diagrams that cannot be run are refused with the port, the block and what to do; the builder
+"""Diagrams that cannot be run are refused with the port, the block and what to do; the builder
 is as it was, and goes on.
 """
 
@@ -27,7 +27,7 @@ def refused(call):
     return str(caught.value)
 
 
-def test_6_1_an_unconnected_input_is_named_and_can_be_connected_then():
+def test_an_unconnected_input_is_named_and_can_be_connected_then():
     one, x = Constant(1.0, name="one"), Integrator(name="x")
     builder = diagram(blocks=[one, x])
     message = "input 'in' of block 'x' is not connected; connect it or export it"
@@ -36,7 +36,7 @@ def test_6_1_an_unconnected_input_is_named_and_can_be_connected_then():
     assert x_at_one(builder.build()) == pytest.approx([1.0])
 
 
-def test_6_1_an_unconnected_input_of_a_block_that_is_run_alone():
+def test_an_unconnected_input_of_a_block_that_is_run_alone():
     x = Integrator(name="x")
     message = "input 'in' of block 'x' is not connected; connect it to a block, for example a "
     assert refused(lambda: saltus.simulate(x, x.create_context(), (0.0, 1.0))) == (
@@ -44,7 +44,7 @@ def test_6_1_an_unconnected_input_of_a_block_that_is_run_alone():
     )
 
 
-def test_6_1_a_second_connection_to_an_input_leaves_the_first():
+def test_a_second_connection_to_an_input_leaves_the_first():
     one, two, x = Constant(1.0, name="one"), Constant(2.0, name="two"), Integrator(name="x")
     builder = diagram(("one", "x", 0), blocks=[one, two, x])
     message = "input 'in' of block 'x' already has a source, block 'one'; an input takes one"
@@ -53,7 +53,7 @@ def test_6_1_a_second_connection_to_an_input_leaves_the_first():
     assert x_at_one(builder.build()) == pytest.approx([1.0])
 
 
-def test_6_1_an_algebraic_loop_is_printed_as_the_path_of_ports():
+def test_an_algebraic_loop_is_printed_as_the_path_of_ports():
     def blocks():
         return [Adder("++", name="sum"), Gain(0.5, name="half"), Constant(1.0, name="one")]
 
@@ -76,7 +76,7 @@ def test_6_1_an_algebraic_loop_is_printed_as_the_path_of_ports():
     assert x_at_one(broken) == pytest.approx([2.0 * (2.718281828459045**0.5 - 1.0)], rel=1e-5)
 
 
-def test_6_1_a_name_used_twice_is_refused_and_the_first_stays():
+def test_a_name_used_twice_is_refused_and_the_first_stays():
     one = Constant(1.0, name="one")
     builder = diagram(blocks=[one])
     assert refused(lambda: builder.add(Integrator(name="one"))) == (
@@ -115,7 +115,7 @@ def test_6_1_a_name_used_twice_is_refused_and_the_first_stays():
         ),
     ],
 )
-def test_6_1_an_unknown_name_is_answered_with_the_nearest(call, message):
+def test_an_unknown_name_is_answered_with_the_nearest(call, message):
     wires = [("one", "gain", 0), ("gain", "x", 0)]
     blocks = [Constant(1.0, name="one"), Gain(2.0, name="gain"), Integrator(name="x")]
     built = diagram(*wires, blocks=blocks).build()
@@ -137,12 +137,12 @@ def test_6_1_an_unknown_name_is_answered_with_the_nearest(call, message):
         ),
     ],
 )
-def test_6_1_a_signal_of_the_wrong_shape_is_refused(block, message):
+def test_a_signal_of_the_wrong_shape_is_refused(block, message):
     blocks = [Constant([1.0, 2.0, 3.0], name="v"), block]
     assert message == refused(diagram(("v", "k", 0), blocks=blocks).build)
 
 
-def test_6_1_an_output_that_returns_another_number_than_it_declares_is_refused():
+def test_an_output_that_returns_another_number_than_it_declares_is_refused():
     block = ReduceBlock(1, lambda u: u[0], shape=2, boolean=False, name="k")
     built = diagram(("v", "k", 0), blocks=[Constant([1.0, 2.0, 3.0], name="v"), block]).build()
     record = {"y": block.output()}
@@ -150,7 +150,7 @@ def test_6_1_an_output_that_returns_another_number_than_it_declares_is_refused()
     assert message == refused(lambda: saltus.simulate(built, (0, 1), recorded_signals=record))
 
 
-def test_6_1_ports_in_the_wrong_order_are_called_swapped():
+def test_ports_in_the_wrong_order_are_called_swapped():
     one, x = Constant(1.0, name="one"), Integrator(name="x")
     builder = diagram(blocks=[one, x])
     message = refused(lambda: builder.connect(x.input(), one.output()))
@@ -161,7 +161,7 @@ def test_6_1_ports_in_the_wrong_order_are_called_swapped():
     assert x_at_one(builder.build()) == pytest.approx([1.0])
 
 
-def test_6_1_a_port_of_the_other_kind_is_said():
+def test_a_port_of_the_other_kind_is_said():
     one, x = Constant(1.0, name="one"), Integrator(name="x")
     builder = diagram(blocks=[one, x])
     wrong = "expected an output, such as block.output_ports[0], found <input 'in' of 'x'>"
@@ -191,7 +191,7 @@ LOOPS = {
 
 
 @pytest.mark.parametrize("kind", LOOPS)
-def test_6_1_build_refuses_an_algebraic_loop_and_the_builder_goes_on(kind):
+def test_build_refuses_an_algebraic_loop_and_the_builder_goes_on(kind):
     block, wires = LOOPS[kind]()
     assert "algebraic loop" in refused(diagram(*wires, blocks=[block]).build)
     # an inner diagram with an open input is no loop before it is closed
@@ -200,7 +200,7 @@ def test_6_1_build_refuses_an_algebraic_loop_and_the_builder_goes_on(kind):
     assert diagram(("a", "x", 0), ("x", "a", 0), blocks=[block, x]).build().name == "root"
 
 
-def test_6_1_what_is_held_between_instants_is_no_loop():
+def test_what_is_held_between_instants_is_no_loop():
     """A comparison that acts on its own input through a relation."""
     x, above = Integrator(0.0, name="x"), Comparator(">", name="above")
     level, speed = Constant(0.5, name="level"), Gain(-1.0, name="speed")
@@ -229,7 +229,7 @@ WIDTHS = {
 
 
 @pytest.mark.parametrize("kind", WIDTHS)
-def test_6_1_build_refuses_widths_that_do_not_fit(kind):
+def test_build_refuses_widths_that_do_not_fit(kind):
     source, target, *between = WIDTHS[kind]()
     builder = saltus.DiagramBuilder()
     builder.add(source, target)
@@ -246,7 +246,7 @@ def test_6_1_build_refuses_widths_that_do_not_fit(kind):
     )
 
 
-def test_6_1_build_refuses_widths_that_meet_in_an_inner_diagram():
+def test_build_refuses_widths_that_meet_in_an_inner_diagram():
     builder = saltus.DiagramBuilder()
     two = builder.add(Constant([1.0, 2.0], name="two"))
     sum_ = builder.add(Adder("++", name="sum"))
@@ -261,7 +261,7 @@ def test_6_1_build_refuses_widths_that_meet_in_an_inner_diagram():
     assert "block 'sum': expected scalars and vectors of one width" in refused(outer.build)
 
 
-def test_6_1_build_calls_no_function_of_a_user():
+def test_build_calls_no_function_of_a_user():
     calls = []
 
     def doubled(u):
@@ -281,7 +281,7 @@ OTHERS = ["out", None, 0.5]
 
 
 @pytest.mark.parametrize("index", [*OUT_OF_RANGE, *OTHERS])
-def test_6_1_a_port_that_the_block_does_not_have_is_refused_where_it_is_used(index):
+def test_a_port_that_the_block_does_not_have_is_refused_where_it_is_used(index):
     g, h = Constant(1.0, name="g"), Gain(1.0, name="h")
     builder = diagram(blocks=[g, h])
     from_nowhere, to_nowhere = saltus.OutputPort(g, index), saltus.InputPort(h, index)
@@ -300,7 +300,7 @@ def test_6_1_a_port_that_the_block_does_not_have_is_refused_where_it_is_used(ind
     refused(lambda: built.to_dot(recorded_signals=recorded))
 
 
-def test_6_1_a_port_that_the_block_does_not_have_is_named_with_those_it_has():
+def test_a_port_that_the_block_does_not_have_is_named_with_those_it_has():
     g, h = Constant(1.0, name="g"), Gain(1.0, name="h")
     builder = diagram(blocks=[g, h])
     message = refused(lambda: builder.connect(saltus.OutputPort(g, 1), h.input()))
@@ -310,7 +310,7 @@ def test_6_1_a_port_that_the_block_does_not_have_is_named_with_those_it_has():
 
 
 @pytest.mark.parametrize("index", OUT_OF_RANGE)
-def test_6_1_a_port_that_a_diagram_does_not_have_is_refused(index):
+def test_a_port_that_a_diagram_does_not_have_is_refused(index):
     inner = diagram(blocks=[Gain(1.0, name="gain")])
     inner.export_input(inner._children["gain"].input(), "u")
     inner.export_output(inner._children["gain"].output(), "y")

@@ -1,4 +1,4 @@
-"""2.1, 3.4: guards that jump, states that wrap, indices and directions that toggle."""
+"""Guards that jump, states that wrap, indices and directions that toggle."""
 
 from known_events import KINDS, try_scenes
 

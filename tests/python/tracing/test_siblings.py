@@ -1,7 +1,7 @@
 """Functions of one code in one system are traced once, if they read the same values."""
 
 import math
-import time
+import sys
 
 import numpy as np
 import pytest
@@ -147,14 +147,28 @@ def test_the_check_of_one_start_says_nothing_about_another():
     assert [type(one) is Traced for one in found] == [False, True]
 
 
-def test_a_thousand_leaves_are_ready_in_two_seconds():
-    """Of processor time, which is what the machine of the test has; others share its wall clock."""
-    cells = [Cell(f"c{i}", 1.0 + 1e-3 * i) for i in range(1000)]
-    begin = time.process_time()
-    diagram = ring(cells)
-    simulator = saltus.Simulator(diagram)
-    simulator.initialize(diagram.create_context())
-    assert time.process_time() - begin < 2.0
+def calls_until_ready(count):
+    """How many Python functions are called until `count` leaves of different numbers can run."""
+    cells = [Cell(f"c{i}", 1.0 + 1e-3 * i) for i in range(count)]
+    calls = 0
+
+    def note(frame, event, argument):
+        nonlocal calls
+        calls += event == "call"
+
+    sys.setprofile(note)
+    try:
+        diagram = ring(cells)
+        saltus.Simulator(diagram).initialize(diagram.create_context())
+    finally:
+        sys.setprofile(None)
+    return calls
+
+
+def test_the_work_until_many_leaves_are_ready_is_linear_in_their_number():
+    one, few, some, many = (calls_until_ready(count) for count in (1, 50, 100, 200))
+    assert many - some <= 2.1 * (some - few)  # twice as many leaves, and one in twenty more
+    assert many <= 200 * one / 2  # a leaf like one before it is compared at fewer points
 
 
 @pytest.mark.parametrize("shared", [False, True])

@@ -29,8 +29,8 @@ class LeafNumbers {
   std::unordered_map<const LeafSystem*, std::size_t> numbers_;
 };
 
-/// Makes a fixed value an output of the block whose input it feeds, in the plan only: constant, and
-/// behind its own outputs.
+/// Makes a fixed value an output of the block whose input it feeds, in the plan only. It is
+/// constant, and comes after the own outputs of the block.
 inline void add_fixed(Plan& plan, const Structure::FixedInput& fixed, std::size_t number) {
   PlanLeaf& leaf = plan.leaves[number];
   auto declared = std::make_shared<Declarations>(leaf.declared());

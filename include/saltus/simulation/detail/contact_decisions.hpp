@@ -3,6 +3,7 @@
 // side (docs/semantics.md, 4.5).
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "saltus/simulation/detail/thresholds.hpp"
@@ -44,6 +45,11 @@ Waking decide_waking(bool carried, double g, int pressed, const MayBeCarried& ma
   if (carried) return Waking::release;
   if (may_be_carried()) return Waking::carry;
   return g * pressed < 0.0 ? Waking::release : Waking::stay;
+}
+
+/// The error of a contact whose guard left it by rounding, and was `g` then.
+inline double error_after_wavering(double error, double g) {
+  return std::max(error, thresholds::wavered * std::abs(g));
 }
 
 }  // namespace saltus

@@ -294,4 +294,9 @@ constexpr RelationArming decide_relation_arming(bool opaque, int sign, int side,
   return frozen ? RelationArming::within_value : RelationArming::by_flow;
 }
 
+/// Whether a commit that moved a guard from `before` to `now` may have meant to put it at zero.
+inline bool stops_near_zero(double before, double now) {
+  return std::abs(now) <= thresholds::clearly_across * std::abs(now - before);
+}
+
 }  // namespace saltus

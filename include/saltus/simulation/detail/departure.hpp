@@ -127,17 +127,24 @@ class Departure : public FlowProbe {
     for (double furthest = unknown;; d *= thresholds::look_growth) {
       const double g = guard_after(d, slot);
       const int side = sign_of(g);
-      const bool may_be = side != 0 && (side == expected || expected == either_side);
-      if (may_be && is_beyond_doubt(g, error)) return result.side = side, result;
+      if (is_expected(side, expected) && is_beyond_doubt(g, error))
+        return result.side = side, result;
       const double rounding = opaque ? 0.0 : rounding_after(d, slot, g);
       result.rounding = std::max(error, rounding);
       if (std::abs(g) > result.rounding && has_moved(group)) return result.side = side, result;
-      // The look ends a little beyond the tolerance: the solver finds later events.
-      if (furthest == unknown)
-        furthest = std::min(longest_, std::max(thresholds::furthest_look * d, lift_time(group, d)));
+      if (furthest == unknown) furthest = furthest_look(group, d);
       if (std::abs(g) > rounding && !opaque) furthest = longest_;
       if (d * thresholds::look_growth > furthest) return result;
     }
+  }
+
+  static bool is_expected(int side, int expected) {
+    return side != 0 && (side == expected || expected == either_side);
+  }
+
+  /// The time of the last look, from that of the first: a little beyond a move by the tolerance.
+  double furthest_look(const GuardGroup& group, double d) const {
+    return std::min(longest_, std::max(thresholds::furthest_look * d, lift_time(group, d)));
   }
 
   /// Whether a guard moves as much as the states do.

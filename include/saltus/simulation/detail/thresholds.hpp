@@ -11,7 +11,7 @@ namespace saltus::thresholds {
 
 /// [1] Relative disturbance of x, f and t by which the rounding of a guard is measured: far above
 /// eps, so that the difference of two guards has eight digits, and so small that curvature, of
-/// order 1e-14, shows in none of them.
+/// order 1e-14, shows in none of them. tests/unit/departure_test.cpp
 inline constexpr double disturbance = 1e-7;
 /// [eps] Rounding that a state carries after a step: a dozen stages, each with one rounding, and
 /// the reset map. tests/unit/departure_test.cpp
@@ -31,6 +31,7 @@ inline constexpr double location_error = 4.0;
 inline constexpr double kept_error = 1.01;
 /// [of its movement by a commit] A guard that a commit moved further beyond zero than this part of
 /// the whole movement is across: a rounding of that size would leave three digits.
+/// tests/unit/decisions_test.cpp
 inline constexpr double clearly_across = 1e-3;
 /// [tolerances of the states] A guard that leaves a falling surface is at zero within this error:
 /// its distance grows as the third power of time, while the error of the state grows as the first.
@@ -43,6 +44,7 @@ inline constexpr double lift_off_tolerances = 30.0;
 /// tests/unit/departure_test.cpp
 inline constexpr double look_growth = 8.0;
 /// [first looks] Time of the furthest look: six looks. The solver finds later events.
+/// tests/unit/departure_test.cpp
 inline constexpr double furthest_look = 3e5;
 /// [of the run] Time of the first look at a guard that no state moves.
 /// tests/semantics/zeno_false_rest_test.cpp
@@ -54,7 +56,7 @@ inline constexpr double slow_state_of_run = 1e-3;
 /// is beyond doubt, and its rounding need not be measured. tests/unit/departure_test.cpp (as large)
 inline constexpr double doubtless_move = 1e-3;
 /// [lift times] and [of the run]: the furthest look that waits for curvature to exceed rounding.
-/// tests/laws/ball_far_test.cpp
+/// tests/unit/departure_test.cpp
 inline constexpr double lift_times = 16.0;
 inline constexpr double lift_of_run = 1e-2;
 /// [s] A run that is shorter than this gives no time scale to look ahead by. [1] The time scale of
@@ -65,6 +67,7 @@ inline constexpr double short_run_looks = 1e9;
 /// does not count, and short enough that no flow leaves its range. tests/unit/departure_test.cpp
 inline constexpr double speed_looks = 1e6;
 /// [of the difference of two slopes] The curvature that extrapolation leaves in the slope.
+/// tests/unit/departure_test.cpp
 inline constexpr double slope_noise = 1e-6;
 /// [of the slope before a reset] A smaller slope is a stop, not a passage.
 /// tests/unit/decisions_test.cpp
@@ -77,30 +80,35 @@ inline constexpr double stopped_share = 1e-3;
 // --- contacts with surfaces that move: contact.cpp, contact_guards.cpp
 
 /// [rounds] of Aitken's extrapolation: one for an affine map, one to verify that it is affine, and
-/// four for maps that are nearly affine. tests/unit/contact_guards_test.cpp
+/// four for maps that are nearly affine. tests/unit/contact_test.cpp
 inline constexpr int fixed_point_rounds = 6;
 /// [eps of the size of a state] A reset that moves a state by less has reached its fixed point.
+/// tests/unit/contact_test.cpp
 inline constexpr double fixed_point_roundings = 64.0;
 /// [eps] Relative movement of a state by curvature. It leaves nine digits above the rounding,
-/// enough to know the sign. tests/semantics/zeno_moving_frame_test.cpp (as small)
+/// enough to know the sign. tests/unit/contact_test.cpp
 inline constexpr double visible_lift = 1e9 * eps;
 /// [of the run] and [eps |t|]: the shortest and the longest look ahead.
+/// tests/unit/contact_test.cpp
 inline constexpr double brief_of_run = 1e-9;
 inline constexpr double brief_roundings = 1024.0;
 inline constexpr double look_ahead_of_run = 1e-3;
 /// [looks] that find out whether a surface moves. Each is `probe_growth` times as far as the one
-/// before: up to 3e4 looks ahead. tests/unit/contact_guards_test.cpp
+/// before: up to 3e4 looks ahead. tests/unit/contact_guards_test.cpp (as small)
 /// tests/semantics/zeno_moving_frame_test.cpp
 inline constexpr int probes = 4;
 inline constexpr double probe_growth = 30.0;
 /// [eps of the size of a state] A fixed point that differs from the held state by more moves.
+/// tests/unit/contact_test.cpp
 inline constexpr double moved_roundings = 1e3;
 /// [1] A force on the surface counts as changed if it changes by more than this part.
+/// tests/unit/contact_test.cpp
 inline constexpr double changed_force = 1e-5;
 /// [errors] A held guard that is further beyond zero than this has moved into its surface.
 /// tests/unit/contact_decisions_test.cpp
 inline constexpr double clearly_beyond = 1e3;
-/// [1] The error of a contact grows by this factor if the guard left it by rounding.
+/// [1] The error of a contact grows by this factor if the guard left it by rounding: the next
+/// rounding is as large. tests/unit/contact_decisions_test.cpp
 inline constexpr double wavered = 2.0;
 
 // --- Zeno points: zeno.hpp, holds.cpp

@@ -10,7 +10,7 @@
 
 namespace saltus {
 
-/// The thread that uses a run now; no thread while nobody does.
+/// The thread that uses a run now; none while the run is not used.
 using Caller = std::atomic<std::thread::id>;
 
 /// Claims a run as long as it lives. Throws Error, and changes nothing, while another call uses it:

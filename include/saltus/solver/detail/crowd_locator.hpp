@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "saltus/solver/detail/glance.hpp"
 #include "saltus/solver/detail/guard_polynomials.hpp"
+#include "saltus/solver/detail/thresholds.hpp"
 
 namespace saltus {
 
@@ -16,10 +16,6 @@ namespace saltus {
 /// and the dips that single looks would find.
 class CrowdLocator : protected Glance {
  protected:
-  /// [crossings] in one interval. Locating a few of them one by one takes as many looks as the
-  /// polynomials do.
-  static constexpr std::size_t crowd_size = 8;
-
   using Glance::Glance;
 
   /// How the crossings of many monitors in (from, to] were located.
@@ -36,8 +32,9 @@ class CrowdLocator : protected Glance {
       const Guard& guard = (*guards_)[k];
       return guard.monitor && !guard.jumps && guard.plain_side() != 0.0 && std::isfinite(high_[k]);
     };
-    const double resolution = std::numeric_limits<double>::epsilon() * (std::abs(t0_) + to);
-    if (to - from < 1e3 * resolution || !std::ranges::all_of(crossed_, is_plain))
+    const double resolution = thresholds::eps * (std::abs(t0_) + to);
+    if (to - from < thresholds::crowd_roundings * resolution ||
+        !std::ranges::all_of(crossed_, is_plain))
       return Crowd::mixed;
     polynomials_.begin(from, to, guards_->g, high_);
     for (int j = 1; j < GuardPolynomials::degree; ++j)
@@ -83,11 +80,10 @@ class CrowdLocator : protected Glance {
 
   Crowd find_crossing(std::size_t k, int first, double length) {
     const GuardPolynomials::Error error = polynomials_.error(k);
-    // A located time may be wrong by a hundred roundings of the time and of the step.
-    const double room = 16.0 * std::numeric_limits<double>::epsilon() *
+    const double room = thresholds::crossing_roundings * thresholds::eps *
                         (std::abs(t0_) + polynomials_.point(first) + length);
     const auto u = polynomials_.crossing(k, first, error.sum(), room);
-    if (u) crowd_.push_back({*u, k, 4.0 * error.sum()});
+    if (u) crowd_.push_back({*u, k, thresholds::passed_error * error.sum()});
     return u ? Crowd::located : error.is_truncated() ? Crowd::too_wide : Crowd::mixed;
   }
 

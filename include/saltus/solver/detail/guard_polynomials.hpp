@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <optional>
 #include <vector>
 
 #include "saltus/base/list.hpp"
 #include "saltus/solver/detail/dip.hpp"
+#include "saltus/solver/detail/thresholds.hpp"
 
 namespace saltus {
 
@@ -48,7 +48,8 @@ class GuardPolynomials {
       const double s = j < first ? side : -side;
       const Dip dip{{point(j - 2), point(j - 1), point(j)},
                     {s * value(j - 2, k), s * value(j - 1, k), s * value(j, k)}};
-      const double size = std::max({dip.g[0], dip.g[1], dip.g[2]}), u = dip.vertex(0.25 * size);
+      const double size = std::max({dip.g[0], dip.g[1], dip.g[2]}),
+                   u = dip.vertex(thresholds::shallow_dip * size);
       if (u > dip.u[0] && u < dip.u[2]) return true;
     }
     return false;
@@ -60,17 +61,17 @@ class GuardPolynomials {
     double truncation = 0.0, rounding = 0.0;
     double sum() const { return truncation + rounding; }
     /// Whether more looks in a shorter interval would help.
-    bool is_truncated() const { return truncation > 64.0 * rounding; }
+    bool is_truncated() const { return truncation > thresholds::truncated_roundings * rounding; }
   };
   Error error(std::size_t k) const {
     Error found;
     for (int j = 0; j <= degree; ++j)
       found.rounding = std::max(found.rounding, std::abs(value(j, k)));
-    found.rounding *= 8.0 * std::numeric_limits<double>::epsilon();
+    found.rounding *= thresholds::formula_roundings * thresholds::eps;
     for (const auto& cosines : table().last_terms) {
       double term = 0.0;
       for (int j = 0; j <= degree; ++j) term += nth(cosines, j) * value(j, k);
-      found.truncation = std::max(found.truncation, 4.0 * std::abs(term));
+      found.truncation = std::max(found.truncation, thresholds::omitted_terms * std::abs(term));
     }
     return found;
   }
@@ -78,7 +79,7 @@ class GuardPolynomials {
   /// An offset at which guard k has surely crossed zero between the points first - 1 and first, at
   /// most `room` after its crossing; empty if the error allows none.
   std::optional<double> crossing(std::size_t k, int first, double error, double room) const {
-    const double root = root_of(k, first), small = 1e-4 * (to_ - from_);
+    const double root = root_of(k, first), small = thresholds::slope_share * (to_ - from_);
     const double a = std::max(from_, root - small), b = std::min(to_, root + small);
     const double slope = std::abs(at(k, b) - at(k, a)) / (b - a);
     const double shift = error / slope;
@@ -128,12 +129,11 @@ class GuardPolynomials {
     double low, high, a, b;
     int moved = 0;
 
-    /// The part of the bracket at which to look next: by Illinois, and by bisection from the 40th
-    /// look on.
+    /// The part of the bracket at which to look next: by Illinois, and by bisection in the end.
     double part(int looks) const {
       const double wa = std::abs(a) * (moved > 1 ? 0.5 : 1.0),
                    wb = std::abs(b) * (moved < -1 ? 0.5 : 1.0);
-      return looks > 40 || !(wa + wb > 0.0) ? 0.5 : wa / (wa + wb);
+      return looks > thresholds::bisects_after || !(wa + wb > 0.0) ? 0.5 : wa / (wa + wb);
     }
     void take(double u, double g, bool crossed) {
       if (crossed)
@@ -148,9 +148,9 @@ class GuardPolynomials {
     Bracket bracket{point(first - 1), point(first), value(first - 1, k), value(first, k)};
     const auto& [low, high, a, b, moved] = bracket;
     const bool rises = (b == 0.0 ? -a : b) > 0.0;
-    for (int looks = 0; looks < 120 && b != 0.0; ++looks) {
-      const double resolution = std::numeric_limits<double>::epsilon() * high;
-      if (high - low <= 2.0 * resolution) break;
+    for (int looks = 0; looks < thresholds::most_looks && b != 0.0; ++looks) {
+      const double resolution = thresholds::eps * high;
+      if (high - low <= thresholds::bracket_roundings * resolution) break;
       const double u =
           std::clamp(low + bracket.part(looks) * (high - low), low + resolution, high - resolution);
       const double g = at(k, u);

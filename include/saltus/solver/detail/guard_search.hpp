@@ -142,7 +142,7 @@ class GuardSearch : private FoundRoot {
       if (!looked) look(to, end, interpolate, high_);
       const double high = note_crossed(high_) ? to : next_dip(from, to, interpolate);
       if (high == never) continue;
-      if (high == to && crossed_.size() >= crowd_size) {
+      if (high == to && crossed_.size() >= thresholds::crowd_size) {
         const Crowd crowd = locate_crowd(from, to, interpolate);
         if (crowd == Crowd::located) return false;
         if (crowd == Crowd::too_wide) {

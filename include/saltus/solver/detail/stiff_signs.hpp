@@ -13,6 +13,17 @@ struct FastPart {
   bool hardly_damped = false;  ///< it oscillates: see thresholds::hardly_damped
 };
 
+/// Whether the longest step since a restart is so short beside the steps before it [s] that
+/// stability may be the reason. To find its first length again takes a method fewer steps.
+inline bool has_collapsed(double longest, double before) {
+  return longest < thresholds::collapse * before;
+}
+/// Whether steps of h |lambda| = `reach` are out of the question for a method that is stable up to
+/// `stability`.
+inline bool is_far_beyond(double reach, double stability) {
+  return reach > thresholds::far_beyond_stability * stability;
+}
+
 /// Asks the StiffnessTest of the explicit method, and for |lambda| only where that has a sign. A
 /// function `suits(FastPart)` says whether there is a method that is better for such a part.
 class StiffSigns {
@@ -23,7 +34,8 @@ class StiffSigns {
 
   /// After a restart; `before` [s] is the longest step before it, 0: there is none to compare with.
   void restart(double before) { before_ = before, unchecked_ = true; }
-  /// The method is back from a part of this kind in vain: the next question comes later.
+  /// The last stretch of a stiff method for a part of this kind did not last: the next question
+  /// comes later.
   void be_patient(const FastPart& part) {
     if (part.hardly_damped) method_->stiffness().put_off(4);
   }
@@ -65,10 +77,10 @@ class StiffSigns {
   bool collapsed(double longest, const Suits& suits) {
     if (!unchecked_ || longest == 0.0) return false;
     unchecked_ = false;
-    if (!(longest < thresholds::collapse * before_)) return false;
+    if (!has_collapsed(longest, before_)) return false;
     const FastPart part{rate(), false};
     return radius_->damping() > thresholds::well_damped &&
-           part.rate * before_ > thresholds::far_beyond_stability * method_->stability() &&
+           is_far_beyond(part.rate * before_, method_->stability()) &&
            part.rate * longest > thresholds::least_reach && suits(part);
   }
 

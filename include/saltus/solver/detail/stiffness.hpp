@@ -49,7 +49,7 @@ class StiffnessTest {
   StiffnessTest(const StabilityBounds& bounds, double calls, const SolverOptions& options)
       : stability_(bounds.real),
         turning_(bounds.imaginary),
-        amplitude_(std::min(bounds.amplitude, part_of_solution / options.rtol)),
+        amplitude_(std::min(bounds.amplitude, thresholds::part_of_solution / options.rtol)),
         smooth_(thresholds::saved_calls * calls / thresholds::bdf_calls * thresholds::bdf_step *
                 std::pow(options.rtol, 1.0 / 6.0)),
         options_(options) {}
@@ -80,7 +80,7 @@ class StiffnessTest {
   bool by_smoothness() const noexcept { return 2 * smooth_steps_ >= stiff_; }
   /// No other method suits. The next question comes after `times` as many steps.
   void put_off(int times) noexcept {
-    wanted_ = std::min(times * wanted_, latest);
+    wanted_ = std::min(times * wanted_, thresholds::latest_question);
     watch_anew();
   }
 
@@ -95,11 +95,6 @@ class StiffnessTest {
   }
 
  private:
-  static constexpr int latest = 100000;  // steps
-
-  /// The part of a state's size up to which an oscillation may be of the errors.
-  static constexpr double part_of_solution = 0.3;
-
   void count_long(double h, VectorView x1, VectorView f0, VectorView f1) {
     ++looks_, span_ += h;
     if (h * rate_ > turning_)

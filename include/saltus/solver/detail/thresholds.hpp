@@ -1,6 +1,8 @@
 // The tuning numbers of the solvers: name, unit and derivation or source. Where a test is named, it
-// fails if the number is a hundred times as large, or as small. Coefficients of a method, and its
-// bounds of step factors, are in dopri5.hpp and dop853.hpp.
+// fails if the number is a hundred times as large, or as small. No test holds short_share,
+// latest_question, slowest_ratio and ratio_memory, nor those that only trade time: small_vector,
+// most_factor_entries, krylov_vectors, dropped, unrolled_dense and large_dense. Coefficients of a
+// method, and its bounds of step factors, are in dopri5.hpp and dop853.hpp.
 #pragma once
 
 #include <limits>
@@ -71,7 +73,7 @@ inline constexpr double dense_room = 4.0;
 /// tests/unit/narrow_test.cpp
 inline constexpr double bracket_roundings = 2.0;
 /// [brackets] In a shorter interval there is one point to look at only, its middle.
-/// tests/unit/auto_solver_test.cpp
+/// tests/errors/chattering_errors_test.cpp (as small)
 inline constexpr double last_look = 3.0;
 /// [looks] Bisection takes 53 looks; where an estimate has not come to an end by then, bisection
 /// goes on. The second number is a limit that neither reaches: 60 and the 74 + 53 halvings of an
@@ -81,10 +83,10 @@ inline constexpr int bisects_after = 60, most_looks = 200;
 /// tests/unit/narrow_test.cpp
 inline constexpr double plateau_growth = 8.0;
 /// [1] Where at most one in so many guards has crossed, only these are narrowed. The two looks at
-/// all others at the end then cost less than is saved.
+/// all others at the end then cost less than is saved. tests/unit/narrow_test.cpp
 inline constexpr std::size_t few_guards = 8;
 /// [of the guard at the bracket's ends] Rounding of the interpolant at a root: both ends may be off
-/// by as much as they differ, twice.
+/// by as much as they differ, twice. tests/unit/narrow_test.cpp, tests/unit/found_root_test.cpp
 inline constexpr double root_noise = 4.0;
 /// [1] How much steeper than in the whole interval a guard has to be in its last bracket to be a
 /// jump. A bracket is narrowed by 1e12 and more: a jump is steeper by the whole factor, a smooth
@@ -104,21 +106,55 @@ inline constexpr double short_share = 1e-3;
 /// tests/laws/tangent_pairs_test.cpp
 inline constexpr double leave_roundings = 64.0, leave_share = 1e-9;
 /// [steps] Looks inside steps that need none: the first after seven, then 15, 31, 63.
+/// tests/unit/locate_test.cpp
 inline constexpr int least_patience = 7, most_patience = 63;
 /// [1] A guard is out of reach if it could not come to zero and back at this many times its recent
-/// speed: two for the way, four for a change of speed. tests/laws/tangent_test.cpp
+/// speed: two for the way, four for a change of speed. tests/unit/glance_test.cpp
 inline constexpr double speed_margin = 8.0;
-/// [1] Part of the recent speed that is kept from look to look.
+/// [1] Part of the recent speed that is kept from look to look. tests/unit/glance_test.cpp
 inline constexpr double speed_memory = 0.5;
 /// [of the largest of three looks] The vertex of a parabola above this is no dip worth a look.
+/// tests/unit/dip_search_test.cpp
 inline constexpr double shallow_dip = 0.25;
 /// [of the middle look] A vertex above this brings the minimum no nearer to zero.
+/// tests/unit/dip_search_test.cpp
 inline constexpr double slow_dip = 0.5;
 /// [of the largest of three looks] A touch of zero within this is rounding, no dip.
+/// tests/unit/dip_search_test.cpp
 inline constexpr double dip_rounding = 1e-12;
 /// [looks] at the vertex: each has twice as many digits as the one before; 2^6 > 53.
 /// tests/laws/tangent_pairs_test.cpp
 inline constexpr int dip_looks = 6;
+
+// --- many monitors at once: crowd_locator.hpp, guard_polynomials.hpp
+
+/// [crossings] in one interval. Locating a few of them one by one takes as many looks as the
+/// polynomials do. tests/unit/crowd_locator_test.cpp
+inline constexpr std::size_t crowd_size = 8;
+/// [eps |t|] In a shorter interval the points of a polynomial would hardly be different times.
+/// tests/unit/crowd_locator_test.cpp
+inline constexpr double crowd_roundings = 1e3;
+/// [eps] of the time and of the step: how far after its crossing one may be noted. The contract
+/// allows a hundred. tests/unit/crowd_locator_test.cpp
+inline constexpr double crossing_roundings = 16.0;
+/// [errors of the polynomial] A monitor is at zero within these after it has passed: its value is
+/// off by one on either side, at the crossing and at the next look.
+/// tests/unit/crowd_locator_test.cpp
+inline constexpr double passed_error = 4.0;
+/// [eps of the largest value] Rounding of the barycentric formula, whose thirteen terms are each
+/// rounded a few times; the sum of their weights is 1. tests/unit/guard_polynomials_test.cpp
+inline constexpr double formula_roundings = 8.0;
+/// [of the largest of the last three coefficients] The terms that a polynomial leaves out, if
+/// coefficients fall by a quarter or more from one to the next: 1 / (1 - 3/4).
+/// tests/unit/guard_polynomials_test.cpp
+inline constexpr double omitted_terms = 4.0;
+/// [roundings of the formula] From here on a shorter interval helps: halving it divides what is
+/// left out by 2^13. tests/unit/guard_polynomials_test.cpp
+inline constexpr double truncated_roundings = 64.0;
+/// [of the interval] The slope at a root is that over this much to either side. The difference has
+/// eleven digits there, and the change of the slope is of this order.
+/// tests/unit/guard_polynomials_test.cpp (as large)
+inline constexpr double slope_share = 1e-4;
 
 // --- stiffness of an explicit method: stiffness.hpp
 
@@ -134,6 +170,12 @@ inline constexpr double smooth_turn = 0.1;
 /// rtol 1e-3 to 1e-12); [calls] of a step of BDF; [1] the part of our calls that BDF has to save.
 /// tests/unit/stiffness_test.cpp
 inline constexpr double bdf_step = 0.4, bdf_calls = 1.5, saved_calls = 0.5;
+
+/// [steps] until the next question at most, after returns that did not last.
+inline constexpr int latest_question = 100000;
+/// [of the size of a state] An oscillation up to this amplitude may be one of the errors.
+/// tests/laws/fast_modes_test.cpp (as small)
+inline constexpr double part_of_solution = 0.3;
 
 // --- spectral radius: spectral_radius.hpp
 
@@ -186,7 +228,7 @@ inline constexpr double well_damped = 0.9;
 inline constexpr double stable_reach = 1.0, stable_reach_of_radau = 3.0;
 /// [of the steps before] A first step shorter than this looks stiff, if also h |lambda| of the
 /// steps before was beyond ten times the bound of stability, and that of this step is not below
-/// `least_reach`.
+/// `least_reach`. tests/unit/stiff_signs_test.cpp
 inline constexpr double collapse = 0.01, far_beyond_stability = 10.0;
 /// [steps] of BDF and of Radau between two checks; [checks] in a row that must succeed, at first
 /// and at most. tests/unit/auto_solver_test.cpp
@@ -203,32 +245,50 @@ inline constexpr int short_stretch = 100, short_stretch_of_radau = 25;
 /// and at rtol 1e-3 they add up to 1 to 11 tolerances in twenty steps. tests/python/scipy_ivp
 inline constexpr double loose_rtol = 1e-3, loose_share = 0.5, loose_newton = 0.01;
 /// [first steps of CVODE] If the next event may follow within these, a one-step method starts: a
-/// step of order 1 would draw the flight as a line.
+/// step of order 1 would draw the flight as a line. tests/unit/cvode_start_test.cpp
 inline constexpr double one_step_flight = 2e4;
-/// [horizons] CVODE takes over after these.
+/// [horizons] CVODE takes over after these. tests/unit/cvode_start_test.cpp
 inline constexpr double start_horizons = 4.0;
 /// [eps |t|] and [s]: CVODE takes no step within a few roundings of the time, nor below the least
-/// double of full precision.
+/// double of full precision. tests/unit/cvode_start_test.cpp
 inline constexpr double cvode_roundings = 64.0, cvode_shortest = 1e-290;
 /// [time constants of the fastest part] A flight of more is left to BDF. An explicit method would
 /// need more than 60 steps for it at its limit of stability, 3.25; BDF starts in 13 to 27.
+/// tests/unit/cvode_start_test.cpp
 inline constexpr double stiff_flight = 200.0;
 /// [steps] that have to advance by as many roundings of the time, if each is shorter than
 /// `least_step_roundings` of them. The jumps of Van der Pol with mu = 1e6 take steps of ten
 /// roundings. tests/unit/progress_test.cpp
 inline constexpr int watched_steps = 100;
-/// [steps] of order 1 after CVODE's start.
+/// [steps] of order 1 after CVODE's start. tests/unit/cvode_start_test.cpp
 inline constexpr int coarse_steps = 2;
 /// [failures] of Newton's iteration in one step; CVODE's own ten are too few for a stiff contact.
+/// tests/laws/crawl_test.cpp (half as large)
 inline constexpr int convergence_failures = 20;
 /// [1] CVODE multiplies values to compare signs: nothing that it sees may underflow then.
+/// tests/unit/cvode_start_test.cpp (if its square underflows)
 inline constexpr double least_shown = 1e-100;
 /// [states] The general vector operations are as fast from here on.
 inline constexpr int small_vector = 16;
 
+// --- Adams' corrector: corrector.hpp; q is the ratio of two changes of its iteration
+
+/// [q] A step whose iteration is slower is refused.
+inline constexpr double slowest_ratio = 0.3;
+/// [q] Above this the tolerance of the iteration shrinks as (fast_ratio / q)^3 (1 - q). It is the
+/// usual q of scenes whose steps are bounded by their accuracy (Kepler, Lorenz, Pleiades).
+/// tests/laws/fast_modes_test.cpp (as large)
+inline constexpr double fast_ratio = 0.1;
+/// [tolerances of the iteration] Smaller changes are not judged: the iteration is over.
+/// tests/laws/fast_modes_test.cpp (as large)
+inline constexpr double judged_change = 0.01;
+/// [1] CVODE's own memory of q from step to step, CRDOWN.
+inline constexpr double ratio_memory = 0.3;
+
 // --- Jacobian and sparsity: jacobian.cpp, probe.cpp, find_places.cpp
 
 /// [roundings of f] The least change of f that a difference is made of (CVODE's own).
+/// tests/unit/jacobian_test.cpp
 inline constexpr double difference_roundings = 1000.0;
 /// [1] Part of a change of f that a Jacobian may leave unexplained: what differences leave of it,
 /// and [eps] the rounding of f. tests/unit/jacobian_test.cpp
@@ -275,10 +335,10 @@ inline constexpr Index fresh_jacobian = 16;
 inline constexpr int setup_steps = 5;
 /// [vectors] of GMRES's Krylov space, at most.
 inline constexpr int krylov_vectors = 20;
-/// [1] and [entries of a row]: the incomplete factorisation drops and keeps them (Eigen's ILUT).
+/// [1] Smaller entries of a row are dropped from the incomplete factorisation (Eigen's ILUT).
 inline constexpr double dropped = 1e-3;
-inline constexpr int kept_fill = 10;
-/// [times] that a search may find new places before it is given up.
+/// [times] that a search may find new places before it is given up. tests/unit/probe_test.cpp (as
+/// small)
 inline constexpr int most_renewals = 20;
 
 }  // namespace saltus::thresholds

@@ -5,11 +5,17 @@
 #include <cmath>
 
 #include "saltus/solver/detail/radau/tuning.hpp"
+#include "saltus/solver/detail/thresholds.hpp"
 
 namespace saltus::radau {
 
 /// [iterations] 7, 12 and 17 (the code RADAU).
 constexpr int most_iterations(int stages) { return 7 + 5 * (stages - 3) / 2; }
+
+/// [tolerances] Some roundings of the states, if rtol of their size is the tolerance.
+inline double rounding_of(double rtol) { return tuning::room_roundings * thresholds::eps / rtol; }
+/// [tolerances] The error that the iteration may leave.
+inline double newton_room(double rtol) { return std::max(tuning::newton_room, rounding_of(rtol)); }
 
 enum class Verdict {
   go_on,      ///< another iteration
@@ -57,9 +63,14 @@ class Convergence {
   /// Whether it converged only in so far as the corrections are so small that rounding may be the
   /// reason that they do not shrink.
   bool at_rounding() const { return at_rounding_; }
-  /// The part of the step with which the iteration would be fast enough (IV.8, p. 121).
+  /// Whether the Jacobian is good enough for the next step too (the code RADAU5).
+  bool keeps_jacobian() const {
+    return iterations_ <= tuning::keeps_iterations || theta_ <= tuning::keeps_to;
+  }
+  /// The part of the step with which the iteration would be fast enough (IV.8, p. 121). A slow
+  /// iteration would leave more than its tolerance.
   double shorter() const {
-    const double excess = std::clamp(remaining(), tuning::least_excess, tuning::most_excess);
+    const double excess = std::min(remaining(), tuning::most_excess);
     return tuning::slow_safety * std::pow(excess, -1.0 / (3.0 + most_ - iterations_));
   }
 

@@ -1,7 +1,5 @@
-// The tuning numbers of the Radau methods: name, unit, and derivation or source. Where a test is
-// named, it fails if the number is a hundred times as large, or as small. No test holds these yet:
-// near_begin, beyond and its bounds, small_move, large_turn, room_roundings, least_excess,
-// theta_memory, seen_change, residual_roundings, keeps_to, keeps_iterations.
+// The tuning numbers of the Radau methods: name, unit, and derivation or source. The test that is
+// named fails if the number is a hundred times as large, or as small.
 #pragma once
 
 namespace saltus::radau::tuning {
@@ -21,7 +19,7 @@ inline constexpr double alike_tries = 0.95;
 /// is ten times rtol |x|. tests/unit/radau_test.cpp
 inline constexpr double absolute_part = 0.1;
 
-// --- an oscillation of the errors of the method before: solver.cpp
+// --- an oscillation of the errors of the method before: damping.hpp
 
 /// [1] h |lambda| of the steps that damp it, with three stages: each leaves a third. [steps] of
 /// this kind. [1] The estimate may be as large as this many times the oscillation, of which a step
@@ -69,26 +67,26 @@ inline constexpr int even_steps = 10;
 /// does not forget it. tests/unit/radau_test.cpp fails at twice the number, and at a hundredth.
 inline constexpr double theta_memory = 0.5;
 
-// --- the stepper: solver.cpp
+// --- the stepper: solver.cpp, tries.cpp, inside_step.cpp
 
 /// [of the step] The error of the collocation polynomial has the factor s; so nearer to its begin
-/// it is a thousandth of its largest.
+/// it is a thousandth of its largest. tests/unit/radau_decisions_test.cpp
 inline constexpr double near_begin = 1e-3;
 /// [steps] The polynomial of the last step predicts no more than this.
 /// tests/laws/linear_invariants_test.cpp (as small)
 inline constexpr double furthest = 16.0;
 /// [errors of the dense output] How far beyond its root a step is cut, and [of the root] the
-/// bounds.
+/// bounds. tests/unit/radau_decisions_test.cpp
 inline constexpr double beyond = 10.0, least_beyond = 1e-12, most_beyond = 1e-2;
 /// [tolerances] A step that moves by less passes a jump along the derivative, if that [of itself]
-/// changes by more than the second number.
+/// changes by more than the second number. tests/unit/radau_decisions_test.cpp
 inline constexpr double small_move = 0.5, large_turn = 0.1;
 
 // --- Newton's iteration: convergence.hpp, newton.hpp, stage_solver.hpp
 
 /// [tolerances] The error that the iteration may leave: 0.05 moves the estimate by a twentieth of
 /// what a fast part may have; and [eps / rtol] what rounding leaves.
-/// tests/errors/radau_bad_input_test.cpp (as large)
+/// tests/unit/radau_decisions_test.cpp
 inline constexpr double newton_room = 0.05, room_roundings = 10.0;
 /// [1] A contraction known from before judges the first correction as this at least, to the power
 /// (the code RADAU5; there eps is the least).
@@ -97,17 +95,17 @@ inline constexpr double least_factor = 0.01, factor_power = 0.8;
 /// [theta] From here on corrections do not shrink (the code RADAU5).
 /// tests/unit/radau_test.cpp
 inline constexpr double no_contraction = 0.99;
-/// [1] The factor of a step whose iteration is slow, and [tolerances of the iteration] the bounds
-/// of the error that the last iteration would leave (IV.8, p. 121).
-/// tests/unit/radau_test.cpp
-inline constexpr double slow_safety = 0.8, least_excess = 1e-4, most_excess = 20.0;
+/// [1] The factor of a step whose iteration is slow, and [tolerances of the iteration] the largest
+/// error that the last iteration would leave (IV.8, p. 121). tests/unit/radau_test.cpp
+inline constexpr double slow_safety = 0.8, most_excess = 20.0;
 /// [1] The factor of a step whose iteration diverges (the code RADAU5).
 /// tests/errors/radau_bad_input_test.cpp
 inline constexpr double diverged_retry = 0.5;
 /// [of a state] The change that shows the rounding of f, and [eps] how much of it a residual may
-/// be.
+/// be. tests/unit/radau_decisions_test.cpp (the change as large)
 inline constexpr double seen_change = 1e-8, residual_roundings = 100.0;
 /// [theta] and [iterations] up to which a Jacobian is kept for the next step (the code RADAU5).
+/// tests/unit/radau_decisions_test.cpp
 inline constexpr double keeps_to = 1e-3;
 inline constexpr int keeps_iterations = 2;
 /// [steps] of a small system after which its Jacobian is renewed: see LinearSystem::refresh_often.

@@ -96,10 +96,10 @@ class RootSeparation {
       sum += std::abs(a[i]);
       if (2 * i > degree + 1) late += std::abs(a[i]);
     }
-    if (!std::isfinite(sum + a[0]) || late > poor * sum) return false;
-    const double margin =
-        roundings * degree * std::numeric_limits<double>::epsilon() * (sum + std::abs(a[0])) +
-        std::abs(a[degree]) * (degree > 1 ? 1.0 : 0.0);
+    if (!std::isfinite(sum + a[0]) || late > tuning::poor * sum) return false;
+    const double margin = tuning::term_roundings * degree * std::numeric_limits<double>::epsilon() *
+                              (sum + std::abs(a[0])) +
+                          std::abs(a[degree]) * (degree > 1 ? 1.0 : 0.0);
     if (std::abs(a[0]) > sum + margin || sum <= margin) return true;  // it does not reach zero
     const Bernstein whole = Bernstein::of(a, degree);
     if (whole.crossings(margin) == 1 && std::abs(a[0]) > margin) return true;
@@ -107,17 +107,6 @@ class RootSeparation {
   }
 
  private:
-  /// The largest part of the guard's range that the upper half of the terms may have. With more,
-  /// terms that are left out may move its roots, or hold others. Half of the terms, because those
-  /// of even functions, or of functions of t^4, are zero between others.
-  static constexpr double poor = 1e-3;
-  /// The rounding error of a coefficient, after a conversion and the cuts, in eps for each term.
-  static constexpr double roundings = 2.0;
-  /// No more parts than this are cut: a polynomial of degree 30 with simple roots needs far fewer.
-  static constexpr int most_cuts = 400;
-  /// A double root cannot be told from a pair within the root of the rounding.
-  static constexpr double shortest = 1e-9;
-
   bool isolate(const Bernstein& whole, double from, double margin, std::vector<double>& points) {
     waiting_.assign(1, whole);
     int cuts = 0;
@@ -126,8 +115,8 @@ class RootSeparation {
       Bernstein part = waiting_.back();
       waiting_.pop_back();
       if (part.to <= from) continue;
-      if (part.crossings(margin) > 1 && part.to - part.from > shortest) {
-        if (++cuts > most_cuts) return false;
+      if (part.crossings(margin) > 1 && part.to - part.from > tuning::shortest_part) {
+        if (++cuts > tuning::most_cuts) return false;
         Bernstein second = part.cut();
         waiting_.push_back(second), waiting_.push_back(part);
         continue;

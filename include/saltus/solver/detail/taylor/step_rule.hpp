@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "saltus/base/ids.hpp"
+#include "saltus/solver/detail/taylor/tuning.hpp"
 #include "saltus/tape/series.hpp"
 
 namespace saltus::taylor {
@@ -50,9 +51,8 @@ double length_of(int p, const Term& term) {
 /// The part of a step to try next after a check found this error, above 1 tolerance: the error is
 /// of order p + 1.
 inline double shorter(double error, int p) {
-  constexpr double safety = 0.9, least = 0.1;
-  if (!std::isfinite(error)) return least;
-  return std::max(least, safety * std::pow(error, -1.0 / (p + 1)));
+  if (!std::isfinite(error)) return tuning::shortest_retry;
+  return std::max(tuning::shortest_retry, tuning::safety * std::pow(error, -1.0 / (p + 1)));
 }
 
 }  // namespace saltus::taylor

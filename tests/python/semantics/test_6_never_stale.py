@@ -1,4 +1,4 @@
-"""6.5: a value that one callback writes has its present value wherever another one reads it."""
+"""A value that one callback writes has its present value wherever another one reads it."""
 
 import ctypes
 import threading

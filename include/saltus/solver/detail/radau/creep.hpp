@@ -1,0 +1,18 @@
+// Whether a step may go along the derivative where Newton's iteration does not converge.
+#pragma once
+
+#include "saltus/solver/detail/radau/tuning.hpp"
+
+namespace saltus::radau {
+
+/// Whether a step is so short that it may go along the derivative `f0` at its begin: `moved` is how
+/// far that takes the states [tolerances].
+inline bool is_small(double moved) { return moved <= tuning::small_move; }
+
+/// Whether the derivative jumps in such a step, from f0 to f1.
+template <class Vector>
+bool jumps(const Vector& f0, const Vector& f1) {
+  return (f1 - f0).norm() > tuning::large_turn * f0.norm();
+}
+
+}  // namespace saltus::radau

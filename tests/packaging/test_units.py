@@ -1,0 +1,114 @@
+"""Each header that decides something has unit tests; each tuning number names its test."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+HEADERS = ROOT / "include" / "saltus"
+UNIT = ROOT / "tests" / "unit"
+LAYERS = ("model", "plan", "solver", "simulation")
+INCLUDE = re.compile(r'^#include "saltus/([^"]+)"', re.M)
+# Headers without a file of their own, and where their decisions are tested; None: they decide
+# nothing, because they declare, or hold values.
+ELSEWHERE = {
+    "model/detail/context_data": "unit/context_test.cpp",
+    "model/detail/names": "errors/model_errors_test.cpp",
+    "model/detail/sound": "unit/context_json_test.cpp",
+    "model/detail/soundness": "unit/diagram_builder_test.cpp",
+    "model/detail/wiring_errors": "errors/model_errors_test.cpp",
+    "plan/detail/arguments": None,
+    "plan/detail/calls": None,
+    "plan/detail/fixed_inputs": "unit/evaluate_test.cpp",
+    "plan/detail/flow_graph": "unit/series_kinks_test.cpp",
+    "plan/detail/flow_series": "unit/taylor_test.cpp",
+    "plan/detail/memory": None,
+    "simulation/detail/collector": "unit/instant_test.cpp",
+    "simulation/detail/effects": "unit/transition_test.cpp",
+    "simulation/detail/flow_probe": "unit/departure_test.cpp",
+    "simulation/detail/instant_rows": "semantics/rows_count_test.cpp",
+    "simulation/detail/integration": None,
+    "simulation/detail/option_table": "unit/options_test.cpp",
+    "simulation/detail/present": "unit/error_bound_test.cpp",
+    "simulation/detail/rows": "laws/rows_test.cpp",
+    "simulation/detail/run": "semantics/results_resume_test.cpp",
+    "simulation/detail/thresholds": None,
+    "solver/detail/cvode": None,
+    "solver/detail/explicit_step": "unit/dopri5_test.cpp",
+    "solver/detail/guard_search": "unit/locate_test.cpp",
+    "solver/detail/kernels": None,
+    "solver/detail/look_points": None,
+    "solver/detail/matrix_cost": None,
+    "solver/detail/one_step": None,
+    "solver/detail/radau/scheme": None,
+    "solver/detail/radau/tables": None,
+    "solver/detail/radau/tuning": None,
+    "solver/detail/solver": None,
+    "solver/detail/step_polynomial": "unit/dop853_test.cpp",
+    "solver/detail/step_solver": "unit/locate_test.cpp",
+    "solver/detail/stiff_methods": "unit/stiff_choice_test.cpp",
+    "solver/detail/stretch_log": "unit/auto_solver_test.cpp",
+    "solver/detail/tableau": None,
+    "solver/detail/taylor/tuning": None,
+    "solver/detail/thresholds": None,
+}
+TUNING = (
+    "simulation/detail/thresholds.hpp",
+    "solver/detail/thresholds.hpp",
+    "solver/detail/radau/tuning.hpp",
+    "solver/detail/taylor/tuning.hpp",
+)
+
+
+def deciding_headers():
+    found = (path for layer in LAYERS for path in (HEADERS / layer / "detail").rglob("*.hpp"))
+    return [str(path.relative_to(HEADERS).with_suffix("")) for path in found]
+
+
+INCLUDED = {name[:-4] for file in UNIT.glob("*.?pp") for name in INCLUDE.findall(file.read_text())}
+
+
+def has_units(header):
+    return header in INCLUDED or (UNIT / f"{Path(header).name}_test.cpp").exists()
+
+
+def test_each_header_has_units_or_says_where_it_is_tested():
+    assert [
+        name for name in deciding_headers() if not has_units(name) and name not in ELSEWHERE
+    ] == []
+
+
+def test_the_table_has_no_rows_that_are_not_needed():
+    missing = [name for name in deciding_headers() if not has_units(name)]
+    assert sorted(set(ELSEWHERE) - set(missing)) == []
+    assert [
+        file for file in ELSEWHERE.values() if file and not (ROOT / "tests" / file).exists()
+    ] == []
+
+
+@pytest.mark.parametrize("file", TUNING)
+def test_the_tests_that_tuning_numbers_name_exist(file):
+    names = re.findall(r"\btests/[\w/]+(?:\.cpp)?", (HEADERS / file).read_text())
+    assert names and [name for name in names if not (ROOT / name).exists()] == []
+
+
+@pytest.mark.parametrize("file", TUNING)
+def test_a_tuning_number_names_its_test_or_is_named_as_having_none(file):
+    text = (HEADERS / file).read_text()
+    head = " ".join(line.removeprefix("// ") for line in text.split("#pragma")[0].splitlines())
+    without = re.search(r"No test holds (.*?)\.", head)
+    without = set(re.findall(r"\w+", without[1])) if without else set()
+    doc = section = ""
+    untested = set()
+    before = ""
+    for line in text.splitlines():
+        if line.startswith("// ---"):
+            section = line
+        if line.startswith("///"):
+            doc = line if not before.startswith("///") else doc + line
+        names = re.findall(r"\b([a-z_0-9]+) =", line) if "inline constexpr" in line else []
+        if "tests/" not in doc + section:
+            untested |= set(names)
+        before = line
+    assert sorted(untested - without - {"eps", "time_of_change"}) == []  # the second is a quotient
