@@ -602,14 +602,71 @@ class TransferFunction(System):
     @property
     def scales(self) -> np.ndarray: ...
 
+class DelayN(System):
+    def __init__(self, arg0: str, arg1: float, arg2: int, arg3: Any, /) -> None: ...
+
+class DiscreteClock(System):
+    def __init__(self, arg0: str, arg1: float, /) -> None: ...
+
+class EdgeDetection(System):
+    def __init__(self, arg0: str, arg1: float, arg2: str, arg3: bool, /) -> None: ...
+
 class RateLimiter(System):
     def __init__(self, arg0: str, arg1: float, arg2: float, arg3: float, arg4: Any, /) -> None: ...
+
+class RateTransition(System):
+    def __init__(self, arg0: str, arg1: float, arg2: Any, /) -> None: ...
 
 class UnitDelay(System):
     def __init__(self, arg0: str, arg1: float, arg2: Any, /) -> None: ...
 
 class ZeroOrderHold(System):
     def __init__(self, arg0: str, arg1: float, arg2: Any, /) -> None: ...
+
+class DerivativeDiscrete(System):
+    def __init__(self, arg0: str, arg1: float, arg2: float | None, arg3: Any, /) -> None: ...
+
+class FilterDiscrete(System):
+    def __init__(self, arg0: str, arg1: float, arg2: Any, arg3: Any, /) -> None: ...
+
+class IntegratorDiscrete(System):
+    def __init__(
+        self,
+        arg0: str,
+        arg1: float,
+        arg2: Any,
+        arg3: str,
+        arg4: bool,
+        arg5: bool,
+        arg6: bool,
+        arg7: Any,
+        arg8: Any,
+        arg9: bool,
+        /,
+    ) -> None: ...
+
+class LTISystemDiscrete(System):
+    def __init__(
+        self, arg0: str, arg1: float, arg2: Any, arg3: Any, arg4: Any, arg5: Any, arg6: Any, /
+    ) -> None: ...
+
+class PIDDiscrete(System):
+    def __init__(
+        self,
+        arg0: str,
+        arg1: float,
+        arg2: float,
+        arg3: float,
+        arg4: float,
+        arg5: float,
+        arg6: float,
+        arg7: float | None,
+        arg8: float | None,
+        /,
+    ) -> None: ...
+
+class TransferFunctionDiscrete(System):
+    def __init__(self, arg0: str, arg1: float, arg2: Any, arg3: Any, arg4: Any, /) -> None: ...
 
 class Results:
     def at(

@@ -8,7 +8,23 @@ located as an event, and its side is held in between.
 """
 
 from saltus.library.arithmetic import Abs, Adder, Gain, Offset, Product, Saturate
-from saltus.library.discrete import RateLimiter, UnitDelay, ZeroOrderHold
+from saltus.library.discrete import (
+    DelayN,
+    DiscreteClock,
+    EdgeDetection,
+    RateLimiter,
+    RateTransition,
+    UnitDelay,
+    ZeroOrderHold,
+)
+from saltus.library.discrete_linear import (
+    DerivativeDiscrete,
+    FilterDiscrete,
+    IntegratorDiscrete,
+    LTISystemDiscrete,
+    PIDDiscrete,
+    TransferFunctionDiscrete,
+)
 from saltus.library.functions import FeedthroughBlock, FunctionBlock, ReduceBlock, SourceBlock
 from saltus.library.linear import PID, Derivative, LTISystem, TransferFunction
 from saltus.library.logic import (
@@ -47,17 +63,24 @@ __all__ = [
     "Counter",
     "CrossProduct",
     "DeadZone",
+    "DelayN",
     "Demultiplexer",
     "Derivative",
+    "DerivativeDiscrete",
+    "DiscreteClock",
     "DotProduct",
+    "EdgeDetection",
     "Exponent",
     "FeedthroughBlock",
+    "FilterDiscrete",
     "FunctionBlock",
     "Gain",
     "HitCrossing",
     "IfThenElse",
     "Integrator",
+    "IntegratorDiscrete",
     "LTISystem",
+    "LTISystemDiscrete",
     "Logarithm",
     "LogicalOperator",
     "LookupTable1d",
@@ -65,6 +88,7 @@ __all__ = [
     "Multiplexer",
     "MultiportSwitch",
     "Offset",
+    "PIDDiscrete",
     "Power",
     "Product",
     "ProductOfElements",
@@ -72,6 +96,7 @@ __all__ = [
     "Quantizer",
     "Ramp",
     "RateLimiter",
+    "RateTransition",
     "Reciprocal",
     "ReduceBlock",
     "Relay",
@@ -88,6 +113,7 @@ __all__ = [
     "SumOfElements",
     "Switch",
     "TransferFunction",
+    "TransferFunctionDiscrete",
     "Trigonometric",
     "UnitDelay",
     "ZeroOrderHold",
