@@ -24,6 +24,13 @@ class Arguments {
     return value ? std::optional(value->values) : std::nullopt;
   }
 
+  /// A matrix; a vector counts as its only column.
+  Eigen::MatrixXd columns(py::handle numbers, std::string_view name) const {
+    const Array array = to_array(numbers, what(name));
+    if (array.ndim() == 1) return as_vector(array);
+    return matrix(numbers, name);
+  }
+
   /// A matrix; a number counts as one of a single entry.
   Eigen::MatrixXd matrix(py::handle numbers, std::string_view name) const {
     const Array array = to_array(numbers, what(name));
@@ -41,6 +48,7 @@ class Arguments {
 };
 
 void bind_discrete_linear(py::module_& module);
+void bind_signals(py::module_& module);
 
 /// The edge with this name; a ModelError with the nearest name if there is none.
 inline Edge edge_from(const std::string& block, std::string_view edge) {

@@ -443,6 +443,32 @@ class Sine(System):
 class Step(System):
     def __init__(self, arg0: str, arg1: Any, arg2: Any, arg3: float, /) -> None: ...
 
+class Chirp(System):
+    def __init__(self, arg0: str, arg1: Any, arg2: Any, arg3: float, arg4: Any, /) -> None: ...
+
+class DataSource(System):
+    def __init__(self, arg0: str, arg1: Any, arg2: Any, arg3: str, arg4: str, /) -> None: ...
+
+class RandomNumber(System):
+    def __init__(
+        self,
+        arg0: str,
+        arg1: float,
+        arg2: str,
+        arg3: float,
+        arg4: Any,
+        arg5: Any,
+        arg6: Any,
+        arg7: Any,
+        /,
+    ) -> None: ...
+
+class Sawtooth(System):
+    def __init__(self, arg0: str, arg1: Any, arg2: float, arg3: float, /) -> None: ...
+
+class WhiteNoise(System):
+    def __init__(self, arg0: str, arg1: float, arg2: Any, arg3: float, /) -> None: ...
+
 class Abs(System):
     def __init__(self, arg0: str, /) -> None: ...
 

@@ -39,7 +39,9 @@ from saltus.library.logic import (
     Switch,
 )
 from saltus.library.maps import Exponent, Logarithm, Power, Reciprocal, SquareRoot, Trigonometric
+from saltus.library.noise import RandomNumber, WhiteNoise
 from saltus.library.nonlinear import DeadZone, LookupTable1d, MinMax, Quantizer, Sign
+from saltus.library.signals import Chirp, DataSource, Sawtooth
 from saltus.library.sources import Clock, Constant, Pulse, Ramp, Sine, Step
 from saltus.library.state import Integrator, SecondOrderIntegrator
 from saltus.library.vectors import (
@@ -57,11 +59,13 @@ __all__ = [
     "PID",
     "Abs",
     "Adder",
+    "Chirp",
     "Clock",
     "Comparator",
     "Constant",
     "Counter",
     "CrossProduct",
+    "DataSource",
     "DeadZone",
     "DelayN",
     "Demultiplexer",
@@ -95,12 +99,14 @@ __all__ = [
     "Pulse",
     "Quantizer",
     "Ramp",
+    "RandomNumber",
     "RateLimiter",
     "RateTransition",
     "Reciprocal",
     "ReduceBlock",
     "Relay",
     "Saturate",
+    "Sawtooth",
     "ScalarBroadcast",
     "SecondOrderIntegrator",
     "Sign",
@@ -116,6 +122,7 @@ __all__ = [
     "TransferFunctionDiscrete",
     "Trigonometric",
     "UnitDelay",
+    "WhiteNoise",
     "ZeroOrderHold",
 ]
 

@@ -10,7 +10,9 @@ __all__ = ["elsewhere"]
 
 CALLED = {
     "Add": "Adder",
+    "BandLimitedWhiteNoise": "WhiteNoise",
     "Bias": "Offset",
+    "CombiTimeTable": "DataSource",
     "Delay": "DelayN",
     "Demux": "Demultiplexer",
     "DigitalClock": "DiscreteClock",
@@ -26,18 +28,22 @@ CALLED = {
     "DiscreteTransferFunction": "TransferFunctionDiscrete",
     "Divide": "Product",
     "Fcn": "FunctionBlock",
+    "FromWorkspace": "DataSource",
     "Logic": "LogicalOperator",
     "MATLABFcn": "ReduceBlock",
     "MatlabFunction": "ReduceBlock",
     "Mux": "Multiplexer",
     "PulseGenerator": "Pulse",
     "PulseTrain": "Pulse",
+    "RandomSource": "RandomNumber",
     "Relational": "Comparator",
     "RelationalOperator": "Comparator",
+    "RepeatingSequence": "Sawtooth",
     "Saturation": "Saturate",
     "SineWave": "Sine",
     "Subtract": "Adder",
     "Sum": "Adder",
+    "UniformRandomNumber": "RandomNumber",
 }
 """names of blocks in Simulink, Modelica and Drake"""
 DONE = {
