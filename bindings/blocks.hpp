@@ -48,6 +48,7 @@ class Arguments {
 };
 
 void bind_discrete_linear(py::module_& module);
+void bind_mechanics(py::module_& module);
 void bind_signals(py::module_& module);
 
 /// The edge with this name; a ModelError with the nearest name if there is none.

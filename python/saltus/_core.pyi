@@ -499,6 +499,9 @@ class Logarithm(System):
 class LookupTable1d(System):
     def __init__(self, arg0: str, arg1: Any, arg2: Any, arg3: str, arg4: str, /) -> None: ...
 
+class LookupTable2d(System):
+    def __init__(self, arg0: str, arg1: Any, arg2: Any, arg3: Any, arg4: str, /) -> None: ...
+
 class MinMax(System):
     def __init__(self, arg0: str, arg1: str, arg2: int, /) -> None: ...
 
@@ -596,6 +599,22 @@ class Integrator(System):
 class SecondOrderIntegrator(System):
     def __init__(
         self, arg0: str, arg1: Any, arg2: Any, arg3: Any, arg4: Any, arg5: float, /
+    ) -> None: ...
+
+class Backlash(System):
+    def __init__(self, arg0: str, arg1: float, arg2: float, /) -> None: ...
+
+class MassWithFriction(System):
+    def __init__(
+        self,
+        arg0: str,
+        arg1: float,
+        arg2: float,
+        arg3: float | None,
+        arg4: float,
+        arg5: float,
+        arg6: float,
+        /,
     ) -> None: ...
 
 class Derivative(System):

@@ -3,6 +3,7 @@
 
 #include "saltus/library/abs.hpp"
 #include "saltus/library/adder.hpp"
+#include "saltus/library/backlash.hpp"
 #include "saltus/library/chirp.hpp"
 #include "saltus/library/clock.hpp"
 #include "saltus/library/comparator.hpp"
@@ -29,8 +30,10 @@
 #include "saltus/library/logarithm.hpp"
 #include "saltus/library/logical_operator.hpp"
 #include "saltus/library/lookup_table_1d.hpp"
+#include "saltus/library/lookup_table_2d.hpp"
 #include "saltus/library/lti_system.hpp"
 #include "saltus/library/lti_system_discrete.hpp"
+#include "saltus/library/mass_with_friction.hpp"
 #include "saltus/library/min_max.hpp"
 #include "saltus/library/multiplexer.hpp"
 #include "saltus/library/multiport_switch.hpp"

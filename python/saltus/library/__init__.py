@@ -39,8 +39,9 @@ from saltus.library.logic import (
     Switch,
 )
 from saltus.library.maps import Exponent, Logarithm, Power, Reciprocal, SquareRoot, Trigonometric
+from saltus.library.mechanics import Backlash, MassWithFriction
 from saltus.library.noise import RandomNumber, WhiteNoise
-from saltus.library.nonlinear import DeadZone, LookupTable1d, MinMax, Quantizer, Sign
+from saltus.library.nonlinear import DeadZone, LookupTable1d, LookupTable2d, MinMax, Quantizer, Sign
 from saltus.library.signals import Chirp, DataSource, Sawtooth
 from saltus.library.sources import Clock, Constant, Pulse, Ramp, Sine, Step
 from saltus.library.state import Integrator, SecondOrderIntegrator
@@ -59,6 +60,7 @@ __all__ = [
     "PID",
     "Abs",
     "Adder",
+    "Backlash",
     "Chirp",
     "Clock",
     "Comparator",
@@ -88,6 +90,8 @@ __all__ = [
     "Logarithm",
     "LogicalOperator",
     "LookupTable1d",
+    "LookupTable2d",
+    "MassWithFriction",
     "MinMax",
     "Multiplexer",
     "MultiportSwitch",
