@@ -35,8 +35,8 @@ void Backlash::declare_contact(const char* event, double side, ParameterIndex wi
            }});
 }
 
-/// The guard is the rate, so that a turn between two looks shows as a dip. A rate of exactly 0 is no
-/// turn: a shaft that stops and goes on in the same direction never leaves the contact.
+/// The guard is the rate, so that a turn between two looks shows as a dip. A rate of exactly 0 is
+/// no turn: a shaft that stops and goes on in the same direction never leaves the contact.
 void Backlash::declare_turn(ParameterIndex width) {
   declare_zero_crossing({.name = "turn",
                          .reset_map =

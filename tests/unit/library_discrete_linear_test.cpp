@@ -153,8 +153,8 @@ TEST_CASE("the derivative of a PIDDiscrete is stable for a fast filter", "[libra
   for (const double each : y) CHECK_THAT(each, WithinAbs(1.0, 1.1e-6));  // n / (1 + n dt)
 }
 
-/// The error is 1 up to 4 s, then -1: i stays at 1.5, where v is above the limit, and falls as soon as
-/// the error turns. Wound up it would be 4.
+/// The error is 1 up to 4 s, then -1: i stays at 1.5, where v is above the limit, and falls as soon
+/// as the error turns. Wound up it would be 4.
 TEST_CASE("the integral of a PIDDiscrete does not wind up", "[library][sampled]") {
   const auto turn =
       fed_by<Step>(Step::Options{.start_value = 1.0, .end_value = -1.0, .step_time = 4.0});

@@ -85,8 +85,8 @@ TEST_CASE("a Backlash may start in contact, on either side", "[library][mechanic
   CHECK(below.at({0.0, 0.4}) == Numbers{0.5, 0.5});  // u rises: it leaves at once
 }
 
-/// A load that moves with y: y(0) = 0, so it is where y is. The first half swing has a contact of its
-/// own.
+/// A load that moves with y: y(0) = 0, so it is where y is. The first half swing has a contact of
+/// its own.
 TEST_CASE("a Backlash misses no turn of a long run", "[library][mechanics]") {
   DiagramBuilder builder;
   auto& play = builder.add<Backlash>("block", 1.5);
@@ -137,8 +137,8 @@ TEST_CASE("a body slips beyond the static friction only", "[library][mechanics]"
   for (std::size_t i = 0; i < 3; ++i) CHECK(back[i] == -v[i]);
 }
 
-/// A force at the friction, and then less: with equal frictions a body that slipped at the limit would
-/// be driven backward by its own friction.
+/// A force at the friction, and then less: with equal frictions a body that slipped at the limit
+/// would be driven backward by its own friction.
 TEST_CASE("a body at the limit of its friction stays", "[library][mechanics]") {
   const Scene<MassWithFriction> held(pushed(1.0, 0.5, 0.0), MassWithFriction::Options{});
   CHECK(held.at({1.0, 2.0, 5.0}) == Numbers{0.0, 0.0, 0.0});

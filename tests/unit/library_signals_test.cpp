@@ -14,7 +14,8 @@ const auto alone = [](DiagramBuilder&, auto&) {};
 
 }  // namespace
 
-/// The phase is t^2 / 2 + t up to 2 s, where the frequency is 3, and grows by 3 a second afterwards.
+/// The phase is t^2 / 2 + t up to 2 s, where the frequency is 3, and grows by 3 a second
+/// afterwards.
 TEST_CASE("a Chirp sweeps its frequency, and then keeps it", "[library][signals]") {
   const Scene<Chirp> scene(alone,
                            Chirp::Options{.f0 = 1.0, .f1 = 3.0, .stop_time = 2.0, .phi = 0.5});

@@ -1,6 +1,6 @@
-// y = cos(phi + f0 t + (f1 - f0) t^2 / (2 stop_time)): the frequency grows evenly from f0 at t = 0 to
-// f1 at stop_time, and remains there afterwards. out: elementwise of f0, f1 and phi. Parameters "f0",
-// "f1" [rad/s], "phi" [rad]. Continuous; the end of the growth is an exact time event.
+// y = cos(phi + f0 t + (f1 - f0) t^2 / (2 stop_time)): the frequency grows evenly from f0 at t = 0
+// to f1 at stop_time, and remains there afterwards. out: elementwise of f0, f1 and phi. Parameters
+// "f0", "f1" [rad/s], "phi" [rad]. Continuous; the end of the growth is an exact time event.
 #pragma once
 
 #include "saltus/library/arguments.hpp"

@@ -1,5 +1,5 @@
-// y[k] = 1 if the truth of u changed from tick k - 1 to tick k, at t = k dt, in the direction of the
-// edge; otherwise 0. in: one boolean, true if not 0. out: boolean, held to the next tick.
+// y[k] = 1 if the truth of u changed from tick k - 1 to tick k, at t = k dt, in the direction of
+// the edge; otherwise 0. in: one boolean, true if not 0. out: boolean, held to the next tick.
 #pragma once
 
 #include "saltus/library/sampled.hpp"

@@ -1,11 +1,12 @@
-// y[k] = y[k-1] + dt (w u[k] + (1 - w) u[k-1]), y[0] = the state at the start, elementwise; y is held
-// from tick k, at t = k dt, to the next. w = 0: forward; 1: backward; 1/2: trapezoidal.
+// y[k] = y[k-1] + dt (w u[k] + (1 - w) u[k-1]), y[0] = the state at the start, elementwise; y is
+// held from tick k, at t = k dt, to the next. w = 0: forward; 1: backward; 1/2: trapezoidal.
 // Ports, each only if its option is on, in this order: in, reset_trigger, reset_value,
-// hold_trigger. in, reset_value and out have the shape of initial_state; each trigger is one boolean,
-// read at ticks. Where reset_trigger is true at a tick and was false at the tick before, y[k] becomes
-// reset_value, or initial_state. While hold_trigger is true, y does not change. Parameters
-// "initial_state" (the value after a reset), "lower_limit", "upper_limit": y remains between them,
-// and does not wind up. in is read at once unless the method is forward; reset ports always.
+// hold_trigger. in, reset_value and out have the shape of initial_state; each trigger is one
+// boolean, read at ticks. Where reset_trigger is true at a tick and was false at the tick before,
+// y[k] becomes reset_value, or initial_state. While hold_trigger is true, y does not change.
+// Parameters "initial_state" (the value after a reset), "lower_limit", "upper_limit": y remains
+// between them, and does not wind up. in is read at once unless the method is forward; reset ports
+// always.
 #pragma once
 
 #include <optional>

@@ -11,9 +11,9 @@
 
 namespace saltus::detail {
 
-/// Knots k_0 < k_1 < ...; piece s lies between k_(s-1) and k_s, and the outer pieces go on without an
-/// end. A relation holds whether the number of the piece is even, so a solver step that ends at a
-/// knot, or goes too far, sees one piece.
+/// Knots k_0 < k_1 < ...; piece s lies between k_(s-1) and k_s, and the outer pieces go on without
+/// an end. A relation holds whether the number of the piece is even, so a solver step that ends at
+/// a knot, or goes too far, sees one piece.
 class Knots {
  public:
   explicit Knots(std::vector<double> knots) : knots_(knots.begin(), knots.end()) {}

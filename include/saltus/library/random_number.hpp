@@ -1,8 +1,8 @@
 // y[k] = a random number, from tick k, at t = k dt, to the next; one for each entry, independent.
 // out: elementwise of the parameters. Normal: parameters "seed", "mean", "standard_deviation";
-// uniform: "seed", "lower_limit", "upper_limit". Held; ticks are exact time events. y[k] is a function
-// of the seed and k: a run that is resumed, or is part of a sweep, has the same numbers. Two blocks
-// with one seed have the same numbers. Before the first tick y is that of tick 0.
+// uniform: "seed", "lower_limit", "upper_limit". Held; ticks are exact time events. y[k] is a
+// function of the seed and k: a run that is resumed, or is part of a sweep, has the same numbers.
+// Two blocks with one seed have the same numbers. Before the first tick y is that of tick 0.
 #pragma once
 
 #include <string_view>
