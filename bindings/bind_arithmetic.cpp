@@ -10,6 +10,7 @@
 #include "saltus/library/gain.hpp"
 #include "saltus/library/logarithm.hpp"
 #include "saltus/library/lookup_table_1d.hpp"
+#include "saltus/library/lookup_table_2d.hpp"
 #include "saltus/library/min_max.hpp"
 #include "saltus/library/multiplexer.hpp"
 #include "saltus/library/offset.hpp"
@@ -52,6 +53,14 @@ void bind_arithmetic(py::module_& module) {
         return std::make_unique<LookupTable1d>(name, of.value(input_array, "input_array").values,
                                                of.value(output_array, "output_array").values,
                                                LookupTable1dOptions{interpolation, extrapolation});
+      }));
+  py::class_<LookupTable2d, System>(module, "LookupTable2d")
+      .def(py::init([](const std::string& name, Handle input_x, Handle input_y, Handle table,
+                       std::string_view extrapolation) {
+        const Arguments of(name);
+        return std::make_unique<LookupTable2d>(
+            name, of.value(input_x, "input_x").values, of.value(input_y, "input_y").values,
+            of.matrix(table, "output_table"), LookupTable2dOptions{extrapolation});
       }));
   py::class_<MinMax, System>(module, "MinMax").def(py::init<std::string, std::string_view, int>());
   py::class_<Multiplexer, System>(module, "Multiplexer").def(py::init<std::string, int>());

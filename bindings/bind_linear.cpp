@@ -7,17 +7,6 @@
 
 namespace saltus::python {
 
-namespace {
-
-/// A vector of numbers, if there is one.
-std::optional<Eigen::VectorXd> vector_of(const Arguments& of, py::handle numbers,
-                                         std::string_view what) {
-  const auto value = of.optional(numbers, what);
-  return value ? std::optional(value->values) : std::nullopt;
-}
-
-}  // namespace
-
 void bind_linear(py::module_& module) {
   using Handle = const py::object&;
   py::class_<Derivative, System>(module, "Derivative")
@@ -34,7 +23,7 @@ void bind_linear(py::module_& module) {
         LTISystemMatrices matrices{of.matrix(A, "A"), of.matrix(B, "B"), of.matrix(C, "C")};
         if (!D.is_none()) matrices.D = of.matrix(D, "D");
         return std::make_unique<LTISystem>(
-            name, matrices, LTISystemOptions{vector_of(of, initial_state, "initial_state")});
+            name, matrices, LTISystemOptions{of.optional_vector(initial_state, "initial_state")});
       }));
   py::class_<PID, System>(module, "PID")
       .def(py::init([](const std::string& name, double kp, double ki, double kd, double n,
@@ -55,7 +44,8 @@ void bind_linear(py::module_& module) {
         const Arguments of(name);
         return std::make_unique<TransferFunction>(
             name, of.value(numerator, "num").values, of.value(denominator, "den").values,
-            TransferFunctionOptions{vector_of(of, initial_state, "initial_state"), initial_output});
+            TransferFunctionOptions{of.optional_vector(initial_state, "initial_state"),
+                                    initial_output});
       }))
       .def_property_readonly("scales", [](const TransferFunction& block) {
         const Eigen::VectorXd& scales = block.scales();

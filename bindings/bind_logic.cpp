@@ -19,9 +19,7 @@ void bind_logic(py::module_& module) {
   py::class_<Counter, System>(module, "Counter")
       .def(py::init(
           [](std::string name, std::string_view edge, std::optional<int> limit, int initial_state) {
-            constexpr std::pair<std::string_view, Edge> edges[] = {
-                {"rising", Edge::rising}, {"falling", Edge::falling}, {"either", Edge::either}};
-            const Edge which = detail::meaning(name, "edge", edge, edges);
+            const Edge which = edge_from(name, edge);
             return std::make_unique<Counter>(std::move(name),
                                              CounterOptions{which, limit, initial_state});
           }));

@@ -46,6 +46,7 @@ void bind_sources(py::module_& module) {
                                           StepOptions{of.value(start_value, "start_value"),
                                                       of.value(end_value, "end_value"), step_time});
           }));
+  bind_signals(module);
 }
 
 }  // namespace saltus::python

@@ -34,6 +34,7 @@ void bind_state(py::module_& module) {
                                          of.optional(lower_limit, "lower_limit"),
                                          of.optional(upper_limit, "upper_limit"), restitution});
       }));
+  bind_mechanics(module);
 }
 
 }  // namespace saltus::python

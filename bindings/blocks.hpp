@@ -4,6 +4,7 @@
 #include <pybind11/stl.h>
 
 #include "numbers.hpp"
+#include "saltus/library/words.hpp"
 
 namespace saltus::python {
 
@@ -16,6 +17,18 @@ class Arguments {
   }
   std::optional<Value> optional(py::handle numbers, std::string_view name) const {
     return to_optional_value(numbers, what(name));
+  }
+  /// A vector of numbers, if there is one.
+  std::optional<Eigen::VectorXd> optional_vector(py::handle numbers, std::string_view name) const {
+    const auto value = optional(numbers, name);
+    return value ? std::optional(value->values) : std::nullopt;
+  }
+
+  /// A matrix; a vector counts as its only column.
+  Eigen::MatrixXd columns(py::handle numbers, std::string_view name) const {
+    const Array array = to_array(numbers, what(name));
+    if (array.ndim() == 1) return as_vector(array);
+    return matrix(numbers, name);
   }
 
   /// A matrix; a number counts as one of a single entry.
@@ -33,5 +46,16 @@ class Arguments {
   std::string what(std::string_view name) const { return text("block '", block_, "': ", name); }
   std::string block_;
 };
+
+void bind_discrete_linear(py::module_& module);
+void bind_mechanics(py::module_& module);
+void bind_signals(py::module_& module);
+
+/// The edge with this name; a ModelError with the nearest name if there is none.
+inline Edge edge_from(const std::string& block, std::string_view edge) {
+  constexpr std::pair<std::string_view, Edge> edges[] = {
+      {"rising", Edge::rising}, {"falling", Edge::falling}, {"either", Edge::either}};
+  return detail::meaning(block, "edge", edge, edges);
+}
 
 }  // namespace saltus::python

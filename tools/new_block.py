@@ -126,8 +126,10 @@ def with_python_name(text: str, name: str, group: str) -> str:
         line = f"{start}(\n" + "".join(f"    {each},\n" for each in names) + ")"
     text = text[: found.start()] + line + text[found.end() :]
     start = text.index("__all__ = [")
-    listed = sorted([*re.findall(r'"(\w+)"', text[start:]), name], key=in_order)
-    return text[:start] + "__all__ = [\n" + "".join(f'    "{each}",\n' for each in listed) + "]\n"
+    end = text.index("]\n", start) + 2
+    listed = sorted([*re.findall(r'"(\w+)"', text[start:end]), name], key=in_order)
+    names = "".join(f'    "{each}",\n' for each in listed)
+    return text[:start] + "__all__ = [\n" + names + "]\n" + text[end:]
 
 
 def with_row(text: str, row: str, group: str) -> str:

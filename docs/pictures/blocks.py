@@ -1,4 +1,4 @@
-"""The picture of docs/blocks.md: what blocks with kinks and with states give, from runs.
+"""The pictures of docs/blocks.md: what blocks give, from runs.
 
 `python docs/pictures/blocks.py [--out FOLDER]`
 """
@@ -12,18 +12,36 @@ import saltus
 from make import INK, PALE, plt
 from saltus.library import (
     PID,
+    Backlash,
+    Chirp,
+    DataSource,
     DeadZone,
+    DelayN,
     Derivative,
+    DerivativeDiscrete,
+    DiscreteClock,
+    EdgeDetection,
+    FilterDiscrete,
+    IntegratorDiscrete,
     LookupTable1d,
+    LookupTable2d,
+    LTISystemDiscrete,
+    MassWithFriction,
     MinMax,
+    PIDDiscrete,
     Pulse,
     Quantizer,
+    RandomNumber,
     RateLimiter,
+    RateTransition,
     Relay,
+    Sawtooth,
     Sign,
     Sine,
     TransferFunction,
+    TransferFunctionDiscrete,
     UnitDelay,
+    WhiteNoise,
 )
 
 TIMES = np.linspace(0.0, 10.0, 801)
@@ -46,18 +64,75 @@ SCENES = [
 ]
 
 
-def blocks():
-    """Twelve blocks: the input pale, the output black."""
-    figure, axes = plt.subplots(3, 4, figsize=(6.4, 3.9), layout="constrained", sharex=True)
-    for axis, (title, block, source) in zip(axes.flat, SCENES, strict=True):
-        inputs = [source, Sine(2.0, phase=2.0)][: len(block.input_names)]
-        for each in inputs:
-            axis.plot(TIMES, saltus.response(each, t=TIMES), color=PALE)
-        axis.plot(TIMES, saltus.response(block, *inputs, t=TIMES, rtol=1e-8), color=INK)
-        axis.set_title(title)
+COSINE = Sine(2.0, phase=np.pi / 2)
+SECOND = Sine(2.0, phase=2.0)
+SAMPLED = [
+    ("DelayN, 3", DelayN(0.5, 3), [SINE]),
+    ("RateTransition", RateTransition(0.5), [SINE]),
+    ("FilterDiscrete", FilterDiscrete(0.5, [0.25] * 4), [SINE]),
+    ("DerivativeDiscrete", DerivativeDiscrete(0.5), [SINE]),
+    ("IntegratorDiscrete", IntegratorDiscrete(0.5), [SINE]),
+    ("TransferFunctionDiscrete", TransferFunctionDiscrete(0.5, [0.3], [1.0, -0.7]), [STEP]),
+    (
+        "LTISystemDiscrete",
+        LTISystemDiscrete(0.5, [[1, 0.4], [-0.4, 0.6]], [[0], [0.4]], [[1, 0]]),
+        [STEP],
+    ),
+    ("PIDDiscrete", PIDDiscrete(0.5, 0.5, ki=0.5, upper_limit=1.5), [STEP]),
+    ("EdgeDetection, either", EdgeDetection(0.5, "either"), [STEP]),
+    ("DiscreteClock", DiscreteClock(1.0), []),
+    ("RandomNumber", RandomNumber(0.5, seed=1), []),
+    ("WhiteNoise", WhiteNoise(0.05, 0.05), []),
+    ("Chirp", Chirp(0.5, 6.0, 8.0), []),
+    ("Sawtooth", Sawtooth(1.0, 0.4), []),
+    ("DataSource", DataSource([0, 2, 3, 5, 8], [0, 2, -1, -1, 1]), []),
+    ("DataSource, held", DataSource([0, 2, 3, 5, 8], [0, 2, -1, -1, 1], "zero_order_hold"), []),
+    ("Backlash", Backlash(1.5), [SINE, COSINE]),
+    ("MassWithFriction, v", MassWithFriction(coulomb=0.8, static=1.5), [SINE], 1),
+    (
+        "LookupTable2d",
+        LookupTable2d([-1, 0, 1], [-2, 2], [[1, 0], [-1, 1], [1, 0]]),
+        [SINE, COSINE],
+    ),
+    ("Sawtooth, sampled", RateTransition(0.5), [Sawtooth(1.0, 0.4)]),
+]
+
+
+def draw(axis, title, block, inputs, port=0):
+    """The inputs pale, the output black."""
+    for each in inputs:
+        axis.plot(TIMES, saltus.response(each, t=TIMES), color=PALE)
+    output = saltus.response(block, *inputs, t=TIMES, rtol=1e-8, max_minor_step_size=0.1)
+    axis.plot(TIMES, output[port] if isinstance(output, tuple) else output, color=INK)
+    axis.set_title(title)
+
+
+def sheet(scenes, rows):
+    """Four blocks in a row."""
+    figure, axes = plt.subplots(
+        rows, 4, figsize=(6.4, 1.3 * rows), layout="constrained", sharex=True, squeeze=False
+    )
+    for axis, scene in zip(axes.flat, scenes, strict=True):
+        draw(axis, *scene)
     for axis in axes[-1]:
         axis.set_xlabel("t [s]")
     return figure
+
+
+def blocks():
+    """Twelve blocks with kinks and states."""
+    return sheet(
+        [
+            (title, block, [source, SECOND][: len(block.input_names)])
+            for title, block, source in SCENES
+        ],
+        3,
+    )
+
+
+def more_blocks():
+    """Twenty blocks that are sampled, sources, and parts with contact."""
+    return sheet(SAMPLED, 5)
 
 
 def main():
@@ -65,8 +140,9 @@ def main():
     parser.add_argument("--out", type=Path, default=Path(make.__file__).parent)
     folder = parser.parse_args().out
     folder.mkdir(parents=True, exist_ok=True)
-    blocks().savefig(folder / "blocks.svg", metadata={"Date": None, "Creator": None})
-    print(folder / "blocks.svg")
+    for figure, name in [(blocks(), "blocks.svg"), (more_blocks(), "blocks_sampled.svg")]:
+        figure.savefig(folder / name, metadata={"Date": None, "Creator": None})
+        print(folder / name)
 
 
 if __name__ == "__main__":

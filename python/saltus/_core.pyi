@@ -443,6 +443,32 @@ class Sine(System):
 class Step(System):
     def __init__(self, arg0: str, arg1: Any, arg2: Any, arg3: float, /) -> None: ...
 
+class Chirp(System):
+    def __init__(self, arg0: str, arg1: Any, arg2: Any, arg3: float, arg4: Any, /) -> None: ...
+
+class DataSource(System):
+    def __init__(self, arg0: str, arg1: Any, arg2: Any, arg3: str, arg4: str, /) -> None: ...
+
+class RandomNumber(System):
+    def __init__(
+        self,
+        arg0: str,
+        arg1: float,
+        arg2: str,
+        arg3: float,
+        arg4: Any,
+        arg5: Any,
+        arg6: Any,
+        arg7: Any,
+        /,
+    ) -> None: ...
+
+class Sawtooth(System):
+    def __init__(self, arg0: str, arg1: Any, arg2: float, arg3: float, /) -> None: ...
+
+class WhiteNoise(System):
+    def __init__(self, arg0: str, arg1: float, arg2: Any, arg3: float, /) -> None: ...
+
 class Abs(System):
     def __init__(self, arg0: str, /) -> None: ...
 
@@ -472,6 +498,9 @@ class Logarithm(System):
 
 class LookupTable1d(System):
     def __init__(self, arg0: str, arg1: Any, arg2: Any, arg3: str, arg4: str, /) -> None: ...
+
+class LookupTable2d(System):
+    def __init__(self, arg0: str, arg1: Any, arg2: Any, arg3: Any, arg4: str, /) -> None: ...
 
 class MinMax(System):
     def __init__(self, arg0: str, arg1: str, arg2: int, /) -> None: ...
@@ -572,6 +601,22 @@ class SecondOrderIntegrator(System):
         self, arg0: str, arg1: Any, arg2: Any, arg3: Any, arg4: Any, arg5: float, /
     ) -> None: ...
 
+class Backlash(System):
+    def __init__(self, arg0: str, arg1: float, arg2: float, /) -> None: ...
+
+class MassWithFriction(System):
+    def __init__(
+        self,
+        arg0: str,
+        arg1: float,
+        arg2: float,
+        arg3: float | None,
+        arg4: float,
+        arg5: float,
+        arg6: float,
+        /,
+    ) -> None: ...
+
 class Derivative(System):
     def __init__(self, arg0: str, arg1: Any, arg2: Any, /) -> None: ...
 
@@ -602,14 +647,71 @@ class TransferFunction(System):
     @property
     def scales(self) -> np.ndarray: ...
 
+class DelayN(System):
+    def __init__(self, arg0: str, arg1: float, arg2: int, arg3: Any, /) -> None: ...
+
+class DiscreteClock(System):
+    def __init__(self, arg0: str, arg1: float, /) -> None: ...
+
+class EdgeDetection(System):
+    def __init__(self, arg0: str, arg1: float, arg2: str, arg3: bool, /) -> None: ...
+
 class RateLimiter(System):
     def __init__(self, arg0: str, arg1: float, arg2: float, arg3: float, arg4: Any, /) -> None: ...
+
+class RateTransition(System):
+    def __init__(self, arg0: str, arg1: float, arg2: Any, /) -> None: ...
 
 class UnitDelay(System):
     def __init__(self, arg0: str, arg1: float, arg2: Any, /) -> None: ...
 
 class ZeroOrderHold(System):
     def __init__(self, arg0: str, arg1: float, arg2: Any, /) -> None: ...
+
+class DerivativeDiscrete(System):
+    def __init__(self, arg0: str, arg1: float, arg2: float | None, arg3: Any, /) -> None: ...
+
+class FilterDiscrete(System):
+    def __init__(self, arg0: str, arg1: float, arg2: Any, arg3: Any, /) -> None: ...
+
+class IntegratorDiscrete(System):
+    def __init__(
+        self,
+        arg0: str,
+        arg1: float,
+        arg2: Any,
+        arg3: str,
+        arg4: bool,
+        arg5: bool,
+        arg6: bool,
+        arg7: Any,
+        arg8: Any,
+        arg9: bool,
+        /,
+    ) -> None: ...
+
+class LTISystemDiscrete(System):
+    def __init__(
+        self, arg0: str, arg1: float, arg2: Any, arg3: Any, arg4: Any, arg5: Any, arg6: Any, /
+    ) -> None: ...
+
+class PIDDiscrete(System):
+    def __init__(
+        self,
+        arg0: str,
+        arg1: float,
+        arg2: float,
+        arg3: float,
+        arg4: float,
+        arg5: float,
+        arg6: float,
+        arg7: float | None,
+        arg8: float | None,
+        /,
+    ) -> None: ...
+
+class TransferFunctionDiscrete(System):
+    def __init__(self, arg0: str, arg1: float, arg2: Any, arg3: Any, arg4: Any, /) -> None: ...
 
 class Results:
     def at(

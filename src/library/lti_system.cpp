@@ -17,7 +17,10 @@ auto entry_of_product(const At& at, ParameterIndex matrix, Index columns, Index 
 
 LTISystem::LTISystem(std::string name, const Matrices& matrices, const Options& options)
     : LeafSystem(std::move(name)) {
-  require_sizes(matrices, options);
+  detail::require_sizes(this->name(), matrices, options);
+  const auto declare_matrix = [this](const char* parameter, const Eigen::MatrixXd& values) {
+    return declare_dynamic_parameter(parameter, detail::by_rows(values));
+  };
   const Index n = matrices.A.rows(), inputs = matrices.B.cols(), outputs = matrices.C.rows();
   const ParameterIndex a = declare_matrix("A", matrices.A), b = declare_matrix("B", matrices.B),
                        c = declare_matrix("C", matrices.C);
@@ -44,28 +47,32 @@ LTISystem::LTISystem(std::string name, const Matrices& matrices, const Options& 
        }});
 }
 
-void LTISystem::require_sizes(const Matrices& m, const Options& options) const {
+namespace detail {
+
+void require_sizes(const std::string& block, const LTISystemMatrices& m,
+                   const LTISystemOptions& options) {
   const Index n = m.A.rows();
-  const auto sized = [this](const char* what, const Eigen::MatrixXd& found, Index rows,
-                            Index columns) {
-    detail::insist(found.rows() == rows && found.cols() == columns, name(), what, " is ",
-                   found.rows(), " x ", found.cols(), "; expected ", rows, " x ", columns,
-                   ", as A, B and C say");
+  const auto sized = [&](const char* what, const Eigen::MatrixXd& found, Index rows,
+                         Index columns) {
+    insist(found.rows() == rows && found.cols() == columns, block, what, " is ", found.rows(),
+           " x ", found.cols(), "; expected ", rows, " x ", columns, ", as A, B and C say");
   };
-  detail::insist(n > 0 && m.B.cols() > 0 && m.C.rows() > 0, name(),
-                 "A, B or C is empty; expected a state, an input and an output or more");
+  insist(n > 0 && m.B.cols() > 0 && m.C.rows() > 0, block,
+         "A, B or C is empty; expected a state, an input and an output or more");
   sized("A", m.A, n, n);
   sized("B", m.B, n, m.B.cols());
   sized("C", m.C, m.C.rows(), n);
   if (m.D) sized("D", *m.D, m.C.rows(), m.B.cols());
   const Index found = options.initial_state ? options.initial_state->size() : n;
-  detail::insist(found == n, name(), "initial_state has ", found, " values; expected ", n,
-                 ", one for each row of A");
+  insist(found == n, block, "initial_state has ", found, " values; expected ", n,
+         ", one for each row of A");
 }
 
-ParameterIndex LTISystem::declare_matrix(const char* parameter, const Eigen::MatrixXd& matrix) {
-  const Eigen::MatrixXd by_rows = matrix.transpose();
-  return declare_dynamic_parameter(parameter, Eigen::VectorXd(by_rows.reshaped()));
+Eigen::VectorXd by_rows(const Eigen::MatrixXd& matrix) {
+  const Eigen::MatrixXd transposed = matrix.transpose();
+  return transposed.reshaped();
 }
+
+}  // namespace detail
 
 }  // namespace saltus

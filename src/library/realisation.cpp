@@ -2,6 +2,7 @@
 #include "saltus/library/realisation.hpp"
 
 #include <cmath>
+#include <string_view>
 
 namespace saltus::detail {
 
@@ -41,7 +42,8 @@ Polynomials proper(const std::string& block, const char* variable, const Eigen::
   insist(p.numerator.size() > 0, block, "the numerator is 0; expected a coefficient that is not");
   insist(p.numerator.size() <= p.denominator.size(), block, "the numerator has the degree ",
          p.numerator.size() - 1, " in ", variable, ", the denominator ", p.order(),
-         "; expected a proper transfer function: multiply the denominator by a fast pole");
+         "; expected a proper transfer function: multiply the denominator by ",
+         std::string_view(variable) == "s" ? "a fast pole" : "a power of z, which delays y");
   return p;
 }
 

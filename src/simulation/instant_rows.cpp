@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "saltus/plan/detail/needs.hpp"
+
 namespace saltus {
 
 void InstantRows::before(int jump, bool flipped) {
@@ -34,8 +36,9 @@ void InstantRows::put_back_what_does_not_follow() {
   for (const int i : plan.order) {
     const Node& node = plan.node(i);
     char& follows = follows_[i];
-    follows =
-        follows || std::ranges::any_of(node.needs, [&](int need) { return follows_[need] != 0; });
+    const bool moves = !samples(detail::reads_of(plan, node));
+    follows = follows || (moves && std::ranges::any_of(
+                                       node.needs, [&](int need) { return follows_[need] != 0; }));
     if (follows || node.place.space != Space::y) continue;
     machine_->y.segment(node.place.offset, node.place.size) =
         y_before_.segment(node.place.offset, node.place.size);

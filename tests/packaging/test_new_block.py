@@ -53,6 +53,9 @@ def test_every_place_is_written(tree, name, file, group):
     bindings = (tree / f"bindings/bind_{group}.cpp").read_text()
     assert f'#include "saltus/library/{file}.hpp"' in bindings
     assert bindings.index(f'(module, "{name}")') > bindings.index(f"void bind_{group}")
+    package = "python/saltus/library/__init__.py"
+    kept = (ROOT / package).read_text().split("]\n")[-1]  # what follows __all__
+    assert kept.strip() and (tree / package).read_text().endswith(kept)
     python = ast.parse((tree / f"python/saltus/library/{group}.py").read_text())
     assert name in {node.name for node in python.body if isinstance(node, ast.ClassDef)}
     assert f"Bench<{name}>" in (tree / f"tests/unit/library_{file}_test.cpp").read_text()

@@ -66,8 +66,9 @@ def arguments(method):
 def blocks():
     headers = (ROOT / "include" / "saltus" / "library").glob("*.hpp")
     texts = [header.read_text() for header in headers]
-    pattern = re.compile(r"^class (\w+)(?: final)? : public LeafSystem", re.M)
-    return {name for text in texts for name in pattern.findall(text)}
+    base = r"(?:LeafSystem|detail::SampledSystem)"
+    pattern = re.compile(rf"^class (\w+)(?: final)? : public {base}", re.M)
+    return {name for text in texts for name in pattern.findall(text)} - {"SampledSystem"}
 
 
 Leaf = saltus.LeafSystem

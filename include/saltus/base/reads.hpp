@@ -12,7 +12,9 @@ enum class Reads : unsigned {
   mode = 8,
   inputs = 16,
   relations = 32,
-  schedule = 64,  ///< the time, but it changes at the leaf's own time events only
+  /// The time, but the value changes at the leaf's own time events only. With inputs or a
+  /// continuous state: it reads them at those events, and is held in between though they move.
+  schedule = 64,
   everything = 63,
 };
 constexpr Reads operator|(Reads a, Reads b) {

@@ -21,16 +21,23 @@ struct LTISystemOptions {
   std::optional<Eigen::VectorXd> initial_state = {};  ///< x at the start: n numbers, otherwise 0
 };
 
+namespace detail {
+
+/// Throws ModelError for matrices or a start that do not fit one another.
+void require_sizes(const std::string& block, const LTISystemMatrices& matrices,
+                   const LTISystemOptions& options);
+
+/// The entries of a matrix, row by row.
+Eigen::VectorXd by_rows(const Eigen::MatrixXd& matrix);
+
+}  // namespace detail
+
 class LTISystem final : public LeafSystem {
  public:
   using Matrices = LTISystemMatrices;
   using Options = LTISystemOptions;
 
   LTISystem(std::string name, const Matrices& matrices, const Options& options = {});
-
- private:
-  void require_sizes(const Matrices& matrices, const Options& options) const;
-  ParameterIndex declare_matrix(const char* parameter, const Eigen::MatrixXd& matrix);
 };
 
 }  // namespace saltus

@@ -20,4 +20,10 @@ inline double last_tick(double time, double period, double offset = 0.0) {
   return std::floor(since(time, offset) / period);
 }
 
+/// Whether a tick is at `time`, within rounding.
+inline bool is_tick(double time, double period, double offset = 0.0) {
+  const double k = last_tick(time, period, offset), lead = since(time, offset) - (time - offset);
+  return k >= 0.0 && since(time, offset) - k * period <= 2.0 * lead;
+}
+
 }  // namespace saltus::detail

@@ -13,12 +13,17 @@ enum class Rate {
   continuous,  ///< in the right-hand side, the guards or the taps that need it
 };
 
+/// Whether a value is held though what it reads may move: it follows at its leaf's time events
+/// only.
+constexpr bool samples(Reads reads) { return has(reads, Reads::schedule); }
+
 /// The rate of a value by the values it reads, apart from inputs and relations.
 constexpr Rate own_rate(Reads reads, bool has_x, bool has_z, bool has_modes) {
   if (has(reads, Reads::time)) return Rate::continuous;
+  if (samples(reads)) return Rate::held;
   if (has_x && has(reads, Reads::continuous_state)) return Rate::continuous;
-  const bool stepwise = (has_z && has(reads, Reads::discrete_state)) ||
-                        (has_modes && has(reads, Reads::mode)) || has(reads, Reads::schedule);
+  const bool stepwise =
+      (has_z && has(reads, Reads::discrete_state)) || (has_modes && has(reads, Reads::mode));
   return stepwise ? Rate::held : Rate::constant;
 }
 

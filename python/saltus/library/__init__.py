@@ -8,7 +8,23 @@ located as an event, and its side is held in between.
 """
 
 from saltus.library.arithmetic import Abs, Adder, Gain, Offset, Product, Saturate
-from saltus.library.discrete import RateLimiter, UnitDelay, ZeroOrderHold
+from saltus.library.discrete import (
+    DelayN,
+    DiscreteClock,
+    EdgeDetection,
+    RateLimiter,
+    RateTransition,
+    UnitDelay,
+    ZeroOrderHold,
+)
+from saltus.library.discrete_linear import (
+    DerivativeDiscrete,
+    FilterDiscrete,
+    IntegratorDiscrete,
+    LTISystemDiscrete,
+    PIDDiscrete,
+    TransferFunctionDiscrete,
+)
 from saltus.library.functions import FeedthroughBlock, FunctionBlock, ReduceBlock, SourceBlock
 from saltus.library.linear import PID, Derivative, LTISystem, TransferFunction
 from saltus.library.logic import (
@@ -23,7 +39,10 @@ from saltus.library.logic import (
     Switch,
 )
 from saltus.library.maps import Exponent, Logarithm, Power, Reciprocal, SquareRoot, Trigonometric
-from saltus.library.nonlinear import DeadZone, LookupTable1d, MinMax, Quantizer, Sign
+from saltus.library.mechanics import Backlash, MassWithFriction
+from saltus.library.noise import RandomNumber, WhiteNoise
+from saltus.library.nonlinear import DeadZone, LookupTable1d, LookupTable2d, MinMax, Quantizer, Sign
+from saltus.library.signals import Chirp, DataSource, Sawtooth
 from saltus.library.sources import Clock, Constant, Pulse, Ramp, Sine, Step
 from saltus.library.state import Integrator, SecondOrderIntegrator
 from saltus.library.vectors import (
@@ -41,41 +60,57 @@ __all__ = [
     "PID",
     "Abs",
     "Adder",
+    "Backlash",
+    "Chirp",
     "Clock",
     "Comparator",
     "Constant",
     "Counter",
     "CrossProduct",
+    "DataSource",
     "DeadZone",
+    "DelayN",
     "Demultiplexer",
     "Derivative",
+    "DerivativeDiscrete",
+    "DiscreteClock",
     "DotProduct",
+    "EdgeDetection",
     "Exponent",
     "FeedthroughBlock",
+    "FilterDiscrete",
     "FunctionBlock",
     "Gain",
     "HitCrossing",
     "IfThenElse",
     "Integrator",
+    "IntegratorDiscrete",
     "LTISystem",
+    "LTISystemDiscrete",
     "Logarithm",
     "LogicalOperator",
     "LookupTable1d",
+    "LookupTable2d",
+    "MassWithFriction",
     "MinMax",
     "Multiplexer",
     "MultiportSwitch",
     "Offset",
+    "PIDDiscrete",
     "Power",
     "Product",
     "ProductOfElements",
     "Pulse",
     "Quantizer",
     "Ramp",
+    "RandomNumber",
     "RateLimiter",
+    "RateTransition",
     "Reciprocal",
     "ReduceBlock",
     "Relay",
     "Saturate",
+    "Sawtooth",
     "ScalarBroadcast",
     "SecondOrderIntegrator",
     "Sign",
@@ -88,8 +123,10 @@ __all__ = [
     "SumOfElements",
     "Switch",
     "TransferFunction",
+    "TransferFunctionDiscrete",
     "Trigonometric",
     "UnitDelay",
+    "WhiteNoise",
     "ZeroOrderHold",
 ]
 

@@ -9,7 +9,113 @@ from numpy.typing import ArrayLike
 from saltus import _core
 from saltus.library.block import Block
 
-__all__ = ["RateLimiter", "UnitDelay", "ZeroOrderHold"]
+__all__ = [
+    "DelayN",
+    "DiscreteClock",
+    "EdgeDetection",
+    "RateLimiter",
+    "RateTransition",
+    "UnitDelay",
+    "ZeroOrderHold",
+]
+
+
+class DelayN(Block, _core.DelayN):
+    """y[k] = u[k - n], and initial_state for k < n; held from tick k to the next.
+
+    Parameters
+    ----------
+    dt
+        [s] From one tick to the next; ticks are at 0, dt, 2 dt, ..., counted by integers.
+    n
+        The number of ticks by which y is behind u, 1 or more.
+    initial_state
+        A number or a vector: y before the first value, and the shape of the signal.
+    name
+        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+
+    Raises
+    ------
+    ModelError
+        For a dt that is not above 0, or an n below 1.
+
+    Examples
+    --------
+    >>> from saltus.library import Clock, DelayN
+    >>> saltus.response(DelayN(dt=1.0, n=3), Clock(), t=[2.5, 3.5, 5.0])
+    array([0., 0., 2.])
+    """
+
+    def __init__(
+        self, dt: float, n: int, initial_state: ArrayLike = 0.0, *, name: str | None = None
+    ):
+        super().__init__(self._named(name), dt, n, initial_state)
+
+
+class DiscreteClock(Block, _core.DiscreteClock):
+    """y = k dt [s], from tick k to the next; 0 before the first tick.
+
+    Parameters
+    ----------
+    dt
+        [s] From one tick to the next; ticks are at 0, dt, 2 dt, ..., counted by integers.
+    name
+        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+
+    Raises
+    ------
+    ModelError
+        For a dt that is not above 0.
+
+    Examples
+    --------
+    >>> from saltus.library import DiscreteClock
+    >>> saltus.response(DiscreteClock(dt=0.5), t=[0.4, 0.5, 1.7])
+    array([0. , 0.5, 1.5])
+    """
+
+    def __init__(self, dt: float, *, name: str | None = None):
+        super().__init__(self._named(name), dt)
+
+
+class EdgeDetection(Block, _core.EdgeDetection):
+    """y[k] = 1 if the truth of u changed from tick k - 1 to tick k, in the direction of the edge;
+    else 0. y is a boolean, held to the next tick. u is one boolean, true if it is not 0.
+
+    A truth that changes and changes back between two ticks has no edge: a `Counter` sees each.
+
+    Parameters
+    ----------
+    dt
+        [s] From one tick to the next; ticks are at 0, dt, 2 dt, ..., counted by integers.
+    edge
+        'rising', 'falling' or 'either'.
+    initial_state
+        The truth of u before the first tick.
+    name
+        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+
+    Raises
+    ------
+    ModelError
+        For a dt that is not above 0, or an unknown edge.
+
+    Examples
+    --------
+    >>> from saltus.library import EdgeDetection, Step
+    >>> saltus.response(EdgeDetection(dt=1.0), Step(step_time=1.5), t=[1.0, 2.0, 3.0])
+    array([0., 1., 0.])
+    """
+
+    def __init__(
+        self,
+        dt: float,
+        edge: str = "rising",
+        initial_state: bool = False,
+        *,
+        name: str | None = None,
+    ):
+        super().__init__(self._named(name), dt, edge, initial_state)
 
 
 class RateLimiter(Block, _core.RateLimiter):
@@ -52,6 +158,38 @@ class RateLimiter(Block, _core.RateLimiter):
         name: str | None = None,
     ):
         super().__init__(self._named(name), dt, upper_limit, lower_limit, initial_state)
+
+
+class RateTransition(Block, _core.RateTransition):
+    """y[k] = u[k]: the input at tick k, held to the next tick.
+
+    At a tick y is u as it is at that tick: a block with a slow period reads one with a fast period
+    without a delay. A `ZeroOrderHold` shows a block that samples it at the same tick the value
+    before. From a slow period to a fast one nothing is needed: outputs are held.
+
+    Parameters
+    ----------
+    dt
+        [s] From one tick to the next; ticks are at 0, dt, 2 dt, ..., counted by integers.
+    initial_state
+        A number or a vector: y before the first tick, and the shape of the signal.
+    name
+        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+
+    Raises
+    ------
+    ModelError
+        For a dt that is not above 0.
+
+    Examples
+    --------
+    >>> from saltus.library import DiscreteClock, RateTransition
+    >>> saltus.response(RateTransition(dt=1.0), DiscreteClock(dt=0.5), t=[0.6, 1.0, 1.6])
+    array([0., 1., 1.])
+    """
+
+    def __init__(self, dt: float, initial_state: ArrayLike = 0.0, *, name: str | None = None):
+        super().__init__(self._named(name), dt, initial_state)
 
 
 class UnitDelay(Block, _core.UnitDelay):

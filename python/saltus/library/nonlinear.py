@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 from saltus import _core
 from saltus.library.block import Block
 
-__all__ = ["DeadZone", "LookupTable1d", "MinMax", "Quantizer", "Sign"]
+__all__ = ["DeadZone", "LookupTable1d", "LookupTable2d", "MinMax", "Quantizer", "Sign"]
 
 
 class DeadZone(Block, _core.DeadZone):
@@ -172,3 +172,47 @@ class LookupTable1d(Block, _core.LookupTable1d):
         name: str | None = None,
     ):
         super().__init__(self._named(name), input_array, output_array, interpolation, extrapolation)
+
+
+class LookupTable2d(Block, _core.LookupTable2d):
+    """y = the value of a table at (u_0, u_1), bilinear in each cell, entry by entry.
+
+    If y reaches a derivative, where an input passes a point of the table is located as an event, by
+    one guard for each input.
+
+    Parameters
+    ----------
+    input_x, input_y
+        The points of each input, 2 or more numbers that increase. They are fixed.
+    output_table
+        A matrix: entry (i, j) is the value at input_x[i], input_y[j]. The parameter `output_table`
+        of the context, row by row.
+    extrapolation
+        "clip", the value at the border; "linear"; or "error": y is not a number there, and the run
+        ends with an error.
+    name
+        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+
+    Raises
+    ------
+    ModelError
+        For a table that does not fit, points that do not increase, or another word.
+
+    Examples
+    --------
+    >>> from saltus.library import LookupTable2d
+    >>> table = LookupTable2d([0.0, 1.0], [0.0, 2.0], [[0.0, 2.0], [10.0, 14.0]])
+    >>> saltus.response(table, [0.0, 0.5, 9.0], [1.0, 1.0, 2.0])
+    array([ 1. ,  6.5, 14. ])
+    """
+
+    def __init__(
+        self,
+        input_x: ArrayLike,
+        input_y: ArrayLike,
+        output_table: ArrayLike,
+        extrapolation: str = "clip",
+        *,
+        name: str | None = None,
+    ):
+        super().__init__(self._named(name), input_x, input_y, output_table, extrapolation)

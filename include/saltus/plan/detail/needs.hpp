@@ -83,13 +83,19 @@ inline Roots find_roots(const Plan& plan) {
   return roots;
 }
 
+/// The values that a node reads itself.
+inline Reads reads_of(const Plan& plan, const Node& node) {
+  return node.relation ? plan.relation_of(node).reads : plan.output_of(node).reads;
+}
+
 /// A relation, or an opaque boolean output, is located if and only if it reaches a derivative, a
-/// guard or an edge: its jump there would break the smoothness that the solver assumes.
+/// guard or an edge: its jump there would break the smoothness that the solver assumes. A value
+/// that samples it is held, and hides the jump.
 inline void find_located(Plan& plan, const Roots& roots) {
   Marks reached(plan.nodes.size());
-  const auto never = [](const Node&) { return false; };
-  spread(plan, roots.derivatives, reached, never);
-  spread(plan, roots.events, reached, never);
+  const auto sampled = [&](const Node& node) { return samples(reads_of(plan, node)); };
+  spread(plan, roots.derivatives, reached, sampled);
+  spread(plan, roots.events, reached, sampled);
   for (std::size_t i = 0; i < plan.nodes.size(); ++i) {
     if (reached[i] && plan.nodes[i].relation) plan.nodes[i].located = true;
     plan.nodes[i].used = reached[i];  // kept for find_rates
@@ -99,8 +105,7 @@ inline void find_located(Plan& plan, const Roots& roots) {
 /// The rate of a node by the values it reads itself.
 inline Rate own_rate(const Plan& plan, const Node& node) {
   const PlanLeaf& leaf = plan.leaf_of(node);
-  const Reads reads = node.relation ? plan.relation_of(node).reads : plan.output_of(node).reads;
-  return own_rate(reads, leaf.nx > 0, leaf.nz > 0, leaf.declared().has_modes);
+  return own_rate(reads_of(plan, node), leaf.nx > 0, leaf.nz > 0, leaf.declared().has_modes);
 }
 
 /// The rates of all nodes before their order is known. A node whose rate rises raises its readers;
@@ -112,6 +117,7 @@ inline List<Rate> spread_rates(const Plan& plan) {
   std::iota(risen.begin(), risen.end(), 0);
   for (const int i : risen) {
     rates.push_back(own_rate(plan, plan.node(i)));
+    if (samples(reads_of(plan, plan.node(i)))) continue;  // what it reads does not raise it
     for (const int need : plan.node(i).needs) reads.emplace_back(need, i);
   }
   const Lists readers(plan.nodes.size(), reads);
@@ -147,7 +153,8 @@ inline void find_rates(Plan& plan) {
   for (int i : plan.order) {
     Node& node = plan.nodes[i];
     node.rate = own_rate(plan, node);
-    for (int need : node.needs) node.rate = faster(node.rate, plan.node(need).rate);
+    if (!samples(reads_of(plan, node)))
+      for (int need : node.needs) node.rate = faster(node.rate, plan.node(need).rate);
     if (!node.relation && node.boolean && node.used && node.rate == Rate::continuous)
       node.located = true;
     if (node.located) node.rate = Rate::held;  // the nodes it reads may come later in the order

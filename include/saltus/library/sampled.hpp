@@ -1,0 +1,34 @@
+// The base of blocks that read their inputs at ticks, at 0, dt, 2 dt, ..., and hold their output in
+// between: y[k] = output(s[k], u[k]), s[k+1] = next(s[k], u[k]).
+#pragma once
+
+#include <functional>
+
+#include "saltus/library/arguments.hpp"
+
+namespace saltus::detail {
+
+/// At a tick all outputs change first, in the order of their wires, and then all states: blocks in
+/// a row add no delay to their own. Between ticks the output does not move, whatever the input
+/// does.
+class SampledSystem : public LeafSystem {
+ protected:
+  using LeafSystem::LeafSystem;
+  using Map = std::function<void(const At& at, const VectorView& s, VectorRef out)>;
+
+  struct Law {
+    double dt = 0.0;                    ///< [s]
+    Value before = 0.0;                 ///< y before the first tick; its shape is that of y
+    Eigen::VectorXd state = {};         ///< s[0]
+    std::vector<int> feedthrough = {};  ///< the inputs that `output` reads
+    bool boolean = false;               ///< y is 0 or 1
+    Map output = {}, next = {};
+  };
+
+  /// Declares the discrete state (number of the last tick; y since then; s), the output "out" and
+  /// the time event "tick". The inputs and parameters are declared before. ModelError for a period
+  /// that is not positive.
+  void declare_law(const Law& law);
+};
+
+}  // namespace saltus::detail

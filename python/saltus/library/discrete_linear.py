@@ -1,0 +1,317 @@
+"""Linear systems that change at ticks, at 0, dt, 2 dt, ..., counted by integers.
+
+Their output at tick k is that of their input at tick k: in a row of such blocks all outputs change
+in the order of the wires, then all states, so no block delays another.
+"""
+
+from __future__ import annotations
+
+from numpy.typing import ArrayLike
+
+from saltus import _core
+from saltus.library.block import Block
+
+__all__ = [
+    "DerivativeDiscrete",
+    "FilterDiscrete",
+    "IntegratorDiscrete",
+    "LTISystemDiscrete",
+    "PIDDiscrete",
+    "TransferFunctionDiscrete",
+]
+
+
+class DerivativeDiscrete(Block, _core.DerivativeDiscrete):
+    """y[k] = (u[k] - u[k-1]) / dt, entry by entry; y[0] = 0, as there is no u before the first.
+
+    With a filter of the coefficient N: y[k] = N (u[k] - x[k]), x[k] = x[k-1] + dt y[k], the
+    derivative s N / (s + N) of u by the backward rule, which is stable for every N.
+
+    Parameters
+    ----------
+    dt
+        [s] From one tick to the next; ticks are at 0, dt, 2 dt, ..., counted by integers.
+    filter_coefficient
+        [1/s] N > 0; if not said, the plain difference. Parameter of the context, if given.
+    initial_state
+        A number or a vector: y before the first tick, and the shape of the signal.
+    name
+        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+
+    Raises
+    ------
+    ModelError
+        For a dt or a coefficient that is not above 0.
+
+    Examples
+    --------
+    >>> from saltus.library import DerivativeDiscrete, Ramp
+    >>> ramp = Ramp(slope=3.0, start_time=0.0)
+    >>> saltus.response(DerivativeDiscrete(dt=0.5), ramp, t=[0.0, 0.5, 2.2])
+    array([0., 3., 3.])
+    """
+
+    def __init__(
+        self,
+        dt: float,
+        filter_coefficient: float | None = None,
+        initial_state: ArrayLike = 0.0,
+        *,
+        name: str | None = None,
+    ):
+        super().__init__(self._named(name), dt, filter_coefficient, initial_state)
+
+
+class FilterDiscrete(Block, _core.FilterDiscrete):
+    """y[k] = b_0 u[k] + b_1 u[k-1] + ... + b_m u[k-m], entry by entry: a filter with a finite
+    response.
+
+    Parameters
+    ----------
+    dt
+        [s] From one tick to the next; ticks are at 0, dt, 2 dt, ..., counted by integers.
+    b_coefficients
+        b_0, ..., b_m. Parameter of the context.
+    initial_state
+        A number or a vector: u before the first tick, and the shape of the signal.
+    name
+        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+
+    Raises
+    ------
+    ModelError
+        For a dt that is not above 0, or no coefficient.
+
+    Examples
+    --------
+    The mean of two ticks:
+
+    >>> from saltus.library import Clock, FilterDiscrete
+    >>> saltus.response(FilterDiscrete(1.0, [0.5, 0.5]), Clock(), t=[0.0, 1.0, 2.0])
+    array([0. , 0.5, 1.5])
+    """
+
+    def __init__(
+        self,
+        dt: float,
+        b_coefficients: ArrayLike,
+        initial_state: ArrayLike = 0.0,
+        *,
+        name: str | None = None,
+    ):
+        super().__init__(self._named(name), dt, b_coefficients, initial_state)
+
+
+class IntegratorDiscrete(Block, _core.IntegratorDiscrete):
+    """y[k] = y[k-1] + dt (w u[k] + (1 - w) u[k-1]), with w = 0 for the method 'forward', 1 for
+    'backward', 1/2 for 'trapezoidal'; y[0] is the state at the start.
+
+    Inputs, each only if its option is on, in this order: `in`, `reset_trigger`, `reset_value`,
+    `hold_trigger`. Triggers are read at ticks.
+
+    Parameters
+    ----------
+    dt
+        [s] From one tick to the next; ticks are at 0, dt, 2 dt, ..., counted by integers.
+    initial_state
+        A number or a vector: y[0], and the value after a reset; that is a parameter of the context.
+    method
+        'forward', 'backward' or 'trapezoidal'. With 'forward' the input does not reach the output
+        at once, so the block may close a loop.
+    enable_reset
+        Gives the input `reset_trigger`. Where it is true at a tick and was false at the tick
+        before, y[k] becomes `initial_state`.
+    enable_external_reset
+        Gives the input `reset_value`, which y[k] becomes instead. Needs `enable_reset`.
+    enable_limits
+        y remains between the limits, and does not wind up beyond them.
+    lower_limit, upper_limit
+        A number or a vector each, one of them may be left out. They count only with
+        `enable_limits`, and are parameters of the context then.
+    enable_hold
+        Gives the input `hold_trigger`. While it is true, y does not change.
+    name
+        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+
+    Raises
+    ------
+    ModelError
+        For a dt that is not above 0, an unknown method, or options that do not go together.
+
+    Examples
+    --------
+    >>> from saltus.library import Clock, IntegratorDiscrete
+    >>> saltus.response(IntegratorDiscrete(1.0), Clock(), t=[1.0, 2.0, 3.0])
+    array([0., 1., 3.])
+    >>> saltus.response(IntegratorDiscrete(1.0, method="trapezoidal"), Clock(), t=[1.0, 2.0, 3.0])
+    array([0.5, 2. , 4.5])
+    """
+
+    def __init__(
+        self,
+        dt: float,
+        initial_state: ArrayLike = 0.0,
+        method: str = "forward",
+        *,
+        enable_reset: bool = False,
+        enable_external_reset: bool = False,
+        enable_limits: bool = False,
+        lower_limit: ArrayLike | None = None,
+        upper_limit: ArrayLike | None = None,
+        enable_hold: bool = False,
+        name: str | None = None,
+    ):
+        super().__init__(
+            self._named(name),
+            dt,
+            initial_state,
+            method,
+            enable_reset,
+            enable_external_reset,
+            enable_limits,
+            lower_limit,
+            upper_limit,
+            enable_hold,
+        )
+
+
+class LTISystemDiscrete(Block, _core.LTISystemDiscrete):
+    """x[k+1] = A x[k] + B u[k], y[k] = C x[k] + D u[k]; y is held from tick k to the next.
+
+    A number counts as a matrix of one entry. u is a scalar if B has one column, y if C has one row.
+
+    Parameters
+    ----------
+    dt
+        [s] From one tick to the next; ticks are at 0, dt, 2 dt, ..., counted by integers.
+    A, B, C, D
+        Matrices. D may be left out; without it, or with zeros, the input does not reach the output
+        at once. Parameters of the context, row by row.
+    initial_state
+        x[0]; zeros if not said.
+    name
+        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+
+    Raises
+    ------
+    ModelError
+        For a dt that is not above 0, or matrices whose sizes do not fit.
+
+    Examples
+    --------
+    >>> from saltus.library import LTISystemDiscrete
+    >>> block = LTISystemDiscrete(1.0, 0.5, 1.0, 2.0)
+    >>> saltus.response(block, 1.0, t=[0.0, 1.0, 2.0])
+    array([0., 2., 3.])
+    """
+
+    def __init__(
+        self,
+        dt: float,
+        A: ArrayLike,
+        B: ArrayLike,
+        C: ArrayLike,
+        D: ArrayLike | None = None,
+        initial_state: ArrayLike | None = None,
+        *,
+        name: str | None = None,
+    ):
+        super().__init__(self._named(name), dt, A, B, C, D, initial_state)
+
+
+class PIDDiscrete(Block, _core.PIDDiscrete):
+    """v[k] = kp u[k] + i[k] + kd d[k]; y[k] = v[k], or v[k] between the limits.
+
+    i[k+1] = i[k] + ki dt u[k], and d[k] = n (u[k] - f[k]) with f[k] = f[k-1] + dt d[k], the
+    derivative behind a filter. u is the error. The first tick makes no kick: d[0] = 0. With a limit
+    the integral does not change at ticks where v is beyond the limit and ki u pushes outward.
+
+    Parameters
+    ----------
+    dt
+        [s] From one tick to the next; ticks are at 0, dt, 2 dt, ..., counted by integers.
+    kp, ki, kd
+        The gains: in y per u, in y per u and second, and in y seconds per u.
+    n
+        [1/s] The coefficient of the filter, > 0. The rule is stable for every n.
+    initial_state
+        i[0], in the unit of y, and y before the first tick.
+    lower_limit, upper_limit
+        In the unit of y; either may be left out. All numbers but `dt` and `initial_state` are
+        parameters of the context.
+    name
+        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+
+    Raises
+    ------
+    ModelError
+        For a dt or an n that is not above 0, or limits that cross.
+
+    Examples
+    --------
+    >>> from saltus.library import PIDDiscrete
+    >>> saltus.response(PIDDiscrete(1.0, 2.0, ki=1.0), 1.0, t=[0.0, 1.0, 3.0])
+    array([2., 3., 5.])
+    """
+
+    def __init__(
+        self,
+        dt: float,
+        kp: float = 1.0,
+        ki: float = 0.0,
+        kd: float = 0.0,
+        n: float = 100.0,
+        initial_state: float = 0.0,
+        *,
+        lower_limit: float | None = None,
+        upper_limit: float | None = None,
+        name: str | None = None,
+    ):
+        super().__init__(
+            self._named(name), dt, kp, ki, kd, n, initial_state, lower_limit, upper_limit
+        )
+
+
+class TransferFunctionDiscrete(Block, _core.TransferFunctionDiscrete):
+    """y = (b_0 z^m + ... + b_m) / (a_0 z^n + ... + a_n) u, with m <= n; z shifts by one tick.
+
+    u and y are numbers. The input reaches the output at once only if m = n.
+
+    Parameters
+    ----------
+    dt
+        [s] From one tick to the next; ticks are at 0, dt, 2 dt, ..., counted by integers.
+    num
+        b_0, ..., b_m: the highest power first. The parameter `numerator` of the context.
+    den
+        a_0, ..., a_n. The parameter `denominator` of the context.
+    initial_state
+        v[-1], ..., v[-n], where v solves a_0 v[k] + ... + a_n v[k-n] = u[k]; zeros if not said.
+    name
+        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+
+    Raises
+    ------
+    ModelError
+        For a dt that is not above 0, m > n, or a polynomial of zeros.
+
+    Examples
+    --------
+    A lag that halves the distance with each tick:
+
+    >>> from saltus.library import TransferFunctionDiscrete
+    >>> block = TransferFunctionDiscrete(1.0, [0.5], [1.0, -0.5])
+    >>> saltus.response(block, 1.0, t=[0.0, 1.0, 2.0, 3.0])
+    array([0.   , 0.5  , 0.75 , 0.875])
+    """
+
+    def __init__(
+        self,
+        dt: float,
+        num: ArrayLike,
+        den: ArrayLike,
+        initial_state: ArrayLike | None = None,
+        *,
+        name: str | None = None,
+    ):
+        super().__init__(self._named(name), dt, num, den, initial_state)

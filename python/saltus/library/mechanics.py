@@ -1,0 +1,97 @@
+"""Parts of machines: play and friction."""
+
+from __future__ import annotations
+
+from saltus import _core
+from saltus.library.block import Block
+
+__all__ = ["Backlash", "MassWithFriction"]
+
+
+class Backlash(Block, _core.Backlash):
+    """y follows u through a play: it rests until u reaches one end of the play, and then moves with
+    it until u turns. y = u - width / 2 while u drives it upward, u + width / 2 downward.
+
+    Inputs: `in`, u, and `in_rate`, du/dt. Outputs: `out`, y, and `out_rate`, dy/dt, which is 0 or
+    du/dt. u is continuous, such as the angle of a shaft, and `in_rate` its speed: the contact ends
+    where it changes its sign. The contact and the turn are located as events.
+
+    Parameters
+    ----------
+    width
+        In the unit of u, > 0: the whole play. Parameter of the context.
+    initial_output
+        y at the start; if u is beyond the play around it, the run starts in contact, and y moves.
+    name
+        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+
+    Raises
+    ------
+    ModelError
+        For a width that is not above 0.
+
+    Examples
+    --------
+    >>> from saltus.library import Backlash, Sine
+    >>> u, rate = Sine(2.0), Sine(2.0, phase=np.pi / 2)
+    >>> y, _ = saltus.response(Backlash(1.0), u, rate, t=[0.1, np.pi / 2, 2.0, 3 * np.pi / 2])
+    >>> y.round(6)
+    array([ 0. ,  1.5,  1.5, -1.5])
+    """
+
+    def __init__(self, width: float, initial_output: float = 0.0, *, name: str | None = None):
+        super().__init__(self._named(name), width, initial_output)
+
+
+class MassWithFriction(Block, _core.MassWithFriction):
+    """mass dv/dt = u - viscous v - coulomb sign(v), dx/dt = v: a body that sticks at v = 0 while
+    the force u is not beyond the static friction.
+
+    Outputs: `x`, the position, and `v`, the velocity. In stick v is exactly 0: x does not creep.
+    Where v reaches 0 the body stops, and goes on only if the force exceeds the static friction.
+    Both are located as events.
+
+    Parameters
+    ----------
+    mass
+        [kg] > 0
+    coulomb
+        [N] >= 0, the friction while it slides.
+    static
+        [N] >= coulomb, the largest friction while it sticks; if not said, `coulomb`.
+    viscous
+        [N s/m] >= 0. All four are parameters of the context.
+    initial_position, initial_velocity
+        [m], [m/s] Where a run starts is the continuous state of its context.
+    name
+        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+
+    Raises
+    ------
+    ModelError
+        For a mass that is not above 0, or a friction below 0, or static below coulomb.
+
+    Examples
+    --------
+    A body of 1 kg with 2 m/s under a friction of 1 N stops after 2 s and 2 m:
+
+    >>> from saltus.library import MassWithFriction
+    >>> x, v = saltus.response(MassWithFriction(initial_velocity=2.0), 0.0, t=[1.0, 2.5, 9.0])
+    >>> x.round(6), v.round(6)
+    (array([1.5, 2. , 2. ]), array([1., 0., 0.]))
+    """
+
+    def __init__(
+        self,
+        mass: float = 1.0,
+        coulomb: float = 1.0,
+        static: float | None = None,
+        viscous: float = 0.0,
+        initial_position: float = 0.0,
+        initial_velocity: float = 0.0,
+        *,
+        name: str | None = None,
+    ):
+        super().__init__(
+            self._named(name), mass, coulomb, static, viscous, initial_position, initial_velocity
+        )

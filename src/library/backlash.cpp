@@ -1,0 +1,74 @@
+// y follows u through a play.
+#include "saltus/library/backlash.hpp"
+
+#include <cmath>
+
+namespace saltus {
+
+/// z = (y while it rests; 1 while u drives y upward, -1 downward, 0 while y rests).
+Backlash::Backlash(std::string name, double width, const Options& options)
+    : LeafSystem(std::move(name)) {
+  detail::insist(width > 0.0 && std::isfinite(width), this->name(), "width = ", width,
+                 "; expected a finite number > 0");
+  const ParameterIndex play = declare_dynamic_parameter("width", width);
+  declare_discrete_state(Eigen::Vector2d(options.initial_output, 0.0));
+  declare_input_port({.name = "in", .shape = Shape::scalar()});
+  declare_input_port({.name = "in_rate", .shape = Shape::scalar()});
+  declare_contact("drive_up", 1.0, play);
+  declare_contact("drive_down", -1.0, play);
+  declare_turn(play);
+  declare_outputs(play);
+}
+
+void Backlash::declare_contact(const char* event, double side, ParameterIndex width) {
+  declare_zero_crossing(
+      {.name = event,
+       .reset_map = [side](const At& at, Next& next) { next.set_discrete_state({at.z[0], side}); },
+       .direction = Direction::negative_then_non_negative,
+       .at_start = AtStart::fire,
+       .zeno_tolerance = 0.0,  // there is no state that could rest
+       .inputs = std::vector{0},
+       .formula =
+           [=](const auto& at, Index) {
+             const auto beyond = side * (at.u(0, 0) - at.z(0)) - 0.5 * at.p(width, 0);
+             return at.choose(at.z(1) == 0.0, beyond, -1.0);
+           }});
+}
+
+/// The guard is the rate, so that a turn between two looks shows as a dip. A rate of exactly 0 is
+/// no turn: a shaft that stops and goes on in the same direction never leaves the contact.
+void Backlash::declare_turn(ParameterIndex width) {
+  declare_zero_crossing({.name = "turn",
+                         .reset_map =
+                             [width](const At& at, Next& next) {
+                               next.set_discrete_state(
+                                   {at.u(0) - 0.5 * at.z[1] * at.p[width], 0.0});
+                             },
+                         .direction = Direction::positive_then_non_positive,
+                         .at_start = AtStart::fire,
+                         .zeno_tolerance = 0.0,
+                         .inputs = std::vector{0, 1},
+                         .formula =
+                             [](const auto& at, Index) {
+                               const auto rate = at.z(1) * at.u(1, 0);
+                               return at.choose(rate == 0.0, 1.0, rate);
+                             }});
+}
+
+void Backlash::declare_outputs(ParameterIndex width) {
+  declare_output_port({.name = "out",
+                       .reads = Reads::discrete_state | Reads::inputs,
+                       .inputs = std::vector{0},
+                       .formula = [width](const auto& at, Index) {
+                         return at.choose(at.z(1) != 0.0,
+                                          at.u(0, 0) - 0.5 * at.z(1) * at.p(width, 0), at.z(0));
+                       }});
+  declare_output_port({.name = "out_rate",
+                       .reads = Reads::discrete_state | Reads::inputs,
+                       .inputs = std::vector{1},
+                       .formula = [](const auto& at, Index) {
+                         return at.choose(at.z(1) != 0.0, at.u(1, 0), 0.0);
+                       }});
+}
+
+}  // namespace saltus

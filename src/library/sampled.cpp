@@ -1,0 +1,45 @@
+// Blocks that read their inputs at ticks and hold their output in between.
+#include "saltus/library/sampled.hpp"
+
+#include "saltus/library/schedule.hpp"
+
+namespace saltus::detail {
+
+/// The output is that of the tick from the beginning of the instant, before the state has it: a
+/// block that reads it at this tick gets y[k], not y[k-1].
+void SampledSystem::declare_law(const Law& law) {
+  require_period(name(), "dt", law.dt);
+  const Index n = law.before.values.size(), states = law.state.size();
+  Eigen::VectorXd z(1 + n + states);
+  z << -1.0, law.before.values, law.state;
+  declare_discrete_state(z);
+  const auto state = [=](const At& at) { return VectorView(at.z.data() + 1 + n, states); };
+  const auto show = [=, output = law.output, dt = law.dt](const At& at, VectorRef out) {
+    const bool due = is_tick(at.time, dt) && last_tick(at.time, dt) != at.z[0];
+    if (due)
+      output(at, state(at), out);
+    else
+      out = at.z.segment(1, n);
+  };
+  const auto tick = [=, output = law.output, move = law.next, dt = law.dt](const At& at,
+                                                                           Next& next) {
+    Eigen::VectorXd now(1 + n + states);
+    now[0] = last_tick(at.time, dt);
+    // A run that begins at a tick of an earlier run, with a state changed by hand, has had it.
+    if (now[0] == at.z[0]) return;
+    output(at, state(at), VectorRef(now.data() + 1, n));
+    if (states > 0) move(at, state(at), VectorRef(now.data() + 1 + n, states));
+    next.set_discrete_state(now);
+  };
+  Reads reads = Reads::discrete_state | Reads::schedule;
+  if (!law.feedthrough.empty()) reads = reads | Reads::inputs;
+  declare_output_port({.name = "out",
+                       .calc = show,
+                       .shape = law.before.shape(),
+                       .reads = reads,
+                       .inputs = law.feedthrough,
+                       .boolean = law.boolean});
+  declare_periodic_update(tick, law.dt, 0.0, "tick");
+}
+
+}  // namespace saltus::detail
