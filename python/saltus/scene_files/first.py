@@ -31,6 +31,7 @@ energy = "g * y + v**2 / 2"
 [run]
 until = 15.0  # [s]
 rtol = 1e-9
+atol = 1e-11
 record = ["height", "energy"]
 
 [sweep.values]

@@ -84,11 +84,12 @@ def _floats(value: Any) -> Any:
 
 
 def value_of(path: Path, value: Any, values: Mapping[str, Any]) -> Any:
-    """A number, a truth, or a list of such; texts in it are expressions."""
+    """A number, a truth, or a list of such; a text in it is an expression, or the name of a list."""
     if isinstance(value, list):
         return [value_of((*path, i), entry, values) for i, entry in enumerate(value)]
     if isinstance(value, str):
-        return number_of(path, value, values)
+        whole = values.get(value.strip())
+        return whole if isinstance(whole, list) else number_of(path, value, values)
     if isinstance(value, (int, float)):
         return value
     raise Wrong(path, f"expected a number, a list or an expression, found {found(value)}")

@@ -164,6 +164,8 @@ class _Maker:
     def update(self, path: Path, name: str, value: Any) -> None:
         value = table_at(path, value, "{ period = 0.1, set = { k = 'k + 1' } }")
         require_keys(path, value, UPDATE_KEYS, ("set",))
+        if not {"period", "offset", "at"} & value.keys():
+            raise Wrong(path, "expected times: a 'period', an 'offset', or times 'at', in seconds")
         effect, read = self.effect(path, value)
         callback = self.scope.function(effect, range(len(self.scope.inputs)), read)
         times = {

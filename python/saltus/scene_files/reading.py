@@ -17,6 +17,8 @@ __all__ = ["read_file", "tree_of"]
 
 MOST_BYTES = 8_000_000  # a hundred thousand blocks; the parser of TOML reads about 1 MB a second
 MOST_LEVELS = 64
+PART = r"""(?:[A-Za-z0-9_-]+|"[^"\n]*"|'[^'\n]*')[ \t]*\.[ \t]*"""
+DEEP_KEY = re.compile(rf"(?<![A-Za-z0-9_-])(?:{PART}){{{MOST_LEVELS}}}")
 AT = re.compile(r" ?\(?at line (\d+),? column (\d+)\)?| ?\(at end of document\)")
 
 
@@ -69,6 +71,8 @@ def tree_of(source: Source) -> dict[str, Any]:
 
 
 def _toml(source: Source) -> Any:
+    if DEEP_KEY.search(source.text):  # for which the parser takes the square of its length
+        raise RecursionError
     try:
         import tomllib  # type: ignore[import-not-found,unused-ignore]
     except ImportError:  # before Python 3.11

@@ -11,6 +11,7 @@ from saltus.scene_files.wrong import Wrong, found, require_keys
 __all__ = ["ROOT_KEYS", "VERSION", "require_root"]
 
 VERSION = 1
+LISTS = {"wires", "modes", "inputs"}
 ROOT_KEYS = {"version", "name", "title", "include", "run", "sweep", "$schema"}
 
 
@@ -26,6 +27,14 @@ def require_root(tree: dict[str, Any]) -> None:
         )
     require_keys((), tree, ("version", "name", "title", "include", *SYSTEM_KEYS, "run", "sweep",
                             "$schema"))  # fmt: skip
+    for key, table in tree.items():
+        for name in LISTS & table.keys() if isinstance(table, dict) else ():
+            if isinstance(table[name], list) and all(isinstance(t, str) for t in table[name]):
+                raise Wrong(
+                    (key, name),
+                    f"'{name}' belongs to the whole scene; in TOML a key below a [header] is one "
+                    "of that table, so write it above the first header",
+                )
     for key in ("name", "title", "description"):
         if key in tree:
             text_at((key,), tree[key], "a ball over a floor")

@@ -62,8 +62,6 @@ def run_of(table: Any, system: System, values: dict[str, Any]) -> Run:
     for key in ("rtol", "atol"):
         if key in table:
             options[key] = value_of((*path, key), table[key], values)
-    if "rtol" in options and "atol" not in options:  # as the command line does
-        options["atol"] = (np.asarray(options["rtol"]) / 100.0).tolist()
     if "save_at" in table:
         options["save_at"] = _times((*path, "save_at"), table["save_at"], begin, until, values)
         options.setdefault("save_steps", False)

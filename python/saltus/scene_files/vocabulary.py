@@ -44,5 +44,7 @@ FUNCTIONS = {
 
 CONSTANTS = {"inf": math.inf, "pi": math.pi}
 
-RESERVED = {"t", "mode", *CONSTANTS, *FUNCTIONS}
-"""names that no state, input or parameter may have"""
+RESERVED = {"t", "mode", *CONSTANTS}
+"""names that no state, input or parameter may have; one may share its name with a function, which
+is always followed by '('
+"""
