@@ -84,7 +84,7 @@ def _floats(value: Any) -> Any:
 
 
 def value_of(path: Path, value: Any, values: Mapping[str, Any]) -> Any:
-    """A number, a truth, or a list of such; a text in it is an expression, or the name of a list."""
+    """A number, a truth, or a list of such. A text in it is an expression, or names a list."""
     if isinstance(value, list):
         return [value_of((*path, i), entry, values) for i, entry in enumerate(value)]
     if isinstance(value, str):

@@ -11,7 +11,6 @@ from saltus.scene_files.files import SCHEMA
 
 from models import FILES
 
-
 BALL = json.loads(dumps(loads(first_scene()), "json"))
 GAIN = {"version": 1, "blocks": {"a": {"block": "Gain", "gain": 2.0}}}
 
