@@ -5,13 +5,12 @@ from __future__ import annotations
 import ast
 from typing import Any
 
-from saltus.errors import ModelError
 from saltus.leaf_system import LeafSystem
 from saltus.scene_files.expression import Expression, template
 from saltus.scene_files.functions import list_of, number_of
 from saltus.scene_files.leaf_scope import LeafScope
 from saltus.scene_files.names import chosen, require_part_name
-from saltus.scene_files.wrong import Path, Wrong, require_keys, table_at
+from saltus.scene_files.wrong import Path, Wrong, placed, require_keys, table_at
 
 __all__ = ["LEAF_KEYS", "SceneLeaf", "leaf_of"]
 
@@ -51,8 +50,9 @@ class _Maker:
         self.leaf = SceneLeaf(name=name)
 
     def declare(self) -> None:
-        for size_name, size in self.scope.inputs.items():
-            self.leaf.declare_input_port(size_name, shape=() if size is None else size)
+        for name, size in self.scope.inputs.items():
+            with placed((*self.path, "inputs")):
+                self.leaf.declare_input_port(name, shape=() if size is None else size)
         self.states()
         self.modes()
         for what, declare in (
@@ -64,13 +64,12 @@ class _Maker:
             for name, value in self.table.get(what, {}).items():
                 path = (*self.path, what, name)
                 require_part_name(path, name, what[:-1])
-                try:
+                with placed(path):
                     declare(path, name, value)
-                except (ModelError, TypeError, ValueError, OverflowError) as error:
-                    raise Wrong(path, str(error)) from None
         for name, value in self.scope.parameters.items():
             if name in self.scope.read:
-                self.leaf.declare_dynamic_parameter(name, value)
+                with placed((*self.path, "parameters", name)):
+                    self.leaf.declare_dynamic_parameter(name, value)
 
     def states(self) -> None:
         starts, rates = [], []
@@ -83,12 +82,13 @@ class _Maker:
         if starts:
             inputs = self.scope.inputs_of(rates)
             ode = self.scope.function(list_of(rates), inputs, rates)
-            self.leaf.declare_continuous_state(starts, ode=ode, requires_inputs=inputs)
+            with placed((*self.path, "states")):
+                self.leaf.declare_continuous_state(starts, ode=ode, requires_inputs=inputs)
         held = self.table.get("discrete", {})
         if held:
-            self.leaf.declare_discrete_state(
-                [self.number((*self.path, "discrete", n), v) for n, v in held.items()]
-            )
+            values = [self.number((*self.path, "discrete", n), v) for n, v in held.items()]
+            with placed((*self.path, "discrete")):
+                self.leaf.declare_discrete_state(values)
 
     def modes(self) -> None:
         if "mode" not in self.table and not self.scope.modes:
@@ -123,6 +123,8 @@ class _Maker:
         require_keys(path, value, GUARD_KEYS, ("guard",))
         guard = self.scope.expression((*path, "guard"), value["guard"])
         effect, read = self.effect(path, value)
+        if "to" in value and "mode" in value.get("set", {}):
+            raise Wrong((*path, "to"), "the mode is set already; keep one of 'to' and 'set.mode'")
         inputs = self.scope.inputs_of([guard, *read])
         direction = value.get("direction", "crosses_zero")
         options: dict[str, Any] = {

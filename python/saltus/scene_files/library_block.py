@@ -8,11 +8,10 @@ from typing import Any
 
 from saltus import library
 from saltus._core import known_names
-from saltus.errors import ModelError
 from saltus.library.called import elsewhere
 from saltus.scene_files.expression import ANY, EITHER, Word, expression
 from saltus.scene_files.functions import function_of, list_of, number_of, value_of
-from saltus.scene_files.wrong import Path, Wrong, found
+from saltus.scene_files.wrong import Path, Wrong, found, placed
 from saltus.system import System
 
 __all__ = ["arguments_of", "library_block"]
@@ -48,10 +47,8 @@ def library_block(path: Path, table: dict[str, Any], name: str, values: dict[str
         key: _argument((*path, key), block, known[key], value, values)
         for key, value in given.items()
     }
-    try:
+    with placed(path):
         made: System = getattr(library, block)(**arguments, name=name)
-    except (ModelError, TypeError, ValueError, OverflowError) as error:
-        raise Wrong(path, str(error)) from None
     return made
 
 

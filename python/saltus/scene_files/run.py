@@ -9,12 +9,11 @@ from typing import Any
 import numpy as np
 
 from saltus._signals import port_of
-from saltus.errors import ModelError
 from saltus.options import SimulatorOptions
 from saltus.ports import OutputPort
 from saltus.scene_files.functions import number_of, value_of
 from saltus.scene_files.names import text_at
-from saltus.scene_files.wrong import Path, Wrong, found, require_keys, table_at
+from saltus.scene_files.wrong import Path, Wrong, found, placed, require_keys, table_at
 from saltus.system import System
 
 __all__ = ["Run", "Sweep", "run_of", "sweep_of"]
@@ -55,6 +54,10 @@ def run_of(table: Any, system: System, values: dict[str, Any]) -> Run:
     require_keys(path, table, KEYS)
     begin = number_of((*path, "begin"), table.get("begin", 0.0), values)
     until = number_of((*path, "until"), table["until"], values) if "until" in table else None
+    if not math.isfinite(begin) or (until is not None and not begin <= until < math.inf):
+        raise Wrong(
+            (*path, "until"), f"expected finite times [s], begin <= until, found {begin} and {until}"
+        )
     options: dict[str, Any] = {}
     for key in (*NUMBERS, *TRUTHS, *WORDS):
         if key in table:
@@ -66,7 +69,8 @@ def run_of(table: Any, system: System, values: dict[str, Any]) -> Run:
         options["save_at"] = _times((*path, "save_at"), table["save_at"], begin, until, values)
         options.setdefault("save_steps", False)
     options["recorded_signals"] = _recorded((*path, "record"), table.get("record"), system)
-    return Run(begin, until, SimulatorOptions(**options))
+    with placed(path):
+        return Run(begin, until, SimulatorOptions(**options))
 
 
 def _option(path: Path, key: str, value: Any, values: dict[str, Any]) -> Any:
@@ -114,10 +118,8 @@ def _recorded(path: Path, value: Any, system: System) -> dict[str, OutputPort]:
 
 
 def _port(path: Path, system: System, port: str) -> OutputPort:
-    try:
+    with placed(path):
         return port_of(system, port)
-    except ModelError as error:
-        raise Wrong(path, str(error)) from None
 
 
 def sweep_of(table: Any, values: dict[str, Any]) -> Sweep:

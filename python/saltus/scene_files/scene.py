@@ -18,7 +18,7 @@ from saltus.scene_files.source import Source, error_of
 from saltus.scene_files.systems import parameters_of, system_of_table
 from saltus.scene_files.writing import text_of
 from saltus.scene_files.wrong import Path as Keys
-from saltus.scene_files.wrong import Wrong
+from saltus.scene_files.wrong import Wrong, placed
 from saltus.simulation import Simulator, SimulatorOptions, simulate
 from saltus.system import System
 
@@ -93,13 +93,14 @@ class FileScene:
         self.t_span = None if run.until is None else (run.begin, run.until)
         if not self.system.input_names:  # one with inputs is a part of another scene
             self._check()
-        self.context = self.system.create_context(run.begin)
+        with placed(("run", "begin")):
+            self.context = self.system.create_context(run.begin)
 
     def _check(self) -> None:
         """Compiles the system, which finds shapes that do not fit and loops."""
         try:
             Simulator(self.system, self.options)
-        except ModelError as error:
+        except (ModelError, TypeError, ValueError) as error:
             raise Wrong(_named(str(error), self.tree), str(error)) from None
 
     def simulate(self, **options: Any) -> Results:
@@ -235,7 +236,10 @@ def _path_in(scene: FileScene, name: str) -> str:
 
 
 def _named(message: str, tree: dict[str, Any]) -> Keys:
-    """The path of the block that a message names, in its diagram."""
+    """The path of the block, or of the option, that a message is about."""
+    for key, value in tree.get("run", {}).items():
+        if f"'{value}'" in message or message.startswith((f"{key}:", f"option {key}:")):
+            return ("run", key)
     for name in message.split("'")[1::2]:
         path: Keys = ()
         inside = tree

@@ -13,7 +13,7 @@ from saltus.scene_files.leaf import LEAF_KEYS, leaf_of
 from saltus.scene_files.library_block import library_block
 from saltus.scene_files.names import named_path, require_part_name, require_word, text_at
 from saltus.scene_files.wires import wires_of
-from saltus.scene_files.wrong import Path, Wrong, found, require_keys, table_at
+from saltus.scene_files.wrong import Path, Wrong, found, placed, require_keys, table_at
 from saltus.system import System
 
 __all__ = ["SYSTEM_KEYS", "parameters_of", "system_of_table"]
@@ -113,22 +113,18 @@ def _diagram(table: dict[str, Any], name: str, values: dict[str, Any], place: Pl
     for key, block in blocks.items():
         require_part_name((*path, key), key, "block")
         made[key] = _block((*path, key), table_at((*path, key), block, BLOCK), key, values, place)
-        builder.add(made[key])
+        with placed((*path, key)):
+            builder.add(made[key])
     for at, source, destination in wires_of((*place.path, "wires"), table.get("wires", []), made):
-        try:
+        with placed(at):
             builder.connect(source, destination)
-        except ModelError as error:
-            raise Wrong(at, str(error)) from None
     for what, export in (("inputs", builder.export_input), ("outputs", builder.export_output)):
         at = (*place.path, what)
         for key, port in table_at(at, table.get(what, {}), "{ y = 'plant.y' }").items():
             require_part_name((*at, key), key, "port")
-            try:
-                export(
-                    named_path((*at, key), text_at((*at, key), port, "plant.y"), made, what), key
-                )
-            except ModelError as error:
-                raise Wrong((*at, key), str(error)) from None
+            text = text_at((*at, key), port, "plant.y")
+            with placed((*at, key)):
+                export(named_path((*at, key), text, made, what), key)
     try:
         return builder.build(name)
     except ModelError as error:

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from typing import Any
 
 from saltus._core import known_names
+from saltus.errors import ModelError
 
-__all__ = ["Path", "Wrong", "found", "require_keys", "table_at"]
+__all__ = ["Path", "Wrong", "found", "placed", "require_keys", "table_at"]
 
 Path = tuple[Any, ...]
 """keys and positions from the root of a scene: ("states", "v", "rate"), ("wires", 2)"""
@@ -22,6 +24,15 @@ class Wrong(Exception):
         self.message = message
         self.offset = offset
         """the position in the text of an expression, from 0"""
+
+
+@contextmanager
+def placed(path: Path) -> Iterator[None]:
+    """Gives a refusal of the engine, or of Python, the place of the key that it is about."""
+    try:
+        yield
+    except (ModelError, TypeError, ValueError, OverflowError) as error:
+        raise Wrong(path, str(error)) from None
 
 
 def found(value: Any) -> str:

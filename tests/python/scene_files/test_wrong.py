@@ -205,8 +205,21 @@ CASES = {
         ["either 'block'"],
     ),
     "unknown option": (LEAF + "v = {}\n[run]\nrtoll = 1", (5, 1), ["'rtoll'", "'rtol'"]),
-    "unknown method": (LEAF + 'v = {}\n[run]\nmethod = "ode45"', None, ["ode45"]),
+    "unknown method": (LEAF + 'v = {}\n[run]\nmethod = "ode45"', (5, 1), ["ode45"]),
     "a number of times without an end": (LEAF + "v = {}\n[run]\nsave_at = 5", (5, 1), ["'until'"]),
+    "an end before the begin": (LEAF + "v = {}\n[run]\nuntil = -1", (5, 1), ["begin <= until"]),
+    "no end": (LEAF + "v = {}\n[run]\nuntil = inf", (5, 1), ["finite times"]),
+    "an impossible tolerance": (LEAF + "v = {}\n[run]\nrtol = -1", (5, 1), ["positive number"]),
+    "a mode set twice": (
+        'version = 1\nmodes = ["on"]\n[guards.g]\nguard = "t"\nto = "on"\nset = { mode = "on" }',
+        (5, 1),
+        ["keep one of"],
+    ),
+    "a ragged matrix": (
+        'version = 1\n[parameters]\nk = [[1, 2], [3]]\n[outputs]\ny = "interp(t, k, k)"',
+        (3, 1),
+        ["different lengths"],
+    ),
     "unknown recorded signal": (LEAF + 'v = {}\n[run]\nrecord = ["v"]', (5, 11), ["'v'"]),
     "values to vary that are none": (
         LEAF + "v = {}\n[sweep.values]\ne = 3",
