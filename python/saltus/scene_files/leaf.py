@@ -123,15 +123,23 @@ class _Maker:
         require_keys(path, value, GUARD_KEYS, ("guard",))
         guard = self.scope.expression((*path, "guard"), value["guard"])
         effect, read = self.effect(path, value)
-        if "to" in value and "mode" in value.get("set", {}):
-            raise Wrong((*path, "to"), "the mode is set already; keep one of 'to' and 'set.mode'")
         inputs = self.scope.inputs_of([guard, *read])
         direction = value.get("direction", "crosses_zero")
-        options: dict[str, Any] = {
-            key: value[key]
-            for key in ("terminal", "max_count", "at_start", "on_zeno")
-            if key in value
-        }
+        self.leaf.declare_zero_crossing(
+            self.scope.function(guard.tree, inputs, [guard]),
+            None if effect is None else self.scope.function(effect, inputs, read),
+            name=name,
+            direction=chosen((*path, "direction"), direction, DIRECTIONS, "direction"),
+            requires_inputs=inputs,
+            **self.guard_options(path, value),
+        )
+
+    def guard_options(self, path: Path, value: dict[str, Any]) -> dict[str, Any]:
+        """The options of a zero crossing, as its declaration calls them."""
+        if "to" in value and "mode" in value.get("set", {}):
+            raise Wrong((*path, "to"), "the mode is set already; keep one of 'to' and 'set.mode'")
+        names = ("terminal", "max_count", "at_start", "on_zeno")
+        options: dict[str, Any] = {name: value[name] for name in names if name in value}
         if options.get("on_zeno") in self.scope.modes:
             options["on_zeno"] = self.mode((*path, "on_zeno"), options["on_zeno"])
         if "zeno_tolerance" in value:
@@ -140,14 +148,7 @@ class _Maker:
         for key, option in (("from", "start_mode"), ("to", "end_mode")):
             if key in value:
                 options[option] = self.mode((*path, key), value[key])
-        self.leaf.declare_zero_crossing(
-            self.scope.function(guard.tree, inputs, [guard]),
-            None if effect is None else self.scope.function(effect, inputs, read),
-            name=name,
-            direction=chosen((*path, "direction"), direction, DIRECTIONS, "direction"),
-            requires_inputs=inputs,
-            **options,
-        )
+        return options
 
     def edge(self, path: Path, name: str, value: Any) -> None:
         value = table_at(path, value, "{ input = 'trigger', set = { x = 0 } }")

@@ -56,7 +56,8 @@ def run_of(table: Any, system: System, values: dict[str, Any]) -> Run:
     until = number_of((*path, "until"), table["until"], values) if "until" in table else None
     if not math.isfinite(begin) or (until is not None and not begin <= until < math.inf):
         raise Wrong(
-            (*path, "until"), f"expected finite times [s], begin <= until, found {begin} and {until}"
+            (*path, "until"),
+            f"expected finite times [s], begin <= until, found {begin} and {until}",
         )
     options: dict[str, Any] = {}
     for key in (*NUMBERS, *TRUTHS, *WORDS):

@@ -145,7 +145,10 @@ class FileScene:
             if not self.swept.values:
                 raise ModelError(f"scene '{self.name}' says nothing to vary; write a table 'sweep'")
             values, how = self.swept.values, {"paired": self.swept.paired} | how
-        made_again = any(name in self.parameters for name in _names(values))
+        # a system cannot go to another process, the function that makes it can
+        made_again = how.get("executor") == "processes" or any(
+            name in self.parameters for name in _names(values)
+        )
         signals = {name: _path_in(self, name) for name in self.options.recorded_signals or {}}
         options = replace(self.options, recorded_signals=None)
         system = self.maker() if made_again else self.system

@@ -4,9 +4,8 @@ import pickle
 
 import pytest
 import saltus
+from file_models import FILES, bits
 from saltus.scene_files import dumps, first_scene, loads
-
-from models import FILES, bits
 
 SCENES = pytest.mark.parametrize("file", FILES, ids=lambda file: file.stem)
 

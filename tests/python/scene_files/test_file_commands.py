@@ -7,9 +7,8 @@ import sys
 
 import pytest
 import saltus
+from file_models import FOLDER
 from saltus.cli import main
-
-from models import FOLDER
 
 
 @pytest.fixture
@@ -148,8 +147,9 @@ def test_a_sweep_in_python_makes_the_system_anew_or_varies_the_context():
         scene.sweep({"wid": [1.0]}, as_dict=True)
     with pytest.raises(saltus.ModelError, match="nothing to vary"):
         scene.sweep(as_dict=True)
-    processes = scene.sweep({"wide": [1.0, 2.0]}, as_dict=True, workers=2)
-    assert processes["lower"].tobytes() == by_parameter["lower"].tobytes()
+    for values in ({"wide": [1.0, 2.0]}, {"lower.area": [1.0, 2.0]}):
+        apart = scene.sweep(values, as_dict=True, executor="processes", workers=2)
+        assert apart["lower"].tobytes() == by_parameter["lower"].tobytes()
 
 
 def test_a_scene_file_needs_no_parser_before_it_is_read():

@@ -5,11 +5,10 @@ import json
 import jsonschema
 import pytest
 import saltus
+from file_models import FILES
 from saltus import library
 from saltus.scene_files import dumps, first_scene, loads, schema
 from saltus.scene_files.files import SCHEMA
-
-from models import FILES
 
 BALL = json.loads(dumps(loads(first_scene()), "json"))
 GAIN = {"version": 1, "blocks": {"a": {"block": "Gain", "gain": 2.0}}}

@@ -5,8 +5,7 @@ import sys
 import numpy as np
 import pytest
 import saltus
-
-from models import EXAMPLES, FILES, FOLDER, MODELS, bits, script
+from file_models import EXAMPLES, FILES, FOLDER, MODELS, bits, script
 
 
 def run(name):
