@@ -16,6 +16,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from saltus._core import known_names
+from saltus.scene_files.folding import folded
 from saltus.scene_files.vocabulary import CONSTANTS, FUNCTIONS
 from saltus.scene_files.wrong import Path, Wrong, found
 
@@ -157,17 +158,15 @@ class _Builder:
     def operation(self, node: ast.BinOp, level: int) -> ast.expr:
         if not isinstance(node.op, OPERATORS):
             raise self.refused(node, type(node.op))
-        before = len(self.names)
         left, right = self.built(node.left, level), self.built(node.right, level)
         made = ast.BinOp(left, node.op, right)
-        if len(self.names) == before:
-            self.require_finite(made, node)
+        self.require_finite(made, node)
         return made
 
     def require_finite(self, made: ast.expr, node: ast.AST) -> None:
         """Wrong for an operation on two numbers that has no finite result, such as 1 / 0."""
-        folded = _folded(made)
-        if folded is not None and not math.isfinite(folded):
+        value = folded(made)
+        if value is not None and not math.isfinite(value):
             raise self.wrong("expected a finite number", node)
 
     def sign(self, node: ast.UnaryOp, level: int) -> ast.expr:
@@ -276,31 +275,3 @@ class _Builder:
 
 def _numpy(function: str, *arguments: ast.expr) -> ast.expr:
     return ast.Call(template(f"np.{function}"), list(arguments), [])
-
-
-def _folded(node: ast.expr) -> float | None:
-    """The value of an operation on numbers alone, in floats, so that 9**9**9 takes no time."""
-    if isinstance(node, ast.Constant):
-        return float(node.value)  # type: ignore[arg-type]
-    if isinstance(node, ast.UnaryOp):
-        inner = _folded(node.operand)
-        return -inner if inner is not None and isinstance(node.op, ast.USub) else inner
-    if not isinstance(node, ast.BinOp):
-        return None
-    left, right = _folded(node.left), _folded(node.right)
-    if left is None or right is None:
-        return None
-    try:
-        return _arithmetic(node.op, left, right)
-    except (ArithmeticError, ValueError):
-        return math.nan
-
-
-def _arithmetic(op: ast.operator, a: float, b: float) -> float:
-    if isinstance(op, ast.Pow):
-        return math.pow(a, b)
-    if isinstance(op, ast.Mod):
-        return a % b
-    if isinstance(op, ast.Div):
-        return a / b
-    return a * b if isinstance(op, ast.Mult) else a + b if isinstance(op, ast.Add) else a - b

@@ -94,8 +94,8 @@ def _function(path: Path, block: str, text: Any, values: dict[str, Any]) -> Any:
     scope = FUNCTION_OF.get(block)
     if scope is None:
         raise Wrong(path, f"a function of {block} cannot be written in a scene; use a leaf")
-    words = {name: Word(f"({value!r})", None) for name, value in values.items()
-             if isinstance(value, (int, float))} | scope  # fmt: skip
+    numbers = {n: float(v) for n, v in values.items() if isinstance(v, (int, float))}
+    words = {n: Word(f"({v!r})".replace("inf", "np.inf")) for n, v in numbers.items()} | scope
     texts = [((*path, i), t) for i, t in enumerate(text)] if isinstance(text, list) else None
     made = [expression(p, t, words) for p, t in texts or [(path, text)]]
     return function_of(list(scope), list_of(made) if texts is not None else made[0].tree)

@@ -157,8 +157,9 @@ version = 1
 wires = ["line -> sum.in_0", "square -> sum.in_1", "line -> square"]
 [parameters]
 k = 3.0
+most = inf
 [blocks]
-line = { block = "SourceBlock", function = "k * t" }
+line = { block = "SourceBlock", function = "min(k * t, most)" }
 square = { block = "FunctionBlock", function = "u**2" }
 sum = { block = "ReduceBlock", n_inputs = 2, function = "u[0] + u[1]" }
 [outputs]

@@ -105,6 +105,12 @@ CASES = {
         ["expected 2 arguments"],
     ),
     "a constant that overflows": (LEAF + 'v = { rate = "9**9**9**9" }', (3, 18), ["finite number"]),
+    "a constant that a parameter makes": (
+        "version = 1\n[parameters]\nk = 1000000000\n[blocks]\n"
+        'a = { block = "SourceBlock", function = "t * 9**k" }',
+        (5, 46),
+        ["finite number"],
+    ),
     "a division by zero": (LEAF + 'v = { start = "1 / 0" }', (3, 16), ["finite number"]),
     "a root that is none": (LEAF + 'v = { start = "sqrt(-1)" }', (3, 7), ["has no value"]),
     "a complex power": (
