@@ -79,6 +79,9 @@ def system_of_table(
     """The system of a table whose parameters have these values. Wrong for a mistake in it."""
     place = place or Place((), {}, (), Count())
     if "blocks" not in table:
+        for key in ("wires", "systems"):
+            if key in table:
+                raise Wrong((*place.path, key), f"'{key}' of a scene without 'blocks'; write these")
         place.count.one_more(place.path)
         return leaf_of(place.path, table, name, values)
     for key in table:

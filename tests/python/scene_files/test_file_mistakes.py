@@ -205,6 +205,12 @@ CASES = {
         ["no parameter 'k'"],
     ),
     "states of a diagram": (GAINS + "[states]\nv = {}", (5, 2), ["a diagram has no 'states'"]),
+    "wires of a leaf": ('version = 1\nwires = ["a -> b"]\n[states]\nv = {}', (2, 1), ["'blocks'"]),
+    "systems of a leaf": (
+        "version = 1\n[systems.a]\nfoo = 1\n[states]\nv = {}",
+        (2, 2),
+        ["'blocks'"],
+    ),
     "neither block nor system": (
         "version = 1\n[blocks]\na = { gain = 1 }",
         (3, 1),
