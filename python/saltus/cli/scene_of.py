@@ -99,8 +99,10 @@ def _of_shelf(name: str, settings: dict[str, Any]) -> Chosen:
 
 
 def _file(name: str, settings: dict[str, Any]) -> Chosen:
-    known = set(load_scene(name).parameters)
-    scene = load_scene(name, **{n: v for n, v in settings.items() if n in known})
+    scene = load_scene(name)
+    known = set(scene.parameters)
+    own = {n: v for n, v in settings.items() if n in known}
+    scene = load_scene(name, **own) if own else scene
     context = _with_values(
         scene.context, {n: v for n, v in settings.items() if n not in known}, known
     )
