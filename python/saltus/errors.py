@@ -116,7 +116,7 @@ class SceneError(ModelError):
     ...     loads('version = 1\\n[states]\\nv = { rate = "-g" }')
     ... except saltus.errors.SceneError as error:
     ...     print(error.line, error.column, error.key)
-    3 15 states.v.rate
+    3 16 states.v.rate
     """
 
     file: str

@@ -183,6 +183,8 @@ def scene(name: str, **parameters: float) -> Scene:
         chosen = [(key, float(value)) for key, value in parameters.items()]
     except (TypeError, ValueError):
         raise ModelError(f"scene '{name}': expected numbers, found {parameters}") from None
+    if str(name).lower().endswith((".toml", ".json")):
+        raise ModelError(f"'{name}' is a file: saltus.load_scene('{name}')")
     if name not in (known := list(shelf())):
         raise ModelError(f"no scene '{name}' on the shelf{_core.known_names(str(name), known)}")
     core = _core.scene(name, chosen)

@@ -57,12 +57,16 @@ def _known(path: Path, block: Any) -> str:
     if not isinstance(block, str):
         raise Wrong(path, f"expected the name of a block such as 'Gain', found {found(block)}")
     if block not in library.__all__:
-        error = elsewhere(block, library.__all__)
-        hint = known_names(block, sorted(library.__all__))
-        said = str(error).partition("; ")[2] if isinstance(error, ImportError) else ""
-        raise Wrong(path, f"the library has no block '{block}'; {said}" if said else
-                    f"the library has no block '{block}'{hint}")  # fmt: skip
+        raise Wrong(path, f"the library has no block '{block}'{_advice(block)}")
     return block
+
+
+def _advice(block: str) -> str:
+    """The name that a block of another tool has here, or the nearest name."""
+    error = elsewhere(block, library.__all__)
+    if isinstance(error, ImportError):
+        return f"; {str(error).partition('; ')[2]}"
+    return known_names(block, sorted(library.__all__))
 
 
 def _argument(

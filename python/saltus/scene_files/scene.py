@@ -120,8 +120,10 @@ class FileScene:
 
     def _span(self) -> tuple[float, float]:
         if self.t_span is None:
-            raise ModelError(f"scene '{self.name}' says no end of the run; write until = ... [s] "
-                             "in its table 'run'")  # fmt: skip
+            raise ModelError(
+                f"scene '{self.name}' says no end of the run; write until = ... [s] in its table "
+                "'run'"
+            )
         return self.t_span
 
     def sweep(self, values: Any = None, **how: Any) -> Any:

@@ -425,6 +425,11 @@ def test_no_code_is_executed(code):
         loads(json.dumps({"version": 1, "outputs": {"y": code}}), "json")
 
 
+def test_the_shelf_says_how_a_file_is_read():
+    with pytest.raises(saltus.ModelError, match=r"saltus\.load_scene\('ball\.toml'\)"):
+        saltus.scene("ball.toml")
+
+
 def test_unknown_parameters_of_a_scene():
     with pytest.raises(saltus.ModelError, match="did you mean 'e'"):
         loads('version = 1\n[parameters]\ne = 1\n[outputs]\ny = "e"', "toml", ee=2)
