@@ -17,7 +17,7 @@ from saltus.report import WorkPrecision, work_precision
 from saltus.response import response
 from saltus.results import Event, EventLog, Results, Statistics, Values, load_results
 from saltus.results import load_results as load
-from saltus.scenes import Scene, scene, shelf
+from saltus.scenes import Scene, load_scene, scene, shelf
 from saltus.simulation import Simulator, SimulatorOptions, simulate
 from saltus.solving.guard import Guard
 from saltus.solving.solution import Solution
@@ -57,6 +57,7 @@ __all__ = [
     "library",
     "load",
     "load_results",
+    "load_scene",
     "response",
     "scene",
     "shelf",

@@ -15,6 +15,7 @@ __all__ = [
     "Error",
     "InputNotConnectedError",
     "ModelError",
+    "SceneError",
     "ShapeMismatchError",
     "SimulationError",
     "StaticError",
@@ -92,6 +93,51 @@ class AlgebraicLoopError(StaticError):
 
 class ShapeMismatchError(StaticError):
     """An input expects another number of values than its source has."""
+
+
+class SceneError(ModelError):
+    """A scene file is wrong: the message begins with its name, and the line and column.
+
+    Parameters
+    ----------
+    message
+        What was expected and what was found, and where.
+    file
+        The file as it was named, or '<text>'.
+    line, column
+        From 1; None where the mistake has no place, as that of a file that is missing.
+    key
+        Where in the tables of the file, such as 'states.v.rate'.
+
+    Examples
+    --------
+    >>> from saltus.scene_files import loads
+    >>> try:
+    ...     loads('version = 1\\n[states]\\nv = { rate = "-g" }')
+    ... except saltus.errors.SceneError as error:
+    ...     print(error.line, error.column, error.key)
+    3 16 states.v.rate
+    """
+
+    file: str
+    line: int | None
+    column: int | None
+    key: str
+
+    def __init__(
+        self,
+        message: str,
+        file: str = "",
+        line: int | None = None,
+        column: int | None = None,
+        key: str = "",
+    ):
+        super().__init__(message)
+        self.file, self.line, self.column, self.key = file, line, column, key
+
+    def __reduce__(self) -> tuple[type, tuple[object, ...]]:
+        # Without this a copy from another process would lose the place.
+        return type(self), (str(self), self.file, self.line, self.column, self.key)
 
 
 class SimulationError(Error, RuntimeError):

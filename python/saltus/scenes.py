@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import operator
+import os
 from dataclasses import fields
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from saltus import _core
 from saltus._engine import PYTHON_ONLY
@@ -13,7 +14,10 @@ from saltus.results import Results
 from saltus.simulation import SimulatorOptions, simulate
 from saltus.system import OutputPort, System, remember
 
-__all__ = ["Scene", "SharedSystem", "scene", "shelf"]
+if TYPE_CHECKING:
+    from saltus.scene_files import FileScene
+
+__all__ = ["Scene", "SharedSystem", "load_scene", "scene", "shelf"]
 
 
 class SharedSystem(System, _core.SharedSystem):
@@ -179,10 +183,56 @@ def scene(name: str, **parameters: float) -> Scene:
         chosen = [(key, float(value)) for key, value in parameters.items()]
     except (TypeError, ValueError):
         raise ModelError(f"scene '{name}': expected numbers, found {parameters}") from None
+    if str(name).lower().endswith((".toml", ".json")):
+        raise ModelError(f"'{name}' is a file: saltus.load_scene('{name}')")
     if name not in (known := list(shelf())):
         raise ModelError(f"no scene '{name}' on the shelf{_core.known_names(str(name), known)}")
     core = _core.scene(name, chosen)
     return Scene(core, name, shelf()[name], {**dict(_core.scene_parameters(name)), **dict(chosen)})
+
+
+def load_scene(path: str | os.PathLike[str], /, **parameters: Any) -> FileScene:
+    """A scene that stands in a file, TOML or JSON; see the guide to scene files.
+
+    Nothing in a file executes code: its expressions are parsed, checked and traced.
+
+    Parameters
+    ----------
+    path
+        A file whose name ends in .toml or .json.
+    **parameters
+        Values of parameters of the scene, in place of those in the file; others that are
+        expressions of them follow.
+
+    Returns
+    -------
+    FileScene
+
+    Raises
+    ------
+    SceneError
+        A ModelError with the file, the line and the column, for a mistake in a file.
+    ModelError
+        For an unknown parameter, with the nearest one.
+
+    Examples
+    --------
+    >>> import pathlib, tempfile
+    >>> file = pathlib.Path(tempfile.mkdtemp(), "decay.toml")
+    >>> _ = file.write_text('''
+    ... version = 1
+    ... parameters = { k = 2.0 }
+    ... states = { x = { start = 1.0, rate = "-k * x" } }
+    ... outputs = { x = "x" }
+    ... run = { until = 1.0, rtol = 1e-9 }
+    ... ''')
+    >>> scene = saltus.load_scene(file, k=1.0)
+    >>> round(float(scene.simulate().outputs["x"][-1]), 6)
+    0.367879
+    """
+    from saltus import scene_files
+
+    return scene_files.load(path, **parameters)
 
 
 def _made_again(name: str, parameters: dict[str, float]) -> tuple[Any, ...]:

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Every example says --help and does its default run. Usage: examples.sh BIN_DIRECTORY PYTHON; one line per run, `ok` or `FAILED`.
+# Every example says --help and does its default run; every scene runs, as a file and as a script. Usage: examples.sh BIN_DIRECTORY PYTHON; one line per run, `ok` or `FAILED`.
 set -u
 shopt -s nullglob
 root=$(cd "$(dirname "$0")/../.." && pwd)
@@ -31,5 +31,11 @@ for source in "$root"/examples/*.py; do
   name=$(basename "$source")
   try "$name --help" "$python" "$source" --help
   try "$name" "$python" "$source"
+done
+for source in "$root"/examples/scenes/*.py; do
+  try "scenes/$(basename "$source")" "$python" "$source"
+done
+for source in "$root"/examples/scenes/*.toml; do
+  try "scenes/$(basename "$source")" "$python" -m saltus run "$source"
 done
 exit $failed

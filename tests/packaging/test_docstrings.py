@@ -6,14 +6,19 @@ import inspect
 import numpy as np
 import pytest
 import saltus
-from saltus import library, report
+from saltus import library, report, scene_files
 
 FLAGS = doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE
 
 
 def public_objects():
     """(name, object) of everything in the public lists, once each."""
-    modules = {"saltus": saltus, "saltus.library": library, "saltus.report": report}
+    modules = {
+        "saltus": saltus,
+        "saltus.library": library,
+        "saltus.report": report,
+        "saltus.scene_files": scene_files,
+    }
     found = {}
     for path, module in modules.items():
         for name in module.__all__:

@@ -11,6 +11,14 @@ ROOT = Path(__file__).parents[2] / "python"
 LATE = {
     ("saltus._engine", "saltus.jit"): "an option that most runs leave alone",
     ("saltus.ensemble.executors", "saltus.ensemble.pools"): "loads Python's machinery of processes",
+    (
+        "saltus.cli.new_scene",
+        "saltus.scene_files",
+    ): "loads parsers, which other commands leave alone",
+    (
+        "saltus.scenes",
+        "saltus.scene_files",
+    ): "loads parsers, which a scene of the shelf leaves alone",
     ("saltus.callbacks.callbacks", "saltus.tracing"): "a system without callbacks needs no tracer",
     ("saltus.callbacks.function", "saltus.tracing"): "a system without callbacks needs no tracer",
     ("saltus.jit.library", "saltus.jit.compiler"): "loads llvmlite",

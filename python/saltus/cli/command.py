@@ -9,12 +9,19 @@ from collections.abc import Sequence
 from typing import NoReturn
 
 from saltus import __version__
-from saltus.cli import describe_scene, list_scenes, report_scene, run_scene
+from saltus.cli import (
+    describe_scene,
+    list_scenes,
+    new_scene,
+    report_scene,
+    run_scene,
+    sweep_scene,
+)
 from saltus.errors import Error
 
 __all__ = ["UsageError", "main"]
 
-SUBCOMMANDS = (list_scenes, run_scene, describe_scene, report_scene)
+SUBCOMMANDS = (list_scenes, run_scene, describe_scene, report_scene, sweep_scene, new_scene)
 INTERRUPTED = 130  # the exit code in a shell of a program that Ctrl-C ended
 
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import argparse
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -43,11 +44,11 @@ def act(chosen: argparse.Namespace) -> int:
 
 
 def _facts(chosen: Chosen, options: SimulatorOptions) -> list[tuple[str, str]]:
-    facts = [("scene", f"{chosen.name}: {chosen.title}")]
+    facts = [("scene", f"{chosen.name}: {chosen.title}".rstrip(": "))]
     if chosen.span is not None:
         facts.append(("span", f"t = {chosen.span[0]:g} to {chosen.span[1]:g} s"))
-    if chosen.scene is not None and chosen.scene.parameters:
-        facts.append(("parameters", _listed(chosen.scene.parameters)))
+    if chosen.parameters:
+        facts.append(("parameters", _listed(chosen.parameters)))
     names = [n for n in _core.entry_names(chosen.context) if n.rpartition(".")[2] != "mode"]
     facts.append(("values", ", ".join(names) or "none"))
     facts.append(("tolerances", f"rtol {_shown(options.rtol)}, atol {_shown(options.atol)}"))
@@ -65,5 +66,6 @@ def _shown(tolerance: ArrayLike) -> str:
     return ", ".join(f"{number:g}" for number in np.atleast_1d(np.asarray(tolerance, dtype=float)))
 
 
-def _listed(values: dict[str, float]) -> str:
-    return ", ".join(f"{name} = {value:g}" for name, value in values.items())
+def _listed(values: dict[str, Any]) -> str:
+    shown = {n: v if isinstance(v, list) else f"{v:g}" for n, v in values.items()}
+    return ", ".join(f"{name} = {value}" for name, value in shown.items())

@@ -8,7 +8,7 @@ import inspect
 import math
 import sys
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -17,7 +17,7 @@ import numpy as np
 
 from saltus import _core
 from saltus.errors import ModelError
-from saltus.scenes import Scene, scene, shelf
+from saltus.scenes import Scene, load_scene, scene, shelf
 from saltus.simulation import SimulatorOptions
 from saltus.system import System
 
@@ -37,6 +37,12 @@ class Chosen:
     options: SimulatorOptions
     scene: Scene | None
     """the scene of the shelf, as long as its known outcome holds"""
+    parameters: dict[str, Any] = field(default_factory=dict)
+    """those of the scene as a whole, with their values"""
+    varied: dict[str, list[Any]] = field(default_factory=dict)
+    """the values of a sweep that the scene says, by name"""
+    paired: bool = False
+    """whether these belong together, row by row"""
 
     def with_span(self, begin: float | None, end: float | None) -> Chosen:
         """The scene with the span from the command line in place of the usual one."""
@@ -58,6 +64,8 @@ class Chosen:
 
 def chosen_scene(name: str, settings: dict[str, Any]) -> Chosen:
     """The scene of that name, with these settings. ModelError for unknown names."""
+    if name.lower().endswith((".toml", ".json")):
+        return _file(name, settings)
     if ":" in name:
         return _own(name, settings)
     names = list(shelf())
@@ -78,7 +86,38 @@ def _of_shelf(name: str, settings: dict[str, Any]) -> Chosen:
     rest = {n: v for n, v in settings.items() if n not in known}
     context = _with_values(made.context, rest, known)
     same = made if not rest else None
-    return Chosen(name, made.title, made.system, context, made.t_span, made.options, same)
+    return Chosen(
+        name,
+        made.title,
+        made.system,
+        context,
+        made.t_span,
+        made.options,
+        same,
+        dict(made.parameters) if same else {},
+    )
+
+
+def _file(name: str, settings: dict[str, Any]) -> Chosen:
+    scene = load_scene(name)
+    known = set(scene.parameters)
+    own = {n: v for n, v in settings.items() if n in known}
+    scene = load_scene(name, **own) if own else scene
+    context = _with_values(
+        scene.context, {n: v for n, v in settings.items() if n not in known}, known
+    )
+    return Chosen(
+        scene.name,
+        scene.title,
+        scene.system,
+        context,
+        scene.t_span,
+        scene.options,
+        None,
+        scene.parameters,
+        scene.swept.values,
+        scene.swept.paired,
+    )
 
 
 def _own(name: str, settings: dict[str, Any]) -> Chosen:

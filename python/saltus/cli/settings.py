@@ -15,8 +15,8 @@ def add_scene(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "scene",
         metavar="SCENE",
-        help="a name of `saltus list`; or file.py:name or module:name of a system, or of a "
-        "function that makes one",
+        help="a name of `saltus list`; a file, scene.toml; or file.py:name or module:name of a "
+        "system, or of a function that makes one",
     )
     parser.add_argument(
         "--set",

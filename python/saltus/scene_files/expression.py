@@ -1,0 +1,277 @@
+"""An expression in text: parsed, checked, and turned into a tree that Python can compile.
+
+Python's own parser reads it, and every node has to be one of the few kinds in the tables here. The
+tree that is compiled is built anew, from templates and checked numbers only. So a text can neither
+call nor reach anything but the functions of the vocabulary.
+"""
+
+from __future__ import annotations
+
+import ast
+import functools
+import math
+import warnings
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from saltus._core import known_names
+from saltus.scene_files.folding import folded
+from saltus.scene_files.vocabulary import CONSTANTS, FUNCTIONS
+from saltus.scene_files.wrong import Path, Wrong, found
+
+__all__ = ["ANY", "EITHER", "Expression", "Word", "expression", "template"]
+
+MOST_CHARACTERS = 10_000
+MOST_LEVELS = 150
+ANY, EITHER = -1, -2
+OPERATORS = (ast.Add, ast.Sub, ast.Mult, ast.Div, ast.Mod, ast.Pow)
+COMPARISONS = (ast.Lt, ast.LtE, ast.Gt, ast.GtE, ast.Eq, ast.NotEq)
+TRUTHS = {ast.And: "logical_and", ast.Or: "logical_or"}
+HINTS: dict[type[ast.AST], str] = {
+    ast.BitXor: "'^' is no operator; a power is written '**'",
+    ast.BitAnd: "'&' is no operator; write 'and'",
+    ast.BitOr: "'|' is no operator; write 'or'",
+    ast.FloorDiv: "'//' is no operator; write floor(a / b)",
+    ast.Attribute: "a name has no '.'; lead a signal of another block to an input",
+    ast.Lambda: "'lambda' is reserved; choose another name",
+}
+
+
+@dataclass(frozen=True)
+class Word:
+    """A name in an expression: the text of Python that stands for it."""
+
+    code: str
+    size: int | None = None
+    """None: a number; n: a vector of n, of which an entry is taken; ANY: of any length; EITHER: a
+    number or such a vector
+    """
+
+
+@dataclass(frozen=True)
+class Expression:
+    """A checked expression."""
+
+    tree: ast.expr
+    names: frozenset[str]
+    """the names of its scope that it reads"""
+    boolean: bool
+
+
+Scope = Mapping[str, Word]
+
+
+def expression(path: Path, text: Any, scope: Scope) -> Expression:
+    """The expression of a text or a number. Wrong, with the column, for one that is not."""
+    if isinstance(text, (int, float)) and not isinstance(text, bool):
+        return Expression(ast.Constant(text), frozenset(), False)
+    if not isinstance(text, str):
+        raise Wrong(path, f'expected an expression such as "-k * x / m", found {found(text)}')
+    builder = _Builder(path, text, scope)
+    node = builder.parsed()
+    return Expression(builder.built(node, 0), frozenset(builder.names), builder.is_truth(node))
+
+
+@functools.lru_cache(maxsize=4096)
+def template(code: str) -> ast.expr:
+    """The tree of a text that stands in this package."""
+    return ast.parse(code, mode="eval").body
+
+
+class _Builder:
+    def __init__(self, path: Path, text: str, scope: Scope):
+        self.path, self.text, self.scope = path, text, scope
+        self.names: set[str] = set()
+        self.kinds: dict[type[ast.AST], Callable[[Any, int], ast.expr]] = {
+            ast.BinOp: self.operation,
+            ast.UnaryOp: self.sign,
+            ast.Compare: self.comparison,
+            ast.BoolOp: self.truth,
+            ast.IfExp: self.choice,
+            ast.Call: self.call,
+            ast.Name: self.name,
+            ast.Subscript: self.entry,
+            ast.Constant: self.number,
+        }
+
+    def wrong(self, message: str, node: Any = None) -> Wrong:
+        at = getattr(node, "col_offset", None)  # counts bytes, not characters
+        if at is None:
+            return Wrong(self.path, f"'{self.short()}': {message}")
+        at = len(self.line().encode()[:at].decode(errors="replace")) + self.lead()
+        return Wrong(self.path, f"'{self.short()}', column {at + 1}: {message}", at)
+
+    def short(self) -> str:
+        return self.text if len(self.text) <= 60 else f"{self.text[:57]}..."
+
+    def line(self) -> str:
+        """The text in one line, from its first word on."""
+        return self.text.replace("\n", " ").replace("\t", " ").lstrip()
+
+    def lead(self) -> int:
+        return len(self.text) - len(self.text.replace("\n", " ").replace("\t", " ").lstrip())
+
+    def parsed(self) -> ast.expr:
+        if len(self.text) > MOST_CHARACTERS:
+            raise Wrong(
+                self.path,
+                f"expected an expression of at most {MOST_CHARACTERS} characters, found "
+                f"{len(self.text)}; split it into parameters or outputs",
+            )
+        if not self.text.strip():
+            raise Wrong(self.path, "expected an expression such as '-k * x / m', found no text")
+        try:
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                return ast.parse(self.line(), "<scene>", mode="eval").body
+        except SyntaxError as error:
+            at = min(max(0, (error.offset or 1) - 1) + self.lead(), len(self.text))
+            raise Wrong(
+                self.path,
+                f"'{self.short()}', column {at + 1}: no expression: {error.msg}; expected "
+                "one such as '-k * x / m'",
+                at,
+            ) from None
+        except (RecursionError, MemoryError):
+            raise self.too_deep() from None
+        except ValueError as error:  # a character of code 0, a number of 5000 digits
+            raise self.wrong(f"no expression: {error}") from None
+
+    def too_deep(self, node: Any = None) -> Wrong:
+        return self.wrong(
+            f"nested too deeply; expected at most {MOST_LEVELS} levels; name a part of it", node
+        )
+
+    def built(self, node: ast.expr, level: int) -> ast.expr:
+        build = self.kinds.get(type(node))
+        if build is None:
+            raise self.refused(node, type(node))
+        if level > MOST_LEVELS:
+            raise self.too_deep(node)
+        return build(node, level + 1)
+
+    def refused(self, node: ast.AST, kind: type[ast.AST]) -> Wrong:
+        hint = HINTS.get(kind, "expected numbers, names, + - * / % **, comparisons, and functions")
+        return self.wrong(hint, node)
+
+    def operation(self, node: ast.BinOp, level: int) -> ast.expr:
+        if not isinstance(node.op, OPERATORS):
+            raise self.refused(node, type(node.op))
+        left, right = self.built(node.left, level), self.built(node.right, level)
+        made = ast.BinOp(left, node.op, right)
+        self.require_finite(made, node)
+        return made
+
+    def require_finite(self, made: ast.expr, node: ast.AST) -> None:
+        """Wrong for an operation on two numbers that has no finite result, such as 1 / 0."""
+        value = folded(made)
+        if value is not None and not math.isfinite(value):
+            raise self.wrong("expected a finite number", node)
+
+    def sign(self, node: ast.UnaryOp, level: int) -> ast.expr:
+        inner = self.built(node.operand, level)
+        if isinstance(node.op, ast.Not):
+            return _numpy("logical_not", inner)
+        if not isinstance(node.op, (ast.USub, ast.UAdd)):
+            raise self.refused(node, type(node.op))
+        return ast.UnaryOp(node.op, inner)
+
+    def comparison(self, node: ast.Compare, level: int) -> ast.expr:
+        """a < b < c is a < b and b < c."""
+        sides = [self.built(side, level) for side in (node.left, *node.comparators)]
+        found: list[ast.expr] = []
+        for op, left, right in zip(node.ops, sides[:-1], sides[1:], strict=True):
+            if not isinstance(op, COMPARISONS):
+                raise self.refused(node, type(op))
+            found.append(ast.Compare(left, [op], [right]))
+        return functools.reduce(lambda a, b: _numpy("logical_and", a, b), found)
+
+    def truth(self, node: ast.BoolOp, level: int) -> ast.expr:
+        parts = [self.built(part, level) for part in node.values]
+        return functools.reduce(lambda a, b: _numpy(TRUTHS[type(node.op)], a, b), parts)
+
+    def choice(self, node: ast.IfExp, level: int) -> ast.expr:
+        parts = (node.test, node.body, node.orelse)
+        return _numpy("where", *(self.built(part, level) for part in parts))
+
+    def call(self, node: ast.Call, level: int) -> ast.expr:
+        name = node.func.id if isinstance(node.func, ast.Name) else None
+        if name not in FUNCTIONS:
+            shown = f"function '{name}'" if name else "call"
+            known = known_names(name or "", sorted(FUNCTIONS))
+            raise self.wrong(f"unknown {shown}{known}", node.func)
+        function, count = FUNCTIONS[name]
+        self.require_arguments(node, name, count)
+        if name == "interp":
+            table = [self.vector(argument, level) for argument in node.args[1:]]
+            return _numpy(function, self.built(node.args[0], level), *table)
+        made = [self.built(argument, level) for argument in node.args]
+        if count is None:
+            return functools.reduce(lambda a, b: _numpy(function, a, b), made)
+        return _numpy(function, *made)
+
+    def require_arguments(self, node: ast.Call, name: str, count: int | None) -> None:
+        given = len(node.args)
+        if node.keywords or (given != count if count is not None else given < 2):
+            wanted = "two or more" if count is None else str(count)
+            raise self.wrong(f"expected {wanted} arguments of {name}, found {given}", node)
+
+    def vector(self, node: ast.expr, level: int) -> ast.expr:
+        """A whole vector, which only interp takes: the name of one, or a list of numbers."""
+        if isinstance(node, ast.List):
+            return ast.List([self.built(entry, level) for entry in node.elts], ast.Load())
+        word = self.scope.get(node.id) if isinstance(node, ast.Name) else None
+        if word is None or word.size is None:
+            raise self.wrong("expected a vector, such as a parameter or [0, 1, 2]", node)
+        assert isinstance(node, ast.Name)
+        self.names.add(node.id)
+        return template(word.code)
+
+    def name(self, node: ast.Name, level: int) -> ast.expr:
+        if node.id in CONSTANTS and node.id not in self.scope:
+            return template("np.inf") if node.id == "inf" else ast.Constant(CONSTANTS[node.id])
+        word = self.word(node)
+        if word.size is not None and word.size != EITHER:
+            raise self.wrong(f"'{node.id}' is a vector; write {node.id}[0]", node)
+        return template(word.code)
+
+    def word(self, node: ast.Name) -> Word:
+        if node.id not in self.scope:
+            if node.id in FUNCTIONS:
+                raise self.wrong(f"'{node.id}' is a function; write {node.id}(...)", node)
+            known = known_names(node.id, sorted(self.scope)) if self.scope else "; no name is known"
+            raise self.wrong(f"unknown name '{node.id}'{known}", node)
+        self.names.add(node.id)
+        return self.scope[node.id]
+
+    def entry(self, node: ast.Subscript, level: int) -> ast.expr:
+        if not isinstance(node.value, ast.Name):
+            raise self.wrong("expected an entry of a vector by its name, such as u[0]", node)
+        word, index = self.word(node.value), node.slice
+        if word.size is None:
+            raise self.wrong(f"'{node.value.id}' is a number and has no entries", node)
+        value = index.value if isinstance(index, ast.Constant) else None
+        if type(value) is not int or (word.size >= 0 and value >= word.size):
+            most = f", 0 to {word.size - 1}" if word.size > 0 else ""
+            raise self.wrong(f"expected the position of an entry{most}, as in u[0]", index)
+        return ast.Subscript(template(word.code), ast.Constant(value), ast.Load())
+
+    def number(self, node: ast.Constant, level: int) -> ast.expr:
+        if type(node.value) not in (int, float):
+            raise self.wrong(f"expected a number or a name, found {found(node.value)}", node)
+        try:
+            size = float(node.value)  # type: ignore[arg-type]
+        except OverflowError:
+            size = math.inf
+        if not math.isfinite(size):
+            raise self.wrong("expected a finite number", node)
+        return ast.Constant(node.value)
+
+    def is_truth(self, node: ast.expr) -> bool:
+        negation = isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.Not)
+        return negation or isinstance(node, (ast.Compare, ast.BoolOp))
+
+
+def _numpy(function: str, *arguments: ast.expr) -> ast.expr:
+    return ast.Call(template(f"np.{function}"), list(arguments), [])

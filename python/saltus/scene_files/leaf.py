@@ -1,0 +1,230 @@
+"""A leaf system of the table of a scene: every expression becomes a callback that is traced."""
+
+from __future__ import annotations
+
+import ast
+from typing import Any
+
+from saltus.leaf_system import LeafSystem
+from saltus.scene_files.expression import Expression, template
+from saltus.scene_files.functions import list_of, number_of
+from saltus.scene_files.leaf_scope import LeafScope
+from saltus.scene_files.names import chosen, require_part_name
+from saltus.scene_files.wrong import Path, Wrong, placed, require_keys, table_at
+
+__all__ = ["LEAF_KEYS", "SceneLeaf", "leaf_of"]
+
+LEAF_KEYS = (
+    "states", "discrete", "modes", "mode", "inputs", "variables", "outputs", "guards", "edges",
+    "updates",
+)  # fmt: skip
+GUARD_KEYS = (
+    "guard", "direction", "from", "to", "set", "terminal", "max_count", "zeno_tolerance",
+    "at_start", "on_zeno",
+)  # fmt: skip
+UPDATE_KEYS = ("period", "offset", "at", "end", "count", "set")
+DIRECTIONS = (
+    "crosses_zero", "both", "positive_then_non_positive", "falling", "negative_then_non_negative",
+    "rising", "edge_detection", "none",
+)  # fmt: skip
+
+
+class SceneLeaf(LeafSystem):
+    """A block whose equations stand in a scene file."""
+
+
+def leaf_of(path: Path, table: dict[str, Any], name: str, parameters: dict[str, Any]) -> SceneLeaf:
+    """The system of a table. Wrong for a mistake in it."""
+    for key in ("states", "discrete", "variables", "outputs", "guards", "edges", "updates"):
+        table_at((*path, key), table.get(key, {}), "{ name = ... }")
+    scope = LeafScope(parameters=parameters)
+    scope.add_table(path, table)
+    maker = _Maker(path, table, name, scope)
+    maker.declare()
+    return maker.leaf
+
+
+class _Maker:
+    def __init__(self, path: Path, table: dict[str, Any], name: str, scope: LeafScope):
+        self.path, self.table, self.scope = path, table, scope
+        self.leaf = SceneLeaf(name=name)
+
+    def declare(self) -> None:
+        for name, size in self.scope.inputs.items():
+            with placed((*self.path, "inputs")):
+                self.leaf.declare_input_port(name, shape=() if size is None else size)
+        self.states()
+        self.modes()
+        for what, declare in (
+            ("outputs", self.output),
+            ("guards", self.guard),
+            ("edges", self.edge),
+            ("updates", self.update),
+        ):
+            for name, value in self.table.get(what, {}).items():
+                path = (*self.path, what, name)
+                require_part_name(path, name, what[:-1])
+                with placed(path):
+                    declare(path, name, value)
+        for name, value in self.scope.parameters.items():
+            if name in self.scope.read:
+                with placed((*self.path, "parameters", name)):
+                    self.leaf.declare_dynamic_parameter(name, value)
+
+    def states(self) -> None:
+        starts, rates = [], []
+        for name, value in self.table.get("states", {}).items():
+            path = (*self.path, "states", name)
+            value = table_at(path, value, "{ start = 1.0, rate = '-k * x' }")
+            require_keys(path, value, ("start", "rate", "unit", "description"))
+            starts.append(self.number((*path, "start"), value.get("start", 0.0)))
+            rates.append(self.scope.expression((*path, "rate"), value.get("rate", 0.0)))
+        if starts:
+            inputs = self.scope.inputs_of(rates)
+            ode = self.scope.function(list_of(rates), inputs, rates)
+            with placed((*self.path, "states")):
+                self.leaf.declare_continuous_state(starts, ode=ode, requires_inputs=inputs)
+        held = self.table.get("discrete", {})
+        if held:
+            values = [self.number((*self.path, "discrete", n), v) for n, v in held.items()]
+            with placed((*self.path, "discrete")):
+                self.leaf.declare_discrete_state(values)
+
+    def modes(self) -> None:
+        if "mode" not in self.table and not self.scope.modes:
+            return
+        path = (*self.path, "mode")
+        if not self.scope.modes:
+            raise Wrong(path, "expected a list of 'modes' beside the mode at the start")
+        self.leaf.declare_default_mode(self.mode(path, self.table.get("mode", self.scope.modes[0])))
+
+    def mode(self, path: Path, value: Any) -> int:
+        return self.scope.modes.index(chosen(path, value, self.scope.modes, "mode"))
+
+    def number(self, path: Path, value: Any) -> float:
+        return number_of(path, value, self.scope.parameters)
+
+    def output(self, path: Path, name: str, value: Any) -> None:
+        many = isinstance(value, list)
+        texts = [((*path, i), text) for i, text in enumerate(value)] if many else [(path, value)]
+        parts = [self.scope.expression(place, text) for place, text in texts]
+        inputs = self.scope.inputs_of(parts)
+        self.leaf.declare_output_port(
+            self.scope.function(list_of(parts) if many else parts[0].tree, inputs, parts),
+            name=name,
+            requires_inputs=inputs,
+            shape=len(parts) if many else (),
+            boolean=not many and parts[0].boolean,
+            reads=self.scope.rates_of(parts),
+        )
+
+    def guard(self, path: Path, name: str, value: Any) -> None:
+        value = table_at(path, value, "{ guard = 'y', direction = 'falling' }")
+        require_keys(path, value, GUARD_KEYS, ("guard",))
+        guard = self.scope.expression((*path, "guard"), value["guard"])
+        effect, read = self.effect(path, value)
+        inputs = self.scope.inputs_of([guard, *read])
+        direction = value.get("direction", "crosses_zero")
+        self.leaf.declare_zero_crossing(
+            self.scope.function(guard.tree, inputs, [guard]),
+            None if effect is None else self.scope.function(effect, inputs, read),
+            name=name,
+            direction=chosen((*path, "direction"), direction, DIRECTIONS, "direction"),
+            requires_inputs=inputs,
+            **self.guard_options(path, value),
+        )
+
+    def guard_options(self, path: Path, value: dict[str, Any]) -> dict[str, Any]:
+        """The options of a zero crossing, as its declaration calls them."""
+        if "to" in value and "mode" in value.get("set", {}):
+            raise Wrong((*path, "to"), "the mode is set already; keep one of 'to' and 'set.mode'")
+        names = ("terminal", "max_count", "at_start", "on_zeno")
+        options: dict[str, Any] = {name: value[name] for name in names if name in value}
+        if options.get("on_zeno") in self.scope.modes:
+            options["on_zeno"] = self.mode((*path, "on_zeno"), options["on_zeno"])
+        if "zeno_tolerance" in value:
+            at = (*path, "zeno_tolerance")
+            options["zeno_tolerance"] = self.number(at, value["zeno_tolerance"])
+        for key, option in (("from", "start_mode"), ("to", "end_mode")):
+            if key in value:
+                options[option] = self.mode((*path, key), value[key])
+        return options
+
+    def edge(self, path: Path, name: str, value: Any) -> None:
+        value = table_at(path, value, "{ input = 'trigger', set = { x = 0 } }")
+        require_keys(path, value, ("input", "edge", "set"), ("input", "set"))
+        effect, read = self.effect(path, value)
+        inputs = self.scope.inputs_of(read)
+        names = list(self.scope.inputs)
+        self.leaf.declare_edge_reset(
+            self.scope.function(effect, inputs, read),
+            input=names.index(chosen((*path, "input"), value["input"], names, "input")),
+            edge=value.get("edge", "rising"),
+            name=name,
+            requires_inputs=inputs,
+        )
+
+    def update(self, path: Path, name: str, value: Any) -> None:
+        value = table_at(path, value, "{ period = 0.1, set = { k = 'k + 1' } }")
+        require_keys(path, value, UPDATE_KEYS, ("set",))
+        if not {"period", "offset", "at"} & value.keys():
+            raise Wrong(path, "expected times: a 'period', an 'offset', or times 'at', in seconds")
+        effect, read = self.effect(path, value)
+        callback = self.scope.function(effect, range(len(self.scope.inputs)), read)
+        times = {
+            key: self.number((*path, key), value[key])
+            for key in ("period", "offset", "end")
+            if key in value
+        }
+        if (
+            times.keys() <= {"period", "offset"}
+            and "period" in times
+            and len(value) == len(times) + 1
+        ):
+            self.leaf.declare_periodic_update(callback, name=name, **times)
+            return
+        at = value.get("at")
+        if at is not None:
+            at = at if isinstance(at, list) else [at]
+            at = [self.number((*path, "at", i), time) for i, time in enumerate(at)]
+        self.leaf.declare_time_event(
+            callback, times=at, count=value.get("count"), name=name, **times
+        )
+
+    def effect(self, path: Path, value: dict[str, Any]) -> tuple[ast.expr | None, list[Expression]]:
+        """The state after an event, and the expressions in it. All read the state before it."""
+        path = (*path, "set")
+        if "set" not in value:
+            return None, []
+        assigned = table_at(path, value["set"], "{ v = '-e * v' }")
+        names = [*self.scope.states, *self.scope.discrete, *(["mode"] if self.scope.modes else [])]
+        if not assigned:
+            raise Wrong(path, "expected a state and its new value, such as { v = '-e * v' }")
+        for name in assigned:
+            chosen((*path, name), name, names, "state")
+        made = {
+            name: self.scope.expression((*path, name), text)
+            for name, text in assigned.items()
+            if name != "mode"
+        }
+        after: ast.expr = template("state")
+        for states, method in (
+            (self.scope.states, "continuous"),
+            (self.scope.discrete, "discrete"),
+        ):
+            if any(name in made for name in states):
+                after = _with(after, f"with_{method}_state", self.all_of(states, made))
+        if "mode" in assigned:
+            mode = self.mode((*path, "mode"), assigned["mode"])
+            after = _with(after, "with_mode", ast.Constant(mode))
+        return after, list(made.values())
+
+    def all_of(self, states: list[str], made: dict[str, Expression]) -> ast.expr:
+        words = self.scope.words
+        return ast.List(
+            [made[n].tree if n in made else template(words[n].code) for n in states], ast.Load()
+        )
+
+
+def _with(state: ast.expr, method: str, value: ast.expr) -> ast.expr:
+    return ast.Call(ast.Attribute(state, method, ast.Load()), [value], [])

@@ -1,0 +1,109 @@
+"""What the names in the expressions of a leaf mean."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+from saltus.scene_files.expression import Expression, Word, expression
+from saltus.scene_files.functions import function_of
+from saltus.scene_files.names import named_vector, require_word
+from saltus.scene_files.wrong import Path, Wrong, found
+
+__all__ = ["LeafScope"]
+
+
+@dataclass
+class LeafScope:
+    """The names of a leaf: its states, modes, inputs and parameters, and the time."""
+
+    states: list[str] = field(default_factory=list)
+    discrete: list[str] = field(default_factory=list)
+    modes: list[str] = field(default_factory=list)
+    inputs: dict[str, int | None] = field(default_factory=dict)
+    """the width of each; None: a number"""
+    parameters: dict[str, Any] = field(default_factory=dict)
+    taken: dict[str, str] = field(default_factory=dict)
+    words: dict[str, Word] = field(default_factory=dict)
+    variables: dict[str, Expression] = field(default_factory=dict)
+    read: set[str] = field(default_factory=set)
+    """the parameters that some expression reads"""
+
+    def add(self, path: Path, name: str, what: str, word: Word) -> None:
+        require_word(path, name, self.taken, what)
+        self.taken[name] = what
+        self.words[name] = word
+
+    def add_table(self, path: Path, table: dict[str, Any]) -> None:
+        """The names that the table of a leaf declares."""
+        self.words["t"] = Word("time")
+        for name, value in self.parameters.items():
+            nested = isinstance(value, list)
+            self.taken[name] = "parameter"
+            self.words[name] = Word(f"p['{name}']", len(value) if nested else None)
+        for what, names, attribute in (
+            ("states", self.states, "continuous_state"),
+            ("discrete", self.discrete, "discrete_state"),
+        ):
+            for i, name in enumerate(table.get(what, {})):
+                self.add((*path, what, name), name, "state", Word(f"state.{attribute}[{i}]"))
+                names.append(name)
+        self._add_modes((*path, "modes"), table.get("modes", []))
+        self._add_inputs((*path, "inputs"), table.get("inputs", []))
+        for name, text in table.get("variables", {}).items():
+            at = (*path, "variables", name)
+            made = self.expression(at, text)
+            self.add(at, name, "variable", Word(f"v_{name}"))
+            self.variables[name] = made
+
+    def _add_modes(self, path: Path, names: Any) -> None:
+        if not isinstance(names, list):
+            raise Wrong(path, f"expected a list such as ['on', 'off'], found {found(names)}")
+        for i, name in enumerate(names):
+            if not isinstance(name, str):
+                raise Wrong((*path, i), f"expected the name of a mode, found {found(name)}")
+            self.add((*path, i), name, "mode", Word(str(i)))
+            self.modes.append(name)
+        if names:
+            self.words["mode"] = Word("state.mode")
+
+    def _add_inputs(self, path: Path, names: Any) -> None:
+        if not isinstance(names, list):
+            raise Wrong(path, f"expected a list of names such as ['u', 'v'], found {found(names)}")
+        for i, text in enumerate(names):
+            name, size = named_vector((*path, i), text)
+            self.add((*path, i), name, "input", Word(f"u_{name}", size))
+            self.inputs[name] = size
+
+    def expression(self, path: Path, text: Any) -> Expression:
+        made = expression(path, text, self.words)
+        behind = (self.variables[name].names for name in made.names & self.variables.keys())
+        made = replace(made, names=made.names.union(*behind))
+        self.read |= made.names & self.parameters.keys()
+        return made
+
+    def inputs_of(self, expressions: Iterable[Expression]) -> list[int]:
+        """The positions of the inputs that some of these expressions read."""
+        names = frozenset().union(*(each.names for each in expressions))
+        return [i for i, name in enumerate(self.inputs) if name in names]
+
+    def function(self, body: Any, inputs: Sequence[int], read: Iterable[Expression]) -> Any:
+        """A callback with these inputs that returns `body`, which is made of expressions."""
+        names = list(self.inputs)
+        needed = frozenset().union(*(each.names for each in read))
+        before = [(f"v_{n}", each.tree) for n, each in self.variables.items() if n in needed]
+        arguments = ["time", "state", *(f"u_{names[i]}" for i in inputs)]
+        return function_of(arguments, body, "p", before)
+
+    def rates_of(self, expressions: Iterable[Expression]) -> list[str]:
+        """What an output of these expressions depends on, in the words of the declaration."""
+        names = frozenset().union(*(each.names for each in expressions))
+        parts = {
+            "time": {"t"},
+            "continuous_state": set(self.states),
+            "discrete_state": set(self.discrete),
+            "mode": {"mode"},
+            "inputs": set(self.inputs),
+        }
+        return [what for what, of in parts.items() if names & of]

@@ -1,0 +1,105 @@
+"""A block of the library, made by its constructor from the table of a scene."""
+
+from __future__ import annotations
+
+import functools
+import inspect
+from typing import Any
+
+from saltus import library
+from saltus._core import known_names
+from saltus.library.called import elsewhere
+from saltus.scene_files.expression import ANY, EITHER, Word, expression
+from saltus.scene_files.functions import function_of, list_of, number_of, value_of
+from saltus.scene_files.wrong import Path, Wrong, found, placed
+from saltus.system import System
+
+__all__ = ["arguments_of", "library_block"]
+
+FUNCTION_OF = {
+    "ReduceBlock": {"u": Word("u", ANY)},
+    "FunctionBlock": {"u": Word("u", EITHER)},
+    "FeedthroughBlock": {"u": Word("u", EITHER)},
+    "SourceBlock": {"t": Word("t")},
+}
+"""block -> the names in the text of its function"""
+
+
+@functools.cache
+def arguments_of(block: str) -> dict[str, inspect.Parameter]:
+    """The arguments of the constructor of a block, but for its name."""
+    found = inspect.signature(getattr(library, block)).parameters
+    return {name: each for name, each in found.items() if name != "name"}
+
+
+def library_block(path: Path, table: dict[str, Any], name: str, values: dict[str, Any]) -> System:
+    """The block of a table. Wrong for an unknown one, and for arguments that it does not have."""
+    block = _known(path, table["block"])
+    known = arguments_of(block)
+    given = {key: value for key, value in table.items() if key != "block"}
+    for key in given:
+        if key not in known:
+            raise Wrong((*path, key), f"{block} has no '{key}'{known_names(key, list(known))}")
+    for key, parameter in known.items():
+        if parameter.default is parameter.empty and key not in given:
+            raise Wrong(path, f"{block} needs '{key}'")
+    arguments = {
+        key: _argument((*path, key), block, known[key], value, values)
+        for key, value in given.items()
+    }
+    with placed(path):
+        made: System = getattr(library, block)(**arguments, name=name)
+    return made
+
+
+def _known(path: Path, block: Any) -> str:
+    path = (*path, "block")
+    if not isinstance(block, str):
+        raise Wrong(path, f"expected the name of a block such as 'Gain', found {found(block)}")
+    if block not in library.__all__:
+        raise Wrong(path, f"the library has no block '{block}'{_advice(block)}")
+    return block
+
+
+def _advice(block: str) -> str:
+    """The name that a block of another tool has here, or the nearest name."""
+    error = elsewhere(block, library.__all__)
+    if isinstance(error, ImportError):
+        return f"; {str(error).partition('; ')[2]}"
+    return known_names(block, sorted(library.__all__))
+
+
+def _argument(
+    path: Path, block: str, parameter: inspect.Parameter, value: Any, values: dict[str, Any]
+) -> Any:
+    """A value of a table as the constructor takes it, by the annotation of its argument."""
+    kind = str(parameter.annotation)
+    if "Callable" in kind:
+        return _function(path, block, value, values)
+    if isinstance(value, str) and "str" in kind:
+        return value
+    if isinstance(value, bool) != (kind in ("bool", "bool | None")) and value is not None:
+        raise Wrong(path, f"expected {_kind(kind)}, found {found(value)}")
+    if isinstance(value, str) and kind.startswith("int"):
+        number = number_of(path, value, values)
+        if not number.is_integer():
+            raise Wrong(path, f"expected a whole number, found {number:g}")
+        return int(number)
+    return value_of(path, value, values)
+
+
+def _kind(annotation: str) -> str:
+    words = {"bool": "true or false", "int": "a whole number", "float": "a number", "str": "text"}
+    return words.get(annotation.partition(" |")[0], "a number or a list of numbers")
+
+
+def _function(path: Path, block: str, text: Any, values: dict[str, Any]) -> Any:
+    """The function of an expression; parameters of the scene are constants in it."""
+    scope = FUNCTION_OF.get(block)
+    if scope is None:
+        raise Wrong(path, f"a function of {block} cannot be written in a scene; use a leaf")
+    numbers = {n: float(v) for n, v in values.items() if isinstance(v, (int, float))}
+    words = {n: Word(f"({v!r})".replace("inf", "np.inf")) for n, v in numbers.items()} | scope
+    texts = [((*path, i), t) for i, t in enumerate(text)] if isinstance(text, list) else None
+    made = [expression(p, t, words) for p, t in texts or [(path, text)]]
+    return function_of(list(scope), list_of(made) if texts is not None else made[0].tree)

@@ -1,0 +1,262 @@
+"""`FileScene`: a scene of a file, with its system, its span and its options."""
+
+from __future__ import annotations
+
+import copy
+import inspect
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+from saltus import _core
+from saltus.ensemble.sweep import sweep
+from saltus.errors import ModelError
+from saltus.results import Results
+from saltus.scene_files.run import Run, Sweep, run_of, sweep_of
+from saltus.scene_files.source import Source, error_of
+from saltus.scene_files.systems import parameters_of, system_of_table
+from saltus.scene_files.writing import text_of
+from saltus.scene_files.wrong import Path as Keys
+from saltus.scene_files.wrong import Wrong, placed
+from saltus.simulation import Simulator, SimulatorOptions, simulate
+from saltus.system import System
+
+__all__ = ["FileScene"]
+
+
+class FileScene:
+    """A scene that was read from a file, or from text. Made by `saltus.load_scene`.
+
+    Examples
+    --------
+    >>> from saltus.scene_files import loads
+    >>> scene = loads('''
+    ... version = 1
+    ... parameters = { k = 2.0 }
+    ... states = { x = { start = 1.0, rate = "-k * x" } }
+    ... outputs = { x = "x" }
+    ... run = { until = 3.0 }
+    ... ''')
+    >>> scene.parameters, scene.t_span
+    ({'k': 2.0}, (0.0, 3.0))
+    >>> scene.simulate(rtol=1e-9).status
+    'reached_end'
+    >>> scene.sweep({"k": [1.0, 2.0]}, as_dict=True)["status"].tolist()
+    ['reached_end', 'reached_end']
+    >>> scene.maker()(k=5.0).create_context().parameters
+    {'k': 5.0}
+    >>> import pathlib, tempfile
+    >>> file = pathlib.Path(tempfile.mkdtemp(), "decay.json")
+    >>> scene.save(file)
+    >>> saltus.load_scene(file).parameters
+    {'k': 2.0}
+    """
+
+    name: str
+    """`name` of the file, or the name of the file itself"""
+    title: str
+    parameters: dict[str, Any]
+    """the values of the parameters of the scene"""
+    system: System
+    context: _core.Context
+    """the values at the begin of the span"""
+    t_span: tuple[float, float] | None
+    """[s] begin and end; None for a file that says no end"""
+    options: SimulatorOptions
+    """with the signals to record"""
+    tree: dict[str, Any]
+    """the tables of the file, those of included files in place of their names"""
+    swept: Sweep
+    """the `values` of the table `sweep`, by name, and whether they are `paired`"""
+
+    def __init__(
+        self, tree: dict[str, Any], sources: Mapping[Keys, Source], name: str, given: dict[str, Any]
+    ):
+        self._sources = sources
+        self.tree = with_parameters(tree, given)
+        self.name = tree.get("name", name)
+        self.title = tree.get("title", "")
+        try:
+            self._make()
+        except Wrong as wrong:
+            raise error_of(wrong, sources) from None
+
+    def _make(self) -> None:
+        self.parameters = parameters_of((), self.tree, {})
+        self.system = system_of_table(self.tree, self.name, self.parameters)
+        run: Run = run_of(self.tree.get("run", {}), self.system, self.parameters)
+        self.swept = Sweep({}, False)
+        if "sweep" in self.tree:
+            self.swept = sweep_of(self.tree["sweep"], self.parameters)
+        self.options = run.options
+        self.t_span = None if run.until is None else (run.begin, run.until)
+        if not self.system.input_names:  # one with inputs is a part of another scene
+            self._check()
+        with placed(("run", "begin")):
+            self.context = self.system.create_context(run.begin)
+
+    def _check(self) -> None:
+        """Compiles the system, which finds shapes that do not fit and loops."""
+        try:
+            Simulator(self.system, self.options)
+        except (ModelError, TypeError, ValueError) as error:
+            raise Wrong(_named(str(error), self.tree), str(error)) from None
+
+    def simulate(self, **options: Any) -> Results:
+        """Runs the scene.
+
+        Parameters
+        ----------
+        options
+            Of `SimulatorOptions`, by name, such as `rtol=1e-9`; they replace those of the file.
+
+        Raises
+        ------
+        ModelError, SimulationError
+            As `saltus.simulate` does; ModelError if the file says no end of the run.
+        """
+        return simulate(self.system, self.context, self._span(), self.options, **options)
+
+    def _span(self) -> tuple[float, float]:
+        if self.t_span is None:
+            raise ModelError(
+                f"scene '{self.name}' says no end of the run; write until = ... [s] in its table "
+                "'run'"
+            )
+        return self.t_span
+
+    def sweep(self, values: Any = None, **how: Any) -> Any:
+        """Runs the scene for each point of a grid, as `saltus.sweep` does.
+
+        Parameters
+        ----------
+        values
+            As for `saltus.sweep`; those of the table `sweep` if not said. A name is that of a
+            parameter of the scene, whose system is then made again for each run, or that of a
+            value of a block, such as "plant.g" or "ball.x[0]".
+        how
+            Further arguments of `saltus.sweep`.
+
+        Raises
+        ------
+        ModelError
+            As `saltus.sweep` does; if there are no values, or no end of the run.
+        """
+        if values is None:
+            if not self.swept.values:
+                raise ModelError(f"scene '{self.name}' says nothing to vary; write a table 'sweep'")
+            values, how = self.swept.values, {"paired": self.swept.paired} | how
+        # a system cannot go to another process, the function that makes it can
+        made_again = how.get("executor") == "processes" or any(
+            name in self.parameters for name in _names(values)
+        )
+        signals = {name: _path_in(self, name) for name in self.options.recorded_signals or {}}
+        options = replace(self.options, recorded_signals=None)
+        system = self.maker() if made_again else self.system
+        how.setdefault("recorded_signals", signals)
+        return sweep(system, values, self._span(), options=options, **how)
+
+    def maker(self) -> Maker:
+        """A function that makes the system anew with other parameters; it can be pickled."""
+        return Maker(self.tree, self.name)
+
+    def save(self, path: str | Path) -> None:
+        """Writes the scene, as TOML or JSON by the end of the name, in one file.
+
+        Raises
+        ------
+        ModelError
+            For another end of the name.
+        """
+        path = Path(path)
+        kind = path.suffix.lower().removeprefix(".")
+        path.write_text(text_of(self.tree, kind), encoding="utf-8")
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, FileScene):
+            return NotImplemented
+        return (self.name, self.tree) == (other.name, other.tree)
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return FileScene, (self.tree, dict(self._sources), self.name, {})
+
+    def __repr__(self) -> str:
+        title = f": {self.title}" if self.title else ""
+        span = "" if self.t_span is None else f"; t = {self.t_span[0]:g} to {self.t_span[1]:g} s"
+        return f"<FileScene '{self.name}'{title}{span}>"
+
+
+@dataclass(frozen=True)
+class Maker:
+    """Makes the system of a scene with other values of its parameters."""
+
+    tree: dict[str, Any]
+    name: str
+
+    @property
+    def __signature__(self) -> inspect.Signature:
+        kind = inspect.Parameter.KEYWORD_ONLY
+        own = self.tree.get("parameters", {})
+        return inspect.Signature([inspect.Parameter(n, kind, default=None) for n in own])
+
+    def __call__(self, **values: Any) -> System:
+        tree = with_parameters(self.tree, values)
+        source = Source("<text>", "", "toml")
+        try:
+            return system_of_table(tree, self.name, parameters_of((), tree, {}))
+        except Wrong as wrong:
+            raise error_of(wrong, {(): source}) from None
+
+
+def with_parameters(tree: dict[str, Any], given: Mapping[str, Any]) -> dict[str, Any]:
+    """The tree with other values of parameters. ModelError for unknown ones."""
+    if not given:
+        return tree
+    tree = copy.copy(tree)
+    own = dict(tree.get("parameters", {}))
+    for name, value in given.items():
+        if name not in own:
+            known = _core.known_names(name, list(own)) if own else "; the scene has none"
+            raise ModelError(f"unknown parameter '{name}' of the scene{known}")
+        plain = value.tolist() if hasattr(value, "tolist") else value
+        own[name] = {**own[name], "value": plain} if isinstance(own[name], dict) else plain
+    tree["parameters"] = own
+    return tree
+
+
+def _names(values: Any) -> list[str]:
+    """The names of a dict, of a list of dicts, or of a DataFrame."""
+    if isinstance(values, (list, tuple)):
+        return list(dict.fromkeys(name for row in values for name in row))
+    return list(values)
+
+
+def _path_in(scene: FileScene, name: str) -> str:
+    """The path of a recorded signal, which holds for a system that is made anew."""
+    record = scene.tree.get("run", {}).get("record")
+    return str(record[name]) if isinstance(record, dict) else name
+
+
+def _named(message: str, tree: dict[str, Any]) -> Keys:
+    """The path of the block, or of the option, that a message is about."""
+    for key, value in tree.get("run", {}).items():
+        if f"'{value}'" in message or message.startswith((f"{key}:", f"option {key}:")):
+            return ("run", key)
+    for name in message.split("'")[1::2]:
+        path: Keys = ()
+        inside = tree
+        for part in name.split("."):
+            block = inside.get("blocks", {}).get(part)
+            if block is None:
+                break
+            path = (*path, "blocks", part)
+            system = block.get("system")
+            inside = tree.get("systems", {}).get(system, {}) if system else {}
+            if system:
+                return path
+        if path:
+            return path
+    return ("blocks",) if "blocks" in tree else ()
