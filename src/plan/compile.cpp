@@ -7,8 +7,8 @@
 
 #include "saltus/plan/detail/flow_divisors.hpp"
 #include "saltus/plan/detail/flow_series.hpp"
-#include "saltus/plan/detail/kept.hpp"
 #include "saltus/plan/detail/fuse.hpp"
+#include "saltus/plan/detail/kept.hpp"
 #include "saltus/plan/detail/needs.hpp"
 #include "saltus/plan/detail/order.hpp"
 
