@@ -74,7 +74,7 @@ def _toml(source: Source) -> Any:
     if DEEP_KEY.search(source.text):  # for which the parser takes the square of its length
         raise RecursionError
     try:
-        import tomllib  # type: ignore[import-not-found,unused-ignore]
+        import tomllib  # type: ignore[import-not-found,unused-ignore]  # novm
     except ImportError:  # before Python 3.11
         import tomli as tomllib  # type: ignore[no-redef,import-not-found,unused-ignore]
 
