@@ -47,7 +47,7 @@ void Run::fail_at_pole(double from) {
   const Poles::Pole& pole = poles_.pole();
   const PlanLeaf& leaf = leaf_of_state(pole.state);
   const double to = std::exchange(time_, from);
-  machine_.x = integration_.at(from);
+  machine_.x = poles_.departed_from();
   accepted_.place = Place::machine;
   throw SimulationError(
       text("t = ", from, " s: the derivative of state x[", pole.state - leaf.x, "] of block '",

@@ -48,6 +48,8 @@ class Poles {
   };
   /// The first pole that was passed.
   const Pole& pole() const noexcept { return pole_; }
+  /// The state that the last step left.
+  const Eigen::VectorXd& departed_from() const noexcept { return x_; }
 
  private:
   /// Where a step began.
