@@ -28,9 +28,15 @@ DIRECTIONS = (
     "rising", "edge_detection", "none",
 )  # fmt: skip
 
+OTHER = ("x", "z", "mode")
+"""names that a context has for something else"""
+
 
 class SceneLeaf(LeafSystem):
     """A block whose equations stand in a scene file."""
+
+    shown: tuple[str, ...] = ()
+    """the outputs that the file names, which are recorded if nothing is said"""
 
 
 def leaf_of(path: Path, table: dict[str, Any], name: str, parameters: dict[str, Any]) -> SceneLeaf:
@@ -48,6 +54,7 @@ class _Maker:
     def __init__(self, path: Path, table: dict[str, Any], name: str, scope: LeafScope):
         self.path, self.table, self.scope = path, table, scope
         self.leaf = SceneLeaf(name=name)
+        self.leaf.shown = tuple(table.get("outputs", {}))
 
     def declare(self) -> None:
         for name, size in self.scope.inputs.items():
@@ -83,12 +90,23 @@ class _Maker:
             inputs = self.scope.inputs_of(rates)
             ode = self.scope.function(list_of(rates), inputs, rates)
             with placed((*self.path, "states")):
-                self.leaf.declare_continuous_state(starts, ode=ode, requires_inputs=inputs)
+                self.leaf.declare_continuous_state(
+                    starts, ode=ode, requires_inputs=inputs, names=self.state_names()
+                )
         held = self.table.get("discrete", {})
         if held:
             values = [self.number((*self.path, "discrete", n), v) for n, v in held.items()]
             with placed((*self.path, "discrete")):
                 self.leaf.declare_discrete_state(values)
+
+    def state_names(self) -> list[str]:
+        """The names of the states, which are outputs and values of a context; none if one of them
+        cannot have its name there, or if the file has another output of that name.
+        """
+        outputs = self.table.get("outputs", {})
+        names = list(self.table["states"])
+        free = all(name not in OTHER and outputs.get(name, name) == name for name in names)
+        return names if free else []
 
     def modes(self) -> None:
         if "mode" not in self.table and not self.scope.modes:
@@ -105,6 +123,8 @@ class _Maker:
         return number_of(path, value, self.scope.parameters)
 
     def output(self, path: Path, name: str, value: Any) -> None:
+        if name in self.leaf.output_names:
+            return  # a state that shows itself
         many = isinstance(value, list)
         texts = [((*path, i), text) for i, text in enumerate(value)] if many else [(path, value)]
         parts = [self.scope.expression(place, text) for place, text in texts]

@@ -12,6 +12,7 @@ from saltus._signals import port_of
 from saltus.options import SimulatorOptions
 from saltus.ports import OutputPort
 from saltus.scene_files.functions import number_of, value_of
+from saltus.scene_files.leaf import SceneLeaf
 from saltus.scene_files.names import text_at
 from saltus.scene_files.wrong import Path, Wrong, found, placed, require_keys, table_at
 from saltus.system import System
@@ -105,9 +106,10 @@ def _times(path: Path, value: Any, begin: float, until: float | None, values: An
 
 
 def _recorded(path: Path, value: Any, system: System) -> dict[str, OutputPort]:
-    """The signals by name; without the key all outputs of the system."""
+    """The signals by name; without the key all outputs that the file names."""
     if value is None:
-        return {port.name: port for port in system.output_ports}
+        shown = system.shown if isinstance(system, SceneLeaf) else system.output_names
+        return {name: system.output(name) for name in shown}
     if isinstance(value, list):
         signals = {text_at((*path, i), port, "plant.y"): (*path, i) for i, port in enumerate(value)}
         named = [(name, name, at) for name, at in signals.items()]

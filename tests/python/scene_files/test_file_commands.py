@@ -44,7 +44,7 @@ def test_run_is_the_run_of_the_scene(ball, capsys):
     assert said["scene"] == "ball"
     assert said["final"]["height"] == results.outputs["height"][-1]
     assert said["cost"]["steps"] == results.statistics.steps
-    assert main(["run", "ball.toml", "--set", "x[0]=2", "--rtol", "1e-6", "--csv", "rows.csv"]) == 0
+    assert main(["run", "ball.toml", "--set", "y=2", "--rtol", "1e-6", "--csv", "rows.csv"]) == 0
     with open("rows.csv") as file:
         rows = list(csv.reader(file))
     assert rows[0] == ["time", "jump", "height", "energy"]
@@ -141,7 +141,7 @@ def test_a_sweep_in_python_makes_the_system_anew_or_varies_the_context():
     assert by_parameter["lower"].tobytes() == by_context["lower"].tobytes()
     whole = saltus.load_scene(FOLDER / "two_tanks.toml", wide=1.0).simulate()
     assert by_parameter["lower"][0] == whole.outputs["lower"][-1]
-    both = scene.sweep({"wide": [1.0, 2.0], "upper.x[0]": [0.5, 0.6]}, as_dict=True)
+    both = scene.sweep({"wide": [1.0, 2.0], "upper.h": [0.5, 0.6]}, as_dict=True)
     assert both["lower"].shape == (2, 2)
     with pytest.raises(saltus.ModelError, match="unknown parameter or state 'wid'"):
         scene.sweep({"wid": [1.0]}, as_dict=True)

@@ -232,7 +232,7 @@ CASES = {
         (3, 1),
         ["different lengths"],
     ),
-    "unknown recorded signal": (LEAF + 'v = {}\n[run]\nrecord = ["v"]', (5, 11), ["'v'"]),
+    "unknown recorded signal": (LEAF + 'v = {}\n[run]\nrecord = ["w"]', (5, 11), ["'w'", "'v'"]),
     "values to vary that are none": (
         LEAF + "v = {}\n[sweep.values]\ne = 3",
         (5, 1),
