@@ -83,7 +83,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         code: int = chosen.act(chosen)
         sys.stdout.flush()
         return code
-    except (Error, UsageError, ImportError, OSError) as error:
+    except (Error, UsageError, ImportError, OSError, ArithmeticError) as error:
         if isinstance(error, BrokenPipeError):  # `saltus list | head`
             os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
             return 0

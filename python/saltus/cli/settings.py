@@ -95,7 +95,7 @@ def settings_of(settings: list[str], flag: str = "--set") -> dict[str, Any]:
 def _value(text: str) -> Any:
     try:
         return ast.literal_eval(text)
-    except (ValueError, SyntaxError):
+    except (ValueError, SyntaxError, MemoryError, RecursionError):
         pass
     try:
         return float(text)  # 1e-3 is a literal; inf and nan are none

@@ -9,9 +9,10 @@ from __future__ import annotations
 
 import ast
 import functools
+import itertools
 import math
 import warnings
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -47,6 +48,8 @@ class Word:
     """None: a number; n: a vector of n, of which an entry is taken; ANY: of any length; EITHER: a
     number or such a vector
     """
+    truth: bool = False
+    """whether it is true or false"""
 
 
 @dataclass(frozen=True)
@@ -65,7 +68,7 @@ Scope = Mapping[str, Word]
 def expression(path: Path, text: Any, scope: Scope) -> Expression:
     """The expression of a text or a number. Wrong, with the column, for one that is not."""
     if isinstance(text, (int, float)) and not isinstance(text, bool):
-        return Expression(ast.Constant(text), frozenset(), False)
+        return Expression(ast.Constant(float(text)), frozenset(), False)
     if not isinstance(text, str):
         raise Wrong(path, f'expected an expression such as "-k * x / m", found {found(text)}')
     builder = _Builder(path, text, scope)
@@ -119,6 +122,14 @@ class _Builder:
                 f"expected an expression of at most {MOST_CHARACTERS} characters, found "
                 f"{len(self.text)}; split it into parameters or outputs",
             )
+        if "#" in self.text:
+            at = self.text.index("#")
+            raise Wrong(
+                self.path,
+                f"'{self.short()}', column {at + 1}: '#' begins a comment in TOML, and is no part "
+                "of an expression; write the comment outside of the text",
+                at,
+            )
         if not self.text.strip():
             raise Wrong(self.path, "expected an expression such as '-k * x / m', found no text")
         try:
@@ -158,10 +169,19 @@ class _Builder:
     def operation(self, node: ast.BinOp, level: int) -> ast.expr:
         if not isinstance(node.op, OPERATORS):
             raise self.refused(node, type(node.op))
-        left, right = self.built(node.left, level), self.built(node.right, level)
-        made = ast.BinOp(left, node.op, right)
+        made = ast.BinOp(
+            self.as_number(node.left, level), node.op, self.as_number(node.right, level)
+        )
         self.require_finite(made, node)
         return made
+
+    def as_number(self, node: ast.expr, level: int) -> ast.expr:
+        """1 for a truth: numpy adds truths by "or"."""
+        inner = self.built(node, level)
+        known = self.scope.get(node.id) if isinstance(node, ast.Name) else None
+        if not self.is_truth(node) and not (known is not None and known.truth):
+            return inner
+        return _numpy("where", inner, ast.Constant(1.0), ast.Constant(0.0))
 
     def require_finite(self, made: ast.expr, node: ast.AST) -> None:
         """Wrong for an operation on two numbers that has no finite result, such as 1 / 0."""
@@ -170,15 +190,15 @@ class _Builder:
             raise self.wrong("expected a finite number", node)
 
     def sign(self, node: ast.UnaryOp, level: int) -> ast.expr:
-        inner = self.built(node.operand, level)
         if isinstance(node.op, ast.Not):
-            return _numpy("logical_not", inner)
+            return _numpy("logical_not", self.built(node.operand, level))
         if not isinstance(node.op, (ast.USub, ast.UAdd)):
             raise self.refused(node, type(node.op))
-        return ast.UnaryOp(node.op, inner)
+        return ast.UnaryOp(node.op, self.as_number(node.operand, level))
 
     def comparison(self, node: ast.Compare, level: int) -> ast.expr:
         """a < b < c is a < b and b < c."""
+        self.require_few(node, node.comparators)
         sides = [self.built(side, level) for side in (node.left, *node.comparators)]
         found: list[ast.expr] = []
         for op, left, right in zip(node.ops, sides[:-1], sides[1:], strict=True):
@@ -188,6 +208,7 @@ class _Builder:
         return functools.reduce(lambda a, b: _numpy("logical_and", a, b), found)
 
     def truth(self, node: ast.BoolOp, level: int) -> ast.expr:
+        self.require_few(node, node.values)
         parts = [self.built(part, level) for part in node.values]
         return functools.reduce(lambda a, b: _numpy(TRUTHS[type(node.op)], a, b), parts)
 
@@ -205,17 +226,37 @@ class _Builder:
         self.require_arguments(node, name, count)
         if name == "interp":
             table = [self.vector(argument, level) for argument in node.args[1:]]
+            self.require_table(node, table[0], table[1])
             return _numpy(function, self.built(node.args[0], level), *table)
+        self.require_few(node, node.args)
         made = [self.built(argument, level) for argument in node.args]
         if count is None:
             return functools.reduce(lambda a, b: _numpy(function, a, b), made)
         return _numpy(function, *made)
+
+    def require_few(self, node: ast.expr, parts: Sequence[ast.expr]) -> None:
+        """Each part is a level of the tree that is built."""
+        if len(parts) > MOST_LEVELS:
+            raise self.wrong(f"expected at most {MOST_LEVELS} parts, found {len(parts)}", node)
 
     def require_arguments(self, node: ast.Call, name: str, count: int | None) -> None:
         given = len(node.args)
         if node.keywords or (given != count if count is not None else given < 2):
             wanted = "two or more" if count is None else str(count)
             raise self.wrong(f"expected {wanted} arguments of {name}, found {given}", node)
+
+    def require_table(self, node: ast.expr, x: ast.expr, y: ast.expr) -> None:
+        """Wrong for lists of points of different lengths, or that do not increase."""
+        if not isinstance(x, ast.List) or not isinstance(y, ast.List):
+            return
+        if len(x.elts) != len(y.elts) or not x.elts:
+            raise self.wrong(
+                f"expected as many points as values, found {len(x.elts)} and {len(y.elts)}", node
+            )
+        points = [folded(each) for each in x.elts]
+        known = [each for each in points if each is not None]
+        if any(one >= other for one, other in itertools.pairwise(known)):
+            raise self.wrong("expected points of interp that increase", node)
 
     def vector(self, node: ast.expr, level: int) -> ast.expr:
         """A whole vector, which only interp takes: the name of one, or a list of numbers."""
@@ -266,7 +307,7 @@ class _Builder:
             size = math.inf
         if not math.isfinite(size):
             raise self.wrong("expected a finite number", node)
-        return ast.Constant(node.value)
+        return ast.Constant(size)
 
     def is_truth(self, node: ast.expr) -> bool:
         negation = isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.Not)

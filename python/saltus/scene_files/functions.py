@@ -72,7 +72,7 @@ def number_of(path: Path, text: Any, values: Mapping[str, Any]) -> float:
     try:
         with np.errstate(all="ignore"):
             number = function(**{name: _floats(values[name]) for name in made.names})
-    except ArithmeticError as error:
+    except (ArithmeticError, ValueError) as error:
         raise Wrong(path, f"'{text}' has no value: {error}") from None
     if isinstance(number, complex) or math.isnan(number):
         raise Wrong(path, f"'{text}' has no value: not a number")

@@ -9,6 +9,7 @@ from typing import Any
 from saltus.scene_files.expression import Expression, Word, expression
 from saltus.scene_files.functions import function_of
 from saltus.scene_files.names import named_vector, require_word
+from saltus.scene_files.vocabulary import ON_ZENO
 from saltus.scene_files.wrong import Path, Wrong, found
 
 __all__ = ["LeafScope"]
@@ -54,7 +55,7 @@ class LeafScope:
         for name, text in table.get("variables", {}).items():
             at = (*path, "variables", name)
             made = self.expression(at, text)
-            self.add(at, name, "variable", Word(f"v_{name}"))
+            self.add(at, name, "variable", Word(f"v_{name}", truth=made.boolean))
             self.variables[name] = made
 
     def _add_modes(self, path: Path, names: Any) -> None:
@@ -63,6 +64,8 @@ class LeafScope:
         for i, name in enumerate(names):
             if not isinstance(name, str):
                 raise Wrong((*path, i), f"expected the name of a mode, found {found(name)}")
+            if name in ON_ZENO:
+                raise Wrong((*path, i), f"'{name}' is a word of on_zeno; expected another name")
             self.add((*path, i), name, "mode", Word(str(i)))
             self.modes.append(name)
         if names:

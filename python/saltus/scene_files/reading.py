@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 import re
+from collections import Counter
 from pathlib import Path
 from typing import Any
 
@@ -101,8 +102,7 @@ class _Refused(Exception):
 def _no_key_twice(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     table = dict(pairs)
     if len(table) < len(pairs):
-        names = [name for name, _ in pairs]
-        twice = next(name for name in names if names.count(name) > 1)
+        twice = Counter(name for name, _ in pairs).most_common(1)[0][0]
         raise _Refused(f"key '{twice}' stands twice in one table; keep one of them")
     return table
 
@@ -144,7 +144,9 @@ def _value(path: Keys, value: Any) -> Any:
             raise Wrong(path, "expected a number, found nan")
         return "inf" if value > 0 else "-inf"  # JSON has no infinite number
     if isinstance(value, int) and abs(value) > 2**53:
-        raise Wrong(path, f"expected a whole number up to 2**53, found {str(value)[:40]}")
+        raise Wrong(
+            path, f"expected a whole number up to 2**53, found one of {value.bit_length()} bits"
+        )
     if isinstance(value, (str, int, float)):
         return value
     raise Wrong(

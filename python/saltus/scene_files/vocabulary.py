@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-__all__ = ["CONSTANTS", "FUNCTIONS", "RESERVED"]
+__all__ = ["CONSTANTS", "FUNCTIONS", "ON_ZENO", "RESERVED"]
 
 FUNCTIONS = {
     "abs": ("abs", 1),
@@ -44,7 +44,10 @@ FUNCTIONS = {
 
 CONSTANTS = {"inf": math.inf, "pi": math.pi}
 
-RESERVED = {"t", "mode", *CONSTANTS}
+RESERVED = {"t", "time", "state", "mode", *CONSTANTS}
 """names that no state, input or parameter may have; one may share its name with a function, which
 is always followed by '('
 """
+
+ON_ZENO = {"hold", "stop", "error"}
+"""what a guard does at a Zeno point; beside these it names a mode"""
