@@ -5,6 +5,7 @@
 #include "saltus/library/edge_detection.hpp"
 #include "saltus/library/rate_limiter.hpp"
 #include "saltus/library/rate_transition.hpp"
+#include "saltus/library/transport_delay.hpp"
 #include "saltus/library/unit_delay.hpp"
 #include "saltus/library/zero_order_hold.hpp"
 
@@ -38,6 +39,13 @@ void bind_discrete(py::module_& module) {
       .def(py::init([](const std::string& name, double dt, Handle initial_state) {
         return std::make_unique<RateTransition>(
             name, dt, RateTransitionOptions{Arguments(name).value(initial_state, "initial_state")});
+      }));
+  py::class_<TransportDelay, System>(module, "TransportDelay")
+      .def(py::init([](const std::string& name, double delay, Handle initial_output, int capacity) {
+        return std::make_unique<TransportDelay>(
+            name, delay,
+            TransportDelayOptions{Arguments(name).value(initial_output, "initial_output"),
+                                  capacity});
       }));
   py::class_<UnitDelay, System>(module, "UnitDelay")
       .def(py::init([](const std::string& name, double dt, Handle initial_state) {

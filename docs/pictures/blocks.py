@@ -40,6 +40,7 @@ from saltus.library import (
     Sine,
     TransferFunction,
     TransferFunctionDiscrete,
+    TransportDelay,
     UnitDelay,
     WhiteNoise,
 )
@@ -94,7 +95,7 @@ SAMPLED = [
         LookupTable2d([-1, 0, 1], [-2, 2], [[1, 0], [-1, 1], [1, 0]]),
         [SINE, COSINE],
     ),
-    ("Sawtooth, sampled", RateTransition(0.5), [Sawtooth(1.0, 0.4)]),
+    ("TransportDelay", TransportDelay(1.5), [STEP]),
 ]
 
 

@@ -662,6 +662,9 @@ class RateLimiter(System):
 class RateTransition(System):
     def __init__(self, arg0: str, arg1: float, arg2: Any, /) -> None: ...
 
+class TransportDelay(System):
+    def __init__(self, arg0: str, arg1: float, arg2: Any, arg3: int, /) -> None: ...
+
 class UnitDelay(System):
     def __init__(self, arg0: str, arg1: float, arg2: Any, /) -> None: ...
 

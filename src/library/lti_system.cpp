@@ -18,31 +18,28 @@ auto entry_of_product(const At& at, ParameterIndex matrix, Index columns, Index 
 LTISystem::LTISystem(std::string name, const Matrices& matrices, const Options& options)
     : LeafSystem(std::move(name)) {
   detail::require_sizes(this->name(), matrices, options);
-  const auto declare_matrix = [this](const char* parameter, const Eigen::MatrixXd& values) {
-    return declare_dynamic_parameter(parameter, detail::by_rows(values));
-  };
+  const detail::LTIParameters k(matrices,
+                                [this](const char* parameter, const Eigen::VectorXd& values) {
+                                  return declare_dynamic_parameter(parameter, values);
+                                });
   const Index n = matrices.A.rows(), inputs = matrices.B.cols(), outputs = matrices.C.rows();
-  const ParameterIndex a = declare_matrix("A", matrices.A), b = declare_matrix("B", matrices.B),
-                       c = declare_matrix("C", matrices.C);
-  std::optional<ParameterIndex> d;
-  if (matrices.D && !matrices.D->isZero(0.0)) d = declare_matrix("D", *matrices.D);
   const auto signal = [](Index size) { return size == 1 ? Shape::scalar() : Shape::of(size); };
   declare_input_port({.name = "in", .shape = signal(inputs)});
   declare_continuous_state(
       {.initial = options.initial_state.value_or(Eigen::VectorXd::Zero(n)),
        .reads = Reads::continuous_state | Reads::inputs,
        .formula = [=](const auto& at, Index i) {
-         return entry_of_product(at, a, n, i, [&](Index j) { return at.x(j); }) +
-                entry_of_product(at, b, inputs, i, [&](Index j) { return at.u(0, j); });
+         return entry_of_product(at, k.a, n, i, [&](Index j) { return at.x(j); }) +
+                entry_of_product(at, k.b, inputs, i, [&](Index j) { return at.u(0, j); });
        }});
   declare_output_port(
       {.name = "out",
        .shape = signal(outputs),
-       .reads = d ? Reads::continuous_state | Reads::inputs : Reads::continuous_state,
-       .inputs = d ? std::vector{0} : std::vector<int>{},
+       .reads = k.d ? Reads::continuous_state | Reads::inputs : Reads::continuous_state,
+       .inputs = k.d ? std::vector{0} : std::vector<int>{},
        .formula = [=](const auto& at, Index i) {
-         auto y = entry_of_product(at, c, n, i, [&](Index j) { return at.x(j); });
-         if (d) y += entry_of_product(at, *d, inputs, i, [&](Index j) { return at.u(0, j); });
+         auto y = entry_of_product(at, k.c, n, i, [&](Index j) { return at.x(j); });
+         if (k.d) y += entry_of_product(at, *k.d, inputs, i, [&](Index j) { return at.u(0, j); });
          return y;
        }});
 }

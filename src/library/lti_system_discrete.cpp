@@ -17,30 +17,27 @@ LTISystemDiscrete::LTISystemDiscrete(std::string name, double dt, const Matrices
                                      const Options& options)
     : SampledSystem(std::move(name)) {
   detail::require_sizes(this->name(), matrices, options);
-  const auto declare = [this](const char* parameter, const Eigen::MatrixXd& values) {
-    return declare_dynamic_parameter(parameter, detail::by_rows(values));
-  };
+  const detail::LTIParameters k(matrices,
+                                [this](const char* parameter, const Eigen::VectorXd& values) {
+                                  return declare_dynamic_parameter(parameter, values);
+                                });
   const Index n = matrices.A.rows(), inputs = matrices.B.cols(), outputs = matrices.C.rows();
-  const ParameterIndex a = declare("A", matrices.A), b = declare("B", matrices.B),
-                       c = declare("C", matrices.C);
-  std::optional<ParameterIndex> d;
-  if (matrices.D && !matrices.D->isZero(0.0)) d = declare("D", *matrices.D);
   declare_input_port({.name = "in", .shape = inputs == 1 ? Shape::scalar() : Shape::of(inputs)});
   const Eigen::VectorXd initial = options.initial_state.value_or(Eigen::VectorXd::Zero(n));
   const Eigen::VectorXd before = matrices.C * initial;
   declare_law({.dt = dt,
                .before = outputs == 1 ? Value(before[0]) : Value(before),
                .state = initial,
-               .feedthrough = d ? std::vector{0} : std::vector<int>{},
+               .feedthrough = k.d ? std::vector{0} : std::vector<int>{},
                .output =
                    [=](const At& at, const VectorView& s, VectorRef y) {
-                     y.noalias() = lti_matrix(at, c, n) * s;
-                     if (d) y.noalias() += lti_matrix(at, *d, inputs) * at.u[0];
+                     y.noalias() = lti_matrix(at, k.c, n) * s;
+                     if (k.d) y.noalias() += lti_matrix(at, *k.d, inputs) * at.u[0];
                    },
                .next =
                    [=](const At& at, const VectorView& s, VectorRef next) {
-                     next.noalias() = lti_matrix(at, a, n) * s;
-                     next.noalias() += lti_matrix(at, b, inputs) * at.u[0];
+                     next.noalias() = lti_matrix(at, k.a, n) * s;
+                     next.noalias() += lti_matrix(at, k.b, inputs) * at.u[0];
                    }});
 }
 

@@ -163,6 +163,19 @@ void LeafSystem::declare_discrete_state(const Eigen::VectorXd& initial) {
   declared_.discrete = initial;
 }
 
+void LeafSystem::declare_history(History history) {
+  require_unused();
+  const auto inputs = static_cast<int>(declared_.inputs.size());
+  if (history.input < 0 || history.input >= inputs || !history.append ||
+      !(history.longest_step > 0.0)) {
+    throw ModelError(text("block '", name(), "': a history of input ", history.input,
+                          " with a longest step of ", history.longest_step,
+                          " s; expected one of the ", inputs,
+                          " inputs, a function that appends, and a longest step above 0 s"));
+  }
+  declared_.histories.push_back(std::move(history));
+}
+
 void LeafSystem::declare_default_mode(int mode) {
   require_unused();
   declared_.mode = mode;

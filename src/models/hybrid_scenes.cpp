@@ -76,7 +76,7 @@ std::vector<ShelfEntry> hybrid_scenes() {
           {"0 < x0 < length, v0 not 0",
            [](const TwoWallsParameters& p) { return p.x0 < p.length && p.v0 != 0.0; }}),
       entry<NewtonsCradleParameters>(
-          "newtons-cradle", "five balls a hair apart: chains of impacts after long swings",
+          "newtons-cradle", "five balls with small gaps: chains of impacts after long swings",
           &newtons_cradle,
           {{"balls", &NewtonsCradleParameters::balls, 2, 1000},
            {"gap", &NewtonsCradleParameters::gap, positive},

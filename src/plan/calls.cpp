@@ -96,6 +96,7 @@ Calls::Calls(const Plan& plan, std::vector<At>& views) {
   derivatives = make.outputs(plan.walks.derivatives, plan.derivatives);
   guard_needs = make.outputs(plan.walks.guards, plan.guard_needs);
   taps = make.outputs(plan.tap_needs);
+  histories = make.outputs(plan.history_needs);
   odes = make.odes(plan.walks.derivatives);
   single_odes = make.odes({});
   for (const GuardGroup& group : plan.guards) guards.push_back(make.guard(group));

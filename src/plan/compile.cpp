@@ -183,9 +183,11 @@ void add_schedule(Plan& plan) {
                                .offset = events[i].offset,
                                .name = text(plan.leaves[l].path, ".", events[i].name),
                                .ticks = events[i].ticks(),
-                               .times = events[i].times.value_or(std::vector<double>{})});
+                               .times = events[i].times.value_or(std::vector<double>{}),
+                               .by_state = static_cast<bool>(events[i].next)});
     }
     if (plan.leaves[l].nx > 0) plan.odes.push_back(static_cast<int>(l));
+    if (!plan.leaves[l].declared().histories.empty()) plan.histories.push_back(static_cast<int>(l));
   }
 }
 

@@ -63,6 +63,7 @@ std::string Plan::describe() const {
   describe_list(out, *this, "computed for the guards", guard_needs);
   describe_walk(out, *this, walks.guards, "guards");
   describe_list(out, *this, "computed for recorded rows", tap_needs);
+  if (!histories.empty()) describe_list(out, *this, "computed for histories", history_needs);
   describe_list(out, *this, "dropped, nothing reads them", dropped);
   out += guards.empty() ? "no guards: no root-finding\n" : text("guards: ", guard_slots, "\n");
   for (const GuardGroup& guard : guards) describe_guard(out, *this, guard);

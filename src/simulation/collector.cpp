@@ -48,7 +48,7 @@ bool Collector::flip_relations() {
 
 bool Collector::collect_edges() {
   bool released = false;
-  for (std::size_t e = 0; e < plan_->edges.size(); ++e) {
+  for (const std::size_t e : scope_->edges) {
     const Edges::Look look = edges_->look(e);
     Holds::Hold& hold = holds_->of_edge(e);
     if (hold.monitor.holding && !look.now) {

@@ -6,10 +6,11 @@
 
 namespace saltus {
 
-ContactGuards::ContactGuards(Machine& machine, GuardSet& guards, const SimulatorOptions& options,
-                             Flow& flow, Edges& edges, Holds& holds, const Transition& transition,
-                             Present& present)
-    : machine_(&machine),
+ContactGuards::ContactGuards(const Scope& scope, Machine& machine, GuardSet& guards,
+                             const SimulatorOptions& options, Flow& flow, Edges& edges,
+                             Holds& holds, const Transition& transition, Present& present)
+    : scope_(&scope),
+      machine_(&machine),
       guards_(&guards),
       flow_(&flow),
       edges_(&edges),
@@ -55,10 +56,9 @@ SurfaceContact* ContactGuards::contact_of_crossing(std::size_t k) {
   return &made;
 }
 
-/// Whether the block that an edge resets rests on this relation, and on no other.
-bool ContactGuards::rests_on(std::size_t e, int node) const {
-  const std::vector<int>& relations = machine_->plan().edges[e].relations;
-  return holds_->of_edge(e).monitor.holding && relations.size() == 1 && relations.front() == node;
+/// Whether the block that an edge resets rests on one relation only.
+bool ContactGuards::rests_on_one(std::size_t e) const {
+  return holds_->of_edge(e).monitor.holding && machine_->plan().edges[e].relations.size() == 1;
 }
 
 /// The contact of a relation. It is made anew when another block has come to rest on it.
@@ -66,8 +66,8 @@ SurfaceContact* ContactGuards::contact_of_relation(std::size_t k) {
   const GuardGroup& group = group_of(k);
   const Plan& plan = machine_->plan();
   std::size_t count = 0, states = 0;
-  for (std::size_t e = 0; e < plan.edges.size(); ++e)
-    if (rests_on(e, group.index)) ++count, states += holds_->of_edge(e).states.size();
+  for (const std::size_t e : scope_->decided[k])
+    if (rests_on_one(e)) ++count, states += holds_->of_edge(e).states.size();
   SurfaceContact* known = contacts_.on(static_cast<int>(k));
   if (known && known->members.size() == count) return known;
   if (states == 0) return nullptr;
@@ -75,8 +75,8 @@ SurfaceContact* ContactGuards::contact_of_relation(std::size_t k) {
   engage();
   made.pressed = machine_->truth_at(group.index, (*guards_)[k].entry) != 0.0 ? 1 : -1;
   made.opaque = group.is_opaque();
-  for (std::size_t e = 0; e < plan.edges.size(); ++e) {
-    if (!rests_on(e, group.index)) continue;
+  for (const std::size_t e : scope_->decided[k]) {
+    if (!rests_on_one(e)) continue;
     const std::span<const Index> rest = holds_->of_edge(e).states;
     made.members.push_back({plan.edges[e].leaf, &edges_->reset_of(e).reset_map, 0});
     made.states.insert(made.states.end(), rest.begin(), rest.end());

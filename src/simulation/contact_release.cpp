@@ -78,12 +78,8 @@ bool ContactGuards::still_at_rest(std::size_t k) {
   return is_pressed(present_->g[k], contact->error, contact->pressed);
 }
 
-void ContactGuards::keep_relations_of(const EdgeWatch& edge) {
-  for (std::size_t k = 0; k < guards_->all().size(); ++k) {
-    const GuardGroup& group = group_of(k);
-    if (group.is_crossing() ||
-        std::ranges::find(edge.relations, group.index) == edge.relations.end())
-      continue;
+void ContactGuards::keep_relations_of(int edge) {
+  for (const std::size_t k : scope_->deciders[edge]) {
     present_->now[k].frozen = true;
     guards_->keep_truth(k, true);
   }
@@ -92,7 +88,7 @@ void ContactGuards::keep_relations_of(const EdgeWatch& edge) {
 // --- holds that end in a commit
 
 void ContactGuards::release_unseen() {
-  for (std::size_t k = 0; k < guards_->all().size(); ++k) {
+  for (const std::size_t k : scope_->crossings) {
     Holds::Hold& hold = holds_->of_guard(k);
     if (!hold.monitor.holding || present_->now[k].fired_in_pass || (*guards_)[k].active) continue;
     leave(k);
@@ -101,14 +97,14 @@ void ContactGuards::release_unseen() {
 }
 
 void ContactGuards::release_kicked() {
-  for (std::size_t k = 0; k < guards_->all().size(); ++k) {
+  for (const std::size_t k : scope_->crossings) {
     Holds::Hold& hold = holds_->of_guard(k);
     if (!holds_->kicked(hold) || present_->now[k].fired_in_pass) continue;
     leave(k);
     holds_->release(hold);
     guards_->turn(k, 0);
   }
-  for (std::size_t e = 0; e < machine_->plan().edges.size(); ++e) {
+  for (const std::size_t e : scope_->edges) {
     const bool own = edges_->is_carried(e) || edges_->has_fired(e);
     if (!own && holds_->kicked(holds_->of_edge(e))) release_kicked_edge(e);
   }
@@ -116,10 +112,8 @@ void ContactGuards::release_kicked() {
 
 void ContactGuards::release_kicked_edge(std::size_t e) {
   holds_->release(holds_->of_edge(e));
-  const std::vector<int>& relations = machine_->plan().edges[e].relations;
-  for (std::size_t k = 0; k < guards_->all().size(); ++k) {
-    if (!(*guards_)[k].rests || std::ranges::find(relations, group_of(k).index) == relations.end())
-      continue;
+  for (const std::size_t k : scope_->deciders[e]) {
+    if (!(*guards_)[k].rests) continue;
     leave(k);
     guards_->keep_truth(k, false);
   }

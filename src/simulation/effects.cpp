@@ -36,7 +36,7 @@ void Effects::run_reset(const Action& action) {
   note(action, source);
   if (!wrote || action.carry) return;
   if (holds_->look_for_accumulation(hold) && action.cause == Cause::edge)
-    contacts_->keep_relations_of(plan_->edges[action.index]);
+    contacts_->keep_relations_of(action.index);
 }
 
 /// Runs the reset map of an effect, and enters its mode. Returns whether it wrote a state or a

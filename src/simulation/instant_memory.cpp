@@ -11,19 +11,20 @@ Instant::Instant(Machine& machine, GuardSet& guards, const SimulatorOptions& opt
     : machine_(&machine),
       guards_(&guards),
       options_(&options),
+      scope_(machine.plan()),
       present_(guards.all().size()),
-      rows_(machine, guards, present_),
+      rows_(scope_, machine, guards, present_),
       transition_(machine),
       journal_(machine, transition_, options, results),
       flow_(machine, options),
       edges_(machine),
       holds_(machine, guards, options, flow_, transition_, journal_, present_),
-      contacts_(machine, guards, options, flow_, edges_, holds_, transition_, present_),
-      relations_(machine, guards, options, flow_, edges_, holds_, contacts_, transition_, journal_,
-                 present_),
-      crossings_(machine, guards, flow_, holds_, contacts_, transition_, present_),
-      collector_(plan(), guards, edges_, holds_, contacts_, relations_, crossings_, transition_,
+      contacts_(scope_, machine, guards, options, flow_, edges_, holds_, transition_, present_),
+      relations_(scope_, machine, guards, options, flow_, edges_, holds_, contacts_, transition_,
                  journal_, present_),
+      crossings_(machine, guards, flow_, holds_, contacts_, transition_, present_),
+      collector_(scope_, plan(), guards, edges_, holds_, contacts_, relations_, crossings_,
+                 transition_, journal_, present_),
       effects_(plan(), guards, edges_, holds_, contacts_, transition_, journal_, present_) {
   guards.scan_points = options.event_scan_points;
 }
@@ -46,12 +47,8 @@ void Instant::begin(double t, Recorder* recorder) {
 
 /// Looks at the first values. A zero crossing off zero is on its side.
 void Instant::look_at_guards() {
-  for (std::size_t k = 0; k < guards_->all().size(); ++k) {
-    if (plan().guard((*guards_)[k].group).is_crossing())
-      guards_->see(k, present_.g[k]);
-    else
-      guards_->g[k] = present_.g[k];
-  }
+  for (const std::size_t k : scope_.crossings) guards_->see(k, present_.g[k]);
+  for (const std::size_t k : scope_.relations) guards_->g[k] = present_.g[k];
 }
 
 void Instant::select_guards() {

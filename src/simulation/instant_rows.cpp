@@ -29,9 +29,8 @@ void InstantRows::follow_flips() {
 void InstantRows::put_back_what_does_not_follow() {
   const Plan& plan = machine_->plan();
   follows_.assign(plan.nodes.size(), 0);
-  for (std::size_t k = 0; k < guards_->all().size(); ++k) {
-    const GuardGroup& group = plan.guard((*guards_)[k].group);
-    if (present_->now[k].fired_in_pass && !group.is_crossing()) follows_[group.index] = 1;
+  for (const std::size_t k : scope_->relations) {
+    if (present_->now[k].fired_in_pass) follows_[plan.guard((*guards_)[k].group).index] = 1;
   }
   for (const int i : plan.order) {
     const Node& node = plan.node(i);

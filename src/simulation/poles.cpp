@@ -19,14 +19,14 @@ bool changes_sign(double a, double b) { return (a < 0.0 && b > 0.0) || (a > 0.0 
 
 }  // namespace
 
+bool Poles::may_be_passed(const SimulatorOptions& options) {
+  return std::max(largest(options.rtol), largest(options.atol)) > thresholds::loose_tolerance;
+}
+
 Poles::Poles(Machine& machine, const SimulatorOptions& options)
-    : machine_(&machine),
-      options_(&options),
-      loose_(std::max(largest(options.rtol), largest(options.atol)) > thresholds::loose_tolerance),
-      variables_(machine) {}
+    : machine_(&machine), options_(&options), variables_(machine) {}
 
 void Poles::begin() {
-  pole_ = {};
   std::ranges::fill(before_, 0.0);
   departed_.fill({});
 }

@@ -8,10 +8,12 @@
 
 namespace saltus {
 
-Relations::Relations(Machine& machine, GuardSet& guards, const SimulatorOptions& options,
-                     Flow& flow, Edges& edges, Holds& holds, ContactGuards& contacts,
-                     const Transition& transition, Journal& journal, Present& present)
-    : machine_(&machine),
+Relations::Relations(const Scope& scope, Machine& machine, GuardSet& guards,
+                     const SimulatorOptions& options, Flow& flow, Edges& edges, Holds& holds,
+                     ContactGuards& contacts, const Transition& transition, Journal& journal,
+                     Present& present)
+    : scope_(&scope),
+      machine_(&machine),
       guards_(&guards),
       options_(&options),
       flow_(&flow),
@@ -34,10 +36,8 @@ void Relations::begin(double t) {
     bool changed = false;
     machine_->evaluate_instant(t);
     if (!plan.guards.empty()) machine_->guards(t, machine_->x.data(), present_->g.data());
-    for (std::size_t k = 0; k < guards_->all().size(); ++k) {
-      const GuardGroup& group = plan.guard((*guards_)[k].group);
-      if (group.is_crossing()) continue;
-      const Node& node = plan.node(group.index);
+    for (const std::size_t k : scope_->relations) {
+      const Node& node = plan.node(plan.guard((*guards_)[k].group).index);
       const bool at_zero = node.relation && plan.relation_of(node).true_at_zero;
       const double g = present_->g[k];
       const bool now = g > 0.0 || (g == 0.0 && at_zero);
@@ -166,24 +166,17 @@ void Relations::arm(std::size_t k) {
 
 std::vector<double> Relations::save() const {
   std::vector<double> truths;
-  for (std::size_t k = 0; k < guards_->all().size(); ++k) {
-    if (!machine_->plan().guard((*guards_)[k].group).is_crossing()) truths.push_back(truth(k));
-  }
+  for (const std::size_t k : scope_->relations) truths.push_back(truth(k));
   return truths;
 }
 
 bool Relations::fits(const Continuation& from) const {
-  const auto relations = std::ranges::count_if(guards_->all(), [&](const Guard& guard) {
-    return !machine_->plan().guard(guard.group).is_crossing();
-  });
-  return static_cast<std::size_t>(relations) == from.relations.size();
+  return scope_->relations.size() == from.relations.size();
 }
 
 void Relations::load(const Continuation& from) {
   auto saved = from.relations.begin();
-  for (std::size_t k = 0; k < guards_->all().size(); ++k) {
-    if (!machine_->plan().guard((*guards_)[k].group).is_crossing()) truth(k) = *saved++;
-  }
+  for (const std::size_t k : scope_->relations) truth(k) = *saved++;
 }
 
 }  // namespace saltus

@@ -41,14 +41,16 @@ Run::Run(std::shared_ptr<const Plan> plan, SimulatorOptions options)
       machine_(std::move(plan)),
       guards_(machine_.plan()),
       instant_(machine_, guards_, options_, results_),
-      calendar_(machine_.plan()),
+      calendar_(machine_.plan(), &machine_.z),
       major_(options_.max_major_step_length),
       integration_(machine_, guards_, options_),
       rows_(machine_, results_, options_),
+      histories_(machine_, options_),
       chattering_(options_),
       crawl_(machine_),
-      poles_(machine_, options_),
-      interrupt_(options_) {}
+      interrupt_(options_) {
+  if (Poles::may_be_passed(options_)) poles_.emplace(machine_, options_);
+}
 
 /// A context that is refused leaves the run as it is.
 void Run::initialize(const Context& context) {
@@ -70,7 +72,8 @@ void Run::initialize(const Context& context) {
   begun_ = over_ = false;
   accepted_ = {.settled = context.settled()};
   interrupt_.begin();
-  chattering_.begin(time_, machine_.x), crawl_.begin(time_), poles_.begin();
+  chattering_.begin(time_, machine_.x), crawl_.begin(time_);
+  if (poles_) poles_->begin();
 }
 
 Results Run::take_results() {
@@ -138,6 +141,7 @@ Status Run::begin(double t_end) {
   begun_ = true;
   const Continuation* earlier = begin_.continuation();
   const bool resumes = earlier != nullptr && instant_.fits(*earlier);
+  histories_.begin(resumes);
   resumes ? instant_.resume(time_, rows_.recorder(), *earlier, t_end - time_)
           : instant_.begin(time_, rows_.recorder());
   rows_.record(time_, instant_.jump(), machine_.x.data());
@@ -154,21 +158,30 @@ Status Run::begin(double t_end) {
 
 /// Takes one minor step, and runs the instant at its end if there is one.
 Status Run::step(double t_end) {
-  const double t_stop = major_.next(time_, std::min(t_end, calendar_.next()));
   const double from = time_;
+  const double t_stop =
+      major_.next(from, std::min(t_end, calendar_.stop(histories_.longest_end(from))));
   if (options_.dense_output) results_.trajectory.depart(integration_.state());
-  poles_.depart(from, integration_.state());
+  if (poles_) poles_->depart(from, integration_.state());
   const StopReason reason = integration_.advance(time_, t_stop);
-  if (integration_.started() && poles_.passed(from, time_, integration_)) fail_at_pole(from);
+  if (poles_ && integration_.started() && poles_->passed(from, time_, integration_))
+    fail_at_pole(from);
   accepted_.settled = false;
   accepted_.place = integration_.started() ? Place::solver : Place::machine;
   if (options_.dense_output) keep_step(from);
   log_monitors();
   rows_.record_step(from, time_, instant_.jump(), integration_);
+  if (histories_.any()) keep_histories(from);
   if (integration_.started() && crawl_.found(time_, integration_.state(), t_end - begin_.time()))
     return end_crawl();
   if (reason == StopReason::step) return Status::reached_end;
   return settle(reason, t_end, false);
+}
+
+/// The trajectory needs the histories with which the next step begins.
+void Run::keep_histories(double from) {
+  histories_.add(from, time_, integration_);
+  results_.trajectory.instant();
 }
 
 /// Logs the monitors that crossed inside the last step.
@@ -196,7 +209,9 @@ Status Run::settle(StopReason reason, double t_end, bool at_start) {
   accepted_.rows = results_.time.size();
   const bool at_root = reason == StopReason::root, idle = at_root && chattering_.idle(machine_.x);
   accepted_.in_instant = true;
+  const int jump = instant_.jump();
   const Outcome outcome = instant_.run(time_, due_, t_end - time_, at_start);
+  if (instant_.jump() != jump) histories_.changed();
   accepted_ = {.place = Place::machine, .settled = true};
   if (outcome.restart)
     integration_.restart(time_, {.horizon = outcome.horizon, .flow = instant_.flow()});

@@ -44,10 +44,10 @@ Status Run::end_crawl() {
 
 /// The step is taken back: the run ends at its begin, the last state before the pole.
 void Run::fail_at_pole(double from) {
-  const Poles::Pole& pole = poles_.pole();
+  const Poles::Pole& pole = poles_->pole();
   const PlanLeaf& leaf = leaf_of_state(pole.state);
   const double to = std::exchange(time_, from);
-  machine_.x = poles_.departed_from();
+  machine_.x = poles_->departed_from();
   accepted_.place = Place::machine;
   throw SimulationError(
       text("t = ", from, " s: the derivative of state x[", pole.state - leaf.x, "] of block '",

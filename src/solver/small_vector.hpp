@@ -8,7 +8,7 @@
 
 #include "sundials_compat.hpp"
 
-#include "saltus/solver/detail/thresholds.hpp"
+#include "saltus/solver/detail/fixed_length.hpp"
 
 namespace saltus::sun {
 
@@ -85,6 +85,7 @@ struct Small {
 /// Gives a vector these operations; its clones inherit them.
 inline void use_small_operations(N_Vector v) {
   const auto n = N_VGetLength(v);
+  if (!has_fixed_length(n)) return;
   [n, v]<int... i>(std::integer_sequence<int, i...>) {
     (void)((n == i + 1 && (Small<i + 1>::put_into(v), true)) || ...);
   }(std::make_integer_sequence<int, thresholds::small_vector>());

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "copy.hpp"
 #include "saltus/base/list.hpp"
@@ -32,7 +33,11 @@ Range operator*(const Range& a, const Range& b) {
 class Search {
  public:
   Search(Graph& graph, std::span<const Node> nodes)
-      : graph_(graph), order_(needed(graph, nodes)), range_(graph.size()), varies_(graph.size()) {
+      : graph_(graph),
+        order_(needed(graph, nodes)),
+        range_(graph.size()),
+        varies_(graph.size()),
+        noted_(graph.size()) {
     for (const Node node : order_) read(node);
   }
 
@@ -41,7 +46,6 @@ class Search {
       if (const auto divisor = divisor_of(graph_[node])) add(*divisor);
     }
     std::ranges::sort(found_);
-    found_.erase(std::ranges::unique(found_).begin(), found_.end());
     return std::move(found_);
   }
 
@@ -108,8 +112,8 @@ class Search {
   /// A node that the others need not read.
   Node cosine(Node a) {
     const Node node = graph_.unary(Op::cos, a);
-    varies_.resize(static_cast<std::size_t>(graph_.size()));
-    range_.resize(static_cast<std::size_t>(graph_.size()));
+    const auto size = static_cast<std::size_t>(graph_.size());
+    varies_.resize(size), range_.resize(size), noted_.resize(size);
     varies_[node.id] = varies_[a.id];
     return node;
   }
@@ -122,6 +126,7 @@ class Search {
     while (!open.empty()) {
       const Node node = open.back();
       open.pop_back();
+      if (std::exchange(noted_[node.id], 1) != 0) continue;  // a power by squares has it often
       const Expression& e = graph_[node];
       if (e.op == Op::mul) {
         open.push_back(e.operands[1]);
@@ -139,7 +144,7 @@ class Search {
   Graph& graph_;
   std::vector<Node> order_;
   List<Range> range_;
-  List<char> varies_;
+  List<char> varies_, noted_;
   std::vector<Node> found_;
 };
 

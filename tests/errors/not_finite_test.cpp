@@ -61,6 +61,34 @@ TEST_CASE("a derivative that becomes NaN or Inf is named with its block and its 
   CHECK(ended.printed == "");
 }
 
+TEST_CASE("no step to a state that is infinite is accepted, whatever its error estimate",
+          "[errors]") {
+  // x = 1e308 t is beyond the doubles from t = 1.797 on, with the same finite slope everywhere, so
+  // the estimate is zero. The slopes of the others are as great as that, or change their sign, so
+  // the squares in the estimate are infinite, and their quotient is NaN.
+  const auto method = GENERATE(from_range(methods));
+  const int kind = GENERATE(0, 1, 2);
+  INFO("method " << method << ", kind " << kind);
+  const Leaf leaf("large", [=](Leaf& l) {
+    l.declare_continuous_state(
+        {.initial = vec({0.0, 0.0}), .ode = [kind](const At& at, VectorRef xdot) {
+           const double slope = kind == 0 ? 1e308
+                                : kind == 1
+                                    ? 1.7e308 * at.time
+                                    : (at.time > 1.0 ? 1e306 * std::exp(9.0 * at.time) : 1.0);
+           xdot << slope, -slope;
+         }});
+  });
+  SimulatorOptions options;
+  options.ode_solver_method = method, options.throw_errors = false;
+  const std::string printed = printed_by([&] {
+    const auto results = simulate(leaf, leaf.create_context(), {0.0, 3.0}, options);
+    CHECK(results.status == Status::failed);
+    for (const double x : results.context.continuous_state()) CHECK(std::isfinite(x));
+  });
+  CHECK(printed == "");
+}
+
 TEST_CASE("a derivative that is NaN from the start is named at t0", "[errors]") {
   const auto method = GENERATE(from_range(methods));
   INFO("method " << method);

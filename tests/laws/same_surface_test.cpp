@@ -1,4 +1,4 @@
-// Several guards on one surface, or a hair apart: each in its direction, all in one pass, none
+// Several guards on one surface, or nearly on one: each in its direction, all in one pass, none
 // twice.
 #include "support/cases.hpp"
 
@@ -47,7 +47,8 @@ TEST_CASE("guards of each direction on one surface fire each in its own", "[laws
   }
 }
 
-TEST_CASE("guards a hair apart fire in order, each before or with the next", "[laws][guards]") {
+TEST_CASE("guards at nearly equal levels fire in order, each before or with the next",
+          "[laws][guards]") {
   const auto method = GENERATE(from_range(methods));
   const double apart = GENERATE(0.0, 1e-16, 1e-15, 1e-13, 1e-9);
   const auto leaf = make_leaf("leaf", [=](Leaf& l) {

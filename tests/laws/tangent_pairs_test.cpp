@@ -74,24 +74,24 @@ TEST_CASE("a guard below zero for 1e-3 s fires twice", "[laws][guards]") {
 }
 
 // What comes out: both missed, with adams and bdf at 1e-2, with all at 1e-4 and 1e-6.
-TEST_CASE("a ball that rises a hair above a level passes it twice", "[laws][ball][guards]") {
+TEST_CASE("a ball that rises slightly above a level passes it twice", "[laws][ball][guards]") {
   const auto method = GENERATE(from_range(methods));
-  const double hair = GENERATE(1e-2, 1e-4, 1e-6);
-  // Thrown up with 10 m/s under g = 10: the apex of 5 m at 1 s. `hair` is crossed in 2
-  // sqrt(hair/5).
+  const double height_above = GENERATE(1e-2, 1e-4, 1e-6);
+  // Thrown up with 10 m/s under g = 10: the apex of 5 m at 1 s. `height_above` is crossed in 2
+  // sqrt(height_above/5).
   const auto ball = make_leaf("ball", [=](Leaf& l) {
     l.declare_continuous_state(
         {.initial = vec({0.0, 10.0}),
          .ode = [](const At& at, VectorRef xdot) { xdot << at.x[1], -10.0; }});
     l.declare_zero_crossing(
-        {.name = "level", .guard = [=](const At& at) { return at.x[0] - (5.0 - hair); }});
+        {.name = "level", .guard = [=](const At& at) { return at.x[0] - (5.0 - height_above); }});
   });
-  const double rtol = 1e-10, atol = 1e-12, away = std::sqrt(hair / 5.0);
+  const double rtol = 1e-10, atol = 1e-12, away = std::sqrt(height_above / 5.0);
   for (const Form& form : forms(ball)) {
     const auto results = simulate(*form.system, form.context(), {0.0, 1.9},
                                   {.rtol = rtol, .atol = atol, .ode_solver_method = method});
     const double height = one_step(method) ? 8.0 * eps * 5.0 : 40.0 * (rtol * 10.0 + atol);
-    within(text("ball above a level by ", hair, " ", form.name), method,
+    within(text("ball above a level by ", height_above, " ", form.name), method,
            worst(firing_times(results.events), {1.0 - away, 1.0 + away}),
            height / (10.0 * away) + 400.0 * eps);
   }

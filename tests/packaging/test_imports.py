@@ -21,6 +21,7 @@ LATE = {
     ): "loads parsers, which a scene of the shelf leaves alone",
     ("saltus.callbacks.callbacks", "saltus.tracing"): "a system without callbacks needs no tracer",
     ("saltus.callbacks.function", "saltus.tracing"): "a system without callbacks needs no tracer",
+    ("saltus.cli.scene_of", "saltus.sbml"): "loads libsbml, which other scenes leave alone",
     ("saltus.jit.library", "saltus.jit.compiler"): "loads llvmlite",
     ("saltus.report.table", "saltus.report.chart"): "loads matplotlib",
     ("saltus.library", "saltus.library.called"): "answers names that are wrong",

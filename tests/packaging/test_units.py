@@ -30,6 +30,7 @@ ELSEWHERE = {
     "simulation/detail/collector": "unit/instant_test.cpp",
     "simulation/detail/effects": "unit/transition_test.cpp",
     "simulation/detail/flow_probe": "unit/departure_test.cpp",
+    "simulation/detail/histories": "unit/library_transport_delay_test.cpp",
     "simulation/detail/instant_rows": "semantics/rows_count_test.cpp",
     "simulation/detail/integration": None,
     "simulation/detail/option_table": "unit/options_test.cpp",
@@ -55,7 +56,6 @@ ELSEWHERE = {
     "solver/detail/stretch_log": "unit/auto_solver_test.cpp",
     "solver/detail/tableau": None,
     "solver/detail/taylor/tuning": None,
-    "solver/detail/thresholds": None,
 }
 TUNING = (
     "simulation/detail/thresholds.hpp",

@@ -1,5 +1,7 @@
 // Calendar: ticks counted by integers, equal times one instant, no tick twice, none lost.
 #include "saltus/simulation/detail/calendar.hpp"
+
+#include "saltus/plan/compile.hpp"
 #include "support/leaves.hpp"
 
 using namespace saltus;
@@ -41,6 +43,29 @@ TEST_CASE("times that differ by rounding only are one instant", "[calendar]") {
   CHECK(!calendar.due(0.39999));
 }
 
+TEST_CASE("an instant has the time of a counted tick, if there is one", "[calendar]") {
+  // A leaf whose discrete state is the time of its next event, one rounding before the tick at 0.3.
+  const double early = std::nextafter(0.3, 0.0);
+  const Leaf leaf("leaf", [&](Leaf& l) {
+    l.declare_discrete_state(vec({early}));
+    l.declare_time_event(
+        {.name = "by state",
+         .update = [](const At& at, Next& next) { next.set_discrete_state(at.z + vec({1.0})); },
+         .next = [](const VectorView& z) { return z[0]; }});
+    l.declare_periodic_update([](const At& at, Next& next) { next.set_discrete_state(at.z); }, 0.3,
+                              0.3);
+  });
+  const std::shared_ptr<const Plan> plan = compile(leaf);
+  const Eigen::VectorXd z = vec({early}), other = vec({0.2});
+  Calendar calendar(*plan, &z), apart(*plan, &other);
+  calendar.begin(0.0, false), apart.begin(0.0, false);
+  CHECK(calendar.next() == 0.3);
+  CHECK(apart.next() == 0.2);
+  CHECK(calendar.stop(early) == 0.3);  // no step ends one rounding before a tick
+  CHECK(calendar.stop(0.29) == 0.29);
+  CHECK(calendar.stop(infinite) == 0.3);
+}
+
 TEST_CASE("a run that begins at a tick has it; one that goes on from there has not", "[calendar]") {
   const Plan plan = schedules({{0.5, 0.25}});
   Calendar calendar(plan);
@@ -76,4 +101,24 @@ TEST_CASE("without schedules the next time is never", "[calendar]") {
   Calendar calendar(plan);
   calendar.begin(0.0, false);
   CHECK(calendar.next() == infinite);
+}
+
+/// The discrete state says when the next tick is, and an update moves it on.
+TEST_CASE("ticks that follow from the discrete state", "[calendar]") {
+  Plan plan = schedules({{infinite, 0.0}});
+  auto declarations = std::make_shared<Declarations>();
+  declarations->time_events.push_back({.next = [](const VectorView& z) { return z[0]; }});
+  plan.leaves.push_back({.nz = 1, .declarations = declarations});
+  plan.schedule[0].by_state = true;
+  Eigen::VectorXd z = Eigen::VectorXd::Constant(1, 0.7);
+  Calendar calendar(plan, &z);
+  calendar.begin(5.0, true);
+  CHECK(calendar.next() == 0.7);
+  std::vector<int> due;
+  calendar.take(0.6, due);
+  CHECK(due.empty());
+  calendar.take(0.7, due);
+  CHECK(due == std::vector{0});
+  z[0] = infinite;
+  CHECK(!calendar.due(1e9));
 }

@@ -56,3 +56,11 @@ TEST_CASE("a divisor that is constant, keeps its sign, or reads a state, is left
   CHECK(w.of_quotient(w(Op::sub, w.c(-1.5), w(Op::tanh, w.t))).empty());
   CHECK(w.of_quotient(w(Op::maximum, w.t, w.c(1e-9))).empty());
 }
+
+TEST_CASE("a divisor is read once, however often it is a factor") {
+  World w;
+  Node power = w(Op::sub, w.c(0.5), w.t);  // the 2^60th power, by squares
+  const Node base = power;
+  for (int i = 0; i < 60; ++i) power = w(Op::mul, power, power);
+  CHECK(w.of_quotient(power) == std::vector{base});
+}

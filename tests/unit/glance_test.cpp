@@ -42,7 +42,7 @@ class Steps : private Parts, private Glance {
 
 /// How many steps without a movement a guard at `distance` needs until no look is needed, after one
 /// in which it moved by 1.
-int steps_until_calm(double distance) {
+int steps_until_out_of_reach(double distance) {
   Steps steps(distance + 1.0);
   steps.needs_no_look(distance);
   int count = 0;
@@ -63,7 +63,7 @@ TEST_CASE("a guard that could be at zero and back at twice its recent speed need
 
 TEST_CASE("a guard that has moved fast is watched for some more steps", "[glance]") {
   // The speed of 1 is halved with each step: at a distance of 1 it is out of reach at a quarter.
-  CHECK(steps_until_calm(1.0) >= 2);
-  CHECK(steps_until_calm(1.0) <= 5);
-  CHECK(steps_until_calm(100.0) == 0);
+  CHECK(steps_until_out_of_reach(1.0) >= 2);
+  CHECK(steps_until_out_of_reach(1.0) <= 5);
+  CHECK(steps_until_out_of_reach(100.0) == 0);
 }

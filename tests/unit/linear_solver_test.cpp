@@ -238,3 +238,39 @@ TEST_CASE("GMRES that does not converge is no solution", "[linear]") {
   const double half = std::sin(0.5 * pi / (n + 1)), rate = 4.0 * c * half * half;
   CHECK_THAT(results.context.continuous_state()[n / 2], WithinAbs(std::exp(-rate * t), 2.0 * rtol));
 }
+
+namespace {
+
+/// 2001 states, whose places are unknown, that decay at `count` rates, evenly from 1/s to 1e4/s in
+/// logarithm.
+Leaf decays(int count) {
+  return Leaf("decays", [=](Leaf& l) {
+    Eigen::VectorXd rates(2001);
+    for (Index i = 0; i < rates.size(); ++i)
+      rates[i] = std::pow(10.0, 4.0 * static_cast<double>(i % count) / (count - 1));
+    l.declare_continuous_state(
+        {.initial = Eigen::VectorXd::Ones(rates.size()),
+         .ode = [=](const At& at, VectorRef xdot) { xdot = -rates.cwiseProduct(at.x); }});
+  });
+}
+
+}  // namespace
+
+// On a diagonal matrix with k different entries GMRES ends after k vectors (Y. Saad, Iterative
+// Methods for Sparse Linear Systems, 2nd ed., proposition 6.10). With 8 and with 19 rates twenty
+// vectors are enough, so accuracy alone decides on the steps: of both the slowest and the fastest
+// rates are equal. With 300 rates twenty are too few for a long step, and CVODE shortens it; the
+// memory of more vectors is not taken.
+TEST_CASE("GMRES has twenty vectors: as many rates cost no steps, many more do", "[linear]") {
+  const auto steps = [](int count) {
+    const Leaf leaf = decays(count);
+    return static_cast<double>(
+        simulate(
+            leaf, leaf.create_context(), {0.0, 1.0},
+            {.rtol = 1e-4, .atol = 1e-4, .ode_solver_method = Method::bdf, .find_sparsity = false})
+            .statistics.steps);
+  };
+  const double few = steps(8);
+  CHECK(steps(19) < 1.1 * few);
+  CHECK(steps(300) > 1.1 * few);
+}

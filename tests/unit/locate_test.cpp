@@ -125,7 +125,8 @@ TEST_CASE("by default a step has as many points as the degree of its interpolant
   for (const auto& [method, degree] : {std::pair{Method::dopri5, 4}, {Method::dop853, 7}}) {
     INFO("method " << method);
     CHECK(looks(method, {}) == looks(method, degree));
-    CHECK(looks(method, degree) == looks(method, 0) + degree);
+    // The first step of a run has four more, from which the distance of the looks is chosen.
+    CHECK(looks(method, degree) == looks(method, 0) + degree + 4);
   }
 }
 

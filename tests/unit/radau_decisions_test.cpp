@@ -57,6 +57,15 @@ TEST_CASE("a step along the derivative is within the tolerance, and the derivati
   CHECK_FALSE(jumps(f, f));
 }
 
+TEST_CASE("absolute tolerances of ten times rtol |x| and more stand for rtol", "[radau]") {
+  constexpr double rtol = 1e-6;
+  const auto at = [](double k) { return relative_tolerance(rtol, 1.0 / (rtol * (1.0 + k))); };
+  for (const double k : {0.0, 1.0, 8.0}) CHECK(at(k) == rtol);
+  CHECK(std::abs(at(10.0) / rtol - 1.1) < 4.0 * eps);
+  CHECK(std::abs(at(1e3) / rtol - 100.1) < 1e3 * eps);
+  CHECK(relative_tolerance(rtol, 1e-3) == 1.0);  // states below their tolerance
+}
+
 TEST_CASE("Newton's iteration leaves a part of the error of a step, and no less than rounding",
           "[radau]") {
   for (const int stages : {3, 5, 7}) {

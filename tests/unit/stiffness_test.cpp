@@ -23,6 +23,8 @@ class Steps {
     for (int i = 0; i < times; ++i) see(reach, turn);
   }
   bool detected() const { return test_.detected(); }
+  bool may_oscillate() const { return test_.may_oscillate(); }
+  void put_off(int times) { test_.put_off(times); }
   void forget() { test_.forget(true); }
 
  private:
@@ -78,4 +80,21 @@ TEST_CASE("a step whose two approximations agree to the last bit tells nothing",
   Steps steps;
   for (int i = 0; i < 100; ++i) steps.see(4.0, 0.0, 0.0);
   CHECK(!steps.detected());
+}
+
+TEST_CASE("a question whose answer was no comes later each time, up to 100 000 steps",
+          "[stiffness]") {
+  Steps steps;
+  steps.see(15, 1.0, 1.0);  // at the bound of the imaginary axis, 0.9
+  CHECK(steps.may_oscillate());
+  steps.put_off(2);
+  steps.see(29, 1.0, 1.0);
+  CHECK(!steps.may_oscillate());
+  steps.see(1, 1.0, 1.0);
+  CHECK(steps.may_oscillate());
+  for (int no = 0; no < 20; ++no) steps.put_off(4);
+  steps.see(99999, 1.0, 1.0);
+  CHECK(!steps.may_oscillate());
+  steps.see(1, 1.0, 1.0);
+  CHECK(steps.may_oscillate());
 }

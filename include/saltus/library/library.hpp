@@ -66,6 +66,7 @@
 #include "saltus/library/switch.hpp"
 #include "saltus/library/transfer_function.hpp"
 #include "saltus/library/transfer_function_discrete.hpp"
+#include "saltus/library/transport_delay.hpp"
 #include "saltus/library/trigonometric.hpp"
 #include "saltus/library/unit_delay.hpp"
 #include "saltus/library/white_noise.hpp"

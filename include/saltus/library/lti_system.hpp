@@ -30,6 +30,21 @@ void require_sizes(const std::string& block, const LTISystemMatrices& matrices,
 /// The entries of a matrix, row by row.
 Eigen::VectorXd by_rows(const Eigen::MatrixXd& matrix);
 
+/// The matrices of a linear system as parameters of its block.
+struct LTIParameters {
+  ParameterIndex a, b, c;
+  std::optional<ParameterIndex> d;  ///< none: no D, or one of zeros
+
+  /// `declare(name, values)` declares a parameter.
+  template <class Declare>
+  LTIParameters(const LTISystemMatrices& m, const Declare& declare)
+      : a(declare("A", by_rows(m.A))),
+        b(declare("B", by_rows(m.B))),
+        c(declare("C", by_rows(m.C))) {
+    if (m.D && !m.D->isZero(0.0)) d = declare("D", by_rows(*m.D));
+  }
+};
+
 }  // namespace detail
 
 class LTISystem final : public LeafSystem {

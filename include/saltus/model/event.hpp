@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
@@ -197,6 +198,9 @@ struct TimeEvent {
   std::optional<std::vector<double>> times = {};
   double end = std::numeric_limits<double>::infinity();  ///< [s] the last tick is not after it
   std::optional<std::int64_t> count = {};  ///< the number of ticks, from the first one on
+  /// [s] In place of period, offset and times: the time of the next tick as a function of the leaf's
+  /// discrete state; infinite if there is none. The update at a tick must move it on.
+  std::function<double(VectorView z)> next = {};
 
   /// The number of ticks; the largest number of its type if they do not end.
   std::int64_t ticks() const;

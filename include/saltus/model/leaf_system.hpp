@@ -11,6 +11,7 @@
 #include "saltus/base/list.hpp"
 #include "saltus/base/matrix_entry.hpp"
 #include "saltus/model/event.hpp"
+#include "saltus/model/history.hpp"
 #include "saltus/model/right_hand_side.hpp"
 #include "saltus/model/system.hpp"
 
@@ -51,6 +52,7 @@ struct Declarations {
   List<ZeroCrossing> zero_crossings;
   List<EdgeReset> edge_resets;
   List<TimeEvent> time_events;
+  List<History> histories;
   /// Held by everybody who refers to these declarations or to a copy: the leaf itself, plans,
   /// diagrams. While others hold it, each declare_* throws ModelError and changes nothing.
   std::shared_ptr<const void> use = {};
@@ -124,6 +126,9 @@ class LeafSystem : public System {
   /// Calls `update` once, at `time` [s]. Without update: an exact stop at which held outputs are
   /// evaluated again.
   void declare_one_shot(double time, ResetMap update = {}, std::string name = {});
+  /// Keeps a record of an input in the discrete state, which is declared before. Throws ModelError
+  /// for an input that does not exist, no function, or a longest step that is not positive.
+  void declare_history(History history);
 
  private:
   void require_state_names(const ContinuousState& state) const;

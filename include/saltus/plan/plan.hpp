@@ -88,6 +88,7 @@ struct ScheduledEvent {
   std::string name = {};
   std::int64_t ticks = std::numeric_limits<std::int64_t>::max();
   List<double> times = {};  // of its ticks, in place of period and offset
+  bool by_state = false;    // its ticks follow from the discrete state of the leaf
 };
 
 struct Tap {
@@ -121,9 +122,10 @@ struct Plan {
   std::vector<int> constants;  // once, at run start
   std::vector<int> instants;   // at instants: held outputs, and the values that resets, updates and
                                // edges read
-  std::vector<int> derivatives;  // before the odes
-  std::vector<int> guard_needs;  // before the guards
-  std::vector<int> tap_needs;    // before a row is recorded
+  std::vector<int> derivatives;    // before the odes
+  std::vector<int> guard_needs;    // before the guards
+  std::vector<int> tap_needs;      // before a row is recorded
+  std::vector<int> history_needs;  // after a step, for the leaves that keep a history
   // Held nodes that the derivatives read: if one changes, the solver restarts.
   std::vector<int> restarting;
 
@@ -132,6 +134,7 @@ struct Plan {
   List<EdgeWatch> edges;
   List<ScheduledEvent> schedule;
   std::vector<Tap> taps;
+  std::vector<int> histories;  // leaves that keep a history
   struct {
     Walk derivatives, guards;
   } walks;  // derivatives with odes, and guard_needs with guards

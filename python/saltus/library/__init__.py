@@ -14,6 +14,7 @@ from saltus.library.discrete import (
     EdgeDetection,
     RateLimiter,
     RateTransition,
+    TransportDelay,
     UnitDelay,
     ZeroOrderHold,
 )
@@ -124,6 +125,7 @@ __all__ = [
     "Switch",
     "TransferFunction",
     "TransferFunctionDiscrete",
+    "TransportDelay",
     "Trigonometric",
     "UnitDelay",
     "WhiteNoise",

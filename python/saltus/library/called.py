@@ -28,6 +28,7 @@ CALLED = {
     "DiscreteTransferFunction": "TransferFunctionDiscrete",
     "Divide": "Product",
     "Fcn": "FunctionBlock",
+    "FixedDelay": "TransportDelay",
     "FromWorkspace": "DataSource",
     "Logic": "LogicalOperator",
     "MATLABFcn": "ReduceBlock",

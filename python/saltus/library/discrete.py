@@ -1,5 +1,5 @@
 """Blocks that change at ticks, at 0, dt, 2 dt, ..., counted by integers. At a tick all blocks read
-their inputs before any writes.
+their inputs before any writes. And the delay in continuous time.
 """
 
 from __future__ import annotations
@@ -15,6 +15,7 @@ __all__ = [
     "EdgeDetection",
     "RateLimiter",
     "RateTransition",
+    "TransportDelay",
     "UnitDelay",
     "ZeroOrderHold",
 ]
@@ -190,6 +191,59 @@ class RateTransition(Block, _core.RateTransition):
 
     def __init__(self, dt: float, initial_state: ArrayLike = 0.0, *, name: str | None = None):
         super().__init__(self._named(name), dt, initial_state)
+
+
+class TransportDelay(Block, _core.TransportDelay):
+    """y(t) = u(t - delay), and initial_output for t < t0 + delay, t0 the begin of the first run.
+
+    Between events the input is kept as polynomials, within a tenth of the tolerance of the run.
+    Each jump, and each kink that an event makes in the input, is a time event of the output,
+    exactly `delay` later. No step of the solver is longer than the delay. There is no feedthrough,
+    so the block may close a loop: x' = -x(t - 1). The past is part of the discrete state: a context
+    that is saved and loaded has it, and a run that goes on from it too.
+
+    Parameters
+    ----------
+    delay
+        [s] By how much y is behind u, above 0.
+    initial_output
+        A number or a vector: y before the first value, and the shape of the signal. It is a
+        parameter of the context.
+    capacity
+        The number of pieces of the input that are kept, 4 or more; about one for each step within
+        the delay. It fixes the size of the state: 3 + 9 numbers a piece, for a number.
+    name
+        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+
+    Raises
+    ------
+    ModelError
+        For a delay that is not above 0, or a capacity below 4.
+    SimulationError
+        If the input needs more pieces within the delay than the capacity, or if a run does not
+        begin where the past of its context ends.
+
+    Notes
+    -----
+    The method of steps: A. Bellen, M. Zennaro, "Numerical Methods for Delay Differential
+    Equations", 2003, ch. 3.
+
+    Examples
+    --------
+    >>> from saltus.library import Clock, TransportDelay
+    >>> saltus.response(TransportDelay(0.5, initial_output=-1.0), Clock(), t=[0.25, 1.0, 2.0])
+    array([-1. ,  0.5,  1.5])
+    """
+
+    def __init__(
+        self,
+        delay: float,
+        *,
+        initial_output: ArrayLike = 0.0,
+        capacity: int = 256,
+        name: str | None = None,
+    ):
+        super().__init__(self._named(name), delay, initial_output, capacity)
 
 
 class UnitDelay(Block, _core.UnitDelay):

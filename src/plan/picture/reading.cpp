@@ -44,6 +44,8 @@ void mark_events(const Declarations& d, std::vector<Reading>& inputs) {
   for (const TimeEvent& event : d.time_events) {
     if (event.update) mark(inputs, event.inputs, &Reading::event);
   }
+  for (const History& history : d.histories)
+    mark(inputs, std::vector{history.input}, &Reading::event);
 }
 
 bool has_events(const Declarations& d) {

@@ -27,6 +27,7 @@ class Band final : public FactorisationOf<T> {
 
   bool factor(T* a) override {
     a_ = a;
+    filled_ = upper_;
     Index last = 0;  // the last column of the rows so far
     for (Index j = 0; j < n_; ++j) {
       T* column = diagonal(j);
@@ -35,6 +36,7 @@ class Band final : public FactorisationOf<T> {
       for (Index i = 1; i <= below; ++i)
         if (size_of(column[i]) > size_of(column[best])) best = i;
       pivots_[j] = best;
+      filled_ = std::max(filled_, upper_ + best);
       if (!(size_of(column[best]) > 0.0)) return false;
       last = std::max(last, std::min(j + upper_ + best, n_ - 1));
       if (best != 0)
@@ -71,12 +73,13 @@ class Band final : public FactorisationOf<T> {
     for (Index j = n_ - 1; j >= 0; --j) {
       const T* column = diagonal(j);
       b[j] = product(b[j], column[0]);
-      const Index above = std::min(reach_, j);
+      const Index above = std::min(filled_, j);
       for (Index i = 1; i <= above; ++i) b[j - i] -= product(column[-i], b[j]);
     }
   }
 
   Index n_, lower_, reach_, height_, upper_;
+  Index filled_ = 0;  // rows above the diagonal that pivoting has reached; those beyond are zero
   T* a_ = nullptr;
   List<Index> pivots_;
   std::vector<int> position_;  // of each state; empty: natural order

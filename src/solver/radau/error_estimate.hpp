@@ -54,7 +54,7 @@ class ErrorEstimate {
   /// The error that is allowed at rtol, or, where the absolute tolerances are the larger part, at
   /// the ratio of the tolerances to the states.
   AllowedEstimate allowed(const Scheme& scheme, const Eigen::VectorXd& x1) const {
-    const double relative = std::min(tuning::absolute_part / mean(x1), 1.0);
+    const double relative = relative_tolerance(options_.rtol, mean(x1));
     if (relative > options_.rtol) return AllowedEstimate(scheme, relative, thresholds::dense_room);
     return *nth(allowed_, scheme.pairs() - 1);
   }

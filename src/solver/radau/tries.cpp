@@ -24,7 +24,7 @@ double RadauSolver::estimate(double h) {
 bool RadauSolver::ends_finite() {
   machine_->derivative(t1_, x1_.data(), f1_.data());
   f1_known_ = true;
-  return f1_.allFinite();
+  return x1_.allFinite() && f1_.allFinite();
 }
 
 double RadauSolver::retry_after_failure(double h) {

@@ -27,10 +27,11 @@ class GuardSeries final : public LookPoints {
     series_ = series, order_ = order, h_ = h;
   }
 
-  const std::vector<double>* between(const Watch& watch, double from, double to) override {
+  const std::vector<double>* between(const LocatedGuards& located, double from,
+                                     double to) override {
     if (series_ == nullptr) return nullptr;
     points_.clear();
-    for (const std::size_t k : watch.slots)
+    for (const std::size_t k : located.slots)
       if (number(k) == FlowSeries::no_output || !separate(k, from / h_)) return nullptr;
     for (double& point : points_) point *= h_;
     std::ranges::sort(points_);

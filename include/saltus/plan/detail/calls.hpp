@@ -33,7 +33,7 @@ struct Calls {
   /// `views`: the arguments of each leaf, then those of a function over the whole machine.
   Calls(const Plan& plan, std::vector<At>& views);
 
-  std::vector<OutputCall> constants, instants, moving, derivatives, guard_needs, taps;
+  std::vector<OutputCall> constants, instants, moving, derivatives, guard_needs, taps, histories;
   std::vector<OutputCall> needs_of_derivatives;  // each with its own call, where formulas are fused
   std::vector<Call> odes;                        // of leaves that have one, and the fused function
   std::vector<Call> single_odes;                 // each with its own call

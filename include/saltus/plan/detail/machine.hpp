@@ -91,6 +91,10 @@ class Machine : public Memory {
   Values evaluate_taps(double t, const double* state) {
     return run(calls_.taps, t, carried(t, state)).values();
   }
+  /// Computes the values of which leaves keep a history, at (t, x), and returns where they are.
+  Values evaluate_histories(double t, const double* state) {
+    return run(calls_.histories, t, carried(t, state)).values();
+  }
 
   /// The arguments of a leaf's functions at time t and this state of the whole machine; a view that
   /// lasts until the next evaluation. Inputs are those of the last evaluation.

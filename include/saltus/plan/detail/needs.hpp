@@ -41,6 +41,7 @@ struct Roots {
   std::vector<int> derivatives;  // odes
   std::vector<int> events;       // guards of zero crossings; signals watched for edges
   std::vector<int> resets;       // reset maps and updates
+  std::vector<int> histories;    // inputs that are recorded step by step
 };
 
 inline void add_derivative_roots(const PlanLeaf& leaf, std::vector<int>& roots) {
@@ -73,12 +74,18 @@ inline void add_reset_roots(const PlanLeaf& leaf, std::vector<int>& roots) {
   if (roots.size() > before || !d.time_events.empty()) append(roots, leaf.relations);
 }
 
+inline void add_history_roots(const PlanLeaf& leaf, std::vector<int>& roots) {
+  for (const History& history : leaf.declared().histories)
+    append(roots, read_inputs(std::vector{history.input}, leaf));
+}
+
 inline Roots find_roots(const Plan& plan) {
   Roots roots;
   for (const PlanLeaf& leaf : plan.leaves) {
     add_derivative_roots(leaf, roots.derivatives);
     add_event_roots(leaf, roots.events);
     add_reset_roots(leaf, roots.resets);
+    add_history_roots(leaf, roots.histories);
   }
   return roots;
 }
@@ -89,13 +96,14 @@ inline Reads reads_of(const Plan& plan, const Node& node) {
 }
 
 /// A relation, or an opaque boolean output, is located if and only if it reaches a derivative, a
-/// guard or an edge: its jump there would break the smoothness that the solver assumes. A value
-/// that samples it is held, and hides the jump.
+/// guard, an edge or a history: its jump there would break the smoothness that the solver, or the
+/// polynomial of a history, assumes. A value that samples it is held, and hides the jump.
 inline void find_located(Plan& plan, const Roots& roots) {
   Marks reached(plan.nodes.size());
   const auto sampled = [&](const Node& node) { return samples(reads_of(plan, node)); };
   spread(plan, roots.derivatives, reached, sampled);
   spread(plan, roots.events, reached, sampled);
+  spread(plan, roots.histories, reached, sampled);
   for (std::size_t i = 0; i < plan.nodes.size(); ++i) {
     if (reached[i] && plan.nodes[i].relation) plan.nodes[i].located = true;
     plan.nodes[i].used = reached[i];  // kept for find_rates
@@ -206,9 +214,10 @@ inline void find_slices(Plan& plan, const Roots& roots) {
   plan.derivatives = slice(plan, moving, Rate::continuous);
   plan.guard_needs = slice(plan, marked(guards, held), Rate::continuous);
   plan.tap_needs = slice(plan, marked(taps, held), Rate::continuous);
+  plan.history_needs = slice(plan, marked(roots.histories, held), Rate::continuous);
 
   std::vector<int> all = roots.derivatives;
-  append(all, guards), append(all, taps), append(all, roots.resets);
+  append(all, guards), append(all, taps), append(all, roots.resets), append(all, roots.histories);
   const Marks used = marked(all, never);
   for (std::size_t i = 0; i < plan.nodes.size(); ++i) plan.nodes[i].used = used[i];
   plan.constants = slice(plan, used, Rate::constant);

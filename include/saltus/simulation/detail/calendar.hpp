@@ -17,7 +17,9 @@ namespace saltus {
 /// the integer k: 1000 periods of 1/3 s are 1000 ticks. Tick k of a list is its time k.
 class Calendar {
  public:
-  explicit Calendar(const Plan& plan) : plan_(&plan), tick_(plan.schedule.size(), 0) {}
+  /// `z`: the discrete state of the run, which the ticks of some events depend on.
+  explicit Calendar(const Plan& plan, const Eigen::VectorXd* z = nullptr)
+      : plan_(&plan), z_(z), tick_(plan.schedule.size(), 0) {}
 
   /// Throws ModelError for a schedule whose ticks at t cannot be told apart.
   void check(double t) const {
@@ -29,6 +31,7 @@ class Calendar {
   void begin(double t, bool settled) {
     for (std::size_t i = 0; i < tick_.size(); ++i) {
       const ScheduledEvent& event = plan_->schedule[i];
+      if (by_state(event)) continue;  // its discrete state tells which ticks are past
       tick_[i] = event.times.empty()
                      ? std::max<std::int64_t>(0, ticks_before(i, t) - 1)
                      : std::ranges::lower_bound(event.times, t - slack(t)) - event.times.begin();
@@ -37,11 +40,24 @@ class Calendar {
     }
   }
 
-  /// [s] the next time event; infinite if there is none.
+  /// [s] the next time event; infinite if there is none. Where ticks differ by rounding only, the
+  /// instant has the time of one that is counted, because that of a state carries the roundings of
+  /// the instants before.
   double next() const {
-    double t = infinite;
-    for (std::size_t i = 0; i < tick_.size(); ++i) t = std::min(t, time_of(i));
-    return t;
+    double counted = infinite, any = infinite;
+    for (std::size_t i = 0; i < tick_.size(); ++i) {
+      const double t = time_of(i);
+      any = std::min(any, t);
+      if (!by_state(plan_->schedule[i])) counted = std::min(counted, t);
+    }
+    return counted <= any + slack(any) ? counted : any;
+  }
+
+  /// [s] Where a run stops that may not go beyond `latest`: there, or at the next time event, also if
+  /// that is later by rounding only.
+  double stop(double latest) const {
+    const double t = next();
+    return t <= latest + slack(latest) ? t : latest;
   }
 
   /// Whether an event is due at t, within rounding: a run that ends at 0.3 has had the tick at 3 *
@@ -69,11 +85,18 @@ class Calendar {
 
   double time_of(std::size_t i) const {
     const ScheduledEvent& event = plan_->schedule[i];
+    if (by_state(event)) return next_of(event);
     if (tick_[i] >= event.ticks) return infinite;
     if (!event.times.empty()) return event.times[tick_[i]];
     if (tick_[i] == 0) return event.offset;
     return std::isfinite(event.period) ? event.offset + static_cast<double>(tick_[i]) * event.period
                                        : infinite;
+  }
+
+  bool by_state(const ScheduledEvent& event) const { return z_ != nullptr && event.by_state; }
+  double next_of(const ScheduledEvent& event) const {
+    const PlanLeaf& leaf = plan_->leaf(event.leaf);
+    return plan_->time_event_of(event).next(VectorView(z_->data() + leaf.z, leaf.nz));
   }
 
   /// The number of ticks before t, right to one; negative before the offset.
@@ -109,6 +132,7 @@ class Calendar {
   }
 
   const Plan* plan_;
+  const Eigen::VectorXd* z_;
   std::vector<std::int64_t> tick_;
 };
 

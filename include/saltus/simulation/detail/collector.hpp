@@ -10,10 +10,11 @@ namespace saltus {
 /// edges are those of the held signals after the relations flipped.
 class Collector {
  public:
-  Collector(const Plan& plan, GuardSet& guards, Edges& edges, Holds& holds, ContactGuards& contacts,
-            Relations& relations, CrossingArming& crossings, const Transition& transition,
-            Journal& journal, Present& present)
-      : plan_(&plan),
+  Collector(const Scope& scope, const Plan& plan, GuardSet& guards, Edges& edges, Holds& holds,
+            ContactGuards& contacts, Relations& relations, CrossingArming& crossings,
+            const Transition& transition, Journal& journal, Present& present)
+      : scope_(&scope),
+        plan_(&plan),
         guards_(&guards),
         edges_(&edges),
         holds_(&holds),
@@ -42,6 +43,7 @@ class Collector {
   bool acts(const Action& action) const;
   void collect_carried(std::size_t e);
 
+  const Scope* scope_;
   const Plan* plan_;
   GuardSet* guards_;
   Edges* edges_;

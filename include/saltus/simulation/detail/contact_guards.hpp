@@ -4,6 +4,7 @@
 #include "saltus/simulation/detail/contact.hpp"
 #include "saltus/simulation/detail/edges.hpp"
 #include "saltus/simulation/detail/holds.hpp"
+#include "saltus/simulation/detail/scope.hpp"
 
 namespace saltus {
 
@@ -11,8 +12,9 @@ namespace saltus {
 /// surface that moves, or releases its block.
 class ContactGuards {
  public:
-  ContactGuards(Machine& machine, GuardSet& guards, const SimulatorOptions& options, Flow& flow,
-                Edges& edges, Holds& holds, const Transition& transition, Present& present);
+  ContactGuards(const Scope& scope, Machine& machine, GuardSet& guards,
+                const SimulatorOptions& options, Flow& flow, Edges& edges, Holds& holds,
+                const Transition& transition, Present& present);
 
   void begin();
   const Contacts& contacts() const noexcept { return contacts_; }
@@ -32,7 +34,7 @@ class ContactGuards {
   /// Ends the contact of a relation that has turned, or whose block does not rest any more.
   void leave(std::size_t k);
   /// The relations that decide an edge keep their truth, because their values at rest are rounding.
-  void keep_relations_of(const EdgeWatch& edge);
+  void keep_relations_of(int edge);
 
   /// Ends the holds whose states the present pass has written, and arms their guards anew.
   void release_kicked();
@@ -47,7 +49,7 @@ class ContactGuards {
   SurfaceContact* contact_of(std::size_t k);
   SurfaceContact* contact_of_crossing(std::size_t k);
   SurfaceContact* contact_of_relation(std::size_t k);
-  bool rests_on(std::size_t e, int node) const;
+  bool rests_on_one(std::size_t e) const;
   void arm(SurfaceContact& contact, double error);
   bool follow_surface(SurfaceContact& contact);
   bool wake(SurfaceContact& contact);
@@ -55,6 +57,7 @@ class ContactGuards {
   void release_kicked_edge(std::size_t e);
   void engage();
 
+  const Scope* scope_;
   Machine* machine_;
   GuardSet* guards_;
   Flow* flow_;

@@ -79,6 +79,7 @@ class Instant {
   Machine* machine_;
   GuardSet* guards_;
   const SimulatorOptions* options_;
+  Scope scope_;
   Present present_;
   InstantRows rows_;
   Transition transition_;

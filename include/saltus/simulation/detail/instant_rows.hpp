@@ -6,6 +6,7 @@
 #include "saltus/base/list.hpp"
 #include "saltus/simulation/detail/present.hpp"
 #include "saltus/simulation/detail/recorder.hpp"
+#include "saltus/simulation/detail/scope.hpp"
 #include "saltus/solver/detail/guard_set.hpp"
 
 namespace saltus {
@@ -14,8 +15,8 @@ namespace saltus {
 /// has what follows from them; everything else is x-. A trigger that fired is true in a row.
 class InstantRows {
  public:
-  InstantRows(Machine& machine, const GuardSet& guards, const Present& present)
-      : machine_(&machine), guards_(&guards), present_(&present) {}
+  InstantRows(const Scope& scope, Machine& machine, const GuardSet& guards, const Present& present)
+      : scope_(&scope), machine_(&machine), guards_(&guards), present_(&present) {}
 
   /// A run begins. Null: nothing is recorded.
   void begin(Recorder* recorder) { recorder_ = recorder; }
@@ -30,6 +31,7 @@ class InstantRows {
   void follow_flips();
   void put_back_what_does_not_follow();
 
+  const Scope* scope_;
   Machine* machine_;
   const GuardSet* guards_;
   const Present* present_;

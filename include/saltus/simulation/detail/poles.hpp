@@ -23,23 +23,26 @@ namespace saltus {
 /// distance; that of a numerator that should vanish there is as small as its error.
 ///
 /// Only divisors of the time alone are looked at: the sign of one that a state moves is as uncertain
-/// as that state. Nothing is looked at where tolerances are tight, because there steps hardly ever
-/// pass a pole, nor where a derivative is a call.
+/// as that state. A run whose tolerances are tight has no Poles, because its steps hardly ever pass
+/// one; and nothing is looked at where a derivative is a call.
 class Poles {
  public:
+  /// Whether steps may pass a pole at these tolerances.
+  static bool may_be_passed(const SimulatorOptions& options);
+
   Poles(Machine& machine, const SimulatorOptions& options);
 
   /// A run begins.
   void begin();
   /// A step leaves t [s] and the state x.
   void depart(double t, const Eigen::VectorXd& x) {
-    if (!loose_ || !looks()) return;
+    if (!looks()) return;
     remember(t, x);
     look(t, now_), keep(now_);
   }
   /// Whether the step between these times [s] has passed a pole.
   bool passed(double from, double to, Integration& integration) {
-    return loose_ && looks() && find(from, to, integration);
+    return looks() && find(from, to, integration);
   }
 
   struct Pole {
@@ -72,7 +75,6 @@ class Poles {
 
   Machine* machine_;
   const SimulatorOptions* options_;
-  bool loose_;
   int functions_ = -1;  // of the machine, of which the divisors are made
   std::shared_ptr<const FlowDivisors> divisors_;
   FlowVariables variables_;

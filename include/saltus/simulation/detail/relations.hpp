@@ -8,9 +8,9 @@ namespace saltus {
 /// Flips the truths whose roots were found, and reads all of them again after a commit.
 class Relations {
  public:
-  Relations(Machine& machine, GuardSet& guards, const SimulatorOptions& options, Flow& flow,
-            Edges& edges, Holds& holds, ContactGuards& contacts, const Transition& transition,
-            Journal& journal, Present& present);
+  Relations(const Scope& scope, Machine& machine, GuardSet& guards, const SimulatorOptions& options,
+            Flow& flow, Edges& edges, Holds& holds, ContactGuards& contacts,
+            const Transition& transition, Journal& journal, Present& present);
 
   /// A run begins: each truth follows the present sign. Relations may read each other.
   void begin(double t);
@@ -32,6 +32,7 @@ class Relations {
   bool reads_changed(int node) const;
   double& truth(std::size_t k) const;
 
+  const Scope* scope_;
   Machine* machine_;
   GuardSet* guards_;
   const SimulatorOptions* options_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "saltus/simulation/detail/calendar.hpp"
 #include "saltus/simulation/detail/chattering.hpp"
 #include "saltus/simulation/detail/crawl.hpp"
+#include "saltus/simulation/detail/histories.hpp"
 #include "saltus/simulation/detail/instant.hpp"
 #include "saltus/simulation/detail/integration.hpp"
 #include "saltus/simulation/detail/interrupt.hpp"
@@ -62,6 +64,7 @@ class Run {
   Status after(const Outcome& outcome, const Chattering::Seen& seen, bool idle);
   void log_monitors();
   void keep_step(double from);
+  void keep_histories(double from);
   Status end_chattering();
   Status end_crawl();
   [[noreturn]] void fail_at_pole(double from);
@@ -82,6 +85,7 @@ class Run {
   MajorSteps major_;
   Integration integration_;
   Rows rows_;
+  Histories histories_;
   Context begin_;
   double time_ = 0.0;
   bool begun_ = false, over_ = false;
@@ -90,7 +94,7 @@ class Run {
   std::vector<int> due_;
   Chattering chattering_;
   Crawl crawl_;
-  Poles poles_;
+  std::optional<Poles> poles_;  // where tolerances are loose
   Interrupt interrupt_;
 };
 

@@ -60,8 +60,8 @@ class CrowdLocator : protected Glance {
     crowd_.clear();
     Crowd crowd = Crowd::located;
     auto crossed = crossed_.begin();  // in the order of the active guards
-    for (std::size_t i = 0; i < watch_->slots.size(); ++i) {
-      const std::size_t k = watch_->slots[i];
+    for (std::size_t i = 0; i < located_->slots.size(); ++i) {
+      const std::size_t k = located_->slots[i];
       const Guard& guard = (*guards_)[k];
       const bool crosses = crossed != crossed_.end() && *crossed == k;
       crossed += crosses;

@@ -47,8 +47,8 @@ class DipSearch : protected CrowdLocator {
   /// A guard dips between the last two looks, which only the look after them showed: the first of
   /// them is the last look again.
   void go_back(double& from) {
-    for (const std::size_t k : watch_->slots) guards_->g[k] = earlier_[k];
-    from = std::exchange(earlier_at_, never);
+    for (const std::size_t k : located_->slots) guards_->g[k] = earlier_[k];
+    from = std::exchange(earlier_at_, never), oldest_at_ = never;
   }
 
   /// The offset between two looks at which a guard seems to cross zero and come back. It is the
@@ -60,7 +60,7 @@ class DipSearch : protected CrowdLocator {
   double find_dip(double from, double to, const Interpolate& interpolate) {
     if (earlier_at_ == never) return never;
     const double first = may_go_back_ ? earlier_at_ : from;
-    for (const std::size_t k : watch_->slots) {
+    for (const std::size_t k : located_->slots) {
       const Guard& guard = (*guards_)[k];
       if (guard.side == 0 || guard.at_zero() || guard.jumps || !may_dip(k, from, to)) continue;
       Dip dip{{earlier_at_, from, to},

@@ -137,7 +137,7 @@ struct Dop853 {
   /// II.10).
   static double error(const std::array<double, 2>& squares) {
     const double sum = squares[0] + 0.01 * squares[1];
-    return sum > 0.0 ? squares[0] / std::sqrt(sum) : 0.0;
+    return sum == 0.0 ? 0.0 : squares[0] / std::sqrt(sum);  // NaN stays NaN
   }
 };
 

@@ -105,8 +105,10 @@ class ExplicitStep {
     if (size() == 0) return 0.0;
     std::array<double, estimates> squares{};
     for_lanes<W, N>(size(), [&](Index i) {
-      const Lane<W> largest = larger(load<W>(x0_ + i), load<W>(x1_ + i));
-      add_squares(h, tolerance(i, largest), k_ + i, squares, std::make_index_sequence<estimates>{});
+      const Lane<W> x1 = load<W>(x1_ + i), largest = larger(load<W>(x0_ + i), x1);
+      // A state that is infinite has an infinite tolerance: x1 - x1 makes its error NaN.
+      add_squares(h, tolerance(i, largest) + (x1 - x1), k_ + i, squares,
+                  std::make_index_sequence<estimates>{});
     });
     for (double& square : squares) square /= static_cast<double>(size());
     const double found = Method::error(squares);

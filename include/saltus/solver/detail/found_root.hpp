@@ -28,7 +28,7 @@ class FoundRoot : protected DipSearch {
       else
         guards_->fired_at_root.push_back(firing), stops = true;
     }
-    for (const std::size_t k : watch_->slots) {
+    for (const std::size_t k : located_->slots) {
       const Guard& guard = (*guards_)[k];
       guards_->g[k] = high_[k];
       if (is_beside_root(k)) guards_->beside_root.push_back(k);

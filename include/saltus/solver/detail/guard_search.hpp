@@ -1,4 +1,4 @@
-// Guard search: the earliest crossing of the guards of one watch inside one solver step, on the
+// Guard search: the earliest crossing of the guards that are located together inside one solver step, on the
 // solver's own interpolant.
 #pragma once
 
@@ -10,23 +10,25 @@
 
 #include "saltus/base/list.hpp"
 #include "saltus/solver/detail/found_root.hpp"
+#include "saltus/solver/detail/look_pace.hpp"
 #include "saltus/solver/detail/look_points.hpp"
 #include "saltus/solver/detail/thresholds.hpp"
 
 namespace saltus {
 
-/// Looks at the guards of a watch at a few interior points of a step. It also looks where three
+/// Looks at the guards that are located together at a few interior points of a step. It also looks where three
 /// looks suggest that a guard dips across zero and back (a pair of roots). The first interval in
 /// which a guard crosses is narrowed.
 class GuardSearch : private FoundRoot {
  public:
-  GuardSearch(Machine& machine, GuardSet& guards, const Watch& watch)
-      : FoundRoot(machine, guards, watch) {
-    for (auto* values : {&at_root_, &before_, &end_})
+  GuardSearch(Machine& machine, GuardSet& guards, const LocatedGuards& located)
+      : FoundRoot(machine, guards, located) {
+    for (auto* values :
+         {&at_root_, &before_, &end_, &at_end_, &begin_.last, &begin_.earlier, &begin_.oldest})
       values->assign(machine.plan().guard_slots, 1.0);
   }
 
-  bool has_guards() const noexcept { return !watch_->slots.empty(); }
+  bool has_guards() const noexcept { return !located_->slots.empty(); }
 
   /// What a search is about: the step begins at `t0`, and is searched in (from, to]. `end` is the
   /// state at exactly `to` and `guards` are the guards there, if they are known; otherwise null.
@@ -43,7 +45,8 @@ class GuardSearch : private FoundRoot {
   /// throws, GuardSet::restore restores the records.
   template <class Interpolate>
   bool find(const Part& part, const Interpolate& interpolate) {
-    points_ = part.points == nullptr ? nullptr : part.points->between(*watch_, part.from, part.to);
+    points_ =
+        part.points == nullptr ? nullptr : part.points->between(*located_, part.from, part.to);
     t0_ = part.t0, to_root_ = part.to_root;
     scan_points_ = points_ == nullptr ? part.scan_points : 0;
     few_.clear(), may_go_back_ = false;
@@ -61,7 +64,7 @@ class GuardSearch : private FoundRoot {
   }
 
   /// `find` and `end_step` for a whole step in which no guard fires, in a short form for most steps:
-  /// all active guards are of this watch, and a look inside is not due. `end` is the state at
+  /// all active guards are located together, and a look inside is not due. `end` is the state at
   /// its end. False if that look does not exclude a crossing: `find` goes on from there.
   [[gnu::always_inline]] bool passes(double t0, double length, const double* end) {
     if (skipped_ >= patience_ || outdated() || !passes_) return false;
@@ -71,13 +74,15 @@ class GuardSearch : private FoundRoot {
       return false;
     }
     ++skipped_;
+    earlier_at_ -= length;  // offsets are those of the next step from here on
     shift_all(-length, 0.0);
     return true;
   }
 
   /// The step ends here: offsets are relative to the next one from now on.
-  void end_step(double length) { earlier_at_ -= length; }
+  void end_step(double length) { earlier_at_ -= length, oldest_at_ -= length; }
 
+  void begin_run() { forget(), pace_.begin_run(); }
   /// Forgets the looks before a restart, which have no meaning after it.
   void forget() {
     Glance::forget();
@@ -106,14 +111,92 @@ class GuardSearch : private FoundRoot {
       if (find_in(from, early, nullptr, interpolate)) return true;
       from = early;
     }
+    begin_pieces(from, length, interpolate);
     for (int piece = 1; piece < pieces; ++piece) {
       next = points_ == nullptr ? std::min(part.to, next + length) : nth(*points_, piece - 1);
       look(next, nullptr, interpolate, high_);
-      if (find_in_piece(from, next, nullptr, interpolate)) return true;
+      if (find_in_even(from, next, nullptr, interpolate)) return true;
       from = next;
     }
     high_.swap(end_);
-    return find_in_piece(from, part.to, part.end, interpolate);
+    return find_in_even(from, part.to, part.end, interpolate);
+  }
+
+  template <class Interpolate>
+  void begin_pieces(double from, double even, const Interpolate& interpolate) {
+    const double resolution = thresholds::eps * (std::abs(t0_) + end_at_);
+    refines_ = scans() && even * thresholds::finest_piece > thresholds::look_roundings * resolution;
+    if (scans()) slow_down();
+    if (!refines_) return;
+    even_ = even;
+    begin_judging();
+    const bool first = pace_.begin_step(even);
+    const bool verified = pace_.is_finer_than(even) && has_four_looks();
+    verified_from_ = verified ? never : from;
+    if (!verified) keep_looks(begin_);
+    if (first) choose_pace(from, interpolate);
+  }
+
+  /// In the first step of a run no look says how fast the guards vary. Looks at three points, not
+  /// evenly spaced, and compares them with the derivatives of the guards along the flow where the
+  /// step begins, because a guard may have the period of the looks.
+  template <class Interpolate>
+  void choose_pace(double from, const Interpolate& interpolate) {
+    const double near = thresholds::near_share * even_;
+    look(from + near, nullptr, interpolate, before_);
+    const auto is_steep = [&](std::size_t k, double piece, double range) {
+      const double rate = (before_[k] - begin_.last[k]) / near;
+      return std::abs(rate) * piece > thresholds::steep_ranges * range;
+    };
+    for (double piece = std::min(even_, (end_at_ - from) / 3.0);; piece *= 0.5) {
+      oldest_ = begin_.last, oldest_at_ = from;
+      earlier_at_ = from + piece;
+      look(earlier_at_, nullptr, interpolate, earlier_);
+      const double third = from + thresholds::uneven * piece, last = from + 3.0 * piece;
+      look(third, nullptr, interpolate, middle_);
+      look(last, nullptr, interpolate, high_);
+      guards_->g = middle_;
+      const bool hidden = any_varies(third, last, [&](std::size_t k, const Variation& each) {
+        return each.hides() || is_steep(k, piece, each.range);
+      });
+      set_looks(begin_);
+      if (!hidden || !pace_.halve(piece, even_)) return;
+    }
+  }
+
+  /// `find_in_piece`, in shorter pieces where a guard varies too fast for one.
+  template <class Interpolate>
+  bool find_in_even(double from, double to, const double* end, const Interpolate& interpolate) {
+    const bool finer = pace_.is_finer_than(to - from);
+    if (!refines_ || !(finer || hides(from, to))) return find_in_piece(from, to, end, interpolate);
+    at_end_ = high_;
+    if (!finer && pace_.halve(to - from, even_)) go_back(from);
+    while (from < to) {
+      const double next = std::min(to, from + pace_.next(to - from));
+      if (next == to)
+        high_ = at_end_;
+      else
+        look(next, nullptr, interpolate, high_);
+      const bool hidden = hides(from, next);
+      if (hidden && pace_.halve(next - from, even_)) {
+        go_back(from);
+        continue;
+      }
+      if (hidden) note_in_vain(from, next);
+      if (has_four_looks()) verified_from_ = never;
+      if (!hidden) pace_.accept(next - from, has_four_looks() && is_slow(from, next));
+      if (find_in_piece(from, next, next == to ? end : nullptr, interpolate)) return true;
+      from = next;
+    }
+    return false;
+  }
+
+  /// The pieces before may have been too long, too: those that nothing has verified, and in which
+  /// no record has changed, are searched again.
+  void go_back(double& from) {
+    if (verified_from_ == never || from == verified_from_) return;
+    set_looks(begin_);
+    from = verified_from_;
   }
 
   /// If the look was not needed, the next one comes later: after 7 steps, 15, 31, then 63.
@@ -127,8 +210,11 @@ class GuardSearch : private FoundRoot {
   template <class Interpolate>
   bool find_in_piece(double from, double to, const double* end, const Interpolate& interpolate,
                      bool between = true) {
-    if (!calm(from, to)) return from < to && find_in(from, to, end, interpolate, between);
-    shift_all(from, to);
+    if (!nothing_fired(from, to)) {
+      verified_from_ = never;
+      return from < to && find_in(from, to, end, interpolate, between);
+    }
+    shift_all(from, to, 1.0);
     return false;
   }
 
@@ -167,11 +253,10 @@ class GuardSearch : private FoundRoot {
     before_ = guards_->g;
     third_ = end_, third_at_ = high < end_at_ ? end_at_ : never;
     from = narrow(from, high, interpolate);
-    if (between && watch_->slots.size() > 1 && scans()) {
+    if (between && located_->slots.size() > 1 && scans()) {
       if (find_before(before, from, interpolate)) return true;
     } else if (from - before > thresholds::short_share * (to - before)) {
-      earlier_.swap(before_);
-      earlier_at_ = before;
+      set_earlier(before, before_);
     }
     from = at_root_of_step(from, interpolate);
     may_go_back_ = false;
@@ -209,11 +294,17 @@ class GuardSearch : private FoundRoot {
 
   /// Whether some guard with one direction is on its firing side.
   bool some_beyond() const {
-    return std::ranges::any_of(watch_->slots,
+    return std::ranges::any_of(located_->slots,
                                [&](std::size_t k) { return (*guards_)[k].is_beyond(); });
   }
 
   List<double> at_root_, before_;
+  LookPace pace_;
+  Looks begin_;                   // those where the search of the step began
+  double verified_from_ = never;  // where that was, if it may have to go back there
+  List<double> at_end_;           // guards at the end of an evenly spaced piece
+  double even_ = 0.0;             // [s] between the evenly spaced looks
+  bool refines_ = false;          // there may be looks between these
   bool to_root_ = false;
   const std::vector<double>* points_ = nullptr;  // where to look inside; null: evenly
   List<double> end_;  // guards at the end of the step, until the look at its last piece

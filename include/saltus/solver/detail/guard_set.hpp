@@ -17,7 +17,7 @@
 namespace saltus {
 
 /// Guards that are located together.
-struct Watch {
+struct LocatedGuards {
   std::vector<std::size_t> slots;
   std::vector<int> groups;  ///< the groups of these slots, in the order of the plan
 
@@ -33,7 +33,7 @@ struct Watch {
 /// a root.
 struct ActiveGuards {
   std::vector<std::size_t> all;
-  Watch stopping, monitors;
+  LocatedGuards stopping, monitors;
 
   void add(std::size_t slot, const GuardTraits& guard) {
     all.push_back(slot);

@@ -39,6 +39,7 @@ class Locator {
     return only_->passes(t0, length, end);
   }
 
+  void begin_run() { stopping_.begin_run(), watching_.begin_run(); }
   /// Forgets the looks before a restart, which have no meaning after it.
   void forget() { stopping_.forget(), watching_.forget(); }
 

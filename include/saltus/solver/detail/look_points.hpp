@@ -11,10 +11,11 @@ namespace saltus {
 class LookPoints {
  public:
   virtual ~LookPoints() = default;
-  /// Offsets inside (from, to), in ascending order, such that no guard of the watch crosses more
+  /// Offsets inside (from, to), in ascending order, such that none of the located guards crosses more
   /// than once between two of them, nor before the first or after the last. Null if the method does
   /// not know: the search then looks at evenly spaced points, and where three looks suggest a dip.
-  virtual const std::vector<double>* between(const Watch& watch, double from, double to) = 0;
+  virtual const std::vector<double>* between(const LocatedGuards& located, double from,
+                                             double to) = 0;
 };
 
 }  // namespace saltus

@@ -13,7 +13,7 @@
 
 namespace saltus {
 
-/// Looks at all guards of a watch at once, and narrows an interval in which one crosses: by the
+/// Looks at all guards that are located together at once, and narrows an interval in which one crosses: by the
 /// parabola through the last three looks (D. E. Muller, "A method for solving algebraic equations
 /// using an automatic computer", Math. Tables Aids Comput. 10 (1956) 208). If the parabola keeps
 /// one end unchanged, the Illinois variant of regula falsi follows, guarded by bisection (K. L.
@@ -25,8 +25,8 @@ namespace saltus {
 /// Where few of many guards have crossed, the looks on the way are at these few.
 class Narrower {
  protected:
-  Narrower(Machine& machine, GuardSet& guards, const Watch& watch)
-      : machine_(&machine), guards_(&guards), watch_(&watch), x_(machine.plan().nx) {
+  Narrower(Machine& machine, GuardSet& guards, const LocatedGuards& located)
+      : machine_(&machine), guards_(&guards), located_(&located), x_(machine.plan().nx) {
     const Index slots = machine.plan().guard_slots;
     for (auto* values : {&low_, &high_, &middle_, &third_, &noise_, &jump_, &begun_})
       values->assign(slots, 1.0);
@@ -39,7 +39,7 @@ class Narrower {
             std::vector<double>& values) {
     if (known == nullptr) interpolate(u, x_.data());
     const double* x = known == nullptr ? x_.data() : known;
-    const std::vector<int>& groups = few_.empty() ? watch_->groups : few_groups_;
+    const std::vector<int>& groups = few_.empty() ? located_->groups : few_groups_;
     if (groups.size() == machine_->active_guards().size())
       machine_->guards(t0_ + u, x, values.data());
     else
@@ -49,11 +49,11 @@ class Narrower {
   /// Sets the values at which the active guards fire, from their present records.
   void set_limits() {
     limits_.clear();
-    for (const std::size_t k : watch_->slots) limits_.push_back((*guards_)[k].limits());
+    for (const std::size_t k : located_->slots) limits_.push_back((*guards_)[k].limits());
   }
 
   bool fired(std::size_t i, const std::vector<double>& values) const {
-    const double value = values[watch_->slots[i]];
+    const double value = values[located_->slots[i]];
     return !(value > limits_[i].first && value < limits_[i].second);  // NaN and Inf fire too
   }
 
@@ -65,7 +65,7 @@ class Narrower {
     if (i == count) return false;
     crossed_.clear();
     for (; i < count; ++i) {
-      if (fired(i, values)) crossed_.push_back(watch_->slots[i]);
+      if (fired(i, values)) crossed_.push_back(located_->slots[i]);
     }
     return true;
   }
@@ -86,7 +86,7 @@ class Narrower {
 
   Machine* machine_;
   GuardSet* guards_;
-  const Watch* watch_;
+  const LocatedGuards* located_;
   List<double> low_, high_, middle_, third_;
   double third_at_ = 0.0;
   List<double> noise_;  // of guards near their root, by the rounding of interpolants
@@ -105,10 +105,10 @@ class Narrower {
   /// If few of many guards have crossed by the high end, only these are narrowed.
   void choose_few() {
     few_.clear(), few_groups_.clear();
-    if (crossed_.size() * thresholds::few_guards > watch_->groups.size()) return;
+    if (crossed_.size() * thresholds::few_guards > located_->groups.size()) return;
     for (const std::size_t k : crossed_) {
-      const auto at = std::ranges::lower_bound(watch_->slots, k);
-      few_.push_back(static_cast<std::size_t>(at - watch_->slots.begin()));
+      const auto at = std::ranges::lower_bound(located_->slots, k);
+      few_.push_back(static_cast<std::size_t>(at - located_->slots.begin()));
       const int group = (*guards_)[k].group;
       if (few_groups_.empty() || few_groups_.back() != group) few_groups_.push_back(group);
     }
@@ -178,7 +178,7 @@ class Narrower {
     if (std::ranges::none_of(few_, has_fired)) return false;
     crossed_.clear();
     for (const std::size_t i : few_) {
-      if (has_fired(i)) crossed_.push_back(watch_->slots[i]);
+      if (has_fired(i)) crossed_.push_back(located_->slots[i]);
     }
     return true;
   }
@@ -209,7 +209,7 @@ class Narrower {
     }
   }
   void leave_zero(std::size_t i) {
-    const std::size_t k = watch_->slots[i];
+    const std::size_t k = located_->slots[i];
     const Guard& guard = (*guards_)[k];
     if (!guard.waits() || guard.sign(low_[k]) != guard.side) return;
     guards_->leave_zero(k);

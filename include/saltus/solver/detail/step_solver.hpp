@@ -47,7 +47,7 @@ class StepSolver : public Interface {
     t0_ = t1_ = time_ = t;
     x1_ = x;
     delivered_ = true;
-    locator_.forget();
+    start.first ? locator_.begin_run() : locator_.forget();
     self().begin(start);
   }
 

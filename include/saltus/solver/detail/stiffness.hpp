@@ -59,7 +59,7 @@ class StiffnessTest {
   double rate() const noexcept { return rate_; }
   /// At a restart, and at the begin of a run.
   void forget(bool run) noexcept {
-    stiff_ = calm_ = smooth_steps_ = 0, rate_ = 0.0;
+    stiff_ = not_stiff_ = smooth_steps_ = 0, rate_ = 0.0;
     if (run) wanted_ = thresholds::stiff_steps;
     watch_anew();
   }
@@ -88,8 +88,8 @@ class StiffnessTest {
   /// approximation of x1.
   void look(double h, VectorView x1, VectorView x, VectorView f, VectorView f0, VectorView f1) {
     if (stiff_step(h, x1, x, f, f0, f1))
-      ++stiff_, calm_ = 0;
-    else if (++calm_ == thresholds::other_steps)
+      ++stiff_, not_stiff_ = 0;
+    else if (++not_stiff_ == thresholds::other_steps)
       stiff_ = smooth_steps_ = 0;
     count_long(h, x1, f0, f1);
   }
@@ -137,7 +137,7 @@ class StiffnessTest {
 
   double stability_, turning_, amplitude_, smooth_;
   SolverOptions options_;
-  int stiff_ = 0, calm_ = 0, smooth_steps_ = 0;
+  int stiff_ = 0, not_stiff_ = 0, smooth_steps_ = 0;
   double rate_ = 0.0;
   int long_ = 0, others_ = 0, looks_ = 0;  // steps beyond turning_, others in a row, all of them
   int wanted_ = thresholds::stiff_steps;

@@ -1,8 +1,6 @@
 // The tuning numbers of the solvers: name, unit and derivation or source. Where a test is named, it
-// fails if the number is a hundred times as large, or as small. No test holds short_share,
-// latest_question, slowest_ratio and ratio_memory, nor those that only trade time: small_vector,
-// most_factor_entries, krylov_vectors, dropped, unrolled_dense and large_dense. Coefficients of a
-// method, and its bounds of step factors, are in dopri5.hpp and dop853.hpp.
+// fails if the number is a hundred times as large, or as small. No test holds short_share.
+// Coefficients of a method, and its bounds of step factors, are in dopri5.hpp and dop853.hpp.
 #pragma once
 
 #include <limits>
@@ -126,6 +124,38 @@ inline constexpr double dip_rounding = 1e-12;
 /// tests/laws/tangent_pairs_test.cpp
 inline constexpr int dip_looks = 6;
 
+// --- guards that vary faster than the state: look_pace.hpp
+
+/// [errors of the parabola] A guard that is nearer to zero than so many may have crossed it unseen:
+/// the error is estimated from one third difference, which another place of the piece may exceed.
+/// tests/unit/look_pace_test.cpp
+inline constexpr double hidden_room = 4.0;
+/// [of the range of four looks] A parabola whose error is less shows the guard. That of a sine is
+/// when there are twelve looks in a period. tests/unit/look_pace_test.cpp
+inline constexpr double hidden_share = 1.0 / 32.0;
+/// [errors of the parabola] and [of hidden_share] The error grows eight times as the piece grows
+/// twice: both have this room, and a factor of two. tests/unit/look_pace_test.cpp
+inline constexpr double growth_room = 64.0, slow_share = 1.0 / 16.0;
+/// [of an evenly spaced piece] A shorter piece is not halved: of a guard with some hundred periods
+/// in a step each crossing is found. tests/unit/look_pace_test.cpp
+inline constexpr double finest_piece = 1.0 / 256.0;
+/// [eps t] Looks nearer to each other would hardly be at different times.
+/// tests/laws/crossings_test.cpp (as small)
+inline constexpr double look_roundings = 4.0;
+/// [pieces] The second of the three looks that begin a run: the golden ratio, which is far from each
+/// ratio of small numbers. tests/laws/fast_guards_test.cpp
+inline constexpr double uneven = 1.6180339887498949;
+/// [of a piece] How far two looks are apart whose difference is a derivative: its error, this part of
+/// the second derivative, and its rounding, eps by this part, are both far below its size.
+/// tests/laws/fast_guards_test.cpp
+inline constexpr double near_share = 1e-6;
+/// [ranges of four looks] A guard that would move further in a piece, at its first derivative, turns
+/// between the looks: a parabola moves by at most two ranges. tests/laws/fast_guards_test.cpp
+inline constexpr double steep_ranges = 2.0;
+/// [pieces] in one step that are as short as allowed and do not show a guard: it then counts no more
+/// for 63 steps. tests/unit/look_pace_test.cpp
+inline constexpr int most_in_vain = 16;
+
 // --- many monitors at once: crowd_locator.hpp, guard_polynomials.hpp
 
 /// [crossings] in one interval. Locating a few of them one by one takes as many looks as the
@@ -172,6 +202,7 @@ inline constexpr double smooth_turn = 0.1;
 inline constexpr double bdf_step = 0.4, bdf_calls = 1.5, saved_calls = 0.5;
 
 /// [steps] until the next question at most, after returns that did not last.
+/// tests/unit/stiffness_test.cpp
 inline constexpr int latest_question = 100000;
 /// [of the size of a state] An oscillation up to this amplitude may be one of the errors.
 /// tests/laws/fast_modes_test.cpp (as small)
@@ -269,20 +300,22 @@ inline constexpr int convergence_failures = 20;
 /// tests/unit/cvode_start_test.cpp (if its square underflows)
 inline constexpr double least_shown = 1e-100;
 /// [states] The general vector operations are as fast from here on.
+/// tests/unit/contraction_test.cpp
 inline constexpr int small_vector = 16;
 
-// --- Adams' corrector: corrector.hpp; q is the ratio of two changes of its iteration
+// --- Adams' corrector: contraction.hpp; q is the ratio of two changes of its iteration
 
-/// [q] A step whose iteration is slower is refused.
+/// [q] A step whose iteration is slower is refused: up to 1/3 the iteration leaves at most half of
+/// its last change. tests/unit/contraction_test.cpp
 inline constexpr double slowest_ratio = 0.3;
 /// [q] Above this the tolerance of the iteration shrinks as (fast_ratio / q)^3 (1 - q). It is the
 /// usual q of scenes whose steps are bounded by their accuracy (Kepler, Lorenz, Pleiades).
-/// tests/laws/fast_modes_test.cpp (as large)
+/// tests/unit/contraction_test.cpp
 inline constexpr double fast_ratio = 0.1;
 /// [tolerances of the iteration] Smaller changes are not judged: the iteration is over.
-/// tests/laws/fast_modes_test.cpp (as large)
+/// tests/unit/contraction_test.cpp
 inline constexpr double judged_change = 0.01;
-/// [1] CVODE's own memory of q from step to step, CRDOWN.
+/// [1] CVODE's own memory of q from change to change, CRDOWN. tests/unit/contraction_test.cpp
 inline constexpr double ratio_memory = 0.3;
 
 // --- Jacobian and sparsity: jacobian.cpp, probe.cpp, find_places.cpp
@@ -323,19 +356,21 @@ inline constexpr double sparse_row = 300.0, sparse_entry = 15.0, sparse_operatio
 /// beforehand. tests/unit/linear_solver_test.cpp
 inline constexpr double gmres_place = 3.0 * 150.0;
 /// [entries] of a factor, at which their count stops: 0.3 s of a factorisation.
+/// tests/unit/preconditioner_test.cpp
 inline constexpr double most_factor_entries = 2e7;
 /// [states] Up to here elimination is unrolled, without vectors: 0.4 of the time for four states,
 /// 0.9 for eight; more states do not unroll. Eigen's blocks are faster from `large_dense` on
-/// (bench/factorisations).
+/// (bench/factorisations). tests/unit/factorisation_test.cpp
 inline constexpr int unrolled_dense = 8;
 inline constexpr Index large_dense = 48;
 /// [states] Up to here the Jacobian is renewed with each set-up, and a set-up made each five steps:
 /// see LinearSystem::refresh_often. tests/laws/fast_modes_test.cpp fails with five hundred steps.
 inline constexpr Index fresh_jacobian = 16;
 inline constexpr int setup_steps = 5;
-/// [vectors] of GMRES's Krylov space, at most.
+/// [vectors] of GMRES's Krylov space, at most. tests/unit/linear_solver_test.cpp
 inline constexpr int krylov_vectors = 20;
 /// [1] Smaller entries of a row are dropped from the incomplete factorisation (Eigen's ILUT).
+/// tests/unit/preconditioner_test.cpp
 inline constexpr double dropped = 1e-3;
 /// [times] that a search may find new places before it is given up. tests/unit/probe_test.cpp (as
 /// small)

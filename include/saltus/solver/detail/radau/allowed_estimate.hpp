@@ -9,6 +9,13 @@
 
 namespace saltus::radau {
 
+/// The relative tolerance that a step is held to, at states of this size [tolerances, root mean
+/// square]: rtol, or a part of 1 / size where the absolute tolerances are the larger part. With
+/// atol = k rtol |x| the size is 1 / (rtol (1 + k)).
+inline double relative_tolerance(double rtol, double size) {
+  return std::max(rtol, std::min(tuning::absolute_part / size, 1.0));
+}
+
 /// The error estimate that a slow part may have [tolerances]. The estimate shrinks as h^(S + 1),
 /// the error of the step as h^(2 S). 0.1 rtol^((S + 1) / (2 S)) in place of rtol lets the step be
 /// as long as its own error allows (the codes RADAU5 and RADAU by Hairer and Wanner). The

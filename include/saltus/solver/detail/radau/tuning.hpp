@@ -16,7 +16,7 @@ inline constexpr double fast_error = 2.0;
 inline constexpr double alike_tries = 0.95;
 
 /// [1] The ratio of the tolerances to the states counts as this part of it: it matters where atol
-/// is ten times rtol |x|. tests/unit/radau_test.cpp
+/// is ten times rtol |x|. tests/unit/radau_decisions_test.cpp
 inline constexpr double absolute_part = 0.1;
 
 // --- an oscillation of the errors of the method before: damping.hpp
@@ -114,7 +114,7 @@ inline constexpr int oldest = 20;
 
 /// [failures] of the iteration with a new Jacobian, less the steps without one, from which on a
 /// leaf's own Jacobian is compared with a difference: it costs a call, and a right one has so many
-/// in a row at jumps only. tests/errors/radau_bad_input_test.cpp
+/// in a row at jumps only. tests/errors/radau_bad_input_test.cpp (as large)
 inline constexpr int most_doubts = 10;
 
 // --- factorisation: side_by_side.hpp

@@ -1,0 +1,32 @@
+// ThirdDifference: how far a guard may be from the parabola through three looks at it.
+#pragma once
+
+namespace saltus {
+
+/// The offsets of four looks. The parabola through the last three of them differs from the guard
+/// between the last two by at most
+///
+///     max |g'''| / 6 |u - u1| |u - u2| |u - u3|  <=  |g[u0, u1, u2, u3]| (u3 - u1) (u3 - u2)^2 / 4,
+///
+/// if the third derivative does not vary (the error of interpolation; G. Dahlquist, A. Bjorck,
+/// "Numerical Methods", 1974, section 4.3.1). The divided difference g[...] is the guard's own.
+class ThirdDifference {
+ public:
+  ThirdDifference(double u0, double u1, double u2, double u3) {
+    // Ratios of lengths, because products of three lengths may be out of range.
+    const double h = u3 - u2, span = 0.25 * (u3 - u1);
+    w0_ = span / (u0 - u3) * (h / (u0 - u1)) * (h / (u0 - u2));
+    w1_ = -0.25 * (h / (u1 - u0)) * (h / (u1 - u2));
+    w2_ = -span / (u2 - u0) * (h / (u2 - u1));
+    w3_ = span / (u3 - u0) * (h / (u3 - u1));
+  }
+  /// The bound with its sign, for the values at the four looks.
+  double of(double g0, double g1, double g2, double g3) const {
+    return w0_ * g0 + w1_ * g1 + w2_ * g2 + w3_ * g3;
+  }
+
+ private:
+  double w0_, w1_, w2_, w3_;
+};
+
+}  // namespace saltus
