@@ -103,7 +103,7 @@ class Callbacks:
         if not self._calls or (self._values is not None and not self._values()):
             return None
         traced = [(b, i) for b, i in self._watched() if hasattr(self.outcomes[b][i], "tape")]
-        changes = (self.outcomes[b][i].watch.changed() for b, i in traced)
+        changes = (self.outcomes[b][i].dependencies.changed() for b, i in traced)
         return next((change for change in changes if change is not None), None)
 
     def _note_ways(self) -> None:
@@ -122,7 +122,10 @@ class Callbacks:
         from saltus import tracing
 
         outcomes = (o for of_block in self.outcomes.values() for o in of_block if o is not None)
-        values, looks = tracing.Glance(outcome.watch for outcome in outcomes).changed, self._looks
+        values, looks = (
+            tracing.Glance(outcome.dependencies for outcome in outcomes).changed,
+            self._looks,
+        )
         self._values = values
         if not searched:
             return values
@@ -145,7 +148,7 @@ class Callbacks:
         ]
 
     def _changed(self) -> list[Place]:
-        return [(b, i) for b, i in self._watched() if self.outcomes[b][i].watch.changed()]
+        return [(b, i) for b, i in self._watched() if self.outcomes[b][i].dependencies.changed()]
 
     def _run_anew(self, blocks: list[Block], places: Iterable[Place]) -> None:
         """Gives the engine other traces of some functions."""

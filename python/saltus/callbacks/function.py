@@ -24,6 +24,8 @@ def outcome_of(block: Block, function: Block, trace: Callable[[Any], Any]) -> An
 
     if function["compiled"]:
         return None
+    if isinstance(function["function"], tracing.Known):
+        return function["function"].outcome()
     outcome = trace(_signature(block, function))
     return tracing.as_guard(outcome) if function["role"] in GUARDS else outcome
 

@@ -15,7 +15,7 @@ import numpy as np
 
 from saltus.callbacks import Callbacks
 from saltus.solving.form import Form
-from saltus.solving.guard import Guard
+from saltus.solving.guard import Guard, functions_of
 from saltus.solving.solved_system import SolvedSystem
 
 __all__ = ["Call", "call_of", "find", "keep"]
@@ -77,8 +77,7 @@ def call_of(
     """None for a call whose system is not kept: of methods and other callable objects, with a
     matrix as the Jacobian, with objects or long arrays in `args`.
     """
-    functions = [f, jacobian, *(each for g in guards for each in (g.guard, g.reset))]
-    functions = [function for function in functions if function is not None]
+    functions = [each for each in (f, jacobian, *functions_of(guards)) if each is not None]
     for function in functions:
         if type(function) is not FunctionType or not REDIRECTED.isdisjoint(vars(function)):
             return None
@@ -87,7 +86,7 @@ def call_of(
     if None in values:
         return None
     start = (begin.hex(), x0.dtype.str, x0.tobytes(), len(args), len(guards))
-    places = tuple(map(id, (f, jacobian, *(x for g in guards for x in (g.guard, g.reset)))))
+    places = tuple(map(id, (f, jacobian, *functions_of(guards))))
     return Call(_owner_of(functions), (places, start, tuple(values), id(form), others))
 
 
@@ -95,7 +94,8 @@ def _settings(guard: Guard) -> tuple[Any, ...]:
     """All values of a guard but its functions. A guard without a name has that of its function."""
     name = guard.name or guard.guard.__name__
     contact = (guard.zeno_tolerance, guard.on_zeno, guard.at_start)
-    return (guard.direction, name, guard.name, guard.terminal, guard.max_count, *contact)
+    modes = (guard.start_mode, guard.end_mode)
+    return (guard.direction, name, guard.name, guard.terminal, guard.max_count, *contact, *modes)
 
 
 def _exact(value: Any) -> Any:

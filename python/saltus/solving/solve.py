@@ -165,21 +165,30 @@ def solve(
     start = state_of(_one_of(x0, y0))
     guards = None if events is None else guards_of(events)
     given = arguments_of(args)
-    functions = [f, jacobian, *functions_of(guards or [])]
-    named = named_of(parameters, mode, guards or [], functions, len(given))
     if np.isinf(end) and start.size:
         _require_terminal(guards or [])
     form = form_of(end < begin, start.dtype.kind == "c")
     shape = (jacobian_sparsity is None, bool(vectorized))
-    call = (
-        call_of(f, begin, start, given, guards or [], jacobian, form, shape)
-        if jacobian_sparsity is None and not named
-        else None
-    )
+    plain = parameters is None and mode is None and jacobian_sparsity is None
+    call = call_of(f, begin, start, given, guards or [], jacobian, form, shape) if plain else None
     kept = None if call is None else find(call)
-    system = kept or SolvedSystem(
-        f, begin, start, given, guards or [], jacobian, jacobian_sparsity, vectorized, form, named
-    )
+    system = kept
+    if system is None:
+        functions = [f, jacobian, *functions_of(guards or [])]
+        named = named_of(parameters, mode, guards or [], functions, len(given))
+        call = None if named else call  # what functions get by name is not kept
+        system = SolvedSystem(
+            f,
+            begin,
+            start,
+            given,
+            guards or [],
+            jacobian,
+            jacobian_sparsity,
+            vectorized,
+            form,
+            named,
+        )
     settings: dict[str, Any] = {
         **options,
         **tolerances_of(rtol, atol, start.size, form),

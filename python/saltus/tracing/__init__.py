@@ -4,21 +4,23 @@
 Jacobian, and smooth guards where a result is a comparison. See the README beside this file.
 """
 
+from saltus.tracing.known import Known
 from saltus.tracing.readers import readers_of_writes
 from saltus.tracing.relations import as_guard
-from saltus.tracing.sandbox import Glance, Watch
+from saltus.tracing.sandbox import Dependencies, Glance
 from saltus.tracing.siblings import Siblings
 from saltus.tracing.signature import Refused, Relations, Signature, Traced
 from saltus.tracing.tracing import trace
 
 __all__ = [
+    "Dependencies",
     "Glance",
+    "Known",
     "Refused",
     "Relations",
     "Siblings",
     "Signature",
     "Traced",
-    "Watch",
     "as_guard",
     "readers_of_writes",
     "trace",

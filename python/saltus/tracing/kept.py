@@ -50,7 +50,7 @@ def find(signature: Signature) -> Traced | Refused | None:
     kept = _traces(signature).get(call_of(signature))
     if kept is None or not _stands_for(kept.function, signature.function):
         return None
-    if kept.outcome.watch.changed() is not None:
+    if kept.outcome.dependencies.changed() is not None:
         return None
     if kept.start == start_of(signature):
         return kept.outcome
@@ -59,7 +59,7 @@ def find(signature: Signature) -> Traced | Refused | None:
     try:
         compared = kept.check.run(signature)
     except Refusal as refusal:
-        return Refused(str(refusal), kept.outcome.watch)
+        return Refused(str(refusal), kept.outcome.dependencies)
     return replace(kept.outcome, compared=compared)
 
 

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
 from saltus.tracing.effects import Change, Changes, Looks, writes_of
+from saltus.tracing.known import Known
 from saltus.tracing.signature import Refused, Traced
 
 __all__ = ["readers_of_writes"]
@@ -33,8 +34,8 @@ def readers_of_writes(
     its code and by the objects that it can reach. A function that is called for this reason may
     write, too, for its values may lead it elsewhere then: so the search is repeated.
 
-    `looks` gets all at which the search has looked: while that and the watches of `outcomes` stay
-    the same, so does the answer.
+    `looks` gets all at which the search has looked: while that and the dependencies of `outcomes`
+    stay the same, so does the answer.
     """
     waiting = [_Callback(words, [function]) for words, function in others]
     left: dict[Place, Traced] = {}
@@ -42,7 +43,7 @@ def readers_of_writes(
         for i, outcome in enumerate(of_block):
             if isinstance(outcome, Traced):
                 left[b, i] = outcome
-            else:
+            elif not isinstance(blocks[b]["functions"][i]["function"], Known):
                 waiting.append(_callback(blocks[b], i))
     found: dict[Place, Refused] = {}
     changes = Changes()
@@ -61,9 +62,9 @@ def readers_of_writes(
 
 def _readers(changes: Changes, left: Mapping[Place, Traced]) -> Iterator[tuple[Place, Refused]]:
     for place, traced in left.items():
-        change = changes.of(traced.watch)
+        change = changes.of(traced.dependencies)
         if change is not None:
-            yield place, Refused(_reason(change), traced.watch)
+            yield place, Refused(_reason(change), traced.dependencies)
 
 
 def _reason(change: Change) -> str:

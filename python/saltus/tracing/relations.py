@@ -94,7 +94,7 @@ def as_guard(outcome: Traced | Refused) -> Traced | Refused:
         return Refused(
             "returns a truth that is no single comparison <, <=, >, >=, so it jumps; "
             "return a number that crosses zero, or declare a guard for each comparison",
-            outcome.watch,
+            outcome.dependencies,
         )
     return replace(outcome, tape=outcome.comparison[0], boolean=False)
 

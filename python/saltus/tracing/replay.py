@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from saltus.tracing.effects import only_attributes
-from saltus.tracing.sandbox import PLAIN, Watch, same, same_content
+from saltus.tracing.sandbox import PLAIN, Dependencies, same, same_content
 from saltus.tracing.signature import Signature
 
 __all__ = ["Replay"]
@@ -32,9 +32,9 @@ class Replay:
             one.owner is None or self._pair(one.owner, other.owner)
         )
 
-    def watch(self, watch: Watch) -> Watch | None:
+    def dependencies(self, dependencies: Dependencies) -> Dependencies | None:
         """The objects that the other function reads, if it is the same; or nothing."""
-        return watch.moved(self._moved, self._equal) if self._paired else None
+        return dependencies.moved(self._moved, self._equal) if self._paired else None
 
     def _moved(self, value: Any) -> Any:
         """The object of the other function in place of one of this function."""

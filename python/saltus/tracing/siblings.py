@@ -57,15 +57,15 @@ class Siblings:
             if by_check and start_of(other) != start_of(signature):
                 continue
             exact = isinstance(outcome, Traced) or by_check
-            watch = Replay(other, signature, exact).watch(outcome.watch)
-            if watch is not None:
-                return replace(outcome, watch=watch)
+            dependencies = Replay(other, signature, exact).dependencies(outcome.dependencies)
+            if dependencies is not None:
+                return replace(outcome, dependencies=dependencies)
         return None
 
     @staticmethod
     def _is_like_one(made: list[tuple[Signature, Traced | Refused]], signature: Signature) -> bool:
         return any(
-            Replay(other, signature, exact=False).watch(outcome.watch) is not None
+            Replay(other, signature, exact=False).dependencies(outcome.dependencies) is not None
             for other, outcome in made
             if isinstance(outcome, Traced)
         )

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from saltus.tracing.sandbox import Watch
+from saltus.tracing.sandbox import Dependencies
 
 __all__ = ["Refused", "Relations", "Shape", "Signature", "Traced"]
 
@@ -114,8 +114,8 @@ class Traced:
     wrote_x: bool
     wrote_z: bool
     wrote_mode: bool
-    watch: Watch
-    """`watch.changed()` names a source of the tape that has changed"""
+    dependencies: Dependencies
+    """`dependencies.changed()` names a source of the tape that has changed"""
     compared: int = 0
     """points at which tape and function were compared"""
 
@@ -126,7 +126,7 @@ class Refused:
 
     reason: str
     """one sentence: the obstacle, its place, and a remedy"""
-    watch: Watch = field(default_factory=Watch)
+    dependencies: Dependencies = field(default_factory=Dependencies)
     """the values read until then: if one changes, another try may succeed"""
     by_check: bool = False
     """a tape was made, but it could not be confirmed around the values it starts with"""

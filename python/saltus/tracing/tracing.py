@@ -71,7 +71,7 @@ def _made(signature: Signature, few: bool) -> tuple[Traced | Refused, Check | No
     try:
         return _traced(signature, sandbox, few)
     except Refusal as refusal:
-        return Refused(str(refusal), sandbox.watch, refusal.by_check), None
+        return Refused(str(refusal), sandbox.dependencies, refusal.by_check), None
     except Exception as error:
         place = raised_at(error.__traceback__)
         what = f"{type(error).__name__}: {error}" if str(error) else type(error).__name__
@@ -79,7 +79,7 @@ def _made(signature: Signature, few: bool) -> tuple[Traced | Refused, Check | No
             f"raised {what}{f' at {place}' if place else ''} when it was called with symbols; "
             "use numpy, math and plain Python on them"
         )
-        return Refused(reason, sandbox.watch), None
+        return Refused(reason, sandbox.dependencies), None
     finally:
         sandbox.close()
 
@@ -140,6 +140,6 @@ def _outcome(graph: Any, tape: Any, result: Result, sandbox: Sandbox, compared: 
         wrote_x="x" in result.written,
         wrote_z="z" in result.written,
         wrote_mode="m" in result.written,
-        watch=sandbox.watch,
+        dependencies=sandbox.dependencies,
         compared=compared,
     )

@@ -96,7 +96,7 @@ def test_a_branch_on_what_is_fixed_is_none():
         return print("never")
 
     outcome = traced(function)
-    assert outcome.watch.changed() is None
+    assert outcome.dependencies.changed() is None
     flag = False
-    assert outcome.watch.changed() == "flag was True, is False"
+    assert outcome.dependencies.changed() == "flag was True, is False"
     assert "uses print" in reason(function)

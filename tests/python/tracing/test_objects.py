@@ -103,7 +103,7 @@ def test_super_class_attributes_and_enumerations():
     derived = Derived()
     outcome = assert_agrees(derived.ode)
     assert_agrees(derived.ode, mode=1)
-    assert outcome.watch.changed() is None
+    assert outcome.dependencies.changed() is None
 
 
 class Slotted:
@@ -124,10 +124,10 @@ def test_slots_modules_and_named_tuples():
 
     outcome = assert_agrees(function)
     module.K = 4.0
-    assert outcome.watch.changed() == "K was 3.0, is 4.0"
+    assert outcome.dependencies.changed() == "K was 3.0, is 4.0"
     module.K = 3.0
     slotted.gain = 5.0
-    assert outcome.watch.changed() == "slotted.gain was 2.0, is 5.0"
+    assert outcome.dependencies.changed() == "slotted.gain was 2.0, is 5.0"
 
 
 def test_caches_and_compiled_functions_are_looked_into():

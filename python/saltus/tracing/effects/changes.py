@@ -10,7 +10,7 @@ import numpy as np
 
 from saltus.tracing.effects.reach import CONTAINERS, memory_of
 from saltus.tracing.effects.writes import Writes
-from saltus.tracing.sandbox import MISSING, Watch
+from saltus.tracing.sandbox import MISSING, Dependencies
 
 __all__ = ["Change", "Changes"]
 
@@ -63,15 +63,15 @@ class Changes:
         if writes.unknown and self._unknown is None:
             self._unknown = writer, writes.unknown
 
-    def of(self, watch: Watch) -> Change | None:
-        """The first value in the watch that may change."""
+    def of(self, dependencies: Dependencies) -> Change | None:
+        """The first of the values that may change."""
         if not (self._binds or self._places or self._unknown):
             return None
-        for words, key, value in watch.reads():
+        for words, key, value in dependencies.reads():
             writer = self._writer(key, value)
             if writer is not None:
                 return Change(words, writer, "")
-        return self._change_unknown(watch)
+        return self._change_unknown(dependencies)
 
     def _writer(self, key: Any, value: Any) -> str | None:
         if isinstance(key, str) and key in self._binds:
@@ -82,8 +82,8 @@ class Changes:
             return None
         return next((self._places[m] for m in _memories(value) if m in self._places), None)
 
-    def _change_unknown(self, watch: Watch) -> Change | None:
+    def _change_unknown(self, dependencies: Dependencies) -> Change | None:
         if self._unknown is None:
             return None
-        data = (words for words, key, value in watch.reads() if _is_data(key, value))
+        data = (words for words, key, value in dependencies.reads() if _is_data(key, value))
         return next((Change(words, *self._unknown) for words in data), None)

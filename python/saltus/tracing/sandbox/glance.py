@@ -1,11 +1,18 @@
-"""`Glance`: a quick look at the values of several watches, before every run."""
+"""`Glance`: a quick look at the dependencies of several functions, before every run."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
 from typing import Any
 
-from saltus.tracing.sandbox.watch import GONE, MISSING, AttributeOf, Watch, content, same
+from saltus.tracing.sandbox.dependencies import (
+    GONE,
+    MISSING,
+    AttributeOf,
+    Dependencies,
+    content,
+    same,
+)
 
 __all__ = ["Glance"]
 
@@ -15,15 +22,15 @@ class Glance:
     same parts.
 
     It may see a change where there is none, such as in an object that is gone. Then
-    `Watch.changed` tells. It holds what the watches hold.
+    `Dependencies.changed` tells. It holds the same values.
 
     Examples
     --------
-    >>> from saltus.tracing.sandbox import Watch
+    >>> from saltus.tracing.sandbox import Dependencies
     >>> values = {"e": 0.9}
-    >>> watch = Watch()
-    >>> watch.add("e", values.get, "e", values["e"])
-    >>> glance = Glance([watch])
+    >>> dependencies = Dependencies()
+    >>> dependencies.add("e", values.get, "e", values["e"])
+    >>> glance = Glance([dependencies])
     >>> glance.changed()
     False
     >>> values["e"] = 0.8
@@ -33,13 +40,13 @@ class Glance:
 
     __slots__ = ("_attributes", "_contents", "_entries")
 
-    def __init__(self, watches: Iterable[Watch]):
+    def __init__(self, functions: Iterable[Dependencies]):
         self._entries: list[tuple[Any, Any, Any]] = []
         self._attributes: list[tuple[Any, str, Any]] = []
         self._contents: list[tuple[Any, Any, Any]] = []
         known: set[tuple[int, int, int]] = set()
-        for watch in watches:
-            for get, key, value, inside in watch.looks():
+        for dependencies in functions:
+            for get, key, value, inside in dependencies.looks():
                 place = (id(getattr(get, "__self__", get)), id(key), id(value))
                 if place in known:
                     continue  # such as numpy, which every function reads

@@ -1,4 +1,4 @@
-"""`Guarded`: an object from outside, such as `self`: reads are watched, writes refused."""
+"""`Guarded`: an object from outside, such as `self`: reads are recorded, writes refused."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from types import FunctionType
 from typing import Any, Protocol
 
 from saltus.tracing.refusal import refuse
-from saltus.tracing.sandbox.watch import MISSING, AttributeOf, Watch
+from saltus.tracing.sandbox.dependencies import MISSING, AttributeOf, Dependencies
 
 __all__ = ["Guarded", "parent", "unguarded"]
 
@@ -17,7 +17,7 @@ OUTSIDE = "what changes something outside is called; keep it in the state"
 class Forms(Protocol):
     """The part of a `Sandbox` that a guarded object needs."""
 
-    watch: Watch
+    dependencies: Dependencies
 
     def form_of(self, value: Any, words: str) -> Any: ...
 
@@ -91,29 +91,29 @@ class Guarded:
 
 
 def read(guarded: Guarded, name: str) -> Any:
-    """The form of an attribute; it is found where Python finds it, and watched there."""
+    """The form of an attribute; it is found where Python finds it, and recorded there."""
     sandbox, value, words = _sandbox(guarded)
     where = f"{words}.{name}"
     if isinstance(value, type):
         return _of_class(sandbox, value, name, where)
-    sandbox.watch.add_entry(f"the class of {words}", _TypeOf(value), None, type(value))
+    sandbox.dependencies.add_entry(f"the class of {words}", _TypeOf(value), None, type(value))
     after = object.__getattribute__(guarded, "_after")
     found = _in_class(value, name, after)
     if found is not None and _is_data_descriptor(found[1]):
-        _watch_class(sandbox, type(value), name, where)
+        _record_class(sandbox, type(value), name, where)
         return _described(guarded, found[1], name, where)
     own = getattr(value, "__dict__", {}) if after is None else {}
     if name in own:
-        sandbox.watch.add_entry(where, own, name, own[name])
+        sandbox.dependencies.add_entry(where, own, name, own[name])
         return sandbox.form_of(own[name], where)
     if found is None:
         if hasattr(type(value), "__getattr__"):
             refuse(f"reads {where}, which __getattr__ makes up", "make it an attribute")
-        sandbox.watch.add_entry(where, own, name, MISSING)  # hasattr, or getattr with a default
-        _watch_class(sandbox, type(value), name, where)
+        sandbox.dependencies.add_entry(where, own, name, MISSING)  # hasattr, getattr(.., default)
+        _record_class(sandbox, type(value), name, where)
         raise AttributeError(f"'{type(value).__name__}' object has no attribute '{name}'")
-    sandbox.watch.add_entry(where, own, name, MISSING)
-    _watch_class(sandbox, type(value), name, where)
+    sandbox.dependencies.add_entry(where, own, name, MISSING)
+    _record_class(sandbox, type(value), name, where)
     return _described(guarded, found[1], name, where)
 
 
@@ -132,12 +132,12 @@ def _in_class(value: Any, name: str, after: type | None) -> tuple[type, Any] | N
     return None
 
 
-def _watch_class(sandbox: Forms, owner: type, name: str, where: str) -> None:
-    """Watch the class that has the attribute, and those before it that might get it."""
+def _record_class(sandbox: Forms, owner: type, name: str, where: str) -> None:
+    """Record the class that has the attribute, and those before it that might get it."""
     for base in owner.__mro__:  # all of them: super() may have passed over some
         if base is not object:
             entry = base.__dict__.get(name, MISSING)
-            sandbox.watch.add(where, functools.partial(_class_entry, base), name, entry)
+            sandbox.dependencies.add(where, functools.partial(_class_entry, base), name, entry)
 
 
 def _class_entry(base: type, name: str, default: Any) -> Any:
@@ -166,7 +166,7 @@ def _described(guarded: Guarded, entry: Any, name: str, where: str) -> Any:
         return functools.partial(sandbox.form_of(entry, where), guarded)
     if hasattr(type(entry), "__get__"):
         now = getattr(value, name)
-        sandbox.watch.add(where, AttributeOf(value), name, now)
+        sandbox.dependencies.add(where, AttributeOf(value), name, now)
         return sandbox.form_of(now, where)
     return sandbox.form_of(entry, where)
 
@@ -174,5 +174,5 @@ def _described(guarded: Guarded, entry: Any, name: str, where: str) -> Any:
 def _of_class(sandbox: Forms, owner: type, name: str, where: str) -> Any:
     """A constant of a class, a member of an enumeration, a static method."""
     value = getattr(owner, name)
-    _watch_class(sandbox, owner, name, where)
+    _record_class(sandbox, owner, name, where)
     return sandbox.form_of(value, where)

@@ -2,7 +2,7 @@
 
 A copy has the code of the function and globals of its own: numpy, math and the builtins have faces
 that take symbols; other functions are copied likewise when they are read; everything that is read
-is watched; nothing outside can be written to.
+is a dependency; nothing outside can be written to.
 """
 
 from __future__ import annotations
@@ -23,11 +23,18 @@ import numpy as np
 from saltus.tracing.numbers import SymbolArray
 from saltus.tracing.refusal import MARK, refuse
 from saltus.tracing.sandbox.code import names_in, refuse_code
+from saltus.tracing.sandbox.dependencies import (
+    LARGEST,
+    MISSING,
+    PLAIN,
+    AttributeOf,
+    Dependencies,
+    entries,
+)
 from saltus.tracing.sandbox.faces import BUILTINS, face_of
 from saltus.tracing.sandbox.foreign import Foreign
 from saltus.tracing.sandbox.frozen import FrozenDict, FrozenList, FrozenTuple
 from saltus.tracing.sandbox.guarded import Guarded
-from saltus.tracing.sandbox.watch import LARGEST, MISSING, PLAIN, AttributeOf, Watch, entries
 
 __all__ = ["Sandbox"]
 
@@ -68,10 +75,10 @@ def _flat(container: Any) -> list[Any]:
 
 
 class Sandbox:
-    """The copies made for one trace, and the `Watch` over the objects they read."""
+    """The copies made for one trace, and the `Dependencies` over the objects they read."""
 
     def __init__(self) -> None:
-        self.watch = Watch()
+        self.dependencies = Dependencies()
         self._copies: dict[int, Any] = {}
         self._kept: list[Any] = []  # so that no id is used twice
         self._globals: dict[int, dict[str, Any]] = {}
@@ -159,15 +166,15 @@ class Sandbox:
     def _partial(self, value: functools.partial[Any], words: str) -> Any:
         arguments = [self.form_of(a, f"{words}.args") for a in value.args]
         options = {k: self.form_of(v, f"{words}.{k}") for k, v in value.keywords.items()}
-        self.watch.add(words, AttributeOf(value), "args", value.args)
-        self.watch.add(words, AttributeOf(value), "keywords", value.keywords)
+        self.dependencies.add(words, AttributeOf(value), "args", value.args)
+        self.dependencies.add(words, AttributeOf(value), "keywords", value.keywords)
         return functools.partial(self.form_of(value.func, words), *arguments, **options)
 
     def copy(self, function: FunctionType, words: str) -> FunctionType:
         """The function with globals, closure and defaults of its own."""
         refuse_code(function.__code__)
         code = function.__code__
-        self.watch.add(words, AttributeOf(function), "__code__", code)
+        self.dependencies.add(words, AttributeOf(function), "__code__", code)
         copied = FunctionType(
             code,
             self._globals_of(function),
@@ -202,7 +209,7 @@ class Sandbox:
             if value is not MISSING:
                 made[name] = before[name] = self.form_of(value, name)
             if value is not MISSING or name in BUILTINS:
-                self.watch.add_entry(name, own, name, value)
+                self.dependencies.add_entry(name, own, name, value)
         before.update({key: made[key] for key in ("__builtins__", MARK, "__name__")})
 
     def _closure(self, function: FunctionType, words: str) -> tuple[CellType, ...]:
@@ -213,7 +220,7 @@ class Sandbox:
         cells = zip(names, function.__closure__ or (), copied.__closure__ or (), strict=True)
         for name, cell, mine in cells:
             value = _read_cell(cell, MISSING)
-            self.watch.add(name, _get_cell, cell, value)
+            self.dependencies.add(name, _get_cell, cell, value)
             if value is MISSING:
                 continue
             mine.cell_contents = self.form_of(value, name)
@@ -221,11 +228,15 @@ class Sandbox:
 
     def _fill_defaults(self, function: FunctionType, copied: FunctionType, words: str) -> None:
         defaults, named = function.__defaults__, function.__kwdefaults__
-        self.watch.add(f"defaults of {words}", AttributeOf(function), "__defaults__", defaults)
+        self.dependencies.add(
+            f"defaults of {words}", AttributeOf(function), "__defaults__", defaults
+        )
         if defaults:
             copied.__defaults__ = tuple(self.form_of(v, f"a default of {words}") for v in defaults)
         if named:
-            self.watch.add(f"defaults of {words}", AttributeOf(function), "__kwdefaults__", named)
+            self.dependencies.add(
+                f"defaults of {words}", AttributeOf(function), "__kwdefaults__", named
+            )
             forms = {k: self.form_of(v, f"default {k} of {words}") for k, v in named.items()}
             copied.__kwdefaults__ = forms
 
@@ -245,7 +256,7 @@ class Sandbox:
                        "what changes something outside is called")  # fmt: skip
 
     def close(self) -> None:
-        """Let go of everything but the watch: copies and their globals refer to each other."""
+        """Drop everything but the dependencies: copies and their globals refer to each other."""
         for made in self._globals.values():
             made.clear()
         for _, cell, _ in self._cells:

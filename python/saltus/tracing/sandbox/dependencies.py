@@ -1,4 +1,4 @@
-"""`Watch`: the values that a traced function read from outside, and whether they have changed."""
+"""`Dependencies`: values that a traced function read from outside; whether they have changed."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ __all__ = [
     "MISSING",
     "PLAIN",
     "AttributeOf",
-    "Watch",
+    "Dependencies",
     "content",
     "entries",
     "same",
@@ -88,7 +88,7 @@ def _named(value: Any) -> str:
 
 
 class AttributeOf:
-    """Attributes of an object, for a `Watch`, which should not keep the object alive."""
+    """Attributes of an object, for a `Dependencies`, which should not keep the object alive."""
 
     def __init__(self, value: Any):
         try:
@@ -121,7 +121,7 @@ def _moved_get(get: Get, move: Callable[[Any], Any]) -> Get:
     return moved
 
 
-class Watch:
+class Dependencies:
     """The values a tape was made from, by the words a user knows them by.
 
     It refers to objects weakly where it can, but to the variables of closures and what stands in
@@ -131,11 +131,11 @@ class Watch:
     --------
     >>> from types import SimpleNamespace
     >>> ball = SimpleNamespace(e=0.9)
-    >>> watch = Watch()
-    >>> watch.add("self.e", vars(ball).get, "e", 0.9)
-    >>> watch.changed()
+    >>> dependencies = Dependencies()
+    >>> dependencies.add("self.e", vars(ball).get, "e", 0.9)
+    >>> dependencies.changed()
     >>> ball.e = 0.8
-    >>> watch.changed()
+    >>> dependencies.changed()
     'self.e was 0.9, is 0.8'
     """
 
@@ -188,13 +188,13 @@ class Watch:
 
     def moved(
         self, move: Callable[[Any], Any], equal: Callable[[Any, Any, Any], bool]
-    ) -> Watch | None:
+    ) -> Dependencies | None:
         """The same reads of other objects, if they give equal values now; or None.
 
         `move` gives the other object; `equal(value, other, inside)` compares what was read, with
         `inside` the parts of a container.
         """
-        other = Watch()
+        other = Dependencies()
         for words, get, key, value, inside in self._reads:
             moved_get, moved_key = _moved_get(get, move), move(key)
             now = moved_get(moved_key, MISSING)
@@ -203,6 +203,6 @@ class Watch:
             other.add(words, moved_get, moved_key, now)
         return other
 
-    def merge(self, other: Watch) -> None:
-        """Watch the values of another `Watch` too."""
+    def merge(self, other: Dependencies) -> None:
+        """Add the values of another `Dependencies`."""
         self._reads += other._reads
