@@ -11,7 +11,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from types import ModuleType
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -20,6 +20,9 @@ from saltus.errors import ModelError
 from saltus.scenes import Scene, load_scene, scene, shelf
 from saltus.simulation import SimulatorOptions
 from saltus.system import System
+
+if TYPE_CHECKING:
+    from saltus.scene_files import FileScene
 
 __all__ = ["Chosen", "chosen_scene"]
 
@@ -43,6 +46,12 @@ class Chosen:
     """the values of a sweep that the scene says, by name"""
     paired: bool = False
     """whether these belong together, row by row"""
+    file: FileScene | None = None
+    """the scene file that was read"""
+
+    def again(self, name: str, settings: dict[str, Any]) -> Chosen:
+        """The scene of the same name with other settings. A file is not read again."""
+        return chosen_scene(name, settings) if self.file is None else _of_file(self.file, settings)
 
     def with_span(self, begin: float | None, end: float | None) -> Chosen:
         """The scene with the span from the command line in place of the usual one."""
@@ -65,7 +74,9 @@ class Chosen:
 def chosen_scene(name: str, settings: dict[str, Any]) -> Chosen:
     """The scene of that name, with these settings. ModelError for unknown names."""
     if name.lower().endswith((".toml", ".json")):
-        return _file(name, settings)
+        return _of_file(load_scene(name), settings)
+    if name.lower().endswith((".xml", ".sbml")):
+        return _sbml(name, settings)
     if ":" in name:
         return _own(name, settings)
     names = list(shelf())
@@ -98,11 +109,10 @@ def _of_shelf(name: str, settings: dict[str, Any]) -> Chosen:
     )
 
 
-def _file(name: str, settings: dict[str, Any]) -> Chosen:
-    scene = load_scene(name)
-    known = set(scene.parameters)
+def _of_file(file: FileScene, settings: dict[str, Any]) -> Chosen:
+    known = set(file.parameters)
     own = {n: v for n, v in settings.items() if n in known}
-    scene = load_scene(name, **own) if own else scene
+    scene = file.with_parameters(**own) if own else file
     context = _with_values(
         scene.context, {n: v for n, v in settings.items() if n not in known}, known
     )
@@ -117,7 +127,18 @@ def _file(name: str, settings: dict[str, Any]) -> Chosen:
         scene.parameters,
         scene.swept.values,
         scene.swept.paired,
+        file,
     )
+
+
+def _sbml(name: str, settings: dict[str, Any]) -> Chosen:
+    """A model in SBML, which says no span. Settings are values at the start, by id."""
+    from saltus.sbml import load
+
+    model = load(name, values=settings)
+    options = SimulatorOptions(recorded_signals={port.name: port for port in model.output_ports})
+    title = f"a model in SBML, {name}"
+    return Chosen(model.name, title, model, model.create_context(), None, options, None)
 
 
 def _own(name: str, settings: dict[str, Any]) -> Chosen:

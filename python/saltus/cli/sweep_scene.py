@@ -57,7 +57,7 @@ def act(chosen: argparse.Namespace) -> int:
     if not varied:
         raise ModelError("expected values to vary: --vary NAME=V,V,...")
     paired = chosen.paired or (not chosen.vary and first.paired)
-    rows = [_row(chosen, settings, values) for values in _points(varied, paired)]
+    rows = [_row(chosen, first, settings | values, values) for values in _points(varied, paired)]
     _show(rows, chosen)
     return 0 if any(row["status"] in WELL for row in rows) else 1
 
@@ -98,10 +98,10 @@ def _points(varied: dict[str, list[Any]], paired: bool) -> Iterator[dict[str, An
 
 
 def _row(
-    chosen: argparse.Namespace, settings: dict[str, Any], values: dict[str, Any]
+    chosen: argparse.Namespace, first: Chosen, settings: dict[str, Any], values: dict[str, Any]
 ) -> dict[str, Any]:
-    """One run, as `saltus run` makes it with these values set."""
-    scene = chosen_scene(chosen.scene, settings | values)
+    """One run, as `saltus run` makes it with these settings. `values` are those that vary."""
+    scene = first.again(chosen.scene, settings)
     scene = scene.with_span(chosen.t_begin, chosen.t_end)
     overrides = _recording(chosen, scene) | options_of(chosen)
     results = simulate(

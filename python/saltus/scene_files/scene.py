@@ -74,7 +74,7 @@ class FileScene:
         self, tree: dict[str, Any], sources: Mapping[Keys, Source], name: str, given: dict[str, Any]
     ):
         self._sources = sources
-        self.tree = with_parameters(tree, given)
+        self.tree = _tree_with(tree, given)
         self.name = tree.get("name", name)
         self.title = tree.get("title", "")
         try:
@@ -102,6 +102,23 @@ class FileScene:
             Simulator(self.system, self.options)
         except (ModelError, TypeError, ValueError) as error:
             raise Wrong(_named(str(error), self.tree), str(error)) from None
+
+    def with_parameters(self, **values: Any) -> FileScene:
+        """The scene with other values of its parameters; the file is not read again.
+
+        Raises
+        ------
+        ModelError
+            For an unknown name, or a value that the file does not allow.
+
+        Examples
+        --------
+        >>> from saltus.scene_files import loads
+        >>> scene = loads('version = 1\\nparameters = {k = 2.0}\\nstates = { x = { rate = "k" } }')
+        >>> scene.with_parameters(k=5.0).parameters
+        {'k': 5.0}
+        """
+        return FileScene(self.tree, self._sources, self.name, values)
 
     def simulate(self, **options: Any) -> Results:
         """Runs the scene.
@@ -203,7 +220,7 @@ class Maker:
         return inspect.Signature([inspect.Parameter(n, kind, default=None) for n in own])
 
     def __call__(self, **values: Any) -> System:
-        tree = with_parameters(self.tree, values)
+        tree = _tree_with(self.tree, values)
         source = Source("<text>", "", "toml")
         try:
             return system_of_table(tree, self.name, parameters_of((), tree, {}))
@@ -211,7 +228,7 @@ class Maker:
             raise error_of(wrong, {(): source}) from None
 
 
-def with_parameters(tree: dict[str, Any], given: Mapping[str, Any]) -> dict[str, Any]:
+def _tree_with(tree: dict[str, Any], given: Mapping[str, Any]) -> dict[str, Any]:
     """The tree with other values of parameters. ModelError for unknown ones."""
     if not given:
         return tree

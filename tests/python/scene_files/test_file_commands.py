@@ -9,6 +9,7 @@ import pytest
 import saltus
 from file_models import FOLDER
 from saltus.cli import main
+from saltus.errors import ModelError
 
 
 @pytest.fixture
@@ -76,6 +77,30 @@ def test_sweep_has_the_rows_of_the_runs(ball, capsys):
         results = saltus.load_scene(ball, e=row["e"]).simulate()
         assert row["height"] == results.outputs["height"][-1]
         assert row["events"] == sum(results.statistics.events_by_name.values())
+
+
+def test_sweep_reads_its_file_once(ball, capsys, monkeypatch):
+    capsys.readouterr()
+    read = []
+    load = saltus.load_scene
+    monkeypatch.setattr(
+        "saltus.cli.scene_of.load_scene",
+        lambda *args, **kw: (read.append(args), load(*args, **kw))[1],
+    )
+    assert main(["sweep", "ball.toml", "--vary", "e=0.5,0.6,0.7", "--json"]) == 0
+    rows = json.loads(capsys.readouterr().out)
+    assert len(read) == 1
+    for row in rows:
+        assert row["height"] == load(ball, e=row["e"]).simulate().outputs["height"][-1]
+
+
+def test_a_scene_with_parameters_is_the_file_with_these(ball):
+    scene = saltus.load_scene(ball)
+    assert scene.with_parameters(e=0.5, y0=3.0) == saltus.load_scene(ball, e=0.5, y0=3.0)
+    assert scene.with_parameters(e=0.5).with_parameters(y0=3.0).parameters["e"] == 0.5
+    assert scene.parameters["e"] != 0.5
+    with pytest.raises(ModelError, match="'restitution'"):
+        scene.with_parameters(restitution=0.5)
 
 
 def test_sweep_of_any_scene(capsys, tmp_path):

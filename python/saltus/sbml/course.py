@@ -1,0 +1,95 @@
+"""`time_course`: the table of a case of the SBML test suite."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from saltus.errors import ModelError
+from saltus.results import Results
+from saltus.sbml.formula import evaluated
+from saltus.sbml.reading import model_of
+from saltus.sbml.system import Model, model_block
+from saltus.simulation import simulate
+
+__all__ = ["time_course"]
+
+
+def time_course(
+    path: str | os.PathLike[str],
+    *,
+    start: float,
+    duration: float,
+    steps: int,
+    variables: Sequence[str],
+    amount: Sequence[str] = (),
+    concentration: Sequence[str] = (),
+    seed: int = 0,
+    **options: Any,
+) -> np.ndarray:
+    """The values of `variables` at start + k duration / steps, k = 0, ..., `steps`.
+
+    Parameters
+    ----------
+    path : str or path
+        the file of the model, or its text.
+    start, duration : float
+        in the model's unit of time; the run begins at time 0.
+    variables : list of str
+        ids of the model. A species in `amount` or in `concentration` is shown so, others by what
+        their ids stand for in formulas.
+    options
+        of `SimulatorOptions`; the tolerances are rtol=1e-9, atol=1e-13 if not said. Where a
+        comparison is one of a curve, such as sin(time) < 0 or x * y > 1, a step is at most
+        duration / steps if not said.
+
+    Returns
+    -------
+    array of shape (steps + 1, 1 + number of variables)
+        time first; at the time of an event the values after it.
+
+    Raises
+    ------
+    ModelError
+        As `load`; also for an unknown variable.
+    SimulationError
+        As `saltus.simulate`.
+    """
+    _document, model = model_of(path)  # which owns the model
+    how = {**dict.fromkeys(amount, "amount"), **dict.fromkeys(concentration, "concentration")}
+    shown = [(name, how.get(name, "value")) for name in variables]
+    _require(steps >= 1 and duration > 0.0 and start >= 0.0, start, duration, steps)
+    system = model_block(model, shown, seed)
+    times = start + duration * np.arange(steps + 1) / steps
+    usual: dict[str, Any] = {"rtol": 1e-9, "atol": 1e-13}
+    if system.curved:
+        usual["max_minor_step_size"] = duration / steps
+    results = simulate(
+        system,
+        (0.0, float(times[-1])),
+        save_at=times,
+        event_rows=False,
+        recorded_signals={name: system.output(name) for name in system.output_names},
+        **(usual | options),
+    )
+    return np.column_stack([times, _rows(system, results, times).reshape(steps + 1, len(shown))])
+
+
+def _rows(system: Model, results: Results, times: np.ndarray) -> np.ndarray:
+    """What is shown, which need not be finite, from the states at each time."""
+    empty = np.empty((len(times), 0))
+    x, z = (results[name] if name in results else empty for name in "xz")
+    p = system.constants
+    tape = system.shown.tape
+    return np.array([evaluated(tape, t, x[i], z[i], p) for i, t in enumerate(times.tolist())])
+
+
+def _require(good: bool, start: float, duration: float, steps: int) -> None:
+    if not good:
+        raise ModelError(
+            "time_course: expected start >= 0, duration > 0 and steps >= 1, found "
+            f"{start:g}, {duration:g} and {steps}"
+        )
