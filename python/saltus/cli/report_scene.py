@@ -15,7 +15,7 @@ import numpy as np
 
 from saltus.cli.files import require_picture, require_suffix
 from saltus.cli.scene_of import Chosen, chosen_scene
-from saltus.cli.settings import add_scene, settings_of
+from saltus.cli.settings import add_scene, add_span, settings_of
 from saltus.errors import ModelError
 from saltus.report import WorkPrecision, work_precision
 
@@ -39,10 +39,7 @@ def _words(text: str) -> list[str]:
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_scene(parser)
-    parser.add_argument("--t-begin", type=float, metavar="T", help="[s] 0 if nobody says")
-    parser.add_argument(
-        "--t-end", type=float, metavar="T", help="[s] that of the scene if not said"
-    )
+    add_span(parser)
     parser.add_argument("--methods", type=_words, help="dopri5,bdf,...; those that suit the scene")
     parser.add_argument("--rtols", type=_numbers, help="1e-4,1e-8,...; 1e-4 to 1e-12 if not said")
     parser.add_argument(

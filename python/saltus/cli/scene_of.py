@@ -90,11 +90,17 @@ def chosen_scene(name: str, settings: dict[str, Any]) -> Chosen:
     return _of_shelf(name, settings)
 
 
+def _split(settings: dict[str, Any], known: set[str]) -> tuple[dict[str, Any], dict[str, Any]]:
+    """The settings of the scene's own parameters, and those of the context."""
+    own = {name: value for name, value in settings.items() if name in known}
+    return own, {name: value for name, value in settings.items() if name not in known}
+
+
 def _of_shelf(name: str, settings: dict[str, Any]) -> Chosen:
     usual = scene(name)
     known = set(usual.parameters)
-    made = scene(name, **{n: v for n, v in settings.items() if n in known}) if known else usual
-    rest = {n: v for n, v in settings.items() if n not in known}
+    own, rest = _split(settings, known)
+    made = scene(name, **own) if known else usual
     context = _with_values(made.context, rest, known)
     same = made if not rest else None
     return Chosen(
@@ -111,11 +117,9 @@ def _of_shelf(name: str, settings: dict[str, Any]) -> Chosen:
 
 def _of_file(file: FileScene, settings: dict[str, Any]) -> Chosen:
     known = set(file.parameters)
-    own = {n: v for n, v in settings.items() if n in known}
+    own, rest = _split(settings, known)
     scene = file.with_parameters(**own) if own else file
-    context = _with_values(
-        scene.context, {n: v for n, v in settings.items() if n not in known}, known
-    )
+    context = _with_values(scene.context, rest, known)
     return Chosen(
         scene.name,
         scene.title,
@@ -147,7 +151,7 @@ def _own(name: str, settings: dict[str, Any]) -> Chosen:
     arguments: set[str] = set()
     if not isinstance(found, (System, Scene)) and callable(found):
         arguments = _arguments_of(found, settings, name)
-        found = _made(found, {n: v for n, v in settings.items() if n in arguments}, name)
+        found = _made(found, _split(settings, arguments)[0], name)
     if isinstance(found, Scene):
         context, span, options = found.context, found.t_span, found.options
         system: System = found.system
@@ -158,7 +162,7 @@ def _own(name: str, settings: dict[str, Any]) -> Chosen:
         raise ModelError(
             f"'{name}': expected a system, or a function that makes one, found {found!r}"
         )
-    rest = {n: v for n, v in settings.items() if n not in arguments}
+    rest = _split(settings, arguments)[1]
     if not options.recorded_signals:
         ports = {port.name: port for port in system.output_ports}
         options = replace(options, recorded_signals=ports)

@@ -8,7 +8,7 @@ from typing import Any
 
 from saltus.errors import ModelError
 
-__all__ = ["add_options", "add_scene", "options_of", "settings_of"]
+__all__ = ["add_options", "add_scene", "add_span", "options_of", "settings_of"]
 
 
 def add_scene(parser: argparse.ArgumentParser) -> None:
@@ -28,11 +28,15 @@ def add_scene(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def add_options(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--t-begin", type=float, metavar="T", help="[s] 0 if nobody says")
+def add_span(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--t-begin", type=float, metavar="T", help="[s] 0 if not said")
     parser.add_argument(
-        "--t-end", type=float, metavar="T", help="[s] that of the scene if not said"
+        "--t-end", "--until", type=float, metavar="T", help="[s] that of the scene if not said"
     )
+
+
+def add_options(parser: argparse.ArgumentParser) -> None:
+    add_span(parser)
     parser.add_argument(
         "--method", metavar="NAME", help="auto, dopri5, dop853, adams, bdf, radau or taylor"
     )

@@ -100,7 +100,9 @@ def _points(varied: dict[str, list[Any]], paired: bool) -> Iterator[dict[str, An
 def _row(
     chosen: argparse.Namespace, first: Chosen, settings: dict[str, Any], values: dict[str, Any]
 ) -> dict[str, Any]:
-    """One run, as `saltus run` makes it with these settings. `values` are those that vary."""
+    """One run with these settings, which include the values that vary. `saltus run` with the same
+    settings gives the same result.
+    """
     scene = first.again(chosen.scene, settings)
     scene = scene.with_span(chosen.t_begin, chosen.t_end)
     overrides = _recording(chosen, scene) | options_of(chosen)

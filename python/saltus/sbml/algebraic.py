@@ -8,6 +8,7 @@ from typing import Any
 from saltus.errors import ModelError
 from saltus.sbml.kinds import assigned_by_events
 from saltus.sbml.quantities import Declared
+from saltus.sbml.walk import VARIABLES, Walk
 
 __all__ = ["names_in", "solved", "unknowns"]
 
@@ -100,13 +101,12 @@ class _NotLinear(Exception):
     pass
 
 
-class _Linear:
+class _Linear(Walk[Row]):
     """Nodes as linear functions of the unknowns."""
 
     def __init__(self, graph: Any, count: int):
-        self.graph = graph
-        self.done: dict[int, Row] = {int(graph.input(0, k)): ({k: self.one}, self.zero)
-                                     for k in range(count)}  # fmt: skip
+        super().__init__(graph)
+        self.done = {int(graph.input(0, k)): ({k: self.one}, self.zero) for k in range(count)}
 
     @property
     def zero(self) -> int:
@@ -116,16 +116,11 @@ class _Linear:
     def one(self) -> int:
         return int(self.graph.constant(1.0))
 
-    def of(self, node: int) -> Row:
-        if node not in self.done:
-            self.done[node] = self.made(node)
-        return self.done[node]
-
     def made(self, node: int) -> Row:
         if self.graph.value(node) is not None:
             return {}, node
         op, operands = self.graph.operation(node)
-        if op in ("time", "continuous_state", "discrete_state", "parameter"):
+        if op in VARIABLES:
             return {}, node
         parts = [self.of(one) for one in operands]
         if not any(row for row, _ in parts):

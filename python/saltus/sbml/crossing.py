@@ -23,14 +23,21 @@ zero: roundings move the zeros of a parabola by their square root
 
 
 def crossing(
-    program: Any, time: float, x: Any, z: Any, p: Any, fired: int | None = None
+    program: Any,
+    time: float,
+    x: Any,
+    z: Any,
+    p: Any,
+    now: np.ndarray,
+    fired: int | None = None,
 ) -> np.ndarray:
     """1 for a difference that becomes positive at this instant by the flow, -1 for one that becomes
-    negative, 0 for the others.
+    negative, 0 for the others. The differences have the values `now`.
 
-    One crosses if it changes its sign within `SAME_TIME` around the instant, on the tangent of the
-    states, or if its roundings hide that, or those of the one that `fired`, by which the instant
-    was located.
+    A difference crosses zero at this instant in two cases. It has different signs `SAME_TIME`
+    before and after the instant, where the states move along their tangents. Or it is so small that
+    roundings can hide the change of its sign: its own, or those of the difference that `fired`, by
+    which the instant was located.
     """
     scale = max(1.0, abs(time))
     near, short = SAME_TIME * scale, SHORT * scale
@@ -42,7 +49,6 @@ def crossing(
     with np.errstate(all="ignore"):
         rates = evaluated(program.flow, time, x, z, p) if len(x) else np.zeros(0)
         before, after = (np.sign(numbers(program.differences, d)) for d in (-near, near))
-        now = numbers(program.differences, 0.0)
         change = numbers(program.differences, short) - now
         noise = ROUNDINGS * sys.float_info.epsilon * numbers(program.sizes_of_terms, 0.0)
         steep = np.isfinite(change) & (np.abs(change) > noise)

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import Any
 
 from saltus.errors import ModelError
+from saltus.sbml.walk import VARIABLES, Walk
 
 __all__ = ["along"]
 
@@ -21,10 +22,10 @@ def along(graph: Any, node: int, rate: Callable[[str, int], int], name: str) -> 
     return _Derivative(graph, rate, name).of(node)
 
 
-class _Derivative:
+class _Derivative(Walk[int]):
     def __init__(self, graph: Any, rate: Callable[[str, int], int], name: str):
-        self.graph, self.rate, self.name = graph, rate, name
-        self.done: dict[int, int] = {}
+        super().__init__(graph)
+        self.rate, self.name = rate, name
 
     def apply(self, op: str, *operands: int) -> int:
         return int(self.graph.apply(op, *operands))
@@ -32,16 +33,11 @@ class _Derivative:
     def constant(self, value: float) -> int:
         return int(self.graph.constant(value))
 
-    def of(self, node: int) -> int:
-        if node not in self.done:
-            self.done[node] = self.made(node)
-        return self.done[node]
-
     def made(self, node: int) -> int:
         if self.graph.value(node) is not None:
             return self.constant(0.0)
         op, operands = self.graph.operation(node)
-        if op in ("time", "continuous_state", "discrete_state", "parameter"):
+        if op in VARIABLES:
             return self.rate(op, operands[0] if operands else 0)
         if op == "select":
             return self.apply("select", operands[0], self.of(operands[1]), self.of(operands[2]))

@@ -61,8 +61,16 @@ class Instant:
         """A difference crossed zero, upwards for entry k < n, downwards for n + k; or an execution
         is due, for 2 n.
         """
-        n = len(self.sides)
         self.differences = self._differences(self.time)
+        self._cross(*self._turned(entry))
+        self._run()
+        self._return()
+
+    def _turned(self, entry: int) -> tuple[np.ndarray, np.ndarray]:
+        """The new sides at this instant, 0 where there is none, and whether one that was taken
+        before is confirmed now.
+        """
+        n = len(self.sides)
         k, sign = (entry % n, 1.0 if entry < n else -1.0) if entry < 2 * n else (None, 0.0)
         flow = self._crossing(k)
         new = np.where(np.sign(self.sides) == flow, 0.0, TAKEN * flow)
@@ -71,15 +79,13 @@ class Instant:
         if k is not None and not rounding:
             again[k] = self.sides[k] == TAKEN * sign
             new[k] = sign
-        self._cross(new, again)
-        self._run()
-        self._return()
+        return new, again
 
     def _crossing(self, fired: int | None = None) -> np.ndarray:
         """The sides to which the flow takes differences at this instant, 0 for the others."""
         if not len(self.sides):
             return np.zeros(0)
-        return crossing(self.program, self.time, self.x, self.z, self.p, fired)
+        return crossing(self.program, self.time, self.x, self.z, self.p, self.differences, fired)
 
     def _cross(self, new: np.ndarray, again: np.ndarray) -> None:
         """New sides. Those of equalities are zero first, but not `again`."""
@@ -192,7 +198,8 @@ class Instant:
         self.queue.remove(one)
         event = self.program.events[one.event]
         values = self._evaluated(event.values) if one.values is None else one.values
-        before = {name: self._size(tape) for name, tape in self.program.sizes.items()}
+        sizes = self.program.sizes
+        before = {name: self._size(sizes[name]) for name in event.targets if name in sizes}
         kept = {name: self._size(tape) for name, tape in self.program.kept.items()}
         for target, value in zip(event.targets, values, strict=True):
             self._put(target, value * before.get(target, 1.0))

@@ -16,20 +16,15 @@ except ImportError:
         "install it: pip install 'saltus[sbml]'"
     ) from None
 
+from saltus.sbml.checks import require_consistent, require_no_errors, warn_of_units
+
 __all__ = ["model_of"]
 
 KNOWN_PACKAGES = ("comp", "l3v2extendedmath")
 PICTURES = ("layout", "render")
 """packages that say how a model is drawn; libsbml calls those of level 2 required"""
-MOST_MESSAGES = 5
 DEEPEST = 300
 """nested operations of a formula; the walks through one take some frames of Python for each"""
-UNCHECKED = (libsbml.LIBSBML_CAT_UNITS_CONSISTENCY, libsbml.LIBSBML_CAT_MODELING_PRACTICE)
-MOST_RULES = 100
-"""Of libsbml's general checks, that for rings takes time as the fourth power of a chain of rules:
-0.05 s for a hundred, 10 s for four hundred. Rings are found here in any case."""
-HARMLESS = {libsbml.MissingXMLDecl, libsbml.MissingXMLEncoding, libsbml.BadXMLDecl}
-"""XML needs no declaration; libsbml asks for one, and reads the file without it"""
 
 
 def model_of(source: str | os.PathLike[str]) -> tuple[Any, Any]:
@@ -40,7 +35,7 @@ def model_of(source: str | os.PathLike[str]) -> tuple[Any, Any]:
     elements that have no time course here.
     """
     document, name = _document(source)
-    _require_no_errors(document, name)
+    require_no_errors(document, name)
     if document.getModel() is None:
         raise ModelError(f"{name}: expected a <model>, found none")
     _flatten(document, name)
@@ -48,7 +43,8 @@ def model_of(source: str | os.PathLike[str]) -> tuple[Any, Any]:
     model = document.getModel()
     _require_ordinary(model, name)
     _require_shallow(model, name)
-    _require_consistent(document, name)
+    require_consistent(document, name)
+    warn_of_units(document, name)
     return document, model
 
 
@@ -66,34 +62,6 @@ def _document(source: str | os.PathLike[str]) -> tuple[Any, str]:
     return libsbml.readSBMLFromFile(str(path)), str(path)
 
 
-def _require_no_errors(document: Any, name: str) -> None:
-    """libsbml's own messages, by line."""
-    log = (document.getError(i) for i in range(document.getNumErrors()))
-    found = [
-        error
-        for error in log
-        if error.getSeverity() >= libsbml.LIBSBML_SEV_ERROR and error.getErrorId() not in HARMLESS
-    ]
-    if not found:
-        return
-    lines = [f"line {e.getLine()}: {' '.join(e.getMessage().split())}" for e in found]
-    more = len(lines) - MOST_MESSAGES
-    shown = "\n  ".join(lines[:MOST_MESSAGES]) + (f"\n  and {more} more" if more > 0 else "")
-    raise ModelError(f"{name}: libsbml finds errors; correct them:\n  {shown}")
-
-
-def _require_consistent(document: Any, name: str) -> None:
-    """What the specification forbids, as libsbml checks it; units and style are not checked."""
-    document.getErrorLog().clearLog()
-    model = document.getModel()
-    ruled = model.getNumRules() + model.getNumInitialAssignments()
-    general = () if ruled <= MOST_RULES else (libsbml.LIBSBML_CAT_GENERAL_CONSISTENCY,)
-    for kind in (*UNCHECKED, *general):
-        document.setConsistencyChecks(kind, False)
-    document.checkConsistency()
-    _require_no_errors(document, name)
-
-
 def _require_shallow(model: Any, name: str) -> None:
     """No formula that is nested deeper than the walks through it may be."""
     elements = model.getListOfAllElements()
@@ -101,11 +69,7 @@ def _require_shallow(model: Any, name: str) -> None:
         each = elements.get(i)
         tree = each.getMath() if hasattr(each, "getMath") else None
         if tree is not None and _deeper(tree, DEEPEST):
-            label = (
-                f"{each.getElementName()} '{each.getId()}'"
-                if each.getId()
-                else (f"{each.getElementName()}")
-            )
+            label = each.getElementName() + (f" '{each.getId()}'" if each.getId() else "")
             raise ModelError(
                 f"{name}: line {each.getLine()}: {label}: expected a formula of at most {DEEPEST} "
                 "nested operations, found a deeper one; write a long sum or product as one "

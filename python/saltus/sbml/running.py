@@ -11,6 +11,7 @@ from saltus.errors import ModelError
 from saltus.sbml.derivative import along
 from saltus.sbml.kinds import Kinds
 from saltus.sbml.scope import Scope
+from saltus.sbml.walk import Flows, TimeAlone
 
 __all__ = ["RunningScope"]
 
@@ -35,7 +36,7 @@ class RunningScope(Scope):
         self.zero_below: set[int] = set()
         self.zero_above: set[int] = set()
         """numbers of the differences of which a formula counts zero to the lower or upper side"""
-        self._moving: dict[int, bool] = {}
+        self.flows, self.only_time = Flows(graph).of, TimeAlone(graph).of
 
     def time(self) -> int:
         return int(self.graph.time())
@@ -90,34 +91,6 @@ class RunningScope(Scope):
             self.zero_above.add(k)
         side = self.graph.discrete_state(self.first_side + k)
         return self.apply(op, side, self.graph.constant(0.0))
-
-    def flows(self, node: int) -> bool:
-        """Whether a node changes between instants."""
-        if node not in self._moving:
-            self._moving[node] = self._flows(node)
-        return self._moving[node]
-
-    def _flows(self, node: int) -> bool:
-        if self.graph.value(node) is not None:
-            return False
-        op, operands = self.graph.operation(node)
-        if op in ("discrete_state", "parameter"):
-            return False
-        if op in ("time", "continuous_state", "input"):
-            return True
-        for one in operands:
-            if self.flows(one):
-                return True
-        return False
-
-    def only_time(self, node: int) -> bool:
-        """Whether a node changes with the time alone between instants."""
-        if self.graph.value(node) is not None:
-            return True
-        op, operands = self.graph.operation(node)
-        if op in ("discrete_state", "parameter", "time"):
-            return True
-        return op != "continuous_state" and all(map(self.only_time, operands))
 
     def size_of_terms(self, node: int) -> int:
         """A node for the size of the terms of a node: |a| + |b| for a - b."""

@@ -184,14 +184,9 @@ class Scope:
 
 
 def _placed(error: ModelError, name: str) -> ModelError:
+    """The error with the id whose formula it is about; the innermost id is named."""
     text = str(error)
-    return (
-        error
-        if text.startswith("'") and "in the formula" in text
-        else ModelError(
-            f"'{name}': in the formula: {text}" if "in the formula" not in text else text
-        )
-    )
+    return error if "in the formula" in text else ModelError(f"'{name}': in the formula: {text}")
 
 
 class InitialScope(Scope):
@@ -212,14 +207,9 @@ class InitialScope(Scope):
 
     def _given(self, name: str) -> int:
         found = self.declared.quantities[name]
-        value = int(
-            self.graph.constant(usual(found.kind) if math.isnan(found.value) else found.value)
-        )
-        if (
-            found.kind != "species"
-            or found.given_amount == found.substance
-            or (math.isnan(found.value))
-        ):
+        unset = math.isnan(found.value)
+        value = int(self.graph.constant(usual(found.kind) if unset else found.value))
+        if unset or found.kind != "species" or found.given_amount == found.substance:
             return value
         size = self.value(found.compartment)
         return self.apply("mul" if found.substance else "div", value, size)

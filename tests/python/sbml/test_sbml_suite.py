@@ -21,6 +21,7 @@ REASONS = ("is fast", "a delay of a value")
 
 
 @pytest.mark.skipif(not CASES.exists(), reason=f"no cases of the SBML test suite at {CASES}")
+@pytest.mark.filterwarnings("ignore:.*units do not fit")
 def test_every_case_passes_or_is_refused_by_name(tmp_path):
     folder = CASES
     if CASES.suffix == ".zip":
