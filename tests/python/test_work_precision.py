@@ -184,6 +184,34 @@ def test_json_gives_the_same_table_back(table, tmp_path):
         saltus.WorkPrecision.from_json("{")
 
 
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        (lambda data: data.pop("scene"), "expected 'scene', a text; found none"),
+        (lambda data: data.update(growth="x"), "'growth': expected a number, found 'x'"),
+        (lambda data: data["rows"].append(7), "row 6: expected an object, found 7"),
+        (lambda data: data["rows"][1].pop("rtol"), "row 1: expected 'rtol', a number; found none"),
+        (lambda data: data["rows"][0].update(steps=10**400), "row 0: 'steps': expected a number"),
+        (lambda data: data["orders"].update(dopri5=[]), "orders: 'dopri5': expected a number"),
+        (lambda data: data["reference"].pop("kind"), "reference: expected 'kind'"),
+    ],
+)
+def test_a_report_with_a_wrong_field_is_refused_by_its_name(table, tmp_path, change, message):
+    table.to_json(tmp_path / "swing.json")
+    data = json.loads((tmp_path / "swing.json").read_text())
+    change(data)
+    with pytest.raises(saltus.ModelError, match=f"a report in JSON: {message}"):
+        saltus.WorkPrecision.from_json(json.dumps(data))
+
+
+def test_a_report_that_is_no_text_is_refused(tmp_path):
+    (tmp_path / "bytes.json").write_bytes(b'{"format": "\xff"}')
+    with pytest.raises(saltus.ModelError, match=r"a report in JSON: .*utf-8"):
+        saltus.WorkPrecision.from_json(tmp_path / "bytes.json")
+    with pytest.raises(saltus.ModelError, match="a report in JSON"):
+        saltus.WorkPrecision.from_json('{"format": ' + "[" * 100_000)
+
+
 def test_csv_gives_the_same_numbers_back(table, tmp_path):
     table.to_csv(tmp_path / "swing.csv")
     text = (tmp_path / "swing.csv").read_text()

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from saltus.errors import ModelError
+from saltus.report.fields import require_report
 
 if TYPE_CHECKING:
     import pandas  # type: ignore[import-untyped,import-not-found,unused-ignore]
@@ -106,17 +107,17 @@ class WorkPrecision(Sequence[dict[str, Any]]):
         Raises
         ------
         ModelError
-            For anything else.
+            For anything else; it names the field.
         """
         is_text = isinstance(source, str) and source.lstrip().startswith("{")
-        text = str(source) if is_text else Path(source).read_text()
         try:
-            data = json.loads(text)
-        except json.JSONDecodeError as error:
+            data = json.loads(str(source) if is_text else Path(source).read_text(encoding="utf-8"))
+        except (ValueError, RecursionError) as error:  # no UTF-8, no JSON, or nested without end
             raise ModelError(f"a report in JSON: {error}") from None
         found = data.get("format") if isinstance(data, dict) else type(data).__name__
         if found != FORMAT:
             raise ModelError(f"a report in JSON: expected format {FORMAT!r}, found {found!r}")
+        require_report(data)
         return cls(data)
 
     def to_json(self, path: str | PathLike[str]) -> None:

@@ -1,4 +1,4 @@
-"""Damages what the loaders read: results files, contexts as pickles, as dicts and as JSON.
+"""Damages what the loaders read: results files, reports, contexts as pickles, dicts and JSON.
 
 A loader answers with a ModelError, or with something that is used as an undamaged one is: rows and
 events are read, and a short run goes on from the context. Any other exception is a failure; a crash
@@ -75,6 +75,11 @@ class Seed:
         self.context = results.context
         self.state = as_lists(results.context.__getstate__())
         self.json = results.context.to_json()
+        report = saltus.work_precision(
+            saltus.scene("bouncing-ball"), methods=["dopri5"], rtols=[1e-4], least_time=0.0
+        )
+        report.to_json(path)
+        self.report = json.loads(path.read_text())
 
 
 def as_lists(tree: Any) -> Any:
@@ -229,6 +234,11 @@ def load_dict(seed: Seed, data: Any, folder: Path) -> None:
         use_context(seed.system, _core.context_from_dict(seed.system, data))
 
 
+def load_report(text: str) -> None:
+    report = saltus.WorkPrecision.from_json(text)
+    repr(report), report._repr_html_(), report.methods
+
+
 def some_array_damaged(seed: Seed, draw: random.Random) -> bytes:
     arrays = dict(seed.arrays)
     name = draw.choice(list(arrays))
@@ -250,6 +260,7 @@ KINDS: dict[str, Callable[[Seed, random.Random, Path], None]] = {
     "json": lambda s, d, f: load_json(
         s, damage_bytes(s.json.encode(), d).decode("utf-8", "surrogateescape"), f
     ),
+    "report": lambda s, d, f: load_report(json.dumps(damage_fields(s.report, d))),
 }
 
 
