@@ -2,9 +2,9 @@
 
     ./dev new-block NAME [GROUP]
 
-NAME is the class, such as DeadZone; GROUP is one of arithmetic, discrete, linear,
-logic, sources, state. The files are checked before any of them is written: a block that is there
-already is refused.
+NAME is the class, such as DeadZone; GROUP is a name in SECTIONS, that of a file of bindings and of
+one in Python. The files are checked before any of them is written: a block that is there already is
+refused.
 """
 
 from __future__ import annotations
@@ -15,7 +15,18 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
-GROUPS = ["arithmetic", "discrete", "linear", "logic", "sources", "state"]
+SECTIONS = {
+    "arithmetic": "Arithmetic",
+    "discrete": "Discrete",
+    "discrete_linear": "Discrete",
+    "linear": "Linear",
+    "logic": "Logic",
+    "mechanics": "State",
+    "signals": "Sources",
+    "sources": "Sources",
+    "state": "State",
+}
+"""the group -> its section in docs/blocks.md"""
 
 HEADER = """\
 // y = u, elementwise.
@@ -134,7 +145,7 @@ def with_python_name(text: str, name: str, group: str) -> str:
 
 def with_row(text: str, row: str, group: str) -> str:
     """The row at the end of the first table of a section of docs/blocks.md."""
-    heading = text.index(f"\n## {group.capitalize()}\n")
+    heading = text.index(f"\n## {SECTIONS[group]}\n")
     table = text.index("\n| --- ", heading)
     end = re.compile(r"\n(?!\|)").search(text, table + 1)
     assert end
@@ -189,7 +200,7 @@ def places(root: Path, name: str, group: str) -> dict[Path, str]:
 def main(arguments: list[str]) -> None:
     parser = argparse.ArgumentParser(prog="./dev new-block", description=__doc__.split("\n")[0])
     parser.add_argument("name", help="the class, such as DeadZone")
-    parser.add_argument("group", nargs="?", default="arithmetic", choices=GROUPS)
+    parser.add_argument("group", nargs="?", default="arithmetic", choices=SECTIONS)
     given = parser.parse_args(arguments)
     if not re.fullmatch(r"([A-Z][a-z0-9]*)+", given.name):
         raise SystemExit(f"{given.name!r} is no name of a class; give one such as DeadZone")

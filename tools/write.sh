@@ -22,5 +22,9 @@ format() {  # [--check]: which names the files that are not formatted, and says 
   [ "${1:-}" = --check ] && check=(--check)
   find include src bindings tests examples bench -name '*.[ch]pp' -print0 \
     | xargs -0 .venv/bin/clang-format ${check:+--dry-run --Werror} -i
-  .venv/bin/ruff format --quiet "${check[@]}" .
+  if ((${#check[@]})); then
+    .venv/bin/ruff format --check . | grep -v 'already formatted'; ((PIPESTATUS[0] == 0))
+  else
+    .venv/bin/ruff format --quiet .
+  fi
 }
