@@ -43,8 +43,8 @@ DECLARATIONS = {
     "grad_guard": "Saltus computes no gradients; leave it out",
 }
 OUTPUTS = DECLARATIONS | {
-    "period": "put a ZeroOrderHold behind the output",
-    "offset": "put a ZeroOrderHold behind the output",
+    "period": "put a RateTransition behind the output",
+    "offset": "put a RateTransition behind the output",
 }
 CALLED = {
     "period": "dt",

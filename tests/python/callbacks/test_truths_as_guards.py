@@ -122,3 +122,49 @@ def test_a_relation_by_a_truth():
         )  # fmt: skip
         y = results.outputs["y"]
         assert (y[0], y[-1]) == (1.0, 0.0)
+
+
+# A ball that falls from 5 m, g = 10 m/s^2, each impact keeps 0.8 of the speed; or its mirror image
+# below a ceiling. Impacts at 1 s, and after flights of 2 * 0.8^k s.
+IMPACTS = np.cumsum([1.0, 1.6, 1.28, 1.024, 0.8192])
+BOUNCES = {
+    "above the floor": (1.0, lambda x: x > 0.0, "falling"),
+    "below the floor": (1.0, lambda x: x < 0.0, "rising"),
+    "in both directions": (1.0, lambda x: x >= 0.0, "both"),
+    "below the ceiling": (-1.0, lambda x: x < 0.0, "falling"),
+    "above the ceiling": (-1.0, lambda x: x > 0.0, "rising"),
+}
+
+
+def bounced(up, x):
+    return [up * abs(x[0]), -0.8 * x[1]]
+
+
+@pytest.mark.parametrize("python", ["traced", "called"])
+@pytest.mark.parametrize("name", BOUNCES)
+@pytest.mark.parametrize("method", ["auto", "dopri5", "dop853", "adams", "bdf", "radau"])
+def test_a_ball_bounces_on_a_truth(name, method, python):
+    up, truth, direction = BOUNCES[name]
+    ball = saltus.LeafSystem(name="ball")
+    ball.declare_continuous_state(
+        [5.0 * up, 0.0], ode=lambda t, s: [s.continuous_state[1], -10.0 * up]
+    )
+    ball.declare_zero_crossing(
+        lambda t, s: truth(s.continuous_state[0]),
+        lambda t, s: s.with_continuous_state(bounced(up, s.continuous_state)),
+        name="bounce",
+        direction=direction,
+    )
+    found = saltus.simulate(ball, (0.0, 6.0), ode_solver_method=method, python=python, **FINE)
+    # A flight errs by its tolerance in each of some tens of steps, divided by the speed of the
+    # impact, above 3.
+    assert found.events.times("bounce") == pytest.approx(IMPACTS, abs=1e-7)
+    assert up * found.context.continuous_state[0] >= 0.0
+
+
+@pytest.mark.parametrize("name", BOUNCES)
+def test_so_it_does_in_solve(name):
+    up, truth, direction = BOUNCES[name]
+    bounce = Guard(lambda t, x: truth(x[0]), lambda t, x: bounced(up, x), direction)
+    found = solve(lambda t, x: [x[1], -10.0 * up], (0, 6), [5.0 * up, 0.0], events=bounce, **FINE)
+    assert found.t_events[0] == pytest.approx(IMPACTS, abs=1e-7)

@@ -47,7 +47,7 @@ def test_default_name_is_class_and_id():
         ),
         (
             lambda s: s.declare_output_port(len, period=0.1),
-            "declare_output_port: no option 'period': put a ZeroOrderHold behind the output",
+            "declare_output_port: no option 'period': put a RateTransition behind the output",
         ),
         (
             lambda s: s.declare_output_port(len, reads=["mood"]),
