@@ -1,5 +1,8 @@
 // What does a diagram of blocks cost, against the same equations in one leaf? The ball, the ball
 // with drag, both with six bounces, and Van der Pol's oscillator; same method, same tolerance.
+// `diagram drag blocks dopri5 1000` makes a thousand runs of one side, for a profiler or to count
+// instructions.
+#include <cstring>
 #include <saltus/library/library.hpp>
 
 #include "ball.hpp"
@@ -100,31 +103,53 @@ Runner van_der_pol_leaf(Method method) {
   return {leaf, leaf->create_context(), 100.0, with(method)};
 }
 
-void compare(bench::Sheet& sheet, const std::string& scene, Method method, Runner leaf,
-             Runner blocks) {
+/// A scene, as one leaf and as a diagram.
+struct Sides {
+  const char* name;
+  Runner (*leaf)(Method);
+  Runner (*blocks)(Method);
+};
+
+const Ball parabola, drag{.k = 9.81 / 400.0};
+
+const std::vector<Sides> scenes{{"ball", [](Method method) { return ball_leaf(parabola, method); },
+                                 [](Method method) { return ball_blocks(parabola, method); }},
+                                {"drag", [](Method method) { return ball_leaf(drag, method); },
+                                 [](Method method) { return ball_blocks(drag, method); }},
+                                {"van der pol", van_der_pol_leaf, van_der_pol_blocks}};
+
+void compare(bench::Sheet& sheet, const Sides& scene, Method method) {
+  Runner leaf = scene.leaf(method), blocks = scene.blocks(method);
   const auto times = bench::interleave({[&] { leaf(); }, [&] { blocks(); }}, 51);
   const auto &a = leaf.statistics(), &b = blocks.statistics();
-  sheet.add({{"scene", scene},
+  sheet.add({{"scene", scene.name},
              {"method", to_string(method)},
              {"leaf [us]", times[0].time * 1e6},
              {"blocks [us]", times[1].time * 1e6},
              {"ratio", times[1].ratio},
              {"steps of leaf", a.steps},
              {"steps of blocks", b.steps}});
-  sheet.target(text(scene, ", ", to_string(method), ": blocks against the leaf"), times[1].ratio,
-               1.6);
-  sheet.target(text(scene, ", ", to_string(method), ": steps that blocks add"),
+  sheet.target(text(scene.name, ", ", to_string(method), ": blocks against the leaf"),
+               times[1].ratio, 1.6);
+  sheet.target(text(scene.name, ", ", to_string(method), ": steps that blocks add"),
                static_cast<double>(b.steps - a.steps), 0.0);
+}
+
+/// For a profiler: runs only one side of one scene, repeatedly.
+int only(const std::string& name, const char* side, Method method, int runs) {
+  const auto scene = std::ranges::find(scenes, name, &Sides::name);
+  const bool blocks = std::strcmp(side, "blocks") == 0;
+  if (scene == scenes.end() || (!blocks && std::strcmp(side, "leaf") != 0)) return 2;
+  Runner run = (blocks ? scene->blocks : scene->leaf)(method);
+  for (int i = 0; i < runs; ++i) run();
+  return 0;
 }
 
 }  // namespace
 
-int main() {
+int main(int argc, char** argv) {
+  if (argc == 5) return only(argv[1], argv[2], method_from(argv[3]), std::atoi(argv[4]));
   bench::Sheet sheet("diagram", "What does a diagram of blocks cost, against one leaf?");
-  const Ball parabola, drag{.k = 9.81 / 400.0};
-  for (const Method method : {Method::dopri5, Method::dop853}) {
-    compare(sheet, "ball", method, ball_leaf(parabola, method), ball_blocks(parabola, method));
-    compare(sheet, "drag", method, ball_leaf(drag, method), ball_blocks(drag, method));
-    compare(sheet, "van der pol", method, van_der_pol_leaf(method), van_der_pol_blocks(method));
-  }
+  for (const Method method : {Method::dopri5, Method::dop853})
+    for (const Sides& scene : scenes) compare(sheet, scene, method);
 }

@@ -168,7 +168,7 @@ int PastWriter::level_at(const AcceptedStep& step, int echo) const {
   if (!step.after_instant) return -1;
   const bool jumped = jumps(step);
   const bool kink = !jumped && echo > last_break_level && has_kink(step);
-  return break_level(true, jumped, echo, kink);
+  return break_level(jumped, echo, kink);
 }
 
 void PastWriter::open_next() {

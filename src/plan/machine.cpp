@@ -33,7 +33,8 @@ Machine::Machine(std::shared_ptr<const Plan> plan)
     lone_ode_ = &calls_.odes.front();
   if (lone_ode_ != nullptr && !reads_states(plan_->leaf(lone_ode_->leaf))) {
     const RightHandSide& ode = plan_->leaf(lone_ode_->leaf).declared().continuous.ode;
-    if (ode.steps != nullptr && lone_ode_->function == &ode.function) inlined_ = &ode;
+    if (ode.steps != nullptr && lone_ode_->function == &ode.function)
+      inlined_ = {&ode, lone_ode_->system, lone_ode_->at};
   }
   select_guards();
 }

@@ -22,6 +22,7 @@ void sort(std::vector<Action>& actions) {
 }  // namespace
 
 bool Collector::take_contacts() {
+  if (present_->firings.empty()) return false;
   bool let_go = false;
   std::erase_if(present_->firings, [&](const Firing& firing) {
     const ContactGuards::Taken taken = contacts_->take(firing);
@@ -34,10 +35,10 @@ bool Collector::take_contacts() {
 
 bool Collector::flip_relations() {
   bool flipped = false;
-  for (GuardNow& now : present_->now) now.fired_in_pass = false;
+  present_->open_pass();
   for (const Firing& firing : present_->firings) {
     const std::size_t k = firing.guard();
-    present_->now[k].fired = present_->now[k].fired_in_pass = true;
+    present_->fires_in_pass(k);
     guards_->fired(k, firing.from);
     if (plan_->guard((*guards_)[k].group).is_crossing()) continue;
     relations_->flip(firing);

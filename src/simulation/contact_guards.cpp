@@ -97,7 +97,7 @@ void ContactGuards::arm_crossing(std::size_t k) {
   const Guard& guard = (*guards_)[k];
   const Departure::Side flow = flow_->side(group_of(k), static_cast<Index>(k), 0.0, 0);
   const SurfaceContact* known = contacts_.on(static_cast<int>(k));
-  const double before = present_->now[k].fired ? present_->error_so_far(k)
+  const double before = present_->now(k).fired ? present_->error_so_far(k)
                         : known                ? known->error
                                                : guard.error;
   if (SurfaceContact* contact = contact_of(k))
@@ -111,7 +111,7 @@ void ContactGuards::arm_relation(std::size_t k) {
   double error = known ? known->error : 0.0;
   if (!opaque && !(known && known->carried)) {
     const Departure::Side flow = flow_->side(group_of(k), static_cast<Index>(k), 0.0, 0);
-    const double fired = present_->now[k].fired ? present_->error_so_far(k) : 0.0;
+    const double fired = present_->now(k).fired ? present_->error_so_far(k) : 0.0;
     error = contact_error(flow.rounding, present_->g[k], std::max(error, fired));
   }
   guards_->wait(k, (*guards_)[k].side, error);

@@ -80,7 +80,7 @@ bool ContactGuards::still_at_rest(std::size_t k) {
 
 void ContactGuards::keep_relations_of(int edge) {
   for (const std::size_t k : scope_->deciders[edge]) {
-    present_->now[k].frozen = true;
+    present_->note(k).frozen = true;
     guards_->keep_truth(k, true);
   }
 }
@@ -90,7 +90,7 @@ void ContactGuards::keep_relations_of(int edge) {
 void ContactGuards::release_unseen() {
   for (const std::size_t k : scope_->crossings) {
     Holds::Hold& hold = holds_->of_guard(k);
-    if (!hold.monitor.holding || present_->now[k].fired_in_pass || (*guards_)[k].active) continue;
+    if (!hold.monitor.holding || present_->now(k).fired_in_pass || (*guards_)[k].active) continue;
     leave(k);
     holds_->release(hold);
   }
@@ -99,7 +99,7 @@ void ContactGuards::release_unseen() {
 void ContactGuards::release_kicked() {
   for (const std::size_t k : scope_->crossings) {
     Holds::Hold& hold = holds_->of_guard(k);
-    if (!holds_->kicked(hold) || present_->now[k].fired_in_pass) continue;
+    if (!holds_->kicked(hold) || present_->now(k).fired_in_pass) continue;
     leave(k);
     holds_->release(hold);
     guards_->turn(k, 0);

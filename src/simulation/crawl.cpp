@@ -16,7 +16,7 @@ void Crawl::begin(double t) {
 }
 
 /// A window is full: the looks ahead start if it took little time.
-bool Crawl::start(double t, double length_of_run) {
+void Crawl::start(double t, double length_of_run) {
   const double took = t - since_;
   if (took < thresholds::crawl_share * length_of_run) {
     looking_ = true, compared_ = reversals_ = 0;
@@ -24,7 +24,6 @@ bool Crawl::start(double t, double length_of_run) {
   } else {
     steps_ = 0, since_ = t;
   }
-  return false;
 }
 
 /// The derivative at a state that the solution need not reach: false if it is not defined there.
@@ -39,7 +38,7 @@ bool Crawl::found_at(double t, const Eigen::VectorXd& x, Eigen::VectorXd& f) {
   }
 }
 
-bool Crawl::compare(double t, const Eigen::VectorXd& x) {
+bool Crawl::found(double t, const Eigen::VectorXd& x) {
   machine_->derivative(t, x.data(), f_from_.data());
   high_ = x + ahead_ * f_from_;
   ++compared_;

@@ -31,13 +31,13 @@ CrossingFacts CrossingArming::facts_of(std::size_t k, bool at_start) const {
           .error = guard.error,
           .at_start = at_start,
           .entered = transition_->entered_mode() && !guard.was_active,
-          .put_at_zero = present_->now[k].put_at_zero,
-          .fired = present_->now[k].fired,
+          .put_at_zero = present_->now(k).put_at_zero,
+          .fired = present_->now(k).fired,
           .came_from = guard.came_from,
           .effect = crossing.has_effect(),
           .reset = static_cast<bool>(crossing.reset_map),
           .resets = transition_->effects(),
-          .jumped = present_->now[k].jumped};
+          .jumped = present_->now(k).jumped};
 }
 
 /// The facts about guard k that the decisions ask the flow for.
@@ -57,7 +57,7 @@ struct CrossingArming::Ask {
   /// error. The height of a parabola is its slope times a quarter of its time. The slope is bounded
   /// from above: a slope that is lost in its rounding is no reason to rest.
   bool too_low() const {
-    const double flight = arming->present_->now[k].flight;
+    const double flight = arming->present_->now(k).flight;
     if (std::isnan(flight) || !arming->transition_->wrote_x()) return false;
     return flow().speed_from(before(), *group, slot(), flight) * flight <= 4.0 * error;
   }
@@ -184,7 +184,7 @@ bool CrossingArming::goes_against(const Firing& firing) {
     return false;
   // A guard that was clearly off zero in between has a true root.
   if (!group.is_opaque() && !firing.at_zero) return false;
-  const double location = present_->now[k].location;
+  const double location = present_->now(k).location;
   const Departure::Side flow = flow_->side_within(present_->t - guard.armed_at, group,
                                                   static_cast<Index>(k), location, -firing.from);
   if (flow.side != firing.from) return false;

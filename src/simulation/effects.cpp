@@ -5,12 +5,12 @@ namespace saltus {
 
 void Effects::run(const Action& action) {
   if (action.cause == Cause::zeno) return transition_->enter_mode(action.leaf, action.from);
-  journal_->cause(journal_->source_of(action.cause, action.index));
-  action.cause == Cause::time ? run_update(action) : run_reset(action);
+  const int source = journal_->source_of(action.cause, action.index);
+  journal_->cause(source);
+  action.cause == Cause::time ? run_update(action, source) : run_reset(action, source);
 }
 
-void Effects::run_update(const Action& action) {
-  const int source = journal_->source_of(action.cause, action.index);
+void Effects::run_update(const Action& action, int source) {
   const TimeEvent& event = plan_->time_event_of(plan_->scheduled(action.index));
   if (event.update)
     transition_->run({&event.update, action.leaf, 0, present_->t, journal_->name_of(source)});
@@ -27,8 +27,7 @@ Effects::Effect Effects::effect_of(const Action& action) {
 }
 
 /// Runs the effect of a zero crossing or an edge.
-void Effects::run_reset(const Action& action) {
-  const int source = journal_->source_of(action.cause, action.index);
+void Effects::run_reset(const Action& action, int source) {
   const Effect effect = effect_of(action);
   Holds::Hold& hold = *effect.hold;
   if (effect.any() && !action.carry) holds_->fired(hold, present_->t);

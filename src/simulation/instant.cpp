@@ -18,7 +18,7 @@ void Instant::open(double t, const std::vector<int>& due, double longest) {
   before_.guards = guards_->all(), before_.roots = present_.firings, before_.jump = jump_;
   for (const Firing& root : present_.firings) {
     const std::size_t k = root.guard();
-    GuardNow& now = present_.now[k];
+    GuardNow& now = present_.note(k);
     now.jumped = root.jump > 0.0 && root.jump > crossings_.uncertainty(k);  // else: rounding
     now.location = location_error(guards_->g[k], now.jumped);
     if (root.at_zero && !now.jumped) now.flight = t - (*guards_)[k].armed_at;
@@ -111,13 +111,13 @@ void Instant::find_next() {
     const double g = present_.g[k];
     if (!plan().guard(guard.group).is_crossing()) continue;
     if (holds_.of_guard(k).monitor.holding) {
-      if (!present_.now[k].fired_in_pass) contacts_.look_at_held(k);  // else it just came to rest
-    } else if (present_.now[k].fired_in_pass) {
+      if (!present_.now(k).fired_in_pass) contacts_.look_at_held(k);  // else it just came to rest
+    } else if (present_.now(k).fired_in_pass) {
       guards_->turn(k, sign_of(g));
       guards_->set_base(k, g);
     } else if (!guard.monitor && guard.crossed(g)) {
       // Its side does not change: the flow decides when integration continues (3.4).
-      if (present_.now[k].put_at_zero = crossings_.is_at_zero(k); !present_.now[k].put_at_zero)
+      if (present_.note(k).put_at_zero = crossings_.is_at_zero(k); !present_.now(k).put_at_zero)
         present_.fire(k, guard.side);
     } else {
       guards_->see(k, g);
@@ -138,7 +138,7 @@ void Instant::arm(bool at_start) {
       contacts_.arm_crossing(k);
     else
       crossings_.arm(k, at_start);
-    guards_->mark_armed_at(k, present_.now[k].fired && guard.at_zero() ? present_.t : not_armed);
+    guards_->mark_armed_at(k, present_.now(k).fired && guard.at_zero() ? present_.t : not_armed);
   }
 }
 

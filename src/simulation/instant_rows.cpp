@@ -30,7 +30,7 @@ void InstantRows::put_back_what_does_not_follow() {
   const Plan& plan = machine_->plan();
   follows_.assign(plan.nodes.size(), 0);
   for (const std::size_t k : scope_->relations) {
-    if (present_->now[k].fired_in_pass) follows_[plan.guard((*guards_)[k].group).index] = 1;
+    if (present_->now(k).fired_in_pass) follows_[plan.guard((*guards_)[k].group).index] = 1;
   }
   for (const int i : plan.order) {
     const Node& node = plan.node(i);

@@ -38,18 +38,6 @@ void Integration::begin() {
   inside_ = machine_->x;
 }
 
-StopReason Integration::advance(double& t, double t_stop) {
-  guards_->monitors.clear();
-  if (still() && guards_->active().all.empty()) {
-    t = t_stop;
-    return StopReason::stop_time;
-  }
-  if (!started_) start(t);
-  const StopReason reason = solver_->advance(t_stop);
-  t = solver_->time();
-  return reason;
-}
-
 void Integration::start(double t) {
   if (!solver_) make();
   solver_->restart(t, machine_->x, {.first = true});

@@ -54,11 +54,12 @@ void Journal::begin() {
 void Journal::open(double t) {
   t_ = t, events_ = 0;
   chain_.clear();
-  counts_minus_ = counts_, logged_ = results_->events.size();
+  counted_.clear(), logged_ = results_->events.size();
 }
 
 void Journal::undo() {
-  counts_ = counts_minus_;
+  for (const int source : counted_) --counts_[source];
+  counted_.clear();
   results_->statistics.events -= events_;
   results_->events.shorten(logged_);
 }
@@ -82,8 +83,10 @@ const std::string& Journal::name_of(int source) const {
 void Journal::note(const Entry& entry) {
   ++results_->statistics.events, ++events_;
   last_source_ = entry.source;
-  if (entry.kind != EventKind::zeno_enter && entry.kind != EventKind::zeno_release)
+  if (entry.kind != EventKind::zeno_enter && entry.kind != EventKind::zeno_release) {
     ++counts_[entry.source];
+    counted_.push_back(entry.source);
+  }
   add(entry, t_, jump_, machine_->x.data(), transition_->next().data());
 }
 

@@ -52,7 +52,7 @@ void Relations::begin(double t) {
 void Relations::flip(const Firing& firing) {
   const std::size_t k = firing.guard();
   const Guard& guard = (*guards_)[k];
-  if (++present_->now[k].flips == thresholds::fluttering_flips) present_->outcome.flutters = true;
+  if (++present_->note(k).flips == thresholds::fluttering_flips) present_->outcome.flutters = true;
   truth(k) = firing.from < 0 ? 1.0 : 0.0;
   guards_->turn(k, firing.from < 0 ? 1 : -1);
   journal_->note({.kind = EventKind::zero_crossing,
@@ -80,7 +80,7 @@ void Relations::read_again() {
 /// keeps its truth until `arm` asks the flow. After it fired and a reset wrote, the flow decides
 /// its side.
 bool Relations::read(const GuardGroup& group, std::size_t k) {
-  GuardNow& now = present_->now[k];
+  const GuardNow& now = present_->now(k);
   if (now.frozen || ((*guards_)[k].rests && !reads_changed(group.index))) return false;
   if (contacts_->still_at_rest(k)) return false;
   const bool was = truth(k) != 0.0;
@@ -97,7 +97,7 @@ bool Relations::read(const GuardGroup& group, std::size_t k) {
   guards_->turn(k, side);
   if ((side > 0) == was) return false;
   guards_->keep_truth(k, false);
-  now.turned = true;
+  present_->note(k).turned = true;
   contacts_->leave(k);
   truth(k) = side > 0 ? 1.0 : 0.0;
   if (!machine_->plan().restarting.empty()) flow_->forget();
@@ -110,7 +110,7 @@ bool Relations::read(const GuardGroup& group, std::size_t k) {
 int Relations::side_by_flow(const GuardGroup& group, std::size_t k, int crossed_to) {
   const auto slot = static_cast<Index>(k);
   const bool opaque = group.is_opaque();
-  GuardNow& now = present_->now[k];
+  const GuardNow& now = present_->now(k);
   const Departure::Side flow =
       flow_->side(group, slot, opaque ? 0.0 : now.location, opaque ? 0 : Departure::either_side);
   const auto leads_back = [&] {
@@ -119,7 +119,7 @@ int Relations::side_by_flow(const GuardGroup& group, std::size_t k, int crossed_
   const bool set_off = flow.side == crossed_to && edges_->set_off_by(group.index);
   const RelationSide then = decide_relation_side(flow.side, crossed_to, set_off, leads_back);
   if (!then.rests) return then.side;
-  now.frozen = true;
+  present_->note(k).frozen = true;
   if (holds_->hold_edges(edges_->fired(), group.index)) {
     guards_->keep_truth(k, true);
     return flow.side;
@@ -145,7 +145,7 @@ void Relations::arm(std::size_t k) {
   const Guard& guard = (*guards_)[k];
   if (guard.rests) return contacts_->arm_relation(k);
   const GuardGroup& group = machine_->plan().guard(guard.group);
-  const GuardNow& now = present_->now[k];
+  const GuardNow& now = present_->now(k);
   const int side = guard.side;
   switch (decide_relation_arming(group.is_opaque(), sign_of(present_->g[k]), side, now.fired,
                                  now.frozen)) {

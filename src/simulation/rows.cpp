@@ -14,8 +14,7 @@ void Rows::renew() {
     recorder_.emplace(*machine_, *results_, options_->event_rows ? nullptr : &options_->save_at);
 }
 
-void Rows::record_step(double from, double t, int jump, Integration& integration) {
-  if (!recorder_) return;
+void Rows::record_rows(double from, double t, int jump, Integration& integration) {
   const auto& wanted = options_->save_at;
   while (next_ < wanted.size() && wanted[next_] < from) ++next_;
   for (; next_ < wanted.size() && wanted[next_] <= t; ++next_) {

@@ -57,15 +57,15 @@ void Run::initialize(const Context& context) {
   require_context_of(plan(), context);
   if (context.continuation() != nullptr) instant_.fits(*context.continuation());
   calendar_.check(context.time());
-  begin_ = {};  // no run, if a function of the model throws now
+  Context last = std::exchange(begin_, {});  // no run, if a function of the model throws now
   machine_.load(context);
-  begin_ = context;
+  last = context;  // in the memory of the last run's
+  begin_ = std::move(last);
   time_ = context.time();
   results_.time.clear(), results_.jump.clear();
   results_.statistics = {}, results_.message.clear();
   results_.block.clear(), results_.cause = nullptr, results_.status = Status::reached_end;
   rows_.begin();
-  results_.trajectory = {};
   if (options_.dense_output) results_.trajectory.start(machine_.shared_plan(), begin_, options_);
   calendar_.begin(time_, context.settled());
   integration_.begin();
@@ -169,10 +169,11 @@ Status Run::step(double t_end) {
   accepted_.settled = false;
   accepted_.place = integration_.started() ? Place::solver : Place::machine;
   if (options_.dense_output) keep_step(from);
-  log_monitors();
+  if (!guards_.monitors.empty()) log_monitors();
   rows_.record_step(from, time_, instant_.jump(), integration_);
   if (histories_.any()) keep_histories(from);
-  if (integration_.started() && crawl_.found(time_, integration_.state(), t_end - begin_.time()))
+  if (integration_.started() && crawl_.looks(time_, t_end - begin_.time()) &&
+      crawl_.found(time_, integration_.state()))
     return end_crawl();
   if (reason == StopReason::step) return Status::reached_end;
   return settle(reason, t_end, false);

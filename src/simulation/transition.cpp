@@ -7,21 +7,41 @@
 
 namespace saltus {
 
+namespace {
+
+/// Copies numbers between vectors of one size, which Eigen's assignment would compare and resize.
+void copy(const Eigen::VectorXd& from, Eigen::VectorXd& to) {
+  std::copy_n(from.data(), from.size(), to.data());
+}
+
+}  // namespace
+
+Transition::Transition(Machine& machine)
+    : machine_(&machine),
+      x_minus_(machine.x.size()),
+      z_minus_(machine.z.size()),
+      y_minus_(machine.y.size()),
+      x_next_(machine.x.size()),
+      z_next_(machine.z.size()) {}
+
 void Transition::open() {
-  pass_wrote_ = entered_ = restarts_ = false;
+  pass_wrote_ = entered_ = restarts_ = wrote_mode_ = false;
   effects_ = 0;
-  x_minus_ = x_next_ = machine_->x, z_minus_ = machine_->z, y_minus_ = machine_->y;
-  modes_minus_ = machine_->modes;
+  copy(machine_->x, x_minus_), copy(machine_->x, x_next_);
+  copy(machine_->z, z_minus_), copy(machine_->y, y_minus_);
+  modes_next_ = machine_->modes;
 }
 
 void Transition::undo() {
-  machine_->x = x_minus_, machine_->z = z_minus_, machine_->y = y_minus_;
-  machine_->modes = modes_minus_;
+  copy(x_minus_, machine_->x), copy(z_minus_, machine_->z), copy(y_minus_, machine_->y);
+  if (entered_) machine_->modes = modes_minus_;
 }
 
+/// The modes to come are the present ones already, unless the last pass wrote one.
 void Transition::begin_pass() {
-  pass_wrote_ = false;
-  x_next_ = machine_->x, z_next_ = machine_->z, modes_next_ = machine_->modes;
+  copy(machine_->x, x_next_), copy(machine_->z, z_next_);
+  if (wrote_mode_) modes_next_ = machine_->modes;
+  pass_wrote_ = wrote_mode_ = false;
 }
 
 namespace {
@@ -54,7 +74,9 @@ bool Transition::run(const Call& call) {
   pass_wrote_ = pass_wrote_ || x || z;
   effects_ += x;
   restarts_ = restarts_ || x || (z && derivatives_read(Reads::discrete_state, call.leaf));
-  return x || z || modes_next_[number] != mode;
+  const bool entered = modes_next_[number] != mode;
+  wrote_mode_ = wrote_mode_ || entered;
+  return x || z || entered;
 }
 
 /// A held output that depends on z only is found by its value. An output that also reads x or t is
@@ -71,9 +93,9 @@ bool Transition::derivatives_read(Reads kind, int number) const {
 }
 
 bool Transition::commit() {
-  machine_->x = x_next_;
-  machine_->z = z_next_;
-  if (modes_next_ == machine_->modes) return false;
+  copy(x_next_, machine_->x), copy(z_next_, machine_->z);
+  if (!wrote_mode_ || modes_next_ == machine_->modes) return false;
+  if (!entered_) modes_minus_ = machine_->modes;
   modes_before_ = machine_->modes;
   machine_->modes = modes_next_;
   return entered_ = restarts_ = true;

@@ -1,6 +1,7 @@
 // Crossings that are counted: a reset map that writes discrete state only leaves the guard where it
 // is, at zero. Each crossing fires once, at its time.
 #include "support/cases.hpp"
+#include "support/oscillator.hpp"
 
 using namespace saltus;
 using namespace support;
@@ -12,10 +13,7 @@ const double pi = std::acos(-1.0);
 /// (sin t, cos t), and a count of the crossings of `level`. `reads`: what the ode reads.
 std::shared_ptr<Leaf> counted_oscillator(double level, Reads reads) {
   return make_leaf("leaf", [=](Leaf& l) {
-    l.declare_continuous_state(
-        {.initial = vec({0.0, 1.0}),
-         .ode = [](const At& at, VectorRef xdot) { xdot << at.x[1], -at.x[0]; },
-         .reads = reads});
+    declare_oscillator(l, {0.0, 1.0}, reads);
     l.declare_discrete_state(vec({0.0}));
     l.declare_zero_crossing({.name = "hit",
                              .guard = [=](const At& at) { return level - at.x[0]; },

@@ -1,6 +1,7 @@
 // Guards that vary faster than the state: a step of the method spans many of their periods, and
 // each pair of crossings is found.
 #include "support/cases.hpp"
+#include "support/oscillator.hpp"
 
 using namespace saltus;
 using namespace support;
@@ -14,9 +15,7 @@ constexpr double end = 12.0;
 /// the state as it is.
 std::shared_ptr<Leaf> oscillator(double frequency, double level, bool counts) {
   return make_leaf("leaf", [=](Leaf& l) {
-    l.declare_continuous_state(
-        {.initial = vec({0.0, 1.0}),
-         .ode = [](const At& at, VectorRef xdot) { xdot << at.x[1], -at.x[0]; }});
+    declare_oscillator(l);
     l.declare_discrete_state(vec({0.0}));
     l.declare_zero_crossing(
         {.name = "hit",
@@ -60,9 +59,7 @@ TEST_CASE("a guard that no look resolves does not end the looks at the others", 
   // A monitor that is noise, and never zero, beside one with three periods in a second.
   const auto method = GENERATE(from_range(methods));
   const auto leaf = make_leaf("leaf", [](Leaf& l) {
-    l.declare_continuous_state(
-        {.initial = vec({0.0, 1.0}),
-         .ode = [](const At& at, VectorRef xdot) { xdot << at.x[1], -at.x[0]; }});
+    declare_oscillator(l);
     l.declare_zero_crossing({.name = "noise", .guard = [](const At& at) {
                                return 1e-3 * std::sin(1.2e9 * at.time) + 2e-3;
                              }});

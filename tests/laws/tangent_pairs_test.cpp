@@ -1,6 +1,7 @@
 // Guards that touch zero, or dip through it for a moment: sin t - 1, pairs of crossings 1e-3 apart,
 // a ball that grazes the ceiling.
 #include "support/cases.hpp"
+#include "support/oscillator.hpp"
 
 using namespace saltus;
 using namespace support;
@@ -13,9 +14,7 @@ const double pi = std::acos(-1.0);
 template <class Guard>
 std::shared_ptr<Leaf> oscillator(Guard guard, bool counts) {
   return make_leaf("leaf", [=](Leaf& l) {
-    l.declare_continuous_state(
-        {.initial = vec({0.0, 1.0}),
-         .ode = [](const At& at, VectorRef xdot) { xdot << at.x[1], -at.x[0]; }});
+    declare_oscillator(l);
     l.declare_discrete_state(vec({0.0}));
     l.declare_zero_crossing(
         {.name = "hit", .guard = guard, .reset_map = counts ? ResetMap(count_up) : ResetMap()});

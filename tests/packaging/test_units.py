@@ -35,7 +35,6 @@ ELSEWHERE = {
     "simulation/detail/integration": None,
     "simulation/detail/option_table": "unit/options_test.cpp",
     "simulation/detail/poles": "laws/poles_test.cpp",
-    "simulation/detail/present": "unit/error_bound_test.cpp",
     "simulation/detail/rows": "laws/rows_test.cpp",
     "simulation/detail/run": "semantics/results_resume_test.cpp",
     "simulation/detail/thresholds": None,

@@ -2,15 +2,14 @@
 #pragma once
 
 #include "support/cases.hpp"
+#include "support/oscillator.hpp"
 
 namespace support {
 
 /// x' = y, y' = -x: the circle (cos t, -sin t).
 inline std::shared_ptr<Leaf> circle() {
   return make_leaf("circle", [](Leaf& l) {
-    l.declare_continuous_state(
-        {.initial = vec({1.0, 0.0}),
-         .ode = [](const saltus::At& at, saltus::VectorRef xdot) { xdot << at.x[1], -at.x[0]; }});
+    declare_oscillator(l, {1.0, 0.0});
     l.declare_continuous_state_output("x");
     l.declare_output_port({.name = "square", .calc = [](const saltus::At& at) {
                              return at.x[0] * at.x[0] + at.time;

@@ -24,7 +24,7 @@ std::pair<bool, Crawl::Jump> slides(F f, double step = 1e-9, double length = 1.0
   for (int i = 0; i < 10000; ++i) {
     t += step;
     const double x = (i % 2 == 0 ? 1.0 : -1.0) * step;  // from one side of zero to the other
-    if (crawl.found(t, vec({x}), length)) return {true, crawl.jump()};
+    if (crawl.looks(t, length) && crawl.found(t, vec({x}))) return {true, crawl.jump()};
   }
   return {false, {}};
 }

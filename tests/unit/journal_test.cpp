@@ -131,6 +131,26 @@ TEST_CASE("the events of an instant are counted anew, those of the run go on", "
   CHECK(run.results.events.empty());
 }
 
+TEST_CASE("undo takes back the events of an instant, and no earlier one", "[journal]") {
+  Events run;
+  run.fire(0), run.fire(1);
+  const double x = 0.0;
+  Guard guard{};
+  guard.group = 1;
+  run.journal.note_monitor({2.5, {1, -1}}, guard, 4, &x);  // between two instants
+  run.journal.open(3.0);
+  run.fire(0), run.fire(0);
+  run.journal.note({.kind = EventKind::zeno_enter, .source = 0, .leaf = 0});
+  run.journal.undo();
+  const std::vector<std::pair<std::string, std::int64_t>> expected{{"leaf.wall", 1},
+                                                                   {"leaf.last", 2}};
+  CHECK(run.journal.counts() == expected);
+  CHECK(run.results.events.size() == 3);
+  CHECK(run.results.statistics.events == 2);
+  run.journal.open(3.0), run.fire(0);  // the instant again
+  CHECK(run.journal.counts()[0].second == 2);
+}
+
 TEST_CASE("without a log the events are counted all the same", "[journal]") {
   Events run({.record_events = false});
   run.fire(0);

@@ -54,14 +54,13 @@ Numbers grid(double end, int n) {
 
 TEST_CASE("which steps begin with a break of a past", "[library][transport_delay]") {
   using detail::break_level;
-  // after an instant, the signal jumped, level that the delay itself made; level of the break
-  CHECK(break_level(false, false, 0, false) == -1);
-  CHECK(break_level(true, false, 0, false) == 0);
-  CHECK(break_level(true, false, 3, false) == 3);
-  CHECK(break_level(true, false, detail::last_break_level, false) == detail::last_break_level);
-  CHECK(break_level(true, false, detail::last_break_level + 1, false) == -1);
-  CHECK(break_level(true, true, detail::last_break_level + 1, false) == 0);
-  CHECK(break_level(true, false, detail::last_break_level + 1, true) == detail::last_break_level);
+  // the signal jumped, the level that the delay itself made, it has a kink; the level of the break
+  CHECK(break_level(false, 0, false) == 0);
+  CHECK(break_level(false, 3, false) == 3);
+  CHECK(break_level(false, detail::last_break_level, false) == detail::last_break_level);
+  CHECK(break_level(false, detail::last_break_level + 1, false) == -1);
+  CHECK(break_level(true, detail::last_break_level + 1, false) == 0);
+  CHECK(break_level(false, detail::last_break_level + 1, true) == detail::last_break_level);
 }
 
 /// A line is its own polynomial: only rounding is left. Its kink at 1 s is one at 1.3 s.

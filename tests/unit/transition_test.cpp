@@ -158,6 +158,30 @@ TEST_CASE("the modes before are those before the last commit that changed any", 
   CHECK(leaves.transition.modes_before() == std::vector{1, 0});
 }
 
+TEST_CASE("undo gives back states and modes of before the instant, after any number of passes",
+          "[transition]") {
+  const int passes = GENERATE(0, 1, 2, 3);
+  TwoLeaves leaves;
+  for (int pass = 1; pass <= passes; ++pass) {
+    leaves.transition.enter_mode(0, pass), leaves.run(add_one), leaves.run(write_z, 1);
+    leaves.transition.commit(), leaves.transition.begin_pass();
+  }
+  leaves.transition.enter_mode(1, 5), leaves.run(write_double);  // this pass does not end
+  leaves.transition.undo();
+  CHECK(leaves.machine.x == vec({1.0, 1.0}));
+  CHECK(leaves.machine.z == vec({10.0, 10.0}));
+  CHECK(leaves.machine.modes == List<int>(2, 0));
+  leaves.transition.open(), leaves.transition.begin_pass();
+  CHECK_FALSE(leaves.transition.commit());  // nothing is left of the mode of that pass
+}
+
+TEST_CASE("a mode that a pass leaves and enters again has not changed", "[transition]") {
+  TwoLeaves leaves;
+  leaves.transition.enter_mode(0, 3), leaves.transition.enter_mode(0, 0);
+  CHECK_FALSE(leaves.transition.commit());
+  CHECK_FALSE(leaves.transition.entered_mode());
+}
+
 TEST_CASE("a value has changed if it differs from before the instant, not from before the pass",
           "[transition]") {
   TwoLeaves leaves;

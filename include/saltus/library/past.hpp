@@ -16,10 +16,9 @@ namespace saltus::detail {
 /// as long as the signal has a kink.
 inline constexpr int last_break_level = 4;
 
-/// The level of the break with which a step begins, or -1 if there is none. `echo` is the level
-/// that the delay itself made in the instant before the step, or 0.
-constexpr int break_level(bool after_instant, bool jumped, int echo, bool has_kink) {
-  if (!after_instant) return -1;
+/// The level of the break with which a step after an instant begins, or -1 if there is none. `echo`
+/// is the level that the delay itself made in that instant, or 0.
+constexpr int break_level(bool jumped, int echo, bool has_kink) {
   if (jumped) return 0;
   if (echo <= last_break_level) return echo;
   return has_kink ? last_break_level : -1;

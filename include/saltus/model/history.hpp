@@ -9,8 +9,8 @@
 
 namespace saltus {
 
-/// An accepted step of the run, for whoever keeps a history of it. The held signals, the discrete
-/// states and the modes are those of the whole step.
+/// A step that the run has accepted, as the `append` of a History gets it. The held signals, the
+/// discrete states and the modes are those of the whole step.
 struct AcceptedStep {
   double from, to;     ///< [s]
   bool after_instant;  ///< something changed in the instant at `from`, or the run began there

@@ -74,8 +74,9 @@ class Machine : public Memory {
     const At* at = nullptr;
   };
   Inlined inlined() {
-    if (inlined_ == nullptr || resting_.any() || carrier_ != nullptr) return {};
-    return {inlined_, lone_ode_->system, &arguments_.of(x.data()).at(*lone_ode_, 0.0)};
+    if (inlined_.function == nullptr || resting_.any() || carrier_ != nullptr) return {};
+    lone_ode_->at->mode = modes[lone_ode_->leaf];
+    return inlined_;
   }
 
   /// Derivative and guards at exactly this state, even while a block is carried.
@@ -180,7 +181,7 @@ class Machine : public Memory {
   /// If this is the only ode, and it needs no computed values, it is called without a walk.
   const Call* lone_ode_ = nullptr;
   const GuardCall* lone_guard_ = nullptr;
-  const RightHandSide* inlined_ = nullptr;
+  Inlined inlined_;                   // without a function: no step may call it directly
   std::vector<int> active_, called_;  // groups that can fire, and those of them that are not fused
   RestingStates resting_;
   int functions_ = 0;           // how often they were replaced

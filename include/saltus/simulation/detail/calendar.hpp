@@ -40,9 +40,9 @@ class Calendar {
     }
   }
 
-  /// [s] the next time event; infinite if there is none. Where ticks differ by rounding only, the
-  /// instant has the time of one that is counted, because that of a state carries the roundings of
-  /// the instants before.
+  /// [s] The time of the next time event; infinite if there is none. Some ticks are counted, others
+  /// follow from a discrete state. Where such ticks differ by rounding only, this is the time of the
+  /// counted one, because a discrete state carries the roundings of the instants before it.
   double next() const {
     double counted = infinite, any = infinite;
     for (std::size_t i = 0; i < tick_.size(); ++i) {

@@ -25,10 +25,14 @@ class Crawl {
 
   /// A run, or a piece of it, begins at t.
   void begin(double t);
-  /// After a step to (t, x). Returns true if the derivative jumps where the solution is.
-  bool found(double t, const Eigen::VectorXd& x, double length_of_run) {
-    return looking_ ? compare(t, x) : ++steps_ >= window_ && start(t, length_of_run);
+  /// After a step to t: whether its end has to be looked at, with `found`.
+  bool looks(double t, double length_of_run) {
+    if (looking_) return true;
+    if (++steps_ >= window_) start(t, length_of_run);
+    return false;
   }
+  /// Looks at the end (t, x) of a step. Returns true if the derivative jumps where the solution is.
+  bool found(double t, const Eigen::VectorXd& x);
 
   /// The jump: which state, its derivative on both sides, the steps counted, and the time they
   /// took.
@@ -41,9 +45,8 @@ class Crawl {
   const Jump& jump() const noexcept { return jump_; }
 
  private:
-  bool start(double t, double length_of_run);
+  void start(double t, double length_of_run);
   bool found_at(double t, const Eigen::VectorXd& x, Eigen::VectorXd& f);
-  bool compare(double t, const Eigen::VectorXd& x);
   /// The state whose derivative has different signs here and ahead, and changes most; -1 if none.
   Index reverses() const;
   bool jumps(double t, const Eigen::VectorXd& x, Index state);

@@ -33,8 +33,8 @@ class Effects {
     bool any() const { return *map || end_mode != nullptr; }
   };
 
-  void run_update(const Action& action);
-  void run_reset(const Action& action);
+  void run_update(const Action& action, int source);
+  void run_reset(const Action& action, int source);
   Effect effect_of(const Action& action);
   bool write(const Effect& effect, int leaf, const std::string& source);
   void note(const Action& action, int source);

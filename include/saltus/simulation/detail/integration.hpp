@@ -22,7 +22,17 @@ class Integration {
   bool started() const noexcept { return started_; }
   /// Takes one minor step from t [s] to t_stop at most, and sets t to its end. Where no state moves
   /// and no guard can fire, t becomes t_stop.
-  StopReason advance(double& t, double t_stop);
+  StopReason advance(double& t, double t_stop) {
+    guards_->monitors.clear();
+    if (still() && guards_->active().all.empty()) {
+      t = t_stop;
+      return StopReason::stop_time;
+    }
+    if (!started_) start(t);
+    const StopReason reason = solver_->advance(t_stop);
+    t = solver_->time();
+    return reason;
+  }
   /// After an instant that changed f or x: begins anew from the machine's state, if at work.
   void restart(double t, const Start& start) {
     if (started_) solver_->restart(t, machine_->x, start);

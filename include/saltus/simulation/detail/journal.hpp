@@ -78,11 +78,11 @@ class Journal {
   double t_ = 0.0;
   int jump_ = 0, events_ = 0;
   int last_source_ = -1;
-  List<std::int64_t> counts_;               // events of each source, in this run
-  std::vector<std::int64_t> counts_minus_;  // before this instant
-  std::size_t logged_ = 0;                  // events in the log before this instant
-  std::vector<std::int64_t> earlier_;       // firings of each guard before this run
-  std::vector<int> chain_;                  // sources of the events of this instant
+  List<std::int64_t> counts_;          // events of each source, in this run
+  std::vector<int> counted_;           // the sources of those counted in this instant
+  std::size_t logged_ = 0;             // events in the log before this instant
+  std::vector<std::int64_t> earlier_;  // firings of each guard before this run
+  std::vector<int> chain_;             // sources of the events of this instant
 };
 
 }  // namespace saltus

@@ -1,9 +1,9 @@
 // Present: the results of the parts of an instant so far. Each part reads them and adds its own.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "saltus/simulation/detail/error_bound.hpp"
@@ -54,18 +54,41 @@ struct GuardNow {
   bool frozen = false;         ///< a relation: it keeps its side through this instant
   bool turned = false;         ///< a relation: its side changed when it was read again
   bool put_at_zero = false;    ///< the last commit moved it to zero, within its error
+  bool noted = false;          ///< it is in the list of guards with facts
 };
 
 /// The time of an instant, the time left of the run, and the findings pass by pass.
-struct Present {
-  explicit Present(std::size_t guards) : now(guards), g(guards, 1.0) {}
+class Present {
+ public:
+  explicit Present(std::size_t guards) : g(guards, 1.0), now_(guards) {}
 
-  /// An instant begins: nothing has been found yet.
+  /// An instant begins: nothing has been found yet. Guards without facts cost nothing.
   void open(double time, double rest_of_run) {
     t = time, longest = rest_of_run, pass = 0;
     firings.clear(), actions.clear();
-    std::ranges::fill(now, GuardNow{});
+    for (const std::size_t k : noted_) now_[k] = {};
+    noted_.clear(), fired_in_pass_.clear();
     outcome = {};
+  }
+  /// A pass begins: no guard has fired in it yet.
+  void open_pass() {
+    for (const std::size_t k : fired_in_pass_) now_[k].fired_in_pass = false;
+    fired_in_pass_.clear();
+  }
+
+  /// The facts about guard k.
+  const GuardNow& now(std::size_t k) const { return now_[k]; }
+  /// The same, to be written.
+  GuardNow& note(std::size_t k) {
+    GuardNow& now = now_[k];
+    if (!std::exchange(now.noted, true)) noted_.push_back(k);
+    return now;
+  }
+  /// Guard k fires in this pass.
+  void fires_in_pass(std::size_t k) {
+    GuardNow& now = note(k);
+    now.fired = now.fired_in_pass = true;
+    fired_in_pass_.push_back(k);
   }
 
   double t = 0.0;        ///< [s]
@@ -74,7 +97,6 @@ struct Present {
   bool changes = false;  ///< whether the pass to come changes something; else it only logs
   std::vector<Firing> firings = {};  ///< for the pass to come
   std::vector<Action> actions = {};  ///< likewise
-  std::vector<GuardNow> now;         ///< of each guard
   std::vector<double> g;             ///< the guards at (t, x)
   Outcome outcome = {};
 
@@ -84,11 +106,16 @@ struct Present {
   /// The error bound of a guard before the flow is asked.
   double error_so_far(std::size_t k, bool counts_as_zero = false) const {
     return saltus::error_so_far({.g = g[k],
-                                 .location = now[k].location,
-                                 .fired = now[k].fired,
-                                 .left_error = !std::isnan(now[k].flight),
+                                 .location = now_[k].location,
+                                 .fired = now_[k].fired,
+                                 .left_error = !std::isnan(now_[k].flight),
                                  .counts_as_zero = counts_as_zero});
   }
+
+ private:
+  std::vector<GuardNow> now_;
+  std::vector<std::size_t> noted_;          // guards with facts
+  std::vector<std::size_t> fired_in_pass_;  // guards that fired in this pass
 };
 
 }  // namespace saltus

@@ -28,13 +28,17 @@ class Rows {
     if (recorder_ && !recorder_->has_row(t, jump)) recorder_->record(t, jump, x);
   }
   /// Records the step from `from` to t: the rows at requested times, then the row at its end.
-  void record_step(double from, double t, int jump, Integration& integration);
+  void record_step(double from, double t, int jump, Integration& integration) {
+    if (recorder_) record_rows(from, t, jump, integration);
+  }
   /// Removes all rows but the first n.
   void shorten(std::size_t n) {
     if (recorder_) recorder_->shorten(n);
   }
 
  private:
+  void record_rows(double from, double t, int jump, Integration& integration);
+
   Machine* machine_;
   Results* results_;
   const SimulatorOptions* options_;

@@ -14,7 +14,7 @@ namespace saltus {
 /// values to come; `commit` makes them the present ones. This class knows nothing of guards.
 class Transition {
  public:
-  explicit Transition(Machine& machine) : machine_(&machine) {}
+  explicit Transition(Machine& machine);
 
   /// The instant begins: the present values are x-, z-, y-.
   void open();
@@ -35,7 +35,7 @@ class Transition {
   /// wrote to the states and the mode of its leaf (3.2, 3.3). Returns whether it had an effect: it
   /// wrote a state, or changed the mode.
   bool run(const Call& call);
-  void enter_mode(int leaf, int mode) { modes_next_[leaf] = mode; }
+  void enter_mode(int leaf, int mode) { modes_next_[leaf] = mode, wrote_mode_ = true; }
 
   /// The values to come become the present ones. Returns whether a mode changed.
   bool commit();
@@ -63,7 +63,9 @@ class Transition {
  private:
   Machine* machine_;
   Eigen::VectorXd x_minus_, z_minus_, y_minus_, x_next_, z_next_;
-  List<int> modes_next_, modes_before_, modes_minus_;
+  List<int> modes_next_, modes_before_;
+  List<int> modes_minus_;    // before the instant, once a commit has changed a mode
+  bool wrote_mode_ = false;  // in the last pass: modes_next_ may differ from the modes
   bool pass_wrote_ = false, entered_ = false, restarts_ = false;
   int effects_ = 0;
 };
