@@ -42,6 +42,8 @@ ELSEWHERE = {
     "solver/detail/cvode": None,
     "solver/detail/explicit_step": "unit/dopri5_test.cpp",
     "solver/detail/guard_search": "unit/locate_test.cpp",
+    "solver/detail/paced_search": "laws/fast_guards_test.cpp",
+    "solver/detail/piece_search": "unit/locate_test.cpp",
     "solver/detail/kernels": None,
     "solver/detail/look_points": None,
     "solver/detail/matrix_cost": None,
