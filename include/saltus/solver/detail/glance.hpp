@@ -9,7 +9,7 @@
 
 #include "saltus/base/list.hpp"
 #include "saltus/solver/detail/narrow.hpp"
-#include "saltus/solver/detail/thresholds.hpp"
+#include "saltus/solver/detail/search_thresholds.hpp"
 
 namespace saltus {
 

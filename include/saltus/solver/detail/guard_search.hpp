@@ -11,7 +11,7 @@
 #include "saltus/base/list.hpp"
 #include "saltus/solver/detail/look_points.hpp"
 #include "saltus/solver/detail/paced_search.hpp"
-#include "saltus/solver/detail/thresholds.hpp"
+#include "saltus/solver/detail/search_thresholds.hpp"
 
 namespace saltus {
 

@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include "saltus/solver/detail/thresholds.hpp"
+#include "saltus/solver/detail/search_thresholds.hpp"
 
 namespace saltus {
 

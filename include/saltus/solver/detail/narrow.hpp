@@ -9,6 +9,7 @@
 #include "saltus/base/list.hpp"
 #include "saltus/plan/detail/machine.hpp"
 #include "saltus/solver/detail/guard_set.hpp"
+#include "saltus/solver/detail/search_thresholds.hpp"
 #include "saltus/solver/detail/thresholds.hpp"
 
 namespace saltus {

@@ -9,6 +9,7 @@
 #include "saltus/solver/detail/look_pace.hpp"
 #include "saltus/solver/detail/piece_judge.hpp"
 #include "saltus/solver/detail/piece_search.hpp"
+#include "saltus/solver/detail/search_thresholds.hpp"
 #include "saltus/solver/detail/thresholds.hpp"
 
 namespace saltus {
@@ -92,8 +93,8 @@ class PacedSearch : protected PieceSearch {
   /// A piece that begins at `from` hides something. The pieces before it in this step were as long,
   /// so they may hide something too, even where no look showed it: looks that are too far apart may
   /// miss by chance how a guard varies. So the search goes back to where the first of these pieces
-  /// begins, with the looks of that point: this offset is returned, otherwise `from`. It does not go
-  /// back where shorter pieces were judged since, nor where the record of a guard has changed,
+  /// begins, with the looks of that point: this offset is returned, otherwise `from`. It does not
+  /// go back where shorter pieces were judged since, nor where the record of a guard has changed,
   /// because a crossing may have been noted.
   double back_from(double from) {
     if (records_may_differ_ || back_to_ == never || from == back_to_) return from;

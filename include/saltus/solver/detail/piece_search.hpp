@@ -7,6 +7,7 @@
 
 #include "saltus/base/list.hpp"
 #include "saltus/solver/detail/found_root.hpp"
+#include "saltus/solver/detail/search_thresholds.hpp"
 #include "saltus/solver/detail/thresholds.hpp"
 
 namespace saltus {

@@ -6,7 +6,7 @@ namespace saltus {
 /// The offsets of four looks. The parabola through the last three of them differs from the guard
 /// between the last two by at most
 ///
-///     max |g'''| / 6 |u - u1| |u - u2| |u - u3|  <=  |g[u0, u1, u2, u3]| (u3 - u1) (u3 - u2)^2 / 4,
+///     max |g'''| / 6 |u - u1| |u - u2| |u - u3| <= |g[u0, u1, u2, u3]| (u3 - u1) (u3 - u2)^2 / 4,
 ///
 /// if the third derivative does not vary (the error of interpolation; G. Dahlquist, A. Bjorck,
 /// "Numerical Methods", 1974, section 4.3.1). The divided difference g[...] is the guard's own.
