@@ -6,8 +6,8 @@
 #include "saltus/solver/detail/auto_solver.hpp"
 #include "saltus/solver/detail/one_step.hpp"
 #include "saltus/solver/detail/radau.hpp"
+#include "saltus/solver/detail/stiff_thresholds.hpp"
 #include "saltus/solver/detail/taylor.hpp"
-#include "saltus/solver/detail/thresholds.hpp"
 
 namespace saltus {
 

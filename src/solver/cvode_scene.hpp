@@ -10,8 +10,8 @@
 
 #include "linear/linear_system.hpp"
 #include "saltus/base/detail/forced_unwind.hpp"
+#include "saltus/solver/detail/cvode_thresholds.hpp"
 #include "saltus/solver/detail/guard_set.hpp"
-#include "saltus/solver/detail/thresholds.hpp"
 #include "sundials_compat.hpp"
 
 namespace saltus {

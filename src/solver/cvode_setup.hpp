@@ -6,7 +6,7 @@
 
 #include "cvode_scene.hpp"
 #include "saltus/solver/detail/cvode.hpp"
-#include "saltus/solver/detail/thresholds.hpp"
+#include "saltus/solver/detail/cvode_thresholds.hpp"
 #include "small_vector.hpp"
 #include "sundials_compat.hpp"
 

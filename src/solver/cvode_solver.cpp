@@ -10,12 +10,12 @@
 #include "cvode_scene.hpp"
 #include "cvode_setup.hpp"
 #include "saltus/solver/detail/cvode_start.hpp"
+#include "saltus/solver/detail/cvode_thresholds.hpp"
 #include "saltus/solver/detail/dopri5.hpp"
 #include "saltus/solver/detail/progress.hpp"
 #include "saltus/solver/detail/runge_kutta.hpp"
 #include "saltus/solver/detail/step_size.hpp"
 #include "saltus/solver/detail/step_solver.hpp"
-#include "saltus/solver/detail/thresholds.hpp"
 #include "sundials_compat.hpp"
 
 namespace saltus {

@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "saltus/solver/detail/colouring.hpp"
-#include "saltus/solver/detail/thresholds.hpp"
+#include "saltus/solver/detail/linear_thresholds.hpp"
 
 namespace saltus {
 

@@ -1,5 +1,6 @@
 // Jacobian: compressed differences, and the leaves' own Jacobians.
 #include "saltus/solver/detail/jacobian.hpp"
+#include "saltus/solver/detail/linear_thresholds.hpp"
 #include "saltus/solver/detail/thresholds.hpp"
 
 #include <algorithm>

@@ -7,7 +7,7 @@
 
 #include "saltus/base/detail/forced_unwind.hpp"
 #include "saltus/solver/detail/find_places.hpp"
-#include "saltus/solver/detail/thresholds.hpp"
+#include "saltus/solver/detail/linear_thresholds.hpp"
 
 namespace saltus {
 

@@ -3,7 +3,7 @@
 #include "../../src/solver/linear/krylov.hpp"
 
 #include "../../src/solver/linear/fill.hpp"
-#include "saltus/solver/detail/thresholds.hpp"
+#include "saltus/solver/detail/linear_thresholds.hpp"
 #include "support/catch.hpp"
 
 using namespace saltus;

@@ -5,7 +5,7 @@
 
 #include "fill.hpp"
 
-#include "saltus/solver/detail/thresholds.hpp"
+#include "saltus/solver/detail/linear_thresholds.hpp"
 
 namespace saltus {
 

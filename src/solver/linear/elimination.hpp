@@ -5,6 +5,7 @@
 
 #include "factorisation.hpp"
 #include "saltus/base/list.hpp"
+#include "saltus/solver/detail/linear_thresholds.hpp"
 #include "scalar.hpp"
 
 namespace saltus {

@@ -3,7 +3,7 @@
 
 #include "factorisation.hpp"
 
-#include "saltus/solver/detail/thresholds.hpp"
+#include "saltus/solver/detail/linear_thresholds.hpp"
 
 namespace saltus {
 

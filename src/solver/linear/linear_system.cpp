@@ -5,7 +5,7 @@
 
 #include <sunlinsol/sunlinsol_spgmr.h>
 
-#include "saltus/solver/detail/thresholds.hpp"
+#include "saltus/solver/detail/linear_thresholds.hpp"
 
 namespace saltus {
 

@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "saltus/base/list.hpp"
+#include "saltus/solver/detail/linear_thresholds.hpp"
 #include "saltus/solver/detail/matrix_cost.hpp"
-#include "saltus/solver/detail/thresholds.hpp"
 #include "scalar.hpp"
 
 namespace saltus {

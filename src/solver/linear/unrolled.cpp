@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "elimination.hpp"
-#include "saltus/solver/detail/thresholds.hpp"
+#include "saltus/solver/detail/linear_thresholds.hpp"
 
 namespace saltus {
 

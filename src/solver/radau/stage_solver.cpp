@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "saltus/solver/detail/linear_thresholds.hpp"
 #include "saltus/solver/detail/radau.hpp"
 #include "saltus/solver/detail/radau/tuning.hpp"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "saltus/solver/detail/thresholds.hpp"
+#include "saltus/solver/detail/cvode_thresholds.hpp"
 
 namespace saltus {
 

@@ -7,6 +7,7 @@
 
 #include "saltus/solver/detail/glance.hpp"
 #include "saltus/solver/detail/guard_polynomials.hpp"
+#include "saltus/solver/detail/search_thresholds.hpp"
 #include "saltus/solver/detail/thresholds.hpp"
 
 namespace saltus {

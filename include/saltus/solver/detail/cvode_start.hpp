@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "saltus/solver/detail/cvode_thresholds.hpp"
 #include "saltus/solver/detail/thresholds.hpp"
 
 namespace saltus::cvode {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "saltus/solver/detail/dip_search.hpp"
+#include "saltus/solver/detail/search_thresholds.hpp"
 #include "saltus/solver/detail/thresholds.hpp"
 
 namespace saltus {

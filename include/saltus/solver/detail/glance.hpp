@@ -8,10 +8,8 @@
 #include <vector>
 
 #include "saltus/base/list.hpp"
-#include "saltus/solver/detail/look_pace.hpp"
 #include "saltus/solver/detail/narrow.hpp"
-#include "saltus/solver/detail/third_difference.hpp"
-#include "saltus/solver/detail/thresholds.hpp"
+#include "saltus/solver/detail/search_thresholds.hpp"
 
 namespace saltus {
 
@@ -25,7 +23,6 @@ class Glance : protected Narrower {
     const Index slots = machine.plan().guard_slots;
     for (auto* values : {&oldest_, &earlier_, &speed_}) values->assign(slots, 1.0);
     plain_.reserve(earlier_.size());
-    judged_.resize(slots);
   }
 
   bool scans() const { return scan_points_ > 0; }
@@ -103,9 +100,7 @@ class Glance : protected Narrower {
   }
 
   /// A step that is looked into begins.
-  void slow_down() {
-    for (const std::size_t k : located_->slots) speed_[k] *= thresholds::speed_memory;
-  }
+  void slow_down(std::size_t k) { speed_[k] *= thresholds::speed_memory; }
 
   /// The look at `from` becomes the look before the next one. No guard fired since.
   void shift(double from) {
@@ -114,54 +109,9 @@ class Glance : protected Narrower {
   }
 
   /// The guards at a look become those at the look before the last.
-  void set_earlier(double at, const std::vector<double>& guards) {
-    oldest_.swap(earlier_), earlier_ = guards;
+  void set_earlier(double at, const List<double>& guards) {
+    oldest_.swap(earlier_), copy_values(guards, earlier_);
     oldest_at_ = earlier_at_, earlier_at_ = at;
-  }
-
-  /// The last three looks.
-  struct Looks {
-    List<double> last, earlier, oldest;
-    double earlier_at, oldest_at;
-  };
-  void keep_looks(Looks& in) const {
-    in.last = guards_->g, in.earlier = earlier_, in.oldest = oldest_;
-    in.earlier_at = earlier_at_, in.oldest_at = oldest_at_;
-  }
-  void set_looks(const Looks& to) {
-    guards_->g = to.last, earlier_ = to.earlier, oldest_ = to.oldest;
-    earlier_at_ = to.earlier_at, oldest_at_ = to.oldest_at, may_go_back_ = false;
-  }
-
-  /// Whether there are three looks, and the one at high_.
-  bool has_four_looks() const { return earlier_at_ != never && oldest_at_ != never; }
-
-  /// Whether what the last four looks say of the piece between the last two is such, for some guard
-  /// that can fire there.
-  template <class Is>
-  bool any_varies(double from, double to, const Is& is) const {
-    if (!has_four_looks()) return false;
-    const ThirdDifference bound(oldest_at_, earlier_at_, from, to);
-    return std::ranges::any_of(
-        located_->slots, [&](std::size_t k) { return counts(k) && is(k, variation(k, bound)); });
-  }
-
-  bool hides(double from, double to) const {
-    return any_varies(from, to, [](std::size_t, const Variation& each) { return each.hides(); });
-  }
-  bool is_slow(double from, double to) const {
-    return !any_varies(from, to,
-                       [](std::size_t, const Variation& each) { return !each.is_slow(); });
-  }
-
-  /// The shortest piece hides something: notes which guards do.
-  void note_in_vain(double from, double to) {
-    const ThirdDifference bound(oldest_at_, earlier_at_, from, to);
-    for (const std::size_t k : located_->slots)
-      if (counts(k) && variation(k, bound).hides()) judged_[k].fail();
-  }
-  void begin_judging() {
-    for (const std::size_t k : located_->slots) judged_[k].begin_step();
   }
 
   /// The guards take their sides at high_, where no guard fired.
@@ -182,26 +132,13 @@ class Glance : protected Narrower {
   List<double> earlier_, oldest_;  // guards at the look before the last, and at the one before
   double earlier_at_ = never;      // its offset; below zero: in the step before
   double oldest_at_ = never;       // the offset of the one before
-  bool may_go_back_ =
-      false;             // the piece that begins there is of this step, and nothing fired in it
+  // The piece that begins at the look before the last is of this step, and nothing fired in it.
+  bool may_go_back_ = false;
   int scan_points_ = 0;  // interior points of a step with a look
 
  private:
-  bool counts(std::size_t k) const {
-    const Guard& guard = (*guards_)[k];
-    return judged_[k].yes() && !guard.jumps && guard.phase != Phase::resting;
-  }
-  Variation variation(std::size_t k, const ThirdDifference& bound) const {
-    const double g0 = oldest_[k], g1 = earlier_[k], g2 = guards_->g[k], g3 = high_[k];
-    const auto [low, high] = std::minmax({g0, g1, g2, g3});
-    const bool crosses = (g2 > 0.0) != (g3 > 0.0);
-    return {std::abs(bound.of(g0, g1, g2, g3)), high - low,
-            crosses ? 0.0 : std::min(std::abs(g2), std::abs(g3))};
-  }
-
   List<double> plain_;         // plain_side() of each active guard
   List<double> speed_;         // [1/s] recent speed of each guard
-  List<Judged> judged_;        // whether each guard counts for the distance of the looks
   std::int64_t version_ = -1;  // of the records from which limits_ and plain_ were made
   bool jumps_ = false;         // some active guard takes two values only
 };

@@ -10,6 +10,7 @@
 
 #include "saltus/base/list.hpp"
 #include "saltus/solver/detail/dip.hpp"
+#include "saltus/solver/detail/search_thresholds.hpp"
 #include "saltus/solver/detail/thresholds.hpp"
 
 namespace saltus {

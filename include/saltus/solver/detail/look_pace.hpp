@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include "saltus/solver/detail/thresholds.hpp"
+#include "saltus/solver/detail/search_thresholds.hpp"
 
 namespace saltus {
 
@@ -65,8 +65,9 @@ class LookPace {
   bool is_new_ = true;
 };
 
-/// Whether a guard counts for the distance of the looks. One that jumps, or is rounding, is not
-/// shown by any: in vain are the shortest pieces. It is left out for some steps.
+/// Whether a guard counts for the distance of the looks. A guard that jumps, or whose values are
+/// rounding, seems to hide something in the shortest pieces, too. If that happens often in a step,
+/// the short pieces are of no use for this guard, so it does not count for some steps.
 class Judged {
  public:
   bool yes() const { return rests_ == 0; }
@@ -78,7 +79,7 @@ class Judged {
 
  private:
   int in_vain_ = 0;  // shortest pieces in this step
-  int rests_ = 0;    // steps until it counts again
+  int rests_ = 0;    // steps that are looked into, until it counts again
 };
 
 }  // namespace saltus

@@ -11,9 +11,10 @@ namespace saltus {
 class LookPoints {
  public:
   virtual ~LookPoints() = default;
-  /// Offsets inside (from, to), in ascending order, such that none of the located guards crosses more
-  /// than once between two of them, nor before the first or after the last. Null if the method does
-  /// not know: the search then looks at evenly spaced points, and where three looks suggest a dip.
+  /// Offsets inside (from, to), in ascending order, such that none of the located guards crosses
+  /// more than once between two of them, before the first, or after the last. Null if the method
+  /// does not know: the search then looks at evenly spaced points, and where three looks suggest a
+  /// dip.
   virtual const std::vector<double>* between(const LocatedGuards& located, double from,
                                              double to) = 0;
 };

@@ -9,20 +9,22 @@
 #include "saltus/base/list.hpp"
 #include "saltus/plan/detail/machine.hpp"
 #include "saltus/solver/detail/guard_set.hpp"
+#include "saltus/solver/detail/search_thresholds.hpp"
 #include "saltus/solver/detail/thresholds.hpp"
 
 namespace saltus {
 
-/// Looks at all guards that are located together at once, and narrows an interval in which one crosses: by the
-/// parabola through the last three looks (D. E. Muller, "A method for solving algebraic equations
-/// using an automatic computer", Math. Tables Aids Comput. 10 (1956) 208). If the parabola keeps
-/// one end unchanged, the Illinois variant of regula falsi follows, guarded by bisection (K. L.
-/// Hiebert and L. F. Shampine, "Implicitly defined output points for solutions of ODEs", Sandia
-/// report SAND80-0180, 1980: the vector form, earliest root first). The result is always the end on
-/// the firing side, so the state there is past the crossing or exactly on it. Points inside the
-/// step are offsets u from its beginning, not times: the bracket ends below 2 eps u, finer than the
-/// resolution of t, so that a state reaches its surface equally well late and early in a long run.
-/// Where few of many guards have crossed, the looks on the way are at these few.
+/// Looks at all guards that are located together at once, and narrows an interval in which one
+/// crosses: by the parabola through the last three looks (D. E. Muller, "A method for solving
+/// algebraic equations using an automatic computer", Math. Tables Aids Comput. 10 (1956) 208). If
+/// the parabola keeps one end unchanged, the Illinois variant of regula falsi follows, guarded by
+/// bisection (K. L. Hiebert and L. F. Shampine, "Implicitly defined output points for solutions of
+/// ODEs", Sandia report SAND80-0180, 1980: the vector form, earliest root first). The result is
+/// always the end on the firing side, so the state there is past the crossing or exactly on it.
+/// Points inside the step are offsets u from its beginning, not times: the bracket ends below
+/// 2 eps u, finer than the resolution of t, so that a state reaches its surface equally well late
+/// and early in a long run. Where few of many guards have crossed, the looks on the way are at
+/// these few.
 class Narrower {
  protected:
   Narrower(Machine& machine, GuardSet& guards, const LocatedGuards& located)
@@ -39,15 +41,20 @@ class Narrower {
             std::vector<double>& values) {
     if (known == nullptr) interpolate(u, x_.data());
     const double* x = known == nullptr ? x_.data() : known;
-    const std::vector<int>& groups = few_.empty() ? located_->groups : few_groups_;
-    if (groups.size() == machine_->active_guards().size())
+    if (few_.empty() && no_others_)
       machine_->guards(t0_ + u, x, values.data());
     else
-      machine_->guards_of(groups, t0_ + u, x, values.data());
+      machine_->guards_of(few_.empty() ? located_->groups : few_groups_, t0_ + u, x, values.data());
+  }
+
+  /// Copies the values of all guards between two lists of one size. Nothing is allocated.
+  static void copy_values(const List<double>& from, List<double>& to) {
+    std::copy_n(from.data(), from.size(), to.data());
   }
 
   /// Sets the values at which the active guards fire, from their present records.
   void set_limits() {
+    no_others_ = located_->groups.size() == machine_->active_guards().size();
     limits_.clear();
     for (const std::size_t k : located_->slots) limits_.push_back((*guards_)[k].limits());
   }
@@ -75,7 +82,7 @@ class Narrower {
   /// third_at_, another look nearby; third_at_ is infinite if there is none.
   template <class Interpolate>
   double narrow(double low, double high, const Interpolate& interpolate) {
-    low_ = guards_->g, begun_ = high_;
+    copy_values(guards_->g, low_), copy_values(high_, begun_);
     choose_few();
     Bracket last = narrow_few({low, high}, interpolate);
     while (!few_.empty() && others_crossed(last, low, interpolate))
@@ -121,11 +128,11 @@ class Narrower {
     few_.clear();
     look(last.high, nullptr, interpolate, high_);
     if (last.low == begun)
-      low_ = guards_->g;
+      copy_values(guards_->g, low_);
     else
       look(last.low, nullptr, interpolate, low_);
     if (last.low == begun || !note_crossed(low_)) return note_crossed(high_), false;
-    high_.swap(low_), low_ = guards_->g;
+    high_.swap(low_), copy_values(guards_->g, low_);
     third_at_ = std::numeric_limits<double>::infinity();
     choose_few();
     return true;
@@ -253,6 +260,7 @@ class Narrower {
   }
 
   std::vector<int> few_groups_;  // the groups of few_
+  bool no_others_ = false;       // all active guards are located together
   List<double> x_;
 };
 

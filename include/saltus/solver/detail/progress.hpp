@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "saltus/solver/detail/cvode_thresholds.hpp"
 #include "saltus/solver/detail/thresholds.hpp"
 
 namespace saltus {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "saltus/solver/detail/thresholds.hpp"
+#include "saltus/solver/detail/stiff_thresholds.hpp"
 
 namespace saltus {
 

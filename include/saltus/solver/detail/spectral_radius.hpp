@@ -6,6 +6,7 @@
 
 #include "saltus/plan/detail/machine.hpp"
 #include "saltus/solver/detail/solver.hpp"
+#include "saltus/solver/detail/stiff_thresholds.hpp"
 #include "saltus/solver/detail/thresholds.hpp"
 
 namespace saltus {

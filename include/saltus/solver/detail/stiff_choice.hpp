@@ -2,7 +2,7 @@
 #pragma once
 
 #include "saltus/solver/detail/matrix_cost.hpp"
-#include "saltus/solver/detail/thresholds.hpp"
+#include "saltus/solver/detail/stiff_thresholds.hpp"
 
 namespace saltus {
 

@@ -3,7 +3,7 @@
 
 #include "saltus/solver/detail/one_step.hpp"
 #include "saltus/solver/detail/spectral_radius.hpp"
-#include "saltus/solver/detail/thresholds.hpp"
+#include "saltus/solver/detail/stiff_thresholds.hpp"
 
 namespace saltus {
 

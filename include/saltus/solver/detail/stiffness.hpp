@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "saltus/solver/detail/solver.hpp"
-#include "saltus/solver/detail/thresholds.hpp"
+#include "saltus/solver/detail/stiff_thresholds.hpp"
 
 namespace saltus {
 

@@ -6,7 +6,7 @@ namespace saltus {
 /// The offsets of four looks. The parabola through the last three of them differs from the guard
 /// between the last two by at most
 ///
-///     max |g'''| / 6 |u - u1| |u - u2| |u - u3|  <=  |g[u0, u1, u2, u3]| (u3 - u1) (u3 - u2)^2 / 4,
+///     max |g'''| / 6 |u - u1| |u - u2| |u - u3| <= |g[u0, u1, u2, u3]| (u3 - u1) (u3 - u2)^2 / 4,
 ///
 /// if the third derivative does not vary (the error of interpolation; G. Dahlquist, A. Bjorck,
 /// "Numerical Methods", 1974, section 4.3.1). The divided difference g[...] is the guard's own.
@@ -14,11 +14,10 @@ class ThirdDifference {
  public:
   ThirdDifference(double u0, double u1, double u2, double u3) {
     // Ratios of lengths, because products of three lengths may be out of range.
-    const double h = u3 - u2, span = 0.25 * (u3 - u1);
-    w0_ = span / (u0 - u3) * (h / (u0 - u1)) * (h / (u0 - u2));
-    w1_ = -0.25 * (h / (u1 - u0)) * (h / (u1 - u2));
-    w2_ = -span / (u2 - u0) * (h / (u2 - u1));
-    w3_ = span / (u3 - u0) * (h / (u3 - u1));
+    const double h = u3 - u2, first = h / (u1 - u0), second = h / (u2 - u1), all = h / (u3 - u0);
+    const double overlap = -0.25 * ((u3 - u1) / (u2 - u0));
+    w0_ = overlap * (first * all), w1_ = 0.25 * (first * second);
+    w2_ = overlap * second, w3_ = 0.25 * all;
   }
   /// The bound with its sign, for the values at the four looks.
   double of(double g0, double g1, double g2, double g3) const {

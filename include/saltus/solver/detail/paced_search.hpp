@@ -1,0 +1,164 @@
+// Paced search: an evenly spaced piece of a step in shorter pieces, where a guard varies too fast.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "saltus/base/list.hpp"
+#include "saltus/solver/detail/look_pace.hpp"
+#include "saltus/solver/detail/piece_judge.hpp"
+#include "saltus/solver/detail/piece_search.hpp"
+#include "saltus/solver/detail/search_thresholds.hpp"
+#include "saltus/solver/detail/thresholds.hpp"
+
+namespace saltus {
+
+/// Controls the distance of the looks as a method controls its steps: a piece that may hide
+/// something is halved, and the pieces grow again where the guards are slow.
+class PacedSearch : protected PieceSearch {
+ protected:
+  PacedSearch(Machine& machine, GuardSet& guards, const LocatedGuards& located)
+      : PieceSearch(machine, guards, located), judge_(guards, located, machine.plan().guard_slots) {
+    for (auto* values : {&before_, &at_end_, &begin_.last, &begin_.earlier, &begin_.oldest})
+      values->assign(machine.plan().guard_slots, 1.0);
+  }
+
+  void begin_run() { pace_.begin_run(); }
+
+  /// The pieces of a step begin at `from`; `even` [s] is the distance of evenly spaced looks.
+  template <class Interpolate>
+  void begin_pieces(double from, double even, const Interpolate& interpolate) {
+    const double resolution = thresholds::eps * (std::abs(t0_) + end_at_);
+    refines_ = scans() && even * thresholds::finest_piece > thresholds::look_roundings * resolution;
+    if (scans()) {
+      for (const std::size_t k : located_->slots) slow_down(k), judge_.begin_step(k);
+    }
+    if (!refines_) return;
+    even_ = even, records_may_differ_ = false;
+    const bool first = pace_.begin_step(even);
+    const bool judges_all = pace_.is_finer_than(even) && has_four_looks();
+    back_to_ = judges_all ? never : from;
+    if (!judges_all) keep_looks();
+    if (first) choose_pace(from, interpolate);
+  }
+
+  /// `find_in_piece` between two evenly spaced looks, in shorter pieces where a guard varies too
+  /// fast for one; `high_` has the guards at its end.
+  template <class Interpolate>
+  [[gnu::always_inline]] bool find_in_even(double from, double to, const double* end,
+                                           const Interpolate& interpolate) {
+    if (refines_ && (pace_.is_finer_than(to - from) || hides(from, to)))
+      return find_in_shorter(from, to, end, interpolate);
+    return find_in_piece(from, to, end, interpolate);
+  }
+
+ private:
+  /// The last three looks.
+  struct Looks {
+    List<double> last, earlier, oldest;
+    double earlier_at, oldest_at;
+  };
+
+  template <class Interpolate>
+  [[gnu::noinline]] bool find_in_shorter(double from, double to, const double* end,
+                                         const Interpolate& interpolate) {
+    copy_values(high_, at_end_);
+    if (!pace_.is_finer_than(to - from) && pace_.halve(to - from, even_)) from = back_from(from);
+    while (from < to) {
+      const double next = std::min(to, from + pace_.next(to - from));
+      if (next == to)
+        copy_values(at_end_, high_);
+      else
+        look(next, nullptr, interpolate, high_);
+      const bool hidden = hides(from, next);
+      if (hidden && pace_.halve(next - from, even_)) {
+        from = back_from(from);
+        continue;
+      }
+      accept(from, next, hidden);
+      if (find_in_piece(from, next, next == to ? end : nullptr, interpolate)) return true;
+      from = next;
+    }
+    return false;
+  }
+
+  /// A piece that is not halved: the looks grow apart after it where they may.
+  void accept(double from, double to, bool hidden) {
+    if (hidden) judge_.note_in_vain(four_looks(from, to));
+    if (has_four_looks()) back_to_ = never;
+    if (!hidden) pace_.accept(to - from, has_four_looks() && judge_.is_slow(four_looks(from, to)));
+  }
+
+  /// A piece that begins at `from` hides something. The pieces before it in this step were as long,
+  /// so they may hide something too, even where no look showed it: looks that are too far apart may
+  /// miss by chance how a guard varies. So the search goes back to where the first of these pieces
+  /// begins, with the looks of that point: this offset is returned, otherwise `from`. It does not
+  /// go back where shorter pieces were judged since, nor where the record of a guard has changed,
+  /// because a crossing may have been noted.
+  double back_from(double from) {
+    if (records_may_differ_ || back_to_ == never || from == back_to_) return from;
+    set_looks();
+    return back_to_;
+  }
+
+  /// In the first step of a run no look says how fast the guards vary. Looks at three points, not
+  /// evenly spaced, and compares them with the derivatives of the guards along the flow where the
+  /// step begins, because a guard may have the period of the looks.
+  template <class Interpolate>
+  void choose_pace(double from, const Interpolate& interpolate) {
+    const double near = thresholds::near_share * even_;
+    look(from + near, nullptr, interpolate, before_);
+    const auto is_steep = [&](std::size_t k, double piece, double range) {
+      const double rate = (before_[k] - begin_.last[k]) / near;
+      return std::abs(rate) * piece > thresholds::steep_ranges * range;
+    };
+    for (double piece = std::min(even_, (end_at_ - from) / 3.0);; piece *= 0.5) {
+      copy_values(begin_.last, oldest_), oldest_at_ = from;
+      earlier_at_ = from + piece;
+      look(earlier_at_, nullptr, interpolate, earlier_);
+      const double third = from + thresholds::uneven * piece, last = from + 3.0 * piece;
+      look(third, nullptr, interpolate, middle_);
+      look(last, nullptr, interpolate, high_);
+      copy_values(middle_, guards_->g);
+      const bool hidden =
+          judge_.any(four_looks(third, last), [&](std::size_t k, const Variation& each) {
+            return each.hides() || is_steep(k, piece, each.range);
+          });
+      set_looks();
+      if (!hidden || !pace_.halve(piece, even_)) return;
+    }
+  }
+
+  void keep_looks() {
+    copy_values(guards_->g, begin_.last), copy_values(earlier_, begin_.earlier);
+    copy_values(oldest_, begin_.oldest);
+    begin_.earlier_at = earlier_at_, begin_.oldest_at = oldest_at_;
+  }
+  void set_looks() {
+    copy_values(begin_.last, guards_->g), copy_values(begin_.earlier, earlier_);
+    copy_values(begin_.oldest, oldest_);
+    earlier_at_ = begin_.earlier_at, oldest_at_ = begin_.oldest_at, may_go_back_ = false;
+  }
+
+  /// Whether there are three looks, and the one at high_.
+  bool has_four_looks() const { return earlier_at_ != never && oldest_at_ != never; }
+  [[gnu::always_inline]] FourLooks four_looks(double from, double to) const {
+    return {oldest_.data(), earlier_.data(), guards_->g.data(), high_.data(),
+            ThirdDifference(oldest_at_, earlier_at_, from, to)};
+  }
+  [[gnu::always_inline]] bool hides(double from, double to) const {
+    return has_four_looks() && judge_.hides(four_looks(from, to));
+  }
+
+  PieceJudge judge_;
+  LookPace pace_;
+  Looks begin_;             // those where the pieces of the step began
+  double back_to_ = never;  // where that was, until shorter pieces are judged by four looks
+  List<double> before_;     // guards where a run begins, a little later
+  List<double> at_end_;     // guards at the end of an evenly spaced piece
+  double even_ = 0.0;       // [s] between the evenly spaced looks
+  bool refines_ = false;    // there may be looks between these
+};
+
+}  // namespace saltus

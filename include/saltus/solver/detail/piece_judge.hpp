@@ -1,0 +1,75 @@
+// PieceJudge: whether the last four looks at the guards show what happens in a piece of a step.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "saltus/base/list.hpp"
+#include "saltus/solver/detail/guard_set.hpp"
+#include "saltus/solver/detail/look_pace.hpp"
+#include "saltus/solver/detail/third_difference.hpp"
+
+namespace saltus {
+
+/// The values of the guards at four looks in a row. The piece that is judged is between the last
+/// two.
+struct FourLooks {
+  const double *oldest, *earlier, *last, *high;
+  ThirdDifference bound;  ///< of the offsets of these looks
+
+  Variation variation(std::size_t k) const {
+    const double g0 = oldest[k], g1 = earlier[k], g2 = last[k], g3 = high[k];
+    const double least = std::min(std::min(g0, g1), std::min(g2, g3));
+    const double greatest = std::max(std::max(g0, g1), std::max(g2, g3));
+    const bool crosses = (g2 > 0.0) != (g3 > 0.0);
+    return {std::abs(bound.of(g0, g1, g2, g3)), greatest - least,
+            crosses ? 0.0 : std::min(std::abs(g2), std::abs(g3))};
+  }
+};
+
+/// Judges a piece by the guards that are located together. A guard that jumps, or whose block is at
+/// rest, does not count: no distance of the looks shows more of it.
+class PieceJudge {
+ public:
+  PieceJudge(const GuardSet& guards, const LocatedGuards& located, Index slots)
+      : guards_(&guards), located_(&located) {
+    judged_.resize(slots);
+  }
+
+  /// A step that is looked into begins.
+  void begin_step(std::size_t k) { judged_[k].begin_step(); }
+
+  /// Whether some guard that counts is such, by a test of its number and its Variation. The test
+  /// comes first, because it excludes most guards.
+  template <class Is>
+  [[gnu::always_inline]] bool any(const FourLooks& looks, const Is& is) const {
+    for (const std::size_t k : located_->slots)
+      if (is(k, looks.variation(k)) && counts(k)) return true;
+    return false;
+  }
+  /// Whether some guard may have crossed zero where the looks do not show it.
+  [[gnu::always_inline]] bool hides(const FourLooks& looks) const {
+    return any(looks, [](std::size_t, const Variation& each) { return each.hides(); });
+  }
+  /// Whether looks at twice the distance would show all guards, too.
+  bool is_slow(const FourLooks& looks) const {
+    return !any(looks, [](std::size_t, const Variation& each) { return !each.is_slow(); });
+  }
+  /// The shortest piece hides something: notes which guards do.
+  void note_in_vain(const FourLooks& looks) {
+    for (const std::size_t k : located_->slots)
+      if (looks.variation(k).hides() && counts(k)) judged_[k].fail();
+  }
+
+ private:
+  bool counts(std::size_t k) const {
+    const Guard& guard = (*guards_)[k];
+    return judged_[k].yes() && !guard.jumps && guard.phase != Phase::resting;
+  }
+
+  const GuardSet* guards_;
+  const LocatedGuards* located_;
+  List<Judged> judged_;
+};
+
+}  // namespace saltus

@@ -1,0 +1,131 @@
+// The tuning numbers of the search for crossings inside a step: name, unit and derivation or
+// source. Where a test is named, it fails if the number is a hundred times as large, or as small.
+// No test holds short_share.
+#pragma once
+
+#include <cstddef>
+
+namespace saltus::thresholds {
+
+// --- location: narrow.hpp, locate.hpp, glance.hpp
+
+/// [eps of the offset] The bracket of a root: the offsets at its ends differ by two roundings.
+/// tests/unit/narrow_test.cpp
+inline constexpr double bracket_roundings = 2.0;
+/// [brackets] In a shorter interval there is one point to look at only, its middle.
+/// tests/errors/chattering_errors_test.cpp (as small)
+inline constexpr double last_look = 3.0;
+/// [looks] Bisection takes 53 looks; where an estimate has not come to an end by then, bisection
+/// goes on. The second number is a limit that neither reaches: 60 and the 74 + 53 halvings of an
+/// interval down to the least double. tests/unit/narrow_test.cpp, tests/unit/locate_cvode_test.cpp
+inline constexpr int bisects_after = 60, most_looks = 200;
+/// [1] Growth of the steps back from a zero on a plateau: each look gains three of 53 bits.
+/// tests/unit/narrow_test.cpp
+inline constexpr double plateau_growth = 8.0;
+/// [1] Where at most one in so many guards has crossed, only these are narrowed. The two looks at
+/// all others at the end then cost less than is saved. tests/unit/narrow_test.cpp
+inline constexpr std::size_t few_guards = 8;
+/// [of the guard at the bracket's ends] Rounding of the interpolant at a root: both ends may be off
+/// by as much as they differ, twice. tests/unit/narrow_test.cpp, tests/unit/found_root_test.cpp
+inline constexpr double root_noise = 4.0;
+/// [1] How much steeper than in the whole interval a guard has to be in its last bracket to be a
+/// jump. A bracket is narrowed by 1e12 and more: a jump is steeper by the whole factor, a smooth
+/// guard hardly. This lies between, in decades. tests/semantics/guards_jump_test.cpp fails where it
+/// is so large that nothing is a jump.
+inline constexpr double jump_steepness = 1e6;
+/// [points] in a step of an interpolant of lower degree.
+/// tests/semantics/zeno_moving_frame_test.cpp
+inline constexpr int least_scan_points = 3;
+/// [of a piece of a step] The first look after a restart where a guard is beyond zero: with the
+/// looks at both ends of the first piece it shows whether the guard comes back inside it.
+/// tests/semantics/guards_behind_test.cpp
+inline constexpr double first_look = 1.0 / 64.0;
+/// [of the interval] A root so near to its begin gives no look that a parabola could use.
+inline constexpr double short_share = 1e-3;
+/// [eps t] and [of the interval]: how far after its root a monitor is looked at for its side.
+/// tests/laws/tangent_pairs_test.cpp
+inline constexpr double leave_roundings = 64.0, leave_share = 1e-9;
+/// [steps] Looks inside steps that need none: the first after seven, then 15, 31, 63.
+/// tests/unit/locate_test.cpp
+inline constexpr int least_patience = 7, most_patience = 63;
+/// [1] A guard is out of reach if it could not come to zero and back at this many times its recent
+/// speed: two for the way, four for a change of speed. tests/unit/glance_test.cpp
+inline constexpr double speed_margin = 8.0;
+/// [1] Part of the recent speed that is kept from look to look. tests/unit/glance_test.cpp
+inline constexpr double speed_memory = 0.5;
+/// [of the largest of three looks] The vertex of a parabola above this is no dip worth a look.
+/// tests/unit/dip_search_test.cpp
+inline constexpr double shallow_dip = 0.25;
+/// [of the middle look] A vertex above this brings the minimum no nearer to zero.
+/// tests/unit/dip_search_test.cpp
+inline constexpr double slow_dip = 0.5;
+/// [of the largest of three looks] A touch of zero within this is rounding, no dip.
+/// tests/unit/dip_search_test.cpp
+inline constexpr double dip_rounding = 1e-12;
+/// [looks] at the vertex: each has twice as many digits as the one before; 2^6 > 53.
+/// tests/laws/tangent_pairs_test.cpp
+inline constexpr int dip_looks = 6;
+
+// --- guards that vary faster than the state: look_pace.hpp
+
+/// [errors of the parabola] A guard that is nearer to zero than so many may have crossed it unseen:
+/// the error is estimated from one third difference, which another place of the piece may exceed.
+/// tests/unit/look_pace_test.cpp
+inline constexpr double hidden_room = 4.0;
+/// [of the range of four looks] A parabola whose error is less shows the guard. That of a sine is
+/// when there are twelve looks in a period. tests/unit/look_pace_test.cpp
+inline constexpr double hidden_share = 1.0 / 32.0;
+/// [errors of the parabola] and [of hidden_share] The error grows eight times as the piece grows
+/// twice: both have this room, and a factor of two. tests/unit/look_pace_test.cpp
+inline constexpr double growth_room = 64.0, slow_share = 1.0 / 16.0;
+/// [of an evenly spaced piece] A shorter piece is not halved: of a guard with some hundred periods
+/// in a step each crossing is found. tests/unit/look_pace_test.cpp
+inline constexpr double finest_piece = 1.0 / 256.0;
+/// [eps t] Looks nearer to each other would hardly be at different times.
+/// tests/laws/crossings_test.cpp (as small)
+inline constexpr double look_roundings = 4.0;
+/// [pieces] The second of the three looks that begin a run: the golden ratio, which is far from
+/// each ratio of small numbers. tests/laws/fast_guards_test.cpp
+inline constexpr double uneven = 1.6180339887498949;
+/// [of a piece] How far two looks are apart whose difference is a derivative: its error, this part
+/// of the second derivative, and its rounding, eps by this part, are both far below its size.
+/// tests/laws/fast_guards_test.cpp
+inline constexpr double near_share = 1e-6;
+/// [ranges of four looks] A guard that would move further in a piece, at its first derivative,
+/// turns between the looks: a parabola moves by at most two ranges. tests/laws/fast_guards_test.cpp
+inline constexpr double steep_ranges = 2.0;
+/// [pieces] in one step that are as short as allowed and do not show a guard: it then counts no
+/// more for 63 steps. tests/unit/look_pace_test.cpp
+inline constexpr int most_in_vain = 16;
+
+// --- many monitors at once: crowd_locator.hpp, guard_polynomials.hpp
+
+/// [crossings] in one interval. Locating a few of them one by one takes as many looks as the
+/// polynomials do. tests/unit/crowd_locator_test.cpp
+inline constexpr std::size_t crowd_size = 8;
+/// [eps |t|] In a shorter interval the points of a polynomial would hardly be different times.
+/// tests/unit/crowd_locator_test.cpp
+inline constexpr double crowd_roundings = 1e3;
+/// [eps] of the time and of the step: how far after its crossing one may be noted. The contract
+/// allows a hundred. tests/unit/crowd_locator_test.cpp
+inline constexpr double crossing_roundings = 16.0;
+/// [errors of the polynomial] A monitor is at zero within these after it has passed: its value is
+/// off by one on either side, at the crossing and at the next look.
+/// tests/unit/crowd_locator_test.cpp
+inline constexpr double passed_error = 4.0;
+/// [eps of the largest value] Rounding of the barycentric formula, whose thirteen terms are each
+/// rounded a few times; the sum of their weights is 1. tests/unit/guard_polynomials_test.cpp
+inline constexpr double formula_roundings = 8.0;
+/// [of the largest of the last three coefficients] The terms that a polynomial leaves out, if
+/// coefficients fall by a quarter or more from one to the next: 1 / (1 - 3/4).
+/// tests/unit/guard_polynomials_test.cpp
+inline constexpr double omitted_terms = 4.0;
+/// [roundings of the formula] From here on a shorter interval helps: halving it divides what is
+/// left out by 2^13. tests/unit/guard_polynomials_test.cpp
+inline constexpr double truncated_roundings = 64.0;
+/// [of the interval] The slope at a root is that over this much to either side. The difference has
+/// eleven digits there, and the change of the slope is of this order.
+/// tests/unit/guard_polynomials_test.cpp (as large)
+inline constexpr double slope_share = 1e-4;
+
+}  // namespace saltus::thresholds

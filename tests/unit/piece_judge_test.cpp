@@ -1,0 +1,68 @@
+// PieceJudge: whether four looks at the guards show what happens in a piece of a step.
+#include "saltus/solver/detail/piece_judge.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "support/catch.hpp"
+
+using namespace saltus;
+
+namespace {
+
+constexpr double not_finite = std::numeric_limits<double>::quiet_NaN();
+
+/// Four evenly spaced looks at two guards.
+struct Values {
+  double oldest[2], earlier[2], last[2], high[2];
+  operator FourLooks() const { return {oldest, earlier, last, high, {0.0, 1.0, 2.0, 3.0}}; }
+};
+
+// The third difference of 1, 2, 1, 2 is 4, and the error of the parabola 4 / 12: the second guard
+// may have been at zero if it is nearer than four errors, 4 / 3.
+const Values hidden{{9.0, 1.0}, {9.0, 2.0}, {9.0, 1.0}, {9.0, 2.0}};
+const Values far{{9.0, 1.5}, {9.0, 2.5}, {9.0, 1.5}, {9.0, 2.5}};
+// The third difference of a parabola is 0.
+const Values parabola{{9.0, 9.0}, {9.0, 4.0}, {9.0, 1.0}, {9.0, 0.0}};
+
+/// Two guards, the second of this kind, in this phase.
+struct Judge {
+  explicit Judge(bool jumps = false, bool rests = false) : guards{{}, {.jumps = jumps}} {
+    guards.arm(0, 1), guards.arm(1, 1);
+    if (rests) guards.rest(1, 1, 0.0);
+  }
+  GuardSet guards;
+  PieceJudge piece{guards, guards.active().stopping, 2};
+};
+
+}  // namespace
+
+TEST_CASE("a guard that zigzags near zero may hide a crossing, one further away does not",
+          "[piece_judge]") {
+  const Judge judge;
+  CHECK(judge.piece.hides(hidden));
+  CHECK_FALSE(judge.piece.hides(far));
+  CHECK_FALSE(judge.piece.hides(parabola));
+  CHECK(judge.piece.is_slow(parabola));
+  CHECK_FALSE(judge.piece.is_slow(hidden));
+}
+
+TEST_CASE("a guard that jumps, or rests, does not count for the pieces", "[piece_judge]") {
+  CHECK_FALSE(Judge(true).piece.hides(hidden));
+  CHECK_FALSE(Judge(false, true).piece.hides(hidden));
+}
+
+TEST_CASE("a guard that is not finite hides nothing, because it fires", "[piece_judge]") {
+  const Values broken{{9.0, 1.0}, {9.0, 2.0}, {9.0, 1.0}, {9.0, not_finite}};
+  CHECK_FALSE(Judge().piece.hides(broken));
+}
+
+TEST_CASE("only the guard that hides something in vain is left out", "[piece_judge]") {
+  const Values first{{1.0, 9.0}, {2.0, 9.0}, {1.0, 9.0}, {2.0, 9.0}};
+  Judge judge;
+  for (int i = 0; i <= thresholds::most_in_vain; ++i) judge.piece.note_in_vain(hidden);
+  CHECK_FALSE(judge.piece.hides(hidden));
+  CHECK(judge.piece.hides(first));
+  for (int i = 0; i < thresholds::most_patience; ++i) judge.piece.begin_step(1);
+  CHECK(judge.piece.hides(hidden));
+}
