@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "saltus/base/philox.hpp"
 #include "saltus/library/elementwise.hpp"
-#include "saltus/library/philox.hpp"
 #include "saltus/library/schedule.hpp"
 
 namespace saltus {

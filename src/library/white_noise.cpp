@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "saltus/library/philox.hpp"
+#include "saltus/base/philox.hpp"
 #include "saltus/library/schedule.hpp"
 
 namespace saltus {

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "library_runs.hpp"
-#include "saltus/library/philox.hpp"
+#include "saltus/base/philox.hpp"
 
 using namespace saltus;
 using namespace library_test;

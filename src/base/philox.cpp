@@ -1,5 +1,5 @@
 // Random numbers by a counter.
-#include "saltus/library/philox.hpp"
+#include "saltus/base/philox.hpp"
 
 #include <bit>
 #include <cmath>
