@@ -61,6 +61,8 @@ Context Context::with_values(const ContextValues& values) const {
   next.modes_ = values.modes, next.time_ = values.time, next.settled_ = values.settled;
   if (values.continuation) detail::require_sound(*values.continuation);
   next.continuation_ = values.continuation;
+  if (values.pending) detail::require_sound(*values.pending, layout());
+  next.pending_ = values.pending;
   return next;
 }
 

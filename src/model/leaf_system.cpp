@@ -41,6 +41,8 @@ void require_sound(const ZeroCrossing& c, const Declarations& declared, const st
       refuse(i < 0 || i >= n, "holds state ", i, "; the block has ", n,
              " continuous states, declared before it");
   }
+  const std::string queue = c.is_queued() ? c.queue_fault() : "";
+  refuse(!queue.empty(), queue);
 }
 
 }  // namespace

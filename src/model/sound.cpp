@@ -6,6 +6,8 @@
 #include <functional>
 #include <limits>
 
+#include "saltus/base/list.hpp"
+
 namespace saltus::detail {
 
 namespace {
@@ -105,6 +107,47 @@ void require_sound(const Continuation& c) {
   for (const std::int64_t count : c.counts)
     require(count >= 0 && count <= std::numeric_limits<std::int64_t>::max() / 2,
             text("a count of ", count));
+}
+
+namespace {
+
+bool increases_within(const std::vector<int>& entries, Index size) {
+  const bool sorted = std::ranges::adjacent_find(entries, std::greater_equal<>()) == entries.end();
+  return entries.empty() || (sorted && entries.front() >= 0 && entries.back() < size);
+}
+
+void require_sound(const FrozenValues& values, const Layout::Leaf& leaf) {
+  require(increases_within(values.continuous_entries, leaf.nx) &&
+              increases_within(values.discrete_entries, leaf.nz),
+          text("an execution that writes states which block '", leaf.path, "' does not have"));
+  require(values.continuous.size() == values.continuous_entries.size() &&
+              values.discrete.size() == values.discrete_entries.size(),
+          text("an execution of block '", leaf.path, "' with more or fewer values than states"));
+  require(all_finite(values.continuous) && all_finite(values.discrete),
+          text("an execution of block '", leaf.path, "' with a value that is not finite"));
+}
+
+}  // namespace
+
+void require_sound(const PendingExecutions& pending, const Layout& layout) {
+  constexpr std::int64_t many = std::numeric_limits<std::int64_t>::max() / 2;
+  require(pending.scheduled >= 0 && pending.scheduled <= many && pending.draws >= 0 &&
+              pending.draws <= many,
+          text(pending.scheduled, " executions and ", pending.draws, " draws; expected counts"));
+  const PendingExecution* before = nullptr;
+  for (const PendingExecution& one : pending.all) {
+    require(
+        one.leaf >= 0 && one.leaf < std::ssize(layout.leaves) && one.event >= 0 && one.entry >= 0,
+        text("an execution of block ", one.leaf, " of ", layout.leaves.size()));
+    require(std::isfinite(one.due), text("an execution that is due at ", one.due, " s"));
+    require(one.number >= 0 && one.number < pending.scheduled,
+            text("execution ", one.number, " of ", pending.scheduled));
+    require(before == nullptr || before->due < one.due ||
+                (before->due == one.due && before->number < one.number),
+            "executions that are not in the order in which they are due");
+    require_sound(one.values, nth(layout.leaves, one.leaf));
+    before = &one;
+  }
 }
 
 std::string difference(const Layout& expected, const Layout& found, bool paths) {

@@ -109,6 +109,12 @@ void add_guard(Plan& plan, Search& search, GuardGroup group, const std::vector<i
   plan.guards.push_back(std::move(group));
 }
 
+/// A guard whose return cancels its execution is located both ways.
+Direction watched_direction(const ZeroCrossing& crossing) {
+  return crossing.is_queued() && crossing.is_cancelled_on_return() ? Direction::crosses_zero
+                                                                   : crossing.direction;
+}
+
 /// Zero crossings first, in declaration order, then relations and opaque booleans.
 void add_guards(Plan& plan) {
   Search search(plan);
@@ -123,8 +129,9 @@ void add_guards(Plan& plan) {
                  .leaf = static_cast<int>(l),
                  .index = static_cast<int>(i),
                  .size = crossing.size,
-                 .direction = crossing.direction,
+                 .direction = watched_direction(crossing),
                  .monitor = monitor,
+                 .queued = crossing.is_queued(),
                  .name = text(plan.leaves[l].path, ".", crossing.name)},
                 read_inputs(crossing.inputs, plan.leaves[l]));
     }

@@ -30,8 +30,10 @@ void describe_guard(std::string& out, const Plan& plan, const GuardGroup& guard)
   using Kind = GuardGroup::Kind;
   out += text("  guard '", guard.name, "': ");
   if (guard.kind == Kind::crossing) {
-    out += text(to_string(guard.direction),
-                guard.monitor ? ", a monitor: located, changes nothing" : "");
+    out +=
+        text(to_string(guard.direction), guard.queued    ? ", a trigger: it schedules an execution"
+                                         : guard.monitor ? ", a monitor: located, changes nothing"
+                                                         : "");
   } else if (guard.kind == Kind::relation) {
     out += "a relation, held between instants";
   } else {

@@ -143,7 +143,8 @@ void Machine::guard(const GuardCall& call, Seen seen, double t, double* g) {
 }
 
 Context Memory::save(const Context& like, double t,
-                     std::shared_ptr<const Continuation> continuation, bool settled) const {
+                     std::shared_ptr<const Continuation> continuation, bool settled,
+                     std::shared_ptr<const PendingExecutions> pending) const {
   Context context = like;
   context.x_ = x;
   context.z_ = z;
@@ -151,6 +152,7 @@ Context Memory::save(const Context& like, double t,
   context.time_ = t;
   context.settled_ = settled;
   context.continuation_ = std::move(continuation);
+  context.pending_ = std::move(pending);
   return context;
 }
 

@@ -10,7 +10,10 @@ namespace {
 /// Sorts actions by leaf. Within a leaf updates come first: they read x- z-, and a reset map that
 /// follows sees their results. The order is stable, and the sort allocates nothing.
 void sort(std::vector<Action>& actions) {
-  const auto rank = [](Cause cause) { return cause == Cause::time ? -1 : static_cast<int>(cause); };
+  const auto rank = [](Cause cause) {
+    if (cause == Cause::trigger) return static_cast<int>(Cause::crossing);  // by declaration
+    return cause == Cause::time ? -1 : static_cast<int>(cause);
+  };
   const auto before = [&](const Action& a, const Action& b) {
     return a.leaf != b.leaf ? a.leaf < b.leaf : rank(a.cause) < rank(b.cause);
   };
@@ -93,7 +96,10 @@ void Collector::collect_crossings() {
     if (!group.is_crossing()) continue;
     const auto same = [&](const Firing& other) { return (*guards_)[other.slot].group == number; };
     const auto waiting = std::count_if(present_->firings.begin(), passive, same);
-    if (plan_->crossing_of(group).has_effect() || journal_->ends_run(number, waiting)) {
+    if (group.queued) {
+      present_->actions.push_back(
+          {group.leaf, Cause::trigger, number, firing.slot, firing.from, false});
+    } else if (plan_->crossing_of(group).has_effect() || journal_->ends_run(number, waiting)) {
       present_->actions.push_back({group.leaf, Cause::crossing, number, firing.slot, firing.from,
                                    holds_->of_guard(k).monitor.holding});
     } else {
@@ -121,11 +127,12 @@ bool Collector::acts() const {
                              [this](const Action& action) { return acts(action); });
 }
 
-/// A guard that only ends the run does not count. A time event does: whether held signals follow it
+/// A guard that only ends the run does not count, and neither does a trigger, which writes nothing. A time event does: whether held signals follow it
 /// must not depend on which of them are recorded.
 bool Collector::acts(const Action& action) const {
-  return action.cause != Cause::crossing ||
-         plan_->crossing_of(plan_->guard(action.index)).has_effect();
+  return action.cause != Cause::trigger &&
+         (action.cause != Cause::crossing ||
+          plan_->crossing_of(plan_->guard(action.index)).has_effect());
 }
 
 }  // namespace saltus

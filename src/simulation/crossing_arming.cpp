@@ -23,21 +23,26 @@ const GuardGroup& CrossingArming::group_of(std::size_t k) const {
 
 CrossingFacts CrossingArming::facts_of(std::size_t k, bool at_start) const {
   const Guard& guard = (*guards_)[k];
-  const ZeroCrossing& crossing = machine_->plan().crossing_of(group_of(k));
-  return {.direction = guard.direction,
+  const GuardGroup& group = group_of(k);
+  const ZeroCrossing& crossing = machine_->plan().crossing_of(group);
+  const bool entered = transition_->entered_mode() && !guard.was_active;
+  const GuardNow& now = present_->now(k);
+  // A trigger that is located both ways begins as its declared direction says.
+  const bool begins = (at_start || entered) && !now.fired && !now.put_at_zero;
+  return {.direction = begins ? crossing.direction : guard.direction,
           .phase = guard.phase,
           .side = guard.side,
           .g = present_->g[k],
           .error = guard.error,
           .at_start = at_start,
-          .entered = transition_->entered_mode() && !guard.was_active,
-          .put_at_zero = present_->now(k).put_at_zero,
-          .fired = present_->now(k).fired,
+          .entered = entered,
+          .put_at_zero = now.put_at_zero,
+          .fired = now.fired,
           .came_from = guard.came_from,
           .effect = crossing.has_effect(),
           .reset = static_cast<bool>(crossing.reset_map),
           .resets = transition_->effects(),
-          .jumped = present_->now(k).jumped};
+          .jumped = now.jumped};
 }
 
 /// The facts about guard k that the decisions ask the flow for.
@@ -67,7 +72,8 @@ struct CrossingArming::Ask {
   bool stops_at_jump() const {
     return arming->transition_->wrote_x() && flow().stops_at_jump(*group, slot(), from, before());
   }
-  bool reset_turns() const { return arming->reset_turns(*group, k); }
+  /// The execution of a queued guard is not at hand: it may come later, or have come already.
+  bool reset_turns() const { return !group->queued && arming->reset_turns(*group, k); }
   bool turned_round(int side) const { return arming->turned_round(*group, k, side); }
 };
 
@@ -75,7 +81,7 @@ void CrossingArming::arm(std::size_t k, bool at_start) {
   const GuardGroup& group = group_of(k);
   const auto slot = static_cast<Index>(k);
   const CrossingFacts facts = facts_of(k, at_start);
-  if (!facts.fired && (at_start || facts.entered) && begins_as_wished(group, k)) return;
+  if (!facts.fired && (at_start || facts.entered) && begins_as_wished(group, k, at_start)) return;
   if (!needs_flow(facts, [&] { return uncertainty(k); })) return;
   const bool counts_as_zero = facts.entered || facts.put_at_zero || facts.phase == Phase::waiting;
   const double error = present_->error_so_far(k, counts_as_zero);
@@ -100,9 +106,10 @@ bool CrossingArming::is_at_zero(std::size_t k) {
 
 /// Obeys the author's wish for a guard that begins at zero or beyond it. False if the flow has to
 /// decide.
-bool CrossingArming::begins_as_wished(const GuardGroup& group, std::size_t k) {
+bool CrossingArming::begins_as_wished(const GuardGroup& group, std::size_t k, bool at_start) {
   const double g = present_->g[k];
-  switch (decide_beginning(machine_->plan().crossing_of(group).at_start, group.direction, g)) {
+  const ZeroCrossing& crossing = machine_->plan().crossing_of(group);
+  switch (decide_beginning(crossing.wish(at_start), crossing.direction, g)) {
     case Beginning::by_flow:
       return false;
     case Beginning::refuse:
@@ -113,7 +120,7 @@ bool CrossingArming::begins_as_wished(const GuardGroup& group, std::size_t k) {
                "\"auto\", \"ignore\" or \"fire\""),
           present_->t, machine_->plan().leaf(group.leaf).path);
     case Beginning::fire:
-      present_->fire(k, -firing_side(group.direction));
+      present_->fire(k, -firing_side(crossing.direction));
       return true;
     case Beginning::wait: {
       const Departure::Side flow = flow_->side(group, static_cast<Index>(k), 0.0, 0);

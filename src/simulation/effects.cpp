@@ -5,9 +5,17 @@ namespace saltus {
 
 void Effects::run(const Action& action) {
   if (action.cause == Cause::zeno) return transition_->enter_mode(action.leaf, action.from);
+  if (action.cause == Cause::trigger) return executions_->trigger(action);
   const int source = journal_->source_of(action.cause, action.index);
   journal_->cause(source);
-  action.cause == Cause::time ? run_update(action, source) : run_reset(action, source);
+  switch (action.cause) {
+    case Cause::time:
+      return run_update(action, source);
+    case Cause::execution:
+      return executions_->execute(action);
+    default:
+      return run_reset(action, source);
+  }
 }
 
 void Effects::run_update(const Action& action, int source) {

@@ -8,29 +8,23 @@
 
 namespace saltus {
 
-namespace {
-
-/// Whether an event of this kind says that its guard or its clock fired.
-bool is_firing(EventKind kind) {
-  return kind == EventKind::zero_crossing || kind == EventKind::terminal || kind == EventKind::time;
-}
-
-}  // namespace
-
 Event EventLog::operator[](std::size_t i) const {
   const Row& row = rows_[i];
   const EventName& source = names_[row.source];
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  const bool queued = is_of_queue(row.kind);
   return {row.time,
           row.jump,
           row.kind,
           row.direction,
           source.block,
           source.event,
-          row.predicted,
+          queued ? none : row.predicted,
           std::span(states_).subspan(row.states, row.width),
           std::span(states_).subspan(row.states + row.width, row.width),
           row.entry,
-          std::span(rests_).subspan(row.first_rest, row.rests)};
+          std::span(rests_).subspan(row.first_rest, row.rests),
+          queued ? row.predicted : none};
 }
 
 std::vector<double> EventLog::times(std::string_view name, std::optional<EventKind> kind) const {

@@ -36,7 +36,7 @@ void Holds::add_guards(const GuardSet& guards) {
   for (const Guard& guard : guards.all()) {
     Hold& hold = of_guards_.emplace_back();
     const GuardGroup& group = plan.guard(guard.group);
-    if (!group.is_crossing() || !plan.crossing_of(group).has_effect()) continue;
+    if (!group.is_crossing() || group.queued || !plan.crossing_of(group).has_effect()) continue;
     const ZeroCrossing& crossing = plan.crossing_of(group);
     const PlanLeaf& leaf = plan.leaf(group.leaf);
     hold = {.monitor = ZenoMonitor(crossing.zeno_tolerance.value_or(options_->zeno_tolerance),

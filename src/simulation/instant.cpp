@@ -13,6 +13,7 @@ void Instant::open(double t, const std::vector<int>& due, double longest) {
   flow_.open(t, longest);
   edges_.open();
   holds_.open();
+  if (executions_.any()) executions_.open();
   std::swap(present_.firings, guards_->fired_at_root);
   guards_->fired_at_root.clear();
   before_.guards = guards_->all(), before_.roots = present_.firings, before_.jump = jump_;
@@ -33,8 +34,8 @@ Outcome Instant::run(double t, const std::vector<int>& due, double longest, bool
   bool armed = !at_start;
   turn_beside_root();
   for (;; ++present_.pass) {
-    if (present_.pass >= options_->max_passes) {
-      if (transition_.pass_wrote()) journal_.throw_no_end();
+    if (present_.pass - executions_.beside() >= options_->max_passes) {
+      if (transition_.pass_wrote() || executions_.executed()) journal_.throw_no_end();
       present_.outcome.chatters = true;  // only relations or modes change, without end
       break;
     }
@@ -81,6 +82,8 @@ bool Instant::collect() {
   present_.changes = flipped || released ||
                      (present_.pass == 0 && transition_.held_outputs_changed()) ||
                      collector_.acts();
+  if (executions_.any() && !present_.changes && present_.actions.empty())
+    present_.changes = executions_.collect();
   if (!present_.changes) journal_.at_jump(jump_);
   collector_.note_passive();
   return present_.changes || !present_.actions.empty();
@@ -113,16 +116,23 @@ void Instant::find_next() {
     if (holds_.of_guard(k).monitor.holding) {
       if (!present_.now(k).fired_in_pass) contacts_.look_at_held(k);  // else it just came to rest
     } else if (present_.now(k).fired_in_pass) {
-      guards_->turn(k, sign_of(g));
+      const bool queued = plan().guard(guard.group).queued;
+      guards_->turn(k, queued ? -guard.came_from : sign_of(g));
       guards_->set_base(k, g);
-    } else if (!guard.monitor && guard.crossed(g)) {
-      // Its side does not change: the flow decides when integration continues (3.4).
-      if (present_.note(k).put_at_zero = crossings_.is_at_zero(k); !present_.now(k).put_at_zero)
-        present_.fire(k, guard.side);
+      if (queued) look_at_crossing(k);  // a reset map may have carried the trigger back
     } else {
-      guards_->see(k, g);
+      look_at_crossing(k);
     }
   }
+}
+
+void Instant::look_at_crossing(std::size_t k) {
+  const Guard& guard = (*guards_)[k];
+  const double g = present_.g[k];
+  if (guard.monitor || !guard.crossed(g)) return guards_->see(k, g);
+  // Its side does not change: the flow decides when integration continues (3.4).
+  if (present_.note(k).put_at_zero = crossings_.is_at_zero(k); !present_.now(k).put_at_zero)
+    present_.fire(k, guard.side);
 }
 
 /// Arms all active guards for the solver. A guard at zero, or a guard that just fired, gets its

@@ -23,9 +23,11 @@ Instant::Instant(Machine& machine, GuardSet& guards, const SimulatorOptions& opt
       relations_(scope_, machine, guards, options, flow_, edges_, holds_, contacts_, transition_,
                  journal_, present_),
       crossings_(machine, guards, flow_, holds_, contacts_, transition_, present_),
+      executions_(machine, options, transition_, journal_, present_),
       collector_(scope_, plan(), guards, edges_, holds_, contacts_, relations_, crossings_,
                  transition_, journal_, present_),
-      effects_(plan(), guards, edges_, holds_, contacts_, transition_, journal_, present_) {
+      effects_(plan(), guards, edges_, holds_, contacts_, executions_, transition_, journal_,
+               present_) {
   guards.scan_points = options.event_scan_points;
 }
 
@@ -91,6 +93,7 @@ void Instant::undo() {
   guards_->arm_again(before_.roots);
   holds_.undo();
   edges_.undo();
+  if (executions_.any()) executions_.undo();
   journal_.undo();
   transition_.undo();
   jump_ = before_.jump;

@@ -67,9 +67,9 @@ void Journal::undo() {
 int Journal::source_of(Cause cause, int index) const {
   const auto groups = static_cast<int>(plan_->guards.size()),
              edges = static_cast<int>(plan_->edges.size());
-  return cause == Cause::crossing ? index
-         : cause == Cause::edge   ? groups + index
-                                  : groups + edges + index;
+  return cause == Cause::edge   ? groups + index
+         : cause == Cause::time ? groups + edges + index
+                                : index;
 }
 
 const std::string& Journal::name_of(int source) const {
@@ -83,7 +83,7 @@ const std::string& Journal::name_of(int source) const {
 void Journal::note(const Entry& entry) {
   ++results_->statistics.events, ++events_;
   last_source_ = entry.source;
-  if (entry.kind != EventKind::zeno_enter && entry.kind != EventKind::zeno_release) {
+  if (is_firing(entry.kind)) {
     ++counts_[entry.source];
     counted_.push_back(entry.source);
   }

@@ -41,7 +41,7 @@ Run::Run(std::shared_ptr<const Plan> plan, SimulatorOptions options)
       machine_(std::move(plan)),
       guards_(machine_.plan()),
       instant_(machine_, guards_, options_, results_),
-      calendar_(machine_.plan(), &machine_.z),
+      calendar_(machine_.plan(), &machine_.z, instant_.executions().next()),
       major_(options_.max_major_step_length),
       integration_(machine_, guards_, options_),
       rows_(machine_, results_, options_),
@@ -56,6 +56,7 @@ Run::Run(std::shared_ptr<const Plan> plan, SimulatorOptions options)
 void Run::initialize(const Context& context) {
   require_context_of(plan(), context);
   if (context.continuation() != nullptr) instant_.fits(*context.continuation());
+  instant_.executions().require_fits(context);
   calendar_.check(context.time());
   Context last = std::exchange(begin_, {});  // no run, if a function of the model throws now
   machine_.load(context);
@@ -68,6 +69,7 @@ void Run::initialize(const Context& context) {
   rows_.begin();
   if (options_.dense_output) results_.trajectory.start(machine_.shared_plan(), begin_, options_);
   calendar_.begin(time_, context.settled());
+  instant_.executions().begin(context);
   integration_.begin();
   begun_ = over_ = false;
   accepted_ = {.settled = context.settled()};
@@ -202,8 +204,9 @@ Status Run::settle(StopReason reason, double t_end, bool at_start) {
   ++results_.statistics.instants;
   results_.trajectory.instant();
   due_.clear();
-  if (calendar_.due(time_) || at_start) calendar_.take(time_, due_);
-  if (reason != StopReason::root && due_.empty() && !at_start)
+  const bool due = calendar_.due(time_);
+  if (due || at_start) calendar_.take(time_, due_);
+  if (reason != StopReason::root && !due && !at_start)
     return Status::reached_end;  // only the end of a major step
   major_.begin(time_);
   rows_.record(time_, instant_.jump(), machine_.x.data());  // the row that a failure leaves
@@ -214,7 +217,8 @@ Status Run::settle(StopReason reason, double t_end, bool at_start) {
   const Outcome outcome = instant_.run(time_, due_, t_end - time_, at_start);
   if (instant_.jump() != jump) histories_.changed();
   accepted_ = {.place = Place::machine, .settled = true};
-  if (outcome.restart)
+  const bool cut = instant_.executions().stops_earlier() && integration_.inside_step();
+  if (outcome.restart || cut)
     integration_.restart(time_, {.horizon = outcome.horizon, .flow = instant_.flow()});
   return after(outcome, {time_, at_root, t_end - begin_.time()}, idle);
 }

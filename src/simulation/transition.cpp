@@ -54,29 +54,90 @@ bool is_finite(const Eigen::Ref<const Eigen::VectorXd>& values) {
 
 }  // namespace
 
-bool Transition::run(const Call& call) {
-  const int number = call.leaf;
-  const PlanLeaf& of = machine_->plan().leaf(number);
-  At at = machine_->at(number, call.t, machine_->x.data());
-  at.entry = call.entry;
+/// The arguments of a function of a leaf in this pass: its states and its mode are those to come.
+At Transition::seen(int leaf, Index entry, double t) {
+  const PlanLeaf& of = machine_->plan().leaf(leaf);
+  At at = machine_->at(leaf, t, machine_->x.data());
+  at.entry = entry;
   new (&at.x) VectorView(x_next_.data() + of.x, of.nx);
   new (&at.z) VectorView(z_next_.data() + of.z, of.nz);
-  const int mode = at.mode = modes_next_[number];
-  Next next({x_next_.data() + of.x, of.nx}, {z_next_.data() + of.z, of.nz}, modes_next_[number],
-            of.path);
+  at.mode = modes_next_[leaf];
+  return at;
+}
+
+/// Runs a reset map, which writes to x, z and the mode.
+Transition::Wrote Transition::apply(const Call& call, VectorRef x, VectorRef z, int& mode) {
+  const PlanLeaf& of = machine_->plan().leaf(call.leaf);
+  const At at = seen(call.leaf, call.entry, call.t);
+  Next next(x, z, mode, of.path);
   (*call.map)(*of.system, at, next);
-  if (!is_finite(x_next_.segment(of.x, of.nx)) || !is_finite(z_next_.segment(of.z, of.nz))) {
+  if (!is_finite(x) || !is_finite(z)) {
     throw SimulationError(
         text("t = ", call.t, " s: '", call.source, "' set a state that is not finite (NaN or Inf)"),
         call.t, of.path);
   }
-  const bool x = next.wrote_continuous_state(), z = next.wrote_discrete_state();
-  pass_wrote_ = pass_wrote_ || x || z;
-  effects_ += x;
-  restarts_ = restarts_ || x || (z && derivatives_read(Reads::discrete_state, call.leaf));
-  const bool entered = modes_next_[number] != mode;
+  return {next.wrote_continuous_state(), next.wrote_discrete_state()};
+}
+
+void Transition::count(int leaf, Wrote wrote) {
+  pass_wrote_ = pass_wrote_ || wrote.x || wrote.z;
+  effects_ += wrote.x;
+  restarts_ = restarts_ || wrote.x || (wrote.z && derivatives_read(Reads::discrete_state, leaf));
+}
+
+bool Transition::run(const Call& call) {
+  const PlanLeaf& of = machine_->plan().leaf(call.leaf);
+  int& to = modes_next_[call.leaf];
+  const int mode = to;
+  const Wrote wrote =
+      apply(call, {x_next_.data() + of.x, of.nx}, {z_next_.data() + of.z, of.nz}, to);
+  count(call.leaf, wrote);
+  const bool entered = to != mode;
   wrote_mode_ = wrote_mode_ || entered;
-  return x || z || entered;
+  return wrote.x || wrote.z || entered;
+}
+
+double Transition::number(const NumberOf& number, int leaf, Index entry, double t) {
+  return number(*machine_->plan().leaf(leaf).system, seen(leaf, entry, t));
+}
+
+namespace {
+
+/// Lists the entries that differ from those before, with their values.
+void list_changes(const VectorView& before, const Eigen::VectorXd& after, std::vector<int>& entries,
+                  std::vector<double>& values) {
+  for (Index i = 0; i < after.size(); ++i) {
+    if (after[i] == before[i]) continue;
+    entries.push_back(static_cast<int>(i));
+    values.push_back(after[i]);
+  }
+}
+
+}  // namespace
+
+FrozenValues Transition::values(const Call& call) {
+  const PlanLeaf& of = machine_->plan().leaf(call.leaf);
+  const VectorView x_now(x_next_.data() + of.x, of.nx), z_now(z_next_.data() + of.z, of.nz);
+  Eigen::VectorXd x = x_now, z = z_now;
+  int mode = modes_next_[call.leaf];
+  const Wrote wrote = apply(call, {x.data(), of.nx}, {z.data(), of.nz}, mode);
+  FrozenValues values{.wrote_continuous = wrote.x,
+                      .wrote_discrete = wrote.z,
+                      .wrote_mode = mode != modes_next_[call.leaf],
+                      .mode = mode};
+  list_changes(x_now, x, values.continuous_entries, values.continuous);
+  list_changes(z_now, z, values.discrete_entries, values.discrete);
+  return values;
+}
+
+void Transition::write(int leaf, const FrozenValues& values) {
+  const PlanLeaf& of = machine_->plan().leaf(leaf);
+  for (std::size_t i = 0; i < values.continuous.size(); ++i)
+    x_next_[of.x + values.continuous_entries[i]] = values.continuous[i];
+  for (std::size_t i = 0; i < values.discrete.size(); ++i)
+    z_next_[of.z + values.discrete_entries[i]] = values.discrete[i];
+  if (values.wrote_mode) enter_mode(leaf, values.mode);
+  count(leaf, {values.wrote_continuous, values.wrote_discrete});
 }
 
 /// A held output that depends on z only is found by its value. An output that also reads x or t is

@@ -14,6 +14,7 @@
 #include "saltus/base/ids.hpp"
 #include "saltus/base/list.hpp"
 #include "saltus/model/continuation.hpp"
+#include "saltus/model/pending.hpp"
 
 namespace saltus {
 
@@ -48,6 +49,7 @@ struct ContextValues {
   std::vector<int> modes;
   bool settled = false;
   std::shared_ptr<const Continuation> continuation = {};
+  std::shared_ptr<const PendingExecutions> pending = {};
 };
 
 /// Time t [s], continuous state x, discrete state z, a mode per leaf, parameters p. A context is a
@@ -73,10 +75,16 @@ class Context {
   bool settled() const noexcept { return settled_; }
   /// The further state of the run that ended here; null after a value was changed by hand.
   const Continuation* continuation() const noexcept { return continuation_.get(); }
+  /// The executions of queued zero crossings that wait; null if no run has scheduled any. Every
+  /// `with_*` keeps them with the times at which they are due. An execution that is due before
+  /// `time()` happens at the start of the run.
+  const PendingExecutions* pending() const noexcept { return pending_.get(); }
 
   /// Everything that changes, for saving; and a context of this layout with saved values.
-  ContextValues values() const { return {time_, x_, z_, p_, modes_, settled_, continuation_}; }
-  /// It throws ModelError for a continuation with impossible values too.
+  ContextValues values() const {
+    return {time_, x_, z_, p_, modes_, settled_, continuation_, pending_};
+  }
+  /// It throws ModelError for a continuation or pending executions with impossible values too.
   Context with_values(const ContextValues& values) const;
 
   Context with_time(double t) const;
@@ -126,6 +134,7 @@ class Context {
   List<int> modes_;
   bool settled_ = false;
   std::shared_ptr<const Continuation> continuation_;
+  std::shared_ptr<const PendingExecutions> pending_;
 };
 
 namespace detail {

@@ -14,6 +14,7 @@
 #include "saltus/base/callback.hpp"
 #include "saltus/base/error.hpp"
 #include "saltus/base/list.hpp"
+#include "saltus/model/number_of.hpp"
 #include "saltus/model/port.hpp"
 
 namespace saltus {
@@ -133,6 +134,12 @@ struct Touches {
 /// crossings are located and logged, and the trajectory has the same bits as without it. With
 /// `size` n it is n guards that one call computes. Each fires on its own, and its reset map reads
 /// the index of the guard that fired from `At::entry`.
+///
+/// With any of the members from `delay` on it is *queued*, as the events of SBML (Level 3 Version
+/// 2, section 4.11) are: its firing is a trigger. The trigger schedules an execution, and the
+/// execution applies the reset map and the mode. Executions that are due at one time follow each
+/// other, the one of highest priority first. A queued zero crossing has an effect, is not terminal
+/// and has no Zeno monitor.
 struct ZeroCrossing {
   std::string name = {};
   VectorFunction guard = {};  ///< g(t, x, z, m, u, p), `size` numbers
@@ -154,8 +161,34 @@ struct ZeroCrossing {
   std::optional<std::vector<int>> inputs = {};  ///< the inputs the guard reads; all if not given
   Formula formula = {};                         ///< in place of guard: a plan may fuse it
 
+  /// [s] from the trigger to the execution, >= 0; evaluated at the trigger, with the values that
+  /// its reset map would see. Not given: 0.
+  std::optional<NumberOf> delay = {};
+  /// Evaluated before each execution of an instant; the highest comes first. Equal ones come in a
+  /// random order, by SimulatorOptions::event_seed. Not given: after all that have one.
+  std::optional<NumberOf> priority = {};
+  /// False: a guard that goes back to its armed side cancels the execution. Not given: true. It
+  /// needs one direction.
+  std::optional<bool> persistent = {};
+  /// Whether the guard counts as on its firing side before the start. False: it fires at the start
+  /// if it is there, or at zero. Not given: as `at_start` says. It needs one direction.
+  std::optional<bool> initial_value = {};
+  /// True: the reset map is computed at the trigger, and the entries of states that it changes are
+  /// written at the execution. Not given: false.
+  std::optional<bool> use_values_from_trigger_time = {};
+
   /// Whether its firing writes a state or a mode.
   bool has_effect() const { return reset_map || end_mode; }
+  bool is_queued() const {
+    return delay || priority || persistent || initial_value || use_values_from_trigger_time;
+  }
+  /// Whether a guard that goes back cancels its execution.
+  bool is_cancelled_on_return() const { return !persistent.value_or(true); }
+  /// How its guard is armed that begins at zero or beyond it: at the start of a run, or where its
+  /// mode is entered.
+  AtStart wish(bool at_start_of_run) const;
+  /// The error in the members of the queue, in words; empty if there is none.
+  std::string queue_fault() const;
 };
 
 /// A boolean that a smooth guard decides: true while g > 0. It is held between instants, so the

@@ -64,6 +64,7 @@ struct GuardGroup {
   Index size = 1;
   Direction direction = Direction::crosses_zero;
   bool monitor = false;
+  bool queued = false;    // its firing is a trigger of an execution
   std::string name = {};  // "block.guard"
   List<int> leaves = {};  // the blocks whose continuous state changes it
 

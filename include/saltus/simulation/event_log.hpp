@@ -14,13 +14,32 @@
 
 namespace saltus {
 
-enum class EventKind { zero_crossing, time, zeno_enter, zeno_release, terminal };
+enum class EventKind {
+  zero_crossing,
+  time,
+  zeno_enter,
+  zeno_release,
+  terminal,
+  scheduled,  ///< a queued zero crossing triggered
+  cancelled,  ///< its guard went back before the execution
+  executed    ///< its reset map and its mode were applied
+};
 
 inline std::string_view to_string(EventKind kind) {
-  constexpr std::string_view names[] = {"zero_crossing", "time", "zeno_enter", "zeno_release",
-                                        "terminal"};
+  constexpr std::string_view names[] = {"zero_crossing", "time",      "zeno_enter", "zeno_release",
+                                        "terminal",      "scheduled", "cancelled",  "executed"};
   return nth(names, kind);
 }
+
+/// Whether an event of this kind says that a guard or a clock had its effect: it counts as one by
+/// its name.
+constexpr bool is_firing(EventKind kind) {
+  return kind == EventKind::zero_crossing || kind == EventKind::terminal ||
+         kind == EventKind::time || kind == EventKind::executed;
+}
+
+/// Whether an event of this kind is of a queued zero crossing.
+constexpr bool is_of_queue(EventKind kind) { return kind >= EventKind::scheduled; }
 
 /// One event. `before` and `after` are the continuous state of its block at x- and x+.
 struct Event {
@@ -36,6 +55,8 @@ struct Event {
   int entry = 0;  ///< the index of the guard in a vector of guards
   /// The entries of the block's continuous state that rest from a zeno_enter on.
   std::span<const int> rests = {};
+  /// [s] The time at which an execution is due, of a queued zero crossing.
+  double due = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// The name of a declared event. The path of its block has no dot within a name, its own name may
@@ -55,7 +76,8 @@ class EventLog {
 
   /// The times [s] of the events of one name and kind; empty if it never fired. "ball.bounce" is
   /// that event of that block; a name that is no such path, as "bounce", is that of an event in any
-  /// block. Without a kind: when it fired, at a zero crossing, at the end of the run, or in time.
+  /// block. Without a kind: when it fired, at a zero crossing, at the end of the run, in time, or when
+  /// it was executed.
   /// ModelError for a name that no event of the run has, with the nearest there is.
   std::vector<double> times(std::string_view name, std::optional<EventKind> kind = {}) const;
 
@@ -68,7 +90,7 @@ class EventLog {
     int jump, direction;
     EventKind kind;
     int source;
-    double predicted;
+    double predicted;  // or due, of a queued zero crossing
     std::size_t states, width;
     int entry = 0;
     std::size_t first_rest = 0, rests = 0;

@@ -57,6 +57,9 @@ struct SimulatorOptions {
   std::optional<int> event_scan_points = {};
   /// The number of passes an instant may have before it counts as a loop without end.
   int max_passes = 100;
+  /// The seed of the order in which executions of queued zero crossings with equal priority follow
+  /// each other at one time: any finite number.
+  double event_seed = 0.0;
 
   /// The signals to record, by name; without any, recording costs nothing.
   RecordedSignals recorded_signals = {};

@@ -95,6 +95,29 @@ void fields_of(Archive& archive, Continuation& c) {
   archive.field("counts", c.counts);
 }
 
+template <class Archive>
+void fields_of(Archive& archive, PendingExecutions& pending) {
+  archive.records("all", pending.all, [](auto& one, auto& execution) {
+    one.field("leaf", execution.leaf);
+    one.field("event", execution.event);
+    one.field("entry", execution.entry);
+    one.field("due", execution.due);
+    one.field("number", execution.number);
+    one.field("frozen", execution.frozen);
+    FrozenValues& values = execution.values;
+    one.field("wrote_continuous", values.wrote_continuous);
+    one.field("wrote_discrete", values.wrote_discrete);
+    one.field("wrote_mode", values.wrote_mode);
+    one.field("continuous_entries", values.continuous_entries);
+    one.field("discrete_entries", values.discrete_entries);
+    one.field("continuous", values.continuous);
+    one.field("discrete", values.discrete);
+    one.field("mode", values.mode);
+  });
+  archive.field("scheduled", pending.scheduled);
+  archive.field("draws", pending.draws);
+}
+
 /// The values of one leaf.
 struct BlockData {
   std::string block;  ///< its path
@@ -130,7 +153,8 @@ inline std::vector<double> numbers_of(const Eigen::Ref<const Eigen::VectorXd>& v
   return {values.begin(), values.end()};
 }
 
-/// The values of a context, leaf by leaf, and the continuation of the run that ended with it.
+/// The values of a context, leaf by leaf, the continuation of the run that ended with it, and its
+/// pending executions.
 template <class Tree>
 typename Tree::Value data_of(const Context& context) {
   const ContextValues v = context.values();
@@ -152,6 +176,10 @@ typename Tree::Value data_of(const Context& context) {
   if (v.continuation) {
     Continuation continuation = *v.continuation;
     Tree::set(data, "continuation", written<Tree>(continuation));
+  }
+  if (v.pending) {
+    PendingExecutions pending = *v.pending;
+    Tree::set(data, "pending", written<Tree>(pending));
   }
   return data;
 }
@@ -210,6 +238,10 @@ ContextValues values_from(const Layout& layout, const typename Tree::Value& data
   if (Tree::has(data, "continuation")) {
     v.continuation = std::make_shared<const Continuation>(
         read<Tree, Continuation>(Tree::template get<typename Tree::Value>(data, "continuation")));
+  }
+  if (Tree::has(data, "pending")) {
+    v.pending = std::make_shared<const PendingExecutions>(
+        read<Tree, PendingExecutions>(Tree::template get<typename Tree::Value>(data, "pending")));
   }
   return v;
 }

@@ -15,6 +15,10 @@ void require_sound(const Layout& layout);
 /// that is neither 0 nor 1, a number that is not finite, times that increase, a negative count.
 void require_sound(const Continuation& continuation);
 
+/// Throws ModelError for pending executions that no run of a system of this layout can have left:
+/// of a block or a state that does not exist, due at no time, out of order, a negative count.
+void require_sound(const PendingExecutions& pending, const Layout& layout);
+
 /// The first difference between two lists of leaves, in words; empty if there is none. Leaves are
 /// equal if they have the same path, the same numbers of states, and the same parameters. The path
 /// of a single leaf counts only with `paths`: alone a block has its own name for a path, in a

@@ -37,7 +37,7 @@ class Memory {
 
   /// The present values, as a context of the same layout. `settled`: the events at t have happened.
   Context save(const Context& like, double t, std::shared_ptr<const Continuation> continuation,
-               bool settled = true) const;
+               bool settled = true, std::shared_ptr<const PendingExecutions> pending = {}) const;
 
   /// The places of the present values.
   Values values() const { return Values({x.data(), z.data(), p.data(), y.data()}); }

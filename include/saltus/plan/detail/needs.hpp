@@ -61,11 +61,16 @@ inline void add_event_roots(const PlanLeaf& leaf, std::vector<int>& roots) {
     append(roots, read_inputs(std::vector{reset.input}, leaf));
 }
 
+inline bool is_function(const std::optional<NumberOf>& number) {
+  return number && !number->is_constant();
+}
+
 inline void add_reset_roots(const PlanLeaf& leaf, std::vector<int>& roots) {
   const Declarations& d = leaf.declared();
   const std::size_t before = roots.size();
   for (const auto& crossing : d.zero_crossings) {
-    if (crossing.reset_map) append(roots, leaf.inputs);
+    if (crossing.reset_map || is_function(crossing.delay) || is_function(crossing.priority))
+      append(roots, leaf.inputs);
   }
   for (const auto& reset : d.edge_resets) append_inputs(roots, reset.inputs, leaf);
   for (const auto& event : d.time_events) {

@@ -18,8 +18,11 @@ namespace saltus {
 class Calendar {
  public:
   /// `z`: the discrete state of the run, which the ticks of some events depend on.
-  explicit Calendar(const Plan& plan, const Eigen::VectorXd* z = nullptr)
-      : plan_(&plan), z_(z), tick_(plan.schedule.size(), 0) {}
+  /// `execution` [s]: the time at which the next execution of a queued zero crossing is due; null if
+  /// the scene has none.
+  explicit Calendar(const Plan& plan, const Eigen::VectorXd* z = nullptr,
+                    const double* execution = nullptr)
+      : plan_(&plan), z_(z), execution_(execution), tick_(plan.schedule.size(), 0) {}
 
   /// Throws ModelError for a schedule whose ticks at t cannot be told apart.
   void check(double t) const {
@@ -50,6 +53,7 @@ class Calendar {
       any = std::min(any, t);
       if (!by_state(plan_->schedule[i])) counted = std::min(counted, t);
     }
+    if (execution_ != nullptr) any = std::min(any, *execution_);
     return counted <= any + slack(any) ? counted : any;
   }
 
@@ -76,12 +80,13 @@ class Calendar {
     }
   }
 
- private:
-  static constexpr double infinite = std::numeric_limits<double>::infinity();
-  /// Times that differ by rounding only are one instant: 3 * 0.1 and 0.3.
+  /// [s] Times that differ by rounding only are one instant: 3 * 0.1 and 0.3.
   static double slack(double t) {
     return thresholds::tick_roundings * thresholds::eps * std::abs(t);
   }
+
+ private:
+  static constexpr double infinite = std::numeric_limits<double>::infinity();
 
   double time_of(std::size_t i) const {
     const ScheduledEvent& event = plan_->schedule[i];
@@ -133,6 +138,7 @@ class Calendar {
 
   const Plan* plan_;
   const Eigen::VectorXd* z_;
+  const double* execution_;
   std::vector<std::int64_t> tick_;
 };
 

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "saltus/simulation/detail/contact_guards.hpp"
+#include "saltus/simulation/detail/executions.hpp"
 
 namespace saltus {
 
@@ -13,12 +14,14 @@ namespace saltus {
 class Effects {
  public:
   Effects(const Plan& plan, const GuardSet& guards, const Edges& edges, Holds& holds,
-          ContactGuards& contacts, Transition& transition, Journal& journal, Present& present)
+          ContactGuards& contacts, Executions& executions, Transition& transition, Journal& journal,
+          Present& present)
       : plan_(&plan),
         guards_(&guards),
         edges_(&edges),
         holds_(&holds),
         contacts_(&contacts),
+        executions_(&executions),
         transition_(&transition),
         journal_(&journal),
         present_(&present) {}
@@ -44,6 +47,7 @@ class Effects {
   const Edges* edges_;
   Holds* holds_;
   ContactGuards* contacts_;
+  Executions* executions_;
   Transition* transition_;
   Journal* journal_;
   Present* present_;

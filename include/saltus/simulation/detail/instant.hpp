@@ -19,6 +19,7 @@ namespace saltus {
 ///     Holds                               which states rest
 ///     ContactGuards                       the guards of blocks at rest
 ///     Relations, CrossingArming           truths; sides of zero crossings
+///     Executions                          the queue: what waits, and which comes first
 ///     Collector, Effects                  the actions of a pass; carrying them out
 class Instant {
  public:
@@ -39,6 +40,10 @@ class Instant {
   /// Runs the instant at t, with the guards that fired at the root and the time events in `due`.
   /// `longest` [s] is the time to the end of the run.
   Outcome run(double t, const std::vector<int>& due, double longest, bool at_start = false);
+
+  /// The executions that wait, of the run that begins or continues.
+  Executions& executions() noexcept { return executions_; }
+  const Executions& executions() const noexcept { return executions_; }
 
   /// Undoes the instant under way, whose effects failed: guards, holds, signals, events and values
   /// are as before it, and the guards that fired will fire again.
@@ -70,6 +75,7 @@ class Instant {
   void run_pass();
   void commit();
   void find_next();
+  void look_at_crossing(std::size_t k);
   void arm(bool at_start);
   void select_guards();
   void look_at_guards();
@@ -90,6 +96,7 @@ class Instant {
   ContactGuards contacts_;
   Relations relations_;
   CrossingArming crossings_;
+  Executions executions_;
   Collector collector_;
   Effects effects_;
   int jump_ = 0;

@@ -38,6 +38,9 @@ class Integration {
     if (started_) solver_->restart(t, machine_->x, start);
   }
 
+  /// Whether the solver has stepped beyond the present time, to a root of the step.
+  bool inside_step() const { return started_ && !solver_->at_step_end(); }
+
   /// The present state.
   const Eigen::VectorXd& state() const { return started_ ? solver_->state() : machine_->x; }
   /// Copies the present state to the machine, and moves carried blocks onto their surfaces at t.

@@ -80,6 +80,10 @@ inline const std::tuple option_table{
            }},
     Option{"max_passes", &SimulatorOptions::max_passes,
            +[](const SimulatorOptions& o) { return unless(o.max_passes > 0, "1 or more"); }},
+    Option{"event_seed", &SimulatorOptions::event_seed,
+           +[](const SimulatorOptions& o) {
+             return unless(std::isfinite(o.event_seed), "a finite number");
+           }},
     Option<std::vector<double>>{"save_at", &SimulatorOptions::save_at},
     Option<std::optional<bool>>{"save_steps", &SimulatorOptions::save_steps},
     Option<bool>{"event_rows", &SimulatorOptions::event_rows},

@@ -27,9 +27,11 @@ struct Outcome {
 /// Why something happens.
 enum class Cause {
   crossing,  ///< a zero crossing fired
+  trigger,   ///< a queued zero crossing fired
   edge,      ///< a watched signal has an edge
   time,      ///< a time event is due
-  zeno       ///< firings accumulate, and the guard's author named a mode to enter
+  zeno,      ///< firings accumulate, and the guard's author named a mode to enter
+  execution  ///< an execution of a queued zero crossing is due
 };
 
 /// One action of the next pass.

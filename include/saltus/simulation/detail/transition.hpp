@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "saltus/base/list.hpp"
+#include "saltus/model/number_of.hpp"
+#include "saltus/model/pending.hpp"
 #include "saltus/plan/detail/machine.hpp"
 
 namespace saltus {
@@ -35,6 +37,12 @@ class Transition {
   /// wrote to the states and the mode of its leaf (3.2, 3.3). Returns whether it had an effect: it
   /// wrote a state, or changed the mode.
   bool run(const Call& call);
+  /// The number that a function gives for the values that a reset map would see now.
+  double number(const NumberOf& number, int leaf, Index entry, double t);
+  /// What a reset map would write now; nothing is written.
+  FrozenValues values(const Call& call);
+  /// Writes what a reset map computed earlier.
+  void write(int leaf, const FrozenValues& values);
   void enter_mode(int leaf, int mode) { modes_next_[leaf] = mode, wrote_mode_ = true; }
 
   /// The values to come become the present ones. Returns whether a mode changed.
@@ -61,6 +69,13 @@ class Transition {
   std::vector<int>& modes_before() noexcept { return modes_before_; }
 
  private:
+  struct Wrote {
+    bool x, z;
+  };
+  At seen(int leaf, Index entry, double t);
+  Wrote apply(const Call& call, VectorRef x, VectorRef z, int& mode);
+  void count(int leaf, Wrote wrote);
+
   Machine* machine_;
   Eigen::VectorXd x_minus_, z_minus_, y_minus_, x_next_, z_next_;
   List<int> modes_next_, modes_before_;

@@ -1,0 +1,40 @@
+// Pending executions: the queued zero crossings that are scheduled and not executed yet.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace saltus {
+
+/// The values that a reset map computed at the time of its trigger, to be written later. Only the
+/// entries that it changed are kept: all others of the leaf go on meanwhile.
+struct FrozenValues {
+  bool wrote_continuous = false, wrote_discrete = false, wrote_mode = false;
+  std::vector<int> continuous_entries = {}, discrete_entries = {};
+  std::vector<double> continuous = {}, discrete = {};  ///< values of these entries
+  int mode = 0;                                        ///< if it wrote one
+  bool operator==(const FrozenValues&) const = default;
+};
+
+/// One execution that is scheduled.
+struct PendingExecution {
+  int leaf = 0;             ///< number of the block in the system
+  int event = 0;            ///< position of the zero crossing in the block
+  int entry = 0;            ///< the guard that fired, in a vector of guards
+  double due = 0.0;         ///< [s]
+  std::int64_t number = 0;  ///< how many were scheduled before it in this run
+  bool frozen = false;      ///< its values were computed at the trigger
+  FrozenValues values = {};
+  bool operator==(const PendingExecution&) const = default;
+};
+
+/// All executions that are pending, in the order in which they are due, and the counts that the
+/// next ones need. A context carries them, also after a value of it was changed by hand.
+struct PendingExecutions {
+  std::vector<PendingExecution> all = {};
+  std::int64_t scheduled = 0;  ///< executions scheduled so far
+  std::int64_t draws = 0;      ///< ties decided at random so far
+  bool operator==(const PendingExecutions&) const = default;
+};
+
+}  // namespace saltus

@@ -1,0 +1,85 @@
+// Executions: triggers of queued zero crossings, and the executions that follow them.
+#pragma once
+
+#include <vector>
+
+#include "saltus/simulation/detail/calendar.hpp"
+#include "saltus/simulation/detail/execution_queue.hpp"
+#include "saltus/simulation/detail/journal.hpp"
+#include "saltus/simulation/detail/queue_decisions.hpp"
+
+namespace saltus {
+
+/// Schedules, cancels and carries out executions. A trigger is an action of the pass in which its
+/// guard fired: its delay, and its values if they are those of the trigger time, are computed from
+/// what a reset map sees there. An execution is a pass of its own, after all else that happens at
+/// that time. A scene without queued zero crossings asks `any` and `beside`, and nothing else.
+class Executions {
+ public:
+  Executions(Machine& machine, const SimulatorOptions& options, Transition& transition,
+             Journal& journal, Present& present);
+
+  /// Whether the scene has queued zero crossings.
+  bool any() const noexcept { return any_; }
+  /// Throws ModelError for pending executions of zero crossings that the scene does not have.
+  void require_fits(const Context& context) const;
+  /// A run begins with the executions that wait in a context.
+  void begin(const Context& from);
+  /// What waits, for a context; null if the run has scheduled nothing.
+  std::shared_ptr<const PendingExecutions> save() const;
+  void open();
+  void undo() { queue_.undo(); }
+
+  /// [s] The time at which the next execution is due; null if the scene has none.
+  const double* next() const noexcept { return any_ ? &queue_.next() : nullptr; }
+  /// Whether an execution that this instant has scheduled is due before all that waited: the solver
+  /// may have stepped beyond it.
+  bool stops_earlier() const { return any_ && queue_.next() < next_before_; }
+  /// Adds the execution that comes first of those that are due to the actions of the pass. False if
+  /// none is due.
+  bool collect();
+  /// Schedules or cancels, by the guard that fired.
+  void trigger(const Action& action);
+  /// Carries out the execution that `collect` found.
+  void execute(const Action& action);
+  /// Whether an execution was carried out in this instant.
+  bool executed() const noexcept { return chain_.executions > 0; }
+  /// See ExecutionChain.
+  int beside() const noexcept { return chain_.beside(); }
+
+ private:
+  using Key = ExecutionQueue::Key;
+  struct Due {
+    std::vector<Key> keys = {};
+    std::vector<double> priorities = {};
+  };
+
+  const Plan& plan() const { return machine_->plan(); }
+  const ZeroCrossing& crossing_of(int group) const {
+    return plan().crossing_of(plan().guard(group));
+  }
+  const std::string& path_of(int group) const { return plan().leaf(plan().guard(group).leaf).path; }
+  int group_of(const PendingExecution& one) const;
+  std::vector<WaitingExecution> found_in(const PendingExecutions& pending) const;
+  void find_due();
+  double priority_of(const WaitingExecution& one) const;
+  double draw();
+  double delay_of(int group, Index entry) const;
+  void schedule(int group, Index entry, int from);
+  void cancel(int group, Index entry, int from);
+  void note(EventKind kind, const WaitingExecution& one, int direction);
+
+  Machine* machine_;
+  const SimulatorOptions* options_;
+  Transition* transition_;
+  Journal* journal_;
+  Present* present_;
+  bool any_;
+  ExecutionQueue queue_;
+  ExecutionChain chain_;
+  double next_before_ = std::numeric_limits<double>::infinity();  // [s] due before this instant
+  WaitingExecution taken_;                                        // the execution of this pass
+  Due due_;
+};
+
+}  // namespace saltus
