@@ -60,9 +60,13 @@ bool equal(const Context& a, const Context& b) {
     for (const auto& leaf : context.layout().leaves) all.push_back(leaf.path);
     return all;
   };
+  const PendingExecutions none;
+  const auto pending = [&](const Context& context) -> const PendingExecutions& {
+    return context.pending() != nullptr ? *context.pending() : none;
+  };
   return a.time() == b.time() && a.modes() == b.modes() &&
          a.continuous_state() == b.continuous_state() && a.discrete_state() == b.discrete_state() &&
-         a.parameters() == b.parameters() && paths(a) == paths(b);
+         a.parameters() == b.parameters() && paths(a) == paths(b) && pending(a) == pending(b);
 }
 
 std::string repr(const Context& context) {

@@ -77,7 +77,8 @@ py::tuple event(const Record& results, std::size_t i) {
   py::tuple rests(e.rests.size());
   for (std::size_t k = 0; k < e.rests.size(); ++k) rests[k] = e.rests[k];
   return py::make_tuple(e.time, e.jump, to_string(e.kind), e.direction, e.block, e.name,
-                        e.predicted, copy_of(e.before), copy_of(e.after), e.entry, rests);
+                        is_of_queue(e.kind) ? e.due : e.predicted, copy_of(e.before),
+                        copy_of(e.after), e.entry, rests);
 }
 
 /// Without a kind: of all events that fired.
@@ -85,7 +86,7 @@ py::array event_times(const Record& results, std::string_view name,
                       std::optional<std::string_view> kind) {
   if (!kind) return copy_of(results.events.times(name));
   std::vector<std::string> known;
-  for (int i = 0; i <= static_cast<int>(EventKind::terminal); ++i) {
+  for (int i = 0; i <= static_cast<int>(EventKind::executed); ++i) {
     const auto one = static_cast<EventKind>(i);
     if (to_string(one) == kind) return copy_of(results.events.times(name, one));
     known.emplace_back(to_string(one));

@@ -16,8 +16,9 @@ namespace {
 
 using tape::Tape;
 
-constexpr std::array roles{"ode",       "jacobian", "sparse_jacobian", "output",    "guard",
-                           "reset_map", "update",   "relation",        "edge_reset"};
+constexpr std::array roles{"ode",        "jacobian",  "sparse_jacobian", "output",
+                           "guard",      "reset_map", "update",          "relation",
+                           "edge_reset", "delay",     "priority"};
 
 py::tuple as_tuple(const Dimensions& dimensions) { return py::tuple(py::cast(dimensions)); }
 
@@ -37,6 +38,9 @@ py::object result_size(const BlockTraces& block, const Function& function) {
       return py::int_(block.outputs[place].size);
     case Role::guard:
       return py::int_(d.zero_crossings[place].size);
+    case Role::delay:
+    case Role::priority:
+      return py::int_(1);
     case Role::relation:
       return py::int_(*d.relations[place].size);
     default:

@@ -32,7 +32,9 @@ enum class Role {
   reset_map,
   update,
   relation,
-  edge_reset
+  edge_reset,
+  delay,    // of a queued zero crossing
+  priority  // likewise
 };
 
 /// Whether the sign of its values says on which side of an event the block is.

@@ -94,6 +94,12 @@ void Writer::put(const Slot& slot) {
     case Role::reset_map:
       crossing().reset_map = TapedReset{slot, crossing().reset_map, &original_};
       return;
+    case Role::delay:
+      crossing().delay = NumberOf(taped(slot));
+      return;
+    case Role::priority:
+      crossing().priority = NumberOf(taped(slot));
+      return;
     case Role::relation:
       return put_relation(slot);
     case Role::jacobian:

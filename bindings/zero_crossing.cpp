@@ -1,5 +1,7 @@
 #include "zero_crossing.hpp"
 
+#include <functional>
+
 #include <pybind11/stl.h>
 
 namespace saltus::python {
@@ -36,6 +38,12 @@ class Options {
   std::optional<int> mode(const char* name) const {
     return get<std::optional<int>>(name, "a mode, an integer");
   }
+
+  std::optional<bool> truth(const char* name) const {
+    return get<std::optional<bool>>(name, "True, False or None");
+  }
+
+  py::object raw(const char* name) const { return given_[name]; }
 
   OnZeno on_zeno() const {
     const py::object value = given_["on_zeno"];
@@ -89,7 +97,20 @@ ZeroCrossing read(const Options& options) {
           .on_zeno = options.on_zeno(),
           .zeno_tolerance = zeno_tolerance(options),
           .holds = options.holds(),
-          .inputs = inputs(options)};
+          .inputs = inputs(options),
+          .persistent = options.truth("persistent"),
+          .initial_value = options.truth("initial_value"),
+          .use_values_from_trigger_time = options.truth("use_values_from_trigger_time")};
+}
+
+/// A number or a function of the block; nothing for None.
+std::optional<NumberOf> number(const Options& options, const char* name, PythonLeaf& leaf,
+                               const std::function<int(py::object)>& add) {
+  const py::object given = options.raw(name);
+  if (given.is_none()) return {};
+  if (PyNumber_Check(given.ptr()) != 0 && PyCallable_Check(given.ptr()) == 0)
+    return NumberOf(options.get<double>(name, "a number or a function"));
+  return NumberOf(leaf.vector_function(add(given)));
 }
 
 }  // namespace
@@ -114,6 +135,12 @@ void declare_zero_crossing(py::handle self, py::object guard, py::object reset_m
   crossing.guard = leaf.vector_function(add(std::move(guard), "guard", Role::guard));
   if (!reset_map.is_none())
     crossing.reset_map = leaf.reset_map(add(std::move(reset_map), "reset map", Role::reset_map));
+  crossing.delay = number(options, "delay", leaf, [&](py::object function) {
+    return add(std::move(function), "delay", Role::delay);
+  });
+  crossing.priority = number(options, "priority", leaf, [&](py::object function) {
+    return add(std::move(function), "priority", Role::priority);
+  });
   leaf.declare_zero_crossing(std::move(crossing));
 }
 

@@ -93,6 +93,10 @@ class SimulatorOptions:
     """
     max_passes: int = 100
     """passes an instant may have before it counts as a loop without end"""
+    event_seed: float = 0.0
+    """seed of the random order in which executions of queued zero crossings with equal priority
+    follow each other at one time; any finite number
+    """
     recorded_signals: Mapping[str, OutputPort | str] | Sequence[str] | None = None
     """the outputs to record: a dict of names with ports or paths such as "car.engine.out", or a
     list of paths. None: the outputs that a diagram exports, in a sweep nothing; {}: nothing

@@ -103,7 +103,7 @@ TEST_CASE("3.11 a delay that is negative or not finite is an error with block an
 }
 
 TEST_CASE("3.11 one declaration queues the executions of many triggers at once", "[semantics]") {
-  // Triggers at 0.5, 1.5, 2.5 and so on; each execution is 2.5 s behind: three of them wait together.
+  // Triggers at 0.5, 1.5, 2.5 and so on. Each execution is 2.5 s behind, so three wait together.
   const Leaf leaf("clock", [](Leaf& l) {
     l.declare_discrete_state(vec({0.0, 0.0}));
     l.declare_periodic_update(

@@ -36,6 +36,11 @@ class DeclaresGuards(_core.LeafSystem):
         on_zeno: str | int = "hold",
         holds: Sequence[Sequence[int]] | None = None,
         formula: bool = False,
+        delay: float | Callable[..., ArrayLike] | None = None,
+        priority: float | Callable[..., ArrayLike] | None = None,
+        persistent: bool | None = None,
+        initial_value: bool | None = None,
+        use_values_from_trigger_time: bool | None = None,
     ) -> None:
         """An event where g = guard(time, state, *inputs, **parameters), a smooth number in any
         unit, reaches zero or crosses it. A truth is a guard, too, with the positive side where it
@@ -63,9 +68,48 @@ class DeclaresGuards(_core.LeafSystem):
         - `zeno_tolerance` [s] overrides that of the simulator options, 0 switches the monitor off.
         - `formula` is as for `declare_output_port`, for the guard.
 
+        With any of the following it is *queued*, like an event of SBML (Level 3 Version 2, section
+        4.11): its firing is a trigger, which schedules an execution of the reset map and of
+        `end_mode`. It has an effect, is not `terminal`, and no Zeno monitor.
+
+        - `delay` [s], >= 0, from the trigger to the execution: a number, or a function that is
+          called like the guard, at the trigger.
+        - `priority`, a number or a function: of the executions that are due at one time the highest
+          comes first. It is evaluated anew before each. Equal ones come in a random order, by
+          `event_seed` of the options, and those without a priority after all others.
+        - `persistent=False`: if the guard goes back before the execution, the execution is
+          cancelled.
+        - `initial_value` says whether the guard counts as on its firing side before the start. With
+          False it fires at the start if it is there; with True it waits until it has been on the
+          other side.
+        - `use_values_from_trigger_time=True`: the reset map is computed at the trigger, and the
+          entries of the states that it changes are written at the execution.
+
+        The event log has the kinds 'scheduled', 'cancelled' and 'executed'. A trigger over several
+        comparisons is a truth over them, such as `lambda t, s: (s.continuous_state[0] > 1) &
+        (s.continuous_state[1] < 2)`, with a direction. An error of a delay that is negative or not
+        finite, or of a priority that is not a number, is a SimulationError.
+
         A ModelError for a name declared twice, an unknown direction, `at_start` or `on_zeno` (with
         the nearest name), a `size` or `max_count` below 1, a `max_count` without `terminal`, a
-        negative `zeno_tolerance`, and `holds` of another length or beyond the state.
+        negative `zeno_tolerance`, and `holds` of another length or beyond the state. Of a queued
+        one for `terminal`, a missing effect, options of Zeno holds, a constant delay that is
+        negative, and `persistent=False` or `initial_value` without one direction.
+
+        Examples
+        --------
+        >>> tank = saltus.LeafSystem(name="tank")
+        >>> tank.declare_continuous_state([0.0], ode=lambda t, s: [1.0])
+        >>> tank.declare_zero_crossing(
+        ...     guard=lambda t, s: s.continuous_state[0] - 1.0,
+        ...     reset_map=lambda t, s: [0.0],
+        ...     name="empty",
+        ...     direction="rising",
+        ...     delay=0.25,
+        ... )
+        >>> events = saltus.simulate(tank, tank.create_context(), (0.0, 1.5)).events
+        >>> [(event.kind, round(event.time, 9)) for event in events]
+        [('scheduled', 1.0), ('executed', 1.25)]
         """
         options = {
             "direction": direction_of(direction),
@@ -80,6 +124,11 @@ class DeclaresGuards(_core.LeafSystem):
             "holds": holds,
             "formula": bool(formula),
             "inputs": inputs_of(requires_inputs),
+            "delay": callback_of(delay),
+            "priority": callback_of(priority),
+            "persistent": persistent,
+            "initial_value": initial_value,
+            "use_values_from_trigger_time": use_values_from_trigger_time,
         }
         super().declare_zero_crossing(
             callback_of(guard), callback_of(reset_map), name or "", options

@@ -21,7 +21,8 @@ if TYPE_CHECKING:
 __all__ = ["Event", "EventLog"]
 
 SHOWN = 20
-KINDS = ["zero_crossing", "time", "zeno_enter", "zeno_release", "terminal"]
+QUEUED = ("scheduled", "cancelled", "executed")
+KINDS = ["zero_crossing", "time", "zeno_enter", "zeno_release", "terminal", *QUEUED]
 
 
 class Event(NamedTuple):
@@ -40,7 +41,9 @@ class Event(NamedTuple):
     jump: int
     """the number of passes with a change until it was over; it orders events of one time"""
     kind: str
-    """'zero_crossing', 'time', 'zeno_enter', 'zeno_release' or 'terminal'"""
+    """'zero_crossing', 'time', 'zeno_enter', 'zeno_release' or 'terminal'; of a queued zero
+    crossing 'scheduled', 'cancelled' or 'executed'
+    """
     direction: int
     """+1: its guard was rising, -1: falling, 0: no guard"""
     block: str
@@ -48,7 +51,9 @@ class Event(NamedTuple):
     name: str
     """the declared name"""
     predicted: float
-    """[s] when infinitely many resets would have happened, of 'zeno_enter'; else nan"""
+    """[s] when infinitely many resets would have happened, of 'zeno_enter'; when the execution is
+    due, of a queued zero crossing; else nan
+    """
     before: np.ndarray
     """continuous state of the block before it"""
     after: np.ndarray
@@ -57,6 +62,11 @@ class Event(NamedTuple):
     """which guard of a vector of them fired; 0 if there is one"""
     rests: tuple[int, ...] = ()
     """the entries of the block's continuous state that rest from a 'zeno_enter' on"""
+
+    @property
+    def due(self) -> float:
+        """[s] When the execution of a queued zero crossing is due; nan for any other event."""
+        return self.predicted if self.kind in QUEUED else float("nan")
 
 
 class EventLog(Sequence[Event]):
@@ -103,8 +113,9 @@ class EventLog(Sequence[Event]):
             Of the event, with or without that of its block: 'bounce' or 'ball.bounce'; of all if
             it is left out. A name that is the path of an event means that one.
         kind : str, optional
-            'zero_crossing', 'time', 'zeno_enter', 'zeno_release' or 'terminal'; if not said, the
-            three in which it fired: a zero crossing, the one that ended the run, a time event.
+            'zero_crossing', 'time', 'zeno_enter', 'zeno_release', 'terminal', 'scheduled',
+            'cancelled' or 'executed'; if not said, the four in which it had its effect: a zero
+            crossing, the one that ended the run, a time event, an execution.
 
         Returns
         -------

@@ -15,7 +15,10 @@ from saltus.results.statistics import Statistics
 
 __all__ = ["checked_arrays", "checked_events", "checked_statistics", "strings", "text"]
 
-KINDS = ("zero_crossing", "time", "zeno_enter", "zeno_release", "terminal")
+KINDS = (
+    "zero_crossing", "time", "zeno_enter", "zeno_release", "terminal",
+    "scheduled", "cancelled", "executed",
+)  # fmt: skip
 EVENT = 8
 """jump, kind, direction, block, name, entry, number of states, entries that rest"""
 

@@ -13,8 +13,8 @@ from saltus.errors import ModelError
 
 __all__ = ["FIRINGS", "KINDS", "Columns", "KeptRun", "Record"]
 
-FIRINGS = ("zero_crossing", "terminal", "time")
-"""kinds of events that say that a guard or a clock fired"""
+FIRINGS = ("zero_crossing", "terminal", "time", "executed")
+"""kinds of events that say that a guard or a clock had its effect"""
 
 Columns = dict[str, np.ndarray]
 
