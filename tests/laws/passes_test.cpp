@@ -115,6 +115,41 @@ TEST_CASE("a loop of resets is an error that prints the chain of causes", "[laws
   CHECK(contains(what, "max_passes"));
 }
 
+TEST_CASE("two guards at one surface that throw the state to each other end in that error",
+          "[laws][passes]") {
+  // The one resets to 0 where x rises to 0.5, the other to 1 where x falls to 0.5: from 0.5 on each
+  // reset fires the other.
+  const auto method = GENERATE(from_range(methods));
+  const double begin = GENERATE(0.0, 0.1, -0.25);
+  INFO("method " << method << ", from " << begin);
+  const Leaf leaf("leaf", [=](Leaf& l) {
+    declare_ramp(l, 1.0, begin);
+    const auto resets_to = [](double x) {
+      return [x](const At&, Next& next) { next.set_continuous_state({x}); };
+    };
+    l.declare_zero_crossing({.name = "down",
+                             .guard = [](const At& at) { return at.x[0] - 0.5; },
+                             .reset_map = resets_to(0.0),
+                             .direction = Direction::negative_then_non_negative});
+    l.declare_zero_crossing({.name = "up",
+                             .guard = [](const At& at) { return 0.5 - at.x[0]; },
+                             .reset_map = resets_to(1.0),
+                             .direction = Direction::negative_then_non_negative});
+  });
+  double ended = not_a_number;
+  const std::string what = message<SimulationError>([&] {
+    try {
+      simulate(leaf, leaf.create_context(), {0.0, 4.0}, {.ode_solver_method = method});
+    } catch (const SimulationError& error) {
+      ended = error.time();
+      throw;
+    }
+  });
+  INFO(what);
+  CHECK(contains(what, "more than 100 passes"));
+  CHECK_THAT(ended, WithinAbs(0.5 - begin, 1e-12));
+}
+
 TEST_CASE("two blocks swap values at a tick", "[laws][passes]") {
   const auto holder = [](std::string name, double value) {
     return std::make_shared<Leaf>(std::move(name), [=](Leaf& l) {

@@ -111,3 +111,22 @@ TEST_CASE("the rounding of f is that of its argument times its slope", "[radau]"
   CHECK(rounding_explains(20.0 * eps * h * slope, x, h, f(x), moved));
   CHECK_FALSE(rounding_explains(1e3 * eps * h * slope, x, h, f(x), moved));
 }
+
+TEST_CASE("the contraction of a step counts in proportion to the length of the next one",
+          "[radau]") {
+  struct Row {
+    double theta, ratio, expected;  // of theta
+  };
+  // No less than before for a shorter step; 1 for a step that need not contract at all.
+  const Row rows[] = {{0.0, 8.0, 0.0},   {0.1, 1.0, 0.1}, {0.1, 0.01, 0.1}, {0.1, 8.0, 0.8},
+                      {1e-6, 1e3, 1e-3}, {0.2, 8.0, 1.0}, {0.5, 2.0, 1.0},  {1.0, 3.0, 1.0}};
+  const auto factor = [](double theta) { return theta / (1.0 - theta); };  // infinite for 1
+  for (const Row& row : rows) {
+    const double found = scaled(factor(row.theta), row.ratio);
+    INFO("theta " << row.theta << ", ratio " << row.ratio);
+    if (row.expected == 1.0)
+      CHECK(std::isinf(found));
+    else
+      CHECK(std::abs(found / (1.0 + found) - row.expected) <= 8.0 * eps);
+  }
+}

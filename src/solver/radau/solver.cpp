@@ -113,7 +113,7 @@ void RadauSolver::finish_stages(double h) {
 
 void RadauSolver::accept(double error, double h, double wish, bool rejected) {
   ++statistics_.steps;
-  const bool kept = stages_.keep();
+  const bool kept = stages_.keep(h);
   const double ratio = smooth_ ? h / last_length_ : 0.0;
   const double next = choice_.accept({h, error, ratio, rejected, kept}, stages_.convergence());
   if (damping_.goes_on()) return go_on_damping(h);

@@ -81,9 +81,10 @@ bool StageSolver::recover(Verdict verdict, const Step& step) {
   return false;
 }
 
-bool StageSolver::keep() {
+bool StageSolver::keep(double h) {
   const Convergence& newton = convergence();
-  factor_ = newton.factor();
+  factor_ = newton.at_rounding() ? infinite : newton.factor();  // roundings tell no contraction
+  length_ = h;
   ++age_;
   if (!std::exchange(failed_, false)) doubts_ = std::max(doubts_ - 1, 0);
   const bool old = machine_->plan().nx <= thresholds::fresh_jacobian && age_ >= tuning::oldest;

@@ -40,8 +40,9 @@ class StageSolver {
   /// Whether all derivatives were finite in the last iteration.
   bool finite() const { return newton_.finite(); }
   const Convergence& convergence() const { return newton_.convergence(); }
-  /// The step was accepted: decides whether the Jacobian is kept. Returns whether it is.
-  bool keep();
+  /// The step of length h was accepted: decides whether the Jacobian is kept. Returns whether it
+  /// is.
+  bool keep(double h);
   void renew_jacobian() { known_ = false; }
 
   /// Solves the stages of a part of the last step from the first values they have.
@@ -80,6 +81,7 @@ class StageSolver {
   int doubts_ = 0;                // failures with a new Jacobian, less the steps without
   bool failed_ = false;           // in this step, with a new Jacobian
   double factor_ = infinite;      // see Convergence
+  double length_ = 0.0;           // [s] of the step that it is from
   double shorter_ = tuning::diverged_retry;
   long setups_ = 0;
 };
@@ -92,8 +94,9 @@ bool StageSolver::solve(const Step& step, StagePolynomial& stages, const Start& 
     if (!known_ && !make_jacobian(step)) return false;
     if (!systems_->serves(scheme, step.h) && !set_up(*systems_, scheme, step.h)) return false;
     start();
+    const double before = scaled(factor_, step.h / length_);
     const Verdict verdict =
-        newton_.solve({step.t, step.h, step.x->data(), room(), factor_}, *systems_, stages);
+        newton_.solve({step.t, step.h, step.x->data(), room(), before}, *systems_, stages);
     if (verdict == Verdict::converged) return true;
     distrust();
     if (!recover(verdict, step)) return false;

@@ -6,6 +6,7 @@
 
 #include "saltus/solver/detail/locate.hpp"
 #include "saltus/solver/detail/solver.hpp"
+#include "saltus/solver/detail/tangent_step.hpp"
 
 namespace saltus {
 
@@ -47,6 +48,7 @@ class StepSolver : public Interface {
     t0_ = t1_ = time_ = t;
     x1_ = x;
     delivered_ = true;
+    tangent_.leave();
     start.first ? locator_.begin_run() : locator_.forget();
     self().begin(start);
   }
@@ -66,7 +68,7 @@ class StepSolver : public Interface {
     if (t >= t1_)
       std::copy_n(x1_.data(), n_, x);
     else
-      self().inside_step(t - t0_, x);
+      inside(t - t0_, x);
   }
 
   const SolverStatistics& statistics() const override { return statistics_; }
@@ -108,10 +110,13 @@ class StepSolver : public Interface {
  private:
   Method& self() { return static_cast<Method&>(*this); }
 
+  /// The state at offset u from the beginning of the step.
+  void inside(double u, double* x) { tangent_ ? tangent_.inside(u, x) : self().inside_step(u, x); }
+
   /// Delivers the step to its first root, or to its end.
   StopReason deliver(double t_stop) {
-    const auto inside = [this](double u, double* x) { self().inside_step(u, x); };
-    if (!guards_->active().all.empty() && find_root(inside)) {
+    const auto look = [this](double u, double* x) { inside(u, x); };
+    if (!guards_->active().all.empty() && find_root(look)) {
       const double root = locator_.offset();
       if (root < length_) read_root(root);
       offset_ = root;
@@ -119,6 +124,7 @@ class StepSolver : public Interface {
       time_ = delivered_ ? t1_ : t0_ + root;
       return StopReason::root;
     }
+    if (tangent_) tangent_.give_up();
     delivered_ = true;
     time_ = t1_;
     return t1_ >= t_stop ? StopReason::stop_time : StopReason::step;
@@ -127,19 +133,20 @@ class StepSolver : public Interface {
   template <class Inside>
   bool find_root(const Inside& inside) {
     const auto find = [&](const double* guards) {
-      LookPoints* const points = guards_->scan_points ? nullptr : self().look_points();
+      const bool by_values = guards_->scan_points || tangent_;
+      LookPoints* const points = by_values ? nullptr : self().look_points();
       return locator_.find({t0_, offset_, length_, x1_.data(), guards, scan_points(), points},
                            inside);
     };
     if constexpr (CutsSteps<Method>) {
       before_ = guards_->g;
       if (!find(nullptr)) return false;
-      if (offset_ > 0.0 || !self().cut(locator_.offset())) return true;
+      if (offset_ > 0.0 || tangent_ || !self().cut(locator_.offset())) return true;
       guards_->restore(), guards_->monitors.clear(), locator_.forget();
       guards_->g = before_;
       return find(nullptr);
     } else {
-      const double* guards = offset_ == 0.0 ? self().end_guards() : nullptr;
+      const double* guards = offset_ == 0.0 && !tangent_ ? self().end_guards() : nullptr;
       if (offset_ == 0.0 && guards == nullptr && locator_.passes(t0_, length_, x1_.data()))
         return false;
       return find(guards);
@@ -155,7 +162,7 @@ class StepSolver : public Interface {
 
   void read_root(double root) {
     try {
-      self().inside_step(root, next_state_.data());
+      inside(root, next_state_.data());
     } catch (...) {
       guards_->restore();
       throw;
@@ -173,16 +180,21 @@ class StepSolver : public Interface {
 
   void take_step(double t_stop) {
     t0_ = t1_;
+    tangent_.leave();
     try {
       self().step(t_stop);
     } catch (...) {
       self().undo();
-      throw;
+      if (guards_->active().all.empty() || !tangent_.prepare(*machine_, t1_, x1_, t_stop)) throw;
+      t1_ = t0_ + tangent_.length();
+      x1_ = tangent_.end();
+      length_ = tangent_.length();
     }
     offset_ = 0.0;
     delivered_ = false;
   }
 
+  detail::TangentStep tangent_;  // after the method's own step was refused
   Locator locator_;
   double time_ = 0.0, offset_ = 0.0, run_begun_ = 0.0;
   bool delivered_ = true;  // the last step is delivered to its end

@@ -54,6 +54,11 @@ inline constexpr double first_step_roundings = 100.0;
 /// [steps] and [eps |t|]: a value that is not finite within the larger of these ahead is the cause.
 /// tests/unit/step_size_test.cpp
 inline constexpr double ahead_steps = 16.0, ahead_roundings = 64.0;
+/// [eps |t|] The tangent towards a derivative that is not finite. A step of `least_step_roundings`
+/// may just have been tried in vain after one ten times (1 / `blind_retry`) as long, so the edge is
+/// at most 160 roundings away; twice that.
+/// tests/laws/domain_edges_test.cpp
+inline constexpr double tangent_roundings = 320.0;
 /// [min_minor_step_size] A step of this length is at the lower bound, but for rounding.
 /// tests/unit/step_size_test.cpp
 inline constexpr double at_min_step = 1.01;

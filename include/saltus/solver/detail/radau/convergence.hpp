@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "saltus/solver/detail/radau/tuning.hpp"
 #include "saltus/solver/detail/thresholds.hpp"
@@ -16,6 +17,17 @@ constexpr int most_iterations(int stages) { return 7 + 5 * (stages - 3) / 2; }
 inline double rounding_of(double rtol) { return tuning::room_roundings * thresholds::eps / rtol; }
 /// [tolerances] The error that the iteration may leave.
 inline double newton_room(double rtol) { return std::max(tuning::newton_room, rounding_of(rtol)); }
+
+/// The factor theta / (1 - theta) of a step, for a step `ratio` times as long; infinite if that
+/// need not contract. An error E of the Jacobian gives the contraction |(Lambda - h J)^-1 h E|,
+/// which is in proportion to h at most. A shorter step counts as one of the same length, because J
+/// may have become worse meanwhile.
+inline double scaled(double factor, double ratio) {
+  if (ratio <= 1.0) return factor;
+  const double theta = ratio / (1.0 + 1.0 / factor);
+  return theta < tuning::no_contraction ? theta / (1.0 - theta)
+                                        : std::numeric_limits<double>::infinity();
+}
 
 enum class Verdict {
   go_on,      ///< another iteration
