@@ -23,27 +23,29 @@ const Domain domains[] = {
 };
 
 /// The same at any place, upwards or downwards, with a guard of any size, at the edge or just before
-/// it.
+/// it, beside some oscillators.
 struct Seen {
   double sign, begin, size, before;
+  int beside = 1;
 };
-const Seen views[] = {{1.0, 0.0, 1.0, 0.0},
-                      {-1.0, 0.0, 1.0, 0.0},
-                      {1.0, 1e3, 1.0, 0.0},
-                      {1.0, 0.0, 1e-200, 0.0},
-                      {1.0, 0.0, 1.0, 1e-12}};
+const Seen views[] = {{1.0, 0.0, 1.0, 0.0},    {-1.0, 0.0, 1.0, 0.0},  {1.0, 1e3, 1.0, 0.0},
+                      {1.0, 0.0, 1e-200, 0.0}, {1.0, 0.0, 1.0, 1e-12}, {1.0, 0.0, 1.0, 0.0, 20}};
 
 enum class End { reset, mode, terminal };
 
 std::shared_ptr<Leaf> to_edge(const Domain& domain, const Seen& seen, End end) {
   return make_leaf("tank", [=](Leaf& l) {
     l.declare_default_mode(0);
-    l.declare_continuous_state(
-        {.initial = vec({seen.sign, 0.0, 1.0}), .ode = [=](const At& at, VectorRef xdot) {
-           const double x = seen.sign * at.x[0];
-           const double f = x >= 0.0 ? seen.sign * domain.f(x) : not_a_number;
-           xdot << (at.mode == 0 ? f : 0.0), at.x[2], -at.x[1];
-         }});
+    Eigen::VectorXd initial = Eigen::VectorXd::Ones(1 + 2 * seen.beside);
+    initial[0] = seen.sign;
+    l.declare_continuous_state({.initial = initial, .ode = [=](const At& at, VectorRef xdot) {
+                                  const double x = seen.sign * at.x[0];
+                                  const double f =
+                                      x >= 0.0 ? seen.sign * domain.f(x) : not_a_number;
+                                  xdot[0] = at.mode == 0 ? f : 0.0;
+                                  for (Index i = 1; i < xdot.size(); i += 2)
+                                    xdot[i] = at.x[i + 1], xdot[i + 1] = -at.x[i];
+                                }});
     ZeroCrossing empty{.name = "empty",
                        .guard = [=](const At& at) { return seen.size * (at.x[0] - seen.before); },
                        .direction = seen.sign > 0.0 ? Direction::positive_then_non_positive
@@ -51,7 +53,9 @@ std::shared_ptr<Leaf> to_edge(const Domain& domain, const Seen& seen, End end) {
                        .terminal = end == End::terminal};
     if (end == End::reset) {
       empty.reset_map = [=](const At& at, Next& next) {
-        next.set_continuous_state(vec({seen.sign, at.x[1], at.x[2]}));
+        Eigen::VectorXd x = at.x;
+        x[0] = seen.sign;
+        next.set_continuous_state(x);
       };
     }
     if (end == End::mode) empty.start_mode = 0, empty.end_mode = 1;
@@ -84,7 +88,7 @@ TEST_CASE("a guard at the edge of the domain of a derivative fires", "[laws][gua
       const double tolerance =
           2.0 * allowed(counted, rtol, atol, 1.0, static_cast<double>(expected.size()));
       within(text("x' = ", domain.name, ", sign ", seen.sign, " from ", t0, ", guard ", seen.size,
-                  ", before ", seen.before),
+                  ", before ", seen.before, ", beside ", seen.beside),
              method,
              end == End::terminal ? std::abs(results.context.time() - expected[0])
                                   : worst(firing_times(results.events), expected),

@@ -54,7 +54,7 @@ void RadauSolver::undo() {
 }
 
 void RadauSolver::forget_steps() {
-  choice_.forget_trend(), stages_.distrust();
+  choice_.forget_trend(), stages_.jump();
   smooth_ = false;
 }
 

@@ -48,6 +48,14 @@ bool StageSolver::make_jacobian(const Step& step) {
   return true;
 }
 
+bool StageSolver::serves_after_jump(const Step& step) {
+  if (machine_->plan().nx <= thresholds::fresh_jacobian) return false;
+  Increments by = structure_->increments(step.h);
+  by.h = infinite;  // steps of any length will use it
+  return structure_->jacobian().explains(step.t, step.x->data(), step.f->data(), by,
+                                         jacobian_.data());
+}
+
 /// False if a matrix is singular.
 bool StageSolver::set_up(StageSystems& systems, const Scheme& scheme, double h) {
   ++setups_;

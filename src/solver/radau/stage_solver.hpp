@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "newton.hpp"
@@ -16,8 +17,10 @@ struct Step {
   double h;                  // [s]
 };
 
-/// The Jacobian of a step is kept for the next ones, across restarts too, until Newton's iteration
-/// contracts slowly with it; the factorisation as long as the length of the step stays.
+/// The Jacobian of a step is kept for the next ones until Newton's iteration contracts slowly with
+/// it, across restarts too if it explains f there; the factorisation as long as the length of the
+/// step stays. One that is much too large cannot be seen by the iteration: all corrections are
+/// small, and so is the estimate of the error.
 class StageSolver {
  public:
   StageSolver(Machine& machine, const SolverOptions& options)
@@ -30,6 +33,8 @@ class StageSolver {
   void prepare(double t, const Eigen::VectorXd& x);
   /// The last iterations of Newton's method say nothing about the next step.
   void distrust() { factor_ = infinite; }
+  /// The state has jumped: the Jacobian serves only if it explains how f moves there.
+  void jump() { distrust(), jumped_ = true; }
 
   /// Solves the stages of a step from their first values, which `start` writes to the polynomial.
   /// False if Newton's iteration does not converge with a new Jacobian either: `shorter()` then is
@@ -62,6 +67,9 @@ class StageSolver {
   /// Throws NoFactors if the systems cannot be factorised.
   void use_structure(double t);
   bool make_jacobian(const Step& step);
+  /// Whether the Jacobian of before a jump serves after it. A small one is made anew: that costs no
+  /// more than the question.
+  bool serves_after_jump(const Step& step);
   bool set_up(StageSystems& systems, const Scheme& scheme, double h);
   /// Whether the step may be tried again, with a new Jacobian or structure.
   bool recover(Verdict verdict, const Step& step);
@@ -77,6 +85,7 @@ class StageSolver {
   std::optional<StageSystems> systems_, aside_;
   std::vector<double> jacobian_;  // in the layout of the structure
   bool known_ = false;            // the Jacobian serves
+  bool jumped_ = false;           // since it was made
   int age_ = 0;                   // [steps] of the Jacobian
   int doubts_ = 0;                // failures with a new Jacobian, less the steps without
   bool failed_ = false;           // in this step, with a new Jacobian
@@ -91,6 +100,7 @@ bool StageSolver::solve(const Step& step, StagePolynomial& stages, const Start& 
   shorter_ = tuning::diverged_retry;
   for (;;) {
     const Scheme scheme = scheme_of(stages.stages);
+    if (std::exchange(jumped_, false)) known_ = known_ && serves_after_jump(step);
     if (!known_ && !make_jacobian(step)) return false;
     if (!systems_->serves(scheme, step.h) && !set_up(*systems_, scheme, step.h)) return false;
     start();
