@@ -62,6 +62,16 @@ struct IntegratorRule {
   }
 };
 
+/// The inputs that the output reads at its own tick.
+std::vector<int> feedthrough_of(const IntegratorRule& rule) {
+  std::vector<int> through;
+  if (rule.weight > 0.0) through.push_back(0);
+  if (rule.trigger) through.push_back(*rule.trigger);
+  if (rule.value) through.push_back(*rule.value);
+  if (rule.weight > 0.0 && rule.hold) through.push_back(*rule.hold);
+  return through;
+}
+
 }  // namespace
 
 IntegratorDiscrete::IntegratorDiscrete(std::string name, double dt, const Options& o)
@@ -81,18 +91,13 @@ IntegratorDiscrete::IntegratorDiscrete(std::string name, double dt, const Option
     rule.lower = declare_dynamic_parameter("lower_limit", o.lower_limit->values);
   if (o.enable_limits && o.upper_limit)
     rule.upper = declare_dynamic_parameter("upper_limit", o.upper_limit->values);
-  std::vector<int> through;
-  if (rule.weight > 0.0) through.push_back(0);
-  if (rule.trigger) through.push_back(*rule.trigger);
-  if (rule.value) through.push_back(*rule.value);
-  if (rule.weight > 0.0 && rule.hold) through.push_back(*rule.hold);
   Eigen::VectorXd start(shape.size + 1);
   start << o.initial_state.values, -1.0;
   declare_law(
       {.dt = dt,
        .before = o.initial_state,
        .state = start,
-       .feedthrough = std::move(through),
+       .feedthrough = feedthrough_of(rule),
        .output = [rule](const At& at, const VectorView& s, VectorRef y) { rule.output(at, s, y); },
        .next = [rule](const At& at, const VectorView& s,
                       VectorRef next) { rule.next(at, s, next); }});

@@ -43,18 +43,23 @@ void describe_guard(std::string& out, const Plan& plan, const GuardGroup& guard)
   out += "\n";
 }
 
+/// The nodes of which `is` holds.
+template <class Is>
+std::vector<int> nodes_that(const Plan& plan, const Is& is) {
+  std::vector<int> found;
+  for (std::size_t i = 0; i < plan.nodes.size(); ++i)
+    if (is(plan.nodes[i])) found.push_back(static_cast<int>(i));
+  return found;
+}
+
 }  // namespace
 
 std::string Plan::describe() const {
   std::string out = text("plan: ", leaves.size(), leaves.size() == 1 ? " block, " : " blocks, ", nx,
                          " continuous and ", nz, " discrete states\n");
-  std::vector<int> views, dropped;
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    if (nodes[i].view)
-      views.push_back(static_cast<int>(i));
-    else if (!nodes[i].used && !nodes[i].relation)
-      dropped.push_back(static_cast<int>(i));
-  }
+  const auto views = nodes_that(*this, [](const Node& n) { return n.view; });
+  const auto dropped =
+      nodes_that(*this, [](const Node& n) { return !n.view && !n.used && !n.relation; });
   out += text("outputs: ", std::ranges::count_if(nodes, [](const Node& n) { return !n.relation; }),
               "\n");
   describe_list(out, *this, "views of a state or parameter, never copied", views);

@@ -168,17 +168,25 @@ Status Run::step(double t_end) {
   const StopReason reason = integration_.advance(time_, t_stop);
   if (poles_ && integration_.started() && poles_->passed(from, time_, integration_))
     fail_at_pole(from);
+  accept(from);
+  if (crawls(t_end)) return end_crawl();
+  if (reason == StopReason::step) return Status::reached_end;
+  return settle(reason, t_end, false);
+}
+
+/// The step from `from` to time_ is accepted: its rows, monitors and histories are kept.
+void Run::accept(double from) {
   accepted_.settled = false;
   accepted_.place = integration_.started() ? Place::solver : Place::machine;
   if (options_.dense_output) keep_step(from);
   if (!guards_.monitors.empty()) log_monitors();
   rows_.record_step(from, time_, instant_.jump(), integration_);
   if (histories_.any()) keep_histories(from);
-  if (integration_.started() && crawl_.looks(time_, t_end - begin_.time()) &&
-      crawl_.found(time_, integration_.state()))
-    return end_crawl();
-  if (reason == StopReason::step) return Status::reached_end;
-  return settle(reason, t_end, false);
+}
+
+bool Run::crawls(double t_end) {
+  return integration_.started() && crawl_.looks(time_, t_end - begin_.time()) &&
+         crawl_.found(time_, integration_.state());
 }
 
 /// The trajectory needs the histories with which the next step begins.

@@ -60,6 +60,8 @@ class Run {
   Status run_to(double t_end);
   Status begin(double t_end);
   Status step(double t_end);
+  void accept(double from);
+  bool crawls(double t_end);
   Status settle(StopReason reason, double t_end, bool at_start);
   Status after(const Outcome& outcome, const Chattering::Seen& seen, bool idle);
   void log_monitors();

@@ -20,8 +20,8 @@ namespace saltus {
 /// the rest of the same step is delivered, so the trajectory is the same as without the root.
 ///
 /// A method whose steps have a higher order than its dense output also provides
-///   cut(root)          take the step again from t0_ to just beyond the offset `root`, and set t1_, x1_
-///                      and length_; false if it stays as it is
+///   cut(root)          take the step again from t0_ to just beyond the offset `root`, and set t1_,
+///                      x1_ and length_; false if it stays as it is
 /// The root is then located in the shorter step, near its end, where the state is as good as there.
 template <class Method>
 concept CutsSteps = requires(Method method) { method.cut(1.0); };
@@ -130,6 +130,9 @@ class StepSolver : public Interface {
     return t1_ >= t_stop ? StopReason::stop_time : StopReason::step;
   }
 
+  /// Whether nothing of the step is delivered, and the method itself has taken it.
+  bool is_whole() const noexcept { return offset_ == 0.0 && !tangent_; }
+
   template <class Inside>
   bool find_root(const Inside& inside) {
     const auto find = [&](const double* guards) {
@@ -141,12 +144,12 @@ class StepSolver : public Interface {
     if constexpr (CutsSteps<Method>) {
       before_ = guards_->g;
       if (!find(nullptr)) return false;
-      if (offset_ > 0.0 || tangent_ || !self().cut(locator_.offset())) return true;
+      if (!is_whole() || !self().cut(locator_.offset())) return true;
       guards_->restore(), guards_->monitors.clear(), locator_.forget();
       guards_->g = before_;
       return find(nullptr);
     } else {
-      const double* guards = offset_ == 0.0 && !tangent_ ? self().end_guards() : nullptr;
+      const double* guards = is_whole() ? self().end_guards() : nullptr;
       if (offset_ == 0.0 && guards == nullptr && locator_.passes(t0_, length_, x1_.data()))
         return false;
       return find(guards);
