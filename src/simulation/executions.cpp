@@ -71,6 +71,7 @@ void Executions::open() {
 // --- triggers
 
 void Executions::trigger(const Action& action) {
+  if (!present_->changes) chain_.trigger(present_->pass);
   const int group = action.index;
   const Index entry = action.slot - plan().guard(group).slot;
   if (decide_trigger(crossing_of(group).direction, action.from) == OnTrigger::cancel)
@@ -119,11 +120,38 @@ void Executions::cancel(int group, Index entry, int from) {
 
 bool Executions::collect() {
   find_due();
-  if (due_.keys.empty()) return false;
+  if (due_.keys.empty() || cancel_returned()) return false;
   const std::size_t first = choose_first(due_.priorities, [this] { return draw(); });
   taken_ = queue_.take(due_.keys[first]);
   present_->actions.push_back({taken_.pending.leaf, Cause::execution, taken_.group, -1, 0, false});
   return true;
+}
+
+/// Adds the cancellation of those that are due though their guards are back on their armed sides:
+/// within the error bound of zero a guard may go back unseen. Whether there is one.
+bool Executions::cancel_returned() {
+  bool found = false;
+  for (const Key& key : due_.keys) {
+    const WaitingExecution& one = queue_.waiting().at(key);
+    if (!has_gone_back(one)) continue;
+    const GuardGroup& group = plan().guard(one.group);
+    present_->actions.push_back({group.leaf, Cause::trigger, one.group,
+                                 static_cast<int>(group.slot) + one.pending.entry,
+                                 firing_side(crossing_of(one.group).direction), false});
+    found = true;
+  }
+  return found;
+}
+
+bool Executions::has_gone_back(const WaitingExecution& one) {
+  const ZeroCrossing& crossing = crossing_of(one.group);
+  const GuardGroup& group = plan().guard(one.group);
+  if (!crossing.is_cancelled_on_return()) return false;
+  if (crossing.start_mode && machine_->modes[group.leaf] != *crossing.start_mode) return false;
+  g_.resize(present_->g.size());
+  machine_->guards(present_->t, machine_->x.data(), g_.data());
+  const double g = g_[static_cast<std::size_t>(group.slot + one.pending.entry)];
+  return sign_of(g) == -firing_side(crossing.direction);
 }
 
 /// Lists the executions that are due, with their priorities at the present state.

@@ -187,7 +187,7 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
     ++steps_;
     t1_ = flag == CV_TSTOP_RETURN ? t_stop : t;
     length_ = t1_ - t0_;
-    if (progress_.stops_at(t0_, length_))
+    if (progress_.stops_at(t0_, length_, N_VGetArrayPointer(y_.get()), n_))
       throw_step_too_small(*machine_, t0_, length_, x1_.data(), options_);
     std::copy_n(N_VGetArrayPointer(y_.get()), n_, x1_.data());
   }

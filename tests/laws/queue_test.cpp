@@ -237,3 +237,34 @@ TEST_CASE("a scene without queued zero crossings has no queue and no stop for it
   CHECK_FALSE(instant.executions().any());
   CHECK(instant.executions().next() == nullptr);  // the calendar looks at no queue
 }
+
+TEST_CASE("a chain of executions may be as long as a chain of plain resets", "[laws][queue]") {
+  // Guard k fires where z passes k - 1/2, and sets z to k: the first by time, the others one another.
+  const auto ends_well = [](int links, bool queued) {
+    const Leaf leaf("leaf", [=](Leaf& l) {
+      declare_ramp(l);
+      l.declare_discrete_state(vec({0.0}));
+      for (int k = 1; k <= links; ++k) {
+        ZeroCrossing link{
+            .name = text("link", k),
+            .guard = [k](const At& at) { return k == 1 ? at.x[0] - 1.0 : at.z[0] - (k - 1.5); },
+            .reset_map = [k](const At&,
+                             Next& next) { next.set_discrete_state({static_cast<double>(k)}); },
+            .direction = Direction::negative_then_non_negative};
+        if (queued) link.delay = 0.0;
+        l.declare_zero_crossing(std::move(link));
+      }
+    });
+    const auto results =
+        simulate(leaf, leaf.create_context(), {0.0, 2.0}, {.max_passes = 6, .throw_errors = false});
+    const bool well = results.status == Status::reached_end;
+    if (well) CHECK(results.context.discrete_state()[0] == links);
+    return well;
+  };
+  for (int links = 1; links <= 8; ++links) {
+    INFO(links << " links");
+    CHECK(ends_well(links, true) == ends_well(links, false));
+  }
+  CHECK(ends_well(4, true));
+  CHECK_FALSE(ends_well(8, true));
+}

@@ -9,12 +9,18 @@ namespace {
 
 constexpr double t = 3.0;  // [s] its rounding is eps t, not that of a power of two
 
+/// A step of a state that changes with each one.
+bool stops(Progress& progress, double time, double length) {
+  static double x = 0.0;
+  return ++x, progress.stops_at(time, length, &x, 1);
+}
+
 /// The number of steps of this length after which progress ends; 0 if it does not within ten
 /// thousand.
 int steps_until_stop(double length) {
   Progress progress;
   for (int step = 1; step <= 10'000; ++step) {
-    if (progress.stops_at(t, length)) return step;
+    if (stops(progress, t, length)) return step;
   }
   return 0;
 }
@@ -38,13 +44,21 @@ TEST_CASE("steps of a few roundings of the time advance it, however many there a
 
 TEST_CASE("one step that advances the time begins the count anew") {
   Progress progress;
-  bool stops = false;
+  bool stopped = false;
   for (int step = 0; step < 2000; ++step)
-    stops = stops || progress.stops_at(t, step % 15 == 0 ? 1e-3 : 0.0);
-  CHECK_FALSE(stops);
+    stopped = stopped || stops(progress, t, step % 15 == 0 ? 1e-3 : 0.0);
+  CHECK_FALSE(stopped);
 }
 
 TEST_CASE("at t = 0 only steps of no length stop a run") {
   Progress progress;
-  for (int step = 0; step < 2000; ++step) REQUIRE_FALSE(progress.stops_at(0.0, 1e-300));
+  for (int step = 0; step < 2000; ++step) REQUIRE_FALSE(stops(progress, 0.0, 1e-300));
+}
+
+TEST_CASE("steps of a few roundings of the time stop a run whose state does not change") {
+  Progress progress;
+  const double still[] = {5.0, -1.0};
+  int step = 0;
+  while (!progress.stops_at(t, 4.0 * eps * t, still, 2)) REQUIRE(++step < 1000);
+  CHECK(step >= 20);
 }

@@ -62,6 +62,8 @@ class Executions {
   int group_of(const PendingExecution& one) const;
   std::vector<WaitingExecution> found_in(const PendingExecutions& pending) const;
   void find_due();
+  bool cancel_returned();
+  bool has_gone_back(const WaitingExecution& one);
   double priority_of(const WaitingExecution& one) const;
   double draw();
   double delay_of(int group, Index entry) const;
@@ -80,6 +82,7 @@ class Executions {
   double next_before_ = std::numeric_limits<double>::infinity();  // [s] due before this instant
   WaitingExecution taken_;                                        // the execution of this pass
   Due due_;
+  std::vector<double> g_;  // the guards at present
 };
 
 }  // namespace saltus

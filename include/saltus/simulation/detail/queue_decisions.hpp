@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <limits>
 #include <span>
+#include <utility>
 
 #include "saltus/solver/detail/guard.hpp"
 
@@ -50,9 +51,11 @@ std::size_t choose_first(std::span<const double> priorities, const Draw& draw) {
 /// Counts how far the executions of an instant set each other off. An instant without end has a
 /// chain without end; many executions that were due anyway make no chain.
 struct ExecutionChain {
-  int executions = 0;  ///< in this instant
-  int longest = 0;     ///< executions of the longest chain
-  int last = 0;        ///< length of the chain that the last execution ended
+  int executions = 0;     ///< in this instant
+  int longest = 0;        ///< executions of the longest chain
+  int last = 0;           ///< length of the chain that the last execution ended
+  int triggers = 0;       ///< passes of nothing but triggers
+  int trigger_pass = -1;  ///< the last of these
 
   /// The length of the chain of an execution that is scheduled now.
   int next() const { return last + 1; }
@@ -61,8 +64,11 @@ struct ExecutionChain {
     ++executions, last = length;
     if (length > longest) longest = length;
   }
-  /// Executions that set off nothing in the longest chain: max_passes does not count their passes.
-  int beside() const { return executions - longest; }
+  /// Triggers are all that happens in this pass.
+  void trigger(int pass) { triggers += std::exchange(trigger_pass, pass) != pass; }
+  /// Passes that max_passes does not count: executions that set off nothing in the longest chain,
+  /// and triggers, which change nothing.
+  int beside() const { return executions - longest + triggers; }
 };
 
 }  // namespace saltus
