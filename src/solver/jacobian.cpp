@@ -111,18 +111,25 @@ double Jacobian::increment(Index j, double x, double least, const Increments& by
   return std::max(std::sqrt(eps) * size, least * by.tolerance(j, size));
 }
 
+/// Moves the states of a colour by their increments, downwards if `least` is negative, and evaluates
+/// f there. If it is not finite, as beyond the edge of its domain, they are moved back: false.
+bool Jacobian::move(double t, Index colour, double least, const Increments& by) {
+  for (const int j : colouring_.of(colour)) {
+    moved_[j] = x_[j];
+    x_[j] += std::copysign(increment(j, x_[j], std::abs(least), by), least);
+  }
+  machine_->flow(t, x_.data(), f_.data());
+  if (f_.allFinite()) return true;
+  for (const int j : colouring_.of(colour)) x_[j] = moved_[j];
+  return false;
+}
+
 bool Jacobian::differences(double t, const double* x, const double* xdot, const Increments& by,
                            double* out) {
   const double least = least_increment(x, xdot, by);
   const Sparsity& places = pattern_.places;
   for (Index colour = 0; colour < colours(); ++colour) {
-    for (const int j : colouring_.of(colour)) {
-      const double before = x_[j];
-      x_[j] += increment(j, before, least, by);
-      moved_[j] = before;
-    }
-    machine_->flow(t, x_.data(), f_.data());
-    if (!f_.allFinite()) return false;
+    if (!move(t, colour, least, by) && !move(t, colour, -least, by)) return false;
     for (const int j : colouring_.of(colour)) {
       const double inverse = 1.0 / (x_[j] - moved_[j]);  // the rounded increment
       x_[j] = moved_[j];

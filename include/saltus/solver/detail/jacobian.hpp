@@ -84,6 +84,7 @@ class Jacobian {
 
   void prepare();
   void add_own(int leaf);
+  bool move(double t, Index colour, double least, const Increments& by);
   bool differences(double t, const double* x, const double* xdot, const Increments& by,
                    double* out);
   void move_by_values(const double* values);
