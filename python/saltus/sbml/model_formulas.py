@@ -25,7 +25,7 @@ Shown = tuple[str, str]
 
 
 def initial_values(says: Declared, unknown: list[str]) -> dict[str, float]:
-    """What each id stands for at the start, but for those that a run finds by a rule."""
+    """The value of each id at the start, except ids whose values a run finds by a rule."""
     graph = _core.Graph()
     scope = InitialScope(graph, says, unknown)
     found = {*says.assigned, *unknown}
@@ -53,7 +53,7 @@ class ModelFormulas:
         self.scope = RunningScope(self.graph, kinds, self.p, FIRST + len(kinds.held))
 
     def stored(self, name: str) -> float:
-        """The number that stands for an id in memory, at the start."""
+        """The number that memory has for an id at the start."""
         value = self.values[name]
         if name in self.kinds.held and self.kinds.declared.is_unset(name):
             return 0.0  # which nothing reads before an event has set it

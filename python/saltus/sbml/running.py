@@ -51,7 +51,9 @@ class RunningScope(Scope):
         return self.apply("div", stored, self.value(declared.quantities[name].compartment))
 
     def stored(self, name: str) -> int:
-        """The number that stands for an id in memory; a constant that is not finite stands here."""
+        """The node of the number that memory has for an id. A constant that is not finite is a node of
+        its own, because a parameter has to be finite.
+        """
         memory, i = self.kinds.places[name]
         if memory == "x":
             return int(self.graph.continuous_state(i))
