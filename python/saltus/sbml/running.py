@@ -51,8 +51,8 @@ class RunningScope(Scope):
         return self.apply("div", stored, self.value(declared.quantities[name].compartment))
 
     def stored(self, name: str) -> int:
-        """The node of the number that memory has for an id. A constant that is not finite is a node of
-        its own, because a parameter has to be finite.
+        """The node of the number that memory has for an id. A constant that is not finite has a
+        node of its own, because a parameter has to be finite.
         """
         memory, i = self.kinds.places[name]
         if memory == "x":
