@@ -166,7 +166,9 @@ def places(root: Path, name: str, group: str) -> dict[Path, str]:
     def bound(text: str) -> str:
         text = sorted_in(text, include, file, included)
         line = BINDING.replace("NAME", name)
-        return sorted_in(text, line, name, r"^  py::class_<(\w+), System>", "}\n\n}  // namespace")
+        start = text.index(f"void bind_{group}(")  # helpers of some blocks may come before
+        own = r"^  py::class_<(\w+), System>"
+        return text[:start] + sorted_in(text[start:], line, name, own, "}\n\n}  // namespace")
 
     known = re.findall(r"^  py::class_<(\w+), System>", bindings.read_text(), re.M)
     stubs = r"^class (" + "|".join(known) + r")\(System\):$"
