@@ -1,6 +1,7 @@
 // Fixed length: the vectors whose operations are unrolled.
 #pragma once
 
+#include "saltus/base/ids.hpp"
 #include "saltus/solver/detail/cvode_thresholds.hpp"
 
 namespace saltus {
