@@ -2,6 +2,7 @@
 #include "blocks.hpp"
 #include "saltus/library/comparator.hpp"
 #include "saltus/library/counter.hpp"
+#include "saltus/library/detail/words.hpp"
 #include "saltus/library/hit_crossing.hpp"
 #include "saltus/library/if_then_else.hpp"
 #include "saltus/library/logical_operator.hpp"
@@ -9,7 +10,6 @@
 #include "saltus/library/relay.hpp"
 #include "saltus/library/stop.hpp"
 #include "saltus/library/switch.hpp"
-#include "saltus/library/words.hpp"
 
 namespace saltus::python {
 

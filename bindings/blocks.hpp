@@ -4,7 +4,7 @@
 #include <pybind11/stl.h>
 
 #include "numbers.hpp"
-#include "saltus/library/words.hpp"
+#include "saltus/library/detail/words.hpp"
 
 namespace saltus::python {
 

@@ -8,7 +8,7 @@
 #include <pybind11/numpy.h>
 
 #include "bindings.hpp"
-#include "saltus/library/arguments.hpp"
+#include "saltus/library/detail/arguments.hpp"
 
 namespace saltus::python {
 

@@ -48,7 +48,7 @@ SOURCE = """\
 // y = u, elementwise.
 #include "saltus/library/FILE.hpp"
 
-#include "saltus/library/elementwise.hpp"
+#include "saltus/library/detail/elementwise.hpp"
 
 namespace saltus {
 

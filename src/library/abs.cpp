@@ -1,7 +1,7 @@
 // y = |u|, elementwise.
 #include "saltus/library/abs.hpp"
 
-#include "saltus/library/elementwise.hpp"
+#include "saltus/library/detail/elementwise.hpp"
 
 namespace saltus {
 

@@ -1,7 +1,7 @@
 // y = +-u_0 +- u_1 ..., elementwise, with one sign for each input: "+-" is u_0 - u_1.
 #include "saltus/library/adder.hpp"
 
-#include "saltus/library/elementwise.hpp"
+#include "saltus/library/detail/elementwise.hpp"
 
 namespace saltus {
 

@@ -1,5 +1,5 @@
 // The arguments of the constructors of blocks, and the refusal of bad ones.
-#include "saltus/library/arguments.hpp"
+#include "saltus/library/detail/arguments.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // y = u_0 operator u_1, elementwise, 0 or 1; operators <  <=  >  >=  ==  !=.
 #include "saltus/library/comparator.hpp"
 
-#include "saltus/library/elementwise.hpp"
+#include "saltus/library/detail/elementwise.hpp"
 
 namespace saltus {
 

@@ -1,7 +1,7 @@
 // y = the number of edges of the trigger so far; with a limit it counts 0, 1, ..., limit - 1, 0, ...
 #include "saltus/library/counter.hpp"
 
-#include "saltus/library/arguments.hpp"
+#include "saltus/library/detail/arguments.hpp"
 
 namespace saltus {
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <memory>
 
-#include "saltus/library/knots.hpp"
-#include "saltus/library/schedule.hpp"
+#include "saltus/library/detail/knots.hpp"
+#include "saltus/library/detail/schedule.hpp"
 
 namespace saltus {
 

@@ -1,7 +1,7 @@
 // y = 0 for |u| < half_range, elementwise; elsewhere y = u, or y = u -+ half_range with `shifted`.
 #include "saltus/library/dead_zone.hpp"
 
-#include "saltus/library/elementwise.hpp"
+#include "saltus/library/detail/elementwise.hpp"
 
 namespace saltus {
 

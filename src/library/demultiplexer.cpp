@@ -1,7 +1,7 @@
 // y_k = part k of u, which is cut into n_outputs equal parts.
 #include "saltus/library/demultiplexer.hpp"
 
-#include "saltus/library/arguments.hpp"
+#include "saltus/library/detail/arguments.hpp"
 
 namespace saltus {
 

@@ -1,7 +1,7 @@
 // y = k dt [s], from tick k to the next tick.
 #include "saltus/library/discrete_clock.hpp"
 
-#include "saltus/library/schedule.hpp"
+#include "saltus/library/detail/schedule.hpp"
 
 namespace saltus {
 

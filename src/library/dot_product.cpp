@@ -1,7 +1,7 @@
 // y = u_0 . u_1 = u_0[0] u_1[0] + u_0[1] u_1[1] + ...
 #include "saltus/library/dot_product.hpp"
 
-#include "saltus/library/arguments.hpp"
+#include "saltus/library/detail/arguments.hpp"
 
 namespace saltus {
 

@@ -1,5 +1,5 @@
 // The checks and shape rules that elementwise blocks share.
-#include "saltus/library/elementwise.hpp"
+#include "saltus/library/detail/elementwise.hpp"
 
 #include <algorithm>
 #include <utility>

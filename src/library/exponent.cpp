@@ -1,8 +1,8 @@
 // y = e^u, or 2^u, elementwise.
 #include "saltus/library/exponent.hpp"
 
-#include "saltus/library/operations.hpp"
-#include "saltus/library/words.hpp"
+#include "saltus/library/detail/operations.hpp"
+#include "saltus/library/detail/words.hpp"
 
 namespace saltus {
 

@@ -1,7 +1,7 @@
 // y = gain u, elementwise.
 #include "saltus/library/gain.hpp"
 
-#include "saltus/library/elementwise.hpp"
+#include "saltus/library/detail/elementwise.hpp"
 
 namespace saltus {
 

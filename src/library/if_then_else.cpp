@@ -1,7 +1,7 @@
 // y = true_value if condition is true, otherwise false_value; elementwise.
 #include "saltus/library/if_then_else.hpp"
 
-#include "saltus/library/elementwise.hpp"
+#include "saltus/library/detail/elementwise.hpp"
 
 namespace saltus {
 

@@ -1,7 +1,7 @@
 // dx/dt = u, y = x, elementwise; on a rising edge of reset_trigger x becomes reset_value, or
 #include "saltus/library/integrator.hpp"
 
-#include "saltus/library/elementwise.hpp"
+#include "saltus/library/detail/elementwise.hpp"
 
 namespace saltus {
 

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-#include "saltus/library/elementwise.hpp"
+#include "saltus/library/detail/elementwise.hpp"
+#include "saltus/library/detail/words.hpp"
 #include "saltus/library/integrator.hpp"
-#include "saltus/library/words.hpp"
 
 namespace saltus {
 

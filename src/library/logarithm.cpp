@@ -1,8 +1,8 @@
 // y = log(u), elementwise.
 #include "saltus/library/logarithm.hpp"
 
-#include "saltus/library/operations.hpp"
-#include "saltus/library/words.hpp"
+#include "saltus/library/detail/operations.hpp"
+#include "saltus/library/detail/words.hpp"
 
 namespace saltus {
 

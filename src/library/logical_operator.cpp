@@ -1,7 +1,7 @@
 // y = function(u_0, u_1, ...), elementwise, 0 or 1; functions or, and, not, nor, nand, xor (an odd
 #include "saltus/library/logical_operator.hpp"
 
-#include "saltus/library/elementwise.hpp"
+#include "saltus/library/detail/elementwise.hpp"
 
 namespace saltus {
 

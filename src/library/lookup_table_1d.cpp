@@ -3,7 +3,7 @@
 
 #include <limits>
 
-#include "saltus/library/pieces.hpp"
+#include "saltus/library/detail/pieces.hpp"
 
 namespace saltus {
 

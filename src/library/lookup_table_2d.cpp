@@ -3,10 +3,10 @@
 
 #include <limits>
 
-#include "saltus/library/elementwise.hpp"
-#include "saltus/library/knots.hpp"
+#include "saltus/library/detail/elementwise.hpp"
+#include "saltus/library/detail/knots.hpp"
+#include "saltus/library/detail/pieces.hpp"
 #include "saltus/library/lti_system.hpp"
-#include "saltus/library/pieces.hpp"
 
 namespace saltus {
 

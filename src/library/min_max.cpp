@@ -1,9 +1,9 @@
 // y = the smallest, or the largest, of u_0, u_1, ..., elementwise.
 #include "saltus/library/min_max.hpp"
 
-#include "saltus/library/elementwise.hpp"
-#include "saltus/library/operations.hpp"
-#include "saltus/library/words.hpp"
+#include "saltus/library/detail/elementwise.hpp"
+#include "saltus/library/detail/operations.hpp"
+#include "saltus/library/detail/words.hpp"
 
 namespace saltus {
 

@@ -2,7 +2,7 @@
 #include "saltus/library/multiplexer.hpp"
 
 #include "saltus/base/list.hpp"
-#include "saltus/library/arguments.hpp"
+#include "saltus/library/detail/arguments.hpp"
 
 namespace saltus {
 

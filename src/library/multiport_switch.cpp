@@ -1,7 +1,7 @@
 // y = u_k, where k is the whole number nearest to control, at least 0 and at most the last input;
 #include "saltus/library/multiport_switch.hpp"
 
-#include "saltus/library/elementwise.hpp"
+#include "saltus/library/detail/elementwise.hpp"
 
 namespace saltus {
 

@@ -1,7 +1,7 @@
 // y = u + offset, elementwise.
 #include "saltus/library/offset.hpp"
 
-#include "saltus/library/elementwise.hpp"
+#include "saltus/library/detail/elementwise.hpp"
 
 namespace saltus {
 

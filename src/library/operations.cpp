@@ -1,5 +1,5 @@
 // The values of operations, by the functions that a tape runs.
-#include "saltus/library/operations.hpp"
+#include "saltus/library/detail/operations.hpp"
 
 #include "../tape/arithmetic.hpp"
 

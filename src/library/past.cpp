@@ -1,5 +1,5 @@
 // Past: reading, and appending a step.
-#include "saltus/library/past.hpp"
+#include "saltus/library/detail/past.hpp"
 
 #include <algorithm>
 #include <array>

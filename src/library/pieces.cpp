@@ -1,5 +1,5 @@
 // A function of one number that is a line or a constant between knots, with one guard for all knots.
-#include "saltus/library/pieces.hpp"
+#include "saltus/library/detail/pieces.hpp"
 
 #include <cmath>
 #include <utility>

@@ -1,8 +1,8 @@
 // y = u^exponent, elementwise.
 #include "saltus/library/power.hpp"
 
-#include "saltus/library/elementwise.hpp"
-#include "saltus/library/operations.hpp"
+#include "saltus/library/detail/elementwise.hpp"
+#include "saltus/library/detail/operations.hpp"
 
 namespace saltus {
 

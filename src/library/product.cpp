@@ -1,7 +1,7 @@
 // y = 1 */ u_0 */ u_1 ..., elementwise, with one operator for each input: "*/" is u_0 / u_1, "/" is
 #include "saltus/library/product.hpp"
 
-#include "saltus/library/elementwise.hpp"
+#include "saltus/library/detail/elementwise.hpp"
 
 namespace saltus {
 

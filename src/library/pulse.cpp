@@ -1,7 +1,7 @@
 // y = amplitude for phase_delay + k period <= t < phase_delay + (k + pulse_width) period, k = 0, 1,
 #include "saltus/library/pulse.hpp"
 
-#include "saltus/library/schedule.hpp"
+#include "saltus/library/detail/schedule.hpp"
 
 namespace saltus {
 

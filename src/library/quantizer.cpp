@@ -3,8 +3,8 @@
 
 #include <numbers>
 
-#include "saltus/library/elementwise.hpp"
-#include "saltus/library/operations.hpp"
+#include "saltus/library/detail/elementwise.hpp"
+#include "saltus/library/detail/operations.hpp"
 
 namespace saltus {
 

@@ -1,7 +1,7 @@
 // y = start_value + slope max(0, t - start_time), elementwise.
 #include "saltus/library/ramp.hpp"
 
-#include "saltus/library/elementwise.hpp"
+#include "saltus/library/detail/elementwise.hpp"
 
 namespace saltus {
 

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "saltus/base/philox.hpp"
-#include "saltus/library/elementwise.hpp"
-#include "saltus/library/schedule.hpp"
+#include "saltus/library/detail/elementwise.hpp"
+#include "saltus/library/detail/schedule.hpp"
 
 namespace saltus {
 

@@ -1,5 +1,5 @@
 // The balanced companion realisation of a transfer function.
-#include "saltus/library/realisation.hpp"
+#include "saltus/library/detail/realisation.hpp"
 
 #include <cmath>
 #include <string_view>

@@ -1,7 +1,7 @@
 // y = 1 / u, elementwise.
 #include "saltus/library/reciprocal.hpp"
 
-#include "saltus/library/elementwise.hpp"
+#include "saltus/library/detail/elementwise.hpp"
 
 namespace saltus {
 

@@ -1,7 +1,7 @@
 // y = on_value after u has reached on_threshold, off_value after it has fallen to off_threshold.
 #include "saltus/library/relay.hpp"
 
-#include "saltus/library/arguments.hpp"
+#include "saltus/library/detail/arguments.hpp"
 
 namespace saltus {
 

@@ -1,7 +1,7 @@
 // Blocks that read their inputs at ticks and hold their output in between.
-#include "saltus/library/sampled.hpp"
+#include "saltus/library/detail/sampled.hpp"
 
-#include "saltus/library/schedule.hpp"
+#include "saltus/library/detail/schedule.hpp"
 
 namespace saltus::detail {
 

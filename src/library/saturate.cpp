@@ -1,7 +1,7 @@
 // y = min(max(u, lower_limit), upper_limit), elementwise; either limit may be missing.
 #include "saltus/library/saturate.hpp"
 
-#include "saltus/library/elementwise.hpp"
+#include "saltus/library/detail/elementwise.hpp"
 
 namespace saltus {
 

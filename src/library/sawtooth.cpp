@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "saltus/library/operations.hpp"
-#include "saltus/library/schedule.hpp"
+#include "saltus/library/detail/operations.hpp"
+#include "saltus/library/detail/schedule.hpp"
 
 namespace saltus {
 

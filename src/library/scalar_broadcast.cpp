@@ -1,7 +1,7 @@
 // y = (u, u, ..., u): a scalar as a vector of n equal entries.
 #include "saltus/library/scalar_broadcast.hpp"
 
-#include "saltus/library/arguments.hpp"
+#include "saltus/library/detail/arguments.hpp"
 
 namespace saltus {
 

@@ -1,7 +1,7 @@
 // d2x/dt2 = u: position x and velocity dx, elementwise; at a limit of x the body stops, or rebounds.
 #include "saltus/library/second_order_integrator.hpp"
 
-#include "saltus/library/elementwise.hpp"
+#include "saltus/library/detail/elementwise.hpp"
 
 namespace saltus {
 

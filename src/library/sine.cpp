@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "saltus/library/elementwise.hpp"
+#include "saltus/library/detail/elementwise.hpp"
 
 namespace saltus {
 

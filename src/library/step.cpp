@@ -1,8 +1,8 @@
 // y = start_value for t < step_time, end_value from step_time on.
 #include "saltus/library/step.hpp"
 
-#include "saltus/library/elementwise.hpp"
-#include "saltus/library/schedule.hpp"
+#include "saltus/library/detail/elementwise.hpp"
+#include "saltus/library/detail/schedule.hpp"
 
 namespace saltus {
 

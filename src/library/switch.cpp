@@ -1,7 +1,7 @@
 // y = true_value if control is true, otherwise false_value; elementwise.
 #include "saltus/library/switch.hpp"
 
-#include "saltus/library/elementwise.hpp"
+#include "saltus/library/detail/elementwise.hpp"
 
 namespace saltus {
 

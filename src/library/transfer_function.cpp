@@ -1,7 +1,7 @@
 // y = (b_0 s^m + ... + b_m) / (a_0 s^n + ... + a_n) u, with m <= n.
 #include "saltus/library/transfer_function.hpp"
 
-#include "saltus/library/realisation.hpp"
+#include "saltus/library/detail/realisation.hpp"
 
 namespace saltus {
 

@@ -1,7 +1,7 @@
 // y = (b_0 z^m + ... + b_m) / (a_0 z^n + ... + a_n) u, with m <= n.
 #include "saltus/library/transfer_function_discrete.hpp"
 
-#include "saltus/library/realisation.hpp"
+#include "saltus/library/detail/realisation.hpp"
 
 namespace saltus {
 

@@ -1,7 +1,7 @@
 // y(t) = u(t - delay), and initial_output before.
 #include "saltus/library/transport_delay.hpp"
 
-#include "saltus/library/past.hpp"
+#include "saltus/library/detail/past.hpp"
 
 namespace saltus {
 

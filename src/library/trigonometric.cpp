@@ -1,8 +1,8 @@
 // y = function(u), elementwise, angles in rad.
 #include "saltus/library/trigonometric.hpp"
 
-#include "saltus/library/operations.hpp"
-#include "saltus/library/words.hpp"
+#include "saltus/library/detail/operations.hpp"
+#include "saltus/library/detail/words.hpp"
 
 namespace saltus {
 

@@ -1,7 +1,7 @@
 // y[k] = u[k-1], y[0] = initial_state; held from tick k, at t = k dt, to the next tick.
 #include "saltus/library/unit_delay.hpp"
 
-#include "saltus/library/schedule.hpp"
+#include "saltus/library/detail/schedule.hpp"
 
 namespace saltus {
 

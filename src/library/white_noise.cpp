@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "saltus/base/philox.hpp"
-#include "saltus/library/schedule.hpp"
+#include "saltus/library/detail/schedule.hpp"
 
 namespace saltus {
 

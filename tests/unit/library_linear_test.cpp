@@ -4,8 +4,8 @@
 
 #include "library_runs.hpp"
 #include "saltus/library/derivative.hpp"
+#include "saltus/library/detail/realisation.hpp"
 #include "saltus/library/lti_system.hpp"
-#include "saltus/library/realisation.hpp"
 #include "saltus/library/transfer_function.hpp"
 
 using namespace saltus;

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "library_runs.hpp"
-#include "saltus/library/past.hpp"
+#include "saltus/library/detail/past.hpp"
 #include "saltus/model/context_json.hpp"
 
 using namespace saltus;

@@ -6,7 +6,7 @@
 // initial_output is a contact, and moves y.
 #pragma once
 
-#include "saltus/library/arguments.hpp"
+#include "saltus/library/detail/arguments.hpp"
 
 namespace saltus {
 

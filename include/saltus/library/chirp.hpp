@@ -3,7 +3,7 @@
 // "f0", "f1" [rad/s], "phi" [rad]. Continuous; the end of the growth is an exact time event.
 #pragma once
 
-#include "saltus/library/arguments.hpp"
+#include "saltus/library/detail/arguments.hpp"
 
 namespace saltus {
 

@@ -4,7 +4,7 @@
 // jumps at the edges, as Collimator's block does; with it y is continuous, as Simulink's.
 #pragma once
 
-#include "saltus/library/arguments.hpp"
+#include "saltus/library/detail/arguments.hpp"
 
 namespace saltus {
 

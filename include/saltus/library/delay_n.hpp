@@ -2,7 +2,7 @@
 // in, out: the shape of initial_state. Ticks are exact time events.
 #pragma once
 
-#include "saltus/library/sampled.hpp"
+#include "saltus/library/detail/sampled.hpp"
 
 namespace saltus {
 

@@ -4,7 +4,7 @@
 // undefined at each event, and an algebraic loop with a derivative is no ODE.
 #pragma once
 
-#include "saltus/library/arguments.hpp"
+#include "saltus/library/detail/arguments.hpp"
 
 namespace saltus {
 

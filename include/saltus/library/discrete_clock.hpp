@@ -2,7 +2,7 @@
 // out: scalar. Held; ticks are exact time events.
 #pragma once
 
-#include "saltus/library/sampled.hpp"
+#include "saltus/library/detail/sampled.hpp"
 
 namespace saltus {
 

@@ -2,7 +2,7 @@
 // the edge; otherwise 0. in: one boolean, true if not 0. out: boolean, held to the next tick.
 #pragma once
 
-#include "saltus/library/sampled.hpp"
+#include "saltus/library/detail/sampled.hpp"
 
 namespace saltus {
 

@@ -3,7 +3,7 @@
 // then initial_state times the sum of the coefficients. Parameter "b_coefficients".
 #pragma once
 
-#include "saltus/library/sampled.hpp"
+#include "saltus/library/detail/sampled.hpp"
 
 namespace saltus {
 

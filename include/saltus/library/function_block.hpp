@@ -3,7 +3,7 @@
 // ReduceBlock. A Formula over u(0) in place of f is fused with its neighbours.
 #pragma once
 
-#include "saltus/library/callable.hpp"
+#include "saltus/library/detail/callable.hpp"
 
 namespace saltus {
 

@@ -2,7 +2,7 @@
 // in: any width. out: the width of u and gain, one of which may be a scalar. Parameter "gain".
 #pragma once
 
-#include "saltus/library/arguments.hpp"
+#include "saltus/library/detail/arguments.hpp"
 
 namespace saltus {
 

@@ -12,7 +12,7 @@
 #include <optional>
 #include <string_view>
 
-#include "saltus/library/sampled.hpp"
+#include "saltus/library/detail/sampled.hpp"
 
 namespace saltus {
 

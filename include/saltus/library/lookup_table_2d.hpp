@@ -7,7 +7,7 @@
 
 #include <string_view>
 
-#include "saltus/library/arguments.hpp"
+#include "saltus/library/detail/arguments.hpp"
 
 namespace saltus {
 

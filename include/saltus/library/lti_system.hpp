@@ -6,7 +6,7 @@
 
 #include <optional>
 
-#include "saltus/library/arguments.hpp"
+#include "saltus/library/detail/arguments.hpp"
 
 namespace saltus {
 

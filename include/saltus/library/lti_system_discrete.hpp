@@ -5,8 +5,8 @@
 // Without D, or with a D of zeros, there is no feedthrough and no parameter "D".
 #pragma once
 
+#include "saltus/library/detail/sampled.hpp"
 #include "saltus/library/lti_system.hpp"
-#include "saltus/library/sampled.hpp"
 
 namespace saltus {
 

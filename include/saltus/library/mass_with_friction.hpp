@@ -8,7 +8,7 @@
 
 #include <optional>
 
-#include "saltus/library/arguments.hpp"
+#include "saltus/library/detail/arguments.hpp"
 
 namespace saltus {
 

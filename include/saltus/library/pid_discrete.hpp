@@ -9,7 +9,7 @@
 
 #include <optional>
 
-#include "saltus/library/sampled.hpp"
+#include "saltus/library/detail/sampled.hpp"
 
 namespace saltus {
 

@@ -3,7 +3,7 @@
 // whole exponent: otherwise y is not a number, and the run ends with an error that says where.
 #pragma once
 
-#include "saltus/library/arguments.hpp"
+#include "saltus/library/detail/arguments.hpp"
 
 namespace saltus {
 

@@ -4,7 +4,7 @@
 // instants. Halfway between two levels y is one of them.
 #pragma once
 
-#include "saltus/library/arguments.hpp"
+#include "saltus/library/detail/arguments.hpp"
 
 namespace saltus {
 

@@ -4,7 +4,7 @@
 // there: a stage at the very end of the step before, or an ulp past it, gets the value of both.
 #pragma once
 
-#include "saltus/library/arguments.hpp"
+#include "saltus/library/detail/arguments.hpp"
 
 namespace saltus {
 

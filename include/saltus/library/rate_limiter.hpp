@@ -5,7 +5,7 @@
 // gets the value before it, as with a ZeroOrderHold.
 #pragma once
 
-#include "saltus/library/arguments.hpp"
+#include "saltus/library/detail/arguments.hpp"
 
 namespace saltus {
 

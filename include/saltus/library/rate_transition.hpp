@@ -5,7 +5,7 @@
 // delay.
 #pragma once
 
-#include "saltus/library/sampled.hpp"
+#include "saltus/library/detail/sampled.hpp"
 
 namespace saltus {
 

@@ -5,7 +5,7 @@
 // is faster. A Formula in place of f is fused with its neighbours.
 #pragma once
 
-#include "saltus/library/callable.hpp"
+#include "saltus/library/detail/callable.hpp"
 
 namespace saltus {
 

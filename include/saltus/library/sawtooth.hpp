@@ -4,7 +4,7 @@
 // the period is held in between: a solver step that ends at a jump sees none.
 #pragma once
 
-#include "saltus/library/arguments.hpp"
+#include "saltus/library/detail/arguments.hpp"
 
 namespace saltus {
 

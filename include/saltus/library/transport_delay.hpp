@@ -8,7 +8,7 @@
 // of the discrete state: a context that is saved and loaded has it.
 #pragma once
 
-#include "saltus/library/arguments.hpp"
+#include "saltus/library/detail/arguments.hpp"
 
 namespace saltus {
 

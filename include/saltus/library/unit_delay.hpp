@@ -5,7 +5,7 @@
 // delays in a row would delay by 2n - 1 ticks.
 #pragma once
 
-#include "saltus/library/arguments.hpp"
+#include "saltus/library/detail/arguments.hpp"
 
 namespace saltus {
 

@@ -5,7 +5,7 @@
 // ticks are exact time events. y[k] is a function of the seed and k, as with RandomNumber.
 #pragma once
 
-#include "saltus/library/arguments.hpp"
+#include "saltus/library/detail/arguments.hpp"
 
 namespace saltus {
 

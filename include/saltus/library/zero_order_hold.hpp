@@ -4,7 +4,7 @@
 // same tick gets the value before it.
 #pragma once
 
-#include "saltus/library/arguments.hpp"
+#include "saltus/library/detail/arguments.hpp"
 
 namespace saltus {
 

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "saltus/library/arguments.hpp"
+#include "saltus/library/detail/arguments.hpp"
 
 namespace saltus::detail {
 

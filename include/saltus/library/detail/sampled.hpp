@@ -4,7 +4,7 @@
 
 #include <functional>
 
-#include "saltus/library/arguments.hpp"
+#include "saltus/library/detail/arguments.hpp"
 
 namespace saltus::detail {
 

@@ -7,7 +7,7 @@
 #include <type_traits>
 
 #include "saltus/base/list.hpp"
-#include "saltus/library/arguments.hpp"
+#include "saltus/library/detail/arguments.hpp"
 
 namespace saltus::detail {
 

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "saltus/library/arguments.hpp"
+#include "saltus/library/detail/arguments.hpp"
 
 namespace saltus::detail {
 

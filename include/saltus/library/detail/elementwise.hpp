@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "saltus/library/arguments.hpp"
+#include "saltus/library/detail/arguments.hpp"
 
 namespace saltus::detail {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "saltus/library/arguments.hpp"
+#include "saltus/library/detail/arguments.hpp"
 
 namespace saltus::detail {
 
