@@ -35,9 +35,9 @@ std::vector<int> inputs_of(const PythonLeaf& leaf, const Slot& slot) {
 }
 
 /// Changes a copy of the declarations of a block, one trace after the other.
-class Writer {
+class DeclarationWriter {
  public:
-  Writer(const PythonLeaf& leaf, const std::vector<Slot>& slots)
+  DeclarationWriter(const PythonLeaf& leaf, const std::vector<Slot>& slots)
       : original_(leaf), slots_(slots), declared_(leaf.declarations()) {}
 
   Declarations write(const std::vector<Shape>& outputs);
@@ -64,7 +64,7 @@ class Writer {
   Declarations declared_;
 };
 
-Declarations Writer::write(const std::vector<Shape>& outputs) {
+Declarations DeclarationWriter::write(const std::vector<Shape>& outputs) {
   for (std::size_t i = 0; i < outputs.size(); ++i) declared_.outputs[i].shape = outputs[i];
   for (const Slot& slot : slots_) put(slot);
   auto& crossings = declared_.zero_crossings;
@@ -74,7 +74,7 @@ Declarations Writer::write(const std::vector<Shape>& outputs) {
   return std::move(declared_);
 }
 
-void Writer::put(const Slot& slot) {
+void DeclarationWriter::put(const Slot& slot) {
   const Function& function = original_.function(slot->function);
   const auto crossing = [&]() -> ZeroCrossing& { return declared_.zero_crossings[function.index]; };
   switch (function.role) {
@@ -114,7 +114,7 @@ void Writer::put(const Slot& slot) {
   }
 }
 
-void Writer::put_ode(const Slot& slot) {
+void DeclarationWriter::put_ode(const Slot& slot) {
   ContinuousState& state = declared_.continuous;
   state.ode = taped(slot);
   state.formula = formula(slot);
@@ -126,7 +126,7 @@ void Writer::put_ode(const Slot& slot) {
   state.sparse_jacobian = TapedEntries{slot};
 }
 
-void Writer::put_output(const Slot& slot) {
+void DeclarationWriter::put_output(const Slot& slot) {
   auto& output = declared_.outputs[original_.function(slot->function).index];
   const Reads said = output.reads;
   const Reads found = slot->tape.reads();
@@ -139,7 +139,7 @@ void Writer::put_output(const Slot& slot) {
 }
 
 /// A relation that Python declares: its guard as a tape.
-void Writer::put_relation(const Slot& slot) {
+void DeclarationWriter::put_relation(const Slot& slot) {
   auto& relation = declared_.relations[original_.function(slot->function).index];
   relation.guard = taped(slot);
   relation.formula = formula(slot);
@@ -149,7 +149,7 @@ void Writer::put_relation(const Slot& slot) {
 
 /// The comparisons become relations, which are located by their smooth guards, and the output is
 /// computed from their truths.
-void Writer::put_relations(const Slot& slot, OutputDeclaration& output) {
+void DeclarationWriter::put_relations(const Slot& slot, OutputDeclaration& output) {
   const TracedRelations& found = *slot->relations;
   std::vector<RelationIndex> relations;
   const std::size_t count = found.true_at_zero.size();
@@ -175,19 +175,19 @@ void Writer::put_relations(const Slot& slot, OutputDeclaration& output) {
 }
 
 /// Declares a relation, as LeafSystem::declare_relation does.
-RelationIndex Writer::add_relation(Relation relation) {
+RelationIndex DeclarationWriter::add_relation(Relation relation) {
   detail::name_it(relation.name, declared_.relations, "relation_", original_.name());
   declared_.relations.push_back(std::move(relation));
   return {count_of(declared_.relations) - 1};
 }
 
-void Writer::put_time_event(const Slot& slot) {
+void DeclarationWriter::put_time_event(const Slot& slot) {
   auto& event = declared_.time_events[original_.function(slot->function).index];
   event.update = TapedReset{slot, event.update, &original_};
   event.inputs = inputs_of(original_, slot);
 }
 
-std::optional<Slot> Writer::slot_of(Role role, int index) const {
+std::optional<Slot> DeclarationWriter::slot_of(Role role, int index) const {
   const auto found = std::ranges::find_if(slots_, [&](const Slot& slot) {
     const Function& function = original_.function(slot->function);
     return function.role == role && function.index == index;
@@ -196,7 +196,7 @@ std::optional<Slot> Writer::slot_of(Role role, int index) const {
 }
 
 /// A guard and its reset map share the list of inputs they read.
-void Writer::narrow_inputs(ZeroCrossing& crossing, int index) {
+void DeclarationWriter::narrow_inputs(ZeroCrossing& crossing, int index) {
   const auto guard = slot_of(Role::guard, index), reset = slot_of(Role::reset_map, index);
   if (!guard || (crossing.reset_map && !reset)) return;
   std::vector<int> inputs = inputs_of(original_, *guard);
@@ -209,7 +209,7 @@ void Writer::narrow_inputs(ZeroCrossing& crossing, int index) {
 
 /// Notes which states a guard and its reset map touch. A reset map that depends on the index of the
 /// guard may write other entries for each: then nothing is known of it.
-void Writer::note_touches(ZeroCrossing& crossing, int index) {
+void DeclarationWriter::note_touches(ZeroCrossing& crossing, int index) {
   const auto guard = slot_of(Role::guard, index), reset = slot_of(Role::reset_map, index);
   if (!guard || (crossing.reset_map && !reset)) return;
   Touches touches{.reads = (*guard)->tape.states_read(),
@@ -227,7 +227,7 @@ void Writer::note_touches(ZeroCrossing& crossing, int index) {
 std::shared_ptr<const Declarations> traced_declarations(const PythonLeaf& leaf,
                                                         const std::vector<Shape>& outputs,
                                                         const std::vector<Slot>& slots) {
-  return std::make_shared<const Declarations>(Writer(leaf, slots).write(outputs));
+  return std::make_shared<const Declarations>(DeclarationWriter(leaf, slots).write(outputs));
 }
 
 }  // namespace saltus::python

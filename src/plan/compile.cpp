@@ -39,9 +39,9 @@ void add_taps(Plan& plan, const RecordedSignals& signals) {
 
 /// Searches from nodes through the nodes they need. All searches share one memory, so the cost of a
 /// search is proportional to what it finds.
-class Search {
+class StateSearch {
  public:
-  explicit Search(const Plan& plan)
+  explicit StateSearch(const Plan& plan)
       : plan_(plan), seen_(plan.nodes.size(), 0), met_(plan.leaves.size(), 0) {}
 
   /// The located nodes that a node depends on.
@@ -102,7 +102,7 @@ class Search {
   std::vector<int> open_, leaves_;
 };
 
-void add_guard(Plan& plan, Search& search, GuardGroup group, const std::vector<int>& reads) {
+void add_guard(Plan& plan, StateSearch& search, GuardGroup group, const std::vector<int>& reads) {
   group.leaves = search.moving(group.leaf, reads);
   group.slot = plan.guard_slots;
   plan.guard_slots += group.size;
@@ -117,7 +117,7 @@ Direction watched_direction(const ZeroCrossing& crossing) {
 
 /// Zero crossings first, in declaration order, then relations and opaque booleans.
 void add_guards(Plan& plan) {
-  Search search(plan);
+  StateSearch search(plan);
   for (std::size_t l = 0; l < plan.leaves.size(); ++l) {
     const auto& crossings = plan.leaves[l].declared().zero_crossings;
     for (std::size_t i = 0; i < crossings.size(); ++i) {
@@ -164,7 +164,7 @@ void check_edges(const Plan& plan) {
 }
 
 void add_edges(Plan& plan) {
-  Search search(plan);
+  StateSearch search(plan);
   for (std::size_t l = 0; l < plan.leaves.size(); ++l) {
     const PlanLeaf& leaf = plan.leaves[l];
     const auto& resets = leaf.declared().edge_resets;

@@ -9,9 +9,9 @@ namespace saltus {
 namespace {
 
 /// The graph of a matrix: states are neighbours if they share a place.
-class Graph {
+class Adjacency {
  public:
-  explicit Graph(const Sparsity& places) : neighbours_(places.columns()) {
+  explicit Adjacency(const Sparsity& places) : neighbours_(places.columns()) {
     for (int j = 0; j < places.columns(); ++j) {
       for (const int i : places.column(j)) {
         if (i == j) continue;
@@ -35,7 +35,8 @@ class Graph {
 
 /// Searches breadth first from `root`, neighbours by rising degree, and appends each state to
 /// `order`. Returns the index in `order` at which the last level begins.
-std::size_t search(const Graph& graph, int root, std::vector<char>& met, std::vector<int>& order) {
+std::size_t search(const Adjacency& graph, int root, std::vector<char>& met,
+                   std::vector<int>& order) {
   std::size_t level = order.size(), next = order.size();
   order.push_back(root), met[root] = 1;
   for (std::size_t level_end = order.size(); next < order.size(); level_end = order.size()) {
@@ -54,7 +55,7 @@ std::size_t search(const Graph& graph, int root, std::vector<char>& met, std::ve
 }
 
 /// A state at the rim of the component of `root`: the least connected of the furthest states.
-int rim(const Graph& graph, int root, std::vector<char>& met, std::vector<int>& order) {
+int rim(const Adjacency& graph, int root, std::vector<char>& met, std::vector<int>& order) {
   for (int rounds = 0; rounds < 2; ++rounds) {
     const auto begin = order.size();
     const auto level = static_cast<std::ptrdiff_t>(search(graph, root, met, order));
@@ -81,7 +82,7 @@ Bandwidth bandwidth(const Sparsity& places, const std::vector<int>& position) {
 }
 
 std::vector<int> reverse_cuthill_mckee(const Sparsity& places) {
-  const Graph graph(places);
+  const Adjacency graph(places);
   List<char> met(graph.size());
   std::vector<int> order;
   for (int i = 0; i < static_cast<int>(graph.size()); ++i)

@@ -14,25 +14,27 @@ namespace {
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 /// Bounds of the values of an expression; each side is infinite if nothing is known.
-struct Range {
+struct ValueRange {
   double low = -infinite, high = infinite;
 
   bool changes_sign() const { return low < 0.0 && high > 0.0; }
 };
 
-Range operator+(const Range& a, const Range& b) { return {a.low + b.low, a.high + b.high}; }
-Range operator-(const Range& a) { return {-a.high, -a.low}; }
+ValueRange operator+(const ValueRange& a, const ValueRange& b) {
+  return {a.low + b.low, a.high + b.high};
+}
+ValueRange operator-(const ValueRange& a) { return {-a.high, -a.low}; }
 /// A product of unbounded factors that keep their signs keeps its sign too.
-Range operator*(const Range& a, const Range& b) {
+ValueRange operator*(const ValueRange& a, const ValueRange& b) {
   const auto product = [](double x, double y) { return x == 0.0 || y == 0.0 ? 0.0 : x * y; };
   const auto [low, high] = std::minmax({product(a.low, b.low), product(a.low, b.high),
                                         product(a.high, b.low), product(a.high, b.high)});
   return {low, high};
 }
 
-class Search {
+class DivisorSearch {
  public:
-  Search(Graph& graph, std::span<const Node> nodes)
+  DivisorSearch(Graph& graph, std::span<const Node> nodes)
       : graph_(graph),
         order_(needed(graph, nodes)),
         range_(graph.size()),
@@ -61,8 +63,8 @@ class Search {
     range_[node.id] = range_of(e);
   }
 
-  const Range& range(Node node) const { return range_[node.id]; }
-  Range range_of(const Expression& e) const {
+  const ValueRange& range(Node node) const { return range_[node.id]; }
+  ValueRange range_of(const Expression& e) const {
     const auto [a, b, c] = e.operands;
     switch (e.op) {
       case Op::constant:
@@ -87,9 +89,9 @@ class Search {
       case Op::sub:
         return range(a) + -range(b);
       case Op::mul:
-        return a == b ? Range{0.0, infinite} : range(a) * range(b);
+        return a == b ? ValueRange{0.0, infinite} : range(a) * range(b);
       case Op::pow:
-        return range(a).low >= 0.0 ? Range{0.0, infinite} : Range{};
+        return range(a).low >= 0.0 ? ValueRange{0.0, infinite} : ValueRange{};
       case Op::minimum:
         return {std::min(range(a).low, range(b).low), std::min(range(a).high, range(b).high)};
       case Op::maximum:
@@ -143,7 +145,7 @@ class Search {
 
   Graph& graph_;
   std::vector<Node> order_;
-  List<Range> range_;
+  List<ValueRange> range_;
   List<char> varies_, noted_;
   std::vector<Node> found_;
 };
@@ -151,7 +153,7 @@ class Search {
 }  // namespace
 
 std::vector<Node> divisors(Graph& graph, std::span<const Node> nodes) {
-  return Search(graph, nodes).run();
+  return DivisorSearch(graph, nodes).run();
 }
 
 }  // namespace saltus::tape

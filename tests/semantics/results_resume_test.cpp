@@ -9,7 +9,7 @@ using Catch::Matchers::WithinAbs;
 namespace {
 
 /// Runs in pieces, each from the context of the one before.
-struct Pieces {
+struct ExactPieces {
   std::vector<std::string> kinds;
   Context context;
 };

@@ -77,13 +77,14 @@ struct DragFlight {
 
 /// Flights short against w/g are parabolas: the flights after one of 1e-18 s take 2 v/g / (1 - e)
 /// together.
-inline Pieces<DragFlight> drag_flights(const BallDragParameters& with) {
+inline ExactPieces<DragFlight> drag_flights(const BallDragParameters& with) {
   insist(with.g > 0 && with.c > 0, "ball with drag", "g > 0 and c > 0", std::min(with.g, with.c));
   insist(with.e > 0 && with.e < 1, "ball with drag", "0 < e < 1", with.e);
   insist(with.y0 > 0, "ball with drag", "y0 above the floor", with.y0);
   const Real g = with.g, e = with.e, w = std::sqrt(g / Real(with.c));
   insist(with.v0 > -w, "ball with drag", "v0 above minus the terminal speed", with.v0);
-  Pieces<DragFlight> all{.pieces = {{g, w, 0, with.y0, with.v0}}, .rest = Eigen::Vector2d::Zero()};
+  ExactPieces<DragFlight> all{.pieces = {{g, w, 0, with.y0, with.v0}},
+                              .rest = Eigen::Vector2d::Zero()};
   for (;;) {
     const DragFlight& last = all.pieces.back();
     if (last.y == 0 && 2 * last.v < 1e-18L * g) {

@@ -72,12 +72,12 @@ struct Parabola {
 /// The search for each landing steps by a hundredth of a radian of the table. Flights shorter than
 /// ten such steps are the beginning of a rest on the table, for which no answer is known: the
 /// answer ends there.
-inline std::optional<Pieces<Parabola>> table_flights(const BallTableParameters& with) {
+inline std::optional<ExactPieces<Parabola>> table_flights(const BallTableParameters& with) {
   insist(with.g > 0 && with.w > 0, "ball on a table", "g > 0 and w > 0", std::min(with.g, with.w));
   insist(with.e >= 0 && with.e <= 1, "ball on a table", "0 <= e <= 1", with.e);
   insist(with.y0 > 0, "ball on a table", "y0 above the table", with.y0);
   const Real stride = 0.01L / with.w;
-  Pieces<Parabola> all{.pieces = {{with.g, 0, with.y0, with.v0}}};
+  ExactPieces<Parabola> all{.pieces = {{with.g, 0, with.y0, with.v0}}};
   for (;;) {
     const Parabola flight = all.pieces.back();
     const auto gap = [&](Real t) { return flight.height(t) - with.height(t); };

@@ -93,13 +93,13 @@ struct Circuit {
 };
 
 /// Goes from tick to tick; the switch closes where the control meets the ramp.
-inline Pieces<Circuit> cycles(const BuckConverterParameters& with) {
+inline ExactPieces<Circuit> cycles(const BuckConverterParameters& with) {
   insist(with.L > 0 && with.C > 0 && with.R > 0 && with.T > 0, "buck converter", "L, C, R, T > 0",
          std::min({with.L, with.C, with.R, with.T}));
   insist(4 * with.R * with.R * with.C > with.L, "buck converter", "a circuit that rings",
          4 * with.R * with.R * with.C / with.L);
   const auto is_open = [&](Real v) { return with.a * (v - with.v_ref) > with.low; };
-  Pieces<Circuit> all{.pieces = {{with, 0, with.i0, with.v0, !is_open(with.v0)}}};
+  ExactPieces<Circuit> all{.pieces = {{with, 0, with.i0, with.v0, !is_open(with.v0)}}};
   const auto go_on = [&](Real t, auto closed) {
     const auto [i, v] = all.pieces.back().at(t);
     all.times.push_back(static_cast<double>(t));

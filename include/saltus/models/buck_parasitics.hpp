@@ -88,14 +88,14 @@ class BuckParasitics final : public LeafSystem {
 };
 
 /// From tick to tick, and from one change of the diode to the next.
-inline Pieces<LinearPiece> conduction(const BuckParasiticsParameters& with) {
+inline ExactPieces<LinearPiece> conduction(const BuckParasiticsParameters& with) {
   insist(with.duty > 0 && with.duty < 1, "buck converter", "0 < duty < 1", with.duty);
   List<std::shared_ptr<const LinearFlow>> flows;
   for (int mode = 0; mode < 4; ++mode)
     flows.push_back(std::make_shared<LinearFlow>(with.matrix<Real>(mode), with.drive<Real>(mode)));
   LinearFlow::Vector start(4);
   start << with.i0, with.v0, 0, 0;
-  Pieces<LinearPiece> all{.pieces = {{0, start, flows[1], 1}}};
+  ExactPieces<LinearPiece> all{.pieces = {{0, start, flows[1], 1}}};
   const auto go_on = [&](Real t, int mode) {
     const LinearFlow::Vector from = all.pieces.back().at(t);
     all.times.push_back(static_cast<double>(t));
@@ -124,7 +124,7 @@ inline Pieces<LinearPiece> conduction(const BuckParasiticsParameters& with) {
 /// cycles add up, and die out with the load in 0.2 ms: 1500 in total.
 inline Scene buck_parasitics(const BuckParasiticsParameters& with = {}) {
   const auto converter = std::make_shared<const BuckParasitics>(with);
-  Pieces<LinearPiece> pieces = conduction(with);
+  ExactPieces<LinearPiece> pieces = conduction(with);
   std::vector<double> rows = mark_layers(pieces, 1e-7L, with.t_end);
   return {
       .name = "buck converter with parasitics",

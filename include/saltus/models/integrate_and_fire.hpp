@@ -62,10 +62,10 @@ struct Charging {
 };
 
 /// The search for spikes steps by a thousandth of tau.
-inline Pieces<Charging> spikes(const IntegrateAndFireParameters& with) {
+inline ExactPieces<Charging> spikes(const IntegrateAndFireParameters& with) {
   insist(with.tau > 0, "integrate and fire", "tau > 0", with.tau);
   insist(with.reset < with.threshold, "integrate and fire", "a reset below threshold", with.reset);
-  Pieces<Charging> all{.pieces = {{with, 0, with.reset}}};
+  ExactPieces<Charging> all{.pieces = {{with, 0, with.reset}}};
   for (;;) {
     const Charging now = all.pieces.back();
     const auto below = [&](Real t) { return now.potential(t) - with.threshold; };

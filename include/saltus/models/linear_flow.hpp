@@ -65,7 +65,7 @@ std::optional<Real> first_change(const Function& f, Real begin, Real least, Real
 
 /// The middles of the pieces longer than `least` [s], up to `end`, where the rows of a scene stand.
 /// A row before a quarter of such a piece is then a row of its event, and its layer.
-inline std::vector<double> mark_layers(Pieces<LinearPiece>& all, Real least, double end) {
+inline std::vector<double> mark_layers(ExactPieces<LinearPiece>& all, Real least, double end) {
   std::vector<double> middles;
   for (std::size_t k = 0; k < all.pieces.size(); ++k) {
     LinearPiece& piece = all.pieces[k];

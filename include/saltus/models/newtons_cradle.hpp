@@ -83,7 +83,7 @@ struct Swings {
 
 /// Goes from impact to impact, each time to the first impact of all pairs. The search steps by a
 /// twentieth of a gap at full speed. A pair that has just met is apart again after one step.
-inline Pieces<Swings> swings(const NewtonsCradleParameters& with) {
+inline ExactPieces<Swings> swings(const NewtonsCradleParameters& with) {
   insist(with.balls >= 2, "Newton's cradle", "2 balls or more", with.balls);
   insist(with.w > 0, "Newton's cradle", "w > 0", with.w);
   insist(with.gap > 0, "Newton's cradle", "a gap > 0", with.gap);
@@ -94,7 +94,7 @@ inline Pieces<Swings> swings(const NewtonsCradleParameters& with) {
   Swings now{with.w, with.gap, 0, std::vector<Real>(n), std::vector<Real>(n)};
   for (std::size_t i = 0; i < n; ++i) now.x[i] = static_cast<Real>(i) * now.gap;
   now.x[0] = -with.amplitude;
-  Pieces<Swings> all{.pieces = {now}};
+  ExactPieces<Swings> all{.pieces = {now}};
   for (;;) {
     Real first = with.t_end;
     std::size_t pair = n;

@@ -20,7 +20,7 @@ using Real = long double;  ///< of closed forms, so that no rounding of their ow
 /// Closed forms in order: piece n is valid after n events. `Piece` has the members `Real begin` and
 /// `Eigen::VectorXd state(Real t) const`, which also accepts times outside the piece.
 template <class Piece>
-struct Pieces {
+struct ExactPieces {
   std::vector<Piece> pieces = {};            ///< one at least
   std::vector<double> times = {};            ///< [s] of the events
   double accumulation = EventSeries::never;  ///< [s] of the events, where they do
@@ -29,8 +29,8 @@ struct Pieces {
 
 /// The known answer for a scene in which only `guard` has events.
 template <class Piece>
-Exact pieces_answer(std::string provenance, std::string guard, Pieces<Piece> all) {
-  const auto known = std::make_shared<const Pieces<Piece>>(std::move(all));
+Exact pieces_answer(std::string provenance, std::string guard, ExactPieces<Piece> all) {
+  const auto known = std::make_shared<const ExactPieces<Piece>>(std::move(all));
   return {.provenance = std::move(provenance),
           .events = {{std::move(guard), {{known->times, known->accumulation}}}},
           .state = [known](double t, const Branch& branch) -> Eigen::VectorXd {

@@ -66,7 +66,7 @@ class RelayCircuit final : public LeafSystem {
   double slope_;  // [A/s] of the source
 };
 
-inline Pieces<LinearPiece> charges(const RelayCircuitParameters& with) {
+inline ExactPieces<LinearPiece> charges(const RelayCircuitParameters& with) {
   insist(with.low < with.high, "relay circuit", "low below high", with.low);
   insist(with.low > 0, "relay circuit", "low above 0, where v2 goes to", with.low);
   const LinearFlow::Matrix a = with.matrix<Real>();
@@ -78,7 +78,7 @@ inline Pieces<LinearPiece> charges(const RelayCircuitParameters& with) {
   }
   insist(flows[RelayCircuit::on]->rest()[2] > with.high, "relay circuit",
          "E R3 / (R1 + R2 + R3) above high", with.high);
-  Pieces<LinearPiece> all{
+  ExactPieces<LinearPiece> all{
       .pieces = {{0, LinearFlow::Vector::Zero(3), flows[RelayCircuit::on], RelayCircuit::on}}};
   for (;;) {
     const LinearPiece now = all.pieces.back();
@@ -100,7 +100,7 @@ inline Pieces<LinearPiece> charges(const RelayCircuitParameters& with) {
 /// errors of 49 pieces add up, times 1.5 on average.
 inline Scene relay_circuit(const RelayCircuitParameters& with = {}) {
   const auto circuit = std::make_shared<const RelayCircuit>(with);
-  Pieces<LinearPiece> pieces = charges(with);
+  ExactPieces<LinearPiece> pieces = charges(with);
   std::vector<double> rows = mark_layers(pieces, 0.1L, with.t_end);
   return {.name = "relay circuit",
           .system = circuit,

@@ -62,12 +62,13 @@ struct Rock {
 /// From 0 with the rate u the block returns after 2/p artanh(u / (p alpha)), with the rate u again;
 /// the next swing has the rate r u. Once artanh x = x to rounding, the remaining swings are a
 /// geometric series.
-inline Pieces<Rock> rocks(const RockingBlockParameters& with) {
+inline ExactPieces<Rock> rocks(const RockingBlockParameters& with) {
   insist(with.p > 0, "rocking block", "p > 0", with.p);
   insist(with.r > 0 && with.r < 1, "rocking block", "0 < r < 1", with.r);
   insist(with.tilt > 0 && with.tilt < with.alpha, "rocking block", "0 < tilt < alpha", with.tilt);
   const Real p = with.p, alpha = with.alpha, r = with.r, away = alpha - with.tilt;
-  Pieces<Rock> all{.pieces = {{p, alpha, 0, with.tilt, 0, 1}}, .rest = Eigen::Vector2d::Zero()};
+  ExactPieces<Rock> all{.pieces = {{p, alpha, 0, with.tilt, 0, 1}},
+                        .rest = Eigen::Vector2d::Zero()};
   Real t = std::acosh(alpha / away) / p, edge = 1,
        u = p * std::sqrt((alpha - away) * (alpha + away));
   for (;;) {

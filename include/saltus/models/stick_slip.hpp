@@ -74,14 +74,14 @@ struct Ride {
 
 /// A slip begins at fs / k. It ends after 2 (pi - atan(w a / belt)) / w, with the same speed on the
 /// other side of the centre fk / k.
-inline Pieces<Ride> rides(const StickSlipParameters& with) {
+inline ExactPieces<Ride> rides(const StickSlipParameters& with) {
   insist(with.m > 0 && with.k > 0, "stick-slip", "m > 0 and k > 0", std::min(with.m, with.k));
   insist(with.belt > 0, "stick-slip", "belt > 0", with.belt);
   insist(with.fk >= 0 && with.fk < with.fs, "stick-slip", "0 <= fk < fs", with.fk);
   const Real w = std::sqrt(Real(with.k) / with.m), belt = with.belt,
              centre = Real(with.fk) / with.k, a = Real(with.fs) / with.k - centre;
   const Real slips = 2 * (std::acos(Real(-1)) - std::atan(w * a / belt)) / w;
-  Pieces<Ride> all{.pieces = {{0, 0, belt, 0, 0}}};
+  ExactPieces<Ride> all{.pieces = {{0, 0, belt, 0, 0}}};
   for (bool sticks = true;; sticks = !sticks) {
     const Ride& now = all.pieces.back();
     const Real t = now.begin + (sticks ? (centre + a - now.x) / belt : slips);

@@ -84,13 +84,13 @@ struct Touch {
   }
 };
 
-inline Pieces<Touch> touches(const StiffContactParameters& with) {
+inline ExactPieces<Touch> touches(const StiffContactParameters& with) {
   insist(with.g > 0 && with.m > 0 && with.k > 0, "stiff contact", "g, m, k > 0",
          std::min({with.g, with.m, with.k}));
   insist(with.damping >= 0 && with.damping < 1, "stiff contact", "0 <= damping < 1", with.damping);
   insist(with.y0 > 0, "stiff contact", "y0 above the floor", with.y0);
   const Real g = with.g, w = std::sqrt(Real(with.k) / with.m), damping = with.damping;
-  Pieces<Touch> all{.pieces = {{g, w, damping, 0, with.y0, 0, false}}};
+  ExactPieces<Touch> all{.pieces = {{g, w, damping, 0, with.y0, 0, false}}};
   for (;;) {
     const Touch now = all.pieces.back();
     const auto end = now.end();

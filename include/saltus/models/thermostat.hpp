@@ -58,14 +58,14 @@ struct Exponential {
   }
 };
 
-inline Pieces<Exponential> switches(const ThermostatParameters& with) {
+inline ExactPieces<Exponential> switches(const ThermostatParameters& with) {
   insist(with.low < with.high, "thermostat", "low below high", with.low);
   insist(with.outside < with.low, "thermostat", "outside below low", with.outside);
   insist(with.heater > with.high, "thermostat", "heater above high", with.heater);
   insist(with.start >= with.low && with.start < with.high, "thermostat", "low <= start < high",
          with.start);
   insist(with.tau > 0, "thermostat", "tau > 0", with.tau);
-  Pieces<Exponential> all{.pieces = {{0, with.start, with.heater, with.tau}}};
+  ExactPieces<Exponential> all{.pieces = {{0, with.start, with.heater, with.tau}}};
   for (bool heats = true;; heats = !heats) {
     const Exponential now = all.pieces.back();
     const Real level = heats ? with.high : with.low,

@@ -52,12 +52,12 @@ struct Way {
   }
 };
 
-inline Pieces<Way> ways(const TwoWallsParameters& with) {
+inline ExactPieces<Way> ways(const TwoWallsParameters& with) {
   insist(with.length > 0, "two walls", "length > 0", with.length);
   insist(with.e > 0 && with.e <= 1, "two walls", "0 < e <= 1", with.e);
   insist(with.x0 > 0 && with.x0 < with.length, "two walls", "x0 between the walls", with.x0);
   insist(with.v0 != 0, "two walls", "a ball that moves", with.v0);
-  Pieces<Way> all{.pieces = {{0, with.x0, with.v0}}};
+  ExactPieces<Way> all{.pieces = {{0, with.x0, with.v0}}};
   for (;;) {
     const Way way = all.pieces.back();
     const Real wall = way.v > 0 ? with.length : 0, impact = way.begin + (wall - way.x) / way.v;

@@ -64,15 +64,15 @@ struct Filling {
 
 /// Each time the tank without inflow drains to its mark. These times shrink geometrically; times
 /// below 1e-18 of the first are left out.
-inline Pieces<Filling> fillings(const WaterTanksParameters& with) {
+inline ExactPieces<Filling> fillings(const WaterTanksParameters& with) {
   insist(with.v1 > 0 && with.v1 < with.w, "water tanks", "0 < v1 < w", with.v1);
   insist(with.v2 > 0 && with.v2 < with.w, "water tanks", "0 < v2 < w", with.v2);
   insist(with.v1 + with.v2 > with.w, "water tanks", "v1 + v2 > w", with.v1 + with.v2);
   insist(with.x1 > with.r1, "water tanks", "x1 above its mark", with.x1);
   insist(with.x2 > with.r2, "water tanks", "x2 above its mark", with.x2);
   const Real w = with.w, v1 = with.v1, v2 = with.v2;
-  Pieces<Filling> all{.pieces = {{0, with.x1, with.x2, w - v1, -v2}},
-                      .rest = Eigen::Vector2d(with.r1, with.r2)};
+  ExactPieces<Filling> all{.pieces = {{0, with.x1, with.x2, w - v1, -v2}},
+                           .rest = Eigen::Vector2d(with.r1, with.r2)};
   for (Real lasts = 0, once = (Real(with.x2) - with.r2) / v2;;) {
     const Filling now = all.pieces.back();
     const bool to_first = now.rate1 > 0;

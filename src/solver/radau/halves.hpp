@@ -8,9 +8,9 @@ namespace saltus::radau {
 /// The collocation polynomial has the error h^(S + 1), the step h^(2 S): where the step is as long
 /// as its own error allows, the polynomial is far off. Two halves have 2^-(S + 1) of its error.
 /// They do not change the step, so recorded rows and monitors change no results.
-class Halves {
+class StageHalves {
  public:
-  explicit Halves(Index n) : middle_(n), shift_(n), first_(n), second_(n) {}
+  explicit StageHalves(Index n) : middle_(n), shift_(n), first_(n), second_(n) {}
 
   /// Solves both halves, from the polynomial of the step. False if that fails.
   bool solve(StageSolver& solver, double t0, const Eigen::VectorXd& x0, const Eigen::VectorXd& x1,

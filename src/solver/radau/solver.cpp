@@ -20,7 +20,7 @@ RadauSolver::RadauSolver(Machine& machine, GuardSet& guards, const SolverOptions
       stages_(machine, options),
       step_(n_),
       last_(n_),
-      inside_{Halves(n_)},
+      inside_{StageHalves(n_)},
       error_(n_, options) {}
 
 const SolverStatistics& RadauSolver::statistics() const {

@@ -95,7 +95,7 @@ class RadauSolver final : public StepSolver<RadauSolver> {
   StagePolynomial step_, last_;  // of the present step, and of the step before
   /// The looks inside the step: by its polynomial, or by those of two halves.
   struct Inside {
-    Halves halves;
+    StageHalves halves;
     bool known = false, halved = false;
   } inside_;
   ErrorEstimate error_;

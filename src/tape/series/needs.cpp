@@ -11,9 +11,9 @@ std::span<const Term> terms_of(const Instruction& i) {
   return {i.term, static_cast<std::size_t>(i.terms)};
 }
 
-class Search {
+class NeedSearch {
  public:
-  Search(Program& program, const Graph& graph, const std::vector<int>& places)
+  NeedSearch(Program& program, const Graph& graph, const std::vector<int>& places)
       : program_(program), graph_(graph), places_(places) {
     writers_.assign(static_cast<std::size_t>(program.rows), -1);
     seen_.assign(program.instructions.size(), -1);
@@ -88,7 +88,7 @@ void append_values(std::vector<Node>& nodes, const Instruction& i) {
 }
 
 void find_needs(Program& program, const Graph& graph, const std::vector<int>& places) {
-  Search(program, graph, places).run();
+  NeedSearch(program, graph, places).run();
 }
 
 }  // namespace saltus::tape::series
