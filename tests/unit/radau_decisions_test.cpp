@@ -5,6 +5,7 @@
 #include "saltus/solver/detail/radau/creep.hpp"
 #include "saltus/solver/detail/radau/cut.hpp"
 #include "saltus/solver/detail/radau/residual.hpp"
+#include "saltus/solver/detail/radau/step_control.hpp"
 
 #include <Eigen/Core>
 
@@ -129,4 +130,12 @@ TEST_CASE("the contraction of a step counts in proportion to the length of the n
     else
       CHECK(std::abs(found / (1.0 + found) - row.expected) <= 8.0 * eps);
   }
+}
+
+TEST_CASE("a step without an error is followed by the longest allowed one, at every order",
+          "[radau]") {
+  const double order = GENERATE(4.0, 6.0, 8.0, 10.0, 12.0, 14.0), safety = 0.5;
+  PredictiveControl control;
+  CHECK(control.accept(0.0, 1.0, order, safety, false) == tuning::longest);
+  CHECK(PredictiveControl::reject(0.0, 1.0, order, safety) == tuning::longest_retry);
 }

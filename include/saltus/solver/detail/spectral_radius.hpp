@@ -98,7 +98,7 @@ class SpectralRadius {
     a_ = (p - overlap * twice_) / turned_, b_ = growth_before_ / growth * c;
     unexplained_ = (direction_ - a_ * last_ - c * before_last_).norm() / std::sqrt(turned_);
   }
-  bool is_turned() const { return !(turned_ < 1e-6); }
+  bool is_turned() const { return !(turned_ < thresholds::no_turn); }
 
   /// Whether J^2 turns the vector back, but more than one pair takes part in it.
   bool undecided() const {

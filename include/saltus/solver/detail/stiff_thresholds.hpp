@@ -38,6 +38,10 @@ inline constexpr int power_iterations = 3;
 /// turn a vector back. tests/unit/spectral_radius_test.cpp
 inline constexpr int most_power_iterations = 15;
 inline constexpr double unexplained_turn = 0.1, turned_back = 0.9;
+/// [sine^2] A vector that turned by less than a thousandth is an eigenvector as far as its order of
+/// magnitude goes; the fit of a pair would divide by this. tests/unit/spectral_radius_test.cpp (as
+/// large)
+inline constexpr double no_turn = 1e-6;
 
 // --- "auto": choose.cpp, auto_solver.hpp
 

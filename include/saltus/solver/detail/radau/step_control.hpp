@@ -34,8 +34,8 @@ class PredictiveControl {
 
  private:
   static double next(double error, double order, double safety) {
-    return std::clamp(safety * std::pow(std::max(error, 1e-20), -1.0 / order), tuning::shortest,
-                      tuning::longest);
+    return std::clamp(safety * std::pow(std::max(error, tuning::no_error), -1.0 / order),
+                      tuning::shortest, tuning::longest);
   }
 
   double h_ = 0.0, error_ = 0.0;  // of the last accepted step

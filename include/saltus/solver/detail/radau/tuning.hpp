@@ -40,6 +40,9 @@ inline constexpr double safety = 0.9;
 /// jump).
 /// tests/unit/radau_test.cpp
 inline constexpr double shortest = 0.1, longest = 8.0;
+/// [tolerances] A smaller error counts as this one, so that its power is finite: every order gives
+/// the largest factor there. tests/unit/radau_decisions_test.cpp (as large)
+inline constexpr double no_error = 1e-20;
 /// [allowed] A smaller error says nothing about the trend (the code RADAU5).
 /// tests/unit/radau_test.cpp
 inline constexpr double least_error = 1e-2;
