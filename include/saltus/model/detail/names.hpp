@@ -1,6 +1,7 @@
 // Names of the parts of a system: ports, guards, parameters, blocks.
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -30,7 +31,7 @@ void name_it(std::string& name, const List& others, std::string_view prefix,
 /// Refuses a name with a dot where names make paths: "ball.x" would be two things. `what` is what
 /// has the name, such as "block".
 inline std::string without_dot(std::string name, std::string_view what) {
-  if (name.find('.') != std::string::npos) {
+  if (std::ranges::find(name, '.') != name.end()) {
     throw ModelError(text(what, " '", name,
                           "': a dot separates the names of a path; expected a name without one, "
                           "such as with '_' in its place"));
