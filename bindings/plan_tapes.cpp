@@ -34,7 +34,7 @@ class Reader {
 
   Tapes derivatives() const {
     const Walk& walk = plan_.walks.derivatives;
-    Tapes tapes = of_list(walk, plan_.derivatives);
+    Tapes tapes = of_list(walk, plan_.needs.derivatives);
     for (std::size_t i = 0; i < plan_.odes.size(); ++i) {
       if (walk.fuses() && walk.fused[i]) continue;
       add(tapes, plan_.leaf(plan_.odes[i]).declared().continuous.ode.function);
@@ -44,7 +44,7 @@ class Reader {
 
   Tapes guards() const {
     const Walk& walk = plan_.walks.guards;
-    Tapes tapes = of_list(walk, plan_.guard_needs);
+    Tapes tapes = of_list(walk, plan_.needs.guards);
     for (std::size_t i = 0; i < plan_.guards.size(); ++i) {
       if (walk.fuses() && walk.fused[i]) continue;
       const GuardGroup& group = plan_.guards[i];
@@ -68,8 +68,8 @@ class Reader {
   /// At instants and at recorded rows.
   Tapes others() const {
     Tapes tapes;
-    for (const int node : plan_.instants) add_node(tapes, node);
-    for (const int node : plan_.tap_needs) add_node(tapes, node);
+    for (const int node : plan_.needs.instants) add_node(tapes, node);
+    for (const int node : plan_.needs.taps) add_node(tapes, node);
     for (const PlanLeaf& leaf : plan_.leaves) {
       for (const auto& crossing : leaf.declared().zero_crossings) add(tapes, crossing.reset_map);
       for (const auto& edge : leaf.declared().edge_resets) add(tapes, edge.reset_map);

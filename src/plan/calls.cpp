@@ -80,7 +80,7 @@ class Maker {
 /// The nodes that change between instants too.
 std::vector<int> continuous(const Plan& plan) {
   std::vector<int> nodes;
-  std::ranges::copy_if(plan.instants, std::back_inserter(nodes),
+  std::ranges::copy_if(plan.needs.instants, std::back_inserter(nodes),
                        [&](int i) { return plan.node(i).rate == Rate::continuous; });
   return nodes;
 }
@@ -89,14 +89,14 @@ std::vector<int> continuous(const Plan& plan) {
 
 Calls::Calls(const Plan& plan, std::vector<At>& views) {
   Maker make(plan, views);
-  constants = make.outputs(plan.constants);
-  instants = make.outputs(plan.instants);
+  constants = make.outputs(plan.needs.constants);
+  instants = make.outputs(plan.needs.instants);
   moving = make.outputs(continuous(plan));
-  needs_of_derivatives = make.outputs(plan.derivatives);
-  derivatives = make.outputs(plan.walks.derivatives, plan.derivatives);
-  guard_needs = make.outputs(plan.walks.guards, plan.guard_needs);
-  taps = make.outputs(plan.tap_needs);
-  histories = make.outputs(plan.history_needs);
+  needs_of_derivatives = make.outputs(plan.needs.derivatives);
+  derivatives = make.outputs(plan.walks.derivatives, plan.needs.derivatives);
+  guard_needs = make.outputs(plan.walks.guards, plan.needs.guards);
+  taps = make.outputs(plan.needs.taps);
+  histories = make.outputs(plan.needs.histories);
   odes = make.odes(plan.walks.derivatives);
   single_odes = make.odes({});
   for (const GuardGroup& group : plan.guards) guards.push_back(make.guard(group));

@@ -63,14 +63,14 @@ std::string Plan::describe() const {
   out += text("outputs: ", std::ranges::count_if(nodes, [](const Node& n) { return !n.relation; }),
               "\n");
   describe_list(out, *this, "views of a state or parameter, never copied", views);
-  describe_list(out, *this, "constant, computed once", constants);
-  describe_list(out, *this, "computed at instants", instants);
-  describe_list(out, *this, "computed for the derivatives", derivatives);
+  describe_list(out, *this, "constant, computed once", needs.constants);
+  describe_list(out, *this, "computed at instants", needs.instants);
+  describe_list(out, *this, "computed for the derivatives", needs.derivatives);
   describe_walk(out, *this, walks.derivatives, "derivatives of blocks");
-  describe_list(out, *this, "computed for the guards", guard_needs);
+  describe_list(out, *this, "computed for the guards", needs.guards);
   describe_walk(out, *this, walks.guards, "guards");
-  describe_list(out, *this, "computed for recorded rows", tap_needs);
-  if (!histories.empty()) describe_list(out, *this, "computed for histories", history_needs);
+  describe_list(out, *this, "computed for recorded rows", needs.taps);
+  if (!histories.empty()) describe_list(out, *this, "computed for histories", needs.histories);
   describe_list(out, *this, "dropped, nothing reads them", dropped);
   out += guards.empty() ? "no guards: no root-finding\n" : text("guards: ", guard_slots, "\n");
   for (const GuardGroup& guard : guards) describe_guard(out, *this, guard);

@@ -24,12 +24,12 @@ class Pass {
         values_(plan, first_) {}
 
   FlowGraph run() {
-    add_outputs(plan_.derivatives);
+    add_outputs(plan_.needs.derivatives);
     made_.rates.assign(plan_.nx, values_.graph().constant(0.0));
     for (const int leaf : plan_.odes) {
       if (!add_rates(plan_.leaf(leaf))) return {.obstacle = obstacle_};
     }
-    add_outputs(plan_.guard_needs);
+    add_outputs(plan_.needs.guards);
     made_.guards.resize(plan_.guard_slots);
     for (const GuardGroup& group : plan_.guards) add_guards(group);
     made_.graph = std::move(values_.graph());

@@ -30,9 +30,10 @@ struct Sink {
 
 /// The values of a stage and their places. `first` has room for a number for each node; writers
 /// that follow one another share it.
-class Writer {
+class WalkWriter {
  public:
-  Writer(const Plan& plan, List<int>& first) : plan_(plan), first_(first), values_(plan, first) {}
+  WalkWriter(const Plan& plan, List<int>& first)
+      : plan_(plan), first_(first), values_(plan, first) {}
 
   void compute(int i) { values_.compute(i); }
   /// Stores a computed value to its own place.
@@ -94,12 +95,12 @@ class Stages {
     const auto kept = find_kept();
     List<int> first(plan_.nodes.size(), Expressions::variable);
     for (std::size_t s = 0; s < walk.stages.size(); ++s) {
-      Writer writer(plan_, first);
+      WalkWriter writer(plan_, first);
       write(writer, formulas[s], kept);
       walk.stages[s].fused = writer.function();
       writer.forget(formulas[s]);
     }
-    Writer last(plan_, first);
+    WalkWriter last(plan_, first);
     write(last, formulas.back(), kept);
     for (const Sink& sink : sinks_) {
       walk.fused.push_back(sink.formula != nullptr);
@@ -136,7 +137,7 @@ class Stages {
     }
   }
 
-  static void write(Writer& writer, const std::vector<int>& nodes, const List<char>& kept) {
+  static void write(WalkWriter& writer, const std::vector<int>& nodes, const List<char>& kept) {
     for (const int i : nodes) {
       writer.compute(i);
       if (kept[i]) writer.keep(i);
@@ -205,8 +206,8 @@ Walk walk_of(const Plan& plan, const std::vector<int>& list, const std::vector<S
 }  // namespace
 
 void fuse(Plan& plan) {
-  plan.walks.derivatives = walk_of(plan, plan.derivatives, odes_of(plan));
-  plan.walks.guards = walk_of(plan, plan.guard_needs, guards_of(plan));
+  plan.walks.derivatives = walk_of(plan, plan.needs.derivatives, odes_of(plan));
+  plan.walks.guards = walk_of(plan, plan.needs.guards, guards_of(plan));
 }
 
 }  // namespace saltus::detail

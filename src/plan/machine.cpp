@@ -102,11 +102,23 @@ void Machine::flow(double t, const double* state, double* xdot) {
   for (const Call& ode : calls_.odes) ode_of(ode, seen, t, xdot);
 }
 
+namespace {
+
+/// Computes a group of guards into its slots of g. The value of an opaque boolean is only a sign.
+void compute(const GuardCall& call, Arguments::OfState seen, double t, double* g) {
+  const VectorRef out(g + call.slot, call.width);
+  (*call.function)(*call.system, seen.at(call, t), out);
+  if (!call.opaque) return;
+  for (double& value : VectorRef(out)) value = value != 0.0 ? 1.0 : -1.0;
+}
+
+}  // namespace
+
 void Machine::guards_at(double t, const double* state, double* g) {
   ++guard_calls;
   const Seen seen = run(calls_.guard_needs, t, state);
-  if (calls_.fused_guards) guard(*calls_.fused_guards, seen, t, g);
-  for (int i : called_) guard(calls_.guards[i], seen, t, g);
+  if (calls_.fused_guards) compute(*calls_.fused_guards, seen, t, g);
+  for (int i : called_) compute(calls_.guards[i], seen, t, g);
 }
 
 void Machine::guards_of(std::span<const int> groups, double t, const double* state, double* g) {
@@ -118,9 +130,9 @@ void Machine::guards_of(std::span<const int> groups, double t, const double* sta
     if (calls_.fused_guards && plan_->walks.guards.fused[i])
       fused = true;
     else
-      guard(calls_.guards[i], seen, t, g);
+      compute(calls_.guards[i], seen, t, g);
   }
-  if (fused) guard(*calls_.fused_guards, seen, t, g);
+  if (fused) compute(*calls_.fused_guards, seen, t, g);
 }
 
 void Machine::ode_with_rest(const Call& ode, Seen seen, double t, double* xdot) const {
@@ -133,13 +145,6 @@ void Machine::ode_with_rest(const Call& ode, Seen seen, double t, double* xdot) 
   for (Index i = 0; i < ode.size; ++i) {
     if (resting_.rests(ode.x + i)) out[i] = 0.0;
   }
-}
-
-void Machine::guard(const GuardCall& call, Seen seen, double t, double* g) {
-  const VectorRef out(g + call.slot, call.width);
-  (*call.function)(*call.system, seen.at(call, t), out);
-  if (!call.opaque) return;
-  for (double& value : VectorRef(out)) value = value != 0.0 ? 1.0 : -1.0;
 }
 
 Context Memory::save(const Context& like, double t,

@@ -41,7 +41,7 @@ std::optional<NotFinite> Machine::not_finite(double t, const double* state) {
     (*call.function)(*call.system, seen.at(call, t), out);
     const PlanLeaf& leaf = plan_->leaves[call.leaf];
     if (const Index i = first_not_finite({out.data(), out.size()}); i < out.size()) {
-      const std::string name = plan_->name_of(plan_->node(plan_->derivatives[k]));
+      const std::string name = plan_->name_of(plan_->node(plan_->needs.derivatives[k]));
       return NotFinite{leaf.path, text("output '", name, "', which a derivative reads,"),
                        text("entry ", i, " is ", shown(out[i]), seen_by_block(leaf, *call.at, -1))};
     }

@@ -54,7 +54,7 @@ class StateSets {
 class Reach {
  public:
   explicit Reach(const Plan& plan) : plan_(plan), sets_(plan.nx), of_node_(plan.nodes.size()) {
-    for (const int i : plan.derivatives) {
+    for (const int i : plan.needs.derivatives) {
       if (sets_.overflow()) return;
       visit(i);
     }

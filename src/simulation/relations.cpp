@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "saltus/simulation/detail/decisions.hpp"
+#include "saltus/simulation/detail/relation_decisions.hpp"
 
 namespace saltus {
 
@@ -100,7 +100,7 @@ bool Relations::read(const GuardGroup& group, std::size_t k) {
   present_->note(k).turned = true;
   contacts_->leave(k);
   truth(k) = side > 0 ? 1.0 : 0.0;
-  if (!machine_->plan().restarting.empty()) flow_->forget();
+  if (!machine_->plan().needs.restarting.empty()) flow_->forget();
   return true;
 }
 

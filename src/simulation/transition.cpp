@@ -150,7 +150,7 @@ bool Transition::derivatives_read(Reads kind, int number) const {
     return node.leaf == number && !node.relation && has(plan.output_of(node).reads, kind);
   };
   return (of.nx > 0 && has(of.declared().continuous.reads, kind)) ||
-         std::ranges::any_of(plan.derivatives, shows);
+         std::ranges::any_of(plan.needs.derivatives, shows);
 }
 
 bool Transition::commit() {
@@ -172,14 +172,14 @@ bool Transition::changed(const Place& place) const {
 
 bool Transition::held_outputs_changed() const {
   const Plan& plan = machine_->plan();
-  return std::ranges::any_of(plan.instants, [&](int i) {
+  return std::ranges::any_of(plan.needs.instants, [&](int i) {
     return plan.node(i).rate == Rate::held && changed(plan.node(i).place);
   });
 }
 
 bool Transition::restarts() const {
   const Plan& plan = machine_->plan();
-  return restarts_ || std::ranges::any_of(plan.restarting,
+  return restarts_ || std::ranges::any_of(plan.needs.restarting,
                                           [&](int node) { return changed(plan.node(node).place); });
 }
 

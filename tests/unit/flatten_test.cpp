@@ -38,7 +38,7 @@ TEST_CASE("a gain three diagrams deep is one leaf with a path, and does what it 
   REQUIRE(plan->leaves.size() == 3);
   const std::string prefix[] = {"", "level_0.", "level_1.level_0.", "level_2.level_1.level_0."};
   CHECK(plan->leaves[2].path == prefix[depth] + "gain");
-  CHECK(plan->derivatives.size() == 2);
+  CHECK(plan->needs.derivatives.size() == 2);
   const auto results = simulate(diagram, diagram.create_context(), {0.0, 2.0},
                                 {.recorded_signals = {{"y", gain->output()}}});
   CHECK_THAT(results.context.continuous_state()[0], WithinAbs(6.0, 1e-9));

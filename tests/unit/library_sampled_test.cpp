@@ -156,7 +156,7 @@ TEST_CASE("what is sampled is held, and nothing behind it is located", "[library
   const Diagram diagram = builder.build();
   const auto plan = compile(diagram, {{"y", sampled.output()}, {"x", sum.output()}});
   CHECK(plan->guards.empty());
-  CHECK(plan->derivatives.empty());
+  CHECK(plan->needs.derivatives.empty());
   CHECK(plan->node(plan->taps[0].node).rate == Rate::held);
 }
 

@@ -18,7 +18,7 @@ TEST_CASE("Constant is a view of its parameter, scalar or vector", "[library]") 
   CHECK(vector.node().shape == Shape::of(3));
   CHECK(scalar.node().view);
   CHECK(scalar.node().rate == Rate::constant);
-  CHECK(scalar.plan().constants.empty());
+  CHECK(scalar.plan().needs.constants.empty());
 }
 
 TEST_CASE("a context can change the value of a Constant", "[library]") {

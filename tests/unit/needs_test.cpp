@@ -78,7 +78,7 @@ TEST_CASE("a relation between held values moves at instants only and is no guard
   const Diagram diagram = builder.build();
   const auto plan = compile(diagram);
   CHECK(plan->guards.empty());
-  CHECK(names(*plan, plan->restarting) == Names{"above.out"});
+  CHECK(names(*plan, plan->needs.restarting) == Names{"above.out"});
   const auto results = simulate(diagram, diagram.create_context(), {0.0, 3.0});
   CHECK(std::abs(results.context.continuous_state()[0] - 2.0) < 1e-9);
 }

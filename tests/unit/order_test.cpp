@@ -42,7 +42,7 @@ TEST_CASE("a hundred thousand blocks in a row are planned, the last one added fi
   const Diagram diagram = builder.build();
   const auto plan = compile(diagram);
   CHECK(plan->order.size() == plan->nodes.size());
-  CHECK(plan->constants.size() == n);  // the start is a parameter, shown as it is
+  CHECK(plan->needs.constants.size() == n);  // the start is a parameter, shown as it is
   CHECK(plan->nodes.front().shape.size == 2);
 }
 

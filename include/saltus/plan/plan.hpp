@@ -113,22 +113,24 @@ struct Walk {
   bool fuses() const { return last || !nodes.empty(); }
 };
 
+/// The nodes to compute at each occasion. Each list is a part of Plan::order, and no other node is
+/// ever computed.
+struct Needs {
+  std::vector<int> constants;  ///< once, at run start
+  std::vector<int> instants;   ///< at instants: held outputs, and what resets, updates, edges read
+  std::vector<int> derivatives;  ///< before the odes
+  std::vector<int> guards;       ///< before the guards
+  std::vector<int> taps;         ///< before a row is recorded
+  std::vector<int> histories;    ///< after a step, for the leaves that keep a history
+  /// Held nodes that the derivatives read: if one changes, the solver restarts.
+  std::vector<int> restarting;
+};
+
 struct Plan {
   List<PlanLeaf> leaves;
   List<Node> nodes;
   std::vector<int> order;  // all nodes, each after the nodes it needs
-
-  // The nodes to compute at each occasion. Each list is a part of `order`; nothing else is ever
-  // computed.
-  std::vector<int> constants;  // once, at run start
-  std::vector<int> instants;   // at instants: held outputs, and the values that resets, updates and
-                               // edges read
-  std::vector<int> derivatives;    // before the odes
-  std::vector<int> guard_needs;    // before the guards
-  std::vector<int> tap_needs;      // before a row is recorded
-  std::vector<int> history_needs;  // after a step, for the leaves that keep a history
-  // Held nodes that the derivatives read: if one changes, the solver restarts.
-  std::vector<int> restarting;
+  Needs needs;
 
   std::vector<int> odes;  // leaves with a continuous state
   List<GuardGroup> guards;
@@ -138,7 +140,7 @@ struct Plan {
   std::vector<int> histories;  // leaves that keep a history
   struct {
     Walk derivatives, guards;
-  } walks;  // derivatives with odes, and guard_needs with guards
+  } walks;  // derivatives with odes, and what guards need with the guards
 
   Index nx = 0, nz = 0, np = 0, ny = 0, guard_slots = 0;
 

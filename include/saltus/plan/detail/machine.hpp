@@ -174,7 +174,6 @@ class Machine : public Memory {
     (*ode.function)(*ode.system, seen.at(ode, t), out);
   }
   void ode_with_rest(const Call& ode, Seen seen, double t, double* xdot) const;
-  static void guard(const GuardCall& call, Seen seen, double t, double* g);
 
   Arguments arguments_;
   Calls calls_;

@@ -216,26 +216,26 @@ inline void find_slices(Plan& plan, const Roots& roots) {
   for (const Tap& tap : plan.taps) taps.push_back(tap.node);
 
   const Marks moving = marked(roots.derivatives, held);
-  plan.derivatives = slice(plan, moving, Rate::continuous);
-  plan.guard_needs = slice(plan, marked(guards, held), Rate::continuous);
-  plan.tap_needs = slice(plan, marked(taps, held), Rate::continuous);
-  plan.history_needs = slice(plan, marked(roots.histories, held), Rate::continuous);
+  plan.needs.derivatives = slice(plan, moving, Rate::continuous);
+  plan.needs.guards = slice(plan, marked(guards, held), Rate::continuous);
+  plan.needs.taps = slice(plan, marked(taps, held), Rate::continuous);
+  plan.needs.histories = slice(plan, marked(roots.histories, held), Rate::continuous);
 
   std::vector<int> all = roots.derivatives;
   append(all, guards), append(all, taps), append(all, roots.resets), append(all, roots.histories);
   const Marks used = marked(all, never);
   for (std::size_t i = 0; i < plan.nodes.size(); ++i) plan.nodes[i].used = used[i];
-  plan.constants = slice(plan, used, Rate::constant);
+  plan.needs.constants = slice(plan, used, Rate::constant);
 
   Marks instants = marked(roots.resets, held);
   spread(plan, held_of(plan, used), instants, never);
   for (int i : plan.order) {
     const Node& node = plan.node(i);
     if (instants[i] && node.rate != Rate::constant && !node.view && !node.located) {
-      plan.instants.push_back(i);
+      plan.needs.instants.push_back(i);
     }
   }
-  plan.restarting = held_of(plan, moving);
+  plan.needs.restarting = held_of(plan, moving);
 }
 
 }  // namespace saltus::detail
