@@ -46,11 +46,7 @@ Run::Run(std::shared_ptr<const Plan> plan, SimulatorOptions options)
       integration_(machine_, guards_, options_),
       rows_(machine_, results_, options_),
       histories_(machine_, options_),
-      chattering_(options_),
-      crawl_(machine_),
-      interrupt_(options_) {
-  if (Poles::may_be_passed(options_)) poles_.emplace(machine_, options_);
-}
+      endings_(machine_, options_) {}
 
 /// A context that is refused leaves the run as it is.
 void Run::initialize(const Context& context) {
@@ -73,9 +69,7 @@ void Run::initialize(const Context& context) {
   integration_.begin();
   begun_ = over_ = false;
   accepted_ = {.settled = context.settled()};
-  interrupt_.begin();
-  chattering_.begin(time_, machine_.x), crawl_.begin(time_);
-  if (poles_) poles_->begin();
+  endings_.begin(time_);
 }
 
 Results Run::take_results() {
@@ -93,7 +87,7 @@ Results Run::take_results() {
 Status Run::advance_to(double t_end) {
   require_ready(t_end);
   const auto start = std::chrono::steady_clock::now();
-  interrupt_.go_on(start);
+  endings_.go_on(start);
   try {
     results_.status = run_to(t_end);
   } catch (const SimulationError& error) {
@@ -127,13 +121,12 @@ Status Run::run_to(double t_end) {
   }
   while (time_ < t_end) {
     if (options_.max_major_steps && results_.statistics.instants >= *options_.max_major_steps) {
-      return end(Status::step_limit,
-                 text("t = ", time_, " s: the run used its ", *options_.max_major_steps,
-                      " major steps before t = ", t_end, " s; raise max_major_steps"));
+      return end({.status = Status::step_limit,
+                  .message = text("t = ", time_, " s: the run used its ", *options_.max_major_steps,
+                                  " major steps before t = ", t_end, " s; raise max_major_steps")});
     }
     if (const Status status = step(t_end); over_) return status;
-    if (interrupt_.after_step([this] { count_calls(); }))
-      return end(Status::interrupted, text("t = ", time_, " s: interrupted"));
+    if (auto ending = endings_.interrupted(time_, [this] { count_calls(); })) return end(*ending);
   }
   return Status::reached_end;
 }
@@ -164,12 +157,12 @@ Status Run::step(double t_end) {
   const double t_stop =
       major_.next(from, std::min(t_end, calendar_.stop(histories_.longest_end(from))));
   if (options_.dense_output) results_.trajectory.depart(integration_.state());
-  if (poles_) poles_->depart(from, integration_.state());
+  endings_.depart(from, integration_.state());
   const StopReason reason = integration_.advance(time_, t_stop);
-  if (poles_ && integration_.started() && poles_->passed(from, time_, integration_))
-    fail_at_pole(from);
+  if (endings_.passed_pole(from, time_, integration_)) fail_at_pole(from);
   accept(from);
-  if (crawls(t_end)) return end_crawl();
+  if (auto ending = endings_.after_step(time_, t_end - begin_.time(), integration_))
+    return end(*ending);
   if (reason == StopReason::step) return Status::reached_end;
   return settle(reason, t_end, false);
 }
@@ -182,11 +175,6 @@ void Run::accept(double from) {
   if (!guards_.monitors.empty()) log_monitors();
   rows_.record_step(from, time_, instant_.jump(), integration_);
   if (histories_.any()) keep_histories(from);
-}
-
-bool Run::crawls(double t_end) {
-  return integration_.started() && crawl_.looks(time_, t_end - begin_.time()) &&
-         crawl_.found(time_, integration_.state());
 }
 
 /// The trajectory needs the histories with which the next step begins.
@@ -219,7 +207,7 @@ Status Run::settle(StopReason reason, double t_end, bool at_start) {
   major_.begin(time_);
   rows_.record(time_, instant_.jump(), machine_.x.data());  // the row that a failure leaves
   accepted_.rows = results_.time.size();
-  const bool at_root = reason == StopReason::root, idle = at_root && chattering_.idle(machine_.x);
+  const bool at_root = reason == StopReason::root, idle = at_root && endings_.idle();
   accepted_.in_instant = true;
   const int jump = instant_.jump();
   const Outcome outcome = instant_.run(time_, due_, t_end - time_, at_start);
@@ -228,14 +216,9 @@ Status Run::settle(StopReason reason, double t_end, bool at_start) {
   const bool cut = instant_.executions().stops_earlier() && integration_.inside_step();
   if (outcome.restart || cut)
     integration_.restart(time_, {.horizon = outcome.horizon, .flow = instant_.flow()});
-  return after(outcome, {time_, at_root, t_end - begin_.time()}, idle);
-}
-
-/// Whether an instant ends the run.
-Status Run::after(const Outcome& outcome, const Chattering::Seen& seen, bool idle) {
-  if (outcome.terminal) return end(Status::terminal);
-  if (outcome.zeno_stop) return end(Status::zeno_stop);
-  if (chattering_.chatters(outcome, seen, idle, machine_.x)) return end_chattering();
+  const Chattering::Seen seen{time_, at_root, t_end - begin_.time()};
+  if (auto ending = endings_.after_instant(outcome, seen, idle, instant_.journal()))
+    return end(*ending);
   return Status::reached_end;
 }
 

@@ -18,51 +18,12 @@ void Run::require_ready(double t_end) const {
   }
 }
 
-Status Run::end_chattering() {
-  const EventName name = instant_.journal().last_event();
-  results_.block = name.block;
-  return end(Status::chattering,
-             text("t = ", time_, " s: guard '", name.event, "' of block '", name.block, "' fired ",
-                  chattering_.found().count, " times in ", time_ - chattering_.found().since,
-                  " s: time does not advance. Give it hysteresis, a zeno_tolerance above 0 s, or a "
-                  "mode of its own for the motion along the switching surface"));
-}
-
-Status Run::end_crawl() {
-  const Crawl::Jump& jump = crawl_.jump();
-  const PlanLeaf& leaf = leaf_of_state(jump.state);
-  results_.block = leaf.path;
-  return end(Status::chattering,
-             text("t = ", time_, " s: ", jump.steps, " steps took ", jump.took,
-                  " s, because the derivative of state x[", jump.state - leaf.x, "] of block '",
-                  leaf.path, "' jumps from ", jump.below, " to ", jump.above, " where x[",
-                  jump.state - leaf.x, "] = ", jump.at,
-                  ": the solution slides along the jump, and no step passes it. Write the branch "
-                  "as a relation or as two modes with a guard each, with a mode of its own for the "
-                  "motion along the jump, or make it steep but continuous"));
-}
-
 /// The step is taken back: the run ends at its begin, the last state before the pole.
 void Run::fail_at_pole(double from) {
-  const Poles::Pole& pole = poles_->pole();
-  const PlanLeaf& leaf = leaf_of_state(pole.state);
   const double to = std::exchange(time_, from);
-  machine_.x = poles_->departed_from();
+  machine_.x = endings_.departed_from();
   accepted_.place = Place::machine;
-  throw SimulationError(
-      text("t = ", from, " s: the derivative of state x[", pole.state - leaf.x, "] of block '",
-           leaf.path, "' has a pole at t = ", pole.t,
-           " s, where a divisor crosses zero: a step to ", to,
-           " s passed it, and its ends do not show it. Expected: a derivative that stays finite. "
-           "If it does, choose a smaller rtol and atol; if not, end the run before the pole, for "
-           "example with a terminal guard where the divisor is small"),
-      from, leaf.path);
-}
-
-const PlanLeaf& Run::leaf_of_state(Index state) const {
-  return *std::ranges::find_if(plan().leaves, [&](const PlanLeaf& each) {
-    return each.x <= state && state < each.x + each.nx;
-  });
+  throw endings_.pole_error(from, to);
 }
 
 /// Ends the run with an error. Called in a handler: the present exception is the cause.
@@ -90,11 +51,12 @@ void Run::take_accepted() {
   }
 }
 
-Status Run::end(Status status, std::string message) {
+Status Run::end(Endings::Ending ending) {
   over_ = true;
-  results_.status = status;
-  results_.message = std::move(message);
-  return status;
+  results_.status = ending.status;
+  results_.message = std::move(ending.message);
+  if (!ending.block.empty()) results_.block = std::move(ending.block);
+  return ending.status;
 }
 
 }  // namespace saltus

@@ -29,6 +29,7 @@ ELSEWHERE = {
     "plan/detail/memory": None,
     "simulation/detail/collector": "unit/instant_test.cpp",
     "simulation/detail/effects": "unit/transition_test.cpp",
+    "simulation/detail/endings": "errors/chattering_errors_test.cpp",
     "simulation/detail/executions": "semantics/queue_schedule_test.cpp",
     "simulation/detail/flow_probe": "unit/departure_test.cpp",
     "simulation/detail/histories": "unit/library_transport_delay_test.cpp",

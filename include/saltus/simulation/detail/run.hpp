@@ -2,20 +2,16 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "saltus/simulation/detail/calendar.hpp"
-#include "saltus/simulation/detail/chattering.hpp"
-#include "saltus/simulation/detail/crawl.hpp"
+#include "saltus/simulation/detail/endings.hpp"
 #include "saltus/simulation/detail/histories.hpp"
 #include "saltus/simulation/detail/instant.hpp"
 #include "saltus/simulation/detail/integration.hpp"
-#include "saltus/simulation/detail/interrupt.hpp"
 #include "saltus/simulation/detail/major_steps.hpp"
-#include "saltus/simulation/detail/poles.hpp"
 #include "saltus/simulation/detail/rows.hpp"
 #include "saltus/simulation/detail/turn.hpp"
 
@@ -61,17 +57,12 @@ class Run {
   Status begin(double t_end);
   Status step(double t_end);
   void accept(double from);
-  bool crawls(double t_end);
   Status settle(StopReason reason, double t_end, bool at_start);
-  Status after(const Outcome& outcome, const Chattering::Seen& seen, bool idle);
   void log_monitors();
   void keep_step(double from);
   void keep_histories(double from);
-  Status end_chattering();
-  Status end_crawl();
   [[noreturn]] void fail_at_pole(double from);
-  const PlanLeaf& leaf_of_state(Index state) const;
-  Status end(Status status, std::string message = {});
+  Status end(Endings::Ending ending);
   void fail(std::string message);
   void finish();
   void count_calls();
@@ -94,10 +85,7 @@ class Run {
   Accepted accepted_;
   mutable Caller caller_{};
   std::vector<int> due_;
-  Chattering chattering_;
-  Crawl crawl_;
-  std::optional<Poles> poles_;  // where tolerances are loose
-  Interrupt interrupt_;
+  Endings endings_;
 };
 
 }  // namespace saltus
