@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "saltus/simulation/detail/contact_decisions.hpp"
+
 namespace saltus {
 
 ContactGuards::ContactGuards(const Scope& scope, Machine& machine, GuardSet& guards,
@@ -150,14 +152,11 @@ bool ContactGuards::follow_surface(SurfaceContact& contact) {
   const bool moves = contact.carried || contacts_.moves(contact, t, x, longest);
   if (moves) contact.carried = contacts_.settle(contact, t, x);
   const double lift = contacts_.lift(contact, t, x);
-  contact.carried = contact.carried && lift < 0.0;
-  if (contact.pressed_on && lift > 0.0) {
-    present_->firings.push_back({contact.slot, Firing::lifts_off});
-    return false;
-  }
-  if (lift != 0.0) contact.pressed_on = lift < 0.0;  // without a force the block stays where it is
+  const Pressure pressure = decide_pressure(contact.carried, contact.pressed_on, lift);
+  contact.carried = pressure.carried, contact.pressed_on = pressure.pressed_on;
+  if (pressure.lifts_off) present_->firings.push_back({contact.slot, Firing::lifts_off});
   if (contact.carried) guards_->g[contact.slot] = lift;
-  return true;
+  return !pressure.lifts_off;
 }
 
 void ContactGuards::load() {

@@ -90,11 +90,10 @@ void CrossingArming::arm(std::size_t k, bool at_start) {
   carry_out(k, decide_crossing(facts, {flow.side, flow.rounding}, ask), flow.rounding);
 }
 
-/// Its rounding, and its movement within the resolution of the time.
 double CrossingArming::uncertainty(std::size_t k) {
-  const double time = thresholds::location_roundings * thresholds::eps * std::abs(present_->t);
-  const double moved = time * std::abs(flow_->slope(group_of(k), static_cast<Index>(k)));
-  return flow_->rounding(static_cast<Index>(k)) + moved;
+  const auto slot = static_cast<Index>(k);
+  const double slope = flow_->slope(group_of(k), slot);  // first: both keep looks at the flow
+  return value_uncertainty(flow_->rounding(slot), slope, present_->t);
 }
 
 bool CrossingArming::is_at_zero(std::size_t k) {
@@ -187,10 +186,12 @@ bool CrossingArming::goes_against(const Firing& firing) {
   const std::size_t k = firing.guard();
   const Guard& guard = (*guards_)[k];
   const GuardGroup& group = group_of(k);
-  if (std::isnan(guard.armed_at) || guard.monitor || guard.direction == Direction::edge_detection)
+  if (!may_be_rounding({.armed_at_zero = !std::isnan(guard.armed_at),
+                        .monitor = guard.monitor,
+                        .edge = guard.direction == Direction::edge_detection,
+                        .opaque = group.is_opaque(),
+                        .at_zero = firing.at_zero}))
     return false;
-  // A guard that was clearly off zero in between has a true root.
-  if (!group.is_opaque() && !firing.at_zero) return false;
   const double location = present_->now(k).location;
   const Departure::Side flow = flow_->side_within(present_->t - guard.armed_at, group,
                                                   static_cast<Index>(k), location, -firing.from);

@@ -60,11 +60,13 @@ Outcome Instant::run(double t, const std::vector<int>& due, double longest, bool
 void Instant::turn_beside_root() {
   for (const std::size_t k : guards_->beside_root) {
     const Guard& guard = (*guards_)[k];
-    if (guard.phase != Phase::armed || !plan().guard(guard.group).is_crossing()) continue;
-    const int side =
-        flow_.side(plan().guard(guard.group), static_cast<Index>(k), std::abs(guards_->g[k]), 0)
-            .side;
-    if (side == -firing_side(guard.direction)) guards_->turn(k, side);
+    const GuardGroup& group = plan().guard(guard.group);
+    if (!group.is_crossing()) continue;
+    const auto flow_to = [&] {
+      return flow_.side(group, static_cast<Index>(k), std::abs(guards_->g[k]), 0).side;
+    };
+    if (crossed_beside_root(guard.direction, guard.phase, flow_to))
+      guards_->turn(k, -firing_side(guard.direction));
   }
   guards_->beside_root.clear();
   flow_.forget();
@@ -110,18 +112,25 @@ void Instant::commit() {
 /// Zero crossings that the commit moved across zero in their direction fire in the next pass.
 void Instant::find_next() {
   for (const std::size_t k : guards_->active().all) {
-    const Guard& guard = (*guards_)[k];
-    const double g = present_.g[k];
-    if (!plan().guard(guard.group).is_crossing()) continue;
-    if (holds_.of_guard(k).monitor.holding) {
-      if (!present_.now(k).fired_in_pass) contacts_.look_at_held(k);  // else it just came to rest
-    } else if (present_.now(k).fired_in_pass) {
-      const bool queued = plan().guard(guard.group).queued;
-      guards_->turn(k, queued ? -guard.came_from : sign_of(g));
-      guards_->set_base(k, g);
-      if (queued) look_at_crossing(k);  // a reset map may have carried the trigger back
-    } else {
-      look_at_crossing(k);
+    const GuardGroup& group = plan().guard((*guards_)[k].group);
+    if (!group.is_crossing()) continue;
+    const bool holds = holds_.of_guard(k).monitor.holding;
+    switch (decide_after_pass(holds, present_.now(k).fired_in_pass, group.queued)) {
+      case AfterPass::nothing:
+        break;
+      case AfterPass::look_at_hold:
+        contacts_.look_at_held(k);
+        break;
+      case AfterPass::see:
+        guards_->turn(k, sign_of(present_.g[k]));
+        guards_->set_base(k, present_.g[k]);
+        break;
+      case AfterPass::see_behind:
+        guards_->turn(k, -(*guards_)[k].came_from);
+        guards_->set_base(k, present_.g[k]);
+        [[fallthrough]];  // a reset map may have carried the trigger back
+      case AfterPass::look:
+        look_at_crossing(k);
     }
   }
 }

@@ -37,6 +37,15 @@ TEST_CASE("A contact whose guard leaves its error is carried, wavers, or release
   CHECK(decide_waking(false, pressed * -1.0, pressed, no) == Waking::release);
 }
 
+TEST_CASE("A block lifts off where its flow pressed it on before, and leads off its surface now") {
+  const bool carried = GENERATE(false, true), pressed_on = GENERATE(false, true);
+  const double size = GENERATE(1e-300, 1.0);
+  CHECK(decide_pressure(carried, pressed_on, -size) == Pressure{carried, true, false});
+  CHECK(decide_pressure(carried, pressed_on, 0.0) == Pressure{false, pressed_on, false});
+  CHECK(decide_pressure(carried, true, size) == Pressure{false, true, true});
+  CHECK(decide_pressure(carried, false, size) == Pressure{false, false, false});
+}
+
 TEST_CASE("A guard that wavered once stays at rest at the same value, and leaves at ten times it") {
   const int pressed = GENERATE(-1, 1);
   const double g = -pressed * 3e-12, error = error_after_wavering(1e-15, g);

@@ -47,6 +47,28 @@ Waking decide_waking(bool carried, double g, int pressed, const MayBeCarried& ma
   return g * pressed < 0.0 ? Waking::release : Waking::stay;
 }
 
+/// Decides about a contact by its lift: how far the free flow takes its guard off the surface.
+///
+///     carried   pressed on until now   lift        carried   pressed on   lifts off
+///     yes       -                      negative    yes       yes          no
+///     no        -                      negative    no        yes          no
+///     -         -                      zero        no        as before    no
+///     -         yes                    positive    no        yes          yes
+///     -         no                     positive    no        no           no
+///
+/// Without a force the block stays where it is: a lift of zero changes nothing about the pressure.
+struct Pressure {
+  bool carried = false;
+  bool pressed_on = false;
+  bool lifts_off = false;
+  bool operator==(const Pressure&) const = default;
+};
+
+constexpr Pressure decide_pressure(bool carried, bool pressed_on, double lift) {
+  const bool lifts_off = pressed_on && lift > 0.0;
+  return {carried && lift < 0.0, lift == 0.0 || lifts_off ? pressed_on : lift < 0.0, lifts_off};
+}
+
 /// The error of a contact whose guard left it by rounding, and was `g` then.
 inline double error_after_wavering(double error, double g) {
   return std::max(error, thresholds::wavered * std::abs(g));

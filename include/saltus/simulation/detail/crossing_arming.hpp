@@ -2,11 +2,12 @@
 #pragma once
 
 #include "saltus/simulation/detail/contact_guards.hpp"
-#include "saltus/simulation/detail/decisions.hpp"
+#include "saltus/simulation/detail/crossing_decisions.hpp"
+#include "saltus/simulation/detail/pass_decisions.hpp"
 
 namespace saltus {
 
-/// Collects the facts of a guard, lets decisions.hpp decide, and carries the decision out.
+/// Collects the facts of a guard, lets crossing_decisions.hpp decide, and carries the decision out.
 class CrossingArming {
  public:
   CrossingArming(Machine& machine, GuardSet& guards, Flow& flow, Holds& holds,

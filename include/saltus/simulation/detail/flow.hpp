@@ -1,7 +1,7 @@
 // Flow: to which side the flow takes a guard at the present state, computed when it is needed.
 #pragma once
 
-#include "saltus/simulation/detail/decisions.hpp"
+#include "saltus/simulation/detail/crossing_decisions.hpp"
 #include "saltus/simulation/detail/departure.hpp"
 
 namespace saltus {

@@ -31,7 +31,7 @@ inline constexpr double location_error = 4.0;
 inline constexpr double kept_error = 1.01;
 /// [of its movement by a commit] A guard that a commit moved further beyond zero than this part of
 /// the whole movement is across: a rounding of that size would leave three digits.
-/// tests/unit/decisions_test.cpp
+/// tests/unit/pass_decisions_test.cpp
 inline constexpr double clearly_across = 1e-3;
 /// [tolerances of the states] A guard that leaves a falling surface is at zero within this error:
 /// its distance grows as the third power of time, while the error of the state grows as the first.
@@ -70,7 +70,7 @@ inline constexpr double speed_looks = 1e6;
 /// tests/unit/departure_test.cpp
 inline constexpr double slope_noise = 1e-6;
 /// [of the slope before a reset] A smaller slope is a stop, not a passage.
-/// tests/unit/decisions_test.cpp
+/// tests/unit/crossing_decisions_test.cpp
 inline constexpr double stopped_slope = 1e-6;
 /// [of the speed before a reset] The same for a guard that jumps, whose slope is measured by the time
 /// to go back. A block that falls from rest has 1e-7 to 1e-4 of its speed when it has left the jump by

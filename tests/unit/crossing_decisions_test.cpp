@@ -1,5 +1,5 @@
-// The decisions of an instant, row by row of their tables. No run, no machine: values only.
-#include "saltus/simulation/detail/decisions.hpp"
+// The decisions about zero crossings, row by row of their tables. No run, no machine: values only.
+#include "saltus/simulation/detail/crossing_decisions.hpp"
 
 #include <optional>
 #include <stdexcept>
@@ -356,73 +356,4 @@ TEST_CASE("A slope is passed through with if it went the same way before, and wa
   CHECK_FALSE(passed_through(1e-7, 1.0));
   CHECK_FALSE(passed_through(1.0, 0.0));
   CHECK_FALSE(passed_through(1.0, -1.0));
-}
-
-TEST_CASE(
-    "A relation that is read again takes the side its value says, unless it was just crossed") {
-  struct Reads {
-    std::string name;
-    RelationFacts facts;
-    std::optional<int> expected;
-  };
-  const std::vector<Reads> table = {
-      {"off zero, above", {.g = 1.0}, 1},
-      {"off zero, below", {.truth = true, .g = -1.0}, -1},
-      {"at zero it keeps its truth", {.truth = true, .g = 0.0}, 0},
-      {"fired, nothing written: rounding says nothing",
-       {.g = 1e-17, .fired = true, .came_from = 1},
-       -1},
-      {"fired, written: the flow decides",
-       {.g = 1e-17, .fired = true, .came_from = 1, .wrote = true},
-       {}},
-      {"opaque, on the crossing's side",
-       {.opaque = true, .g = -1.0, .fired = true, .came_from = 1, .wrote = true},
-       -1},
-      {"opaque, back on the other side",
-       {.opaque = true, .g = 1.0, .fired = true, .came_from = 1, .wrote = true},
-       {}},
-      {"turned before, and at zero now", {.g = 0.0, .turned = true, .wrote = true}, {}},
-      {"turned before, off zero now", {.g = 1.0, .turned = true, .wrote = true}, 1},
-  };
-  for (const Reads& row : table) {
-    INFO(row.name);
-    CHECK(decide_relation(row.facts) == row.expected);
-    RelationFacts down = row.facts;  // the same upside down
-    down.truth = !down.truth, down.g = -down.g, down.came_from = -down.came_from;
-    const auto other = row.expected ? std::optional(-*row.expected) : std::nullopt;
-    CHECK(decide_relation(down) == other);
-  }
-}
-
-TEST_CASE("How a relation goes on") {
-  using enum RelationArming;
-  CHECK(decide_relation_arming(true, 1, -1, true, true) == by_truth);
-  CHECK(decide_relation_arming(false, 1, 1, false, false) == unchanged);
-  CHECK(decide_relation_arming(false, 1, 1, false, true) == unchanged);
-  CHECK(decide_relation_arming(false, 1, 1, true, true) == within_value);
-  CHECK(decide_relation_arming(false, 0, 1, false, true) == within_value);
-  CHECK(decide_relation_arming(false, 1, 1, true, false) == by_flow);
-  CHECK(decide_relation_arming(false, 0, 1, false, false) == by_flow);
-}
-
-TEST_CASE("A relation at its zero follows the flow, and rests where the flow leads straight back") {
-  const auto yes = [] { return true; };
-  const auto no = [] { return false; };
-  const auto unasked = []() -> bool { throw std::logic_error("asked for the flow before"); };
-  const int to = GENERATE(-1, 1);
-  CHECK(decide_relation_side(0, to, true, unasked) == RelationSide{to, false});
-  CHECK(decide_relation_side(to, to, true, yes) == RelationSide{to, true});
-  CHECK(decide_relation_side(to, to, true, no) == RelationSide{to, false});
-  CHECK(decide_relation_side(to, to, false, unasked) == RelationSide{to, false});
-  CHECK(decide_relation_side(-to, to, true, unasked) == RelationSide{-to, false});
-}
-
-TEST_CASE("a commit that leaves a thousandth of its way beyond zero has put the guard there") {
-  const double way = GENERATE(1.0, -1.0, 1e-200, 1e200);
-  CHECK(stops_near_zero(way, 0.0));
-  CHECK(stops_near_zero(way, -1e-4 * way));
-  CHECK(stops_near_zero(way, 1e-4 * way));
-  CHECK_FALSE(stops_near_zero(way, -1e-2 * way));
-  CHECK_FALSE(stops_near_zero(way, -way));
-  CHECK_FALSE(stops_near_zero(way, way));
 }

@@ -1,6 +1,6 @@
-// Decisions: the side on which a guard continues, whether it fires at once, whether it rests. They
-// are functions of values. They ask for a fact about the flow only when they need it, because the
-// fact costs calls of the right-hand side.
+// Crossing decisions: the side on which a zero crossing continues, whether it fires at once, whether
+// it rests. They are functions of values. They ask for a fact about the flow only when they need it,
+// because the fact costs calls of the right-hand side.
 //
 // The law: a guard is at zero within its error; its side is known only beyond it; within it the
 // flow decides (docs/semantics.md, 2.2 to 2.5).
@@ -223,80 +223,6 @@ Arming decide_crossing(const CrossingFacts& guard, FlowSide flow, const Ask& ask
 /// the reset did not nearly stop it. Both arguments are slopes towards the firing side.
 constexpr bool passed_through(double onward, double before) {
   return before > 0.0 && onward > thresholds::stopped_slope * before;
-}
-
-/// The facts about a relation that is read again after a commit.
-struct RelationFacts {
-  bool opaque = false;  ///< a boolean function: its value is only a sign
-  bool truth = false;   ///< until now
-  double g = 0.0;       ///< its value
-  bool fired = false;   ///< in this instant
-  int came_from = 0;    ///< the side it fired from
-  bool turned = false;  ///< it was turned by an earlier reading in this instant
-  bool wrote = false;   ///< reset maps wrote continuous state in this instant
-
-  /// The side by its crossing if it fired; otherwise by its truth.
-  int crossed_to() const { return fired ? -came_from : truth ? 1 : -1; }
-};
-
-/// The side of a relation by its value alone (3.5); 0: it keeps its truth. Returns no value if the
-/// flow has to decide.
-///
-///     fired   states written   value                     side
-///     yes     no               rounding                  the crossing's
-///     yes     yes              smooth                    ask
-///     yes     yes              opaque, the crossing's    its value's
-///     yes     yes              opaque, otherwise         ask
-///     no      yes              zero, turned before       ask
-///     no      -                otherwise                 its value's
-constexpr std::optional<int> decide_relation(const RelationFacts& relation) {
-  if (relation.fired && !relation.wrote) return relation.crossed_to();
-  const int side = sign_of(relation.g);
-  const bool touched = relation.fired || (relation.turned && relation.g == 0.0);
-  if (relation.wrote && touched && (!relation.opaque || side != relation.crossed_to())) return {};
-  return side;
-}
-
-/// The side of a relation at its zero that the flow decides, and whether its blocks come to rest.
-///
-///     flow to                          set off a reset    leads straight back    side           rests
-///     none                             -                  -                      the crossing's no
-///     the crossing's side              yes                yes                    the flow's     yes
-///     otherwise                        -                  -                      the flow's     no
-///
-/// "Leads straight back" is asked only where the flow leads to the side that set off the reset.
-struct RelationSide {
-  int side = 0;
-  bool rests = false;
-  bool operator==(const RelationSide&) const = default;
-};
-
-template <class LeadsBack>
-RelationSide decide_relation_side(int flow_to, int crossed_to, bool set_off,
-                                  const LeadsBack& leads_back) {
-  if (flow_to == 0) return {crossed_to, false};
-  return {flow_to, flow_to == crossed_to && set_off && leads_back()};
-}
-
-/// Decides how a relation is armed when integration continues.
-///
-///     opaque                                       as its truth, phase unchanged
-///     clearly on its side, not fired               unchanged
-///     frozen: it keeps its truth on a hold         waits within its value
-///     otherwise                                    waits within the flow's error; fires at once
-///                                                  where the flow takes it to the other side
-enum class RelationArming { by_truth, unchanged, within_value, by_flow };
-
-constexpr RelationArming decide_relation_arming(bool opaque, int sign, int side, bool fired,
-                                                bool frozen) {
-  if (opaque) return RelationArming::by_truth;
-  if (sign == side && !fired) return RelationArming::unchanged;
-  return frozen ? RelationArming::within_value : RelationArming::by_flow;
-}
-
-/// Whether a commit that moved a guard from `before` to `now` may have meant to put it at zero.
-inline bool stops_near_zero(double before, double now) {
-  return std::abs(now) <= thresholds::clearly_across * std::abs(now - before);
 }
 
 }  // namespace saltus

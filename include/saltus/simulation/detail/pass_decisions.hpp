@@ -1,0 +1,76 @@
+// Pass decisions: the guards at the begin of an instant, and after each of its passes. They are
+// functions of values.
+#pragma once
+
+#include <cmath>
+
+#include "saltus/simulation/detail/thresholds.hpp"
+#include "saltus/solver/detail/guard.hpp"
+
+namespace saltus {
+
+/// Whether a zero crossing that is at zero within the resolution of another guard's root has crossed
+/// there too. `flow_to()` is the side to which the flow takes it.
+///
+///     armed   flow to        crossed
+///     yes     armed side     yes: it is on its firing side, and goes back
+///     yes     firing side    not yet
+///     yes     none           no
+///     no      -              no
+template <class FlowTo>
+bool crossed_beside_root(Direction direction, Phase phase, const FlowTo& flow_to) {
+  return phase == Phase::armed && flow_to() == -firing_side(direction);
+}
+
+/// A zero crossing after a pass: whether it fires in the next one, or where it is seen from now on.
+///
+///     holds its block   fired in this pass   queued   then
+///     yes               yes                  -        nothing: its block just came to rest
+///     yes               no                   -        look_at_hold: the surface may have moved
+///     no                yes                  no       see: it is where its reset map left it
+///     no                yes                  yes      see_behind: it is beyond zero, until its
+///                                                     execution comes; then look
+///     no                no                   -        look: the commit may have moved it across
+enum class AfterPass { nothing, look_at_hold, see, see_behind, look };
+
+constexpr AfterPass decide_after_pass(bool holds, bool fired, bool queued) {
+  if (holds) return fired ? AfterPass::nothing : AfterPass::look_at_hold;
+  if (!fired) return AfterPass::look;
+  return queued ? AfterPass::see_behind : AfterPass::see;
+}
+
+/// Whether a commit that moved a guard from `before` to `now` may have meant to put it at zero.
+inline bool stops_near_zero(double before, double now) {
+  return std::abs(now) <= thresholds::clearly_across * std::abs(now - before);
+}
+
+/// The uncertainty of a guard's value: its rounding, and its movement within the resolution of the
+/// time at which a root is located.
+inline double value_uncertainty(double rounding, double slope, double t) {
+  const double resolution = thresholds::location_roundings * thresholds::eps * std::abs(t);
+  return rounding + resolution * std::abs(slope);
+}
+
+/// Whether the flow has a say about a root of a guard that was within its error when integration
+/// began: then the root may be rounding.
+///
+///     armed within its error   monitor   edge_detection   opaque   at zero since then   asked
+///     no                       -         -                -        -                    no
+///     yes                      yes       -                -        -                    no
+///     yes                      no        yes              -        -                    no
+///     yes                      no        no               yes      -                    yes
+///     yes                      no        no               no       yes                  yes
+///     yes                      no        no               no       no: a true root      no
+struct RootFacts {
+  bool armed_at_zero = false;  ///< within its error
+  bool monitor = false;
+  bool edge = false;  ///< direction edge_detection: its zero has no meaning
+  bool opaque = false;
+  bool at_zero = false;  ///< it has not been clearly off zero since then
+};
+
+constexpr bool may_be_rounding(const RootFacts& root) {
+  return root.armed_at_zero && !root.monitor && !root.edge && (root.opaque || root.at_zero);
+}
+
+}  // namespace saltus

@@ -1,0 +1,73 @@
+// The decisions at the begin of an instant and after its passes, row by row of their tables.
+#include "saltus/simulation/detail/pass_decisions.hpp"
+
+#include <limits>
+
+#include <stdexcept>
+
+#include "support/catch.hpp"
+
+using namespace saltus;
+
+TEST_CASE("a guard beside the root of another one has crossed only where the flow takes it back") {
+  const auto direction =
+      GENERATE(Direction::positive_then_non_positive, Direction::negative_then_non_negative);
+  const int armed_side = -firing_side(direction);
+  const auto crossed = [&](Phase phase, int flow_to) {
+    return crossed_beside_root(direction, phase, [&] { return flow_to; });
+  };
+  CHECK(crossed(Phase::armed, armed_side));
+  CHECK_FALSE(crossed(Phase::armed, -armed_side));
+  CHECK_FALSE(crossed(Phase::armed, 0));
+  const auto unasked = []() -> int { throw std::logic_error("asked for the flow"); };
+  for (const Phase phase : {Phase::unseen, Phase::waiting, Phase::resting, Phase::carried})
+    CHECK_FALSE(crossed_beside_root(direction, phase, unasked));
+}
+
+TEST_CASE("after a pass a guard is looked at, seen, or left to its hold") {
+  const bool queued = GENERATE(false, true);
+  CHECK(decide_after_pass(true, true, queued) == AfterPass::nothing);
+  CHECK(decide_after_pass(true, false, queued) == AfterPass::look_at_hold);
+  CHECK(decide_after_pass(false, false, queued) == AfterPass::look);
+  CHECK(decide_after_pass(false, true, false) == AfterPass::see);
+  CHECK(decide_after_pass(false, true, true) == AfterPass::see_behind);
+}
+
+TEST_CASE("a commit that leaves a thousandth of its way beyond zero has put the guard there") {
+  const double way = GENERATE(1.0, -1.0, 1e-200, 1e200);
+  CHECK(stops_near_zero(way, 0.0));
+  CHECK(stops_near_zero(way, -1e-4 * way));
+  CHECK(stops_near_zero(way, 1e-4 * way));
+  CHECK_FALSE(stops_near_zero(way, -1e-2 * way));
+  CHECK_FALSE(stops_near_zero(way, -way));
+  CHECK_FALSE(stops_near_zero(way, way));
+}
+
+TEST_CASE("a guard's value is uncertain by its rounding, and by its slope times that of the time") {
+  using namespace saltus::thresholds;
+  CHECK(value_uncertainty(0.0, 0.0, 5.0) == 0.0);
+  CHECK(value_uncertainty(1e-15, 0.0, 5.0) == 1e-15);
+  CHECK(value_uncertainty(0.0, 3.0, 0.0) == 0.0);
+  const double slope = GENERATE(-2.0, 2.0), t = GENERATE(-4.0, 4.0);  // powers of two: exact
+  CHECK(value_uncertainty(0.0, slope, t) == 8.0 * location_roundings * eps);
+}
+
+TEST_CASE("the flow is asked about a root only where the guard has been within its error") {
+  const RootFacts rounding{.armed_at_zero = true, .at_zero = true};
+  CHECK(may_be_rounding(rounding));
+  RootFacts true_root = rounding;
+  true_root.at_zero = false;
+  CHECK_FALSE(may_be_rounding(true_root));
+  RootFacts opaque = true_root;  // its values are only signs: it cannot be clearly off zero
+  opaque.opaque = true;
+  CHECK(may_be_rounding(opaque));
+  for (RootFacts facts : {rounding, opaque}) {
+    RootFacts other = facts;
+    other.armed_at_zero = false;
+    CHECK_FALSE(may_be_rounding(other));
+    other = facts, other.monitor = true;
+    CHECK_FALSE(may_be_rounding(other));
+    other = facts, other.edge = true;
+    CHECK_FALSE(may_be_rounding(other));
+  }
+}
