@@ -9,7 +9,7 @@ using Catch::Matchers::WithinAbs;
 namespace {
 
 /// Runs in pieces, each from the context of the one before.
-struct ExactPieces {
+struct Pieces {
   std::vector<std::string> kinds;
   Context context;
 };

@@ -57,14 +57,14 @@ TEST_CASE("marks stop behind what is not computed again", "[needs]") {
 TEST_CASE("taps pull what they need at each rate, and nothing else", "[needs]") {
   const Rates rates;
   const auto none = compile(*rates.diagram);
-  CHECK((none->constants.empty() && none->instants.empty() && none->tap_needs.empty() &&
-         none->derivatives.empty()));
+  CHECK((none->needs.constants.empty() && none->needs.instants.empty() && none->needs.taps.empty() &&
+         none->needs.derivatives.empty()));
   const auto slow = compile(*rates.diagram, {{"s", rates.slow->output()}});
-  CHECK(names(*slow, slow->constants) == Names{"constant.out"});
-  CHECK(names(*slow, slow->instants) == Names{"held.out", "slow.out", "step.out"});
-  CHECK(slow->tap_needs.empty());
+  CHECK(names(*slow, slow->needs.constants) == Names{"constant.out"});
+  CHECK(names(*slow, slow->needs.instants) == Names{"held.out", "slow.out", "step.out"});
+  CHECK(slow->needs.taps.empty());
   const auto fast = compile(*rates.diagram, {{"f", rates.fast->output()}});
-  CHECK(names(*fast, fast->tap_needs) == Names{"continuous.out", "fast.out", "sine.out"});
+  CHECK(names(*fast, fast->needs.taps) == Names{"continuous.out", "fast.out", "sine.out"});
 }
 
 TEST_CASE("a relation between held values moves at instants only and is no guard", "[needs]") {
