@@ -85,7 +85,7 @@ class NAME(Block, _core.NAME):
     Parameters
     ----------
     name
-        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+        The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
     Examples
     --------

@@ -51,7 +51,7 @@ def inputs_of(requires_inputs: RequiresInputs) -> list[int] | None:
 
 
 def initial_of(what: str, shape: Any, default_value: ArrayLike | None) -> ArrayLike:
-    """A number n or a tuple is a shape, all zeros; anything else is the value itself."""
+    """A number n or a tuple is a shape, filled with zeros; anything else is the value itself."""
     if default_value is not None:
         if shape is not None and np.shape(default_value) != np.shape(np.zeros(shape)):
             found = np.shape(default_value)

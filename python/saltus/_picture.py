@@ -19,7 +19,7 @@ from saltus.system import OutputPort, System
 __all__ = ["in_markdown", "in_svg", "to_dot", "to_mermaid"]
 
 Recorded = Mapping[str, OutputPort | str] | Sequence[str] | None
-TIME_LIMIT = 10.0  # [s] dot on a thousand blocks takes minutes: then the text has to do
+TIME_LIMIT = 10.0  # [s] `dot` takes minutes for a thousand blocks; then the text is shown
 
 
 def to_dot(system: System, signals: Recorded, max_depth: int | None) -> str:
@@ -66,7 +66,7 @@ def in_markdown(system: System) -> str | None:
     if in_svg(system) is not None:
         return None
     text = system.to_mermaid()
-    return f"```mermaid\n{text}```\n"  # no backtick in it: those of names are entities
+    return f"```mermaid\n{text}```\n"  # it has no backtick: backticks of names are entities
 
 
 def _ports(system: System, signals: Recorded) -> list[tuple[str, System, int]] | None:

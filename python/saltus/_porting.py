@@ -1,4 +1,6 @@
-"""Refused names: an unknown one is answered with the nearest, one of a similar tool with advice."""
+"""Refused names: an unknown name gets the nearest one as an answer, a name of a similar tool
+advice.
+"""
 
 from __future__ import annotations
 
@@ -53,7 +55,7 @@ CALLED = {
     "initial_value": "initial_state",
     "default_value": "initial_state",
 }
-"""arguments of the blocks of similar tools, and the names they have here, where a block has them"""
+"""arguments of the blocks of similar tools -> their names here, where a block has them"""
 
 
 def refuse(
@@ -98,7 +100,7 @@ def refusing(method: Callable[P, R]) -> Callable[P, R]:
 
 
 def _let_go(block: Any) -> None:
-    """Lets go of the traces and plans that a block keeps: they use it, and it declares more."""
+    """Drops the traces and plans that a block keeps, because the block declares more."""
     callbacks = getattr(block, "_callbacks", None)
     if callbacks is not None:
         callbacks.plans.clear()

@@ -36,7 +36,7 @@ def block_of(system: System, name: str) -> System:
 
 
 def port_of(system: System, port: OutputPort | str, what: str = "recorded_signals") -> OutputPort:
-    """A port, or the one at a path: 'y' of the system itself, 'car.engine.y' of a block in it."""
+    """A port, or the port at a path: 'y' of the system itself, 'car.engine.y' of a block in it."""
     if isinstance(port, OutputPort):
         return port
     if not isinstance(port, str):
@@ -50,8 +50,8 @@ def port_of(system: System, port: OutputPort | str, what: str = "recorded_signal
 
 
 def named(signals: Any) -> dict[str, OutputPort | str]:
-    """The signals that were asked for: a dict of names with ports or paths, or a list of paths,
-    which are the names too.
+    """The requested signals by name: from a dict of names with ports or paths, or from a list of
+    paths, which are then the names too.
     """
     if isinstance(signals, (list, tuple)) and all(isinstance(path, str) for path in signals):
         signals = {path: path for path in signals}
@@ -72,7 +72,7 @@ def signals_in(system: System, signals: Any) -> dict[str, OutputPort]:
 
 
 def signals_of(system: System, signals: Any) -> dict[str, OutputPort]:
-    """The signals of a run: if nothing is said, the outputs that a diagram exports."""
+    """The signals of a run; by default the outputs that a diagram exports."""
     if signals is not None:
         return signals_in(system, signals)
     exported = system.output_ports if is_diagram(system) else ()

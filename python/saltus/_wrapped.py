@@ -1,4 +1,4 @@
-"""Functions that are made anew for each run, to call one of the user's."""
+"""Functions that are made anew for each run, to call a function of the user."""
 
 from __future__ import annotations
 
@@ -11,6 +11,6 @@ OWNER = "__saltus_owner__"
 
 
 def wrapping(owner: Callable[..., Any], function: Callable[..., Any]) -> Callable[..., Any]:
-    """`function`, which does nothing but call `owner`: its traces are kept with that one."""
+    """Marks `function`, which does nothing but call `owner`: its traces are kept with `owner`."""
     setattr(function, OWNER, owner)
     return function

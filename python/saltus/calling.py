@@ -25,7 +25,7 @@ def refuse_signature(
     """ModelError where `function` cannot be called with these arguments; `error` is its cause."""
     try:
         signature = inspect.signature(function)
-    except (TypeError, ValueError):  # some functions of C have none
+    except (TypeError, ValueError):  # some functions written in C have no signature
         return
     try:
         signature.bind(*positional, **dict.fromkeys(keywords))

@@ -23,11 +23,11 @@ class Compiled:
     Parameters
     ----------
     address
-        Of the function.
+        The address of the function.
     user_data
-        The address it gets as its last argument.
+        The address that the function gets as its last argument.
     owner
-        The object that keeps both alive.
+        The object that keeps the function and its data alive.
 
     Examples
     --------
@@ -40,15 +40,15 @@ class Compiled:
     user_data: int = 0
     """the address it gets as its last argument"""
     owner: object = field(default=None, repr=False, compare=False)
-    """the object that keeps both alive"""
+    """the object that keeps the function and its data alive"""
 
 
 def compiled(function: Any, user_data: Any = None) -> Compiled:
     """A compiled function as a callback: it runs without the interpreter and its lock.
 
-    It is given wherever a block takes a Python function of `(time, state, *inputs, **parameters)`.
-    A pointer that shows what it is may be given to the block as it is; an address must go through
-    here.
+    It may be given wherever a block takes a Python function of `(time, state, *inputs,
+    **parameters)`. A pointer that shows its signature may be given to the block directly; an
+    address must go through this function.
 
     Its signature in C is::
 
@@ -57,23 +57,23 @@ def compiled(function: Any, user_data: Any = None) -> Compiled:
 
     - `t` is the time [s];
     - `x` is the continuous state, then the discrete state, each in C order, then the mode, then
-      the entry (in a reset map: which guard of a zero crossing of several fired);
+      the entry (in a reset map: the index of the guard that fired, in a vector of guards);
     - `u` is the inputs that `requires_inputs` names, one after the other;
     - `p` is all parameters of the block, one after the other, in the order of declaration;
-    - `out` is what it has to write: the derivatives, the guards, the output (the block has to say
+    - `out` is the array to write: the derivatives, the guards, the output (the block has to give
       its `shape`), a Jacobian row by row, the values of a sparse one. For a reset map or an update
       it begins as the present continuous state, discrete state and mode, one after the other, and
-      the function changes what it wants;
-    - it returns 0, or another number that ends the run with a `SimulationError` which says it.
+      the function changes any of them;
+    - it returns 0. Any other number ends the run with a `SimulationError` that gives the number.
 
-    It is called as often as the engine likes, from whatever thread runs the simulation, so it must
+    The engine calls it any number of times, from the thread that runs the simulation, so it must
     change nothing but `out`.
 
     Parameters
     ----------
     function : int, ctypes or cffi function pointer, PyCapsule, LowLevelCallable or numba cfunc
-        An address, or an object that has one. A capsule's name, if it has one, is taken for its
-        signature, as SciPy does, and its context for `user_data`.
+        An address, or an object that has one. The name of a capsule, if it has one, is its
+        signature, as in SciPy, and its context is `user_data`.
     user_data : int or ctypes pointer, optional
         The last argument of the function; NULL if not given.
 
@@ -85,7 +85,7 @@ def compiled(function: Any, user_data: Any = None) -> Compiled:
     Raises
     ------
     ModelError
-        For anything else, and for a pointer with another signature.
+        If it is anything else, or a pointer with another signature.
 
     Examples
     --------
@@ -117,7 +117,7 @@ def compiled(function: Any, user_data: Any = None) -> Compiled:
 
 
 def as_compiled(function: Any, user_data: Any = None) -> Compiled | None:
-    """The compiled function behind an object that shows it is one, else None."""
+    """The compiled function behind an object that shows its signature, otherwise None."""
     if isinstance(function, Compiled):
         return function
     owner = (function, user_data)
@@ -131,10 +131,10 @@ def as_compiled(function: Any, user_data: Any = None) -> Compiled | None:
     if kind.__name__ == "LowLevelCallable" and isinstance(function, tuple):  # of SciPy
         return _from_capsule(tuple.__getitem__(function, 0), user_data, owner)
     if kind.__module__.startswith("numba."):
-        found = getattr(function, "address", None)  # a cfunc has one, a jitted function has not
+        found = getattr(function, "address", None)  # a cfunc has one, a jitted function none
         return Compiled(found, _data(user_data), owner) if isinstance(found, int) else None
     if kind.__module__ == "_cffi_backend":
-        ffi = sys.modules["_cffi_backend"].FFI()  # it is there: the pointer was made with it
+        ffi = sys.modules["_cffi_backend"].FFI()  # cffi is there: it made the pointer
         return Compiled(int(ffi.cast("intptr_t", function)), _data(user_data), owner)
     return None
 
@@ -154,7 +154,7 @@ def _data(user_data: Any) -> int:
 
 
 def _check_ctypes(function: Any) -> None:
-    """One that knows its arguments must have six and return an int."""
+    """Checks that a pointer which knows its arguments has six of them and returns an int."""
     if function.argtypes is None:
         return
     if len(function.argtypes) != 6 or function.restype is not ctypes.c_int:

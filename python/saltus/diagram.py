@@ -27,7 +27,7 @@ def _port(port: object, kind: type[OutputPort] | type[InputPort]) -> tuple[Syste
 class Diagram(System, _core.Diagram):
     """A system of blocks and wires, made by `DiagramBuilder.build`.
 
-    `diagram["gain"]` is the block of that name. A diagram is a system like any other: it can be
+    `diagram["gain"]` is the block with that name. A diagram is a system like any other: it can be
     added to another diagram, to any depth. It keeps its blocks alive.
 
     Examples
@@ -52,7 +52,7 @@ class Diagram(System, _core.Diagram):
         remember(self)
 
     def __getitem__(self, name: str) -> System:
-        """A block of this diagram by name. ModelError lists the names there are."""
+        """A block of this diagram by name. ModelError lists the known names."""
         if name not in self._children:
             self.require(name)  # raises
         return self._children[name]
@@ -97,13 +97,13 @@ class Diagram(System, _core.Diagram):
 
 
 class DiagramBuilder:
-    """Collects blocks and wires, and is spent by `build`.
+    """Collects blocks and wires. `build` uses it up.
 
     Raises
     ------
     ModelError
-        From each method: for a name used twice, a port of a block that was not added, an input with
-        two sources and, in `build`, an input with none.
+        If a name is used twice, a port belongs to a block that was not added, an input has two
+        sources, or, in `build`, an input has no source.
 
     Examples
     --------
@@ -137,7 +137,7 @@ class DiagramBuilder:
         Returns
         -------
         System or tuple of System
-            The one given, or all of them as a tuple.
+            The given system, or all of them as a tuple.
 
         Examples
         --------
@@ -202,7 +202,7 @@ class DiagramBuilder:
         return block.input(name)
 
     def _from(self, where: str, path: str) -> tuple[System, str]:
-        """The block that was added, and the name of its port, of a path such as "gain.out"."""
+        """The block and the name of its port for a path such as "gain.out"."""
         name, dot, port = path.partition(".")
         if name not in self._children or not dot:
             known = _core.known_names(name, list(self._children))
@@ -279,7 +279,7 @@ class DiagramBuilder:
         Parameters
         ----------
         name
-            How messages know it, and a diagram that it is added to.
+            The name in messages, and in a diagram to which this one is added.
 
         Raises
         ------

@@ -40,8 +40,8 @@ class Error(Exception):
 class ModelError(Error, ValueError):
     """The model, the context or an option is wrong; most are found before the run starts.
 
-    The message says what was expected, what was found, and where; a misspelt name gets the nearest
-    one there is. It is a `ValueError` as well.
+    The message says what was expected, what was found, and where. For a misspelt name it has the
+    nearest known name. It is a `ValueError` as well.
 
     Examples
     --------
@@ -101,13 +101,13 @@ class SceneError(ModelError):
     Parameters
     ----------
     message
-        What was expected and what was found, and where.
+        The text: what was expected, what was found, and where.
     file
-        The file as it was named, or '<text>'.
+        The name of the file as the caller gave it, or '<text>'.
     line, column
-        From 1; None where the mistake has no place, as that of a file that is missing.
+        The place of the mistake, counted from 1; None if it has no place, as for a missing file.
     key
-        Where in the tables of the file, such as 'states.v.rate'.
+        The place in the tables of the file, such as 'states.v.rate'.
 
     Examples
     --------
@@ -141,14 +141,14 @@ class SceneError(ModelError):
 
 
 class SimulationError(Error, RuntimeError):
-    """The run could not go on. It is a `RuntimeError` as well.
+    """The run could not continue. It is a `RuntimeError` as well.
 
     Parameters
     ----------
     message
         The failure, its time and place, and a remedy.
     time
-        [s] Where the run stood.
+        [s] The time that the run had reached.
     block
         Path of the block at fault, or empty.
     results
@@ -172,7 +172,7 @@ class SimulationError(Error, RuntimeError):
     """
 
     time: float
-    """[s] where the run stood"""
+    """[s] the time that the run had reached"""
     block: str
     """path of the block at fault, or empty"""
     results: Results | None

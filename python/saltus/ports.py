@@ -62,7 +62,7 @@ class OutputPort:
         Raises
         ------
         ModelError
-            For a context of another system, an open input, and as a run with this system would.
+            If the context is of another system, or an input is open; and wherever a run would.
 
         Examples
         --------

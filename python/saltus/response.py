@@ -46,7 +46,7 @@ def response(
     Raises
     ------
     ModelError
-        For a system without outputs, or another number of inputs than it has.
+        If the system has no outputs, or another number of inputs than was given.
 
     Examples
     --------

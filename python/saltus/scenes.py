@@ -119,7 +119,7 @@ class Scene:
         Parameters
         ----------
         options
-            Of `SimulatorOptions`, by name, such as `rtol=1e-9`; they replace those of the scene.
+            Options by name, such as `rtol=1e-9`; they replace those of the scene.
 
         Raises
         ------
@@ -170,7 +170,7 @@ def scene(name: str, **parameters: float) -> Scene:
     Raises
     ------
     ModelError
-        For an unknown name, with the nearest one, or a value that the scene has no meaning for.
+        If a name is unknown (the message has the nearest), or a value has no meaning in the scene.
 
     Examples
     --------
@@ -213,7 +213,7 @@ def load_scene(path: str | os.PathLike[str], /, **parameters: Any) -> FileScene:
     SceneError
         A ModelError with the file, the line and the column, for a mistake in a file.
     ModelError
-        For an unknown parameter, with the nearest one.
+        If a parameter is unknown; the message has the nearest name.
 
     Examples
     --------

@@ -134,7 +134,7 @@ class System:
         Raises
         ------
         ModelError
-            For text that is no context, or one of a system with other blocks.
+            If the text is no context, or belongs to a system with other blocks.
 
         Examples
         --------
@@ -207,7 +207,7 @@ class System:
         Raises
         ------
         ModelError
-            For a context of another system, an open input, and as a run with this system would.
+            If the context is of another system, or an input is open; and wherever a run would.
 
         Examples
         --------
@@ -269,7 +269,7 @@ class System:
         Raises
         ------
         ModelError
-            For a recorded signal that belongs to another system.
+            If a recorded signal belongs to another system.
 
         Examples
         --------

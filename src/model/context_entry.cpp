@@ -24,7 +24,7 @@ std::pair<std::string_view, std::optional<Index>> split_index(std::string_view n
   return {name.substr(0, open), index};
 }
 
-/// All entries of one leaf by their names within it.
+/// All entries of one leaf, by their names within the leaf.
 std::vector<std::pair<std::string, ContextEntry>> entries_of(const Layout::Leaf& leaf,
                                                              Index number) {
   using Kind = ContextEntry::Kind;
@@ -124,7 +124,7 @@ void write_entry(Context& context, const ContextEntry& entry, std::span<const do
         context.modes_[at] = static_cast<int>(value);
     }
   }
-  context.continuation_.reset();  // the continuation is not true of other values
+  context.continuation_.reset();  // the continuation belongs to the old values
 }
 
 }  // namespace saltus

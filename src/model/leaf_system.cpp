@@ -103,7 +103,8 @@ void LeafSystem::collect(Structure& out, const std::string& path) const {
   collect_fixed(out);
 }
 
-/// All states have names or none has, and each name is one word that nothing else has.
+/// Checks that all states have names or none has, and that each name is one word that nothing else
+/// has.
 void LeafSystem::require_state_names(const ContinuousState& state) const {
   const auto& names = state.names;
   if (!names.empty() && std::ssize(names) != state.initial.size())

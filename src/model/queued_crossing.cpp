@@ -1,4 +1,4 @@
-// ZeroCrossing: the members of a queued one, and the errors in them.
+// The members of a queued ZeroCrossing, and the errors in them.
 #include <cmath>
 
 #include "saltus/model/event.hpp"
@@ -23,7 +23,8 @@ std::string fault_of_numbers(const ZeroCrossing& c) {
   return {};
 }
 
-/// A trigger that goes back, or that counts as true before the start, has a firing side.
+/// Whether the crossing needs a guard with one firing side: to see that the trigger goes back, or
+/// to count it as true before the start.
 std::string fault_of_direction(const ZeroCrossing& c) {
   const bool needs_side = c.is_cancelled_on_return() || c.initial_value;
   if (!needs_side || has_one_direction(c.direction)) return {};

@@ -12,8 +12,8 @@ namespace saltus::detail {
 
 namespace {
 
-/// A place among the values of one kind, and the place after it. The sum cannot overflow: both
-/// numbers were found to be at most `most`.
+/// Checks a place among the values of one kind, and moves `next` to the place after it. The sum
+/// cannot overflow, because both numbers are at most `most`.
 constexpr Index most = std::numeric_limits<Index>::max() / 4;
 
 void require_place(Index offset, Index size, Index& next, const std::string& of) {
@@ -36,7 +36,7 @@ bool all_finite(const Numbers& numbers) {
 void require_sound(const Continuation::Guard& guard) {
   require(guard.side >= -1 && guard.side <= 1,
           text("a guard on side ", guard.side, "; expected -1, 0 or 1"));
-  // A firing may also come from lifting off: 2.
+  // 2 means that the guard fired because a block lifted off.
   require(guard.from >= -1 && guard.from <= 2,
           text("a guard that came from ", guard.from, "; expected -1 to 2"));
   require(guard.error >= 0.0, text("a guard with error ", guard.error));

@@ -13,7 +13,7 @@ namespace saltus::detail {
 namespace {
 
 /// The outputs of all leaves as nodes of a graph. A relation is held between instants, so an output
-/// that reads one needs nothing through it.
+/// that reads it does not need the inputs of the relation.
 class Wiring {
  public:
   explicit Wiring(const Diagram& diagram) {
@@ -95,8 +95,8 @@ class Wiring {
   std::size_t outputs_ = 0;
 };
 
-/// The shapes of all nodes as far as they are known. A rule that gives no entries does not know
-/// yet.
+/// Finds the shapes of all nodes as far as they are known. A rule that gives no entries does not
+/// know the shape yet.
 class Widths {
  public:
   Widths(const Wiring& wiring, const std::vector<int>& order)
@@ -122,7 +122,7 @@ class Widths {
   }
 
  private:
-  /// Whether the shape of a node has become known now.
+  /// Finds the shape of a node, if it can be known; returns whether it has become known now.
   bool look(int i) {
     std::optional<Shape>& shape = shapes_[i];
     if (shape) return false;

@@ -115,7 +115,7 @@ Direction watched_direction(const ZeroCrossing& crossing) {
                                                                    : crossing.direction;
 }
 
-/// Zero crossings first, in declaration order, then relations and opaque booleans.
+/// Adds zero crossings first, in declaration order, then relations and opaque booleans.
 void add_guards(Plan& plan) {
   StateSearch search(plan);
   for (std::size_t l = 0; l < plan.leaves.size(); ++l) {
@@ -234,8 +234,8 @@ bool refine(const Plan& plan, Refinement& refinement, Replacements& replacements
   return any;
 }
 
-/// The declarations of a system decide whether it is sound, not its refinement: an algebraic
-/// loop through an input that a traced function does not read stays an error.
+/// The declarations of a system, not its refinement, decide whether the system is sound: an
+/// algebraic loop through an input that a traced function does not read remains an error.
 Sound refined(const System& system, const RecordedSignals& recorded, Refinement& refinement) {
   Replacements replacements = before(system, refinement);
   Sound sound(system, recorded, replacements);

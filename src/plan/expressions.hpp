@@ -10,10 +10,10 @@
 
 namespace saltus::detail {
 
-/// Holds values as nodes of one graph: those of formulas that were added, and variables for values
-/// computed elsewhere. The variables are those of a function over the whole machine (see
-/// Arguments): x, p, the signals y as its discrete state, all of z as input 0, and the modes of the
-/// leaves, as numbers, as input 1.
+/// Holds values as nodes of one graph: the values of formulas that were added, and variables for
+/// values computed elsewhere. The variables have the places that a function over the whole machine
+/// reads (see Arguments): x, p, the signals y as its discrete state, all of z as input 0, and the
+/// modes of the leaves, as numbers, as input 1.
 class Expressions {
  public:
   static constexpr int variable = -1, input_of_z = 0, input_of_modes = 1;
@@ -33,7 +33,7 @@ class Expressions {
     const tape::Node* first = values_.data() + first_[i];
     return {first, first + plan_.node(i).place.size};
   }
-  /// Adds the entries of a formula of a leaf; a view that lasts until the next one.
+  /// Adds the entries of a formula of a leaf. The result is a view that lasts until the next call.
   std::span<const tape::Node> add(const Formula& formula, int leaf, Index size) {
     const std::size_t first = values_.size();
     OfLeaf symbols(*this, plan_.leaf(leaf));

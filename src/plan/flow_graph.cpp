@@ -14,7 +14,8 @@ namespace {
 
 using detail::append, detail::Expressions, detail::read_inputs;
 
-/// One pass over a plan. An output without a formula, or which reads one, has no expression.
+/// One pass over a plan. An output has no expression if it has no formula, or if it reads an output
+/// without an expression.
 class Pass {
  public:
   explicit Pass(const Plan& plan)

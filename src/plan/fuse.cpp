@@ -11,8 +11,8 @@ namespace saltus::detail {
 
 namespace {
 
-/// A wider signal is not fused. There the numbers cost more than the call, and a call computes them
-/// side by side.
+/// A wider signal is not fused, because its numbers cost more than the call, and a call computes
+/// them side by side.
 constexpr Index widest = 16;
 
 /// The formula, if it may be joined with others and is narrow enough; otherwise null.
@@ -23,13 +23,13 @@ const Formula* fusible(const Formula& formula, Index size) {
 /// A consumer at the end of a list: an ode or a group of guards.
 struct Sink {
   int leaf = -1;
-  const Formula* formula = nullptr;  // null: it stays a call
+  const Formula* formula = nullptr;  // null: the sink stays a call
   Index to = 0, size = 0;            // in xdot, or in the vector of guards
   std::vector<int> needs = {};
 };
 
-/// The values of a stage and their places. `first` has room for a number for each node; writers
-/// that follow one another share it.
+/// The values of a stage and their places. `first` has an entry for each node; the writers of all
+/// stages share it.
 class WalkWriter {
  public:
   WalkWriter(const Plan& plan, List<int>& first)
@@ -130,7 +130,7 @@ class Stages {
     }
     return first;
   }
-  /// Makes sure that the formulas read in a stage are in it, or before it.
+  /// Makes sure that the formulas which a stage reads are in this stage or in an earlier one.
   void settle(const std::vector<int>& needs, int reader) {
     for (const int need : needs) {
       if (stage(need) != absent && fuses(need)) stage(need) = std::min(stage(need), reader);
@@ -144,7 +144,7 @@ class Stages {
     }
   }
 
-  /// The values that must be stored, because another function than their own reads them.
+  /// The values that must be stored, because another function reads them.
   List<char> find_kept() const {
     List<char> kept(plan_.nodes.size());
     const auto keep = [&](const std::vector<int>& needs, int reader) {

@@ -52,7 +52,8 @@ Layout layout_of(const Plan& plan) {
 
 }  // namespace
 
-/// Sizes alone would take the mass of one block for the spring of another.
+/// Compares names too. By sizes alone the mass of one block could be taken for the spring of
+/// another.
 void require_context_of(const Plan& plan, const Context& context) {
   const std::string other = detail::difference(layout_of(plan), context.layout());
   if (other.empty()) return;

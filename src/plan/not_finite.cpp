@@ -8,7 +8,8 @@ namespace saltus {
 
 namespace {
 
-/// The arguments of a block, "x = [10, -3], in = [2]". Of many states only entry i, if i is given.
+/// The arguments of a block, "x = [10, -3], in = [2]". If i is given, a long state is shown by its
+/// entry i only.
 std::string seen_by_block(const PlanLeaf& leaf, const At& at, Index i) {
   std::string seen;
   if (at.x.size() > 6 && i >= 0)

@@ -60,7 +60,8 @@ class Reach {
     }
   }
 
-  /// The set for entry i of a value of a leaf, over the given inputs and relations of the leaf.
+  /// The set of states for entry i of a leaf's value that reads these inputs and relations of the
+  /// leaf.
   template <class Of>
   void behind(const PlanLeaf& leaf, const std::vector<int>& inputs, const EntryRule& rule, Index n,
               Of put) {

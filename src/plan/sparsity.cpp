@@ -20,7 +20,7 @@ const std::vector<MatrixEntry>* named_entries(const PlanLeaf& leaf, int number,
   return at != found.end() ? &at->second : nullptr;
 }
 
-/// These entries of a leaf by rows; a ModelError for an impossible entry.
+/// The given entries of a leaf by rows. Throws ModelError for an impossible entry.
 std::vector<std::vector<int>> by_rows(const PlanLeaf& leaf,
                                       const std::vector<MatrixEntry>& entries) {
   List<std::vector<int>> rows(leaf.nx);
@@ -78,7 +78,8 @@ class RowsOfLeaf {
   }
 
  private:
-  /// Whether an input depends on the leaf's own state. Then its Jacobian is only one of two parts.
+  /// Whether an input depends on the leaf's own state. If it does, the leaf's Jacobian is only one
+  /// of two parts.
   bool feeds_back(Reach& reach) const {
     bool found = false;
     std::vector<int> seen = through_;

@@ -103,7 +103,7 @@ class Arranger {
     if (nodes.size() >= shortest_run) join(nodes);
   }
 
-  /// Gives all of them places side by side.
+  /// Gives all nodes of an array places side by side.
   void join(const std::vector<Node>& nodes) {
     const int array = arrays_++;
     for (std::size_t i = 0; i < nodes.size(); ++i)

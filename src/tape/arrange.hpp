@@ -12,13 +12,14 @@ namespace saltus::tape::detail {
 /// operands of a run are adjacent, or at equal distances, or the same for all.
 using Group = std::vector<Node>;
 
-/// What `arrange` decides.
+/// The decisions of `arrange`.
 struct Arrangement {
   std::vector<Group> groups = {};  ///< operands first
   /// Says for each node whether the operands of its commutative operation are exchanged.
   List<bool> swapped = {};
-  /// Expressions that get adjacent registers, those of one operation that do not need each other.
-  /// What reads several groups of them can then be a run. Empty if there is no run.
+  /// Arrays of expressions that get adjacent registers: expressions of one operation that do not
+  /// need each other. An operation on several groups of an array can then be a run, too. The list
+  /// is empty if there is no run.
   List<std::vector<Node>> arrays = {};
 };
 

@@ -58,7 +58,7 @@ class Builder {
       for (const Node node : arrangement_.arrays[a]) of(node).array = static_cast<int>(a);
   }
 
-  /// Registers for adjacent values; all of an array get theirs with the first of them.
+  /// Registers for adjacent values. The first values of an array bring registers for all of it.
   Place registers_for(std::span<const Node> nodes) {
     Value& first = of(nodes[0]);
     if (first.block < 0) {
@@ -166,7 +166,7 @@ class Builder {
       for (std::size_t i = 0; i < nodes.size();) i += copy_piece(nodes.subspan(i), rank);
     }
   }
-  /// Copies the longest piece from the first node on; returns the number of its nodes.
+  /// Copies the longest piece that begins with the first node; returns the number of its nodes.
   std::size_t copy_piece(std::span<const Node> nodes, std::size_t rank) {
     const auto has = [&](std::size_t i) { return of(nodes[i]).outputs.size() > rank; };
     const auto output = [&](std::size_t i) { return of(nodes[i]).outputs[rank]; };

@@ -111,7 +111,7 @@ class DivisorSearch {
     if (e.op == Op::pow && !(graph_.value(b) >= 0.0)) return a;
     return {};
   }
-  /// A node that the others need not read.
+  /// The node of cos(a). It may be new, and then the tables grow with the graph.
   Node cosine(Node a) {
     const Node node = graph_.unary(Op::cos, a);
     const auto size = static_cast<std::size_t>(graph_.size());
@@ -119,7 +119,7 @@ class DivisorSearch {
     varies_[node.id] = varies_[a.id];
     return node;
   }
-  /// Whether an expression changes with the time, and with no state.
+  /// Whether an expression changes with the time but with no state.
   bool is_of_time(Node node) const { return varies_[node.id] == in_time; }
 
   /// Notes the parts of a divisor that may change their sign.

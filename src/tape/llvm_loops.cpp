@@ -32,8 +32,8 @@ bool is_still(const Place& place) { return place.stride == 0; }
 
 }  // namespace
 
-/// A line shares the loop if what it reads of earlier lines, and what earlier lines read of its
-/// registers, is the number with the same index.
+/// A line shares the loop if number i of it reads only number i of earlier lines, and if number i
+/// of earlier lines reads only number i of the registers that it writes.
 bool LlvmLoops::shares(std::size_t first, const Line& line, std::size_t end) const {
   const std::size_t count = line.count;
   const auto apart = [&](const Place& a, const Place& b) {

@@ -10,7 +10,7 @@ using Operands = std::span<const std::string>;
 
 std::string bits_type(int width) { return width == 1 ? "i1" : text("<", width, " x i1>"); }
 
-/// The instruction for one that the processor computes exactly rounded.
+/// The instruction for an operation that the processor computes exactly rounded; otherwise empty.
 std::string_view arithmetic(Op op) {
   switch (op) {
     case Op::add:
@@ -82,8 +82,8 @@ std::string LlvmText::intrinsic(std::string_view name, Operands operands, int wi
   return define(text("call ", type, " ", function, "(", values, ")"));
 }
 
-/// A call for each lane. Its name is not one of <cmath>, of whose functions LLVM would compute some
-/// itself.
+/// A call for each lane. The name of the function is not that of <cmath>: LLVM would compute some
+/// functions of <cmath> itself.
 std::string LlvmText::call(Op op, Operands operands, int width) {
   const std::string function = "@" + called_name(op);
   declarations_.insert(text("declare double ", function, "(double",
@@ -144,8 +144,8 @@ std::string LlvmText::binary(std::string_view how, const std::string& a, const s
   return define(text(how, " ", type_of(width), " ", a, ", ", b));
 }
 
-/// As `power` in arithmetic.hpp, which the called function is, without its tests where the exponent
-/// is constant.
+/// The same powers as `power` in arithmetic.hpp, which the called function runs. If the exponent is
+/// constant, its tests are not needed.
 std::string LlvmText::power(Operands operands, int width) {
   const std::string& a = operands[0];
   const auto exponent = [&](double b) { return operands[1] == constant_of(b, width); };

@@ -10,8 +10,8 @@
 
 namespace saltus::tape::detail {
 
-/// Reads and writes the places of a program. A register is a value of the text, except those that
-/// loops write or read: they are in memory.
+/// Reads and writes the places of a program. A register is a value of the text; a register that a
+/// loop writes or reads is in memory.
 class LlvmPlaces {
  public:
   LlvmPlaces(LlvmText& text, const Program& program);
@@ -20,7 +20,7 @@ class LlvmPlaces {
   std::string read(const Place& place, std::size_t first, int width);
   void write(const Place& place, std::size_t first, int width, const std::string& value);
 
-  /// The same in a loop, with the counter `i` in place of `first`.
+  /// The same numbers in a loop, with the counter `i` in place of `first`.
   std::string read_in_loop(const Place& place, const std::string& i, int width);
   void write_in_loop(const Place& place, const std::string& i, int width, const std::string& value);
 

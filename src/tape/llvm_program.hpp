@@ -6,7 +6,7 @@
 
 namespace saltus::tape::detail {
 
-/// A longer run is a loop; a shorter one is written out, as many lanes at a time as a vector has.
+/// A longer run is a loop. A shorter run is written out, as many lanes at a time as a vector has.
 inline constexpr std::size_t longest_written_out = 32;
 
 /// The function `name` of a program, with the type of MachineFunction. `declarations` gets the

@@ -1,4 +1,4 @@
-// Tapes as text for LLVM, and what machine code calls.
+// Tapes as text for LLVM, and the functions that machine code calls.
 #include "saltus/tape/machine_code.hpp"
 
 #include <array>

@@ -58,7 +58,8 @@ struct Instruction;
 using Handler = double (*)(const Instruction* i, double before, double* registers, double* out,
                            const At& at);
 
-/// A line for the processor: one number, or the `line` of many.
+/// A line in the form that runs: for one number the operands themselves, for many a pointer to the
+/// line.
 struct Instruction {
   Handler run = nullptr;
   union {

@@ -17,7 +17,8 @@ bool is(const Graph& graph, Node node, double number) {
 }
 Node operand(const Graph& graph, Node node, std::size_t i = 0) { return graph[node].operands[i]; }
 
-/// Whether -0.0 is not among its values, whatever the variables are. It examines a few levels only.
+/// Whether a node never has the value -0.0, whatever the variables are. It examines a few levels
+/// only.
 bool never_minus_zero(const Graph& graph, Node node, int levels = 4) {
   const Expression& e = graph[node];
   switch (e.op) {
@@ -117,7 +118,7 @@ Found quotient(Graph& graph, Node a, Node b) {
   return graph.binary(Op::mul, a, graph.constant(1.0 / *number));
 }
 
-/// The powers 2, 0.5 and -1 are those of NumPy's arrays; see Graph for 3 and 4.
+/// The powers 2, 0.5 and -1 are computed as for NumPy's arrays; see Graph for 3 and 4.
 Found power(Graph& graph, Node a, Node b) {
   const auto number = graph.value(b);
   if (!number) return {};

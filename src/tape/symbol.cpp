@@ -8,7 +8,7 @@ namespace saltus::tape {
 namespace {
 
 Node applied(Graph& graph, Op op, std::initializer_list<Symbol> operands) {
-  std::array<Node, 4> nodes{};  // no operation takes as many: the graph refuses them
+  std::array<Node, 4> nodes{};  // no operation takes so many operands: the graph refuses them
   const std::size_t count = std::min(operands.size(), nodes.size());
   std::transform(operands.begin(), operands.begin() + count, nodes.begin(),
                  [&](const Symbol& symbol) { return symbol.in(graph); });

@@ -11,15 +11,14 @@
 
 namespace saltus::tape::detail {
 
-/// Why a number is kept, and where it is.
+/// The reasons why a number is kept, and its place.
 struct Value {
-  int uses = 0;                        ///< still to come
-  std::vector<std::uint32_t> outputs;  ///< that return it
+  int uses = 0;                        ///< readers that are still to come
+  std::vector<std::uint32_t> outputs;  ///< the outputs that return it
   Place place = {};
-  std::optional<Place> loaded = {};  ///< a register that holds it too, for operations that read
-                                     ///< no other
+  std::optional<Place> loaded = {};  ///< a copy in a register, for operations that need registers
   int block = -1;                    ///< the block of its register, if any
-  int array = -1;                    ///< the array that it is one value of, if any
+  int array = -1;                    ///< the array that it belongs to, if any
 };
 
 /// The distance between two places of one array.

@@ -5,8 +5,8 @@
 
 namespace saltus::tape::detail {
 
-/// The place of a variable or a constant. The program notes what it reads and how many entries it
-/// needs. Not for operations.
+/// The place of a variable or a constant; an operation has none here. The program notes the arrays
+/// that it reads and how many entries it needs.
 Place place_of_variable(Program& program, const Expression& e);
 
 }  // namespace saltus::tape::detail

@@ -30,7 +30,7 @@ const double* first_of(const Place& place, const double* registers, const At& at
 /// The strides of a run if they are known at compile time: 0 or 1.
 template <Op op, int step_a, int step_b>
 void close(double* to, const double* a, const double* b, Index n) {
-// a run does not read what it writes
+// a run does not read the numbers that it writes
 #ifdef __clang__
 #pragma clang loop vectorize(assume_safety)
 #else

@@ -38,7 +38,7 @@ void call(const F& f, const At& at, const VectorRef& out) {
   if constexpr (std::is_invocable_v<const F&, const At&, VectorRef>) {
     f(at, out);
   } else {
-    // A const view, but its memory is not const.
+    // The view is const, but its memory is not.
     *const_cast<double*>(out.data()) = static_cast<double>(f(at));
   }
 }
@@ -91,7 +91,8 @@ class Callback<void(const At&, Out)> {
     call_(*this, leaf, at, out);
   }
 
-  /// The callable, if this was made from an F that is not a pointer to a method; otherwise null.
+  /// The callable, if this object was made from an F that is not a pointer to a method; otherwise
+  /// null.
   template <class F>
   const F* target() const noexcept {
     return call_ == &Callback::call_as<F> ? static_cast<const F*>(callable_.get()) : nullptr;

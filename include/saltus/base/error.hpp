@@ -63,7 +63,7 @@ class Interruption {
 namespace detail {
 
 inline void append(std::string& out, std::string_view piece) { out += piece; }
-template <std::same_as<bool> Truth>  // a template, or string literals would come here
+template <std::same_as<bool> Truth>  // a template: a string literal would convert to bool
 void append(std::string& out, Truth piece) {
   out += piece ? "true" : "false";
 }

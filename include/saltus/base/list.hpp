@@ -41,8 +41,8 @@ class List : public std::vector<T> {
   }
 };
 
-/// The entry of an array, a span or a pointer with a number of any integer type, or the entry that
-/// belongs to a choice of an enum.
+/// Entry `i` of an array, a span or a pointer. The number has any integer type, or is a value of an
+/// enum.
 template <class Number>
   requires std::integral<Number> || std::is_enum_v<Number>
 constexpr decltype(auto) nth(auto&& all, Number number) {

@@ -100,7 +100,7 @@ class Pack {
     return result;
   }
 
-  std::array<double, size> values_;  // not set by Pack(): the function that makes it fills it
+  std::array<double, size> values_;  // Pack() leaves the numbers unset; its caller fills them
 };
 
 }  // namespace saltus

@@ -12,8 +12,8 @@ enum class Reads : unsigned {
   mode = 8,
   inputs = 16,
   relations = 32,
-  /// The time, but the value changes at the leaf's own time events only. With inputs or a
-  /// continuous state: it reads them at those events, and is held in between though they move.
+  /// The value depends on the time, but changes at the leaf's own time events only. If it reads
+  /// inputs or a continuous state too, it samples them at those events, and is held in between.
   schedule = 64,
   everything = 63,
 };

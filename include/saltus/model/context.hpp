@@ -71,7 +71,7 @@ class Context {
   int mode() const;              ///< of a context of one leaf
   const Layout& layout() const;  ///< empty for a context that no system made
 
-  /// True where the events at exactly `time()` have happened already: a run that ended here.
+  /// True if the events at exactly `time()` have happened already, because a run ended here.
   bool settled() const noexcept { return settled_; }
   /// The further state of the run that ended here; null after a value was changed by hand.
   const Continuation* continuation() const noexcept { return continuation_.get(); }
@@ -80,11 +80,12 @@ class Context {
   /// `time()` happens at the start of the run.
   const PendingExecutions* pending() const noexcept { return pending_.get(); }
 
-  /// Everything that changes, for saving; and a context of this layout with saved values.
+  /// All values that change, for saving them.
   ContextValues values() const {
     return {time_, x_, z_, p_, modes_, settled_, continuation_, pending_};
   }
-  /// It throws ModelError for a continuation or pending executions with impossible values too.
+  /// A context of this layout with saved values. Throws ModelError also for impossible values in a
+  /// continuation or in pending executions.
   Context with_values(const ContextValues& values) const;
 
   Context with_time(double t) const;
@@ -120,7 +121,7 @@ class Context {
   const Layout::Range& range(SystemId id) const;
   std::pair<const Layout::Leaf*, const Layout::Parameter*> find_parameter(
       std::string_view name) const;
-  /// A copy to be changed. It drops the continuation, which is not true of other values.
+  /// A copy to be changed. It drops the continuation, which belongs to the old values.
   Context changed() const {
     Context next = *this;
     next.continuation_.reset();

@@ -7,10 +7,10 @@
 
 namespace saltus {
 
-/// A run that continues from `results.context` has the events of the unbroken run because of these
-/// values: the side of every guard and relation, the firings that the Zeno monitors have seen, the
-/// states that rest. They belong to the values they were saved with: a context that was changed by
-/// hand has none.
+/// With these values a run that continues from `results.context` has the events of the unbroken
+/// run: the side of every guard and relation, the firings that the Zeno monitors have seen, the
+/// states that rest. They belong to the context with which they were saved: a context that was
+/// changed by hand has none.
 struct Continuation {
   /// One guard.
   struct Guard {

@@ -13,7 +13,7 @@ namespace saltus {
 
 namespace detail {
 
-/// The argument of equations: that of a formula, and the mode of the block, as a number.
+/// The argument of equations: the argument of a formula, with the mode of the block as a number.
 template <class Number>
 class EquationsAt : public EntryAt<Number> {
  public:

@@ -19,7 +19,7 @@
 
 namespace saltus {
 
-/// The direction in which a guard g fires. `crosses_zero` is either of the two after it.
+/// The direction in which a guard g fires. `crosses_zero` means either of the two after it.
 enum class Direction {
   none,
   crosses_zero,
@@ -78,11 +78,12 @@ constexpr bool fires(Direction direction, int side, int now) {
   return false;
 }
 
-/// How a guard is armed that is exactly at zero, or already on its firing side, when a run starts
+/// How a guard is armed if it is exactly at zero, or already on its firing side, when a run starts
 /// or its mode is entered.
 enum class AtStart {
-  automatic,  ///< at zero, headed for its firing side: with a reset map or a mode change it fires
-              ///< at once (contact), without it waits; on its firing side: it waits to leave it
+  automatic,  ///< at zero and headed for its firing side it fires at once if it has a reset map or
+              ///< a mode change (contact), otherwise it waits; on its firing side it waits until it
+              ///< has left that side
   ignore,     ///< it waits, in either case
   fire,       ///< it fires at once, in either case
   error       ///< a SimulationError, in either case
@@ -154,27 +155,30 @@ struct ZeroCrossing {
   OnZeno on_zeno = OnZeno::hold();            ///< how it continues at its Zeno points
   std::optional<double> zeno_tolerance = {};  ///< [s] overrides SimulatorOptions::zeno_tolerance
   /// The entries of the leaf's continuous state that rest on a hold, one list for each guard. If
-  /// not given: the entries that the guard and the effect touch; all entries if `touches` is not
-  /// given, or if the effect writes a discrete state or a mode that the derivatives read.
+  /// not given, the entries that the guard and the effect touch rest. All entries rest if `touches`
+  /// is not given either, or if the effect writes a discrete state or a mode that the derivatives
+  /// read.
   std::vector<std::vector<int>> holds = {};
-  std::optional<Touches> touches = {};  ///< the tapes of the guard and of the reset map give it
+  std::optional<Touches> touches = {};          ///< known from the tapes of guard and reset map
   std::optional<std::vector<int>> inputs = {};  ///< the inputs the guard reads; all if not given
   Formula formula = {};                         ///< in place of guard: a plan may fuse it
 
-  /// [s] from the trigger to the execution, >= 0; evaluated at the trigger, with the values that
-  /// its reset map would see. Not given: 0.
+  /// [s] The time from the trigger to the execution, >= 0. It is evaluated at the trigger, with the
+  /// values that the reset map would see. If not given, it is 0.
   std::optional<NumberOf> delay = {};
-  /// Evaluated before each execution of an instant; the highest comes first. Equal ones come in a
-  /// random order, by SimulatorOptions::event_seed. Not given: after all that have one.
+  /// The priority is evaluated before each execution of an instant, and the highest comes first.
+  /// Executions of equal priority come in a random order, by SimulatorOptions::event_seed. An
+  /// execution without a priority comes after all that have one.
   std::optional<NumberOf> priority = {};
-  /// False: a guard that goes back to its armed side cancels the execution. Not given: true. It
-  /// needs one direction.
+  /// If false, a guard that goes back to its armed side cancels the execution; this needs a guard
+  /// with one direction. If not given, it is true.
   std::optional<bool> persistent = {};
-  /// Whether the guard counts as on its firing side before the start. False: it fires at the start
-  /// if it is there, or at zero. Not given: as `at_start` says. It needs one direction.
+  /// Whether the guard counts as on its firing side before the start. If false, it fires at the
+  /// start if it is on that side, or at zero. If not given, `at_start` decides. This needs a guard
+  /// with one direction.
   std::optional<bool> initial_value = {};
-  /// True: the reset map is computed at the trigger, and the entries of states that it changes are
-  /// written at the execution. Not given: false.
+  /// If true, the reset map is computed at the trigger, and the entries of states that it changes
+  /// are written at the execution. If not given, it is false.
   std::optional<bool> use_values_from_trigger_time = {};
 
   /// Whether its firing writes a state or a mode.
@@ -184,7 +188,7 @@ struct ZeroCrossing {
   }
   /// Whether a guard that goes back cancels its execution.
   bool is_cancelled_on_return() const { return !persistent.value_or(true); }
-  /// How its guard is armed that begins at zero or beyond it: at the start of a run, or where its
+  /// How its guard is armed if it begins at zero or beyond zero, at the start of a run or where its
   /// mode is entered.
   AtStart wish(bool at_start_of_run) const;
   /// The error in the members of the queue, in words; empty if there is none.
@@ -196,7 +200,7 @@ struct ZeroCrossing {
 struct Relation {
   std::string name = {};
   VectorFunction guard = {};        ///< as many numbers as the relation has entries
-  bool true_at_zero = false;        ///< its value for g == 0 while no side is known
+  bool true_at_zero = false;        ///< the truth for g == 0 while no side is known
   std::optional<Index> size = 1;    ///< number of entries; empty: that of the widest input
   Reads reads = Reads::everything;  ///< the values that the guard reads
   std::optional<std::vector<int>> inputs = {};  ///< the inputs the guard reads; all if not given
@@ -227,17 +231,17 @@ struct TimeEvent {
   double period = std::numeric_limits<double>::infinity();  ///< [s]
   double offset = 0.0;                                      ///< [s]
   std::optional<std::vector<int>> inputs = {};  ///< the inputs the update reads; all if not given
-  /// [s] In place of period and offset: increasing times.
+  /// [s] Increasing times, in place of period and offset.
   std::optional<std::vector<double>> times = {};
-  double end = std::numeric_limits<double>::infinity();  ///< [s] the last tick is not after it
+  double end = std::numeric_limits<double>::infinity();  ///< [s] no tick is later
   std::optional<std::int64_t> count = {};  ///< the number of ticks, from the first one on
-  /// [s] In place of period, offset and times: the time of the next tick as a function of the leaf's
-  /// discrete state; infinite if there is none. The update at a tick must move it on.
+  /// [s] The time of the next tick as a function of the leaf's discrete state, in place of period,
+  /// offset and times; infinite if there is none. The update at a tick must increase it.
   std::function<double(VectorView z)> next = {};
 
   /// The number of ticks; the largest number of its type if they do not end.
   std::int64_t ticks() const;
-  /// The error in it, in words; empty if there is none.
+  /// The error in this declaration, in words; empty if there is none.
   std::string fault() const;
 };
 

@@ -40,19 +40,20 @@ class EntryAt {
 
   double time() const { return at_.time; }              ///< [s]
   Number x() const { return read(at_.x.data() + i_); }  ///< the entry of the continuous state
-  double x(Index j) const { return at_.x[j]; }          ///< entry j of it
+  double x(Index j) const { return at_.x[j]; }          ///< entry j of the continuous state
   double z(Index j) const { return at_.z[j]; }          ///< entry j of the discrete state
-  /// The entry of input k, or of a scalar input its only entry; with j, entry j.
+  /// The entry of input k; a scalar input has only one. With j: entry j.
   Number u(int k) const { return entry(at_.u[k]); }
   double u(int k, Index j) const { return at_.u[k][j]; }
   Index width(int k) const { return at_.u[k].size(); }  ///< of input k
-  /// The entry of a parameter, or of a scalar its only entry; with j, entry j.
+  /// The entry of a parameter; a scalar has only one. With j: entry j.
   Number p(ParameterIndex k) const { return entry(at_.parameter(k)); }
   double p(ParameterIndex k, Index j) const { return at_.parameter(k)[j]; }
-  /// The truth of the entry of a relation, as `At::relation` gives it; with j, of entry j.
+  /// The truth of the entry of a relation, as `At::relation` gives it. With j: the truth of entry
+  /// j.
   Number relation(RelationIndex r) const { return read(at_.relation_values(r) + i_); }
   bool relation(RelationIndex r, Index j) const { return at_.relation(r, j); }
-  /// `a` if `truth` is not 0, otherwise `b`; both are computed.
+  /// Returns `a` if `truth` is not 0, otherwise `b`; both are computed.
   Number choose(const Number& truth, const Number& a, const Number& b) const {
     if constexpr (std::is_same_v<Number, Pack>) {
       return Pack::choose(truth, a, b);
@@ -104,12 +105,12 @@ class EntryAt<tape::Symbol> {
   Index i_;
 };
 
-/// A function template that computes one entry of an output, a derivative or a guard. It is
-/// `[](const auto& at) { return at.u(0) * at.u(1); }` if all entries are alike, with `at` an
-/// EntryAt; otherwise `[](const auto& at, Index i) { ... }` with the index of the entry. A block
-/// that runs alone calls it with numbers. A plan calls it with symbols, and computes the formulas
-/// of blocks that feed one another together, to the same bits. So the function must read only `at`
-/// and constants, and must choose between values by `at.choose` or by a constant.
+/// A function template that computes one entry of an output, a derivative or a guard. It looks like
+/// `[](const auto& at) { return at.u(0) * at.u(1); }` if all entries are alike, where `at` is an
+/// EntryAt; otherwise like `[](const auto& at, Index i) { ... }` with the index of the entry. A
+/// block that runs alone calls it with numbers. A plan calls it with symbols, and computes the
+/// formulas of blocks that feed one another together, to the same bits. So the function must read
+/// only `at` and constants, and must choose between values by `at.choose` or by a constant.
 class Formula {
  public:
   Formula() = default;

@@ -1,4 +1,4 @@
-// History: what a leaf keeps of the past of one of its inputs.
+// History: the record that a leaf keeps of one of its inputs.
 #pragma once
 
 #include <functional>
@@ -14,7 +14,7 @@ namespace saltus {
 struct AcceptedStep {
   double from, to;     ///< [s]
   bool after_instant;  ///< something changed in the instant at `from`, or the run began there
-  double rtol, atol;   ///< of the run; the smallest, if each state has its own
+  double rtol, atol;   ///< tolerances of the run; the smallest if each state has its own
   /// Writes the input at a time within the step, as the dense output of the solver has it.
   const std::function<void(double t, std::span<double> u)>& input;
 };
@@ -24,8 +24,8 @@ struct AcceptedStep {
 ///
 /// `append` is called once after each accepted step, and writes the discrete state z. This is no
 /// event: it makes no row, and restarts no solver. So the values that `append` writes must not
-/// change an output of the leaf at the end of the step, nor before. A function that reads times up
-/// to t - d only keeps this rule if no step is longer than d: `longest_step`.
+/// change an output of the leaf at the end of the step, nor before. An output that reads the past
+/// only up to t - d keeps this rule if no step is longer than d; `longest_step` is that bound.
 struct History {
   int input = 0;
   std::function<void(const AcceptedStep&, VectorRef z)> append = {};

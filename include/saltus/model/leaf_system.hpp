@@ -21,8 +21,8 @@ namespace saltus {
 /// reads.
 struct ContinuousState {
   Eigen::VectorXd initial = {};
-  /// Names of the entries, all or none. Each is an output of the block, a view of its entry, and the
-  /// name of the entry as a value of a context: `ensemble.vary("height", ...)`.
+  /// Names of all entries, or of none. Each name makes an output of the block, a view of its entry,
+  /// and is the name of the entry as a value of a context: `ensemble.vary("height", ...)`.
   std::vector<std::string> names = {};
   RightHandSide ode = {};  ///< empty: xdot = 0
   /// d(xdot)/d(x), optional; a stiff method uses it. Differences replace entries that are not
@@ -95,7 +95,8 @@ class LeafSystem : public System {
   /// outside the n by n matrix, or an entry named twice, is a ModelError when a stiff method
   /// starts.
   void declare_jacobian_sparsity(std::vector<MatrixEntry> entries);
-  /// The same entries with a function of their values: `values(at, out)` writes entry k to out[k].
+  /// As above, with a function of the values of the entries: `values(at, out)` writes entry k to
+  /// out[k].
   void declare_sparse_jacobian(std::vector<MatrixEntry> entries, VectorFunction values);
   void declare_discrete_state(const Eigen::VectorXd& initial);
   /// The mode in which the leaf starts.

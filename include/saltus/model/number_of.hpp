@@ -21,7 +21,7 @@ class NumberOf {
   }
 
   bool is_constant() const noexcept { return !function_; }
-  double constant() const noexcept { return constant_; }  ///< if it is one
+  double constant() const noexcept { return constant_; }  ///< if it is a constant
   const VectorFunction& function() const noexcept { return function_; }
 
   double operator()(const LeafSystem& leaf, const At& at) const {

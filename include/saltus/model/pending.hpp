@@ -7,12 +7,12 @@
 namespace saltus {
 
 /// The values that a reset map computed at the time of its trigger, to be written later. Only the
-/// entries that it changed are kept: all others of the leaf go on meanwhile.
+/// entries that it changed are kept, because all other entries of the leaf change meanwhile.
 struct FrozenValues {
   bool wrote_continuous = false, wrote_discrete = false, wrote_mode = false;
   std::vector<int> continuous_entries = {}, discrete_entries = {};
   std::vector<double> continuous = {}, discrete = {};  ///< values of these entries
-  int mode = 0;                                        ///< if it wrote one
+  int mode = 0;                                        ///< if the map wrote a mode
   bool operator==(const FrozenValues&) const = default;
 };
 
@@ -22,14 +22,14 @@ struct PendingExecution {
   int event = 0;            ///< position of the zero crossing in the block
   int entry = 0;            ///< the guard that fired, in a vector of guards
   double due = 0.0;         ///< [s]
-  std::int64_t number = 0;  ///< how many were scheduled before it in this run
-  bool frozen = false;      ///< its values were computed at the trigger
+  std::int64_t number = 0;  ///< the number of executions scheduled before it in this run
+  bool frozen = false;      ///< whether its values were computed at the trigger
   FrozenValues values = {};
   bool operator==(const PendingExecution&) const = default;
 };
 
-/// All executions that are pending, in the order in which they are due, and the counts that the
-/// next ones need. A context carries them, also after a value of it was changed by hand.
+/// All executions that are pending, in the order in which they are due, and the counts that later
+/// executions need. A context carries them, also after a value of it was changed by hand.
 struct PendingExecutions {
   std::vector<PendingExecution> all = {};
   std::int64_t scheduled = 0;  ///< executions scheduled so far

@@ -31,7 +31,8 @@ struct Shape {
 /// Computes the shape of an output from the shapes of all inputs, if it is not fixed.
 using ShapeRule = std::function<Shape(std::span<const Shape>)>;
 
-/// Element by element, with a scalar stretched to the width of the others: Gain, Adder, Abs.
+/// The shape of an elementwise block, such as Gain, Adder and Abs: a scalar is stretched to the
+/// width of the others.
 inline Shape elementwise(std::span<const Shape> inputs) {
   Shape result = Shape::scalar();
   for (const Shape& shape : inputs) {
@@ -47,10 +48,10 @@ struct EntryRange {
 
 /// The entries of input k that entry i of an output, or of a derivative, reads; `widths` has the
 /// widths of all inputs. The rule may name too many entries, never too few: a stiff method assumes
-/// zero in its Jacobian for the others. All entries if not given.
+/// zero in its Jacobian for the others. Without a rule all entries count.
 using EntryRule = std::function<EntryRange(Index i, int k, std::span<const Index> widths)>;
 
-/// Entry i reads entry i of each input, and of a scalar input its only entry: Gain, Adder, Abs.
+/// Entry i reads entry i of each input, or the only entry of a scalar input: Gain, Adder, Abs.
 inline EntryRange entry_by_entry(Index i, int k, std::span<const Index> widths) {
   return nth(widths, k) == 1 ? EntryRange{0, 1} : EntryRange{i, i + 1};
 }
@@ -64,11 +65,11 @@ struct OutputDeclaration {
   std::string name = {};
   VectorFunction calc = {};  ///< empty for a formula and for a view of a state or of parameters
   std::optional<Shape> shape = Shape::scalar();
-  ShapeRule shape_rule = {};  ///< used if `shape` is empty
+  ShapeRule shape_rule = {};  ///< decides if `shape` is empty
   Reads reads = Reads::everything;
   /// Feedthrough: the inputs it reads; all if not given.
   std::optional<std::vector<int>> inputs = {};
-  bool boolean = false;            ///< 0 or 1; held by bisection where it reaches a derivative
+  bool boolean = false;  ///< 0 or 1; located by bisection and held if it reaches a derivative
   std::optional<Place> view = {};  ///< a state or parameter shown directly, never copied
   EntryRule entries = {};          ///< the entries of the inputs that each of its entries reads
   Formula formula = {};            ///< in place of calc: a plan may fuse it

@@ -30,10 +30,10 @@ struct RightHandSide {
 
   explicit operator bool() const noexcept { return static_cast<bool>(function); }
 
-  Formula formula = {};  ///< the same as an expression; empty: it is only called
+  Formula formula = {};  ///< the same as an expression; empty if it is only called
   VectorFunction function = {};
   const InlinedSteps* steps = nullptr;  ///< null: none
-  Index states = 0;                     ///< the number that it is written for; 0: any
+  Index states = 0;                     ///< the number of states that it is written for; 0: any
 };
 
 }  // namespace saltus

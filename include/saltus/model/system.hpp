@@ -37,7 +37,7 @@ struct Structure {
   };
   std::vector<Leaf> leaves;
   std::vector<Wire> wires;
-  std::vector<FixedInput> fixed;  ///< of two for one input the last one counts
+  std::vector<FixedInput> fixed;  ///< if one input has two of them, the last one counts
   std::vector<Layout::Range> systems;
 };
 
@@ -68,17 +68,17 @@ class System {
   OutputPort output(std::string_view port) const;
 
   /// Gives an input a constant value, so that nothing has to be connected to it: a number, or a
-  /// vector. It holds for plans that are compiled afterwards. Throws ModelError for an unknown
-  /// input, and for a value that is empty or not finite. An input takes one source: `connect`,
-  /// `build` and `compile` refuse an input that has a fixed value and a wire.
+  /// vector. The value is in force in plans that are compiled afterwards. Throws ModelError for an
+  /// unknown input, and for a value that is empty or not finite. An input takes one source:
+  /// `connect`, `build` and `compile` refuse an input with both a fixed value and a wire.
   void fix_input(int index, double value);
   void fix_input(int index, const Eigen::VectorXd& value);
   /// Takes the value away again.
   void free_input(int index);
   /// Whether this system, or a block in it, gives the input a value.
   virtual bool fixes_input(int index) const { return fixed_.contains(index); }
-  /// How often the inputs of all systems of the process were fixed or freed. A plan that was made
-  /// at another number may have other values.
+  /// How often inputs have been fixed or freed, over all systems of the process. A plan that was
+  /// made when this number was another one may have other values.
   static int fixes() noexcept;
 
   /// The default values of every block, at time t [s].
@@ -86,9 +86,9 @@ class System {
 
   /// Appends the leaves and wires of this system; `path` is the name by which it is known.
   virtual void collect(Structure& out, const std::string& path) const = 0;
-  /// The leaf output that an output port shows.
+  /// The output of a leaf that an output port of this system shows.
   virtual LeafPort output_source(int index) const = 0;
-  /// The leaf input that an input port feeds.
+  /// The input of a leaf that an input port of this system feeds.
   virtual LeafPort input_target(int index) const = 0;
 
  protected:

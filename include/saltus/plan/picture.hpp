@@ -49,7 +49,7 @@ struct Picture {
   std::vector<Frame> frames = {};  ///< each after the frame around it
   std::vector<Block> blocks = {};
   std::vector<Wire> wires = {};
-  std::string trouble = {};  ///< the reason if there is no plan; then every flow is unknown
+  std::string trouble = {};  ///< the reason why there is no plan; every flow is then unknown
 };
 
 /// The blocks and wires of a system, with their use in the plan of compile(). An input of the

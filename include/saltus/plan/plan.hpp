@@ -28,7 +28,7 @@ struct Node {
   bool relation = false;
   bool boolean = false;
   Shape shape = {};
-  bool shaped = false;  // the shape is known
+  bool shaped = false;  // its shape is known
   // The place of its value; a view of a state or a parameter has no place of its own.
   Place place = {};
   bool view = false;
@@ -89,7 +89,7 @@ struct ScheduledEvent {
   std::string name = {};
   std::int64_t ticks = std::numeric_limits<std::int64_t>::max();
   List<double> times = {};  // of its ticks, in place of period and offset
-  bool by_state = false;    // its ticks follow from the discrete state of the leaf
+  bool by_state = false;    // the discrete state of the leaf decides the ticks
 };
 
 struct Tap {
@@ -97,18 +97,18 @@ struct Tap {
   int node = -1;
 };
 
-/// A list of nodes as the machine executes it, followed by its sinks, the odes or the guards.
-/// Formulas that feed one another are one function over all of the machine's memory, which stores
-/// only values that other nodes read. The others are calls in between.
+/// A list of nodes in the form that the machine executes, followed by its sinks: the odes or the
+/// guards. Formulas that feed one another are one function over all of the machine's memory, which
+/// stores only the values that other nodes read. All other nodes are calls in between.
 struct Walk {
   struct Stage {
-    VectorFunction fused = {};  // into `y`; empty: no formula
+    VectorFunction fused = {};  // writes to `y`; empty without formulas
     std::vector<int> calls = {};
   };
   List<Stage> stages = {};
-  VectorFunction last = {};  // into `xdot`, or the vector of guards; empty if nothing is fused
+  VectorFunction last = {};  // writes to `xdot` or the guards; empty if nothing is fused
   List<int> nodes = {};      // nodes that no longer have a call
-  List<char> fused = {};     // for each ode, or group of guards: it is in `last`
+  List<char> fused = {};     // for each ode or group of guards: whether `last` has it
 
   bool fuses() const { return last || !nodes.empty(); }
 };
@@ -144,7 +144,7 @@ struct Plan {
 
   Index nx = 0, nz = 0, np = 0, ny = 0, guard_slots = 0;
 
-  // Made later than the plan, by whoever first needs them.
+  // These are made later than the plan, when somebody first needs them.
   std::shared_ptr<Kept<FlowSeries>> series;      ///< for the method `taylor`
   std::shared_ptr<Kept<FlowDivisors>> divisors;  ///< for the search for poles
 

@@ -13,8 +13,8 @@ enum class Rate {
   continuous,  ///< in the right-hand side, the guards or the taps that need it
 };
 
-/// Whether a value is held though what it reads may move: it follows at its leaf's time events
-/// only.
+/// Whether a value is held although the values that it reads may move. It follows them at its
+/// leaf's time events only.
 constexpr bool samples(Reads reads) { return has(reads, Reads::schedule); }
 
 /// The rate of a value by the values it reads, apart from inputs and relations.

@@ -16,7 +16,7 @@ struct Achieved {
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
   double error = unknown;  ///< max over rows and components of |x - exact|
-  /// The same divided by atol + rtol |exact|; large where a component passes zero.
+  /// The same error divided by atol + rtol |exact|; it is large where a component passes zero.
   double scaled = unknown;
   double event_error = unknown;  ///< [s] over events, matched by index
   /// The number of events too many or too few. A hold that was not entered or not released counts
@@ -26,7 +26,7 @@ struct Achieved {
   double invariant_drift = unknown;     ///< the largest of `drifts`
   std::vector<double> drifts = {};      ///< max |value - value at the start|, for each invariant
   double accumulation_error = unknown;  ///< [s] of the predicted Zeno times
-  double rest_error = unknown;          ///< as `error`, over the rows within Zeno holds
+  double rest_error = unknown;          ///< as `error`, but over the rows within Zeno holds
   double release_error = unknown;       ///< [s] of the ends of Zeno holds
 };
 

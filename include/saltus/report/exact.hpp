@@ -47,9 +47,10 @@ struct Sample {
 struct Exact {
   std::string provenance = {};  ///< the source of the answer, and its number of known digits
   std::vector<EventTimes> events = {};  ///< branches are counted by the first guard
-  /// Empty: no closed form.
+  /// Empty if there is no closed form.
   std::function<Eigen::VectorXd(double t, const Branch& branch)> state = {};
-  /// In place of a closed form: times ascending, each in the scene's save_at.
+  /// Known values in place of a closed form. Their times ascend, and each is in the scene's
+  /// save_at.
   std::vector<Sample> samples = {};
   bool samples_are_exact = false;  ///< whether the samples are values of a closed form
 };

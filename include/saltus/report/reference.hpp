@@ -105,8 +105,8 @@ inline Exact answer_of(const Scene& scene, const Results& results,
   return answer;
 }
 
-/// A run that reaches its end: two orders tighter than asked, or one order if the method refuses
-/// that.
+/// A run that reaches its end. It is two orders tighter than asked, or one order if the method
+/// refuses that.
 inline std::optional<ReferenceRun> reference_run(const Scene& scene, Method method,
                                                  const ReferenceOptions& with,
                                                  std::string& reasons) {
@@ -206,8 +206,8 @@ inline void judge(Reference& reference, const Scene& scene) {
 
 namespace detail {
 
-/// Runs of two methods that come to the end; fewer if only fewer do. `reasons` says why the others
-/// did not.
+/// Runs of two methods that reach the end, or fewer if no two methods do. `reasons` says why the
+/// others did not.
 inline std::vector<ReferenceRun> two_runs(const Scene& scene, const ReferenceOptions& with,
                                           std::string& reasons) {
   std::vector<ReferenceRun> runs;

@@ -38,7 +38,7 @@ std::vector<Partial> differentiate(Graph& graph, std::span<const Node> outputs,
 
 /// A sparse matrix; a tape computes the values of its entries.
 struct Jacobian {
-  std::vector<MatrixEntry> entries;  ///< column by column; the others are zero
+  std::vector<MatrixEntry> entries;  ///< column by column; all other entries are zero
   Tape values;                       ///< computes the entries, in this order
 };
 

@@ -42,10 +42,10 @@ std::span<const CalledFunction> called_functions();
 /// compiler must keep the order of operations, which LLVM does.
 std::string llvm_module(std::span<const Tape> tapes);
 
-/// The same for series, each to one order: the functions "saltus_tape_<first>" and so on expand the
-/// states of a series, and then all its outputs. Sums have the order of the interpreted series, so
-/// the numbers have the same bits. A series has no such function if an instruction has none, or if
-/// it would be too long. Returns the text, and the number of functions.
+/// The same text for series, each to one order: the functions "saltus_tape_<first>" and so on
+/// expand the states of a series, and then all its outputs. Sums have the order of the interpreted
+/// series, so the numbers have the same bits. A series has no such function if an instruction has
+/// none, or if it would be too long. Returns the text, and the number of functions.
 std::pair<std::string, int> llvm_module(std::span<const SeriesOrder> series, int first = 0);
 
 /// Compiles a module; returns the functions saltus_tape_0 ... saltus_tape_<count - 1>.

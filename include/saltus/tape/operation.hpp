@@ -49,7 +49,7 @@ enum class Op : unsigned char {
   ceil,
   trunc,
   rint,         ///< to the nearest whole number, halves to the even one
-  sign,         ///< -1, 0 or 1; NaN of NaN
+  sign,         ///< -1, 0 or 1; NaN for NaN
   logical_not,  ///< 1 for 0, otherwise 0
   // two operands
   add,

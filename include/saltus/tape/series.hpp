@@ -15,7 +15,7 @@ namespace series {
 struct Program;
 }  // namespace series
 
-/// A series to one order, as `compile` of machine_code.hpp makes machine code of it. Cheap to copy.
+/// A series to one order, for `compile` of machine_code.hpp. It is cheap to copy.
 struct SeriesOrder {
   std::shared_ptr<const series::Program> program;
   int order = 0;
@@ -49,9 +49,9 @@ class Series {
  public:
   static constexpr int highest_order = 30;
 
-  /// rates[i] is xdot_i, an expression of `graph`; state i is graph.continuous_state(i). `outputs`
-  /// are further expressions, such as guards. ModelError if an expression reads a state that has no
-  /// rate.
+  /// `rates[i]` is xdot_i, an expression of `graph`; state i is graph.continuous_state(i).
+  /// `outputs` are further expressions, such as guards. ModelError if an expression reads a state
+  /// that has no rate.
   Series(const Graph& graph, std::span<const Node> rates, std::span<const Node> outputs);
 
   /// Writes the coefficients of orders 0 ... `order` of every state at (at.time, at.x): row k of
@@ -63,14 +63,14 @@ class Series {
 
   /// After `expand`: the coefficients of outputs first ... first + count - 1, to the order of that
   /// expansion: row m of `g` is g[m * (order + 1)] .... Outputs that nobody asks for cost nothing,
-  /// and what several of them need is computed once an expansion. ModelError if there are not so
-  /// many outputs.
+  /// and a value that several outputs need is computed once for each expansion. ModelError if there
+  /// are not so many outputs.
   void expand_outputs(int first, int count, double* g);
 
   int states() const noexcept;
   int outputs() const noexcept;
-  /// The number of instructions for each order of the states. Four alike ones count as one if they
-  /// are computed together.
+  /// The number of instructions for each order of the states. Four alike instructions count as one
+  /// if they are computed together.
   int instruction_count() const noexcept;
   SeriesOrder at_order(int order) const { return {program_, order}; }
 
@@ -88,25 +88,25 @@ class Series {
   void run(const std::vector<int>& instructions, int k);
 
   std::shared_ptr<const series::Program> program_;
-  std::vector<double> values_, rows_, sums_;   ///< of expressions; of rows; of instructions
-  std::vector<std::int64_t> computed_, done_;  ///< the last expansion of values, of instructions
-  std::vector<int> late_, open_;               ///< instructions that lack the last order, or all
-  std::int64_t expansion_ = 0;                 ///< the number of the last one
-  int order_ = 0;                              ///< of that one
+  std::vector<double> values_, rows_, sums_;   ///< of expressions, rows, instructions
+  std::vector<std::int64_t> computed_, done_;  ///< last expansion of each value, instruction
+  std::vector<int> late_, open_;               ///< instructions without the last order; without any
+  std::int64_t expansion_ = 0;                 ///< the number of the last expansion
+  int order_ = 0;                              ///< of the last expansion
   std::int64_t all_outputs_ = 0;  ///< the last expansion of which machine code computed the outputs
 };
 
 /// The operations in `nodes` and their operands that have no Taylor series where a state may pass:
 /// kinks (abs, minimum, maximum, select, mod, fmod, copysign) and steps (floor, ceil, trunc, rint,
-/// sign, floor_divide, comparisons, logical operations). Only those of which an operand depends on
-/// time or on a continuous state count, as others are constant; of a select its condition. Each is
-/// listed once, in the order of `Op`; empty if all is smooth.
+/// sign, floor_divide, comparisons, logical operations). An operation counts only if an operand
+/// depends on time or on a continuous state, a select only if its condition does. Each is listed
+/// once, in the order of `Op`. The list is empty if all is smooth.
 std::vector<Op> kinks(const Graph& graph, std::span<const Node> nodes);
 
 /// Whether `nodes` may be zero within the rounding at a point, with all derivatives, and large
 /// elsewhere: a pulse such as exp(-100 (t - 13)^2) at t = 0. Neither their values nor their series
-/// show that the pulse will come. This cannot be known from a list of operations, and does not
-/// claim to be complete: sqrt((t - 0.3)^2) has a kink that no series at 0 shows.
+/// show that the pulse will come. A list of operations cannot prove the absence of such a pulse, so
+/// the answer "no" is not certain: sqrt((t - 0.3)^2) has a kink that no series at 0 shows.
 bool may_hide(const Graph& graph, std::span<const Node> nodes);
 
 }  // namespace saltus::tape

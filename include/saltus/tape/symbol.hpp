@@ -8,8 +8,8 @@
 namespace saltus::tape {
 
 /// A number known only by its formula: a node of a graph, or a constant that is not yet in a graph.
-/// If a function template over doubles is called with symbols, it builds the graph of its
-/// computation, operation by operation and in the same order, so the tape of that graph gives the
+/// A function template that is called with symbols in place of doubles builds the graph of its
+/// computation, operation by operation and in the same order. So the tape of that graph gives the
 /// same numbers to the last bit. Comparisons give symbols too, 0 or 1, so a symbol cannot decide an
 /// `if`. There is no `pow`, because a graph replaces some powers by products, which differ from
 /// `std::pow` in the last bit.

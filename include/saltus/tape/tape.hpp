@@ -24,7 +24,7 @@ struct Program;
 class Tape {
  public:
   Tape(const Graph& graph, std::span<const Node> outputs) : Tape(graph, outputs, {}) {}
-  /// The same, with a place in `out` for each value.
+  /// As above, with a place in `out` for each value.
   Tape(const Graph& graph, std::span<const Node> outputs, std::span<const Index> places);
 
   /// Writes the `size()` values to `out`, in order or each to its place; `out` must not overlap the
@@ -44,17 +44,18 @@ class Tape {
   bool reads_entry() const noexcept;       ///< whether a result depends on at.entry
   /// The entries of the continuous state that each value depends on, in ascending order.
   std::vector<std::vector<int>> states_read() const;
-  const Graph& graph() const noexcept;  ///< the needed part of the graph it was made from
+  const Graph& graph() const noexcept;  ///< the part of the graph that the values need
   const std::vector<Node>& outputs() const noexcept;  ///< the values, as nodes of `graph()`
 
   /// The inputs that the results depend on, without order.
   const std::vector<int>& inputs_read() const noexcept;
 
-  /// Runs this machine code from now on, see `compile` in machine_code.hpp. It must give the same
-  /// numbers; the first one given stays. It is released with the last tape that shares the list.
+  /// Runs this machine code from now on, see `compile` in machine_code.hpp. The code must give the
+  /// same numbers. If a tape gets machine code twice, the first code stays. It is released with the
+  /// last tape that shares the list.
   void run_as(MachineCode code) const;
   bool is_machine_code() const noexcept;     ///< whether it runs as machine code
-  std::size_t memory_size() const noexcept;  ///< the numbers that machine code needs room for
+  std::size_t memory_size() const noexcept;  ///< how many numbers machine code needs room for
 
   /// One line for each instruction, in the order in which they run, and one for each output.
   std::string to_string() const;

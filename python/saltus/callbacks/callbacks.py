@@ -17,29 +17,29 @@ Others = Sequence[tuple[str, Any]]  # functions that are no callbacks of a block
 
 
 def _nothing_changes() -> bool:
-    """The glance at a system without functions of Python."""
+    """The `Glance` at a system without functions of Python."""
     return False
 
 
 class Callbacks:
-    """The Python functions of a system, the traces of them, and whether these are still right.
+    """The Python functions of a system, their traces, and whether the traces are still right.
 
-    They are traced while the first plan of the system is made, because the shapes of its inputs are
-    known then. The Python object of the system owns this object, so it holds no block and no
-    function: they would hold each other.
+    The functions are traced while the first plan of the system is made, because the shapes of all
+    inputs are known then. The Python object of the system owns this object. So this object holds no
+    block and no function: they would keep each other alive.
     """
 
     def __init__(self, system: Any):
         self.traces = _core.Traces(system)
         self.version = 0
         self.plans = Plans()
-        self.outcomes: dict[int, list[Any]] = {}  # of the functions of each block, by its number
-        self._runs: dict[int, list[_core.Trace | None]] = {}  # what the engine runs of them
-        self._called: dict[Place, Any] = {}  # readers of writes: called, though traceable
+        self.outcomes: dict[int, list[Any]] = {}  # the functions of each block, by its number
+        self._runs: dict[int, list[_core.Trace | None]] = {}  # the traces that the engine runs
+        self._called: dict[Place, Any] = {}  # readers of written values, which are called
         self._siblings: Any = None  # while functions are traced
         self._glance: Callable[[], bool] | None = None  # whether anything may have changed
         self._values: Callable[[], bool] | None = None  # whether a value that was read has changed
-        self._looks: list[Any] = []  # at what the last search for writers has looked
+        self._looks: list[Any] = []  # what the last search for writers looked at
         self._traces = self._calls = False  # whether a function is traced, and whether one is not
 
     def trace_block(self, number: int, block: Block) -> list[_core.Trace]:
@@ -77,9 +77,10 @@ class Callbacks:
         return self.version
 
     def settle(self, others: Others = ()) -> bool:
-        """Have those called that read what a called one may write; whether that is another choice.
+        """Decide to call the functions that read a value which a called function may write. Returns
+        whether the decision changed.
 
-        Only when all functions are traced or refused is it known what a run may write.
+        The writes of a run are known only when all functions are traced or refused.
         """
         self._siblings = self._glance = self._values = None
         looks: list[Any] = []
@@ -96,9 +97,9 @@ class Callbacks:
         return not self._calls
 
     def written(self) -> str | None:
-        """A change of a value that a trace of the last run was made from, in words.
+        """The change of a value that a trace of the last run depends on, in words.
 
-        Traced functions write nothing; without called ones nothing is compared.
+        Traced functions write nothing, so nothing is compared if no function is called.
         """
         if not self._calls or (self._values is not None and not self._values()):
             return None
@@ -139,7 +140,9 @@ class Callbacks:
         return tracing.readers_of_writes(self.traces.blocks(), self.outcomes, others, looks)
 
     def _watched(self) -> list[Place]:
-        """The functions whose outcome holds while nothing changes that they read."""
+        """The functions whose outcome remains right while the values that they read do not
+        change.
+        """
         return [
             (b, i)
             for b, outcomes in self.outcomes.items()
@@ -160,7 +163,7 @@ class Callbacks:
         self.version += 1
 
     def _outcome(self, b: int, i: int) -> Any:
-        """How a function runs: its own outcome, or called all the same."""
+        """How a function runs: by its own outcome, or as a call although it could be traced."""
         return self._called.get((b, i), self.outcomes[b][i])
 
     def explain(self, note: str = "") -> Explanation:
@@ -175,8 +178,8 @@ class Callbacks:
         return Explanation(callbacks, note)
 
     def _tracer(self) -> Callable[[Any], Any]:
-        """Traces a function; those of one code only once, until `settle`."""
-        from saltus import tracing  # not before there is something to trace
+        """Traces a function. Functions of one code are traced once, until `settle`."""
+        from saltus import tracing  # imported only when there is something to trace
 
         self._siblings = self._siblings or tracing.Siblings()
         trace: Callable[[Any], Any] = self._siblings.trace

@@ -30,7 +30,9 @@ class ExplainedCallback(NamedTuple):
     reason: str
     """why it is called; empty for a traced or compiled one"""
     machine_code: bool = False
-    """whether the tape of a traced one has become machine code, see the option `machine_code`"""
+    """whether the tape of a traced function has become machine code, see the option
+    `machine_code`
+    """
 
     @property
     def rung(self) -> str:

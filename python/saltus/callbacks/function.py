@@ -1,4 +1,6 @@
-"""One function of a block: what the tracer is asked about it, and what the engine runs of it."""
+"""One function of a block: the question to the tracer about it, and the trace that the engine
+runs.
+"""
 
 from __future__ import annotations
 
@@ -12,7 +14,7 @@ __all__ = ["Block", "core_trace", "outcome_of"]
 Block = dict[str, Any]  # the facts of a block, or of a function of it
 
 KINDS = {"jacobian": "matrix", "reset_map": "reset", "edge_reset": "reset", "update": "update"}
-"""role of a function -> the tracer's word for it; the others return a vector"""
+"""role of a function -> the tracer's word for it; functions of other roles return a vector"""
 
 GUARDS = {"guard", "relation"}
 """roles of functions whose sign matters: a comparison gives its smooth difference"""

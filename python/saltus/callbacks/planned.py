@@ -16,9 +16,9 @@ Made = TypeVar("Made")
 
 
 def callbacks_of(system: Any) -> Callbacks:
-    """The callbacks of a system as they are now, for the plan that is made next.
+    """The callbacks of a system at present, for the next plan.
 
-    New ones at first use, and again if blocks have declared more since.
+    They are made at first use, and anew if blocks have declared more since.
     """
     callbacks: Callbacks | None = getattr(system, "_callbacks", None)
     if callbacks is None or callbacks.traces.stale:
@@ -30,7 +30,7 @@ def callbacks_of(system: Any) -> Callbacks:
 def planned(
     system: Any, plan: Callable[[Callbacks], Made], others: Others = ()
 ) -> tuple[Made, Callbacks]:
-    """What `plan` makes for a system with its callbacks, which are traced by then.
+    """The result of `plan` for a system with its callbacks, which are traced by then.
 
     `plan` is called again if a function, traced for the first plan, has to be called.
     """

@@ -1,4 +1,4 @@
-"""`Plans`: the plans that a system keeps, by the options they were made for."""
+"""`Plans`: the plans that a system keeps, by their options."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ Key = tuple[Any, ...]
 MOST = 4
 """plans that a system keeps: few programs use more sets of options"""
 LARGE = 1000
-"""blocks; a plan of more is kept alone, for it takes some kilobytes a block"""
+"""blocks; a larger plan is the only one kept, because it takes some kilobytes for each block"""
 
 
 class Plans:
-    """The last few plans that were made of the present traces of a system.
+    """The last few plans of a system with its present traces.
 
     A plan keeps neither its system nor a function of the user alive. It never changes, so any
     number of runs use it at once.
@@ -35,14 +35,15 @@ class Plans:
         return None
 
     def keep(self, key: Key, version: int, plan: _core.Plan) -> None:
-        """Adds a plan, and lets go of those of other versions and of the oldest one.
+        """Adds a plan, and drops the plans of other versions and the oldest plan.
 
-        Another thread that does the same may be lost: then a plan is made once more.
+        If another thread adds a plan at the same time, one of the plans may be lost, and is made
+        again.
         """
         others = [one for one in self._kept if one[1] == version and one[0] != key]
         most = 1 if plan.blocks > LARGE else MOST
         self._kept = ((key, version, plan), *others[: most - 1])
 
     def clear(self) -> None:
-        """Lets go of all plans."""
+        """Drops all plans."""
         self._kept = ()

@@ -26,7 +26,7 @@ INTERRUPTED = 130  # the exit code in a shell of a program that Ctrl-C ended
 
 
 class UsageError(Exception):
-    """Something the user can mend: a message, no traceback."""
+    """A mistake that the user can mend. It is shown as a message without a traceback."""
 
 
 class _Parser(argparse.ArgumentParser):
@@ -87,7 +87,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         if isinstance(error, BrokenPipeError):  # `saltus list | head`
             os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
             return 0
-        message = " ".join(str(error).split())  # one line, of an algebraic loop too
+        message = " ".join(str(error).split())  # one line, also for an algebraic loop
         print(f"saltus {chosen.name}: {message}", file=sys.stderr)
         return 2
     except KeyboardInterrupt:

@@ -10,7 +10,7 @@ __all__ = ["require_picture", "require_suffix"]
 
 
 def require_suffix(flag: str, path: Path | None, *suffixes: str) -> None:
-    """ModelError for a suffix that is not one of these; a name without any is taken as it is."""
+    """ModelError for a suffix that is not one of these. A name without a suffix is accepted."""
     if path is None or path.suffix.lower() in ("", *suffixes):
         return
     expected = " or ".join(suffixes)

@@ -84,7 +84,7 @@ def _check(chosen: argparse.Namespace) -> None:
 
 
 def _table(scene: Chosen, how: dict[str, Any]) -> WorkPrecision:
-    """Against the known answer, as long as that holds of the scene as it was set."""
+    """Measures against the known answer, if the answer is true of the scene with these settings."""
     if scene.scene is not None:
         return work_precision(scene.scene, **how)
     options = scene.options

@@ -31,7 +31,7 @@ __all__ = ["act", "add_arguments"]
 NAME = "run"
 WELL = ("reached_end", "terminal", "zeno_stop")
 INTERRUPTED = 130
-MOST_ROWS = 10_000_000  # even rows: some hundred bytes each until they are written
+MOST_ROWS = 10_000_000  # even rows, each of which takes some hundred bytes until it is written
 SHOWN = 12  # values at the end that are shown one by one
 
 
@@ -189,7 +189,7 @@ def _write(results: Results, chosen: argparse.Namespace) -> None:
     if chosen.plot:
         import matplotlib
 
-        matplotlib.use("Agg")  # a file is drawn, no window
+        matplotlib.use("Agg")  # draws into a file without a window
         np.ravel(results.plot())[0].figure.savefig(chosen.plot)
 
 

@@ -29,23 +29,23 @@ __all__ = ["Chosen", "chosen_scene"]
 
 @dataclass(frozen=True)
 class Chosen:
-    """All that a run needs."""
+    """Everything that a run needs."""
 
     name: str
     title: str
     system: System
     context: _core.Context
     span: tuple[float, float] | None
-    """[s] None if the command line does not say it"""
+    """[s] None if the command line does not give it"""
     options: SimulatorOptions
     scene: Scene | None
-    """the scene of the shelf, as long as its known outcome holds"""
+    """the scene of the shelf, if its known answer is true of these settings"""
     parameters: dict[str, Any] = field(default_factory=dict)
-    """those of the scene as a whole, with their values"""
+    """the parameters of the scene as a whole, with their values"""
     varied: dict[str, list[Any]] = field(default_factory=dict)
-    """the values of a sweep that the scene says, by name"""
+    """the values of the sweep that the scene defines, by name"""
     paired: bool = False
-    """whether these belong together, row by row"""
+    """whether these values belong together, row by row"""
     file: FileScene | None = None
     """the scene file that was read"""
 
@@ -72,7 +72,7 @@ class Chosen:
 
 
 def chosen_scene(name: str, settings: dict[str, Any]) -> Chosen:
-    """The scene of that name, with these settings. ModelError for unknown names."""
+    """The scene with this name and these settings. ModelError for unknown names."""
     if name.lower().endswith((".toml", ".json")):
         return _of_file(load_scene(name), settings)
     if name.lower().endswith((".xml", ".sbml")):
@@ -136,7 +136,7 @@ def _of_file(file: FileScene, settings: dict[str, Any]) -> Chosen:
 
 
 def _sbml(name: str, settings: dict[str, Any]) -> Chosen:
-    """A model in SBML, which says no span. Settings are values at the start, by id."""
+    """A model in SBML, which has no span. Settings are values at the start, by id."""
     from saltus.sbml import load
 
     model = load(name, values=settings)
@@ -171,7 +171,7 @@ def _own(name: str, settings: dict[str, Any]) -> Chosen:
 
 
 def _module(place: str) -> Any:
-    """A module by name, from where the command was given, or a file. It prints what it likes."""
+    """A module by name, found from the present directory, or a file. It may print."""
     try:
         if not place.endswith(".py"):
             sys.path.insert(0, "")
@@ -188,7 +188,7 @@ def _module(place: str) -> Any:
         return module
     except ModelError:
         raise
-    except Exception as error:  # whatever the module raised
+    except Exception as error:  # any exception of the module
         raise ModelError(f"'{place}' cannot be imported: {_where(error, place)}") from error
 
 
@@ -217,7 +217,7 @@ def _attribute(module: Any, attribute: str, place: str) -> Any:
 
 
 def _arguments_of(make: Callable[..., Any], settings: dict[str, Any], name: str) -> set[str]:
-    """The names of all arguments of a function. ModelError where a needed one is not set."""
+    """The names of all arguments of a function. ModelError if a needed argument is not set."""
     try:
         parameters = inspect.signature(make).parameters.values()
     except (TypeError, ValueError):
@@ -239,7 +239,7 @@ def _made(make: Callable[..., Any], arguments: dict[str, Any], name: str) -> Any
         return make(**arguments)
     except ModelError:
         raise
-    except Exception as error:  # whatever the function raised
+    except Exception as error:  # any exception of the function
         raise ModelError(f"'{name}': {_where(error, name.rpartition(':')[0])}") from error
 
 

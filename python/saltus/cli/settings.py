@@ -63,7 +63,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 
 def options_of(chosen: argparse.Namespace) -> dict[str, Any]:
-    """The options of a run that were said, by the names of SimulatorOptions."""
+    """The options that the command line gives, by the names of SimulatorOptions."""
     options: dict[str, Any] = {
         "ode_solver_method": chosen.method,
         "rtol": chosen.rtol,
@@ -102,6 +102,6 @@ def _value(text: str) -> Any:
     except (ValueError, SyntaxError, MemoryError, RecursionError):
         pass
     try:
-        return float(text)  # 1e-3 is a literal; inf and nan are none
+        return float(text)  # 1e-3 is a literal; inf and nan are not
     except ValueError:
         return text

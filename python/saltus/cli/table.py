@@ -9,7 +9,7 @@ __all__ = ["print_table"]
 
 
 def print_table(rows: Sequence[tuple[str, ...]]) -> None:
-    """One line for each row; in colour by rich, where that is installed and a person looks."""
+    """One line for each row. On a terminal it is in colour, if rich is installed."""
     if sys.stdout.isatty() and _printed_by_rich(rows):
         return
     widths = [max(len(cell) for cell in column) for column in zip(*rows, strict=True)]

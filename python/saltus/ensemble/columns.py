@@ -17,7 +17,7 @@ Columns = dict[str, Any]
 (message, block) by run; 'reduced': what `reduce` gave, by run; 'names': of states and blocks
 """
 NOT_RUN = -1
-STATUS = np.array([*_core.status_names(), "not_run"])  # by number; -1 is the last one
+STATUS = np.array([*_core.status_names(), "not_run"])  # the numbers of statuses; -1 is the last one
 PLAIN = {"status": NOT_RUN, "end_time": np.nan, "wall_time": np.nan, "events": 0, "steps": 0}
 WIDE = {"continuous_state": np.nan, "discrete_state": np.nan, "modes": 0}
 
@@ -38,7 +38,7 @@ def failed(runs: int, reason: str) -> Columns:
 
 
 def _wide(arrays: Sequence[np.ndarray], shape: tuple[int, ...], nothing: float) -> np.ndarray:
-    """Under one another, each filled up to `shape` with `nothing`."""
+    """Puts arrays under one another, each filled up to `shape` with `nothing`."""
     total = sum(len(array) for array in arrays)
     whole = np.full((total, *shape), nothing, dtype=np.result_type(*arrays))
     first = 0
@@ -82,7 +82,9 @@ def _longest(parts: Sequence[Columns]) -> Mapping[str, list[str]]:
 
 
 def join(parts: Sequence[Columns]) -> Columns:
-    """One after the other. Where systems differ in size, nan fills up the smaller ones."""
+    """Joins columns one after the other. If systems differ in size, nan fills up the smaller
+    ones.
+    """
     if len(parts) == 1:
         return parts[0]
     columns: Columns = {name: np.concatenate([p[name] for p in parts]) for name in PLAIN}

@@ -42,7 +42,7 @@ def refuse_reserved(varied: Mapping[str, object], signals: Mapping[str, object])
 
 
 def summary(columns: Columns, wall_time: float) -> dict[str, Any]:
-    """How the sweep went, for the foot of the printed results."""
+    """A summary of the sweep, for the foot of the printed results."""
     kinds, counts = np.unique(columns["status"], return_counts=True)
     by_kind = dict(zip(STATUS[kinds].tolist(), counts.tolist(), strict=True))
     done = sum(by_kind.values()) - by_kind.get("not_run", 0)
@@ -77,8 +77,8 @@ def _texts(reasons: Mapping[int, tuple[str, str]], which: int, runs: int) -> np.
 
 
 def arrays_of(columns: Columns, table: Table, reduced: str, save_at: list[float]) -> Arrays:
-    """All columns in the shape of the grid. With `reduced`, what `reduce` gave in place of states
-    and signals.
+    """All columns in the shape of the grid. With `reduced`, the values of `reduce` take the place
+    of states and signals.
     """
     dims, shape = tuple(table.axes), table.shape
     if not table.is_grid:

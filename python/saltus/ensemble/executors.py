@@ -25,14 +25,14 @@ def _workers(workers: int | None, runs: int) -> int:
 
 
 def run(job: Job, table: Table, executor: Any, workers: int | None, watch: Watch) -> Outcome:
-    """Runs the job by the given executor, or by one that suits. Returns the outcome, the executor's
+    """Runs the job by the given executor, or by a suitable one. Returns the outcome, the executor's
     name and the number of workers.
     """
     count = _workers(workers, table.runs)
     if executor is None:
         return _run_as_suits(job, table, workers, count, watch)
     if not isinstance(executor, str):
-        from saltus.ensemble import pools  # processes are not loaded before they are wanted
+        from saltus.ensemble import pools  # loaded only when processes are needed
 
         columns, raised = pools.run_pooled(executor, job, table, count, watch)
         return columns, raised, type(executor).__name__, count
@@ -48,7 +48,9 @@ def run(job: Job, table: Table, executor: Any, workers: int | None, watch: Watch
 
 
 def _run_as_suits(job: Job, table: Table, workers: int | None, count: int, watch: Watch) -> Outcome:
-    """The system and `workers` decide, never the clock: the same call runs the same way."""
+    """Chooses an executor by the system and `workers`, never by the clock: the same call runs the
+    same way.
+    """
     if not job.needs_interpreter:
         return *job.run(table.columns, count, watch), "threads", count
     if workers is None or count == 1:

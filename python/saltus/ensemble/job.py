@@ -27,12 +27,12 @@ Values = Mapping[str, Column]
 
 
 class NoSystem(ModelError):
-    """The function that a sweep was given makes no system: no row of it can run."""
+    """The function that was given to a sweep makes no system, so no row can run."""
 
 
 @dataclass(frozen=True)
 class Job:
-    """One system, or a function that makes one of some of the values."""
+    """One system, or a function that makes a system from some of the values."""
 
     system: System | Callable[..., System]
     context: _core.Context | None
@@ -53,7 +53,7 @@ class Job:
         return any(callback.runs == "called" for callback in self.system.explain())
 
     def for_factory(self, names: list[str]) -> list[str]:
-        """The names that are arguments of the factory."""
+        """The varied names that are arguments of the factory."""
         if isinstance(self.system, System):
             return []
         try:
@@ -66,7 +66,9 @@ class Job:
         return [name for name in names if name in known]
 
     def ensemble(self, system: System, values: Values) -> _core.Ensemble:
-        """The runs of one system with these values. ModelError if they do not fit it."""
+        """The runs of one system with these values. ModelError if the values do not fit the
+        system.
+        """
         signals = {name: port_of(system, port) for name, port in self.signals.items()}
         options = core_options(replace(self.options, recorded_signals=signals))
         context = self.context or system.create_context(self.span[0])
@@ -82,7 +84,7 @@ class Job:
         return ensemble
 
     def check(self, values: Values) -> None:
-        """Raises ModelError for names and values that cannot be meant, before anything is run."""
+        """Raises ModelError for impossible names and values, before anything is run."""
         if isinstance(self.system, System):
             self.ensemble(self.system, values)
             return
@@ -93,7 +95,7 @@ class Job:
         self._first(values, own)
 
     def _require_arguments(self, own: list[str]) -> None:
-        """ModelError where the factory needs an argument that the values do not have."""
+        """Raises ModelError if the factory needs an argument that the values do not have."""
         assert not isinstance(self.system, System)
         try:
             signature = inspect.signature(self.system)
@@ -125,7 +127,7 @@ class Job:
         return system
 
     def _first(self, values: Values, own: list[str]) -> None:
-        """The names that are no arguments belong to the system: the first one tells."""
+        """Checks the names that are no arguments of the factory by the first system."""
         assert not isinstance(self.system, System)
         system = self._make({name: _entry(values[name], 0) for name in own}, own)
         rest = {name: column[:1] for name, column in values.items() if name not in own}
@@ -190,7 +192,7 @@ class Job:
 
 
 class _Reduced:
-    """Calls `reduce` for each run that ended well, and notes where it raised."""
+    """Calls `reduce` for each run that ended well, and notes the runs for which it raised."""
 
     def __init__(self, reduce: Callable[[Results], Any] | None):
         self.reduce = reduce
@@ -221,13 +223,13 @@ def _said(error: BaseException) -> str:
 
 
 def _entry(column: Column, run: int) -> Any:
-    """One value, as a number of Python where it is one."""
+    """One value; a number of NumPy becomes a number of Python."""
     value = column[run]
     return value.item() if isinstance(value, np.generic) else value
 
 
 def _numbers(name: str, column: Column) -> np.ndarray:
-    """Values of all runs; a row of them for each run where they are vectors."""
+    """Values of all runs; vectors make a row for each run."""
     try:
         numbers = np.array(column, dtype=float)
     except (TypeError, ValueError):

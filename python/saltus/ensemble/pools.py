@@ -55,7 +55,9 @@ def _run_part(job: Job | bytes, values: dict[str, Column]) -> Columns:
 
 @contextmanager
 def process_pool(workers: int) -> Iterator[ProcessPoolExecutor]:
-    """New processes, which nothing of this one is copied into: threads here cannot lock them up."""
+    """New processes. Nothing of this process is copied into them, so locks of its threads cannot
+    stop them.
+    """
     pool = ProcessPoolExecutor(workers, multiprocessing.get_context("spawn"), _deaf)
     try:
         yield pool
@@ -64,7 +66,9 @@ def process_pool(workers: int) -> Iterator[ProcessPoolExecutor]:
 
 
 def _deaf() -> None:
-    """Ctrl-C is for the process that started the sweep: it says which runs are not begun."""
+    """Ignores Ctrl-C, which is for the process that started the sweep: that one decides which runs
+    do not begin.
+    """
     import signal
 
     signal.signal(signal.SIGINT, signal.SIG_IGN)
@@ -129,7 +133,7 @@ def _part(submitted: Iterator[Any], runs: int) -> Columns:
     """The next part. If it was lost, its runs have the cause as their reason."""
     try:
         columns: Columns = next(submitted)()
-    except (pickle.PicklingError, AttributeError, TypeError) as error:  # it could not go there
+    except (pickle.PicklingError, AttributeError, TypeError) as error:  # it cannot be sent there
         raise ModelError(f"sweep: cannot be run in another process ({error}); {REMEDY}") from None
     except NoSystem:
         raise

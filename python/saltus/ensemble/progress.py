@@ -7,11 +7,11 @@ import time
 
 __all__ = ["Progress"]
 
-NOTED = 0.25  # [s] from one line of progress to the next
+NOTED = 0.25  # [s] the time from one line of progress to the next
 
 
 class Progress:
-    """A bar of tqdm, or a line for a terminal without it; nothing unless it is wanted."""
+    """A bar of tqdm, or a line if tqdm is not installed; nothing unless the user asks for it."""
 
     def __init__(self, runs: int, wanted: bool):
         self.runs, self.bar, self.wanted = runs, None, wanted
@@ -28,7 +28,7 @@ class Progress:
         return self
 
     def watch(self, done: int) -> bool:
-        """Shows it; never ends the sweep."""
+        """Shows the progress. A failure to show it never ends the sweep."""
         if self.bar is not None:
             self.bar.update(done - self.bar.n)
         elif self.wanted and time.monotonic() >= self.next:

@@ -51,16 +51,16 @@ def sweep(
 ) -> Any:
     """Runs a system once for each point of a grid of values, or for each row of a table.
 
-    The runs know nothing of each other: each is, bit for bit, the run that `simulate` would make,
-    whatever the executor, the number of workers and the order. A run that fails keeps its reason,
-    and the others go on. Systems of C++ blocks run in threads over one compiled plan; those with
-    Python functions one after another here, or in processes if you ask for these.
+    The runs are independent: each is, bit for bit, the run that `simulate` would make, whatever the
+    executor, the number of workers and the order. A run that fails keeps its reason, and the others
+    go on. Systems of C++ blocks run in threads over one compiled plan; systems with Python
+    functions run one after another here, or in processes if you ask for them.
 
     Parameters
     ----------
     system : System or callable
         The system; or a function ``make(**values) -> System`` for values that are structure, such
-        as the attribute of a block. Of `values` it gets those it has arguments for.
+        as the attribute of a block. It gets the `values` for which it has arguments.
     values : mapping, list of dicts or pandas.DataFrame
         A dict of names and values makes the grid of all combinations; with ``paired=True`` its
         columns belong together, row by row, as those of a list of dicts or a DataFrame do. A
@@ -71,54 +71,56 @@ def sweep(
     t_span : (float, float)
         Begin and end [s].
     options : SimulatorOptions, optional
-        How each run is done; any option can also be given by name, such as ``rtol=1e-9``.
+        The options of each run; any option can also be given by name, such as ``rtol=1e-9``.
         Recorded signals are kept at the times of the option ``save_at`` [s], or else at the end.
-        ``throw`` says nothing here: failures are kept.
+        ``throw`` has no effect here: failures are kept.
     recorded_signals : mapping of str to OutputPort or str, optional
-        What to record, by name: a port, or its name, ``"y"`` or ``"ball.y"``, which works for
-        systems that are not made yet.
+        The signals to record, by name: a port, or its name, ``"y"`` or ``"ball.y"``, which works
+        for systems that are not made yet.
     context : Context, optional
-        The values that are not varied; those of the blocks if not said.
+        The values that are not varied; by default those of the blocks.
     executor : optional
         ``"threads"``, ``"processes"``, ``"serial"``, or an object with ``submit`` or ``map``:
         an executor of `concurrent.futures` or of mpi4py, a Dask ``Client``, a pool of joblib or
-        multiprocessing. Not said: threads where no Python function runs; else one run after
+        multiprocessing. By default threads if no Python function runs, otherwise one run after
         another here, or processes if `workers` is above 1. A script that starts processes needs
-        ``if __name__ == "__main__":`` around what it does.
+        ``if __name__ == "__main__":`` around its statements.
     workers : int, optional
-        Threads or processes, or workers of the executor; the number of cores if not said.
+        The number of threads, processes, or workers of the executor; by default the number of
+        cores.
     reduce : callable, optional
-        ``reduce(results)`` of a run that ended well gives a number, an array, or a dict of such,
-        which are kept in place of states and signals. An error in it is one of its run.
+        ``reduce(results)`` of a run that ended well gives a number, an array, or a dict of these,
+        which are kept in place of states and signals. An error in it is an error of its run.
     progress : bool
-        Shows how many runs are done: a bar where tqdm is installed, else a line.
+        Shows how many runs are done, by a bar if tqdm is installed, otherwise by a line.
     paired : bool
-        The columns of a dict belong together.
+        The columns of a dict belong together, row by row.
     as_dict : bool
-        A dict of numpy arrays, by the same names and in the same shapes, which needs no xarray.
+        Return a dict of numpy arrays with the same names and shapes, which needs no xarray.
     **option_overrides
         Single options.
 
     Returns
     -------
     xarray.Dataset
-        Over the names of a grid, or over ``run``: the recorded signals, ``continuous_state``,
-        ``discrete_state`` and ``modes`` at the end, or what `reduce` gave; ``status``, ``message``
-        and ``block`` of each run, ``end_time`` and ``wall_time`` [s], ``events`` and ``steps``.
-        A value is nan where a run has none: where it failed, or after its end. A signal at the time
-        of an event has the value after it. ``attrs`` has the failures by reason, the wall time and
-        the runs per second of the whole.
+        The dataset over the names of a grid, or over ``run``. It has the recorded signals,
+        ``continuous_state``, ``discrete_state`` and ``modes`` at the end, or the values of
+        `reduce`; ``status``, ``message`` and ``block`` of each run, ``end_time`` and ``wall_time``
+        [s], ``events`` and ``steps``.
+        A value is nan if a run has none, because it failed or because it had ended. A signal at the
+        time of an event has the value after the event. ``attrs`` has the failures by reason, the
+        wall time and the runs per second of the whole.
 
     Raises
     ------
     ModelError
-        Before anything is run: for unknown names, with the nearest one, for values that cannot be
-        meant, for a function that needs more than the values, and where a system cannot go to
-        another process. For a function that makes something else than a system.
+        Before anything is run, if a name is unknown (the message has the nearest), a value is
+        impossible, a function needs more than the values, or a system cannot go to another process.
+        Also if a function makes something else than a system.
     ImportError
-        Before anything is run: where xarray is not installed, unless `as_dict`.
+        Before anything is run, if xarray is not installed, unless `as_dict`.
     KeyboardInterrupt
-        After Ctrl-C, with what is done as its attribute ``results``; the status of the rest is
+        After Ctrl-C. Its attribute ``results`` has the finished runs; the status of the others is
         'interrupted' or 'not_run'.
 
     Examples
@@ -181,7 +183,7 @@ def _job(
     refuse("sweep", overrides, SimulatorOptions.__dataclass_fields__, OPTIONS)
     options = replace(options, **overrides)
     signals = named(signals if signals is not None else options.recorded_signals or {})
-    if reduce is None:  # nobody sees events and steps
+    if reduce is None:  # events and steps are not shown
         if options.save_steps:
             raise ModelError("sweep: save_steps: runs have no steps in common; say save_at=[...]")
         options = replace(options, save_steps=False, record_events=False)

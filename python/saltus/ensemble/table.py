@@ -62,7 +62,7 @@ def _name(name: object) -> str:
 
 
 def _column(values: object) -> Column | Any:
-    """An array of numbers, or a list of other values. A value that is no sequence holds for all
+    """An array of numbers, or a list of other values. A value that is no sequence is used for all
     runs.
     """
     if isinstance(values, str) or not isinstance(values, Iterable) or np.ndim(values) == 0:  # type: ignore[arg-type]

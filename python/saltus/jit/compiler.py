@@ -20,7 +20,7 @@ tape is simplified already, its vectors and loops are written as such, and the p
 2 to 20 ms
 """
 
-_numbers = itertools.count()  # a name of a library serves once
+_numbers = itertools.count()  # each library needs a name of its own
 
 
 @functools.cache
@@ -39,7 +39,7 @@ def _machine() -> Any:
 
 @functools.cache
 def _linker() -> Any:
-    _machine()  # which initializes LLVM
+    _machine()  # initializes LLVM
     return llvm.create_lljit_compiler()
 
 

@@ -1,4 +1,4 @@
-"""Object code in files, if the user says where."""
+"""Object code in files, if the user names a directory."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from pathlib import Path
 __all__ = ["cache_directory", "load", "store"]
 
 VARIABLE = "SALTUS_JIT_CACHE"
-"""the environment variable that names the directory at first"""
+"""the environment variable that names the directory until the user sets another"""
 
 _directory: Path | None = Path(os.environ[VARIABLE]) if os.environ.get(VARIABLE) else None
 
@@ -20,15 +20,15 @@ def cache_directory(path: str | os.PathLike[str] | None) -> None:
     """Keep machine code in this directory, so that the next process need not compile it.
 
     It is used for systems that run as machine code, see the option `machine_code`. Files belong to
-    one version of llvmlite and one kind of processor; others ignore them, and damaged ones are
-    written anew. Whoever can write there can run code in your process: name a directory of your
-    own.
+    one version of llvmlite and one kind of processor; other versions and processors ignore them,
+    and damaged files are written anew. Whoever can write to the directory can run code in your
+    process, so name a directory of your own.
 
     Parameters
     ----------
     path : path or None
-        The directory, which is made when it is needed; None: nothing is kept. Before the first
-        call the environment variable ``SALTUS_JIT_CACHE`` says it.
+        The directory, which is made when it is needed. With None nothing is kept. Before the first
+        call the environment variable ``SALTUS_JIT_CACHE`` names it.
 
     Examples
     --------
@@ -53,7 +53,7 @@ def load(key: str) -> bytes | None:
 
 
 def store(key: str, code: bytes) -> None:
-    """Writes object code; where that is impossible, nothing is kept."""
+    """Writes object code. If that is impossible, nothing is kept."""
     if _directory is None:
         return
     with contextlib.suppress(OSError):
@@ -62,14 +62,14 @@ def store(key: str, code: bytes) -> None:
         try:
             with os.fdopen(handle, "wb") as file:
                 file.write(_checksum(key, code) + code)
-            os.replace(name, _file(_directory, key))  # another process sees all of it or nothing
+            os.replace(name, _file(_directory, key))  # another process sees the whole file or none
         except BaseException:
             os.unlink(name)
             raise
 
 
 def _checksum(key: str, code: bytes) -> bytes:
-    """Of the key too: a file under another name is damaged."""
+    """The checksum covers the key too, so a file under another name counts as damaged."""
     return hashlib.sha256(key.encode() + code).digest()
 
 

@@ -13,11 +13,11 @@ from saltus.jit import disk
 __all__ = ["functions", "is_installed", "require_installed"]
 
 KEPT = 64
-"""libraries that are kept after their last user is gone, in case an equal system comes: about
-10 kB each
+"""the number of libraries that are kept for equal systems after their last user is gone; each takes
+about 10 kB
 """
 
-_lock = threading.RLock()  # one thread at a time; a signal handler may come in between
+_lock = threading.RLock()  # reentrant: a signal handler may interrupt the thread that has it
 _libraries: OrderedDict[str, Any] = OrderedDict()
 
 

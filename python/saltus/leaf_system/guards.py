@@ -42,41 +42,46 @@ class DeclaresGuards(_core.LeafSystem):
         initial_value: bool | None = None,
         use_values_from_trigger_time: bool | None = None,
     ) -> None:
-        """An event where g = guard(time, state, *inputs, **parameters), a smooth number in any
-        unit, reaches zero or crosses it. A truth is a guard, too, with the positive side where it
-        is true: `x[0] > 0` is located as smoothly as x[0], any other truth where it jumps. Without
-        a reset map, a mode change and `terminal` it is only logged, and changes nothing.
+        """Declares an event that happens where g = guard(time, state, *inputs, **parameters), a
+        smooth number in any unit, reaches zero or crosses it. A truth is a guard too, positive
+        where it is true: `x[0] > 0` is located as smoothly as x[0], any other truth where it jumps.
+        Without a reset map, a mode change and `terminal` the event is only logged, and changes
+        nothing.
 
         - `reset_map`, called like the guard, returns x+ from x-, the state before the event, or the
           numbers of the one state that the block has.
         - `direction` is 'crosses_zero' (or 'both'), 'positive_then_non_positive' ('falling'),
           'negative_then_non_negative' ('rising'), 'edge_detection' (any change, for values that
           jump) or 'none' (never).
-        - With `start_mode` it is seen in that mode only; `end_mode` is the mode after it.
-        - `terminal` ends the run after the reset map, `max_count` n when it happens the n-th time.
-        - `size` n is n guards in one: the guard returns n numbers, each fires for itself, and
-          `state.entry` tells the reset map which one did, 0 to n - 1.
+        - With `start_mode` the guard is seen in that mode only; `end_mode` is the mode after the
+          event.
+        - `terminal` ends the run after the reset map; with `max_count` n, when the event happens
+          the n-th time.
+        - `size` n is n guards in one: the guard returns n numbers, each fires on its own, and in
+          the reset map `state.entry` is the index of the guard that fired, 0 to n - 1.
         - `at_start` is for a guard at zero, or on its firing side, when a run starts or its mode is
-          entered. 'auto': at zero and headed for the firing side it fires at once if it has a reset
-          map or changes the mode, and waits if not; on the firing side it waits until it has been
-          on the other. 'ignore' waits, 'fire' fires at once, 'error' is a SimulationError.
-        - `on_zeno` says what becomes of the block where events accumulate. 'hold': the state rests
+          entered. With 'auto' a guard that is at zero and headed for the firing side fires at once
+          if it has a reset map or changes the mode, and otherwise waits; on the firing side it
+          waits until it has been on the other side. 'ignore' waits, 'fire' fires at once, 'error'
+          is a SimulationError.
+        - `on_zeno` decides how the block continues where events accumulate. 'hold': the state rests
           at the accumulation state until the guard moves to its armed side. 'stop': the run ends,
           status 'zeno_stop'. 'error': a SimulationError. An integer: the mode to go on in.
         - `holds` lists, for each of the `size` guards, the positions in the continuous state that
-          rest on a hold, such as [[0, 1]]; without it all do.
+          rest on a hold, such as [[0, 1]]; without it all of them rest.
         - `zeno_tolerance` [s] overrides that of the simulator options, 0 switches the monitor off.
-        - `formula` is as for `declare_output_port`, for the guard.
+        - `formula` has the meaning of the same argument of `declare_output_port`, for the guard.
 
         With any of the following it is *queued*, like an event of SBML (Level 3 Version 2, section
         4.11): its firing is a trigger, which schedules an execution of the reset map and of
         `end_mode`. It has an effect, is not `terminal`, and no Zeno monitor.
 
-        - `delay` [s], >= 0, from the trigger to the execution: a number, or a function that is
-          called like the guard, at the trigger.
-        - `priority`, a number or a function: of the executions that are due at one time the highest
-          comes first. It is evaluated anew before each. Equal ones come in a random order, by
-          `event_seed` of the options, and those without a priority after all others.
+        - `delay` [s], >= 0, is the time from the trigger to the execution: a number, or a function
+          that is called like the guard, at the trigger.
+        - `priority` is a number or a function. Of the executions that are due at one time that with
+          the highest priority comes first; priorities are evaluated anew before each execution.
+          Equal priorities come in a random order, by `event_seed` of the options, and executions
+          without a priority after all others.
         - `persistent=False`: if the guard goes back before the execution, the execution is
           cancelled.
         - `initial_value` says whether the guard counts as on its firing side before the start. With
@@ -87,14 +92,14 @@ class DeclaresGuards(_core.LeafSystem):
 
         The event log has the kinds 'scheduled', 'cancelled' and 'executed'. A trigger over several
         comparisons is a truth over them, such as `lambda t, s: (s.continuous_state[0] > 1) &
-        (s.continuous_state[1] < 2)`, with a direction. An error of a delay that is negative or not
-        finite, or of a priority that is not a number, is a SimulationError.
+        (s.continuous_state[1] < 2)`, with a direction. A delay that is negative or not finite, or a
+        priority that is not a number, is a SimulationError.
 
-        A ModelError for a name declared twice, an unknown direction, `at_start` or `on_zeno` (with
-        the nearest name), a `size` or `max_count` below 1, a `max_count` without `terminal`, a
-        negative `zeno_tolerance`, and `holds` of another length or beyond the state. Of a queued
-        one for `terminal`, a missing effect, options of Zeno holds, a constant delay that is
-        negative, and `persistent=False` or `initial_value` without one direction.
+        Raises ModelError for a name declared twice, an unknown direction, `at_start` or `on_zeno`
+        (with the nearest name), a `size` or `max_count` below 1, a `max_count` without `terminal`,
+        a negative `zeno_tolerance`, and `holds` of another length or beyond the state. For a queued
+        zero crossing also for `terminal`, a missing effect, options of Zeno holds, a constant delay
+        that is negative, and `persistent=False` or `initial_value` without one direction.
 
         Examples
         --------
@@ -145,15 +150,15 @@ class DeclaresGuards(_core.LeafSystem):
         reads: Iterable[str] = EVERYTHING,
         formula: bool = False,
     ) -> int:
-        """A truth with a smooth guard: true while g = guard(time, state, *inputs, **parameters) is
-        positive. Returns its position in `state.relations`.
+        """Declares a truth with a smooth guard: it is true while g = guard(time, state, *inputs,
+        **parameters) is positive. Returns its position in `state.relations`.
 
         The engine locates the zeros of the guard and holds the truth between them, so a derivative
         may jump with the truth. `true_at_zero` is the truth for g = 0 where no side is known yet.
         With `size` n the guard returns n numbers, and the truth is a read-only array of 0 and 1 in
-        place of a bool. `reads`, `formula` are as for `declare_output_port`. An output that reads
-        `state.relations` is declared after the relation. A callback that reads them is called, not
-        traced; the guard itself is traced.
+        place of a bool. `reads` and `formula` have the meaning that they have in
+        `declare_output_port`. An output that reads `state.relations` is declared after the
+        relation. A callback that reads them is called, not traced; the guard itself is traced.
 
         Raises ModelError for a name declared twice and for a `size` below 1.
 
@@ -196,7 +201,8 @@ class DeclaresGuards(_core.LeafSystem):
         zeno_tolerance: float | None = None,
         requires_inputs: RequiresInputs = True,
     ) -> None:
-        """A reset at an edge of an input, read as a boolean: every number except 0 is true.
+        """Declares a reset at an edge of an input, read as a boolean: every number except 0 is
+        true.
 
         `reset_map`, called like a guard, returns x+ from x-. `edge` is 'rising', 'falling' or
         'either'. The signal has to be held: a comparison, a logical block, a discrete state. The

@@ -16,13 +16,15 @@ __all__ = ["LeafSystem"]
 class LeafSystem(System, DeclaresValues, DeclaresPorts, DeclaresGuards, DeclaresTimes):
     """A block with equations of its own. Call `super().__init__(name=...)`, then declare.
 
-    A callback runs in one of three ways; `system.explain()` says which, and why not faster:
+    A callback runs in one of three ways; `system.explain()` names the way, and the reason if it is
+    not a faster one:
 
     - *traced*: before a run it is called once with symbols and becomes an expression that runs
       without the interpreter, with an exact Jacobian. If a value that it read has changed, such as
-      an attribute, it is traced again before the next run, and between two pieces of one;
+      an attribute, it is traced again before the next run, and between two pieces of a run;
     - *called*: a callback that cannot be traced, for example because it branches on a value, prints
-      or counts, is called for every value. The option `python="called"` has all of them called;
+      or counts, is called for every value. With the option `python="called"` all callbacks are
+      called;
     - *compiled*: a pointer to a compiled function in place of a Python one, see `saltus.compiled`.
 
     Every callback is called as `f(time, state, *inputs, **parameters)`:
@@ -32,24 +34,24 @@ class LeafSystem(System, DeclaresValues, DeclaresPorts, DeclaresGuards, Declares
       `mode`, `relations`, and `with_continuous_state(x)`, `with_discrete_state(z)`, `with_mode(m)`,
       which return a new state;
     - inputs come in the order of the ports, a float for one number, else a read-only array.
-      `requires_inputs` says which: True all, False none, a list of positions those. Say it
-      precisely: an input that is not read is neither computed nor part of a loop;
-    - parameters come by keyword, a float for a number, else a read-only array.
+      `requires_inputs` chooses them: True means all, False none, a list of positions those. Be
+      precise: an input that is not read is neither computed nor part of a loop;
+    - parameters come by keyword, a float for a number, otherwise a read-only array.
 
     A callback returns numbers as a list, a tuple or an array, one number as itself too; a Jacobian
-    also as a sparse matrix of SciPy. A reset map or an update returns a state, or numbers alone:
-    these are the one state that the block has. If it has a continuous and a discrete one, they are
-    the discrete one in an update, and a reset map has to say which. Another number of them than
-    expected is a `ModelError`.
+    also as a sparse matrix of SciPy. A reset map or an update returns a state, or numbers alone,
+    which are the one state that the block has. If the block has a continuous and a discrete state,
+    the numbers of an update are the discrete state, and a reset map has to return a state. A wrong
+    number of numbers is a `ModelError`.
 
-    Every array may be kept: it never changes. A callback must not change the world: it is called as
-    often as the engine likes, from the thread that runs the simulation. `simulate` raises the
+    Every array may be kept: it never changes. A callback must not have side effects: the engine
+    calls it any number of times, from the thread that runs the simulation. `simulate` raises the
     exception of a callback unchanged.
 
-    A callback that returns numbers may fill an array in their place, which is quicker: one with an
-    argument called `out`, the last or by keyword, gets an array of the shape of the state for an
-    ode, n by n for a Jacobian, else with an entry for each number. It sets every entry (they begin
-    as NaN) and returns nothing; an output then has to say its `shape`.
+    A callback that returns numbers may fill an array instead, which is quicker. If it has an
+    argument called `out`, the last or by keyword, it gets an array: of the shape of the state for
+    an ode, n by n for a Jacobian, otherwise with an entry for each number. It sets every entry
+    (they begin as NaN) and returns nothing; an output then has to say its `shape`.
 
     Examples
     --------
@@ -111,9 +113,9 @@ class LeafSystem(System, DeclaresValues, DeclaresPorts, DeclaresGuards, Declares
     (array([3.]), True)
     """
 
-    __slots__ = ("_callbacks", "_made")  # not in __dict__, which a traced function is watched by
+    __slots__ = ("_callbacks", "_made")  # not in __dict__, which is watched for traced functions
 
     @refusing
     def __init__(self, name: str | None = None):
         super().__init__(name or _core.next_name(type(self).__name__))
-        self._made = True  # before that a declaration would find no block to declare in
+        self._made = True  # earlier, a declaration would find no block

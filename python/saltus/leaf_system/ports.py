@@ -22,10 +22,10 @@ class DeclaresPorts(_core.LeafSystem):
     def declare_input_port(
         self, name: str | None = None, shape: int | tuple[int, ...] | None = None
     ) -> int:
-        """An input, called in_0, in_1, ... if not said; returns its position.
+        """Declares an input, by default called in_0, in_1, ...; returns its position.
 
-        With a `shape`, another one is refused. An input of one number comes as a float, with shape
-        1 as an array.
+        If `shape` is given, another shape is refused. An input of one number comes as a float, with
+        shape 1 as an array.
         """
         return super().declare_input_port(name or "", shape_of(shape))
 
@@ -41,22 +41,22 @@ class DeclaresPorts(_core.LeafSystem):
         reads: Iterable[str] = EVERYTHING,
         formula: bool = False,
     ) -> int:
-        """An output, y = callback(time, state, *inputs, **parameters), called out_0, out_1, ... if
-        not said; returns its position.
+        """Declares an output, y = callback(time, state, *inputs, **parameters), by default called
+        out_0, out_1, ...; returns its position.
 
-        `shape` (or the shape of `default_value`) is () for a number, n for a vector. Where it is
-        not said, and where `boolean` is not, callback is called once before the run, with inputs at
-        zero, to see. A boolean output that reaches a derivative or a reset is located by bisection
-        and held in between. `reads` says what it depends on, of 'time', 'continuous_state',
-        'discrete_state', 'mode', 'inputs': what reads neither time nor a continuous state is
-        computed at events only, not at every stage of the solver.
+        `shape` (or the shape of `default_value`) is () for a number, n for a vector. If it is not
+        given, or `boolean` is not, the callback is called once before the run, with inputs at zero,
+        to find it. A boolean output that reaches a derivative or a reset is located by bisection
+        and held in between. `reads` names the values it depends on, of 'time', 'continuous_state',
+        'discrete_state', 'mode', 'inputs': an output that reads neither time nor a continuous state
+        is computed at events only, not at every stage of the solver.
 
         With `formula` a run may compute the trace of the callback together with those of the blocks
-        around it, to the same bits. Where the others make a finite number of an inf or nan of the
-        callback, as of 1/0, nothing raises or warns then. In a `Simulator` the formula is that of
-        the whole run: if an attribute that it reads changes between two pieces, the next piece is a
-        `ModelError`. A callback that is not traced, that reads a discrete state or the mode, or
-        that returns more than 16 numbers remains a call.
+        around it, to the same bits. If the other blocks turn an inf or nan of the callback, such as
+        1/0, into a finite number, nothing raises or warns then. In a `Simulator` the formula is
+        that of the whole run: if an attribute that it reads changes between two pieces, the next
+        piece is a `ModelError`. A callback that is not traced, that reads a discrete state or the
+        mode, or that returns more than 16 numbers remains a call.
         """
         inputs = inputs_of(requires_inputs)
         return super().declare_output_port(
@@ -72,19 +72,20 @@ class DeclaresPorts(_core.LeafSystem):
 
     @refusing
     def declare_continuous_state_output(self, name: str | None = None) -> int:
-        """An output that shows the whole continuous state; it is never copied. Returns its
-        position.
+        """Declares an output that shows the whole continuous state, which is never copied. Returns
+        its position.
         """
         return super().declare_continuous_state_output(name or "")
 
     @refusing
     def declare_discrete_state_output(self, name: str | None = None) -> int:
-        """An output that shows the whole discrete state; it is never copied. Returns its
+        """Declares an output that shows the whole discrete state, which is never copied. Returns
+        its
         position.
         """
         return super().declare_discrete_state_output(name or "")
 
     @refusing
     def declare_mode_output(self, name: str | None = None) -> int:
-        """An output that shows the mode. Returns its position."""
+        """Declares an output that shows the mode. Returns its position."""
         return super().declare_mode_output(name or "")

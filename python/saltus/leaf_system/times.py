@@ -28,8 +28,8 @@ class DeclaresTimes(_core.LeafSystem):
         offset: float = 0.0,
         name: str | None = None,
     ) -> None:
-        """At offset + k period [s], k = 0, 1, ..., callback returns the new state, or the new
-        discrete state alone (the continuous one where the block has no other).
+        """Declares an update at offset + k period [s], k = 0, 1, ...: the callback returns the new
+        state, or the new discrete state alone (the continuous state if the block has no other).
         """
         super().declare_periodic_update(callback_of(callback), period, offset, name or "")
 
@@ -45,17 +45,18 @@ class DeclaresTimes(_core.LeafSystem):
         count: int | None = None,
         name: str | None = None,
     ) -> None:
-        """At each of `times` [s], or at offset + k period [s], k = 0, 1, ..., or once at `offset`,
-        callback returns the new state, or the new discrete state alone.
+        """Declares an update at each of `times` [s], or at offset + k period [s], k = 0, 1, ..., or
+        once at `offset`: the callback returns the new state, or the new discrete state alone.
 
-        None is later than `end` [s], and there are `count` at most, from the first one on. The
-        times increase. None for a callback is an exact stop where held outputs are read again.
+        No update is later than `end` [s], and there are at most `count`, from the first one on. The
+        times increase. Without a callback it is an exact stop at which held outputs are evaluated
+        again.
 
         Raises
         ------
         ModelError
-            For times that do not increase, for times beside a period or an offset, and for a period
-            or a count that is not positive.
+            If the times do not increase, if there are times beside a period or an offset, or if a
+            period or a count is not positive.
 
         Examples
         --------
@@ -88,7 +89,7 @@ class DeclaresTimes(_core.LeafSystem):
         time: float,
         name: str | None = None,
     ) -> None:
-        """The same once, at `time` [s]. None for a callback is an exact stop where held outputs are
-        read again.
+        """Declares an update once, at `time` [s]. Without a callback it is an exact stop at which
+        held outputs are evaluated again.
         """
         super().declare_one_shot(callback_of(callback), time, name or "")

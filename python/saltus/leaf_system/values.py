@@ -40,25 +40,25 @@ class DeclaresValues(_core.LeafSystem):
         formula: bool = False,
         names: Sequence[str] = (),
     ) -> None:
-        """The continuous state x, with dx/dt = ode(time, state, *inputs, **parameters), in units of
-        x per second.
+        """Declares the continuous state x, with dx/dt = ode(time, state, *inputs, **parameters), in
+        units of x per second.
 
         `shape` n is a vector of n zeros, () a single number; `default_value` (or an array in place
-        of the shape) says where it starts. Without `ode` it is constant between resets. `jacobian`
-        gives the n by n matrix d(ode)/dx, row by row, for a stiff method; without it, and for
-        entries that are not finite, differences are used. Once a block.
+        of the shape) is the value at the start. Without `ode` it is constant between resets.
+        `jacobian` gives the n by n matrix d(ode)/dx, row by row, for a stiff method; without it,
+        and for entries that are not finite, differences are used. A block declares it once.
 
-        `jacobian_sparsity` says where d(ode)/dx may differ from zero, in every mode: an n by n
-        array or a scipy.sparse matrix, not zero there, or a pair (rows, columns), each place once;
-        a stiff method then needs neither memory nor calls for the others. Name too many rather than
-        too few. `sparse_jacobian` gives the values there, in that order (for a matrix that of its
-        `nonzero()`).
+        `jacobian_sparsity` names the entries of d(ode)/dx that may differ from zero, in every mode:
+        an n by n array or a scipy.sparse matrix that is not zero there, or a pair (rows, columns)
+        with each entry once; a stiff method then needs neither memory nor calls for the others.
+        Name too many rather than too few. `sparse_jacobian` gives the values of these entries, in
+        their order (for a matrix the order of its `nonzero()`).
 
         `names` names the entries, ``names=["height", "velocity"]``: each is an output of the block,
         which costs nothing, and a value of the context: ``results["height"]``, the columns of
         tables, ``sweep(ball, {"height": [5.0, 10.0]}, ...)``, ``--set height=5``.
 
-        `formula` is as for `declare_output_port`.
+        `formula` has the meaning that it has in `declare_output_port`.
         """
         what = f"block '{self.name}': continuous state"
         initial = initial_of(what, shape, default_value)
@@ -82,21 +82,23 @@ class DeclaresValues(_core.LeafSystem):
         default_value: ArrayLike | None = None,
         shape: int | tuple[int, ...] | None = None,
     ) -> None:
-        """The discrete state z, numbers that only resets and updates change. Once a block."""
+        """Declares the discrete state z, numbers that only resets and updates change. A block
+        declares it once.
+        """
         super().declare_discrete_state(
             initial_of(f"block '{self.name}': discrete state", shape, default_value)
         )
 
     @refusing
     def declare_default_mode(self, mode: int) -> None:
-        """The mode the block starts in: an integer that selects among its zero crossings, see
-        `start_mode` there.
+        """Declares the mode in which the block starts: an integer that selects among its zero
+        crossings, see `start_mode` there.
         """
         super().declare_default_mode(mode)
 
     @refusing
     def declare_dynamic_parameter(self, name: str, default_value: ArrayLike) -> None:
-        """A number or an array that lives in the context, `context.with_parameter(name, value)`,
-        and that every callback gets by keyword.
+        """Declares a parameter: a number or an array that is a value of the context,
+        `context.with_parameter(name, value)`, and that every callback gets by keyword.
         """
         super().declare_dynamic_parameter(name, default_value)

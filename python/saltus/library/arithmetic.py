@@ -47,7 +47,7 @@ class Gain(Block, _core.Gain):
     gain
         A number, or a vector as wide as the input. It is the parameter `gain` of the context.
     name
-        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+        The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
     Examples
     --------
@@ -68,7 +68,7 @@ class Offset(Block, _core.Offset):
     offset
         A number, or a vector as wide as the input. It is the parameter `offset` of the context.
     name
-        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+        The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
     Examples
     --------
@@ -92,12 +92,12 @@ class Adder(Block, _core.Adder):
         The signs, one character an input: "+-" is u_0 - u_1. Without them all are plus, of two
         inputs if `n_in` is not said either.
     name
-        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+        The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
     Raises
     ------
     ModelError
-        For another character than + and -, or another number of them than `n_in`.
+        If there is another character than + and -, or not one for each of `n_in` inputs.
 
     Examples
     --------
@@ -128,12 +128,12 @@ class Product(Block, _core.Product):
         "*" or "/" for each input: "*/" is u_0 / u_1. Without them all are "*", of two inputs if
         `n_in` is not said either.
     name
-        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+        The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
     Raises
     ------
     ModelError
-        For another character than * and /, or another number of them than `n_in`.
+        If there is another character than * and /, or not one for each of `n_in` inputs.
 
     Examples
     --------
@@ -159,7 +159,7 @@ class Abs(Block, _core.Abs):
     Parameters
     ----------
     name
-        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+        The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
     Examples
     --------
@@ -181,7 +181,7 @@ class Saturate(Block, _core.Saturate):
         A number or a vector each; one of them may be left out. Those given are parameters of the
         context. Where u passes a limit is located as an event.
     name
-        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+        The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
     Raises
     ------

@@ -27,18 +27,18 @@ class DelayN(Block, _core.DelayN):
     Parameters
     ----------
     dt
-        [s] From one tick to the next; ticks are at 0, dt, 2 dt, ..., counted by integers.
+        [s] The time from one tick to the next; ticks are at 0, dt, 2 dt, ..., counted by integers.
     n
         The number of ticks by which y is behind u, 1 or more.
     initial_state
         A number or a vector: y before the first value, and the shape of the signal.
     name
-        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+        The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
     Raises
     ------
     ModelError
-        For a dt that is not above 0, or an n below 1.
+        If dt is not above 0, or n is below 1.
 
     Examples
     --------
@@ -59,14 +59,14 @@ class DiscreteClock(Block, _core.DiscreteClock):
     Parameters
     ----------
     dt
-        [s] From one tick to the next; ticks are at 0, dt, 2 dt, ..., counted by integers.
+        [s] The time from one tick to the next; ticks are at 0, dt, 2 dt, ..., counted by integers.
     name
-        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+        The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
     Raises
     ------
     ModelError
-        For a dt that is not above 0.
+        If dt is not above 0.
 
     Examples
     --------
@@ -88,18 +88,18 @@ class EdgeDetection(Block, _core.EdgeDetection):
     Parameters
     ----------
     dt
-        [s] From one tick to the next; ticks are at 0, dt, 2 dt, ..., counted by integers.
+        [s] The time from one tick to the next; ticks are at 0, dt, 2 dt, ..., counted by integers.
     edge
         'rising', 'falling' or 'either'.
     initial_state
         The truth of u before the first tick.
     name
-        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+        The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
     Raises
     ------
     ModelError
-        For a dt that is not above 0, or an unknown edge.
+        If dt is not above 0, or the edge is unknown.
 
     Examples
     --------
@@ -128,18 +128,18 @@ class RateLimiter(Block, _core.RateLimiter):
     Parameters
     ----------
     dt
-        [s] From one tick to the next.
+        [s] The time from one tick to the next.
     upper_limit, lower_limit
         [1/s] times the unit of u, lower_limit <= upper_limit. Parameters of the context.
     initial_state
         y before the first tick, a number or a vector: the shape of the signal.
     name
-        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+        The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
     Raises
     ------
     ModelError
-        For a dt that is not above 0, or limits that cross.
+        If dt is not above 0, or the limits cross.
 
     Examples
     --------
@@ -171,16 +171,16 @@ class RateTransition(Block, _core.RateTransition):
     Parameters
     ----------
     dt
-        [s] From one tick to the next; ticks are at 0, dt, 2 dt, ..., counted by integers.
+        [s] The time from one tick to the next; ticks are at 0, dt, 2 dt, ..., counted by integers.
     initial_state
         A number or a vector: y before the first tick, and the shape of the signal.
     name
-        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+        The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
     Raises
     ------
     ModelError
-        For a dt that is not above 0.
+        If dt is not above 0.
 
     Examples
     --------
@@ -213,12 +213,12 @@ class TransportDelay(Block, _core.TransportDelay):
         The number of pieces of the input that are kept, 4 or more; about one for each step within
         the delay. It fixes the size of the state: 3 + 9 numbers a piece, for a number.
     name
-        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+        The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
     Raises
     ------
     ModelError
-        For a delay that is not above 0, or a capacity below 4.
+        If the delay is not above 0, or the capacity is below 4.
     SimulationError
         If the input needs more pieces within the delay than the capacity, or if a run does not
         begin where the past of its context ends.
@@ -252,16 +252,16 @@ class UnitDelay(Block, _core.UnitDelay):
     Parameters
     ----------
     dt
-        [s] From one tick to the next; ticks are at 0, dt, 2 dt, ..., counted by integers.
+        [s] The time from one tick to the next; ticks are at 0, dt, 2 dt, ..., counted by integers.
     initial_state
         A number or a vector: y before the first value, and the shape of the signal.
     name
-        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+        The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
     Raises
     ------
     ModelError
-        For a dt that is not above 0.
+        If dt is not above 0.
 
     Examples
     --------
@@ -280,16 +280,16 @@ class ZeroOrderHold(Block, _core.ZeroOrderHold):
     Parameters
     ----------
     dt
-        [s] From one tick to the next; ticks are at 0, dt, 2 dt, ..., counted by integers.
+        [s] The time from one tick to the next; ticks are at 0, dt, 2 dt, ..., counted by integers.
     initial_state
         A number or a vector: y before the first value, and the shape of the signal.
     name
-        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+        The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
     Raises
     ------
     ModelError
-        For a dt that is not above 0.
+        If dt is not above 0.
 
     Examples
     --------

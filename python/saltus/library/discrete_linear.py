@@ -30,18 +30,18 @@ class DerivativeDiscrete(Block, _core.DerivativeDiscrete):
     Parameters
     ----------
     dt
-        [s] From one tick to the next; ticks are at 0, dt, 2 dt, ..., counted by integers.
+        [s] The time from one tick to the next; ticks are at 0, dt, 2 dt, ..., counted by integers.
     filter_coefficient
         [1/s] N > 0; if not said, the plain difference. Parameter of the context, if given.
     initial_state
         A number or a vector: y before the first tick, and the shape of the signal.
     name
-        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+        The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
     Raises
     ------
     ModelError
-        For a dt or a coefficient that is not above 0.
+        If dt or the coefficient is not above 0.
 
     Examples
     --------
@@ -69,18 +69,18 @@ class FilterDiscrete(Block, _core.FilterDiscrete):
     Parameters
     ----------
     dt
-        [s] From one tick to the next; ticks are at 0, dt, 2 dt, ..., counted by integers.
+        [s] The time from one tick to the next; ticks are at 0, dt, 2 dt, ..., counted by integers.
     b_coefficients
         b_0, ..., b_m. Parameter of the context.
     initial_state
         A number or a vector: u before the first tick, and the shape of the signal.
     name
-        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+        The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
     Raises
     ------
     ModelError
-        For a dt that is not above 0, or no coefficient.
+        If dt is not above 0, or there is no coefficient.
 
     Examples
     --------
@@ -112,7 +112,7 @@ class IntegratorDiscrete(Block, _core.IntegratorDiscrete):
     Parameters
     ----------
     dt
-        [s] From one tick to the next; ticks are at 0, dt, 2 dt, ..., counted by integers.
+        [s] The time from one tick to the next; ticks are at 0, dt, 2 dt, ..., counted by integers.
     initial_state
         A number or a vector: y[0], and the value after a reset; that is a parameter of the context.
     method
@@ -131,12 +131,12 @@ class IntegratorDiscrete(Block, _core.IntegratorDiscrete):
     enable_hold
         Gives the input `hold_trigger`. While it is true, y does not change.
     name
-        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+        The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
     Raises
     ------
     ModelError
-        For a dt that is not above 0, an unknown method, or options that do not go together.
+        If dt is not above 0, the method is unknown, or the options do not go together.
 
     Examples
     --------
@@ -183,19 +183,19 @@ class LTISystemDiscrete(Block, _core.LTISystemDiscrete):
     Parameters
     ----------
     dt
-        [s] From one tick to the next; ticks are at 0, dt, 2 dt, ..., counted by integers.
+        [s] The time from one tick to the next; ticks are at 0, dt, 2 dt, ..., counted by integers.
     A, B, C, D
         Matrices. D may be left out; without it, or with zeros, the input does not reach the output
         at once. Parameters of the context, row by row.
     initial_state
         x[0]; zeros if not said.
     name
-        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+        The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
     Raises
     ------
     ModelError
-        For a dt that is not above 0, or matrices whose sizes do not fit.
+        If dt is not above 0, or the sizes of the matrices do not fit.
 
     Examples
     --------
@@ -229,7 +229,7 @@ class PIDDiscrete(Block, _core.PIDDiscrete):
     Parameters
     ----------
     dt
-        [s] From one tick to the next; ticks are at 0, dt, 2 dt, ..., counted by integers.
+        [s] The time from one tick to the next; ticks are at 0, dt, 2 dt, ..., counted by integers.
     kp, ki, kd
         The gains: in y per u, in y per u and second, and in y seconds per u.
     n
@@ -240,12 +240,12 @@ class PIDDiscrete(Block, _core.PIDDiscrete):
         In the unit of y; either may be left out. All numbers but `dt` and `initial_state` are
         parameters of the context.
     name
-        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+        The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
     Raises
     ------
     ModelError
-        For a dt or an n that is not above 0, or limits that cross.
+        If dt or n is not above 0, or the limits cross.
 
     Examples
     --------
@@ -280,7 +280,7 @@ class TransferFunctionDiscrete(Block, _core.TransferFunctionDiscrete):
     Parameters
     ----------
     dt
-        [s] From one tick to the next; ticks are at 0, dt, 2 dt, ..., counted by integers.
+        [s] The time from one tick to the next; ticks are at 0, dt, 2 dt, ..., counted by integers.
     num
         b_0, ..., b_m: the highest power first. The parameter `numerator` of the context.
     den
@@ -288,12 +288,12 @@ class TransferFunctionDiscrete(Block, _core.TransferFunctionDiscrete):
     initial_state
         v[-1], ..., v[-n], where v solves a_0 v[k] + ... + a_n v[k-n] = u[k]; zeros if not said.
     name
-        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+        The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
     Raises
     ------
     ModelError
-        For a dt that is not above 0, m > n, or a polynomial of zeros.
+        If dt is not above 0, m > n, or a polynomial has only zeros.
 
     Examples
     --------

@@ -58,12 +58,12 @@ class ReduceBlock(LeafSystem):
         Whether a run may compute the function together with the blocks around it; see
         `LeafSystem.declare_output_port`.
     name
-        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+        The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
     Raises
     ------
     BlockParameterError
-        For fewer than one input.
+        If there is no input.
 
     Examples
     --------
@@ -110,7 +110,7 @@ class FunctionBlock(LeafSystem):
         Whether a run may compute the function together with the blocks around it; see
         `LeafSystem.declare_output_port`.
     name
-        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+        The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
     Examples
     --------
@@ -163,7 +163,7 @@ class SourceBlock(LeafSystem):
         Whether a run may compute the function together with the blocks around it; see
         `LeafSystem.declare_output_port`.
     name
-        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+        The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
     Examples
     --------

@@ -25,12 +25,12 @@ class Derivative(Block, _core.Derivative):
         x at the start, a number or a vector: the shape of the signal. With u at the start y begins
         at 0.
     name
-        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+        The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
     Raises
     ------
     ModelError
-        For a coefficient that is not above 0, or not finite.
+        If the coefficient is not above 0, or not finite.
 
     Examples
     --------
@@ -64,12 +64,12 @@ class LTISystem(Block, _core.LTISystem):
     initial_state
         x at the start, n numbers; zeros if not said.
     name
-        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+        The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
     Raises
     ------
     ModelError
-        For matrices whose sizes do not fit.
+        If the sizes of the matrices do not fit.
 
     Examples
     --------
@@ -112,18 +112,18 @@ class PID(Block, _core.PID):
     initial_state
         The integral i at the start, in the unit of y.
     lower_limit, upper_limit
-        In the unit of y; either may be left out.
+        The limits, in the unit of y; either may be left out.
     band
         > 0, in the unit of y; if not said, 1e-3 of the distance of the limits, or of the limit.
         All numbers but `initial_state` are parameters of the context, the last three if there is a
         limit.
     name
-        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+        The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
     Raises
     ------
     ModelError
-        For an n that is not above 0, or not finite, or limits that cross.
+        If n is not above 0 or not finite, or the limits cross.
 
     Examples
     --------
@@ -169,9 +169,10 @@ class TransferFunction(Block, _core.TransferFunction):
     initial_state
         v, v', ... at the start, n numbers; zeros if not said.
     initial_output
-        In its place: y in a steady state, whose input is y divided by the gain at s = 0.
+        The steady value of y at the start, in place of `initial_state`. It fixes the states of a
+        steady state, whose input is y divided by the gain at s = 0.
     name
-        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+        The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
     Raises
     ------

@@ -29,12 +29,12 @@ class Comparator(Block, _core.Comparator):
     operator
         "<", "<=", ">", ">=", "==" or "!=".
     name
-        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+        The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
     Raises
     ------
     ModelError
-        For another operator.
+        If the operator is unknown.
 
     Examples
     --------
@@ -57,12 +57,12 @@ class LogicalOperator(Block, _core.LogicalOperator):
     n_inputs
         How many inputs there are; "not" takes 1.
     name
-        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+        The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
     Raises
     ------
     ModelError
-        For another function, or a number of inputs that it does not take.
+        If the function is unknown, or does not take this number of inputs.
 
     Examples
     --------
@@ -86,7 +86,7 @@ class Switch(Block, _core.Switch):
         and true at or above it; where it passes is located as an event. It is the parameter
         `threshold` of the context.
     name
-        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+        The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
     Examples
     --------
@@ -110,14 +110,14 @@ class Counter(Block, _core.Counter):
     limit
         A whole number > 0, if any.
     initial_state
-        What y starts from.
+        The count at the start.
     name
-        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+        The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
     Raises
     ------
     ModelError
-        For another edge, or a limit that is not above 0.
+        If the edge is unknown, or the limit is not above 0.
 
     Examples
     --------
@@ -145,16 +145,17 @@ class HitCrossing(Block, _core.HitCrossing):
     Parameters
     ----------
     offset
-        In the unit of u. Parameter of the context.
+        The value to pass, in the unit of u. It is a parameter of the context.
     direction
-        Of u - offset: "crosses_zero", "positive_then_non_positive" or "negative_then_non_negative".
+        The direction of u - offset: "crosses_zero", "positive_then_non_positive" or
+        "negative_then_non_negative".
     name
-        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+        The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
     Raises
     ------
     ModelError
-        For another direction.
+        If the direction is unknown.
 
     Examples
     --------
@@ -182,7 +183,7 @@ class IfThenElse(Block, _core.IfThenElse):
     Parameters
     ----------
     name
-        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+        The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
     Examples
     --------
@@ -206,12 +207,12 @@ class MultiportSwitch(Block, _core.MultiportSwitch):
     n_inputs
         How many inputs in_0, in_1, ... there are beside `control`, 1 or more.
     name
-        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+        The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
     Raises
     ------
     ModelError
-        For no input.
+        If there is no input.
 
     Examples
     --------
@@ -234,18 +235,18 @@ class Relay(Block, _core.Relay):
     Parameters
     ----------
     on_threshold, off_threshold
-        In the unit of u, off_threshold <= on_threshold.
+        The thresholds, in the unit of u; off_threshold <= on_threshold.
     on_value, off_value
-        In the unit of y. All four are parameters of the context.
+        The values of y. All four are parameters of the context.
     initially_on
         The side of a start between the thresholds.
     name
-        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+        The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
     Raises
     ------
     ModelError
-        For an off_threshold above the on_threshold.
+        If off_threshold is above on_threshold.
 
     Examples
     --------
@@ -277,7 +278,7 @@ class Stop(Block, _core.Stop):
     Parameters
     ----------
     name
-        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+        The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
     Examples
     --------

@@ -18,12 +18,12 @@ class Exponent(Block, _core.Exponent):
     base
         "exp" or "2".
     name
-        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+        The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
     Raises
     ------
     ModelError
-        For another base.
+        If the base is unknown.
 
     Examples
     --------
@@ -44,12 +44,12 @@ class Logarithm(Block, _core.Logarithm):
     base
         "natural", "10" or "2".
     name
-        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+        The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
     Raises
     ------
     ModelError
-        For another base.
+        If the base is unknown.
 
     Examples
     --------
@@ -72,7 +72,7 @@ class Power(Block, _core.Power):
         negative u needs a whole exponent: otherwise y is not a number, and the run ends with an
         error.
     name
-        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+        The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
     Examples
     --------
@@ -91,7 +91,7 @@ class Reciprocal(Block, _core.Reciprocal):
     Parameters
     ----------
     name
-        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+        The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
     Examples
     --------
@@ -110,7 +110,7 @@ class SquareRoot(Block, _core.SquareRoot):
     Parameters
     ----------
     name
-        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+        The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
     Examples
     --------
@@ -133,12 +133,12 @@ class Trigonometric(Block, _core.Trigonometric):
         "sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh", "asinh", "acosh" or
         "atanh".
     name
-        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+        The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
     Raises
     ------
     ModelError
-        For another function.
+        If the function is unknown.
 
     Examples
     --------

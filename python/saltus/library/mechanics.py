@@ -19,16 +19,16 @@ class Backlash(Block, _core.Backlash):
     Parameters
     ----------
     width
-        In the unit of u, > 0: the whole play. Parameter of the context.
+        The whole play, > 0, in the unit of u. It is a parameter of the context.
     initial_output
         y at the start; if u is beyond the play around it, the run starts in contact, and y moves.
     name
-        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+        The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
     Raises
     ------
     ModelError
-        For a width that is not above 0.
+        If the width is not above 0.
 
     Examples
     --------
@@ -64,12 +64,12 @@ class MassWithFriction(Block, _core.MassWithFriction):
     initial_position, initial_velocity
         [m], [m/s] Where a run starts is the continuous state of its context.
     name
-        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+        The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
     Raises
     ------
     ModelError
-        For a mass that is not above 0, or a friction below 0, or static below coulomb.
+        If the mass is not above 0, a friction is below 0, or static is below coulomb.
 
     Examples
     --------

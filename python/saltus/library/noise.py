@@ -21,22 +21,22 @@ class RandomNumber(Block, _core.RandomNumber):
     Parameters
     ----------
     dt
-        [s] From one tick to the next; ticks are at 0, dt, 2 dt, ..., counted by integers.
+        [s] The time from one tick to the next; ticks are at 0, dt, 2 dt, ..., counted by integers.
     distribution
         'normal' or 'uniform'.
     seed
         Any number. Parameter of the context, so a sweep may draw over seeds.
     mean, standard_deviation
-        Of a normal distribution, a number or a vector each. Parameters of the context.
+        The values of a normal distribution, a number or a vector each. Parameters of the context.
     lower_limit, upper_limit
-        Of a uniform distribution, likewise; `upper_limit` itself is not drawn.
+        The bounds of a uniform distribution, likewise; `upper_limit` itself is not drawn.
     name
-        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+        The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
     Raises
     ------
     ModelError
-        For a dt that is not above 0, another distribution, or limits that cross.
+        If dt is not above 0, the distribution is unknown, or the limits cross.
 
     Examples
     --------
@@ -79,19 +79,19 @@ class WhiteNoise(Block, _core.WhiteNoise):
     Parameters
     ----------
     dt
-        [s] From one tick to the next; ticks are at 0, dt, 2 dt, ..., counted by integers.
+        [s] The time from one tick to the next; ticks are at 0, dt, 2 dt, ..., counted by integers.
     power
         [s times the square of the unit of y] The two-sided density over the frequency in Hz, a
         number or a vector. Parameter of the context.
     seed
         Any number. Parameter of the context, so a sweep may draw over seeds.
     name
-        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+        The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
     Raises
     ------
     ModelError
-        For a dt that is not above 0, or a power below 0.
+        If dt is not above 0, or the power is below 0.
 
     Examples
     --------

@@ -27,12 +27,12 @@ class DeadZone(Block, _core.DeadZone):
         Whether the edge is subtracted outside, so that y is continuous, as in Simulink. Otherwise y
         jumps there, as in Collimator.
     name
-        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+        The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
     Raises
     ------
     ModelError
-        For a half_range below 0.
+        If half_range is below 0.
 
     Examples
     --------
@@ -61,12 +61,12 @@ class MinMax(Block, _core.MinMax):
     n_inputs
         How many inputs there are, 1 or more.
     name
-        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+        The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
     Raises
     ------
     ModelError
-        For another operator, or no input.
+        If the operator is unknown, or there is no input.
 
     Examples
     --------
@@ -90,12 +90,12 @@ class Quantizer(Block, _core.Quantizer):
         > 0, a number, or a vector as wide as the input. It is the parameter `interval` of the
         context.
     name
-        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+        The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
     Raises
     ------
     ModelError
-        For an interval that is not above 0.
+        If the interval is not above 0.
 
     Examples
     --------
@@ -116,7 +116,7 @@ class Sign(Block, _core.Sign):
     Parameters
     ----------
     name
-        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+        The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
     Examples
     --------
@@ -147,12 +147,12 @@ class LookupTable1d(Block, _core.LookupTable1d):
         "clip", the value of the outer point; "linear"; or "error": y is not a number there, and the
         run ends with an error.
     name
-        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+        The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
     Raises
     ------
     ModelError
-        For arrays that do not fit, points that do not increase, or other words.
+        If the arrays do not fit, the points do not increase, or a word is unknown.
 
     Examples
     --------
@@ -191,12 +191,12 @@ class LookupTable2d(Block, _core.LookupTable2d):
         "clip", the value at the border; "linear"; or "error": y is not a number there, and the run
         ends with an error.
     name
-        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+        The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
     Raises
     ------
     ModelError
-        For a table that does not fit, points that do not increase, or another word.
+        If the table does not fit, the points do not increase, or the word is unknown.
 
     Examples
     --------

@@ -28,12 +28,12 @@ class Chirp(Block, _core.Chirp):
     phi
         [rad] The phase at t = 0. Parameter of the context.
     name
-        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+        The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
     Raises
     ------
     ModelError
-        For a stop_time that is not above 0.
+        If stop_time is not above 0.
 
     Examples
     --------
@@ -71,12 +71,12 @@ class DataSource(Block, _core.DataSource):
     extrapolation
         Before the first time, and from the last one on: 'hold', the outer value, or 'zero'.
     name
-        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+        The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
     Raises
     ------
     ModelError
-        For times that do not increase, or another number of values.
+        If the times do not increase, or there is not a value for each time.
 
     Examples
     --------
@@ -167,12 +167,12 @@ class Sawtooth(Block, _core.Sawtooth):
     phase_delay
         [s] Where the first tooth begins.
     name
-        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+        The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
     Raises
     ------
     ModelError
-        For a frequency that is not above 0.
+        If the frequency is not above 0.
 
     Examples
     --------

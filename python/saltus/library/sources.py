@@ -18,7 +18,7 @@ class Constant(Block, _core.Constant):
     value
         A number or a vector. It is the parameter `value` of the context.
     name
-        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+        The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
     Examples
     --------
@@ -41,7 +41,7 @@ class Step(Block, _core.Step):
     step_time
         [s] One exact event.
     name
-        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+        The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
     Examples
     --------
@@ -67,13 +67,13 @@ class Sine(Block, _core.Sine):
     Parameters
     ----------
     amplitude, bias
-        In the unit of y, a number or a vector.
+        Values in the unit of y, a number or a vector each.
     frequency
         [rad/s]
     phase
         [rad] All four are parameters of the context.
     name
-        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+        The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
     Examples
     --------
@@ -100,7 +100,7 @@ class Clock(Block, _core.Clock):
     Parameters
     ----------
     name
-        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+        The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
     Examples
     --------
@@ -123,7 +123,7 @@ class Ramp(Block, _core.Ramp):
     start_time
         [s] The kink there is an exact event.
     name
-        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+        The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
     Examples
     --------
@@ -157,12 +157,12 @@ class Pulse(Block, _core.Pulse):
     phase_delay
         [s] When the first period begins; before it y is 0.
     name
-        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+        The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
     Raises
     ------
     ModelError
-        For a period that is not above 0, or a width outside 0 to 1.
+        If the period is not above 0, or the width is outside 0 to 1.
 
     Examples
     --------

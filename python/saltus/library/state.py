@@ -36,12 +36,12 @@ class Integrator(Block, _core.Integrator):
     enable_hold
         Gives the input `hold_trigger`, a boolean. While it is true, x does not change.
     name
-        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+        The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
     Raises
     ------
     ModelError
-        For options that do not go together, such as `enable_external_reset` alone.
+        If the options do not go together, such as `enable_external_reset` alone.
 
     Examples
     --------
@@ -103,12 +103,12 @@ class SecondOrderIntegrator(Block, _core.SecondOrderIntegrator):
     restitution
         0 to 1. Parameter of the context, if there is a limit.
     name
-        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+        The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
     Raises
     ------
     ModelError
-        For limits that cross, a start outside of them, or another restitution.
+        If the limits cross, the start is outside of them, or the restitution is impossible.
 
     Examples
     --------

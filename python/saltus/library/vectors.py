@@ -67,7 +67,7 @@ class Multiplexer(Block, _core.Multiplexer):
     n_inputs
         How many inputs there are, 1 or more; each may be a number or a vector.
     name
-        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+        The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
     Examples
     --------
@@ -88,7 +88,7 @@ class Demultiplexer(Block, _core.Demultiplexer):
     n_outputs
         How many parts there are, 1 or more; the width of u must be a multiple.
     name
-        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+        The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
     Raises
     ------
@@ -112,7 +112,7 @@ class CrossProduct(Block, _core.CrossProduct):
     Parameters
     ----------
     name
-        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+        The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
     Raises
     ------
@@ -136,7 +136,7 @@ class DotProduct(Block, _core.DotProduct):
     Parameters
     ----------
     name
-        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+        The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
     Raises
     ------
@@ -160,7 +160,7 @@ class ProductOfElements(Block, _core.ProductOfElements):
     Parameters
     ----------
     name
-        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+        The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
     Examples
     --------
@@ -181,12 +181,12 @@ class ScalarBroadcast(Block, _core.ScalarBroadcast):
     n
         How many entries y has, 1 or more.
     name
-        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+        The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
     Raises
     ------
     ModelError
-        For less than one.
+        If `n` is less than one.
 
     Examples
     --------
@@ -208,12 +208,12 @@ class Slice(Block, _core.Slice):
         As within the brackets of an array: a whole number, which makes y a number, a list of them,
         a `slice`, or one as text such as "1:3" or "[0, 2]". Negative ones count from the end.
     name
-        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+        The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
     Raises
     ------
     ModelError
-        For entries of another kind, and when the diagram is used, if u has no such entry.
+        If the entries are of another kind; and when the diagram is used, if u has no such entry.
 
     Examples
     --------
@@ -240,7 +240,7 @@ class SumOfElements(Block, _core.SumOfElements):
     Parameters
     ----------
     name
-        How messages, contexts and `diagram[...]` know it; if not said, its class and number.
+        The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
     Examples
     --------

@@ -107,7 +107,7 @@ class WorkPrecision(Sequence[dict[str, Any]]):
         Raises
         ------
         ModelError
-            For anything else; it names the field.
+            If it is anything else; the message names the field.
         """
         is_text = isinstance(source, str) and source.lstrip().startswith("{")
         try:

@@ -241,7 +241,7 @@ class Results:
         Returns
         -------
         xarray.Dataset
-            With the status among its attributes.
+            The dataset, with the status among its attributes.
 
         Examples
         --------
@@ -277,7 +277,7 @@ class Results:
         Raises
         ------
         ModelError
-            For an unknown name, and where nothing was recorded.
+            If a name is unknown, or nothing was recorded.
 
         Examples
         --------
@@ -302,7 +302,7 @@ class Results:
         Raises
         ------
         ModelError
-            For a suffix of another format, such as '.csv'; the message says how to write that.
+            If the suffix is of another format, such as '.csv'; the message says how to write that.
 
         Examples
         --------

@@ -100,7 +100,7 @@ def load_results(path: str | PathLike[str]) -> Results:
     Raises
     ------
     ModelError
-        For a file that is damaged, or is none of `Results.save`.
+        If the file is damaged, or was not written by `Results.save`.
     OSError
         Where there is no such file, or it cannot be read.
 

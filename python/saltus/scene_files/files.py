@@ -87,14 +87,14 @@ def dumps(scene: FileScene, kind: str = "toml") -> str:
     Parameters
     ----------
     scene
-        From `saltus.load_scene` or `loads`.
+        The scene, from `saltus.load_scene` or `loads`.
     kind
         'toml' or 'json'.
 
     Raises
     ------
     ModelError
-        For another kind.
+        If the kind is unknown.
 
     Examples
     --------

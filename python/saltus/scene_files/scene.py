@@ -109,7 +109,7 @@ class FileScene:
         Raises
         ------
         ModelError
-            For an unknown name, or a value that the file does not allow.
+            If a name is unknown, or the file does not allow a value.
 
         Examples
         --------
@@ -126,7 +126,7 @@ class FileScene:
         Parameters
         ----------
         options
-            Of `SimulatorOptions`, by name, such as `rtol=1e-9`; they replace those of the file.
+            Options by name, such as `rtol=1e-9`; they replace those of the file.
 
         Raises
         ------
@@ -184,7 +184,7 @@ class FileScene:
         Raises
         ------
         ModelError
-            For another end of the name.
+            If the name has another end.
         """
         path = Path(path)
         kind = path.suffix.lower().removeprefix(".")

@@ -52,7 +52,7 @@ def simulate(
     Raises
     ------
     ModelError
-        For bad input, before the run.
+        If the input is bad; it is raised before the run.
     SimulationError
         If the run ends badly; its attribute `results` has the run until then. An exception of a
         callback is raised unchanged.

@@ -50,14 +50,14 @@ class Simulator:
     system : System
         The system to run. It never changes.
     options : SimulatorOptions, optional
-        How.
+        The options of the run.
     **overrides
         Options by name, which replace those of `options`.
 
     Raises
     ------
     ModelError
-        For a system or an option that makes no sense.
+        If the system or an option makes no sense.
 
     Examples
     --------
@@ -143,7 +143,7 @@ class Simulator:
         Raises
         ------
         ModelError
-            For a time that is not a number, or that lies before the present time.
+            If the time is not a number, or lies before the present time.
         SimulationError
             If the run ends badly; its attribute `results` has the run until then. An exception of
             a callback is raised unchanged.

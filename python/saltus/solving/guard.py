@@ -58,7 +58,7 @@ class Guard:
     Raises
     ------
     ModelError
-        For an unknown direction and for something that cannot be called.
+        If the direction is unknown, or the guard or the reset cannot be called.
 
     Examples
     --------

@@ -142,7 +142,7 @@ def solve(
     Raises
     ------
     ModelError
-        For bad input: wrong shapes, unknown options (with the nearest name), times that decrease.
+        If a shape is wrong, an option is unknown (with the nearest name), or times decrease.
     SimulationError
         If the run ends badly; its attribute `results` has the run until then.
     KeyboardInterrupt

@@ -37,7 +37,7 @@ def system_of(
     Raises
     ------
     ModelError
-        For bad input, as `solve` does; also for a complex `x0`, since a block has real states.
+        If the input is bad, as for `solve`, or `x0` is complex, because a block has real states.
 
     Examples
     --------

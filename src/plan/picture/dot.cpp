@@ -62,7 +62,7 @@ std::string escaped(std::string_view raw) {
   return out;
 }
 
-/// The same, if a line break is not possible.
+/// The same text where a line break is not possible.
 std::string in_one_line(std::string_view raw) {
   std::string flat(raw);
   std::ranges::replace(flat, '\n', ' ');

@@ -15,9 +15,9 @@ struct Reading {
 using Readings = std::vector<std::vector<Reading>>;
 Readings readings_of(const Plan& plan);
 
-/// The rate of a leaf in the plan, or that it is never computed.
+/// The rate of a leaf in the plan, or the answer that it is never computed.
 Picture::Flow flow_of(const Plan& plan, const PlanLeaf& leaf);
-/// The same for the value on a wire.
+/// The rate of the value on a wire, likewise.
 Picture::Flow flow_of(const Node& node);
 
 /// Lines below the name of a leaf: its states, modes, zero crossings and time events. Without a

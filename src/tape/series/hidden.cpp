@@ -20,7 +20,7 @@ bool decays(Op op) {
          op == Op::tanh;
 }
 
-/// The degree of a power. That of an exponent which varies has no bound.
+/// The degree of a power. If the exponent varies, the degree has no bound.
 double degree_of_power(const Graph& graph, const Expression& e, const std::array<double, 3>& of) {
   if (const auto exponent = graph.value(e.operands[1])) return of[0] * std::abs(*exponent);
   return of[0] + of[1] > 0.0 ? hidden_degree : 0.0;

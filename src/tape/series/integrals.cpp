@@ -49,7 +49,7 @@ struct Rotation {
   }
 };
 
-/// b r' = factor a'; if `ready`, a is the row of k times the coefficients.
+/// b r' = factor a'. If `ready`, row a already holds k times the coefficients.
 template <bool ready>
 struct Logarithm {
   template <class N>

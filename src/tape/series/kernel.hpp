@@ -33,7 +33,7 @@ auto slope_of(const Rate& rate, const Values& values, const Rows& rows, int k) {
   return values[rate.term.factor] * inverse_of(k + 1) * rows[rate.term.row];
 }
 
-/// What `begin` of a recurrence works on: the values, and the numbers that it keeps.
+/// The data of `begin` of a recurrence: the values, and the numbers that it keeps.
 template <class N>
 struct Start {
   const Instruction& i;
@@ -52,7 +52,7 @@ struct Start {
   void keep(Index n, const N& a) const { put(own + width<N> * (8 + n), a); }
 };
 
-/// What the orders of a recurrence work on.
+/// The data of one order of a recurrence.
 template <class N>
 struct Work {
   const Instruction& i;
@@ -60,7 +60,7 @@ struct Work {
   Index k;
 
   Row<N> row(Index at) const { return {rows + at}; }
-  /// The coefficient of order k of an operand a of which no other is read.
+  /// The coefficient of order k of an operand a, if the recurrence reads only this one.
   [[gnu::always_inline]] N newest() const {
     if constexpr (width<N> == 1) {
       return rows[i.a + k];
@@ -82,7 +82,7 @@ struct Work {
   }
 };
 
-/// The same for a recurrence that is written down.
+/// The same data for a recurrence that is written as machine code.
 template <>
 struct Start<Written> {
   const Instruction& i;

@@ -63,7 +63,7 @@ struct Choice {
   }
 };
 
-/// Of a condition that is constant in time.
+/// Writes a choice whose condition is constant in time.
 void write_choice(SeriesWriter& writer, const Instruction& i, Index, Index k) {
   const WrittenNumbers rows{&writer, Memory::rows, k};
   const std::array<Written, 2> compared{writer.value(i.of_c), writer.value(i.of_d)};

@@ -8,7 +8,7 @@ namespace saltus::tape {
 
 namespace {
 
-/// The operations with a jump or a kink, besides those that compare.
+/// The operations with a jump or a kink that are no comparisons.
 constexpr Op kinked[] = {Op::abs,      Op::floor,   Op::ceil,  Op::trunc,        Op::rint,
                          Op::sign,     Op::mod,     Op::fmod,  Op::floor_divide, Op::minimum,
                          Op::copysign, Op::maximum, Op::select};

@@ -1,11 +1,11 @@
-// Sums, differences and multiples. Of wide ones term n of lane l is number 4 n + l.
+// Sums, differences and multiples. In a wide instruction term n of lane l is number 4 n + l.
 #include "kernel.hpp"
 
 namespace saltus::tape::series {
 
 namespace {
 
-/// Number l stands at the place of term l.
+/// Number l is the coefficient at the place of term l.
 [[gnu::always_inline]] inline Four gathered(const Term* term, const double* from) {
   return {Two{from[term[0].row], from[term[1].row]}, Two{from[term[2].row], from[term[3].row]}};
 }

@@ -9,8 +9,8 @@
 
 namespace saltus::tape::series {
 
-/// Appends to a program what its expressions need. Operations without a kernel of their own get
-/// helping expressions, which are added to the graph.
+/// Appends the instructions that expressions need to a program. An operation without a kernel of
+/// its own gets helping expressions, which are added to the graph.
 class Lowering : Helpers {
  public:
   /// The states have rows already. `roots` are the expressions that will be asked for.
@@ -18,7 +18,7 @@ class Lowering : Helpers {
 
   /// The row of an expression, with the instructions for it and for its operands.
   Index row(Node node);
-  /// The same, or a row of which it is a multiple.
+  /// The row of an expression, or a row of which the expression is a multiple.
   Term single(Node node);
 
  private:
@@ -55,11 +55,12 @@ class Lowering : Helpers {
 
   Program& program_;
   static constexpr Index unknown = -1, linear = -2;
-  std::vector<Index> rows_;  ///< of each node, or what is known of it: `linear` has a form, no row
-  std::unordered_map<int, Form> forms_;
-  std::vector<int> uses_;  ///< of each node, in the graph as it was
   std::vector<Index>
-      slopes_;  ///< of each row: the row of k times the coefficient of order k, or -1
+      rows_;  ///< the row of each node, or its state: `linear` means a form without a row
+  std::unordered_map<int, Form> forms_;
+  std::vector<int> uses_;  ///< of each node of the original graph
+  std::vector<Index>
+      slopes_;  ///< for each row: the row of k times its coefficient of order k, or -1
 };
 
 }  // namespace saltus::tape::series

@@ -37,7 +37,7 @@ class NeedSearch {
  private:
   int& writer(Index row) { return writers_[static_cast<std::size_t>(row / row_size)]; }
 
-  /// Through the rows that they read.
+  /// Follows the rows that instructions read.
   void find_instructions(Output& output) {
     std::vector<Index> open{output.row};
     while (!open.empty()) {
@@ -55,7 +55,7 @@ class NeedSearch {
     std::ranges::sort(output.instructions);
   }
 
-  /// Those that the rates do not need.
+  /// The values that the rates do not need.
   void find_values(Output& output) {
     while (!nodes_.empty()) {
       const Node node = nodes_.back();

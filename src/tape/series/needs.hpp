@@ -1,4 +1,4 @@
-// What each output of a program needs.
+// The values and the instructions that each output of a program needs.
 #pragma once
 
 #include "program.hpp"

@@ -1,4 +1,4 @@
-// What a recurrence calculates with: a number, or four of them at once, for four alike expressions.
+// The numbers of a recurrence: a single number, or four at once for four alike expressions.
 #pragma once
 
 #include <cstring>

@@ -17,7 +17,7 @@ struct Product : OfTwo {
   static void order(Work<N> w) {
     const Row<N> a = w.row(w.i.a), b = w.row(w.i.b);
     const N known = inner<slot>(a, b, w.sums(), w.k) + w.kept(1) * a[w.k];
-    w.set(w.i.to, known + w.kept(0) * b[w.k]);  // b is the later one of both
+    w.set(w.i.to, known + w.kept(0) * b[w.k]);  // b is the operand that is known later
   }
 };
 
@@ -37,7 +37,7 @@ struct Square {
   }
 };
 
-/// r b = a, or a multiple of it.
+/// r b = a, or a multiple of a.
 struct Quotient {
   template <class N>
   static void begin(Start<N> s) {

@@ -14,7 +14,7 @@ namespace saltus::tape::series {
 /// coefficient of order 0 is among the values, because expressions that differ by a constant share
 /// a row. A distance of 36 numbers keeps rows apart in the cache.
 inline constexpr Index row_size = 36;
-/// The row of a constant: zeros.
+/// The row of a constant, which has only zeros.
 inline constexpr Index zero_row = 0;
 /// The numbers that an instruction keeps during an expansion: two sums for each order of a block,
 /// then up to four that `begin` computes.
@@ -41,21 +41,21 @@ class SeriesWriter;
 /// for order k.
 using WriteHandler = void (*)(SeriesWriter& writer, const Instruction& i, Index own, Index k);
 
-/// As Handlers; without orders there is no machine code.
+/// The same functions as those of Handlers, for writing. Without orders there is no machine code.
 struct WriteHandlers {
   WriteHandler begin = nullptr, earlier = nullptr, orders[8] = {};
 };
 
-/// What a recurrence needs in rows of its lanes.
+/// The rows that a recurrence needs in each lane.
 struct Reads {
   bool a = false, b = false;    ///< all coefficients of an operand, not only the newest
   bool da = false, db = false;  ///< a row of k times the coefficients, which it writes itself
   bool second = false;          ///< a second result
-  bool linear = false;          ///< its terms, from single lanes
+  bool linear = false;          ///< its terms, each from a single lane
 };
 
 struct Kernel {
-  Handlers narrow, wide;  ///< wide ones may be missing
+  Handlers narrow, wide;  ///< the wide handlers may be missing
   Reads reads;
   WriteHandlers written = {};
 };
@@ -162,7 +162,7 @@ struct Compiled {
 /// Never changes once built, except for its machine code. Value i < states is that of state i,
 /// whose row is 1 + i.
 struct Program {
-  std::vector<double> constants;  ///< the values; those that are no constants are 0
+  std::vector<double> constants;  ///< the values; a value that is not constant is 0
   std::vector<char> is_constant;  ///< of each value
   std::vector<Load> loads;
   std::vector<Value> values;
@@ -170,7 +170,7 @@ struct Program {
   std::vector<Term> terms;  ///< of combinations, which point to them
   Orders calls;
   std::shared_ptr<const Wide> wide;  ///< runs in place of `calls`; null: narrow ones are quicker
-  /// The first ones are for the rates, the others for outputs.
+  /// The first instructions are for the rates, the others for outputs.
   int first_values = 0, first_instructions = 0;
   std::vector<Rate> rates;
   std::vector<Output> outputs;
@@ -182,7 +182,7 @@ struct Program {
   int first_narrow() const { return wide == nullptr ? first_instructions : 0; }
 };
 
-/// As `rates` and `outputs` of a Series.
+/// The program for the `rates` and `outputs` of a Series.
 std::shared_ptr<const Program> build(const Graph& graph, std::span<const Node> rates,
                                      std::span<const Node> outputs);
 

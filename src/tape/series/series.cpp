@@ -38,7 +38,7 @@ Series::Series(const Graph& graph, std::span<const Node> rates, std::span<const 
   values_ = program_->constants;
   const auto rows = size(program_->rows * row_size);
   const auto sums = program_->instructions.size() * sums_size;
-  const Wide* const wide = program_->wide.get();  // its memory follows the other
+  const Wide* const wide = program_->wide.get();  // its memory follows the program of the other
   rows_.assign(rows + (wide == nullptr ? 0 : size(wide->rows * wide_row_size)), 0.0);
   sums_.assign(sums + (wide == nullptr ? 0 : size(wide->sums)), 0.0);
   computed_.assign(program_->values.size(), 0);
@@ -96,7 +96,7 @@ void Series::expand(const At& at, int order, const char* held, double* x) {
   program.wide == nullptr ? expand_narrow(held, x + n) : expand_wide(held, x + n);
 }
 
-/// Whether machine code has expanded the states; it does not know held ones.
+/// Whether machine code has expanded the states. It cannot hold a state.
 bool Series::run_code(const char* held, double* x) {
   const Program& program = *program_;
   const Code* const code = program.compiled->code.load(std::memory_order_acquire);

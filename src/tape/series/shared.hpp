@@ -10,8 +10,8 @@
 
 namespace saltus::tape::series {
 
-/// Writes a call where a recurrence would stand, with a table of the places of its rows. So the
-/// text grows with the number of instructions, not with that of their products.
+/// Writes a call in place of a recurrence, with a table of the places of its rows. So the text
+/// grows with the number of instructions, not with the number of their products.
 class SharedRecurrences {
  public:
   SharedRecurrences(const Program& program, std::string name)
@@ -19,7 +19,7 @@ class SharedRecurrences {
 
   /// Whether the recurrence is long enough to be worth a function.
   static bool takes(const Instruction& i);
-  /// Writes the call of `handler`, which is the one of `earlier` or of an order.
+  /// Writes the call of `handler`, which is the handler `earlier` or the handler of an order.
   void call(SeriesWriter& writer, const Instruction& i, Index own, WriteHandler handler, Index k);
   /// The functions and the tables.
   const std::string& functions() const { return text_; }

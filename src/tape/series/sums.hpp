@@ -10,7 +10,7 @@
 
 namespace saltus::tape::series {
 
-/// The sum of u_j v_{l + 4 - j} for j = l + 1 ... 3, where v begins 4 places earlier.
+/// The sum of u_j v_{l + 4 - j} for j = l + 1 ... 3. The pointer v begins 4 places earlier.
 template <int l, class N>
 [[gnu::always_inline]] inline N first_products(Row<N> u, Row<N> v) {
   N sum = u[3] * v[l + 1];
@@ -18,7 +18,7 @@ template <int l, class N>
   if constexpr (l < 1) sum += u[1] * v[l + 3];
   return sum;
 }
-/// Those for the four orders of a block, of single expressions.
+/// These sums for the four orders of a block, of single expressions.
 template <class N>
 [[gnu::always_inline]] inline auto all_first_products(Row<N> u, Row<N> v) {
   return side_by_side(first_products<0>(u, v), first_products<1>(u, v), first_products<2>(u, v),

@@ -1,5 +1,5 @@
-// Wide instructions: one for four alike ones that do not need each other, each in a lane of its
-// own.
+// Wide instructions: each computes four alike instructions that do not need each other, each in a
+// lane of its own.
 //
 // A wide row holds the coefficients of four expressions: number 4 k + l is the coefficient of order
 // k in lane l.
@@ -15,15 +15,15 @@ inline constexpr Index wide_sums_size = lanes * sums_size;
 
 /// Rows are offsets in the memory of wide rows. The rows of terms are places of a single lane.
 struct WideInstruction : Instruction {
-  std::array<const Instruction*, lanes> narrow = {};  ///< they know which values are read
-  std::array<Index, lanes> a_of_lane = {};  ///< where a stands, if one number of it is read
+  std::array<const Instruction*, lanes> narrow = {};  ///< name the values that are read
+  std::array<Index, lanes> a_of_lane = {};  ///< the place of a in each lane, if it is one number
 };
 
 /// The program for the rates with wide instructions.
 struct Wide {
   std::vector<WideInstruction> instructions;
   std::vector<Index> own;   ///< where the numbers of each instruction are
-  std::vector<Term> terms;  ///< their rows are places of a single lane
+  std::vector<Term> terms;  ///< the row of each is a place of a single lane
   Orders calls;
   Index rows = 0, sums = 0, time = -1;
   Index states = 0;  ///< the first of the rows of the states, four in each
@@ -31,7 +31,7 @@ struct Wide {
   Index place_of_state(Index i) const { return states + wide_row_size * (i / lanes) + i % lanes; }
 };
 
-/// Null if narrow instructions are as quick, or if there is one without a wide form.
+/// Null if narrow instructions are as quick, or if one of them has no wide form.
 std::shared_ptr<const Wide> widen(const Program& program);
 
 }  // namespace saltus::tape::series

@@ -20,7 +20,7 @@ class Widening {
     place(zero_row) = new_row();
   }
 
-  /// Whether it was worth it.
+  /// Makes the wide instructions; returns whether they pay.
   bool run() {
     if (!sort()) return false;
     wide_.states = wide_row_size * wide_.rows;
@@ -79,8 +79,8 @@ class Widening {
     return static_cast<int>(std::ranges::find(kernels_, kernel) - kernels_.begin());
   }
 
-  /// Sorts instructions so that the operands b of four of them often are a wide row. Of several
-  /// that read the same b, the first ones come first, then the second ones.
+  /// Sorts instructions so that the operands b of four of them are often a wide row: first the
+  /// first reader of each b, then the second reader of each, and so on.
   void align(std::vector<int>& numbers) {
     const auto instruction = [&](int n) { return narrow()[static_cast<std::size_t>(n)]; };
     if (!instruction(numbers[0]).kernel->reads.b) return;
@@ -96,7 +96,7 @@ class Widening {
 
   void add_group(std::span<const int> numbers) {
     const auto of_lane =
-        [&](Index l) -> const Instruction& {  // the last one in all lanes left over
+        [&](Index l) -> const Instruction& {  // lanes left over repeat the last one
       const auto n = std::min(static_cast<std::size_t>(l), numbers.size() - 1);
       return narrow()[static_cast<std::size_t>(numbers[n])];
     };
@@ -203,7 +203,7 @@ class Widening {
   std::vector<std::pair<Index, Lanes>> late_;
 };
 
-/// Pointers to what no longer moves, and the calls.
+/// Sets the pointers, which need vectors that no longer move, and makes the calls.
 void connect(Wide& wide) {
   for (WideInstruction& i : wide.instructions) {
     i.term = wide.terms.data() + i.first_term;

@@ -10,7 +10,7 @@ namespace saltus::tape::series {
 
 namespace {
 
-/// An instruction, and where its numbers are.
+/// An instruction, and the place of its numbers.
 struct Step {
   const Instruction* instruction;
   Index own;
@@ -71,8 +71,9 @@ class Expanding {
   /// A longer function is compiled without some passes, which takes a third of the time; it is then
   /// 15 to 25 % slower.
   static constexpr std::size_t longest_optimised = 1200;  // lines
-  /// If all would be longer, alike instructions of four lanes share the code of their recurrences.
-  /// Those of one lane do not: they would take longer than the interpreter.
+  /// If the function would be longer, alike instructions of four lanes share the code of their
+  /// recurrences. Instructions of one lane do not share it: they would then take longer than the
+  /// interpreter.
   static constexpr std::size_t longest_unshared = 9000;
   /// Longer functions are not written: they would compile in 0.15 to 0.2 s.
   static constexpr std::size_t longest = 40000;
@@ -80,7 +81,7 @@ class Expanding {
   /// Decides also whether code is shared.
   bool can_be_written(const Steps& steps) {
     const auto orders = static_cast<std::size_t>(order_);
-    // recurrences of order k have k products: 2 to 3 lines for each order and each of them
+    // a recurrence of order k has k products: 2 to 3 lines for each product
     const std::size_t unshared = 3 * steps.size() * orders * orders;
     shares_ = writer_.width > 1 && unshared > longest_unshared;
     const std::size_t lines = shares_ ? 20 * steps.size() * orders : unshared;

@@ -97,7 +97,7 @@ std::string SeriesWriter::address(Memory memory, Index offset) {
   return known->second;
 }
 
-/// What was stored as one there, or as a lane of several.
+/// The number that was stored at this place, alone or as a lane of several.
 const SeriesWriter::Stored* SeriesWriter::whole(Memory memory, Index offset, int count) const {
   const auto first = stored_.find(key(memory, offset));
   if (first == stored_.end()) return nullptr;
@@ -126,7 +126,7 @@ void SeriesWriter::store(Memory memory, Index offset, const Written& a) {
   text_.store(value, a.lanes, address(memory, offset));
 }
 
-/// As few instructions as the places allow: they may be in order already.
+/// Gathers numbers by as few instructions as their places allow; they may be in order already.
 Written SeriesWriter::gathered(Memory memory, const std::array<Index, lanes>& offsets) {
   bool in_order = true, same = true;
   for (std::size_t l = 1; l < offsets.size(); ++l) {

@@ -15,7 +15,8 @@ namespace saltus::tape::series {
 
 class SeriesWriter;
 
-/// A number, or four of them side by side. One without a writer is 0, in as many lanes as it meets.
+/// A number, or four of them side by side. A number without a writer is 0, in as many lanes as its
+/// partner has.
 struct Written {
   SeriesWriter* writer = nullptr;
   std::string value = {};

@@ -1,20 +1,20 @@
-// The end of a thread, which passes through handlers of every exception.
+// The forced end of a thread has to pass through every `catch (...)`.
 #pragma once
 
 #include <cxxabi.h>
 
 namespace saltus::detail {
 
-/// Passes the forced unwinding of pthread_exit and of a cancelled thread on. Called first in a
-/// handler of every exception that does not end with `throw;`: the C library ends the program if
-/// the unwinding stops there.
+/// Lets the forced unwinding of pthread_exit, or of a cancelled thread, continue. Each `catch
+/// (...)` that does not end with `throw;` calls this function first, because the C library ends the
+/// program if the unwinding stops there.
 inline void pass_end_of_thread() {
 #ifdef __GLIBCXX__
   try {
     throw;
   } catch (const abi::__forced_unwind&) {
     throw;
-  } catch (...) {  // an exception: the handler that called takes it
+  } catch (...) {  // an ordinary exception: the calling handler deals with it
   }
 #endif
 }

@@ -1,11 +1,12 @@
 // The fields of a context as data: one list for writing and reading, for JSON and for Python.
 //
-// A `Tree` is a form of such data. Its `Value` is a record (names and values), a list or a number:
+// A `Tree` is a form of such data, such as JSON. Its `Value` is a record (names and values), a list
+// or a number:
 //   record(), list(), row(values...)  make an empty record, an empty list, a list of these values
 //   set(record, key, value), append(list, value)
 //   get<T>(record, key), entry<T>(row, index), items(record, key), has(record, key)
 //   is(value, text), shown(value)     whether it is this text; the value in a message
-// Each function of it throws its own exceptions for a missing key or a wrong type.
+// The functions of a Tree throw its own exceptions for a missing key or a wrong type.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +20,7 @@ namespace saltus::detail {
 
 inline constexpr const char* context_format = "saltus context 1";
 
-/// Writes each field that it is called with into a record.
+/// Writes fields into a record, one for each call.
 template <class Tree>
 struct FieldWriter {
   typename Tree::Value data = Tree::record();
@@ -50,7 +51,7 @@ struct FieldWriter {
   }
 };
 
-/// Reads each field that it is called with from a record.
+/// Reads fields from a record, one for each call.
 template <class Tree>
 struct FieldReader {
   const typename Tree::Value& data;
@@ -210,8 +211,8 @@ inline Eigen::VectorXd joined(const std::vector<BlockData>& blocks,
 }
 
 /// The values for a sound layout that data_of gave. Throws ModelError for data of another format
-/// and for a context of other blocks. The memory it takes is that of the data, whatever the sizes
-/// in the layout.
+/// and for a context of other blocks. It takes as much memory as the data, whatever sizes the
+/// layout names.
 template <class Tree>
 ContextValues values_from(const Layout& layout, const typename Tree::Value& data) {
   const auto& leaves = layout.leaves;

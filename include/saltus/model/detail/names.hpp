@@ -28,8 +28,8 @@ void name_it(std::string& name, const List& others, std::string_view prefix,
   }
 }
 
-/// Refuses a name with a dot where names make paths: "ball.x" would be two things. `what` is what
-/// has the name, such as "block".
+/// Refuses a name with a dot where names make paths: "ball.x" would be two things. `what` says what
+/// is named, such as "block".
 inline std::string without_dot(std::string name, std::string_view what) {
   if (std::ranges::find(name, '.') != name.end()) {
     throw ModelError(text(what, " '", name,

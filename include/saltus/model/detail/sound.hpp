@@ -11,8 +11,8 @@ namespace saltus::detail {
 /// systems lie outside its leaves. Nothing is allocated or read by its sizes before this check.
 void require_sound(const Layout& layout);
 
-/// Throws ModelError for a continuation that no run can have left: a side that is none, a truth
-/// that is neither 0 nor 1, a number that is not finite, times that increase, a negative count.
+/// Throws ModelError for a continuation that no run can have left: an impossible side, a truth that
+/// is neither 0 nor 1, a number that is not finite, times that increase, a negative count.
 void require_sound(const Continuation& continuation);
 
 /// Throws ModelError for pending executions that no run of a system of this layout can have left:
@@ -21,8 +21,8 @@ void require_sound(const PendingExecutions& pending, const Layout& layout);
 
 /// The first difference between two lists of leaves, in words; empty if there is none. Leaves are
 /// equal if they have the same path, the same numbers of states, and the same parameters. The path
-/// of a single leaf counts only with `paths`: alone a block has its own name for a path, in a
-/// diagram a longer one.
+/// of a single leaf counts only with `paths`, because the path of a block is its name alone, and is
+/// longer in a diagram.
 std::string difference(const Layout& expected, const Layout& found, bool paths = true);
 
 }  // namespace saltus::detail

@@ -10,9 +10,9 @@
 
 namespace saltus::detail {
 
-/// Refuses a loop of outputs, of which each reads the next.
+/// Refuses a loop of outputs. Each output in the list reads the next.
 [[noreturn]] inline void throw_algebraic_loop(const std::vector<std::string>& loop) {
-  // The list runs from a reader to what it reads; the signal flows the other way round.
+  // The list runs from a reader to its source; the signal flows the other way round.
   std::string message = "algebraic loop: each output depends on the next at the same time\n";
   for (const std::string& output : loop) message += text("  '", output, "' reads\n");
   message += text("  '", loop.front(),

@@ -9,8 +9,9 @@
 
 namespace saltus {
 
-/// The arguments of the functions of a plan on one memory. The state differs from call to call: the
-/// machine's, or one inside a step. Nobody gets an argument without naming a state, with `of`.
+/// The arguments of the functions of a plan on one memory. The continuous state differs from call
+/// to call: it is that of the machine, or a state inside a step. So a caller names the state first,
+/// with `of`.
 class Arguments {
  public:
   explicit Arguments(Memory& memory);
@@ -40,7 +41,7 @@ class Arguments {
     return OfState(*this);
   }
 
-  /// The views of each leaf, and one of the whole machine for fused functions: see fuse.hpp.
+  /// The views of each leaf, and a view of the whole machine for fused functions: see fuse.hpp.
   std::vector<At>& views() noexcept { return views_; }
 
  private:

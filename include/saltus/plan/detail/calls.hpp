@@ -1,4 +1,4 @@
-// Calls: the lists of a plan as they are carried out on one memory.
+// Calls: the lists of a plan as calls of functions on one memory.
 #pragma once
 
 #include <optional>
@@ -16,7 +16,7 @@ struct Call {
   const LeafSystem* system;
   std::size_t leaf;
   At* at;         // the arguments of the leaf
-  Index x, size;  // the first of its states, and their number
+  Index x, size;  // the first of the leaf's states, and their number
 };
 struct OutputCall : Call {
   Index to, width;  // in y
@@ -27,7 +27,7 @@ struct GuardCall : Call {
   bool opaque;
 };
 
-/// The calls of a machine. They point to the views that they were made with.
+/// The calls of a machine. They point to the views from which they were made.
 struct Calls {
   Calls() = default;
   /// `views`: the arguments of each leaf, then those of a function over the whole machine.

@@ -13,7 +13,7 @@
 
 namespace saltus::detail {
 
-/// The inputs that a computation reads: those it names, otherwise all.
+/// The inputs that a computation reads: the inputs that it names, or all if it names none.
 inline List<int> read_inputs(const std::optional<std::vector<int>>& named, const PlanLeaf& leaf) {
   if (!named) return leaf.inputs;
   List<int> nodes;
@@ -45,11 +45,12 @@ inline void add_nodes(Plan& plan, PlanLeaf& leaf) {
     plan.nodes.push_back({.leaf = number, .index = i, .relation = true, .boolean = true});
 }
 
-/// Declarations in place of those of the leaves, by number of the leaf. Null, or a list that ends
-/// before: those of the leaf itself.
+/// Declarations that replace those of the leaves, by number of the leaf. Where the entry is null or
+/// missing, the leaf keeps its own.
 using Replacements = std::vector<std::shared_ptr<const Declarations>>;
 
-/// The declarations of a leaf in the plan. Those of the leaf itself are in use, but not owned.
+/// The declarations of a leaf in the plan. If they are the leaf's own, the plan marks them as in
+/// use but does not own them.
 inline std::shared_ptr<const Declarations> declarations_of(const LeafSystem& leaf,
                                                            std::size_t number,
                                                            const Replacements& replacements) {

@@ -1,4 +1,4 @@
-// FlowDivisors: what the derivatives of a plan divide by, kept with the plan.
+// FlowDivisors: the divisors in the derivatives of a plan, kept with the plan.
 #pragma once
 
 #include <memory>
@@ -14,7 +14,7 @@ struct FlowDivisors {
   std::optional<tape::Tape> values = {};  ///< none: there are no such divisors, or no expressions
 };
 
-/// As the plan keeps them.
+/// The divisors that the plan keeps; the first call finds them.
 std::shared_ptr<const FlowDivisors> flow_divisors(const Plan& plan);
 
 }  // namespace saltus

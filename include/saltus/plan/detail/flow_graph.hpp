@@ -18,7 +18,7 @@ struct FlowGraph {
   tape::Graph graph = {};
   List<tape::Node> rates = {};                  ///< of each state; empty: see `obstacle`
   List<std::optional<tape::Node>> guards = {};  ///< by slot; none for a called guard
-  std::string obstacle = {};  ///< the first function of a derivative that is no expression
+  std::string obstacle = {};                    ///< the first function without an expression
 };
 
 /// The expressions of a plan whose functions are formulas or traced.

@@ -11,18 +11,18 @@
 
 namespace saltus {
 
-/// The series of the states, with those guards as outputs whose series show them: they have no
-/// kinks, and hide nothing.
+/// The series of the states. Its outputs are the guards whose series show their crossings: guards
+/// that have no kinks and hide nothing.
 struct FlowSeries {
   static constexpr int no_output = -1;
 
-  std::optional<tape::Series> series = {};  ///< each user takes a copy; none: see `obstacle`
+  std::optional<tape::Series> series = {};  ///< each user takes a copy; if none, see `obstacle`
   std::vector<int> output_of_slot = {};     ///< the number of the output of each guard, or none
-  bool hides = false;                       ///< a derivative may hide a part of itself, `may_hide`
+  bool hides = false;                       ///< a derivative may hide a part of itself: `may_hide`
   std::string obstacle = {};                ///< the first reason why there is no series
 };
 
-/// As the plan keeps it.
+/// The series that the plan keeps; the first call makes it.
 std::shared_ptr<const FlowSeries> flow_series(const Plan& plan);
 
 }  // namespace saltus

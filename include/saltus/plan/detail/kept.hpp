@@ -1,4 +1,5 @@
-// Kept: something that is made of a plan when it is first asked for, and kept with the plan.
+// Kept: a value that is computed from a plan when somebody first asks for it, and kept with the
+// plan.
 #pragma once
 
 #include <memory>
@@ -17,7 +18,7 @@ class Kept {
     if (made_ == nullptr) made_ = std::make_shared<const T>(make());
     return made_;
   }
-  /// The functions of the plan have changed.
+  /// Drops the value, because the functions of the plan have changed.
   void forget() {
     const std::scoped_lock lock(one_at_a_time_);
     made_ = nullptr;

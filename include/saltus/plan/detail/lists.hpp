@@ -9,8 +9,8 @@
 
 namespace saltus::detail {
 
-/// Built from pairs (number, follower) in any order: the followers of each number, in the order of
-/// their pairs.
+/// The followers of each number, from pairs (number, follower) in any order. A list has the order
+/// of its pairs.
 class Lists {
  public:
   Lists() = default;

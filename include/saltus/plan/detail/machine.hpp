@@ -23,8 +23,8 @@ class Carrier {
   virtual void carry(double t, double* x) = 0;
   /// The derivatives of these states with their surface, for the control of the step size.
   virtual void rates(double t, const double* x, double* xdot) = 0;
-  /// The guards in place of those of the carried blocks: below zero while a block presses on its
-  /// surface.
+  /// Replaces the guards of the carried blocks by guards that are below zero while a block presses
+  /// on its surface.
   virtual void lift(double t, const double* x, double* g) = 0;
 };
 
@@ -36,8 +36,8 @@ struct NotFinite {
 };
 
 /// Evaluates the lists of a plan on its memory: derivatives, guards, held outputs, recorded
-/// signals. Each evaluation names the state that it is of; what it computed is a view that lasts
-/// until the next one. Nothing in this class allocates after construction.
+/// signals. The caller of each evaluation names the state. The result is a view that lasts until
+/// the next evaluation. Nothing in this class allocates after construction.
 class Machine : public Memory {
  public:
   explicit Machine(std::shared_ptr<const Plan> plan);
@@ -86,13 +86,13 @@ class Machine : public Memory {
   /// Computes the held outputs, and the values that resets, updates and edges read, at (t, x) of
   /// the machine.
   void evaluate_instant(double t) { run(calls_.instants, t, x.data()); }
-  /// Computes again, at (t, x), the part of these values that also changes between instants.
+  /// Computes those of these values again, at (t, x), that also change between instants.
   void evaluate_moving(double t, const double* state) { run(calls_.moving, t, state); }
   /// Computes the values that the recorded rows show, at (t, x), and returns where they are.
   Values evaluate_taps(double t, const double* state) {
     return run(calls_.taps, t, carried(t, state)).values();
   }
-  /// Computes the values of which leaves keep a history, at (t, x), and returns where they are.
+  /// Computes the values whose history leaves keep, at (t, x), and returns where they are.
   Values evaluate_histories(double t, const double* state) {
     return run(calls_.histories, t, carried(t, state)).values();
   }
@@ -124,19 +124,19 @@ class Machine : public Memory {
     run(calls_.needs_of_derivatives, t, state);
   }
 
-  /// Says that functions of some leaves compute something else from now on. Who has made something
-  /// of their formulas, such as a series, compares `functions()` with its last value, and makes it
-  /// anew if it differs.
+  /// Announces that some leaves have other functions from now on. The owner of a value made from
+  /// formulas, such as a series, compares `functions()` with the number it saw last, and makes the
+  /// value anew if they differ.
   void functions_replaced() noexcept { ++functions_; }
   int functions() const noexcept { return functions_; }
 
   /// The entries of x that are held.
   RestingStates& resting() noexcept { return resting_; }
 
-  /// Who puts blocks on a moving surface where it is, while there are any; null: nobody.
+  /// Sets the carrier, which keeps blocks on their moving surfaces; null while no block is carried.
   void carry_by(Carrier* carrier) noexcept { carrier_ = carrier; }
   bool carries() const noexcept { return carrier_ != nullptr; }
-  /// Puts the blocks that are carried where their surfaces are at t.
+  /// Moves the carried blocks to the place of their surfaces at t.
   void put_carried(double t, double* state) {
     if (carrier_ != nullptr) carrier_->carry(t, state);
   }
@@ -157,7 +157,7 @@ class Machine : public Memory {
   void carried_derivative(double t, const double* state, double* xdot);
   void carried_guards(double t, const double* state, double* g);
 
-  /// Carries out calls at a state, and returns what further calls see.
+  /// Makes calls at a state, and returns the arguments at this state for further calls.
   Seen run(const std::vector<OutputCall>& calls, double t, const double* state) {
     const Seen seen = arguments_.of(state);
     for (const OutputCall& call : calls) {
@@ -180,8 +180,8 @@ class Machine : public Memory {
   /// If this is the only ode, and it needs no computed values, it is called without a walk.
   const Call* lone_ode_ = nullptr;
   const GuardCall* lone_guard_ = nullptr;
-  Inlined inlined_;                   // without a function: no step may call it directly
-  std::vector<int> active_, called_;  // groups that can fire, and those of them that are not fused
+  Inlined inlined_;                   // if it has no function, no step may call it directly
+  std::vector<int> active_, called_;  // groups that can fire; the part of them that is not fused
   RestingStates resting_;
   int functions_ = 0;           // how often they were replaced
   Carrier* carrier_ = nullptr;  // while a block rests on a surface that moves

@@ -9,7 +9,7 @@
 
 namespace saltus {
 
-/// Where values are after an evaluation: a view that lasts until the next one.
+/// The places of values after an evaluation. It is a view that lasts until the next evaluation.
 class Values {
  public:
   Values() = default;
@@ -41,7 +41,7 @@ class Memory {
 
   /// The places of the present values.
   Values values() const { return Values({x.data(), z.data(), p.data(), y.data()}); }
-  /// One of them.
+  /// The place of one present value.
   const double* value(const Place& place) const { return values()(place); }
   double* signal(int node) { return y.data() + plan_->node(node).place.offset; }
   bool truth(int node) const { return *value(plan_->node(node).place) != 0.0; }
@@ -60,7 +60,7 @@ class Memory {
   std::shared_ptr<const Plan> plan_;
 
  private:
-  std::shared_ptr<const Layout> known_;  // a layout that was found to be that of the plan
+  std::shared_ptr<const Layout> known_;  // a layout that is known to fit the plan
 };
 
 }  // namespace saltus

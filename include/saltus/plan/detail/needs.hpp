@@ -9,8 +9,8 @@ namespace saltus::detail {
 
 using Marks = List<char>;
 
-/// Marks nodes and everything they read, except beyond the nodes that `stop` names as not computed
-/// again.
+/// Marks nodes and everything they read. It does not go beyond a node for which `stop` is true,
+/// because that node is not computed again.
 template <class Stop>
 void spread(const Plan& plan, const std::vector<int>& from, Marks& marks, Stop stop) {
   std::vector<int> open;
@@ -41,7 +41,7 @@ struct Roots {
   std::vector<int> derivatives;  // odes
   std::vector<int> events;       // guards of zero crossings; signals watched for edges
   std::vector<int> resets;       // reset maps and updates
-  std::vector<int> histories;    // inputs that are recorded step by step
+  std::vector<int> histories;    // inputs whose history a leaf keeps
 };
 
 inline void add_derivative_roots(const PlanLeaf& leaf, std::vector<int>& roots) {
@@ -95,14 +95,14 @@ inline Roots find_roots(const Plan& plan) {
   return roots;
 }
 
-/// The values that a node reads itself.
+/// The kinds of values that a node reads itself.
 inline Reads reads_of(const Plan& plan, const Node& node) {
   return node.relation ? plan.relation_of(node).reads : plan.output_of(node).reads;
 }
 
 /// A relation, or an opaque boolean output, is located if and only if it reaches a derivative, a
 /// guard, an edge or a history: its jump there would break the smoothness that the solver, or the
-/// polynomial of a history, assumes. A value that samples it is held, and hides the jump.
+/// polynomial of a history, assumes. A value that samples the boolean is held, and hides the jump.
 inline void find_located(Plan& plan, const Roots& roots) {
   Marks reached(plan.nodes.size());
   const auto sampled = [&](const Node& node) { return samples(reads_of(plan, node)); };
@@ -130,7 +130,7 @@ inline List<Rate> spread_rates(const Plan& plan) {
   std::iota(risen.begin(), risen.end(), 0);
   for (const int i : risen) {
     rates.push_back(own_rate(plan, plan.node(i)));
-    if (samples(reads_of(plan, plan.node(i)))) continue;  // what it reads does not raise it
+    if (samples(reads_of(plan, plan.node(i)))) continue;  // sampled values do not raise it
     for (const int need : plan.node(i).needs) reads.emplace_back(need, i);
   }
   const Lists readers(plan.nodes.size(), reads);

@@ -8,7 +8,8 @@
 
 namespace saltus::detail {
 
-/// The nodes of a plan in order. A located relation is held, so it needs nothing and breaks loops.
+/// Puts the nodes of a plan in order. A located relation is held, so it needs nothing and breaks
+/// loops.
 inline std::vector<int> order_of(const Plan& plan) {
   const auto needs = [&](int i) {
     const Node& node = plan.node(i);

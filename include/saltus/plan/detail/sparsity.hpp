@@ -12,7 +12,7 @@ namespace saltus {
 
 /// Entries of an n by n matrix, column by column.
 struct Sparsity {
-  List<Index> start = {0};  // of each column in `rows`, and the end of the last column
+  List<Index> start = {0};  // the begin of each column in `rows`; then the end
   List<int> rows;           // increase in each column
 
   Index columns() const { return static_cast<Index>(start.size()) - 1; }
@@ -30,7 +30,7 @@ struct JacobianPattern {
   Sparsity places;       ///< a superset of the entries that differ from zero; the diagonal is in it
   std::vector<int> own;  ///< leaves whose own Jacobian gives their diagonal block
   List<char> differences;  ///< for each entry: 1 if only differences give its value
-  bool overflow = false;   ///< more than most_places(n): `places` is empty
+  bool overflow = false;   ///< there are more than most_places(n) entries; `places` is empty
 };
 
 /// A matrix with more entries is not worth building: 4 million, or 256 a state.

@@ -24,7 +24,7 @@ def _is_zero(value: Any) -> bool:
 def _sum_of_products(a: Objects, b: Objects) -> Any:
     """Sum a_i b_i. A zero of a constant matrix is left out: the Jacobian keeps its sparsity.
 
-    For finite values that changes at most the sign of a zero.
+    If the values are finite, this changes at most the sign of a zero.
     """
     total: Any = None
     for x, y in zip(a, b, strict=True):
