@@ -87,7 +87,7 @@ void PastWriter::append(const AcceptedStep& step, double oldest, const std::stri
   const bool all_open = before > 0 && open_end() == before;
   if (2 * before > capacity()) drop(oldest);  // so that half of the room is free, if it can be
   const Index kept = pieces();
-  const int level = before == 0 ? 0 : level_at(step, static_cast<int>(z_[3]));
+  const int level = before == 0 ? 0 : level_at(step, next_level());
   out_[3] = 0.0;
   fit(step, step.from, step.to, 0);
   if (full_) {
@@ -119,7 +119,7 @@ void PastWriter::fit(const AcceptedStep& step, double from, double to, int depth
     fit(step, middle, to, depth + 1);
     return;
   }
-  piece[0] = from, piece[1] = to, piece[2] = -1.0;
+  piece[0] = from, piece[1] = to, piece[2] = no_break;
   out_[0] = static_cast<double>(k + 1);
 }
 
@@ -165,7 +165,7 @@ bool PastWriter::has_kink(const AcceptedStep& step) const {
 }
 
 int PastWriter::level_at(const AcceptedStep& step, int echo) const {
-  if (!step.after_instant) return -1;
+  if (!step.after_instant) return no_break;
   const bool jumped = jumps(step);
   const bool kink = !jumped && echo > last_break_level && has_kink(step);
   return break_level(jumped, echo, kink);

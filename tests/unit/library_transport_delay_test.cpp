@@ -63,6 +63,46 @@ TEST_CASE("which steps begin with a break of a past", "[library][transport_delay
   CHECK(break_level(false, detail::last_break_level + 1, true) == detail::last_break_level);
 }
 
+TEST_CASE("whole numbers that are read from a past", "[library][transport_delay]") {
+  using detail::whole;
+  constexpr double inf = std::numeric_limits<double>::infinity();
+  struct Row {
+    double number;
+    Index least, most, expected;
+  };
+  for (const Row& row :
+       {Row{0.0, 0, 9, 0}, Row{3.0, 0, 9, 3}, Row{9.0, 0, 9, 9}, Row{2.9, 0, 9, 2},
+        Row{-1.0, -1, 4, -1}, Row{-0.5, -1, 4, 0}, Row{-7.0, 0, 9, 0}, Row{10.0, 0, 9, 9},
+        Row{1e308, 0, 9, 9}, Row{0x1p63, -1, 4, 4}, Row{-0x1p63, -1, 4, -1}, Row{inf, 0, 9, 9},
+        Row{-inf, 0, 9, 0}, Row{std::nan(""), -1, 4, -1}, Row{5.0, 0, 0, 0}}) {
+    CAPTURE(row.number, row.least, row.most);
+    CHECK(whole(row.number, row.least, row.most) == row.expected);
+  }
+}
+
+/// A user may write anything to the state of a delay. A run from there goes on or ends in an error.
+TEST_CASE("no number in a past leads out of it", "[library][transport_delay]") {
+  const Diagram diagram = loop();
+  const Context before = simulate(diagram, diagram.create_context(), {0.0, 2.5}, {}).context;
+  constexpr double inf = std::numeric_limits<double>::infinity();
+  const Index first_piece = 4;  // three numbers of a piece follow the four of the head
+  for (Index entry = 0; entry < first_piece + 3; ++entry) {
+    for (const double forged : {std::nan(""), inf, -inf, 1e308, -1e308, 0x1p63, -0x1p63, 0x1p31,
+                                -1.0, 0.5, 1.0, 7.0, 1e6}) {
+      Eigen::VectorXd z = before.discrete_state();  // the delay's alone: no other block has one
+      z[entry] = forged;
+      CAPTURE(entry, forged);
+      try {
+        const auto results =
+            simulate(diagram, before.with_discrete_state(z), {2.5, 2.6}, {.max_major_steps = 100});
+        CHECK(results.context.time() >= 2.5);
+      } catch (const ModelError&) {       // the state is refused
+      } catch (const SimulationError&) {  // the past has no input up to here
+      }
+    }
+  }
+}
+
 /// A line is its own polynomial: only rounding is left. Its kink at 1 s is one at 1.3 s.
 TEST_CASE("a delayed ramp is the ramp, later", "[library][transport_delay]") {
   const Diagram diagram = delayed<Ramp>(0.3, {-1.0}, Ramp::Options{.slope = 2.0});

@@ -61,6 +61,19 @@ def blocks() -> saltus.System:
     return saltus.scene("bouncing-ball-blocks").system
 
 
+def delayed_loop() -> saltus.System:
+    """x' = -x(t - 0.3): its context holds the past of a signal, with counts and times in it."""
+    builder = saltus.DiagramBuilder()
+    x = builder.add(saltus.library.Integrator(1.0, name="x"))
+    delay = builder.add(
+        saltus.library.TransportDelay(0.3, initial_output=1.0, capacity=8, name="delay")
+    )
+    minus = builder.add(saltus.library.Gain(-1.0, name="minus"))
+    for source, sink in ((x, delay), (delay, minus), (minus, x)):
+        builder.connect(source.output_ports[0], sink.input_ports[0])
+    return builder.build()
+
+
 class Seed:
     """A system, and what was saved of a run of it."""
 
@@ -95,8 +108,9 @@ def seeds(folder: Path) -> list[Seed]:
         lambda t, x: x[0], lambda t, x: [0.0, -0.5 * x[1]], "falling", name="floor"
     )
     solution = saltus.solve(lambda t, x: [x[1], -10.0], (0, 1.5), [1.0, 0.0], events=[floor])
-    runs += [scene.simulate(), solution]
-    systems = [ball, scene.system, solution.system]
+    loop = delayed_loop()
+    runs += [scene.simulate(), solution, saltus.simulate(loop, (0, 1.0))]
+    systems = [ball, scene.system, solution.system, loop]
     return [Seed(system, run, folder) for system, run in zip(systems, runs, strict=True)]
 
 

@@ -15,13 +15,21 @@ namespace saltus::detail {
 /// without an integrator makes nothing smoother: there a break of the last level makes another one
 /// as long as the signal has a kink.
 inline constexpr int last_break_level = 4;
+/// The level of a piece that begins without a break.
+inline constexpr int no_break = -1;
 
 /// The level of the break with which a step after an instant begins, or -1 if there is none. `echo`
 /// is the level that the delay itself made in that instant, or 0.
 constexpr int break_level(bool jumped, int echo, bool has_kink) {
   if (jumped) return 0;
   if (echo <= last_break_level) return echo;
-  return has_kink ? last_break_level : -1;
+  return has_kink ? last_break_level : no_break;
+}
+
+/// A number that was read from a state as a whole one from `least` to `most`; `least` for NaN.
+constexpr Index whole(double number, Index least, Index most) {
+  if (!(number > static_cast<double>(least))) return least;
+  return number < static_cast<double>(most) ? static_cast<Index>(number) : most;
 }
 
 /// A view of such a state, for a signal of n entries. Each piece is a polynomial of degree 8, given
@@ -57,10 +65,12 @@ class Past {
   Index open_begin() const { return count(1, std::max<Index>(open_end() - 1, 0)); }
   Index open_end() const { return count(2, pieces()); }
   /// A user may have written anything to a context: no number leads out of the state.
-  Index count(int entry, Index most) const {
-    return static_cast<Index>(std::clamp(z_[entry], 0.0, static_cast<double>(most)));
+  Index count(int entry, Index most) const { return whole(z_[entry], 0, most); }
+  int level(Index k) const {
+    return static_cast<int>(whole(piece(k)[2], no_break, last_break_level));
   }
-  int level(Index k) const { return static_cast<int>(piece(k)[2]); }
+  /// The level of the next break.
+  int next_level() const { return static_cast<int>(whole(z_[3], 0, last_break_level + 1)); }
   const double* piece(Index k) const { return z_ + head + k * stride(n_); }
   const double* values(Index k) const { return piece(k) + 3; }
 
