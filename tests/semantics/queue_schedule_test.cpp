@@ -51,6 +51,36 @@ TEST_CASE("3.11 an execution comes at the trigger plus its delay, exactly", "[se
   CHECK(results.events.times("late") == found);  // it has its effect when it is executed
 }
 
+TEST_CASE("3.11 an execution within the step that found its trigger's cause is an exact stop",
+          "[semantics]") {
+  // A guard writes a number that no derivative reads, so nothing restarts the solver but the
+  // trigger that follows. Constant derivatives have steps of seconds.
+  const auto method = GENERATE(from_range(methods));
+  INFO("method " << method);
+  const Leaf leaf("flagged", [](Leaf& l) {
+    l.declare_continuous_state({.initial = vec({0.0}),
+                                .ode = [](const At&) { return 1.0; },
+                                .reads = Reads::continuous_state});
+    l.declare_discrete_state(vec({0.0, 0.0}));
+    l.declare_zero_crossing(
+        {.name = "flag",
+         .guard = [](const At& at) { return at.time - 1.0; },
+         .reset_map = [](const At& at, Next& next) { next.set_discrete_state({1.0, at.z[1]}); },
+         .direction = rises});
+    l.declare_zero_crossing(
+        {.name = "late",
+         .guard = [](const At& at) { return at.z[0] - 0.5; },
+         .reset_map = [](const At& at, Next& next) { next.set_discrete_state({at.z[0], at.x[0]}); },
+         .direction = rises,
+         .delay = 0.1});
+  });
+  const auto results =
+      simulate(leaf, leaf.create_context(), {0.0, 9.0}, {.ode_solver_method = method});
+  REQUIRE(executed(results, "late").size() == 1);
+  CHECK_THAT(executed(results, "late")[0], WithinAbs(1.1, 1e-12));
+  CHECK_THAT(results.context.discrete_state()[1], WithinAbs(1.1, 1e-8));
+}
+
 TEST_CASE("3.11 scheduling changes no value: no j, no row", "[semantics]") {
   const Leaf leaf = delayed_ramp(0.5);
   const auto port = leaf.output(0);
