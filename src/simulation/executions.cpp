@@ -194,7 +194,7 @@ void Executions::execute(const Action& action) {
   else if (crossing.reset_map)
     transition_->run(call);
   if (crossing.end_mode) transition_->enter_mode(one.leaf, *crossing.end_mode);
-  chain_.execute(queue_.is_new(one) ? taken_.chain : 1);
+  chain_.execute(queue_.is_new(one) ? taken_.chain : 1, present_->pass);
   note(EventKind::executed, taken_, 0);
 }
 
