@@ -219,7 +219,8 @@ Status Run::settle(StopReason reason, double t_end, bool at_start) {
   major_.begin(time_);
   rows_.record(time_, instant_.jump(), machine_.x.data());  // the row that a failure leaves
   accepted_.rows = results_.time.size();
-  const bool at_root = reason == StopReason::root, idle = at_root && chattering_.idle(machine_.x);
+  bool at_event = reason == StopReason::root;
+  const bool idle = (at_event || instant_.executions().any()) && chattering_.idle(machine_.x);
   accepted_.in_instant = true;
   const int jump = instant_.jump();
   const Outcome outcome = instant_.run(time_, due_, t_end - time_, at_start);
@@ -228,7 +229,8 @@ Status Run::settle(StopReason reason, double t_end, bool at_start) {
   const bool cut = instant_.executions().stops_earlier() && integration_.inside_step();
   if (outcome.restart || cut)
     integration_.restart(time_, {.horizon = outcome.horizon, .flow = instant_.flow()});
-  return after(outcome, {time_, at_root, t_end - begin_.time()}, idle);
+  at_event = at_event || instant_.executions().set_off();
+  return after(outcome, {time_, at_event, t_end - begin_.time()}, idle);
 }
 
 /// Whether an instant ends the run.

@@ -21,11 +21,20 @@ void Run::require_ready(double t_end) const {
 Status Run::end_chattering() {
   const EventName name = instant_.journal().last_event();
   results_.block = name.block;
-  return end(Status::chattering,
-             text("t = ", time_, " s: guard '", name.event, "' of block '", name.block, "' fired ",
-                  chattering_.found().count, " times in ", time_ - chattering_.found().since,
-                  " s: time does not advance. Give it hysteresis, a zeno_tolerance above 0 s, or a "
-                  "mode of its own for the motion along the switching surface"));
+  const bool executed = instant_.executions().set_off();
+  const auto span = text(chattering_.found().count, executed ? " events in " : " times in ",
+                         time_ - chattering_.found().since, " s: time does not advance. ");
+  if (executed) {
+    return end(Status::chattering,
+               text("t = ", time_, " s: executions follow each other, the last of them of '",
+                    name.event, "' of block '", name.block, "', ", span,
+                    "Give it a longer delay, or a trigger that its executions do not set off"));
+  }
+  return end(
+      Status::chattering,
+      text("t = ", time_, " s: guard '", name.event, "' of block '", name.block, "' fired ", span,
+           "Give it hysteresis, a zeno_tolerance above 0 s, or a mode of its own for the "
+           "motion along the switching surface"));
 }
 
 Status Run::end_crawl() {
