@@ -42,8 +42,8 @@ def time_course(
         their ids stand for in formulas.
     options
         of `SimulatorOptions`, such as `event_seed` for the order of events of equal priority. The
-        tolerances are rtol=1e-9, atol=1e-13 if not said. Where a comparison is one of a curve, such as sin(time) < 0 or x * y > 1, a step is at most
-        duration / steps if not said.
+        tolerances are rtol=1e-9, atol=1e-13 if not said. Where a comparison is one of a curve, such
+        as sin(time) < 0 or x * y > 1, a step is at most duration / steps if not said.
 
     Returns
     -------
