@@ -56,14 +56,23 @@ std::optional<Endings::Ending> Endings::after_instant(const Outcome& outcome,
   if (outcome.terminal) return Ending{.status = Status::terminal, .message = {}};
   if (outcome.zeno_stop) return Ending{.status = Status::zeno_stop, .message = {}};
   if (!chattering_.chatters(outcome, seen, idle, machine_->x)) return {};
-  const EventName name = journal.last_event();
+  return chattering(seen, journal.last_event());
+}
+
+Endings::Ending Endings::chattering(const Chattering::Seen& seen, const EventName& name) const {
   const Chattering::Series& series = chattering_.found();
-  return Ending{
-      Status::chattering, name.block,
-      text("t = ", seen.t, " s: guard '", name.event, "' of block '", name.block, "' fired ",
-           series.count, " times in ", seen.t - series.since,
-           " s: time does not advance. Give it hysteresis, a zeno_tolerance above 0 s, or a "
-           "mode of its own for the motion along the switching surface")};
+  const std::string span = text(series.count, seen.executed ? " events in " : " times in ",
+                                seen.t - series.since, " s: time does not advance. ");
+  const std::string guard = text("'", name.event, "' of block '", name.block, "'");
+  if (seen.executed)
+    return {
+        Status::chattering, name.block,
+        text("t = ", seen.t, " s: executions follow each other, the last of them of ", guard, ", ",
+             span, "Give it a longer delay, or a trigger that its executions do not set off")};
+  return {Status::chattering, name.block,
+          text("t = ", seen.t, " s: guard ", guard, " fired ", span,
+               "Give it hysteresis, a zeno_tolerance above 0 s, or a mode of its own for the "
+               "motion along the switching surface")};
 }
 
 }  // namespace saltus

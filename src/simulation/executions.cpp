@@ -2,6 +2,7 @@
 #include "saltus/simulation/detail/executions.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "saltus/base/philox.hpp"
 
@@ -65,6 +66,7 @@ std::shared_ptr<const PendingExecutions> Executions::save() const {
 void Executions::open() {
   queue_.open();
   chain_ = {};
+  set_off_ = false;
   next_before_ = queue_.next();
 }
 
@@ -121,48 +123,48 @@ void Executions::cancel(int group, Index entry, int from) {
 bool Executions::collect() {
   find_due();
   if (due_.keys.empty() || cancel_returned()) return false;
+  due_.priorities.clear();
+  for (const Key& key : due_.keys) due_.priorities.push_back(priority_of(queue_.waiting().at(key)));
   const std::size_t first = choose_first(due_.priorities, [this] { return draw(); });
   taken_ = queue_.take(due_.keys[first]);
   present_->actions.push_back({taken_.pending.leaf, Cause::execution, taken_.group, -1, 0, false});
   return true;
 }
 
+void Executions::find_due() {
+  due_.keys.clear();
+  for (const auto& [key, one] : queue_.waiting()) {
+    if (key.first > present_->t + Calendar::slack(present_->t)) break;
+    due_.keys.push_back(key);
+  }
+}
+
 /// Adds the cancellation of those that are due though their guards are back on their armed sides:
 /// within the error bound of zero a guard may go back unseen. Whether there is one.
 bool Executions::cancel_returned() {
-  bool found = false;
+  bool found = false, evaluated = false;
   for (const Key& key : due_.keys) {
     const WaitingExecution& one = queue_.waiting().at(key);
-    if (!has_gone_back(one)) continue;
+    if (!may_have_gone_back(one)) continue;
+    if (!std::exchange(evaluated, true)) {
+      g_.resize(present_->g.size());
+      machine_->guards(present_->t, machine_->x.data(), g_.data());
+    }
     const GuardGroup& group = plan().guard(one.group);
-    present_->actions.push_back({group.leaf, Cause::trigger, one.group,
-                                 static_cast<int>(group.slot) + one.pending.entry,
-                                 firing_side(crossing_of(one.group).direction), false});
+    const int slot = static_cast<int>(group.slot) + one.pending.entry;
+    const int firing = firing_side(crossing_of(one.group).direction);
+    if (sign_of(g_[static_cast<std::size_t>(slot)]) != -firing) continue;
+    present_->actions.push_back({group.leaf, Cause::trigger, one.group, slot, firing, false});
     found = true;
   }
   return found;
 }
 
-bool Executions::has_gone_back(const WaitingExecution& one) {
+/// A guard that its mode does not see does not go back.
+bool Executions::may_have_gone_back(const WaitingExecution& one) const {
   const ZeroCrossing& crossing = crossing_of(one.group);
-  const GuardGroup& group = plan().guard(one.group);
   if (!crossing.is_cancelled_on_return()) return false;
-  if (crossing.start_mode && machine_->modes[group.leaf] != *crossing.start_mode) return false;
-  g_.resize(present_->g.size());
-  machine_->guards(present_->t, machine_->x.data(), g_.data());
-  const double g = g_[static_cast<std::size_t>(group.slot + one.pending.entry)];
-  return sign_of(g) == -firing_side(crossing.direction);
-}
-
-/// Lists the executions that are due, with their priorities at the present state.
-void Executions::find_due() {
-  due_.keys.clear(), due_.priorities.clear();
-  for (const auto& [key, one] : queue_.waiting()) {
-    if (key.first > present_->t + Calendar::slack(present_->t)) break;
-    due_.keys.push_back(key);
-  }
-  if (due_.keys.size() == 1) return due_.priorities.assign(1, no_priority);  // no priority is asked
-  for (const Key& key : due_.keys) due_.priorities.push_back(priority_of(queue_.waiting().at(key)));
+  return !crossing.start_mode || machine_->modes[one.pending.leaf] == *crossing.start_mode;
 }
 
 double Executions::priority_of(const WaitingExecution& one) const {
@@ -194,7 +196,8 @@ void Executions::execute(const Action& action) {
   else if (crossing.reset_map)
     transition_->run(call);
   if (crossing.end_mode) transition_->enter_mode(one.leaf, *crossing.end_mode);
-  chain_.execute(queue_.is_new(one) ? taken_.chain : 1);
+  set_off_ = set_off_ || taken_.chain > 1;
+  chain_.execute(queue_.is_new(one) ? taken_.chain : 1, present_->pass);
   note(EventKind::executed, taken_, 0);
 }
 

@@ -207,7 +207,8 @@ Status Run::settle(StopReason reason, double t_end, bool at_start) {
   major_.begin(time_);
   rows_.record(time_, instant_.jump(), machine_.x.data());  // the row that a failure leaves
   accepted_.rows = results_.time.size();
-  const bool at_root = reason == StopReason::root, idle = at_root && endings_.idle();
+  const bool at_root = reason == StopReason::root;
+  const bool idle = (at_root || instant_.executions().any()) && endings_.idle();
   accepted_.in_instant = true;
   const int jump = instant_.jump();
   const Outcome outcome = instant_.run(time_, due_, t_end - time_, at_start);
@@ -216,7 +217,8 @@ Status Run::settle(StopReason reason, double t_end, bool at_start) {
   const bool cut = instant_.executions().stops_earlier() && integration_.inside_step();
   if (outcome.restart || cut)
     integration_.restart(time_, {.horizon = outcome.horizon, .flow = instant_.flow()});
-  const Chattering::Seen seen{time_, at_root, t_end - begin_.time()};
+  const Chattering::Seen seen{time_, at_root, instant_.executions().set_off(),
+                              t_end - begin_.time()};
   if (auto ending = endings_.after_instant(outcome, seen, idle, instant_.journal()))
     return end(*ending);
   return Status::reached_end;

@@ -165,7 +165,14 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
     return cvode::is_flight_stiff(starter_.method.stiffness().rate(), starter_.until - t1_);
   }
 
+  /// Whether CVODE's own step, in which it found a root, ends beyond a stop that this root has set.
+  bool is_beyond(double t_stop) const {
+    double t = t1_;
+    return CVodeGetCurrentTime(cvode_.get(), &t) >= 0 && t > t_stop;
+  }
+
   void cvode_step(double t_stop) {
+    if (is_beyond(t_stop)) start_cvode();
     if (CVodeSetStopTime(cvode_.get(), t_stop) < 0) fail(t0_);
     double t = t0_;
     // CVODE takes the scale of its first step from the end, as first_step does.

@@ -165,9 +165,30 @@ TEST_CASE("3.12 one seed has one order, and the next tie of a run another draw",
 }
 
 TEST_CASE("3.12 a priority that is not a number is an error with block and time", "[semantics]") {
-  const Leaf leaf = together({{"a", [](const At&) { return not_a_number; }}, {"b", 1.0}});
+  const bool alone = GENERATE(true, false);
+  std::vector<Queued> events{{"a", [](const At&) { return not_a_number; }}};
+  if (!alone) events.push_back({"b", 1.0});
+  const Leaf leaf = together(events);
   const std::string found =
       message<SimulationError>([&] { simulate(leaf, leaf.create_context(), {0.0, 2.0}); });
   CHECK(contains(found, "the priority of 'leaf.a' is not a number"));
   CHECK(contains(found, "t = 1"));
+}
+
+TEST_CASE("3.14 an execution that is cancelled is asked for no priority", "[semantics]") {
+  // The guard goes back by an update that is due with the execution.
+  const Leaf leaf("leaf", [](Leaf& l) {
+    declare_ramp(l);
+    l.declare_discrete_state(vec({0.0}));
+    l.declare_one_shot(2.0, [](const At&, Next& next) { next.set_continuous_state({0.0}); });
+    l.declare_zero_crossing({.name = "back",
+                             .guard = [](const At& at) { return at.x[0] - 1.5; },
+                             .reset_map = count_up,
+                             .direction = rises,
+                             .delay = 0.5,
+                             .priority = [](const At&) { return not_a_number; },
+                             .persistent = false});
+  });
+  const auto results = simulate(leaf, leaf.create_context(), {0.0, 2.25});
+  CHECK(results.context.discrete_state()[0] == 0.0);
 }

@@ -1,5 +1,5 @@
 // Semantics 3.11 and 3.13: what a trigger schedules, and what executions set off.
-#include "support/leaves.hpp"
+#include "support/queued.hpp"
 
 using namespace saltus;
 using namespace support;
@@ -19,6 +19,23 @@ Leaf delayed_ramp(NumberOf delay) {
          .reset_map = [](const At&, Next& next) { next.set_continuous_state({0.0}); },
          .direction = rises,
          .delay = delay});
+  });
+}
+
+/// z[0] is the side of two queued zero crossings that set each other off, from the kick at 1 s on.
+Leaf pair(double delay) {
+  return Leaf("pair", [=](Leaf& l) {
+    declare_ramp(l);
+    l.declare_discrete_state(vec({-1.0}));
+    for (const double side : {1.0, -1.0}) {
+      l.declare_zero_crossing(
+          {.name = side > 0.0 ? "down" : "up",
+           .guard = [=](const At& at) { return side * at.z[0]; },
+           .reset_map = [=](const At&, Next& next) { next.set_discrete_state({-side}); },
+           .direction = rises,
+           .delay = delay});
+    }
+    l.declare_one_shot(1.0, [](const At&, Next& next) { next.set_discrete_state({1.0}); }, "kick");
   });
 }
 
@@ -51,6 +68,36 @@ TEST_CASE("3.11 an execution comes at the trigger plus its delay, exactly", "[se
   CHECK(results.events.times("late") == found);  // it has its effect when it is executed
 }
 
+TEST_CASE("3.11 an execution within the step that found its trigger's cause is an exact stop",
+          "[semantics]") {
+  // A guard writes a number that no derivative reads, so nothing restarts the solver but the
+  // trigger that follows. Constant derivatives have steps of seconds.
+  const auto method = GENERATE(from_range(methods));
+  INFO("method " << method);
+  const Leaf leaf("flagged", [](Leaf& l) {
+    l.declare_continuous_state({.initial = vec({0.0}),
+                                .ode = [](const At&) { return 1.0; },
+                                .reads = Reads::continuous_state});
+    l.declare_discrete_state(vec({0.0, 0.0}));
+    l.declare_zero_crossing(
+        {.name = "flag",
+         .guard = [](const At& at) { return at.time - 1.0; },
+         .reset_map = [](const At& at, Next& next) { next.set_discrete_state({1.0, at.z[1]}); },
+         .direction = rises});
+    l.declare_zero_crossing(
+        {.name = "late",
+         .guard = [](const At& at) { return at.z[0] - 0.5; },
+         .reset_map = [](const At& at, Next& next) { next.set_discrete_state({at.z[0], at.x[0]}); },
+         .direction = rises,
+         .delay = 0.1});
+  });
+  const auto results =
+      simulate(leaf, leaf.create_context(), {0.0, 9.0}, {.ode_solver_method = method});
+  REQUIRE(executed(results, "late").size() == 1);
+  CHECK_THAT(executed(results, "late")[0], WithinAbs(1.1, 1e-12));
+  CHECK_THAT(results.context.discrete_state()[1], WithinAbs(1.1, 1e-8));
+}
+
 TEST_CASE("3.11 scheduling changes no value: no j, no row", "[semantics]") {
   const Leaf leaf = delayed_ramp(0.5);
   const auto port = leaf.output(0);
@@ -68,17 +115,10 @@ TEST_CASE("3.11 a delay is a function of the values that the reset map would see
   INFO("method " << method);
   // Before `late`, in declaration order, a plain reset map of the leaf writes z = 0.25.
   const Leaf leaf("ramp", [](Leaf& l) {
-    declare_ramp(l);
-    l.declare_discrete_state(vec({0.0}));
-    const auto guard = [](const At& at) { return at.x[0] - 1.0; };
-    l.declare_zero_crossing(
-        {.name = "plain",
-         .guard = guard,
-         .reset_map = [](const At&, Next& next) { next.set_discrete_state({0.25}); },
-         .direction = rises});
+    declare_plain(l, [](const At&, Next& next) { next.set_discrete_state({0.25}); });
     l.declare_zero_crossing(
         {.name = "late",
-         .guard = guard,
+         .guard = beyond_one,
          .reset_map = [](const At&, Next& next) { next.set_continuous_state({0.0}); },
          .direction = rises,
          .delay = [](const At& at) { return at.x[0] + at.z[0]; }});
@@ -157,23 +197,46 @@ TEST_CASE("3.13 an execution sets off others at the same time, each in a pass of
 
 TEST_CASE("3.13 executions that set each other off without end are an error with their names",
           "[semantics]") {
-  const Leaf leaf("pair", [](Leaf& l) {
-    l.declare_discrete_state(vec({-1.0}));
-    for (const double side : {1.0, -1.0}) {
-      l.declare_zero_crossing(
-          {.name = side > 0.0 ? "down" : "up",
-           .guard = [=](const At& at) { return side * at.z[0]; },
-           .reset_map = [=](const At&, Next& next) { next.set_discrete_state({-side}); },
-           .direction = rises,
-           .delay = 0.0});
-    }
-    l.declare_one_shot(1.0, [](const At&, Next& next) { next.set_discrete_state({1.0}); }, "kick");
-  });
+  const Leaf leaf = pair(0.0);
   const std::string found =
       message<SimulationError>([&] { simulate(leaf, leaf.create_context(), {0.0, 2.0}); });
   INFO(found);
   CHECK(contains(found, "t = 1 s: this instant does not come to an end: more than 100 passes"));
   CHECK(contains(found, "'pair.up' -> 'pair.down' -> 'pair.up'"));
+}
+
+TEST_CASE("4.7 executions that set each other off after a delay too short for the time chatter",
+          "[semantics]") {
+  const auto method = GENERATE(from_range(methods));
+  const double delay = GENERATE(1e-15, 1e-12);  // the second: no state moves by its tolerance
+  INFO("method " << method << ", " << delay << " s");
+  const Leaf leaf = pair(delay);
+  const auto results =
+      simulate(leaf, leaf.create_context(), {0.0, 9.0},
+               {.ode_solver_method = method, .max_major_steps = 100'000, .throw_errors = false});
+  CHECK(results.status == Status::chattering);
+  INFO(results.message);
+  CHECK(contains(results.message, "executions follow each other"));
+  CHECK(contains(results.message, "Give it a longer delay"));
+}
+
+TEST_CASE("4.7 executions in quick succession that nothing sets off do not chatter",
+          "[semantics]") {
+  // Two thousand triggers at 1 s; each delay is one rounding longer.
+  constexpr int n = 2000;
+  const Leaf leaf("many", [](Leaf& l) {
+    declare_ramp(l);
+    l.declare_discrete_state(vec({0.0}));
+    l.declare_zero_crossing(
+        {.name = "each",
+         .guard = [](const At& at, VectorRef out) { out.setConstant(at.x[0] - 1.0); },
+         .reset_map = count_up,
+         .direction = rises,
+         .size = n,
+         .delay = [](const At& at) { return 1.0 + static_cast<double>(at.entry) * 1e-14; }});
+  });
+  const auto results = simulate(leaf, leaf.create_context(), {0.0, 3.0});
+  CHECK(results.context.discrete_state()[0] == n);
 }
 
 TEST_CASE("3.13 executions that are due at once are no chain, however many there are",

@@ -2,7 +2,7 @@
 // which values are computed.
 #include <numbers>
 
-#include "support/leaves.hpp"
+#include "support/queued.hpp"
 
 using namespace saltus;
 using namespace support;
@@ -136,16 +136,9 @@ TEST_CASE("3.14 an earlier execution of the same instant cancels, too", "[semant
 
 TEST_CASE("3.14 a plain reset map of the pass of the trigger cancels, too", "[semantics]") {
   const Leaf leaf("leaf", [](Leaf& l) {
-    declare_ramp(l);
-    l.declare_discrete_state(vec({0.0}));
-    const auto guard = [](const At& at) { return at.x[0] - 1.0; };
-    l.declare_zero_crossing(
-        {.name = "plain",
-         .guard = guard,
-         .reset_map = [](const At&, Next& next) { next.set_continuous_state({0.5}); },
-         .direction = rises});
+    declare_plain(l, [](const At&, Next& next) { next.set_continuous_state({0.5}); });
     l.declare_zero_crossing({.name = "queued",
-                             .guard = guard,
+                             .guard = beyond_one,
                              .reset_map = count_up,
                              .direction = rises,
                              .persistent = false});

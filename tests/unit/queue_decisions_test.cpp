@@ -68,10 +68,20 @@ TEST_CASE("of equal priorities the draw decides, each with its share", "[queue]"
 TEST_CASE("a chain grows by what its last execution set off, others stand beside it", "[queue]") {
   ExecutionChain chain;
   CHECK(chain.next() == 1);
-  chain.execute(1), chain.execute(1), chain.execute(1);  // three that were due anyway
+  for (int pass = 0; pass < 3; ++pass) chain.execute(1, pass);  // three that were due anyway
   CHECK(chain.beside() == 2);
   CHECK(chain.next() == 2);
-  chain.execute(2), chain.execute(3);
+  chain.execute(2, 3), chain.execute(3, 4);
   CHECK(chain.beside() == 2);  // the chain has three of the five
   CHECK(chain.next() == 4);
+}
+
+TEST_CASE("passes that an execution sets off count until the next execution", "[queue]") {
+  ExecutionChain chain;
+  chain.execute(1, 0);
+  chain.trigger(2), chain.trigger(2);  // pass 1 is one of reset maps, pass 2 one of triggers
+  CHECK(3 - chain.beside() == 2);      // three passes: the execution and the reset maps count
+  chain.execute(1, 3);
+  CHECK(4 - chain.beside() == 1);  // another one that was due anyway
+  CHECK(9 - chain.beside() == 6);  // five passes of reset maps after it
 }

@@ -27,7 +27,6 @@ def time_course(
     variables: Sequence[str],
     amount: Sequence[str] = (),
     concentration: Sequence[str] = (),
-    seed: int = 0,
     **options: Any,
 ) -> np.ndarray:
     """The values of `variables` at start + k duration / steps, k = 0, ..., `steps`.
@@ -42,9 +41,9 @@ def time_course(
         ids of the model. A species in `amount` or in `concentration` is shown so, others by what
         their ids stand for in formulas.
     options
-        of `SimulatorOptions`; the tolerances are rtol=1e-9, atol=1e-13 if not said. Where a
-        comparison is one of a curve, such as sin(time) < 0 or x * y > 1, a step is at most
-        duration / steps if not said.
+        of `SimulatorOptions`, such as `event_seed` for the order of events of equal priority. The
+        tolerances are rtol=1e-9, atol=1e-13 if not said. Where a comparison is one of a curve, such
+        as sin(time) < 0 or x * y > 1, a step is at most duration / steps if not said.
 
     Returns
     -------
@@ -62,7 +61,7 @@ def time_course(
     how = {**dict.fromkeys(amount, "amount"), **dict.fromkeys(concentration, "concentration")}
     shown = [(name, how.get(name, "value")) for name in variables]
     _require(steps >= 1 and duration > 0.0 and start >= 0.0, start, duration, steps)
-    system = model_block(model, shown, seed)
+    system = model_block(model, shown)
     times = start + duration * np.arange(steps + 1) / steps
     usual: dict[str, Any] = {"rtol": 1e-9, "atol": 1e-13}
     if system.curved:

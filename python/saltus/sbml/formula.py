@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import inspect
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
 
 from saltus import _core
-from saltus.tracing import Dependencies, Known, Refused, Traced
+from saltus.tracing import Dependencies, Known, Traced
 
-__all__ = ["Called", "Formula", "evaluated"]
+__all__ = ["Assignment", "Formula", "evaluated"]
 
 NO_INPUTS: list[Any] = []
 
@@ -32,29 +33,51 @@ class Formula(Known):
         self.tape = graph.tape(nodes)
         self.scalar = scalar
 
-    def __call__(self, time: float, state: Any, /, **parameters: float) -> Any:
+    def numbers(self, time: float, state: Any, parameters: Mapping[str, float]) -> Any:
         p = np.fromiter(parameters.values(), float, len(parameters))
         x, z = state.continuous_state, state.discrete_state
-        found = evaluated(self.tape, time, x, z, p)
+        return self.tape(time, x, z, 0, state.entry or 0, p, NO_INPUTS)
+
+    def __call__(self, time: float, state: Any, /, **parameters: float) -> Any:
+        found = self.numbers(time, state, parameters)
         return float(found[0]) if self.scalar else found
 
     def outcome(self) -> Traced:
         """As `tracing.trace` answers."""
-        return Traced(
-            tape=self.tape,
-            shape=() if self.scalar else (self.tape.size,),
-            boolean=False,
-            comparison=None,
-            relations=None,
-            wrote_x=False,
-            wrote_z=False,
-            wrote_mode=False,
-            dependencies=Dependencies(),
-        )
+        return _traced(self.tape, () if self.scalar else (self.tape.size,), False, False)
 
 
-class Called(Known):
-    """A callback that is called, and that writes nothing but the state it returns."""
+class Assignment(Known):
+    """Nodes of a graph for the entries of the states as a reset map. All others stay."""
 
-    def outcome(self) -> Refused:
-        return Refused("the events of a model in SBML wait in a queue, which Python keeps")
+    __signature__ = SIGNATURE
+
+    def __init__(self, graph: _core.Graph, x: list[int], z: list[int]):
+        """`x` and `z` are nodes for all entries; `x` is empty where no state is written."""
+        self.all = Formula(graph, [*x, *z])
+        self.tape = self.all.tape
+        self.first = len(x)
+
+    def __call__(self, time: float, state: Any, /, **parameters: float) -> Any:
+        found = self.all.numbers(time, state, parameters)
+        if self.first:
+            state = state.with_continuous_state(found[: self.first])
+        return state.with_discrete_state(found[self.first :])
+
+    def outcome(self) -> Traced:
+        """As `tracing.trace` answers."""
+        return _traced(self.tape, (), self.first > 0, True)
+
+
+def _traced(tape: Any, shape: tuple[int, ...], wrote_x: bool, wrote_z: bool) -> Traced:
+    return Traced(
+        tape=tape,
+        shape=shape,
+        boolean=False,
+        comparison=None,
+        relations=None,
+        wrote_x=wrote_x,
+        wrote_z=wrote_z,
+        wrote_mode=False,
+        dependencies=Dependencies(),
+    )

@@ -1,258 +1,266 @@
-"""What happens at an instant: triggers, the queue of executions, assignments.
+"""What happens at an instant, as formulas.
 
-The rules are those of SBML level 3 version 2, section 4.11: an event is triggered where its trigger
-becomes true; its delay is evaluated then; of the executions that are due the one of highest
-priority, evaluated anew each time, comes first, and its assignments may trigger or cancel others.
+The engine has the queue (docs/semantics.md, 3.11 to 3.16). Around it these are the reset maps of
+plain zero crossings, which happen before any execution:
+
+- `compare`, where a difference crosses zero: the new sides, and the truths of the triggers.
+- `assign`, after an execution has put its values beside the states: all of them at once, then the
+  sides of what has jumped, and the truths.
+- `later`, when nothing else is due: the sides of equalities after their zeros.
 """
 
 from __future__ import annotations
 
-import math
-import random
-from dataclasses import dataclass
-from typing import Any
+from collections.abc import Sequence
 
 import numpy as np
 
-from saltus.errors import SimulationError
-from saltus.sbml.crossing import SAME_TIME, crossing
-from saltus.sbml.events import DRAWS, DUE, NEVER, STARTED, WAITING, Event, Program
-from saltus.sbml.formula import evaluated
+from saltus.sbml.crossing import Crossing
+from saltus.sbml.events import Event
+from saltus.sbml.formula import Assignment, Formula
+from saltus.sbml.kinds import FIRST, LATER, LOOK, RUNNING, STARTED, Kinds
+from saltus.sbml.nodes import Nodes
+from saltus.sbml.quantities import items
+from saltus.sbml.running import RunningScope
+from saltus.sbml.walk import Replaced
 
 __all__ = ["Instant"]
 
+AFTER = 1e-13
+"""relative; how much later than its zero a strict comparison of the time changes"""
 TAKEN = 2.0
 """the size of a side that was taken before its own guard fires; 1 after that"""
-MOST_EXECUTIONS = 10_000
-
-
-@dataclass
-class Waiting:
-    """An execution of an event that waits."""
-
-    event: int
-    due: float
-    values: np.ndarray | None
-    """None: computed at the execution"""
 
 
 class Instant:
-    """One instant; `x` and `z` become the states after it."""
+    """The reset maps of a model, and the positions of what they keep in the discrete state."""
 
-    def __init__(self, program: Program, time: float, x: Any, z: Any, p: np.ndarray):
-        self.program, self.time, self.p = program, time, p
-        self.x, self.z = np.array(x, dtype=float), np.array(z, dtype=float)
-        self.near = SAME_TIME * max(1.0, abs(time))
-        n = len(program.timely)
-        self.sides = self.z[program.first_side : program.first_side + n]
-        self.truths = self.z[program.first_truth : program.first_truth + len(program.events)]
-        self.queue: list[Waiting] = []
-
-    def start(self) -> None:
-        """The start of a run: no side is known, and a trigger was what its model says."""
-        self.z[STARTED] = 1.0
-        self.differences = self._differences(self.time)
-        self._take_sides(np.ones(len(self.sides), dtype=bool))
-        self._settle()
-        self.truths[:] = [event.initial for event in self.program.events]
-        self._run()
-
-    def crossed(self, entry: int) -> None:
-        """A difference crossed zero, upwards for entry k < n, downwards for n + k; or an execution
-        is due, for 2 n.
-        """
-        self.differences = self._differences(self.time)
-        self._cross(*self._turned(entry))
-        self._run()
-        self._return()
-
-    def _turned(self, entry: int) -> tuple[np.ndarray, np.ndarray]:
-        """The new sides at this instant, 0 where there is none, and whether one that was taken
-        before is confirmed now.
-        """
-        n = len(self.sides)
-        k, sign = (entry % n, 1.0 if entry < n else -1.0) if entry < 2 * n else (None, 0.0)
-        flow = self._crossing(k)
-        new = np.where(np.sign(self.sides) == flow, 0.0, TAKEN * flow)
-        again = np.zeros(n, dtype=bool)
-        rounding = k is not None and self.sides[k] == -TAKEN * sign == TAKEN * flow[k]
-        if k is not None and not rounding:
-            again[k] = self.sides[k] == TAKEN * sign
-            new[k] = sign
-        return new, again
-
-    def _crossing(self, fired: int | None = None) -> np.ndarray:
-        """The sides to which the flow takes differences at this instant, 0 for the others."""
-        if not len(self.sides):
-            return np.zeros(0)
-        return crossing(self.program, self.time, self.x, self.z, self.p, self.differences, fired)
-
-    def _cross(self, new: np.ndarray, again: np.ndarray) -> None:
-        """New sides. Those of equalities are zero first, but not `again`."""
-        crossed = new != 0.0
-        equal = crossed & self.program.equal & ~again
-        if equal.any():
-            self.sides[equal] = 0.0
-            self.sides[crossed & ~equal] = new[crossed & ~equal]
-            self._settle()
-            self._run()
-        self.sides[crossed] = new[crossed]
-        late = (np.abs(self.sides) < TAKEN) & ~crossed
-        self._take_sides(late & (self.sides * self.differences < 0.0))
-        self._settle()
-
-    def _return(self) -> None:
-        """A difference whose side was taken, and that an event has turned around, has its old side
-        from now on.
-        """
-        if not (np.abs(self.sides) == TAKEN).any():
-            return
-        now = self._crossing()
-        turned = (np.abs(self.sides) == TAKEN) & (self.sides * now < 0.0)
-        if turned.any():
-            self.sides[turned] = np.sign(now[turned])
-            self._settle()
-            self._run()
-
-    def _evaluated(self, tape: Any) -> np.ndarray:
-        found: np.ndarray = evaluated(tape, self.time, self.x, self.z, self.p)
-        return found
-
-    def _differences(self, time: float) -> np.ndarray:
-        found: np.ndarray = evaluated(self.program.differences, time, self.x, self.z, self.p)
-        return found
-
-    def _take_sides(self, which: np.ndarray) -> None:
-        """The sides of some differences, by their values."""
-        self.sides[which] = np.sign(self.differences[which])
-
-    def _settle(self) -> None:
-        """The sides of differences that have jumped, until none does any more: one may read the
-        side of another.
-        """
-        for _ in range(len(self.sides) + 1):
-            now = self._differences(self.time)
-            jumped = now != self.differences
-            self.differences = now
-            if not jumped.any():
-                return
-            self._take_sides(jumped)
-
-    def _run(self) -> None:
-        """Until nothing is due any more."""
-        self.queue = self._stored()
-        executed: set[int] = set()
-        for _ in range(MOST_EXECUTIONS):
-            self._trigger()
-            due = [one for one in self.queue if one.due <= self.time + self.near]
-            if not due:
-                self._store()
-                return
-            first = self._first(due)
-            executed.add(first.event)
-            self._execute(first)
-        names = [self.program.events[i].name for i in sorted(executed)]
-        raise SimulationError(
-            f"t = {self.time:g}: the events {', '.join(names)} trigger each other without end, "
-            f"{MOST_EXECUTIONS} times; give one a delay, or a trigger that stays false"
+    def __init__(self, scope: RunningScope, events: list[Event]):
+        self.scope, self.events = scope, events
+        self.graph, self.nodes = scope.graph, Nodes(scope.graph)
+        self.kinds: Kinds = scope.kinds
+        self.differences = list(scope.differences)
+        self.size = scope.first_side
+        self.sides = self._next(len(self.differences))
+        """-1, 0 or 1 for each difference, or twice that while its own guard has not fired"""
+        self.after = dict(
+            zip(sorted(scope.equalities), self._next(len(scope.equalities)), strict=True)
         )
+        """for equalities at their zeros: the sides that follow; 0 elsewhere"""
+        self.truths = self._next(len(events))
+        self.values = self._next(max((len(event.values) for event in events), default=0))
+        """of the event that is executed, until they are assigned"""
+        self.z = [int(self.graph.discrete_state(i)) for i in range(self.size)]
+        self.crossing = Crossing(scope)
 
-    def _trigger(self) -> None:
-        truths = self._evaluated(self.program.truths) != 0.0
-        for i in np.flatnonzero(truths != (self.truths != 0.0)):
-            event = self.program.events[i]
-            if truths[i]:
-                self._schedule(int(i), event)
-            elif not event.persistent:
-                self.queue = [one for one in self.queue if one.event != i]
-        self.truths[:] = truths
+    def _next(self, count: int) -> range:
+        self.size += count
+        return range(self.size - count, self.size)
 
-    def _schedule(self, i: int, event: Event) -> None:
-        delay = 0.0 if event.delay is None else float(self._evaluated(event.delay)[0])
-        if not delay >= 0.0:
-            raise SimulationError(
-                f"t = {self.time:g}: event '{event.name}': expected a delay that is not negative, "
-                f"found {delay:g}"
-            )
-        values = self._evaluated(event.values) if event.early else None
-        self.queue.append(Waiting(i, self.time + delay, values))
+    def beginning(self, held: np.ndarray) -> np.ndarray:
+        """The discrete state before the start. A trigger was what the model says."""
+        z = np.zeros(self.size)
+        z[FIRST : FIRST + len(held)] = held
+        z[self.truths.start : self.truths.stop] = [event.initial for event in self.events]
+        return z
 
-    def _first(self, due: list[Waiting]) -> Waiting:
-        """The one of highest priority; among equals one at random."""
-        ranks = [self._priority(one) for one in due]
-        best = [one for one, rank in zip(due, ranks, strict=True) if rank == max(ranks)]
-        if len(best) == 1:
-            return best[0]
-        self.z[DRAWS] += 1.0
-        return random.Random(self.program.seed * 1_000_003 + int(self.z[DRAWS])).choice(best)
+    def guards(self) -> Formula:
+        """The differences, their negatives, and whether the sides are to be looked at."""
+        scope, f = self.scope, self.nodes
+        up = [self._late(n, k not in scope.zero_above) for k, n in enumerate(self.differences)]
+        down = [self._late(f("neg", n), k not in scope.zero_below)
+                for k, n in enumerate(self.differences)]  # fmt: skip
+        return Formula(self.graph, [*up, *down, f("sub", self.z[LOOK], 0.5)])
 
-    def _priority(self, one: Waiting) -> float:
-        tape = self.program.events[one.event].priority
-        rank = -math.inf if tape is None else float(self._evaluated(tape)[0])
-        return -math.inf if math.isnan(rank) else rank
-
-    def _execute(self, one: Waiting) -> None:
-        """All assignments at once: a concentration is one in the size before, and a jump of the
-        size leaves every amount as it is.
+    def _late(self, node: int, strictly: bool) -> int:
+        """A guard for a difference that becomes positive. One of the time alone that is zero at a
+        time at which its comparison has not changed yet fires just after that time: a row there
+        shows the values before.
         """
-        self.queue.remove(one)
-        event = self.program.events[one.event]
-        values = self._evaluated(event.values) if one.values is None else one.values
-        sizes = self.program.sizes
-        before = {name: self._size(sizes[name]) for name in event.targets if name in sizes}
-        kept = {name: self._size(tape) for name, tape in self.program.kept.items()}
-        for target, value in zip(event.targets, values, strict=True):
-            self._put(target, value * before.get(target, 1.0))
-        for name, size in kept.items():
-            memory, i = self.program.places[name]
-            self._put(name, getattr(self, memory)[i] * size / self._size(self.program.kept[name]))
-        self._jumped(event)
+        f = self.nodes
+        if not (strictly and self.scope.only_time(node)):
+            return node
+        size = f("add", 1.0, f("abs", int(self.graph.time())))
+        return f("sub", node, f("mul", AFTER, size))
 
-    def _size(self, tape: Any) -> float:
-        return float(self._evaluated(tape)[0])
+    def positive(self, place: int) -> Formula:
+        """A guard that rises where an entry of the discrete state, 0 before, becomes 1 or more."""
+        return Formula(self.graph, [self.nodes("sub", self.z[place], 0.5)], True)
 
-    def _put(self, name: str, value: float) -> None:
-        memory, i = self.program.places[name]
-        getattr(self, memory)[i] = value
+    def before(self) -> Formula:
+        """Positive before the start of the run, negative from then on."""
+        return Formula(self.graph, [self.nodes("sub", 0.5, self.z[STARTED])], True)
 
-    def _jumped(self, event: Event) -> None:
-        """The sides of the differences that an assignment has changed."""
-        if not np.isfinite(self.x).all():
-            raise SimulationError(
-                f"t = {self.time:g}: event '{event.name}': it assigns a value that is not finite"
-            )
-        self._settle()
+    def number(self, node: int | None) -> Formula | None:
+        return None if node is None else Formula(self.graph, [node], True)
 
-    def _stored(self) -> list[Waiting]:
-        found = []
-        for i, event in enumerate(self.program.events):
-            if event.delay is None:
-                continue
-            for row in self._rows(event):
-                if row[0] > 0.0:
-                    values = row[2:].copy() if event.early else None
-                    found.append(Waiting(i, float(row[1]), values))
-        return found
+    def start(self) -> Assignment:
+        """The start of a run: no side is known."""
+        f = self.nodes
+        z = [*self.z]
+        z[STARTED] = f(1.0)
+        self._settle({}, z, [None] * len(self.differences))
+        z[LATER] = f.any([f("eq", z[place], 0.0) for place in self.sides])
+        return Assignment(self.graph, [], z)
 
-    def _rows(self, event: Event) -> np.ndarray:
-        part = self.z[event.first : event.first + WAITING * event.width]
-        return part.reshape(WAITING, event.width)
+    def compare(self) -> Assignment:
+        """A difference crossed zero, upwards for entry k < n, downwards for n + k; or entry 2 n:
+        the sides are looked at because an execution is due.
+        """
+        f, n = self.nodes, len(self.differences)
+        entry = int(self.graph.entry())
+        rises = f("lt", entry, float(n))
+        number = f("select", rises, entry, f("sub", entry, float(n)))
+        located = f("lt", entry, 2.0 * n)
+        fired = [f.all(located, f("eq", number, float(k))) for k in range(n)]
+        to = f("select", rises, 1.0, -1.0)
+        z, sides = [*self.z], []
+        for k, flow in enumerate(self.crossing.sides(fired)):
+            sides.append(self._turned(k, flow, fired[k], to, z))
+        z[LOOK] = f(0.0)
+        self._settle({}, z, sides)
+        late = [f("ne", z[self.after[k]], 0.0) for k in self.after]
+        late += [f("eq", f("abs", z[place]), TAKEN) for place in self.sides]
+        z[LATER] = f.any(late)
+        return Assignment(self.graph, [], z)
 
-    def _store(self) -> None:
-        """The queue into the discrete state: 1 for a place that is taken, due time, values."""
-        self.z[DUE] = min((one.due for one in self.queue), default=NEVER)
-        for i, event in enumerate(self.program.events):
-            own = [one for one in self.queue if one.event == i]
-            if event.delay is None:
-                continue
-            if len(own) > WAITING:
-                raise SimulationError(
-                    f"t = {self.time:g}: event '{event.name}': more than {WAITING} executions "
-                    "wait; expected a delay that is shorter against the time between its triggers"
-                )
-            rows = self._rows(event)
-            rows[:] = 0.0
-            for row, one in zip(rows, own, strict=False):
-                row[:2] = 1.0, one.due
-                if one.values is not None:
-                    row[2:] = one.values
+    def _turned(self, k: int, flow: int, fired: int, to: int, z: list[int]) -> int:
+        """The side of a difference after its crossing. That of an equality is 0 first, and the one
+        after it waits.
+        """
+        f = self.nodes
+        side, sign = self.z[self.sides[k]], f.sign(self.z[self.sides[k]])
+        rounding = f.all(
+            f("eq", side, f("mul", -TAKEN, to)), f("eq", flow, f("neg", to))
+        )  # its guard fires the wrong way
+        own = f.all(fired, f.no(rounding))
+        taken = f("select", f("eq", sign, flow), 0.0, f("mul", TAKEN, flow))
+        new = f("select", own, to, taken)
+        crossed = f("ne", new, 0.0)
+        strays = f("lt", f("mul", side, self.differences[k]), 0.0)
+        strays = f.all(strays, f("lt", f("abs", side), TAKEN))
+        other = f("select", strays, f.sign(self.differences[k]), side)
+        plain = f("select", crossed, new, other)
+        if k not in self.after:
+            return plain
+        at_zero = f.all(crossed, f.no(f.all(own, f("eq", sign, to))))
+        z[self.after[k]] = f("select", at_zero, new, self.z[self.after[k]])
+        return f("select", at_zero, 0.0, plain)
+
+    def later(self) -> Assignment:
+        """Nothing else is due. Equalities leave their zeros, and differences those at which they
+        began. One whose side was taken, and that an event has turned around, has its old side from
+        now on.
+        """
+        f = self.nodes
+        z, sides = [*self.z], []
+        for k, flow in enumerate(self.crossing.sides()):
+            side = self.z[self.sides[k]]
+            if k in self.after:
+                i = self.after[k]
+                side = f("select", f("ne", z[i], 0.0), z[i], side)
+                z[i] = f(0.0)
+            back = f.all(f("eq", f("abs", side), TAKEN), f("lt", f("mul", side, flow), 0.0))
+            if not self.scope.fires_late(k):
+                back = f.any([back, f.all(f("eq", side, 0.0), f("ne", flow, 0.0))])
+            sides.append(f("select", back, flow, side))
+        z[LATER] = f(0.0)
+        self._settle({}, z, sides)
+        return Assignment(self.graph, [], z)
+
+    def execute(self, i: int) -> Assignment:
+        """Event i puts its values beside the states. They are zero otherwise, so an execution that
+        writes what was computed at its trigger writes all of them.
+        """
+        z = [*self.z]
+        z[RUNNING] = self.nodes(float(i + 1))
+        for j, value in enumerate(self.events[i].values.values()):
+            z[self.values[j]] = value
+        return Assignment(self.graph, [], z)
+
+    def look(self) -> Assignment:
+        """An execution is due."""
+        z = [*self.z]
+        z[LOOK] = self.nodes(1.0)
+        return Assignment(self.graph, [], z)
+
+    def assign(self) -> Assignment:
+        """All assignments of an event at once: a concentration is one in the size before, and a
+        jump of the size leaves every amount as it is.
+        """
+        f = self.nodes
+        x = [int(self.graph.continuous_state(i)) for i in range(len(self.kinds.states))]
+        z = [*self.z]
+        lists = {"x": x, "z": z}
+        for i, event in enumerate(self.events):
+            runs = f("eq", self.z[RUNNING], float(i + 1))
+            for j, name in enumerate(event.values):
+                value = self.z[self.values[j]]
+                if name in self.kinds.amounts:
+                    value = f("mul", value, self._size(name))
+                kind, place = self.kinds.places[name]
+                lists[kind][place] = f("select", runs, value, lists[kind][place])
+        jumped = self._replaced(x, z)
+        for name in sorted(self._follow_jumps()):
+            kind, place = self.kinds.places[name]
+            before, after = self._size(name), jumped.of(self._size(name))
+            same = f("eq", before, after)
+            kept = f("div", f("mul", lists[kind][place], before), after)
+            lists[kind][place] = f("select", same, lists[kind][place], kept)
+        for i in (RUNNING, *self.values):
+            z[i] = f(0.0)
+        sides: list[int | None] = [self.z[self.sides[k]] for k in range(len(self.differences))]
+        self._settle(dict(enumerate(x)), z, sides)
+        return Assignment(self.graph, x if self._writes_states() else [], z)
+
+    def _writes_states(self) -> bool:
+        names = {name for event in self.events for name in event.values} | self._follow_jumps()
+        return any(self.kinds.places[name][0] == "x" for name in names)
+
+    def _size(self, species: str) -> int:
+        return self.scope.value(self.kinds.declared.quantities[species].compartment)
+
+    def _follow_jumps(self) -> set[str]:
+        """Species with a rate rule for their concentration, in a compartment that events change."""
+        declared = self.kinds.declared
+        jump = {
+            each.getVariable()
+            for event in declared.events
+            for each in items(event, "EventAssignment")
+        }
+        return {
+            name
+            for name in declared.rates
+            if declared.quantities[name].kind == "species"
+            and not declared.quantities[name].substance
+            and declared.quantities[name].compartment in jump
+        }
+
+    def _replaced(self, x: list[int], z: list[int]) -> Replaced:
+        """Formulas with these states in place of those before."""
+        pairs = {int(self.graph.continuous_state(i)): node for i, node in enumerate(x)}
+        pairs |= dict(zip(self.z, z, strict=True))
+        return Replaced(self.graph, {a: b for a, b in pairs.items() if a != b})
+
+    def _settle(self, x: dict[int, int], z: list[int], sides: Sequence[int | None]) -> None:
+        """Writes the sides into z, and the truths of the triggers. A difference that has jumped has
+        the side of its value: one of the states that were written, or one that reads the side of
+        another. A difference reads the sides of those before it alone.
+        """
+        f = self.nodes
+        replaced = self._replaced([x[i] for i in range(len(x))], z)
+        for k, (node, side) in enumerate(zip(self.differences, sides, strict=True)):
+            now = replaced.of(node)
+            new = f.sign(now)
+            if side is not None and now == node:
+                new = side
+            elif side is not None:
+                jumped = f("ne", now, node)
+                new = f("select", jumped, new, side)
+                if k in self.after:
+                    i = self.after[k]
+                    z[i] = f("select", jumped, 0.0, z[i])
+            z[self.sides[k]] = new
+            replaced.put(self.z[self.sides[k]], new)
+        for i, event in enumerate(self.events):
+            z[self.truths[i]] = f("ne", replaced.of(event.trigger), 0.0)

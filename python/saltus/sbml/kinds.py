@@ -7,10 +7,22 @@ from functools import cached_property
 
 from saltus.sbml.quantities import Declared, items
 
-__all__ = ["FIRST", "Kinds", "assigned_by_events", "kinds_of"]
+__all__ = [
+    "FIRST",
+    "LATER",
+    "LOOK",
+    "RUNNING",
+    "STARTED",
+    "Kinds",
+    "assigned_by_events",
+    "kinds_of",
+]
 
-FIRST = 3
-"""the position in the discrete state of what events alone change, see `events`"""
+STARTED, RUNNING, LOOK, LATER, FIRST = range(5)
+"""positions in the discrete state: whether the run has started; the number of the event, from 1 on,
+whose values wait to be assigned; whether the sides of the differences are to be looked at, at once
+or when nothing else is due; the first number that events alone change. See `instant` for the others
+"""
 
 
 @dataclass

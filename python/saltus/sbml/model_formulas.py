@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-from typing import Any
 
 import numpy as np
 
 from saltus import _core
 from saltus.errors import ModelError
-from saltus.sbml.events import DUE, NEVER, STARTED, Program, events_of
+from saltus.sbml.events import events_of
 from saltus.sbml.formula import Formula, evaluated
+from saltus.sbml.instant import Instant
 from saltus.sbml.kinds import FIRST, Kinds
 from saltus.sbml.quantities import Declared
 from saltus.sbml.running import RunningScope
@@ -18,8 +18,6 @@ from saltus.sbml.scope import InitialScope, Scope
 
 __all__ = ["ModelFormulas", "Shown", "initial_values"]
 
-AFTER = 1e-13
-"""relative; how much later than its zero a strict comparison of the time changes"""
 Shown = tuple[str, str]
 """(id, 'value', 'amount' or 'concentration')"""
 
@@ -42,8 +40,8 @@ def initial_values(says: Declared, unknown: list[str]) -> dict[str, float]:
 class ModelFormulas:
     """The formulas of a model."""
 
-    def __init__(self, kinds: Kinds, values: dict[str, float], seed: int):
-        self.kinds, self.values, self.seed = kinds, values, seed
+    def __init__(self, kinds: Kinds, values: dict[str, float]):
+        self.kinds, self.values = kinds, values
         self.x, self.z, self.p = (
             np.array([self.stored(name) for name in names], dtype=float)
             for names in (kinds.states, kinds.held, kinds.parameters)
@@ -104,38 +102,9 @@ class ModelFormulas:
         op = "mul" if how == "amount" else "div"
         return scope.apply(op, self.number(name), scope.value(found.compartment))
 
-    def program(self, flow: Any) -> Program:
-        return events_of(self.scope, flow, self.seed)
-
-    def discrete(self, program: Program) -> np.ndarray:
-        """The discrete state before the start."""
-        z = np.zeros(program.discrete)
-        z[DUE] = NEVER
-        z[FIRST : FIRST + len(self.z)] = self.z
-        return z
-
-    def started(self) -> Formula:
-        """1 before the start of the run, -1 from then on."""
-        graph = self.graph
-        twice = graph.apply("mul", graph.constant(2.0), graph.discrete_state(STARTED))
-        return Formula(graph, [graph.apply("sub", graph.constant(1.0), twice)], True)
-
-    def guards(self) -> Formula:
-        """The differences, their negatives, and the time since an execution became due."""
-        scope, graph, found = self.scope, self.graph, list(self.scope.differences)
-        up = [self.late(n, k not in scope.zero_above) for k, n in enumerate(found)]
-        down = [self.late(graph.apply("neg", n), k not in scope.zero_below)
-                for k, n in enumerate(found)]  # fmt: skip
-        due = graph.apply("sub", graph.time(), graph.discrete_state(DUE))
-        return Formula(graph, [*up, *down, due])
-
-    def late(self, node: int, strictly: bool) -> int:
-        """A guard for a difference that becomes positive. One of the time alone that is zero at a
-        time at which its comparison has not changed yet fires just after that time: a row there
-        shows the values before.
+    def instant(self) -> Instant | None:
+        """What happens at instants; None where nothing does. To be called when all other formulas
+        are made.
         """
-        if not (strictly and self.scope.only_time(node)):
-            return node
-        graph = self.graph
-        size = graph.apply("add", graph.constant(1.0), graph.apply("abs", graph.time()))
-        return self.scope.apply("sub", node, graph.apply("mul", graph.constant(AFTER), size))
+        events = events_of(self.scope)
+        return Instant(self.scope, events) if events or self.scope.differences else None

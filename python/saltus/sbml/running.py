@@ -94,6 +94,14 @@ class RunningScope(Scope):
         side = self.graph.discrete_state(self.first_side + k)
         return self.apply(op, side, self.graph.constant(0.0))
 
+    def fires_late(self, k: int) -> bool:
+        """Whether difference k is one of the time alone that is zero at a time at which its
+        comparison has not changed yet. Its guard fires just after that time: a row there shows the
+        values before.
+        """
+        both = k in self.zero_above and k in self.zero_below
+        return not both and self.only_time(list(self.differences)[k])
+
     def size_of_terms(self, node: int) -> int:
         """A node for the size of the terms of a node: |a| + |b| for a - b."""
         if self.graph.value(node) is None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import math
 import os
 from collections.abc import Iterable, Mapping
@@ -12,16 +13,17 @@ import numpy as np
 from saltus.errors import ModelError
 from saltus.leaf_system import LeafSystem
 from saltus.sbml.algebraic import unknowns
-from saltus.sbml.events import Program
-from saltus.sbml.formula import Called, Formula, evaluated
+from saltus.sbml.events import HIGHEST
+from saltus.sbml.formula import Formula, evaluated
 from saltus.sbml.instant import Instant
-from saltus.sbml.kinds import kinds_of
+from saltus.sbml.kinds import LATER, RUNNING, kinds_of
 from saltus.sbml.model_formulas import ModelFormulas, Shown, initial_values
 from saltus.sbml.quantities import declared
 from saltus.sbml.reading import model_of
 
 __all__ = ["Model", "load", "model_block"]
 
+LAST = "end of the instant"
 RESERVED = {"x", "z", "mode"}
 """ids that no state may have for a name in a context; they are outputs all the same"""
 
@@ -30,7 +32,6 @@ def load(
     source: str | os.PathLike[str],
     *,
     values: Mapping[str, float] | None = None,
-    seed: int = 0,
 ) -> Model:
     """A model in SBML, any level and version, as a block.
 
@@ -42,8 +43,6 @@ def load(
         values at the start in place of those of the model, by id; the initial assignments of
         others are computed from them. A value that is set later, in a context or a sweep, changes
         itself alone.
-    seed : int
-        chooses among events of equal priority that are due at one time.
 
     Returns
     -------
@@ -73,7 +72,7 @@ def load(
     '0.135335'
     """
     _document, model = model_of(source)  # which owns the model
-    return model_block(model, seed=seed, values=values)
+    return model_block(model, values=values)
 
 
 def model_block(model: Any, *arguments: Any, **how: Any) -> Model:
@@ -94,7 +93,6 @@ class Model(LeafSystem):
         self,
         model: Any,
         shown: Iterable[Shown] | None = None,
-        seed: int = 0,
         values: Mapping[str, float] | None = None,
     ):
         super().__init__(name=model.getId() or "model")
@@ -104,7 +102,7 @@ class Model(LeafSystem):
         unknown = says.unknown = unknowns(says) if says.algebraic else []
         numbers = initial_values(says, unknown)
         kinds = kinds_of(says, unknown, {n for n, v in numbers.items() if v == 0.0})
-        made = ModelFormulas(kinds, numbers, seed)
+        made = ModelFormulas(kinds, numbers)
         self._declare(made, shown)
 
     def _declare(self, made: ModelFormulas, shown: Iterable[Shown] | None) -> None:
@@ -115,16 +113,24 @@ class Model(LeafSystem):
         """the parameters at the start, in their order"""
         derivatives = made.derivatives()
         outputs = made.outputs(named)
-        program = made.program(derivatives.tape)
+        instant = made.instant()
         if kinds.states:
             taken = kinds.amounts | RESERVED
             free = named is None and taken.isdisjoint(kinds.states)
             self.declare_continuous_state(
                 default_value=made.x, ode=derivatives, names=kinds.states if free else ()
             )
-        self.curved = program.curved
-        _require_finite_start(made, program, derivatives)
-        self._declare_events(made, program)
+        self.curved = any(map(made.scope.curved, made.scope.differences))
+        """whether a comparison is no straight line in time and states: the solver looks at the
+        errors of states alone, and a step may pass its turns
+        """
+        z = made.z
+        if instant is not None:
+            z = instant.beginning(made.z)
+            self.declare_discrete_state(z)
+            self._declare_sides(instant)
+            self._declare_events(instant)
+        _require_finite_start(made, instant, derivatives, z)
         if named is None:
             known = set(self.output_names)
             for name, formula in outputs.items():
@@ -134,74 +140,63 @@ class Model(LeafSystem):
             self.shown = outputs["shown"]
             if kinds.states:
                 self.declare_continuous_state_output("x")
-            if program.happens:
+            if instant is not None:
                 self.declare_discrete_state_output("z")
 
-    def _declare_events(self, made: ModelFormulas, program: Program) -> None:
-        if not program.happens:
+    def _declare_sides(self, instant: Instant) -> None:
+        """What is known of the comparisons, and of the triggers that read them."""
+        declare = functools.partial(
+            self.declare_zero_crossing, direction="rising", zeno_tolerance=0.0
+        )
+        declare(instant.before(), instant.start(), "start", at_start="fire")
+        if instant.differences:
+            declare(
+                instant.guards(),
+                instant.compare(),
+                "comparisons",
+                size=2 * len(instant.differences) + 1,
+                at_start="ignore",  # `later` looks at those that begin at zero
+            )
+            self.declare_zero_crossing(
+                instant.positive(LATER), instant.later(), LAST, "rising", persistent=True
+            )
+        if instant.events:
+            declare(instant.positive(RUNNING), instant.assign(), "assignments")
+
+    def _declare_events(self, instant: Instant) -> None:
+        for i, event in enumerate(instant.events):
+            declare = functools.partial(
+                self.declare_zero_crossing,
+                instant.positive(instant.truths[i]),
+                direction="rising",
+                delay=instant.number(event.delay),
+            )
+            declare(
+                reset_map=instant.execute(i),
+                name=event.name,
+                priority=instant.number(event.priority),
+                persistent=event.persistent,
+                use_values_from_trigger_time=event.early,
+            )
+            if event.delay is not None and instant.differences:
+                declare(reset_map=instant.look(), name=f"{event.name} is due", priority=HIGHEST)
+
+
+def _require_finite_start(
+    made: ModelFormulas, instant: Instant | None, derivatives: Formula, z: np.ndarray
+) -> None:
+    """ModelError, which names the id, for a rate that is not finite at the start. Where an event
+    triggers there, the run looks at the rates after it.
+    """
+    if instant is not None:
+        begun = evaluated(instant.start().tape, 0.0, made.x, z, made.p)
+        if any(begun[k] > z[k] for k in instant.truths):
             return
-        self.declare_discrete_state(made.discrete(program))
-        self.declare_zero_crossing(
-            made.started(),
-            _Start(program),
-            name="start",
-            direction="rising",
-            at_start="fire",
-            zeno_tolerance=0.0,
-        )
-        self.declare_zero_crossing(
-            made.guards(),
-            _Crossing(program),
-            name="events",
-            direction="rising",
-            size=2 * len(program.timely) + 1,
-            zeno_tolerance=0.0,
-        )
-
-
-def _require_finite_start(made: ModelFormulas, program: Program, derivatives: Formula) -> None:
-    """ModelError, which names the id, for a rate that is not finite at the start."""
-    instant = Instant(program, 0.0, made.x, made.discrete(program), made.p)
-    if program.happens:
-        instant.start()
-    rates = evaluated(derivatives.tape, 0.0, instant.x, instant.z, made.p)
+        z = begun
+    rates = evaluated(derivatives.tape, 0.0, made.x, z, made.p)
     for name, rate in zip(made.kinds.states, rates, strict=True):
         if not math.isfinite(rate):
             raise ModelError(
                 f"the rate of '{name}' is {rate:g} at the start; expected a finite number: look at "
                 "divisions by zero in its rule and in the reactions that change it"
             )
-
-
-class _Start(Called):
-    def __init__(self, program: Program):
-        self.program = program
-
-    def __call__(self, time: float, state: Any, /, **parameters: float) -> Any:
-        instant = _instant(self.program, time, state, parameters)
-        instant.start()
-        return _after(state, instant)
-
-
-class _Crossing(Called):
-    def __init__(self, program: Program):
-        self.program = program
-
-    def __call__(self, time: float, state: Any, /, **parameters: float) -> Any:
-        instant = _instant(self.program, time, state, parameters)
-        instant.crossed(state.entry)
-        return _after(state, instant)
-
-
-def _instant(program: Program, time: float, state: Any, parameters: dict[str, float]) -> Instant:
-    p = np.fromiter(parameters.values(), float, len(parameters))
-    return Instant(program, time, state.continuous_state, state.discrete_state, p)
-
-
-def _after(state: Any, instant: Instant) -> Any:
-    """The state with what has changed."""
-    if not np.array_equal(instant.x, state.continuous_state):
-        state = state.with_continuous_state(instant.x)
-    if not np.array_equal(instant.z, state.discrete_state):
-        state = state.with_discrete_state(instant.z)
-    return state

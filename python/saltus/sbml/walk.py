@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any, Generic, TypeVar
 
-__all__ = ["VARIABLES", "Flows", "TimeAlone", "Walk"]
+__all__ = ["VARIABLES", "Flows", "Replaced", "TimeAlone", "Walk"]
 
 VARIABLES = ("time", "continuous_state", "discrete_state", "parameter")
 """operations of nodes that are variables of a formula"""
@@ -49,3 +49,25 @@ class TimeAlone(Walk[bool]):
         if op in VARIABLES:
             return bool(op != "continuous_state")
         return all(map(self.of, operands))
+
+
+class Replaced(Walk[int]):
+    """A node with other nodes in the places of some. The method `put` may be called after a node
+    was asked for that does not read what is put.
+    """
+
+    def __init__(self, graph: Any, nodes: dict[int, int]):
+        super().__init__(graph)
+        self.done = dict(nodes)
+
+    def put(self, node: int, other: int) -> None:
+        self.done[node] = other
+
+    def made(self, node: int) -> int:
+        if self.graph.value(node) is not None:
+            return node
+        op, operands = self.graph.operation(node)
+        if op in VARIABLES or op == "input":
+            return node
+        others = [self.of(one) for one in operands]
+        return node if others == operands else int(self.graph.apply(op, *others))

@@ -10,7 +10,7 @@ from saltus.scene_files.expression import Expression, template
 from saltus.scene_files.functions import list_of, number_of
 from saltus.scene_files.leaf_scope import LeafScope
 from saltus.scene_files.names import chosen, require_part_name
-from saltus.scene_files.wrong import Path, Wrong, placed, require_keys, table_at
+from saltus.scene_files.wrong import Path, Wrong, found, placed, require_keys, table_at
 
 __all__ = ["LEAF_KEYS", "SceneLeaf", "leaf_of"]
 
@@ -20,8 +20,10 @@ LEAF_KEYS = (
 )  # fmt: skip
 GUARD_KEYS = (
     "guard", "direction", "from", "to", "set", "terminal", "max_count", "zeno_tolerance",
-    "at_start", "on_zeno",
+    "at_start", "on_zeno", "delay", "priority", "persistent", "initial_value",
+    "use_values_from_trigger_time",
 )  # fmt: skip
+QUEUE_TRUTHS = ("persistent", "initial_value", "use_values_from_trigger_time")
 UPDATE_KEYS = ("period", "offset", "at", "end", "count", "set")
 DIRECTIONS = (
     "crosses_zero", "both", "positive_then_non_positive", "falling", "negative_then_non_negative",
@@ -143,7 +145,12 @@ class _Maker:
         require_keys(path, value, GUARD_KEYS, ("guard",))
         guard = self.scope.expression((*path, "guard"), value["guard"])
         effect, read = self.effect(path, value)
-        inputs = self.scope.inputs_of([guard, *read])
+        queue = {
+            key: self.scope.expression((*path, key), value[key])
+            for key in ("delay", "priority")
+            if key in value
+        }
+        inputs = self.scope.inputs_of([guard, *read, *queue.values()])
         direction = value.get("direction", "crosses_zero")
         self.leaf.declare_zero_crossing(
             self.scope.function(guard.tree, inputs, [guard]),
@@ -151,15 +158,28 @@ class _Maker:
             name=name,
             direction=chosen((*path, "direction"), direction, DIRECTIONS, "direction"),
             requires_inputs=inputs,
+            **{
+                key: self.queued((*path, key), value[key], each, inputs)
+                for key, each in queue.items()
+            },
             **self.guard_options(path, value),
         )
+
+    def queued(self, path: Path, value: Any, made: Expression, inputs: list[int]) -> Any:
+        """A delay or a priority: a number, or a function."""
+        if isinstance(value, str):
+            return self.scope.function(made.tree, inputs, [made])
+        return self.number(path, value)
 
     def guard_options(self, path: Path, value: dict[str, Any]) -> dict[str, Any]:
         """The options of a zero crossing, as its declaration calls them."""
         if "to" in value and "mode" in value.get("set", {}):
             raise Wrong((*path, "to"), "the mode is set already; keep one of 'to' and 'set.mode'")
-        names = ("terminal", "max_count", "at_start", "on_zeno")
+        names = ("terminal", "max_count", "at_start", "on_zeno", *QUEUE_TRUTHS)
         options: dict[str, Any] = {name: value[name] for name in names if name in value}
+        for name in QUEUE_TRUTHS:
+            if not isinstance(value.get(name, True), bool):
+                raise Wrong((*path, name), f"expected true or false, found {found(value[name])}")
         if options.get("on_zeno") in self.scope.modes:
             options["on_zeno"] = self.mode((*path, "on_zeno"), options["on_zeno"])
         if "zeno_tolerance" in value:

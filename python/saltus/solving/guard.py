@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import numbers
 import operator
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
@@ -54,11 +55,21 @@ class Guard:
     start_mode, end_mode : int, optional
         The mode in which it can fire (all modes if not said), and the mode after it. Functions
         with an argument `mode` get the present one.
+    delay : number or callable, optional
+        [s], >= 0, along the run: the event is queued, and its effect comes this much later. A
+        function d(t, x, *args) is called where the guard fires.
+    priority : number or callable, optional
+        Of the effects that are due at one time that of the highest priority is first; see
+        `LeafSystem.declare_zero_crossing`.
+    persistent, initial_value, use_values_from_trigger_time : bool, optional
+        Of a queued event: whether it has its effect though the guard went back, what the guard was
+        before the beginning, and when the reset is computed; see the same.
 
     Raises
     ------
     ModelError
-        If the direction is unknown, or the guard or the reset cannot be called.
+        If the direction is unknown, the guard or the reset cannot be called, or the delay or the
+        priority is no number.
 
     Examples
     --------
@@ -80,6 +91,11 @@ class Guard:
     at_start: str = "auto"
     start_mode: int | None = None
     end_mode: int | None = None
+    delay: float | Callable[..., ArrayLike] | None = None
+    priority: float | Callable[..., ArrayLike] | None = None
+    persistent: bool | None = None
+    initial_value: bool | None = None
+    use_values_from_trigger_time: bool | None = None
 
     def __post_init__(self) -> None:
         for what, function in (("guard", self.guard), ("reset", self.reset)):
@@ -87,6 +103,9 @@ class Guard:
                 raise ModelError(f"Guard: {what}: expected a function, found {function!r}")
         if self.guard is None:
             raise ModelError("Guard: guard: expected a function, found None")
+        for what, value in (("delay", self.delay), ("priority", self.priority)):
+            if not (value is None or callable(value) or _is_number(value)):
+                raise ModelError(f"Guard: {what}: expected a number or a function, found {value!r}")
         _ = self.engine_direction, self.engine_count  # refuse what makes no sense here, not later
 
     @property
@@ -134,8 +153,16 @@ class Guard:
 
 
 def functions_of(guards: Sequence[Guard]) -> list[Callable[..., Any] | None]:
-    """The guards and resets of several guards."""
-    return [each for guard in guards for each in (guard.guard, guard.reset)]
+    """The functions of several guards; None where one has none."""
+    return [
+        each if callable(each) else None
+        for guard in guards
+        for each in (guard.guard, guard.reset, guard.delay, guard.priority)
+    ]
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, numbers.Real) and not isinstance(value, bool)
 
 
 def guards_of(events: Any) -> list[Guard]:

@@ -95,7 +95,14 @@ def _settings(guard: Guard) -> tuple[Any, ...]:
     name = guard.name or guard.guard.__name__
     contact = (guard.zeno_tolerance, guard.on_zeno, guard.at_start)
     modes = (guard.start_mode, guard.end_mode)
-    return (guard.direction, name, guard.name, guard.terminal, guard.max_count, *contact, *modes)
+    counts = (guard.terminal, guard.max_count)
+    return (guard.direction, name, guard.name, *counts, *contact, *modes, *_queue(guard))
+
+
+def _queue(guard: Guard) -> tuple[Any, ...]:
+    """Those of the queue. A function is known by its identity."""
+    numbers = (None if callable(each) else each for each in (guard.delay, guard.priority))
+    return (*numbers, guard.persistent, guard.initial_value, guard.use_values_from_trigger_time)
 
 
 def _exact(value: Any) -> Any:

@@ -53,7 +53,7 @@ class Solution(Results):
     y : ndarray, shape (n, rows)
         The same as ``outputs["x"].T``.
     t_events : list of ndarray, or None
-        [s] for each guard of `events` when it fired.
+        [s] for each guard of `events` when it fired; of one with a delay when it had its effect.
     y_events : list of ndarray, or None
         For each guard the states before its events, shape (count, n), or (0,) as SciPy has it if
         there is none; those after them are in `events`.

@@ -83,7 +83,18 @@ class SolvedSystem(LeafSystem):
             at_start=guard.at_start,
             start_mode=guard.start_mode,
             end_mode=guard.end_mode,
+            delay=self._number_of(guard.delay, args),
+            priority=self._number_of(guard.priority, args),
+            persistent=guard.persistent,
+            initial_value=guard.initial_value,
+            use_values_from_trigger_time=guard.use_values_from_trigger_time,
         )
+
+    def _number_of(self, given: Any, args: tuple[Any, ...]) -> Any:
+        """A number, or a function of (t, x) as a callback."""
+        if not callable(given):
+            return given
+        return self._owned(given, self._form.value(given, args, self._named.of(given)))
 
     def _reset_of(self, reset: Function | None, name: str, args: tuple[Any, ...]) -> Any:
         if reset is None:

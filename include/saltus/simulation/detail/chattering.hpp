@@ -22,9 +22,10 @@ class Chattering {
   struct Seen {
     double t = 0.0;              ///< [s]
     bool at_root = false;        ///< it began because a guard fired
+    bool executed = false;       ///< an execution set off another
     double length_of_run = 0.0;  ///< [s]
   };
-  /// Before an instant: whether no state has moved by its tolerance since the last root.
+  /// Before an instant: whether no state has moved by its tolerance since the last event.
   bool idle(const Eigen::VectorXd& x) const;
   /// After an instant. True if the run chatters: `count` events since `since`.
   bool chatters(const Outcome& outcome, const Seen& seen, bool idle, const Eigen::VectorXd& x);
@@ -56,10 +57,10 @@ class Chattering {
   Tolerance rtol_, atol_;
   Series stuck_;       // a guard at rest without a Zeno monitor fires again
   Series fluttering_;  // both sides of a relation lead back to its surface
-  Series roots_;       // roots
-  Series idle_;        // no state moves between these roots
+  Series roots_;       // events
+  Series idle_;        // no state moves between these events
   Series found_;
-  Eigen::VectorXd at_root_;  // x at the last root
+  Eigen::VectorXd at_event_;  // x at the last event
 };
 
 }  // namespace saltus

@@ -63,6 +63,7 @@ class Endings {
 
  private:
   std::optional<Ending> slides(double t, const Integration& integration);
+  Ending chattering(const Chattering::Seen& seen, const EventName& name) const;
   const PlanLeaf& leaf_of(Index state) const;
 
   Machine* machine_;

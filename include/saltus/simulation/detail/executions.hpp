@@ -35,8 +35,8 @@ class Executions {
   /// Whether an execution that this instant has scheduled is due before all that waited: the solver
   /// may have stepped beyond it.
   bool stops_earlier() const { return any_ && queue_.next() < next_before_; }
-  /// Adds the execution that comes first of those that are due to the actions of the pass. False if
-  /// none is due.
+  /// Takes the first of the executions that are due, and adds it to the actions of the pass. False
+  /// if none is due, or if the pass cancels some of them.
   bool collect();
   /// Schedules or cancels, by the guard that fired.
   void trigger(const Action& action);
@@ -44,6 +44,8 @@ class Executions {
   void execute(const Action& action);
   /// Whether an execution was carried out in this instant.
   bool executed() const noexcept { return chain_.executions > 0; }
+  /// Whether one was carried out that an execution had set off, in this instant or before.
+  bool set_off() const noexcept { return set_off_; }
   /// See ExecutionChain.
   int beside() const noexcept { return chain_.beside(); }
 
@@ -63,7 +65,7 @@ class Executions {
   std::vector<WaitingExecution> found_in(const PendingExecutions& pending) const;
   void find_due();
   bool cancel_returned();
-  bool has_gone_back(const WaitingExecution& one);
+  bool may_have_gone_back(const WaitingExecution& one) const;
   double priority_of(const WaitingExecution& one) const;
   double draw();
   double delay_of(int group, Index entry) const;
@@ -79,10 +81,11 @@ class Executions {
   bool any_;
   ExecutionQueue queue_;
   ExecutionChain chain_;
+  bool set_off_ = false;
   double next_before_ = std::numeric_limits<double>::infinity();  // [s] due before this instant
   WaitingExecution taken_;                                        // the execution of this pass
   Due due_;
-  std::vector<double> g_;  // the guards at present
+  std::vector<double> g_;  // the guards before executions
 };
 
 }  // namespace saltus

@@ -49,26 +49,28 @@ std::size_t choose_first(std::span<const double> priorities, const Draw& draw) {
 }
 
 /// Counts how far the executions of an instant set each other off. An instant without end has a
-/// chain without end; many executions that were due anyway make no chain.
+/// chain without end, or passes without end after an execution; many executions that were due
+/// anyway make no chain, and neither do the passes that each of them sets off.
 struct ExecutionChain {
   int executions = 0;     ///< in this instant
   int longest = 0;        ///< executions of the longest chain
   int last = 0;           ///< length of the chain that the last execution ended
-  int triggers = 0;       ///< passes of nothing but triggers
+  int passes = 0;         ///< up to the last execution, with its own
+  int triggers = 0;       ///< passes of nothing but triggers since then
   int trigger_pass = -1;  ///< the last of these
 
   /// The length of the chain of an execution that is scheduled now.
   int next() const { return last + 1; }
-  /// An execution with a chain of this length is carried out.
-  void execute(int length) {
-    ++executions, last = length;
+  /// An execution with a chain of this length is carried out in this pass, 0 for the first.
+  void execute(int length, int pass) {
+    ++executions, last = length, passes = pass + 1, triggers = 0;
     if (length > longest) longest = length;
   }
   /// Triggers are all that happens in this pass.
   void trigger(int pass) { triggers += std::exchange(trigger_pass, pass) != pass; }
-  /// Passes that max_passes does not count: executions that set off nothing in the longest chain,
-  /// and triggers, which change nothing.
-  int beside() const { return executions - longest + triggers; }
+  /// Passes that max_passes does not count: those up to the last execution, but for its longest
+  /// chain, and those of triggers, which change nothing.
+  int beside() const { return passes - longest + triggers; }
 };
 
 }  // namespace saltus
