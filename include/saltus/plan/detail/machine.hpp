@@ -132,6 +132,7 @@ class Machine : public Memory {
 
   /// The entries of x that are held.
   RestingStates& resting() noexcept { return resting_; }
+  const RestingStates& resting() const noexcept { return resting_; }
 
   /// Who puts blocks on a moving surface where it is, while there are any; null: nobody.
   void carry_by(Carrier* carrier) noexcept { carrier_ = carrier; }

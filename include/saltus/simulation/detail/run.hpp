@@ -17,6 +17,7 @@
 #include "saltus/simulation/detail/major_steps.hpp"
 #include "saltus/simulation/detail/poles.hpp"
 #include "saltus/simulation/detail/rows.hpp"
+#include "saltus/simulation/detail/tangents.hpp"
 #include "saltus/simulation/detail/turn.hpp"
 
 namespace saltus {
@@ -65,6 +66,7 @@ class Run {
   Status settle(StopReason reason, double t_end, bool at_start);
   Status after(const Outcome& outcome, const Chattering::Seen& seen, bool idle);
   void log_monitors();
+  void follow_with_tangents();
   void keep_step(double from);
   void keep_histories(double from);
   Status end_chattering();
@@ -97,6 +99,7 @@ class Run {
   Chattering chattering_;
   Crawl crawl_;
   std::optional<Poles> poles_;  // where tolerances are loose
+  std::optional<Tangents> tangents_;  // where sensitivities are asked for
   Interrupt interrupt_;
 };
 
