@@ -112,6 +112,33 @@ py::dict statistics(const Record& results) {
                   "wall_time"_a = s.wall_time);
 }
 
+/// The derivatives, in the form of saltus.results.Sensitivities; None if nobody asked for them.
+py::object sensitivities(const SharedRecord& results) {
+  const Sensitivities& all = results->sensitivities;
+  if (all.empty()) return py::none();
+  const auto m = static_cast<py::ssize_t>(all.size());
+  const auto table = [m](const std::vector<double>& values) {
+    return py::array_t<double>({static_cast<py::ssize_t>(values.size()) / m, m}, values.data());
+  };
+  py::dict outputs;
+  for (std::size_t i = 0; i < all.signals.size(); ++i) {
+    const RecordedSignal& signal = results->signals[i];
+    std::vector<py::ssize_t> dimensions{rows(results)};
+    if (signal.shape.vector) dimensions.push_back(signal.shape.size);
+    dimensions.push_back(m);
+    outputs[py::str(signal.name)] =
+        py::array_t<double>(std::move(dimensions), all.signals[i].data());
+  }
+  py::list gaps;
+  for (const SensitivityGap& gap : all.gaps)
+    gaps.append(py::make_tuple(gap.time, gap.event, gap.parameter, gap.reason));
+  using py::literals::operator""_a;
+  return py::dict("parameters"_a = all.parameters, "outputs"_a = outputs,
+                  "event_times"_a = table(all.event_times), "predicted"_a = table(all.predicted),
+                  "continuous_state"_a = table(all.continuous_state),
+                  "discrete_state"_a = table(all.discrete_state), "gaps"_a = gaps);
+}
+
 }  // namespace
 
 py::object cause_of(const Results& results) {
@@ -142,6 +169,7 @@ void bind_results(py::module_& module) {
       .def_readonly("message", &Results::message)
       .def_readonly("block", &Results::block)
       .def_property_readonly("statistics", &statistics)
+      .def_property_readonly("sensitivities", &sensitivities)
       .def_property_readonly("event_count", [](const Record& r) { return r.events.size(); })
       .def_property_readonly("event_names", [](const Record& r) { return r.events.names(); })
       .def_property_readonly("dense", [](const Record& r) { return !r.trajectory.empty(); })

@@ -101,6 +101,10 @@ class SimulatorOptions:
     """the outputs to record: a dict of names with ports or paths such as "car.engine.out", or a
     list of paths. None: the outputs that a diagram exports, in a sweep nothing; {}: nothing
     """
+    sensitivity: Sequence[str] = ()
+    """the parameters and start values to differentiate the run by, with the names of `sweep`:
+    "e", "ball.e", "x[0]"; see `Results.sensitivities`
+    """
     save_at: Sequence[float] = ()
     """[s] increasing times to record at. If there are any, solver steps are recorded only with
     save_steps=True

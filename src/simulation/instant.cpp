@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "saltus/simulation/detail/tangents.hpp"
+
 namespace saltus {
 
 void Instant::open(double t, const std::vector<int>& due, double longest) {
@@ -27,6 +29,7 @@ void Instant::open(double t, const std::vector<int>& due, double longest) {
   flow_.forget();  // it belongs to x-
   for (const int event : due)
     present_.actions.push_back({plan().scheduled(event).leaf, Cause::time, event, -1, 0, false});
+  if (Tangents* tangents = transition_.tangents()) tangents->open(present_, due);
 }
 
 Outcome Instant::run(double t, const std::vector<int>& due, double longest, bool at_start) {
@@ -52,6 +55,7 @@ Outcome Instant::run(double t, const std::vector<int>& due, double longest, bool
   }
   present_.outcome.restart = present_.outcome.restart || transition_.restarts();
   present_.outcome.events = journal_.events();
+  if (Tangents* tangents = transition_.tangents()) tangents->close();
   return present_.outcome;
 }
 
@@ -79,6 +83,7 @@ bool Instant::collect() {
   const bool flipped = collector_.flip_relations();
   rows_.before(jump_, flipped);
   machine_->evaluate_instant(present_.t);
+  if (Tangents* tangents = transition_.tangents()) tangents->evaluated();
   const bool released = collector_.collect_edges() || let_go;
   collector_.collect_crossings();
   present_.changes = flipped || released ||

@@ -1,7 +1,12 @@
 // Rows: the rows of a step.
 #include "saltus/simulation/detail/rows.hpp"
 
+#include "saltus/simulation/detail/tangents.hpp"
+
 namespace saltus {
+
+void Recorder::differentiate(double t, const double* x) { tangents_->record(t, x); }
+void Recorder::drop_tangents() { tangents_->drop(); }
 
 void Rows::begin() {
   next_ = 0;
@@ -11,7 +16,8 @@ void Rows::begin() {
 void Rows::renew() {
   recorder_.reset();
   if (!machine_->plan().taps.empty())
-    recorder_.emplace(*machine_, *results_, options_->event_rows ? nullptr : &options_->save_at);
+    recorder_.emplace(*machine_, *results_, options_->event_rows ? nullptr : &options_->save_at,
+                      tangents_);
 }
 
 void Rows::record_rows(double from, double t, int jump, Integration& integration) {

@@ -46,12 +46,20 @@ Run::Run(std::shared_ptr<const Plan> plan, SimulatorOptions options)
       integration_(machine_, guards_, options_),
       rows_(machine_, results_, options_),
       histories_(machine_, options_),
-      endings_(machine_, options_) {}
+      endings_(machine_, options_) {
+  if (!options_.sensitivity.empty()) follow_with_tangents();
+}
+
+void Run::follow_with_tangents() {
+  tangents_.emplace(machine_, guards_, options_, results_);
+  instant_.follow(&*tangents_), rows_.follow(&*tangents_);
+}
 
 /// A context that is refused leaves the run as it is.
 void Run::initialize(const Context& context) {
   require_context_of(plan(), context);
   if (context.continuation() != nullptr) instant_.fits(*context.continuation());
+  if (tangents_) tangents_->require_fits(context);
   instant_.executions().require_fits(context);
   calendar_.check(context.time());
   Context last = std::exchange(begin_, {});  // no run, if a function of the model throws now
@@ -77,6 +85,7 @@ Results Run::take_results() {
   Results taken = std::move(results_);
   results_.events = std::move(next);
   rows_.renew();
+  if (tangents_) tangents_->renew();
   if (options_.dense_output && begun_) {
     results_.trajectory.start(machine_.shared_plan(), begin_, options_);
     results_.trajectory.open(time_, machine_, instant_.contacts());
@@ -139,6 +148,7 @@ Status Run::begin(double t_end) {
   histories_.begin(resumes);
   resumes ? instant_.resume(time_, rows_.recorder(), *earlier, t_end - time_)
           : instant_.begin(time_, rows_.recorder());
+  if (tangents_) tangents_->begin(begin_);
   rows_.record(time_, instant_.jump(), machine_.x.data());
   if (options_.dense_output) results_.trajectory.open(time_, machine_, instant_.contacts());
   if (!resumes) return settle(StopReason::stop_time, t_end, true);
@@ -172,6 +182,7 @@ void Run::accept(double from) {
   accepted_.settled = false;
   accepted_.place = integration_.started() ? Place::solver : Place::machine;
   if (options_.dense_output) keep_step(from);
+  if (tangents_) tangents_->step(from, time_, integration_);
   if (!guards_.monitors.empty()) log_monitors();
   rows_.record_step(from, time_, instant_.jump(), integration_);
   if (histories_.any()) keep_histories(from);
@@ -189,6 +200,7 @@ void Run::log_monitors() {
     Eigen::VectorXd& x = integration_.at(hit.t);
     machine_.put_carried(hit.t, x.data());
     instant_.log_monitor(hit, x.data());
+    if (tangents_) tangents_->monitor(hit, x.data());
   }
 }
 
@@ -212,6 +224,7 @@ Status Run::settle(StopReason reason, double t_end, bool at_start) {
   accepted_.in_instant = true;
   const int jump = instant_.jump();
   const Outcome outcome = instant_.run(time_, due_, t_end - time_, at_start);
+  if (tangents_) tangents_->log();
   if (instant_.jump() != jump) histories_.changed();
   accepted_ = {.place = Place::machine, .settled = true};
   const bool cut = instant_.executions().stops_earlier() && integration_.inside_step();

@@ -31,6 +31,7 @@ void Run::finish() {
   if (whole) rows_.record(time_, instant_.jump(), machine_.x.data());
   if (options_.dense_output) results_.trajectory.close(time_, machine_, instant_.contacts(), whole);
   results_.context = context();
+  if (tangents_) tangents_->finish();
   Statistics& s = results_.statistics;
   integration_.report(s);
   count_calls();
@@ -52,6 +53,8 @@ Context Run::context() const {
                        settled, instant_.executions().save());
 }
 
-std::string Run::describe() const { return plan().describe() + integration_.describe(); }
+std::string Run::describe() const {
+  return plan().describe() + integration_.describe() + (tangents_ ? tangents_->describe() : "");
+}
 
 }  // namespace saltus

@@ -5,6 +5,8 @@
 #include <new>
 #include <tuple>
 
+#include "saltus/simulation/detail/tangents.hpp"
+
 namespace saltus {
 
 namespace {
@@ -42,6 +44,7 @@ void Transition::begin_pass() {
   copy(machine_->x, x_next_), copy(machine_->z, z_next_);
   if (wrote_mode_) modes_next_ = machine_->modes;
   pass_wrote_ = wrote_mode_ = false;
+  if (tangents_ != nullptr) tangents_->begin_pass();
 }
 
 namespace {
@@ -89,6 +92,7 @@ bool Transition::run(const Call& call) {
   const PlanLeaf& of = machine_->plan().leaf(call.leaf);
   int& to = modes_next_[call.leaf];
   const int mode = to;
+  if (tangents_ != nullptr) tangents_->call(call, x_next_.data(), z_next_.data(), mode);
   const Wrote wrote =
       apply(call, {x_next_.data() + of.x, of.nx}, {z_next_.data() + of.z, of.nz}, to);
   count(call.leaf, wrote);
@@ -154,6 +158,7 @@ bool Transition::derivatives_read(Reads kind, int number) const {
 }
 
 bool Transition::commit() {
+  if (tangents_ != nullptr) tangents_->commit();
   copy(x_next_, machine_->x), copy(z_next_, machine_->z);
   if (!wrote_mode_ || modes_next_ == machine_->modes) return false;
   if (!entered_) modes_minus_ = machine_->modes;

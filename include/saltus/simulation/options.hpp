@@ -6,6 +6,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "saltus/plan/refinement.hpp"
@@ -60,6 +61,11 @@ struct SimulatorOptions {
   /// The seed of the order in which executions of queued zero crossings with equal priority follow
   /// each other at one time: any finite number.
   double event_seed = 0.0;
+
+  /// The parameters and start values with respect to which the run is differentiated, by the names
+  /// of `Ensemble::vary`: "ball.e", "x[0]". See Results::sensitivities. Without any this costs
+  /// nothing.
+  std::vector<std::string> sensitivity = {};
 
   /// The signals to record, by name; without any, recording costs nothing.
   RecordedSignals recorded_signals = {};

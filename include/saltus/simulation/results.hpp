@@ -11,6 +11,7 @@
 #include "saltus/base/list.hpp"
 #include "saltus/simulation/dense_output.hpp"
 #include "saltus/simulation/event_log.hpp"
+#include "saltus/simulation/sensitivities.hpp"
 #include "saltus/solver/statistics.hpp"
 
 namespace saltus {
@@ -63,6 +64,7 @@ struct Results {
   std::string block;         ///< the block at fault, if it was one block
   std::exception_ptr cause;  ///< the exception, if the status is failed
   Statistics statistics;
+  Sensitivities sensitivities;  ///< with the option sensitivity; otherwise empty
   Trajectory trajectory;  ///< with the option dense_output; otherwise empty
 
   /// The continuous state and every recorded signal at any time of a run with the option

@@ -184,6 +184,10 @@ def _job(
     options = replace(options, **overrides)
     signals = named(signals if signals is not None else options.recorded_signals or {})
     if reduce is None:  # events and steps are not shown
+        if options.sensitivity:
+            raise ModelError(
+                "sweep: sensitivity: a dataset has no derivatives; say with reduce=... what to keep"
+            )
         if options.save_steps:
             raise ModelError("sweep: save_steps: runs have no steps in common; say save_at=[...]")
         options = replace(options, save_steps=False, record_events=False)

@@ -148,6 +148,51 @@ class EventLog(Sequence[Event]):
             [e.time for e in self if e.kind in kinds and name == (_path(e) if path else e.name)]
         )
 
+    def dt_dp(self, name: str | None = None, kind: str | None = None) -> np.ndarray:
+        """The derivative of each event time by the parameters of the option `sensitivity`.
+
+        Parameters
+        ----------
+        name : str
+            As in `times`.
+        kind : str, optional
+            As in `times`. Of 'zeno_enter' it is the derivative of `predicted`, the time at which
+            infinitely many resets would have happened.
+
+        Returns
+        -------
+        ndarray
+            [s per unit of the parameter] A row for each event, a column for each parameter; nan
+            where the derivative does not exist, see `Results.sensitivity_gaps`.
+
+        Raises
+        ------
+        ModelError
+            For a run without the option `sensitivity`, and as `times` does.
+
+        Examples
+        --------
+        >>> import saltus
+        >>> results = saltus.scene("bouncing-ball").simulate(sensitivity=["e"])
+        >>> results.events.dt_dp("bounce").shape == (results.events.times("bounce").size, 1)
+        True
+        """
+        wanted = self.times(name, kind)  # refuses an unknown name or kind
+        found = self._record.sensitivities
+        if found is None:
+            raise ModelError(
+                "dt_dp: this run has no derivatives; ask for them with sensitivity=['e', ...]"
+            )
+        kinds = FIRINGS if kind is None else (kind,)
+        path = name in self._record.event_names
+        chosen = [
+            row
+            for row, e in zip(self._rows, self, strict=True)
+            if e.kind in kinds and (name is None or name == (_path(e) if path else e.name))
+        ]
+        assert len(chosen) == len(wanted)
+        return np.array(found["predicted" if kind == "zeno_enter" else "event_times"][chosen])
+
     def to_pandas(self) -> pandas.DataFrame:
         """A row for each event, a column for each field of `Event`. Needs pandas.
 

@@ -15,6 +15,7 @@ from saltus.errors import Error, ModelError
 from saltus.results.events import EventLog
 from saltus.results.record import KINDS, KeptRun, Record
 from saltus.results.saving import save
+from saltus.results.sensitivities import Gap, Sensitivities
 from saltus.results.statistics import Statistics
 from saltus.results.tables import to_pandas, to_xarray, write_csv
 from saltus.results.text import as_html, as_text
@@ -102,6 +103,32 @@ class Results:
     def events(self) -> EventLog:
         """Every event, in order; a table with `to_pandas()` and `times(name)`."""
         return EventLog(self._core)
+
+    @cached_property
+    def sensitivities(self) -> Sensitivities:
+        """The derivatives of the run by the parameters of the option `sensitivity`.
+
+        Raises
+        ------
+        ModelError
+            For a run without that option.
+
+        Examples
+        --------
+        >>> import saltus
+        >>> ball = saltus.scene("bouncing-ball")
+        >>> results = ball.simulate(sensitivity=["e", "x[0]"])
+        >>> results.sensitivities.parameters
+        ('e', 'x[0]')
+        """
+        return Sensitivities(self._core)
+
+    @property
+    def sensitivity_gaps(self) -> tuple[Gap, ...]:
+        """Where derivatives end: the time, the event, the parameter and the reason. Empty if all of
+        them exist.
+        """
+        return self.sensitivities.gaps
 
     @cached_property
     def context(self) -> _core.Context:

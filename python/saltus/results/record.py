@@ -48,6 +48,8 @@ class Record(Protocol):
     def span(self) -> tuple[float, float]: ...
     @property
     def joints(self) -> np.ndarray: ...
+    @property
+    def sensitivities(self) -> dict[str, Any] | None: ...
 
     def event(self, index: int, /) -> tuple[Any, ...]: ...
     def event_times(self, name: str, kind: str | None, /) -> np.ndarray: ...
@@ -69,6 +71,7 @@ class KeptRun:
     events: list[tuple[Any, ...]]
     event_names: list[str]
     """'ball.bounce' of every event that could have been"""
+    sensitivities: dict[str, Any] | None = None
     dense = False
     span = (float("nan"), float("nan"))
     joints = np.empty(0)
@@ -87,6 +90,7 @@ class KeptRun:
             statistics=record.statistics,
             events=[record.event(i) for i in range(record.event_count)],
             event_names=record.event_names,
+            sensitivities=record.sensitivities,
         )
 
     @property

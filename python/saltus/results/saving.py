@@ -48,6 +48,11 @@ def save(run: KeptRun, path: str | PathLike[str], kind: dict[str, Any]) -> None:
     import json
 
     refuse_suffix(path)
+    if run.sensitivities is not None:
+        raise ModelError(
+            "save: the file format has no place for derivatives; write them with numpy.savez, or "
+            "the whole results with pickle"
+        )
     arrays = {"time": run.time, "jump": run.jump}
     arrays |= {f"output {i}": array for i, array in enumerate(run.outputs.values())}
     arrays["event time"] = np.array([e[0] for e in run.events], dtype=float)

@@ -132,6 +132,7 @@ class Machine : public Memory {
 
   /// The entries of x that are held.
   RestingStates& resting() noexcept { return resting_; }
+  const RestingStates& resting() const noexcept { return resting_; }
 
   /// Sets the carrier, which keeps blocks on their moving surfaces; null while no block is carried.
   void carry_by(Carrier* carrier) noexcept { carrier_ = carrier; }

@@ -26,6 +26,8 @@ class Instant {
   Instant(Machine& machine, GuardSet& guards, const SimulatorOptions& options, Results& results);
   Instant(const Instant&) = delete;  // its parts know each other
   Instant& operator=(const Instant&) = delete;
+  /// From now on `tangents` differentiates each instant.
+  void follow(Tangents* tangents) noexcept { transition_.follow(tangents); }
 
   /// Clears monitors, relations and held signals for a run that begins at t. Nothing fires yet.
   void begin(double t, Recorder* recorder);

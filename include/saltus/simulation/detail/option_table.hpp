@@ -84,6 +84,7 @@ inline const std::tuple option_table{
            +[](const SimulatorOptions& o) {
              return unless(std::isfinite(o.event_seed), "a finite number");
            }},
+    Option<std::vector<std::string>>{"sensitivity", &SimulatorOptions::sensitivity},
     Option<std::vector<double>>{"save_at", &SimulatorOptions::save_at},
     Option<std::optional<bool>>{"save_steps", &SimulatorOptions::save_steps},
     Option<bool>{"event_rows", &SimulatorOptions::event_rows},

@@ -7,12 +7,16 @@
 
 namespace saltus {
 
+class Tangents;
+
 class Recorder {
  public:
   /// `only` is a list of increasing times. With it there is one row at each of these times, the
   /// last of several, and no other row.
-  Recorder(Machine& machine, Results& results, const std::vector<double>* only = nullptr)
-      : machine_(&machine), results_(&results), only_(only) {
+  /// `tangents`, if not null, differentiates each row.
+  Recorder(Machine& machine, Results& results, const std::vector<double>* only = nullptr,
+           Tangents* tangents = nullptr)
+      : machine_(&machine), results_(&results), only_(only), tangents_(tangents) {
     results.signals.clear();
     for (const Tap& tap : machine.plan().taps) {
       results.signals.push_back({tap.name, machine.plan().node(tap.node).shape, {}});
@@ -37,6 +41,7 @@ class Recorder {
       results_->signals[i].values.insert(results_->signals[i].values.end(), value,
                                          value + place.size);
     }
+    if (tangents_ != nullptr) differentiate(t, x);
   }
 
   /// Records a row, and replaces a row at (t, j) that is there already.
@@ -57,12 +62,16 @@ class Recorder {
  private:
   /// Removes the last row.
   void drop() {
+    if (tangents_ != nullptr) drop_tangents();
     results_->time.pop_back();
     results_->jump.pop_back();
     for (auto& signal : results_->signals) {
       signal.values.resize(signal.values.size() - static_cast<std::size_t>(signal.shape.size));
     }
   }
+
+  void differentiate(double t, const double* x);
+  void drop_tangents();
 
   /// Time never decreases, so one pass through the list is enough.
   bool asked_for(double t) {
@@ -81,6 +90,7 @@ class Recorder {
   Machine* machine_;
   Results* results_;
   const std::vector<double>* only_;
+  Tangents* tangents_;
   std::size_t next_ = 0;
 };
 

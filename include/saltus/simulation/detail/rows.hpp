@@ -17,6 +17,8 @@ class Rows {
   Rows(Machine& machine, Results& results, const SimulatorOptions& options)
       : machine_(&machine), results_(&results), options_(&options) {}
 
+  /// From the next columns on `tangents` differentiates each row.
+  void follow(Tangents* tangents) { tangents_ = tangents; }
   /// A run begins, with empty columns.
   void begin();
   /// New columns, because the old ones have been moved out with the results.
@@ -42,6 +44,7 @@ class Rows {
   Machine* machine_;
   Results* results_;
   const SimulatorOptions* options_;
+  Tangents* tangents_ = nullptr;
   std::optional<Recorder> recorder_;
   std::size_t next_ = 0;  // of the requested times
 };

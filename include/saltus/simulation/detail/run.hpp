@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "saltus/simulation/detail/integration.hpp"
 #include "saltus/simulation/detail/major_steps.hpp"
 #include "saltus/simulation/detail/rows.hpp"
+#include "saltus/simulation/detail/tangents.hpp"
 #include "saltus/simulation/detail/turn.hpp"
 
 namespace saltus {
@@ -59,6 +61,7 @@ class Run {
   void accept(double from);
   Status settle(StopReason reason, double t_end, bool at_start);
   void log_monitors();
+  void follow_with_tangents();
   void keep_step(double from);
   void keep_histories(double from);
   [[noreturn]] void fail_at_pole(double from);
@@ -86,6 +89,7 @@ class Run {
   mutable Caller caller_{};
   std::vector<int> due_;
   Endings endings_;
+  std::optional<Tangents> tangents_;  // where sensitivities are asked for
 };
 
 }  // namespace saltus

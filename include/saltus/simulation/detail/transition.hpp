@@ -12,11 +12,16 @@
 
 namespace saltus {
 
+class Tangents;
+
 /// Holds the values before the instant and the values to come. The reset maps of one pass write the
 /// values to come; `commit` makes them the present ones. This class knows nothing of guards.
 class Transition {
  public:
   explicit Transition(Machine& machine);
+  /// Who differentiates each transition; null: nobody.
+  void follow(Tangents* tangents) noexcept { tangents_ = tangents; }
+  Tangents* tangents() const noexcept { return tangents_; }
 
   /// The instant begins: the present values are x-, z-, y-.
   void open();
@@ -77,6 +82,7 @@ class Transition {
   void count(int leaf, Wrote wrote);
 
   Machine* machine_;
+  Tangents* tangents_ = nullptr;
   Eigen::VectorXd x_minus_, z_minus_, y_minus_, x_next_, z_next_;
   List<int> modes_next_, modes_before_;
   List<int> modes_minus_;    // before the instant, once a commit has changed a mode

@@ -1,0 +1,82 @@
+// TangentFlow: the derivatives of the flow and of the guards by all that they read.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "saltus/plan/detail/flow_graph.hpp"
+#include "saltus/plan/detail/flow_variables.hpp"
+#include "saltus/simulation/detail/tangent_probe.hpp"
+#include "saltus/tape/tape.hpp"
+
+namespace saltus {
+
+/// The derivatives by the chosen parameters: a column for each of them.
+struct TangentColumns {
+  Eigen::MatrixXd x, z, y;         ///< of the states, the discrete states and the signals
+  std::vector<Index> parameters;   ///< the entry of p that each column is of, or -1
+  Index size() const { return static_cast<Index>(parameters.size()); }
+  /// One of them as a direction; the time moves by `t`.
+  TangentDirection column(Index k, double t = 0.0) const {
+    return {t, x.col(k).data(), z.col(k).data(), y.col(k).data(), nth(parameters, k)};
+  }
+};
+
+/// The derivatives of one guard.
+struct GuardTangent {
+  Eigen::VectorXd by_state;    ///< dg/dx
+  double by_time = 0.0;        ///< dg/dt
+  Eigen::RowVectorXd columns;  ///< dg of each column, at a fixed time
+};
+
+/// Where all functions of the flow are formulas or traced, its derivatives are exact: expressions
+/// of the plan's graph. Where one of them is called, they are central differences of the whole flow.
+class TangentFlow {
+ public:
+  TangentFlow(const Machine& machine, TangentProbe& probe);
+
+  /// dxdot/dx at (t, x), and dxdot of each column at a fixed state, which is a column of `by`.
+  void at(double t, const double* x, const TangentColumns& columns, Eigen::MatrixXd& jacobian,
+          Eigen::MatrixXd& by);
+  GuardTangent guard(double t, const double* x, Index slot, const TangentColumns& columns);
+
+  /// Whether the derivatives of the flow are exact.
+  bool exact() const noexcept { return rates_.has_value(); }
+  /// In words, for `Simulator::describe`.
+  std::string describe() const;
+
+ private:
+  enum class Variable { x, z, y, p, t };
+  struct Entry {
+    Index row;
+    Variable kind;
+    Index index;
+  };
+  /// Derivatives of some rows as one tape.
+  struct Partials {
+    std::vector<Entry> entries;
+    tape::Tape tape;
+    Eigen::VectorXd values;
+  };
+
+  void make();
+  static Partials partials(FlowGraph& flow, const Plan& plan, const std::vector<tape::Node>& rows);
+  void evaluate(Partials& of, double t, const double* x);
+  void exact_at(double t, const double* x, const TangentColumns& columns, Eigen::MatrixXd& jacobian,
+                Eigen::MatrixXd& by);
+  void differences_at(double t, const double* x, const TangentColumns& columns,
+                      Eigen::MatrixXd& jacobian, Eigen::MatrixXd& by);
+  GuardTangent exact_guard(double t, const double* x, Index row, const TangentColumns& columns);
+
+  const Machine* machine_;
+  TangentProbe* probe_;
+  FlowVariables variables_;
+  int functions_ = -1;  // of the machine, when the tapes were made
+  std::string obstacle_;
+  std::optional<Partials> rates_, guards_;
+  std::vector<Index> row_of_slot_;  // of `guards_`; -1: the guard is called
+  Eigen::VectorXd unit_;
+};
+
+}  // namespace saltus

@@ -1,0 +1,68 @@
+// TangentProbe: derivatives of functions of a machine along a direction, by central differences.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "saltus/plan/detail/machine.hpp"
+#include "saltus/simulation/detail/thresholds.hpp"
+
+namespace saltus {
+
+/// How the values of a machine change with one parameter.
+struct TangentDirection {
+  double t = 0.0;  ///< of the time
+  const double *x = nullptr, *z = nullptr, *y = nullptr;  ///< null: zero
+  Index parameter = -1;                                   ///< an entry of p that changes by 1
+};
+
+/// A second machine beside that of a run. It takes the values of the run, moved along a direction
+/// to both sides, and so the machine of the run is never touched.
+class TangentProbe {
+ public:
+  explicit TangentProbe(const Machine& machine)
+      : machine_(&machine), probe_(machine.shared_plan()), sizes_(machine.plan().nx) {
+    sizes_.setZero();
+  }
+
+  /// The machine with the values of the run, moved by `shift` along the direction.
+  Machine& at(const double* x, const TangentDirection& along, double shift);
+  /// The same without a shift.
+  Machine& at(const double* x) { return at(x, {}, 0.0); }
+
+  /// Notes how large the states are, and how long a step is [s].
+  void note(const double* x, double step);
+
+  /// d out along the direction at (t, x). `read(machine, shift, out)` computes `size` numbers on a
+  /// machine that is moved; the time and all that the machine does not have it moves by itself.
+  template <class Read>
+  void derivative(const double* x, const TangentDirection& along, Index size, const Read& read,
+                  double* out) {
+    const double shift = shift_of(x, along);
+    if (!(shift > 0.0)) return fill(out, size, std::isnan(shift) ? nan : 0.0);
+    up_.resize(size), down_.resize(size);
+    read(at(x, along, shift), shift, up_.data());
+    read(at(x, along, -shift), -shift, down_.data());
+    for (Index i = 0; i < size; ++i) out[i] = (up_[i] - down_[i]) / (2.0 * shift);
+  }
+
+  /// dxdot along the direction. States at rest do not move.
+  void flow(double t, const double* x, const TangentDirection& along, double* out);
+  /// The derivative itself, without a shift.
+  void flow(double t, const double* x, double* xdot);
+
+ private:
+  static constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  static void fill(double* out, Index size, double value) { std::fill_n(out, size, value); }
+  double shift_of(const double* x, const TangentDirection& along) const;
+  void let_rest(double* xdot) const;
+
+  const Machine* machine_;
+  Machine probe_;
+  Eigen::VectorXd sizes_;  // the largest of each state so far
+  double step_ = 1.0;      // [s]
+  Eigen::VectorXd moved_, up_, down_;
+};
+
+}  // namespace saltus

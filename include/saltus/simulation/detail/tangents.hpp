@@ -1,0 +1,113 @@
+// Tangents: the derivatives of a run, carried along beside it.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "saltus/model/context_entry.hpp"
+#include "saltus/simulation/detail/integration.hpp"
+#include "saltus/simulation/detail/present.hpp"
+#include "saltus/simulation/detail/tangent_flow.hpp"
+#include "saltus/simulation/detail/transition.hpp"
+#include "saltus/simulation/detail/variation.hpp"
+#include "saltus/simulation/detail/zeno_tangent.hpp"
+
+namespace saltus {
+
+/// Watches a run and never changes it. Between instants it solves the linear equation S' = f_x S +
+/// f_p along the steps of the run. At an instant whose time tau depends on a parameter it goes over
+/// to the total derivatives X = S + f- dtau, which belong to the moving instant. Every function that
+/// the instant calls maps them on, in the order of the passes. At its end S = X - f+ dtau holds for
+/// a fixed time again. This is the saltation rule in all its cases: parameters in guard and reset,
+/// modes, several resets in one pass, cascades of passes.
+class Tangents {
+ public:
+  /// Throws ModelError for a plan with a part that has no derivatives here.
+  Tangents(const Machine& machine, const GuardSet& guards, const SimulatorOptions& options,
+           Results& results);
+
+  /// Throws ModelError for a name that is unknown, or that has no derivative.
+  void require_fits(const Context& start) const;
+  /// A run begins at these values; the machine has them, and its held signals, already.
+  void begin(const Context& start);
+  /// The results were moved out: the rows to come are of new ones.
+  void renew();
+
+  /// A step was accepted.
+  void step(double from, double to, Integration& integration);
+  /// A monitor crossed inside the last step, at the state x.
+  void monitor(const MonitorHit& hit, const double* x);
+
+  // --- an instant
+  void open(const Present& present, const std::vector<int>& due);
+  void begin_pass();
+  /// A reset map or an update is about to be called at these values of its leaf.
+  void call(const Transition::Call& call, const double* x_next, const double* z_next, int mode);
+  void commit();
+  /// The machine has evaluated its held signals.
+  void evaluated();
+  void close();
+  /// The events of the instant are in the log.
+  void log();
+
+  // --- a Zeno monitor, by any pointer that belongs to it alone
+  void fired(const void* monitor);
+  void remember(const void* monitor, std::span<const Index> states, const Eigen::VectorXd& next);
+  void accumulate(const void* monitor, std::span<const Index> states, const Eigen::VectorXd& next);
+
+  // --- rows
+  void record(double t, const double* x);
+  void drop();
+
+  /// The run ends at t.
+  void finish();
+  std::string describe() const;
+
+ private:
+  struct Found {
+    std::string name;
+    ContextEntry entry;
+  };
+  /// Why no derivative exists, or the derivatives of the time at which something happens.
+  struct Moved {
+    Eigen::RowVectorXd by = {};
+    std::string event = {}, obstacle = {};
+  };
+
+  Index size() const { return columns_.size(); }
+  std::vector<Found> found(const Layout& layout) const;
+  void begin_signals(const Context& start);
+  void clear_truths();
+  Moved moved_by(const Firing& firing, bool jumped, const double* x, double t);
+  Moved moved_by(const ScheduledEvent& event, double t);
+  Moved crossing_time(Index slot, const std::string& event, double t, const double* x);
+  bool grazes(const GuardTangent& guard, double speed, Index slot, double t, const double* x);
+  void merge(const Moved& moved, bool first);
+  void lose(Index k, const std::string& event, const std::string& reason);
+  void add_event(const Eigen::RowVectorXd& by);
+  Eigen::VectorXd flow(double t, const double* x);
+  Eigen::MatrixXd rows_of(std::span<const Index> states) const;
+  void taps(double t, const double* x, const TangentColumns& at);
+
+  const Machine* machine_;
+  const GuardSet* guards_;
+  const SimulatorOptions* options_;
+  Results* results_;
+  TangentProbe probe_;
+  TangentFlow flow_;
+  std::optional<Variation> variation_;
+  TangentColumns columns_;  // S between instants; X, of the moving instant, within one
+  TangentColumns before_;   // S before the instant
+  Eigen::MatrixXd next_x_, next_z_;
+  Eigen::RowVectorXd dtau_;
+  double t_ = 0.0;  // [s] of S, or of the instant
+  bool in_instant_ = false, committed_ = false;
+  std::vector<char> lost_;
+  std::map<const void*, ZenoTangent> monitors_;
+  std::map<std::size_t, Eigen::RowVectorXd> predicted_;  // of the events with these numbers
+};
+
+}  // namespace saltus

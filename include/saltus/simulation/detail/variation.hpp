@@ -1,0 +1,52 @@
+// Variation: the linear equation of the tangents, S' = A(t) S + b(t), over one solver step.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "saltus/base/view.hpp"
+
+namespace saltus {
+
+/// Advances S by collocation at the Radau points with 5 stages (Radau IIA, order 9, L-stable; E.
+/// Hairer, G. Wanner, Solving ODEs II, 2nd ed., Springer 1996, IV.5). The equation is linear, so a
+/// step is one linear solve, and stiff equations need nothing else. A step is divided where the
+/// polynomial of the collocation misses the equation, between its points, by more than the
+/// tolerance.
+class Variation {
+ public:
+  static constexpr int stages = 5;
+  /// A(t), n by n, and b(t), n by m.
+  using Equation = std::function<void(double t, Eigen::MatrixXd& a, Eigen::MatrixXd& b)>;
+  struct Tolerances {
+    double rtol;
+    Eigen::MatrixXd atol;  ///< of each entry of S
+  };
+
+  explicit Variation(Tolerances tolerances);
+
+  /// Advances S from `from` to `to` [s], and keeps its values in between.
+  void advance(double from, double to, const Equation& equation, Eigen::MatrixXd& s);
+  /// Forgets the values in between.
+  void forget() { pieces_.clear(); }
+  /// S at a time within the steps since `forget`; false if there were none around it.
+  bool at(double t, Eigen::MatrixXd& s) const;
+
+ private:
+  struct Piece {
+    double from, to;  // [s]
+    std::vector<Eigen::MatrixXd> s;  // at the begin and at the points
+  };
+  void advance(double from, double to, const Equation& equation, Eigen::MatrixXd& s, int depth);
+  Piece collocate(double from, double to, const Equation& equation, const Eigen::MatrixXd& s);
+  bool is_good(const Piece& piece, const Equation& equation);
+
+  Tolerances tolerances_;
+  std::vector<Piece> pieces_;
+  std::vector<Eigen::MatrixXd> a_, b_;
+  Eigen::MatrixXd system_, right_;
+};
+
+}  // namespace saltus

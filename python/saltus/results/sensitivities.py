@@ -1,0 +1,116 @@
+"""`Sensitivities`: the derivatives of a run by parameters and start values."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from saltus._core import known_names
+from saltus.errors import ModelError
+from saltus.results.tables import extra
+
+if TYPE_CHECKING:
+    import xarray  # type: ignore[import-not-found,unused-ignore]
+
+    from saltus.results.record import Record
+
+__all__ = ["Gap", "Sensitivities"]
+
+
+class Gap(NamedTuple):
+    """An instant from which on a derivative does not exist.
+
+    Examples
+    --------
+    >>> from saltus.results import Gap
+    >>> Gap(1.0, "ball.bounce", "e", "the guard only grazes zero").event
+    'ball.bounce'
+    """
+
+    time: float
+    """[s]"""
+    event: str
+    """path of the event, 'ball.bounce'"""
+    parameter: str
+    """with respect to which there is no derivative from here on"""
+    reason: str
+
+
+class Sensitivities(Mapping[str, np.ndarray]):
+    """The derivatives of the recorded signals, by the names of the signals, and of the final state.
+
+    Those of a scalar signal have the axes (row, parameter), those of a vector (row, entry,
+    parameter), with the rows of the results. They are derivatives at a fixed time: at an event the
+    row before it and the row after it differ by the jump that the moving event makes. After a gap
+    they are nan.
+
+    Examples
+    --------
+    >>> import saltus
+    >>> results = saltus.scene("bouncing-ball").simulate(sensitivity=["e", "x[0]"])
+    >>> results.sensitivities["x"].shape == (*results["x"].shape, 2)
+    True
+    """
+
+    def __init__(self, record: Record):
+        found = record.sensitivities
+        if found is None:
+            raise ModelError(
+                "this run has no derivatives; ask for them with sensitivity=['e', ...]"
+            )
+        self._outputs: dict[str, np.ndarray] = found["outputs"]
+        self._time, self._jump = record.time, record.jump
+        self.parameters: tuple[str, ...] = tuple(found["parameters"])
+        """the names of the last axis; a vector has a name for each entry"""
+        self.continuous_state: np.ndarray = found["continuous_state"]
+        """at the end: (state, parameter), in the order of the context"""
+        self.discrete_state: np.ndarray = found["discrete_state"]
+        self.gaps: tuple[Gap, ...] = tuple(Gap(*gap) for gap in found["gaps"])
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        try:
+            return self._outputs[name]
+        except KeyError:
+            raise ModelError(
+                f"nothing was recorded under {name!r}{known_names(str(name), list(self))}"
+            ) from None
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._outputs
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._outputs)
+
+    def __len__(self) -> int:
+        return len(self._outputs)
+
+    def to_xarray(self) -> xarray.Dataset:
+        """A variable for each signal over 'time' and 'parameter'. Needs xarray.
+
+        Examples
+        --------
+        >>> import saltus
+        >>> results = saltus.scene("bouncing-ball").simulate(sensitivity=["e"])
+        >>> results.sensitivities.to_xarray()["x"].dims
+        ('time', 'x_entry', 'parameter')
+        """
+        made = extra("xarray", "to_xarray")
+        variables: dict[str, Any] = {}
+        for name, values in self._outputs.items():
+            entries = [f"{name}_entry"] if values.ndim == 3 else []
+            variables[name] = (("time", *entries, "parameter"), values)
+        return made.Dataset(
+            variables,
+            coords={
+                "time": self._time,
+                "jump": ("time", self._jump),
+                "parameter": list(self.parameters),
+            },
+        )
+
+    def __repr__(self) -> str:
+        lines = [f"  {name}: {values.shape}" for name, values in self._outputs.items()]
+        lines += [f"  ends at t = {g.time} s for {g.parameter}: {g.reason}" for g in self.gaps]
+        return "\n".join([f"derivatives by {', '.join(self.parameters)}", *lines])

@@ -1,0 +1,156 @@
+// TangentFlow: exact derivatives from the plan's graph, or differences.
+#include "saltus/simulation/detail/tangent_flow.hpp"
+
+#include "saltus/tape/jacobian.hpp"
+
+namespace saltus {
+
+TangentFlow::TangentFlow(const Machine& machine, TangentProbe& probe)
+    : machine_(&machine), probe_(&probe), variables_(machine) {
+  make();
+}
+
+/// Makes the tapes of the present functions.
+void TangentFlow::make() {
+  functions_ = machine_->functions();
+  const Plan& plan = machine_->plan();
+  FlowGraph flow = flow_graph(plan);
+  obstacle_ = flow.obstacle;
+  rates_.reset(), guards_.reset();
+  row_of_slot_.assign(static_cast<std::size_t>(plan.guard_slots), -1);
+  if (!obstacle_.empty()) return;
+  std::vector<tape::Node> rows(flow.rates.begin(), flow.rates.end());
+  rates_ = partials(flow, plan, rows);
+  rows.clear();
+  for (std::size_t slot = 0; slot < flow.guards.size(); ++slot) {
+    if (!flow.guards[slot]) continue;
+    row_of_slot_[slot] = static_cast<Index>(rows.size());
+    rows.push_back(*flow.guards[slot]);
+  }
+  guards_ = partials(flow, plan, rows);
+}
+
+TangentFlow::Partials TangentFlow::partials(FlowGraph& flow, const Plan& plan,
+                                            const std::vector<tape::Node>& rows) {
+  std::vector<tape::Node> variables;
+  std::vector<std::pair<Variable, Index>> names;
+  const auto add = [&](Variable kind, Index size, const auto& node_of) {
+    for (Index i = 0; i < size; ++i) variables.push_back(node_of(i)), names.emplace_back(kind, i);
+  };
+  tape::Graph& graph = flow.graph;
+  add(Variable::x, plan.nx, [&](Index i) { return graph.continuous_state(i); });
+  add(Variable::z, plan.nz, [&](Index i) { return graph.input(0, i); });
+  add(Variable::y, plan.ny, [&](Index i) { return graph.discrete_state(i); });
+  add(Variable::p, plan.np, [&](Index i) { return graph.parameter(i); });
+  add(Variable::t, 1, [&](Index) { return graph.time(); });
+  std::vector<Entry> entries;
+  std::vector<tape::Node> values;
+  for (const tape::Partial& one : tape::differentiate(graph, rows, variables)) {
+    const auto [kind, index] = nth(names, one.column);
+    entries.push_back({one.row, kind, index});
+    values.push_back(one.value);
+  }
+  return {std::move(entries), tape::Tape(graph, values),
+          Eigen::VectorXd(static_cast<Index>(values.size()))};
+}
+
+void TangentFlow::evaluate(Partials& of, double t, const double* x) {
+  variables_.at(t, x, [&](const At& at) { of.tape.evaluate(at, of.values.data()); });
+}
+
+void TangentFlow::at(double t, const double* x, const TangentColumns& columns,
+                     Eigen::MatrixXd& jacobian, Eigen::MatrixXd& by) {
+  if (functions_ != machine_->functions()) make();
+  const Index n = machine_->plan().nx;
+  jacobian.setZero(n, n), by.setZero(n, columns.size());
+  exact() ? exact_at(t, x, columns, jacobian, by) : differences_at(t, x, columns, jacobian, by);
+}
+
+void TangentFlow::exact_at(double t, const double* x, const TangentColumns& columns,
+                           Eigen::MatrixXd& jacobian, Eigen::MatrixXd& by) {
+  evaluate(*rates_, t, x);
+  for (std::size_t e = 0; e < rates_->entries.size(); ++e) {
+    const auto [row, kind, index] = rates_->entries[e];
+    const double value = rates_->values[static_cast<Index>(e)];
+    if (machine_->resting().rests(row)) continue;
+    if (kind == Variable::x) jacobian(row, index) += value;
+    if (kind == Variable::z) by.row(row) += value * columns.z.row(index);
+    if (kind == Variable::y) by.row(row) += value * columns.y.row(index);
+    if (kind != Variable::p) continue;
+    for (Index k = 0; k < columns.size(); ++k)
+      if (nth(columns.parameters, k) == index) by(row, k) += value;
+  }
+}
+
+void TangentFlow::differences_at(double t, const double* x, const TangentColumns& columns,
+                                 Eigen::MatrixXd& jacobian, Eigen::MatrixXd& by) {
+  const Index n = machine_->plan().nx;
+  unit_.setZero(n);
+  for (Index j = 0; j < n; ++j) {
+    unit_[j] = 1.0;
+    probe_->flow(t, x, {.x = unit_.data()}, jacobian.col(j).data());
+    unit_[j] = 0.0;
+  }
+  for (Index k = 0; k < columns.size(); ++k) {
+    TangentDirection along = columns.column(k);
+    along.x = nullptr;
+    probe_->flow(t, x, along, by.col(k).data());
+  }
+}
+
+GuardTangent TangentFlow::guard(double t, const double* x, Index slot,
+                                const TangentColumns& columns) {
+  if (functions_ != machine_->functions()) make();
+  const Index row = nth(row_of_slot_, slot), n = machine_->plan().nx;
+  if (row >= 0) return exact_guard(t, x, row, columns);
+  GuardTangent found{Eigen::VectorXd::Zero(n), 0.0, Eigen::RowVectorXd::Zero(columns.size())};
+  Eigen::VectorXd g(machine_->plan().guard_slots);
+  const auto along = [&](const TangentDirection& direction) {
+    const auto read = [&](Machine& probe, double shift, double* out) {
+      probe.guards_at(t + shift * direction.t, probe.x.data(), g.data());
+      *out = g[slot];
+    };
+    double out = 0.0;
+    probe_->derivative(x, direction, 1, read, &out);
+    return out;
+  };
+  unit_.setZero(n);
+  for (Index j = 0; j < n; ++j) {
+    unit_[j] = 1.0;
+    found.by_state[j] = along({.x = unit_.data()});
+    unit_[j] = 0.0;
+  }
+  found.by_time = along({.t = 1.0});
+  for (Index k = 0; k < columns.size(); ++k) found.columns[k] = along(columns.column(k));
+  return found;
+}
+
+GuardTangent TangentFlow::exact_guard(double t, const double* x, Index row,
+                                      const TangentColumns& columns) {
+  GuardTangent found{Eigen::VectorXd::Zero(machine_->plan().nx), 0.0,
+                     Eigen::RowVectorXd::Zero(columns.size())};
+  evaluate(*guards_, t, x);
+  for (std::size_t e = 0; e < guards_->entries.size(); ++e) {
+    const auto [of, kind, index] = guards_->entries[e];
+    const double value = guards_->values[static_cast<Index>(e)];
+    if (of != row) continue;
+    if (kind == Variable::x) {
+      found.by_state[index] += value;
+      found.columns += value * columns.x.row(index);
+    }
+    if (kind == Variable::z) found.columns += value * columns.z.row(index);
+    if (kind == Variable::y) found.columns += value * columns.y.row(index);
+    if (kind == Variable::t) found.by_time += value;
+    if (kind != Variable::p) continue;
+    for (Index k = 0; k < columns.size(); ++k)
+      if (nth(columns.parameters, k) == index) found.columns[k] += value;
+  }
+  return found;
+}
+
+std::string TangentFlow::describe() const {
+  if (exact()) return "by exact derivatives of the flow";
+  return text("by central differences of the flow, because ", obstacle_, " is called");
+}
+
+}  // namespace saltus

@@ -1,0 +1,81 @@
+// TangentProbe: how far a machine is moved, and the derivative of the flow.
+#include "saltus/simulation/detail/tangent_probe.hpp"
+
+namespace saltus {
+
+namespace {
+
+/// A central difference has the error u^2 / 6 by its curvature and eps / u by rounding, for a
+/// relative shift u: they are equal near u = eps^(1/3).
+const double relative_shift = std::cbrt(thresholds::eps);
+
+/// |d| in units of the size of a value; a value that was zero so far counts as 1.
+double in_sizes(double d, double size) {
+  return d == 0.0 ? 0.0 : std::abs(d) / (size > 0.0 ? size : 1.0);
+}
+
+}  // namespace
+
+void TangentProbe::note(const double* x, double step) {
+  for (Index i = 0; i < sizes_.size(); ++i) sizes_[i] = std::max(sizes_[i], std::abs(x[i]));
+  if (step > 0.0) step_ = step;
+}
+
+/// The shift that moves no value by more than a small part of its size; 0 if nothing moves, NaN if
+/// the direction is.
+double TangentProbe::shift_of(const double* x, const TangentDirection& along) const {
+  double most = in_sizes(along.t, step_);
+  const auto look = [&](const double* d, Index size, const auto& size_of) {
+    if (d == nullptr) return;
+    for (Index i = 0; i < size; ++i) {
+      const double now = in_sizes(d[i], size_of(i));
+      most = std::isnan(now) || std::isnan(most) ? nan : std::max(most, now);
+    }
+  };
+  look(along.x, sizes_.size(), [&](Index i) { return std::max(std::abs(x[i]), sizes_[i]); });
+  look(along.z, machine_->z.size(), [&](Index i) { return std::abs(machine_->z[i]); });
+  look(along.y, machine_->y.size(), [&](Index i) { return std::abs(machine_->y[i]); });
+  if (along.parameter >= 0 && !std::isnan(most))
+    most = std::max(most, in_sizes(1.0, std::abs(machine_->p[along.parameter])));
+  return most > 0.0 ? relative_shift / most : most;
+}
+
+Machine& TangentProbe::at(const double* x, const TangentDirection& along, double shift) {
+  const auto move = [shift](const double* base, const double* d, Eigen::VectorXd& to) {
+    for (Index i = 0; i < to.size(); ++i) to[i] = base[i] + (d == nullptr ? 0.0 : shift * d[i]);
+  };
+  move(x, along.x, probe_.x);
+  move(machine_->z.data(), along.z, probe_.z);
+  move(machine_->y.data(), along.y, probe_.y);
+  move(machine_->p.data(), nullptr, probe_.p);
+  if (along.parameter >= 0) probe_.p[along.parameter] += shift;
+  if (probe_.modes != machine_->modes) {
+    probe_.modes = machine_->modes;
+    probe_.select_guards();
+  }
+  return probe_;
+}
+
+void TangentProbe::let_rest(double* xdot) const {
+  const RestingStates& resting = machine_->resting();
+  if (!resting.any()) return;
+  for (Index i = 0; i < sizes_.size(); ++i) {
+    if (resting.rests(i)) xdot[i] = 0.0;
+  }
+}
+
+void TangentProbe::flow(double t, const double* x, const TangentDirection& along, double* out) {
+  const auto read = [&](Machine& probe, double shift, double* xdot) {
+    probe.flow(t + shift * along.t, probe.x.data(), xdot);
+  };
+  derivative(x, along, sizes_.size(), read, out);
+  let_rest(out);
+}
+
+void TangentProbe::flow(double t, const double* x, double* xdot) {
+  Machine& probe = at(x);
+  probe.flow(t, probe.x.data(), xdot);
+  let_rest(xdot);
+}
+
+}  // namespace saltus

@@ -1,0 +1,232 @@
+// Tangents: their begin, the steps, the rows and the end.
+#include "saltus/simulation/detail/tangents.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace saltus {
+
+namespace {
+
+/// One step solves a full system of five times as many unknowns.
+constexpr Index most_states = 200;
+
+/// The first part of a plan of which no derivative is known, in words; empty if there is none.
+std::string obstacle_of(const Plan& plan) {
+  if (plan.nx > most_states)
+    return text("the system has ", plan.nx, " continuous states, and at most ", most_states,
+                " are supported");
+  if (!plan.histories.empty())
+    return text("block '", plan.leaf(plan.histories.front()).path,
+                "' keeps a history of its input, which has no derivative here");
+  for (const GuardGroup& group : plan.guards) {
+    if (!group.queued) continue;
+    const ZeroCrossing& crossing = plan.crossing_of(group);
+    if (crossing.delay || crossing.use_values_from_trigger_time.value_or(false))
+      return text("the queued zero crossing '", group.name,
+                  "' has a delay, or values from its trigger time");
+  }
+  return {};
+}
+
+std::vector<double> row_major(const Eigen::MatrixXd& values) {
+  std::vector<double> out;
+  for (Index i = 0; i < values.rows(); ++i)
+    for (Index k = 0; k < values.cols(); ++k) out.push_back(values(i, k));
+  return out;
+}
+
+}  // namespace
+
+Tangents::Tangents(const Machine& machine, const GuardSet& guards, const SimulatorOptions& options,
+                   Results& results)
+    : machine_(&machine),
+      guards_(&guards),
+      options_(&options),
+      results_(&results),
+      probe_(machine),
+      flow_(machine, probe_) {
+  const std::string obstacle = obstacle_of(machine.plan());
+  if (!obstacle.empty())
+    throw ModelError(text("option sensitivity: ", obstacle,
+                          "; take differences of two runs for this system instead"));
+}
+
+/// The entries of the option `sensitivity`, a vector entry by entry.
+std::vector<Tangents::Found> Tangents::found(const Layout& layout) const {
+  std::vector<Found> all;
+  for (const std::string& name : options_->sensitivity) {
+    const ContextEntry entry = find_entry(layout, name);
+    if (entry.kind == ContextEntry::Kind::mode)
+      throw ModelError(text("option sensitivity: '", name,
+                            "' is a mode, an integer, so nothing has a derivative with respect to "
+                            "it; expected a parameter or a start value"));
+    for (Index i = 0; i < entry.size; ++i)
+      all.push_back({entry.size == 1 ? name : text(name, "[", i, "]"),
+                     {entry.kind, entry.first + i, 1}});
+  }
+  for (auto one = all.begin(); one != all.end(); ++one) {
+    const auto same = [&](const Found& other) {
+      return other.entry.kind == one->entry.kind && other.entry.first == one->entry.first;
+    };
+    if (std::any_of(all.begin(), one, same))
+      throw ModelError(text("option sensitivity: '", one->name, "' is named twice"));
+  }
+  return all;
+}
+
+void Tangents::require_fits(const Context& start) const { found(start.layout()); }
+
+void Tangents::renew() {
+  Sensitivities& out = results_->sensitivities;
+  const std::vector<std::string> names = std::move(out.parameters);
+  out = {};
+  out.parameters = names;
+  out.signals.resize(machine_->plan().taps.size());
+}
+
+void Tangents::begin(const Context& start) {
+  using Kind = ContextEntry::Kind;
+  const std::vector<Found> all = found(start.layout());
+  const auto m = static_cast<Index>(all.size());
+  const Plan& plan = machine_->plan();
+  results_->sensitivities.parameters.clear();
+  columns_.x.setZero(plan.nx, m), columns_.z.setZero(plan.nz, m), columns_.y.setZero(plan.ny, m);
+  columns_.parameters.assign(all.size(), -1);
+  Eigen::MatrixXd atol(plan.nx, m);
+  for (Index k = 0; k < m; ++k) {
+    const auto& [kind, i, one] = nth(all, k).entry;
+    if (kind == Kind::parameter) nth(columns_.parameters, k) = i;
+    if (kind == Kind::continuous_state) columns_.x(i, k) = 1.0;
+    if (kind == Kind::discrete_state) columns_.z(i, k) = 1.0;
+    results_->sensitivities.parameters.push_back(nth(all, k).name);
+    // As in CVODES: the tolerance of a state, in units of the parameter.
+    const double value = kind == Kind::parameter          ? start.parameters()[i]
+                         : kind == Kind::continuous_state ? start.continuous_state()[i]
+                                                          : start.discrete_state()[i];
+    for (Index j = 0; j < plan.nx; ++j)
+      atol(j, k) = options_->atol[j] / (value == 0.0 ? 1.0 : std::abs(value));
+  }
+  renew();
+  variation_.emplace(Variation::Tolerances{options_->rtol.smallest(), std::move(atol)});
+  dtau_.setZero(m), lost_.assign(all.size(), 0);
+  monitors_.clear(), predicted_.clear();
+  t_ = start.time(), in_instant_ = false;
+  probe_.note(machine_->x.data(), 0.0);
+  begin_signals(start);
+}
+
+/// The constant outputs follow the parameters, and the held ones the states too.
+void Tangents::begin_signals(const Context& start) {
+  for (Index k = 0; k < size(); ++k) {
+    const Index parameter = nth(columns_.parameters, k);
+    if (parameter < 0) continue;
+    const auto read = [&](Machine& probe, double shift, double* out) {
+      ContextValues values = start.values();
+      values.parameters[parameter] += shift;
+      values.continuation = nullptr, values.pending = nullptr;
+      probe.load(start.with_values(values));
+      std::copy_n(probe.y.data(), probe.y.size(), out);
+    };
+    probe_.derivative(machine_->x.data(), {.parameter = parameter}, machine_->y.size(), read,
+                      columns_.y.col(k).data());
+  }
+  clear_truths();
+  evaluated();
+}
+
+/// Truths are held between instants, and their changes are events.
+void Tangents::clear_truths() {
+  for (const Node& node : machine_->plan().nodes) {
+    if ((node.relation || node.boolean) && node.place.space == Space::y && !node.view)
+      columns_.y.middleRows(node.place.offset, node.place.size).setZero();
+  }
+}
+
+Eigen::VectorXd Tangents::flow(double t, const double* x) {
+  Eigen::VectorXd f(machine_->plan().nx);
+  probe_.flow(t, x, f.data());
+  return f;
+}
+
+void Tangents::step(double from, double to, Integration& integration) {
+  variation_->forget();
+  t_ = to;
+  if (!integration.started() || machine_->plan().nx == 0) return;
+  probe_.note(integration.state().data(), to - from);
+  Eigen::VectorXd x(machine_->plan().nx);
+  const auto equation = [&](double t, Eigen::MatrixXd& a, Eigen::MatrixXd& b) {
+    if (t < to)
+      integration.interpolate(t, x.data());
+    else
+      x = integration.state();
+    flow_.at(t, x.data(), columns_, a, b);
+  };
+  const double joint = integration.joint(from);
+  const double middle = from < joint && joint < to ? joint : from;
+  variation_->advance(from, middle, equation, columns_.x);
+  variation_->advance(middle, to, equation, columns_.x);
+}
+
+// --- rows
+
+void Tangents::record(double t, const double* x) {
+  if (in_instant_ && !committed_) return taps(t, x, before_);
+  TangentColumns at = columns_;
+  if (in_instant_)
+    at.x -= flow(t, x) * dtau_;
+  else if (t < t_)
+    variation_->at(t, at.x);
+  taps(t, x, at);
+}
+
+/// Adds a row of the derivatives of the recorded signals. Views of states need no differences.
+void Tangents::taps(double t, const double* x, const TangentColumns& at) {
+  const Plan& plan = machine_->plan();
+  Index width = 0;
+  for (const Tap& tap : plan.taps) width += plan.node(tap.node).place.size;
+  Eigen::MatrixXd all(width, size());
+  const auto read = [&](Machine& probe, double, double* out) {
+    const Values values = probe.evaluate_taps(t, probe.x.data());
+    for (const Tap& tap : plan.taps) {
+      const Place& place = plan.node(tap.node).place;
+      out = std::copy_n(values(place), place.size, out);
+    }
+  };
+  for (Index k = 0; k < size(); ++k)
+    probe_.derivative(x, at.column(k), width, read, all.col(k).data());
+  Index first = 0;
+  for (std::size_t i = 0; i < plan.taps.size(); ++i) {
+    const Place& place = plan.node(plan.taps[i].node).place;
+    if (place.space == Space::x)
+      all.middleRows(first, place.size) = at.x.middleRows(place.offset, place.size);
+    if (place.space == Space::z)
+      all.middleRows(first, place.size) = at.z.middleRows(place.offset, place.size);
+    const auto values = row_major(all.middleRows(first, place.size));
+    std::vector<double>& out = results_->sensitivities.signals[i];
+    out.insert(out.end(), values.begin(), values.end());
+    first += place.size;
+  }
+}
+
+void Tangents::drop() {
+  const Plan& plan = machine_->plan();
+  for (std::size_t i = 0; i < plan.taps.size(); ++i) {
+    std::vector<double>& out = results_->sensitivities.signals[i];
+    const auto width = static_cast<std::size_t>(plan.node(plan.taps[i].node).place.size * size());
+    out.resize(out.size() - width);
+  }
+}
+
+void Tangents::finish() {
+  Sensitivities& out = results_->sensitivities;
+  const std::size_t numbers = results_->events.size() * out.size();
+  out.event_times.resize(numbers), out.predicted.resize(numbers);  // a failure takes events back
+  out.continuous_state = row_major(columns_.x), out.discrete_state = row_major(columns_.z);
+}
+
+std::string Tangents::describe() const {
+  return text("sensitivities: ", options_->sensitivity.size(), " names, ", flow_.describe(), "\n");
+}
+
+}  // namespace saltus

@@ -1,0 +1,246 @@
+// Tangents: across an instant.
+#include <cmath>
+#include <limits>
+#include <new>
+
+#include "saltus/simulation/detail/tangents.hpp"
+
+namespace saltus {
+
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+/// Two causes have one time for all values of a parameter if its derivatives differ by no more than
+/// this part. The differences of called functions have errors of 1e-10 (see TangentProbe), which a
+/// slow crossing amplifies.
+constexpr double same_time = 1e-6;
+/// The rounding of a sum such as dg/dx f + dg/dt, in parts of its terms.
+constexpr double rounding = 1e3 * thresholds::eps;
+
+}  // namespace
+
+void Tangents::lose(Index k, const std::string& event, const std::string& reason) {
+  dtau_[k] = nan;
+  if (std::exchange(nth(lost_, k), char{1})) return;
+  results_->sensitivities.gaps.push_back(
+      {t_, event, reason, nth(results_->sensitivities.parameters, k)});
+}
+
+/// Opens an instant, whose time moves as its causes do.
+void Tangents::open(const Present& present, const std::vector<int>& due) {
+  t_ = present.t, in_instant_ = true, committed_ = false;
+  before_ = columns_;
+  dtau_.setZero();
+  probe_.note(machine_->x.data(), 0.0);
+  bool first = true;
+  for (const Firing& firing : present.firings) {
+    merge(moved_by(firing, present.now(firing.guard()).jumped, machine_->x.data(), t_), first);
+    first = false;
+  }
+  for (const int event : due) {
+    merge(moved_by(machine_->plan().scheduled(event), t_), first);
+    first = false;
+  }
+  columns_.x += flow(t_, machine_->x.data()) * dtau_;
+}
+
+/// Takes one more cause of the instant. Where causes move apart, their order matters.
+void Tangents::merge(const Moved& moved, bool first) {
+  for (Index k = 0; k < size(); ++k) {
+    if (!moved.obstacle.empty()) {
+      lose(k, moved.event, moved.obstacle);
+    } else if (first) {
+      dtau_[k] = moved.by[k];
+      if (std::isnan(dtau_[k])) lose(k, moved.event, "the guard only grazes zero");
+    } else if (std::abs(dtau_[k] - moved.by[k]) >
+               same_time * std::max(std::abs(dtau_[k]), std::abs(moved.by[k]))) {
+      lose(k, moved.event, "another event happens at the same time, and their order would change");
+    }
+  }
+}
+
+Tangents::Moved Tangents::moved_by(const Firing& firing, bool jumped, const double* x, double t) {
+  const Guard& guard = (*guards_)[firing.guard()];
+  const GuardGroup& group = machine_->plan().guard(guard.group);
+  if (guard.phase == Phase::resting || guard.phase == Phase::carried ||
+      firing.from == Firing::lifts_off)
+    return {.event = group.name, .obstacle = "the guard was at rest"};
+  if (group.is_opaque())
+    return {.event = group.name, .obstacle = "a called function decides it, which shows a sign only"};
+  if (jumped) return {.event = group.name, .obstacle = "the guard jumps across zero"};
+  return crossing_time(firing.slot, group.name, t, x);
+}
+
+/// A time event happens at a fixed time, or at one that a discrete state says.
+Tangents::Moved Tangents::moved_by(const ScheduledEvent& event, double) {
+  Moved moved{.by = Eigen::RowVectorXd::Zero(size()), .event = event.name};
+  if (!event.by_state) return moved;
+  const PlanLeaf& leaf = machine_->plan().leaf(event.leaf);
+  const auto& next = machine_->plan().time_event_of(event).next;
+  const auto read = [&](Machine& probe, double, double* out) {
+    *out = next(VectorView(probe.z.data() + leaf.z, leaf.nz));
+  };
+  for (Index k = 0; k < size(); ++k)
+    probe_.derivative(machine_->x.data(), columns_.column(k), 1, read, &moved.by[k]);
+  return moved;
+}
+
+/// dtau = -(g_x S + g_p) / (g_x f- + g_t); NaN where the guard grazes zero.
+Tangents::Moved Tangents::crossing_time(Index slot, const std::string& event, double t,
+                                        const double* x) {
+  const GuardTangent guard = flow_.guard(t, x, slot, columns_);
+  const double speed = guard.by_state.dot(flow(t, x)) + guard.by_time;
+  Moved moved{.by = -guard.columns / speed, .event = event};
+  const bool at_rest = grazes(guard, speed, slot, t, x);
+  for (Index k = 0; k < size(); ++k) {
+    if (guard.columns[k] == 0.0)
+      moved.by[k] = 0.0;  // it does not depend on the parameter
+    else if (at_rest)
+      moved.by[k] = nan;
+  }
+  return moved;
+}
+
+/// Whether a guard reaches zero so slowly that it would turn back within the error of its value. With
+/// the speed s and the curvature c against it, it goes beyond zero by s^2 / (2 |c|). The error of its
+/// value follows from the tolerances of the states that it reads.
+bool Tangents::grazes(const GuardTangent& guard, double speed, Index slot, double t,
+                      const double* x) {
+  const Eigen::VectorXd f = flow(t, x);
+  const double terms = guard.by_state.cwiseAbs().dot(f.cwiseAbs()) + std::abs(guard.by_time);
+  if (!(std::abs(speed) > rounding * terms)) return true;
+  double error = 0.0;
+  for (Index i = 0; i < f.size(); ++i)
+    error += std::abs(guard.by_state[i]) * (options_->atol[i] + options_->rtol[i] * std::abs(x[i]));
+  const double ahead = std::sqrt(2.0 * error / terms / std::max(terms, 1.0));
+  if (!(ahead > 0.0) || !std::isfinite(ahead)) return false;
+  const Eigen::VectorXd later = VectorView(x, f.size()) + ahead * f;
+  const GuardTangent there = flow_.guard(t + ahead, later.data(), slot, columns_);
+  const double curvature =
+      (there.by_state.dot(flow(t + ahead, later.data())) + there.by_time - speed) / ahead;
+  return curvature * speed < 0.0 && speed * speed <= 2.0 * std::abs(curvature) * error;
+}
+
+void Tangents::monitor(const MonitorHit& hit, const double* x) {
+  const GuardGroup& group = machine_->plan().guard((*guards_)[hit.firing.guard()].group);
+  TangentColumns at = columns_;
+  if (hit.t < t_) variation_->at(hit.t, at.x);
+  std::swap(at, columns_);
+  Moved moved = group.is_opaque() ? Moved{.by = Eigen::RowVectorXd::Constant(size(), nan)}
+                                  : crossing_time(hit.firing.slot, group.name, hit.t, x);
+  std::swap(at, columns_);
+  add_event(moved.by);
+}
+
+// --- the passes
+
+void Tangents::begin_pass() { next_x_ = columns_.x, next_z_ = columns_.z; }
+
+/// The derivative of what a reset map or an update writes.
+void Tangents::call(const Transition::Call& call, const double* x_next, const double* z_next,
+                    int mode) {
+  const PlanLeaf& leaf = machine_->plan().leaf(call.leaf);
+  Eigen::VectorXd x(leaf.nx), z(leaf.nz), out(leaf.nx + leaf.nz);
+  for (Index k = 0; k < size(); ++k) {
+    const auto read = [&](Machine& probe, double shift, double* to) {
+      for (Index i = 0; i < leaf.nx; ++i) x[i] = x_next[leaf.x + i] + shift * next_x_(leaf.x + i, k);
+      for (Index i = 0; i < leaf.nz; ++i) z[i] = z_next[leaf.z + i] + shift * next_z_(leaf.z + i, k);
+      At at = probe.at(call.leaf, call.t + shift * dtau_[k], probe.x.data());
+      at.entry = call.entry, at.mode = mode;
+      new (&at.x) VectorView(x.data(), leaf.nx);
+      new (&at.z) VectorView(z.data(), leaf.nz);
+      const VectorRef to_x(to, leaf.nx), to_z(to + leaf.nx, leaf.nz);
+      std::copy_n(x.data(), leaf.nx, to), std::copy_n(z.data(), leaf.nz, to + leaf.nx);
+      int entered = mode;
+      Next next(to_x, to_z, entered, leaf.path);
+      (*call.map)(*leaf.system, at, next);
+    };
+    probe_.derivative(machine_->x.data(), columns_.column(k, dtau_[k]), out.size(), read,
+                      out.data());
+    next_x_.col(k).segment(leaf.x, leaf.nx) = out.head(leaf.nx);
+    next_z_.col(k).segment(leaf.z, leaf.nz) = out.tail(leaf.nz);
+  }
+}
+
+void Tangents::commit() {
+  columns_.x = next_x_, columns_.z = next_z_;
+  committed_ = true;
+}
+
+/// The held signals, and the moving ones that reset maps read, follow all that they read.
+void Tangents::evaluated() {
+  if (machine_->y.size() == 0) return;
+  Eigen::MatrixXd y(machine_->y.size(), size());
+  for (Index k = 0; k < size(); ++k) {
+    const double dt = in_instant_ ? dtau_[k] : 0.0;
+    const auto read = [&](Machine& probe, double shift, double* out) {
+      probe.evaluate_instant(t_ + shift * dt);
+      std::copy_n(probe.y.data(), probe.y.size(), out);
+    };
+    probe_.derivative(machine_->x.data(), columns_.column(k, dt), y.rows(), read, y.col(k).data());
+  }
+  columns_.y = std::move(y);
+  clear_truths();
+}
+
+void Tangents::close() {
+  if (machine_->carries())
+    for (Index k = 0; k < size(); ++k) lose(k, "", "a block is carried by a moving surface");
+  columns_.x -= flow(t_, machine_->x.data()) * dtau_;
+  in_instant_ = false;
+  variation_->forget();
+}
+
+// --- events
+
+void Tangents::add_event(const Eigen::RowVectorXd& by) {
+  Sensitivities& out = results_->sensitivities;
+  if (out.event_times.size() >= results_->events.size() * out.size()) return;  // none are kept
+  const std::size_t number = out.event_times.size() / out.size();
+  const auto found = predicted_.find(number);
+  const bool enters = results_->events[number].kind == EventKind::zeno_enter;
+  for (Index k = 0; k < size(); ++k) {
+    out.event_times.push_back(by[k]);
+    const double predicted = found == predicted_.end() ? by[k] : found->second[k];
+    out.predicted.push_back(enters ? predicted : nan);
+  }
+}
+
+void Tangents::log() {
+  const std::size_t numbers = results_->events.size() * results_->sensitivities.size();
+  while (results_->sensitivities.event_times.size() < numbers) add_event(dtau_);
+  predicted_.clear();
+}
+
+Eigen::MatrixXd Tangents::rows_of(std::span<const Index> states) const {
+  Eigen::MatrixXd rows(static_cast<Index>(states.size()), size());
+  for (Index i = 0; i < rows.rows(); ++i) rows.row(i) = next_x_.row(nth(states, i));
+  return rows;
+}
+
+namespace {
+
+Eigen::VectorXd entries_of(std::span<const Index> states, const Eigen::VectorXd& x) {
+  Eigen::VectorXd out(static_cast<Index>(states.size()));
+  for (Index i = 0; i < out.size(); ++i) out[i] = x[nth(states, i)];
+  return out;
+}
+
+}  // namespace
+
+void Tangents::fired(const void* monitor) { monitors_[monitor].fired(t_, dtau_); }
+
+void Tangents::remember(const void* monitor, std::span<const Index> states,
+                        const Eigen::VectorXd& next) {
+  monitors_[monitor].remember(entries_of(states, next), rows_of(states));
+}
+
+void Tangents::accumulate(const void* monitor, std::span<const Index> states,
+                          const Eigen::VectorXd& next) {
+  const ZenoTangent& zeno = monitors_[monitor];
+  const Eigen::MatrixXd rest = zeno.accumulate(entries_of(states, next), rows_of(states));
+  for (Index i = 0; i < rest.rows(); ++i) next_x_.row(nth(states, i)) = rest.row(i);
+  predicted_[results_->events.size()] = zeno.accumulation_time();
+}
+
+}  // namespace saltus

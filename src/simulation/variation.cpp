@@ -1,0 +1,141 @@
+// Variation: the collocation, its error and its values in between.
+#include "saltus/simulation/detail/variation.hpp"
+
+#include <array>
+#include <cmath>
+
+#include <Eigen/LU>
+
+#include "saltus/simulation/detail/thresholds.hpp"
+
+namespace saltus {
+
+namespace {
+
+constexpr int stages = Variation::stages;
+constexpr int points = stages + 1;
+/// The begin of a step and the Radau points, as parts of it.
+constexpr std::array<double, points> nodes{
+    0.0, 0.05710419611451768, 0.27684301363812383, 0.5835904323689168, 0.8602401356562195, 1.0};
+/// Where the polynomial is compared with the equation: far from the points.
+constexpr double looked_at = 0.72;
+/// A step is halved so often at most. The polynomial has degree 5, so ten halvings reduce its error
+/// by 2^50, which is the rounding.
+constexpr int most_halvings = 10;
+/// The rounding of A S and of the differences in A, in parts of the largest value of a column.
+constexpr double rounding = 1e3 * thresholds::eps;
+
+/// The Lagrange polynomial of node i at s, without the factor of node `but`.
+double basis(int i, double s, int but) {
+  double product = 1.0;
+  for (int j = 0; j < points; ++j) {
+    if (j != i && j != but) product *= (s - nodes[j]) / (nodes[i] - nodes[j]);
+  }
+  return product;
+}
+/// Its derivative.
+double slope(int i, double s) {
+  double sum = 0.0;
+  for (int m = 0; m < points; ++m) {
+    if (m != i) sum += basis(i, s, m) / (nodes[i] - nodes[m]);
+  }
+  return sum;
+}
+
+/// slope(j, node i + 1), which the collocation multiplies its values by.
+const std::array<std::array<double, points>, stages>& slopes_at_nodes() {
+  static const auto made = [] {
+    std::array<std::array<double, points>, stages> all{};
+    for (int i = 0; i < stages; ++i) {
+      for (int j = 0; j < points; ++j) all[i][j] = slope(j, nodes[i + 1]);
+    }
+    return all;
+  }();
+  return made;
+}
+
+/// sum_j weight(j) s_j
+template <class Weight>
+Eigen::MatrixXd sum(const std::vector<Eigen::MatrixXd>& s, const Weight& weight) {
+  Eigen::MatrixXd out = weight(0) * s[0];
+  for (int j = 1; j < points; ++j) out += weight(j) * s[static_cast<std::size_t>(j)];
+  return out;
+}
+
+}  // namespace
+
+Variation::Variation(Tolerances tolerances)
+    : tolerances_(std::move(tolerances)), a_(stages), b_(stages) {}
+
+void Variation::advance(double from, double to, const Equation& equation, Eigen::MatrixXd& s) {
+  if (s.rows() > 0 && to > from) advance(from, to, equation, s, 0);
+}
+
+void Variation::advance(double from, double to, const Equation& equation, Eigen::MatrixXd& s,
+                        int depth) {
+  Piece piece = collocate(from, to, equation, s);
+  const double middle = from + 0.5 * (to - from);
+  if (depth < most_halvings && from < middle && middle < to && !is_good(piece, equation)) {
+    advance(from, middle, equation, s, depth + 1);
+    return advance(middle, to, equation, s, depth + 1);
+  }
+  s = piece.s.back();
+  pieces_.push_back(std::move(piece));
+}
+
+/// Solves sum_j slope_ij S_j = h (A_i S_i + b_i) at the points i for the values S_j there.
+Variation::Piece Variation::collocate(double from, double to, const Equation& equation,
+                                      const Eigen::MatrixXd& s) {
+  const Index n = s.rows();
+  const double h = to - from;
+  system_.setZero(stages * n, stages * n), right_.resize(stages * n, s.cols());
+  for (int i = 0; i < stages; ++i) {
+    const auto& row = slopes_at_nodes()[i];
+    const auto k = static_cast<std::size_t>(i);
+    equation(i + 1 == stages ? to : from + nodes[i + 1] * h, a_[k], b_[k]);
+    for (int j = 0; j < stages; ++j)
+      system_.block(i * n, j * n, n, n).diagonal().setConstant(row[j + 1]);
+    system_.block(i * n, i * n, n, n) -= h * a_[k];
+    right_.middleRows(i * n, n) = h * b_[k] - row[0] * s;
+  }
+  const Eigen::MatrixXd solved = system_.partialPivLu().solve(right_);
+  Piece piece{from, to, {s}};
+  for (int i = 0; i < stages; ++i) piece.s.emplace_back(solved.middleRows(i * n, n));
+  return piece;
+}
+
+/// Whether the polynomial misses the equation by little at the place that is looked at. The miss d
+/// is damped by (1 - h A)^-1, because a stiff equation turns a small error of S into a large one of
+/// A S (E. Hairer, G. Wanner, IV.8).
+bool Variation::is_good(const Piece& piece, const Equation& equation) {
+  const double h = piece.to - piece.from;
+  equation(piece.from + looked_at * h, a_[0], b_[0]);
+  const Eigen::MatrixXd here = sum(piece.s, [](int j) { return basis(j, looked_at, -1); });
+  const Eigen::MatrixXd missed =
+      sum(piece.s, [](int j) { return slope(j, looked_at); }) - h * (a_[0] * here + b_[0]);
+  const Index n = here.rows();
+  const Eigen::MatrixXd error =
+      (Eigen::MatrixXd::Identity(n, n) - h * a_[0]).partialPivLu().solve(missed);
+  for (Index k = 0; k < here.cols(); ++k) {
+    const double least = rounding * here.col(k).lpNorm<Eigen::Infinity>();
+    for (Index i = 0; i < n; ++i) {
+      const double size = std::max(std::abs(piece.s.front()(i, k)), std::abs(piece.s.back()(i, k)));
+      // A value that is not finite cannot be made good by shorter steps.
+      if (std::abs(error(i, k)) > tolerances_.atol(i, k) + tolerances_.rtol * size + least)
+        return false;
+    }
+  }
+  return true;
+}
+
+bool Variation::at(double t, Eigen::MatrixXd& s) const {
+  for (const Piece& piece : pieces_) {
+    if (!(piece.from <= t && t <= piece.to)) continue;
+    const double part = (t - piece.from) / (piece.to - piece.from);
+    s = sum(piece.s, [part](int j) { return basis(j, part, -1); });
+    return true;
+  }
+  return false;
+}
+
+}  // namespace saltus
