@@ -117,7 +117,7 @@ def _times(axis: Any) -> None:
 
 
 def _point(axis: Any, table: WorkPrecision, error: float, row: dict[str, Any], colour: str) -> None:
-    """A marker for each tolerance. It is open, with the number, if events are missing or too many."""
+    """A marker for each tolerance; open, with the number, if events are missing or too many."""
     off = row["event_mismatch"]
     axis.plot(
         error, row["seconds"], _marker(table, row["rtol"]), color=colour,

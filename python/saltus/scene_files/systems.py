@@ -28,7 +28,7 @@ BLOCK = "{ block = 'Gain', gain = 2.0 }"
 
 @dataclass
 class Count:
-    """How many blocks were made: nested systems multiply."""
+    """The number of blocks that were made; nested systems multiply it."""
 
     blocks: int = 0
 
@@ -55,8 +55,8 @@ class Place:
 
 
 def parameters_of(path: Path, table: dict[str, Any], given: dict[str, Any]) -> dict[str, Any]:
-    """The values of the parameters of a table: those given, and its own, which may be expressions
-    of the ones before them.
+    """The values of the parameters of a table: the given values, and its own, which may be
+    expressions of earlier parameters.
     """
     path = (*path, "parameters")
     own = table_at(path, table.get("parameters", {}), "{ g = 9.81 }")

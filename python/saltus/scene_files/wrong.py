@@ -1,4 +1,4 @@
-"""A mistake in a scene: the key it belongs to, and what is wrong there."""
+"""A mistake in a scene: its key, and the message."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class Wrong(Exception):
 
 @contextmanager
 def placed(path: Path) -> Iterator[None]:
-    """Gives a refusal of the engine, or of Python, the place of the key that it is about."""
+    """Adds the place of a key to a refusal of the engine or of Python."""
     try:
         yield
     except (ModelError, TypeError, ValueError, OverflowError) as error:
