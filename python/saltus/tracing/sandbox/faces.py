@@ -95,7 +95,9 @@ def _numpy_value(name: str, value: Any) -> Any:
 
 
 class Numpy:
-    """numpy, or numpy.linalg, as far as it has a symbolic form; the rest is refused when used."""
+    """The functions of numpy, or numpy.linalg, that have a symbolic form; the use of any other is
+    refused.
+    """
 
     def __init__(self, module: ModuleType, words: str):
         self._module = module
