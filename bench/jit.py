@@ -205,7 +205,7 @@ class Runs:
 
     def __init__(self, system, context, span, options):
         self.simulator = saltus.Simulator(system, options)
-        self.core = self.simulator._core  # without what Python costs beside the run
+        self.core = self.simulator._core  # without the cost of Python beside the run
         self.context, self.end = context.with_time(span[0]), span[1]
         self.seconds = []
         self.repeat = 1
