@@ -201,7 +201,7 @@ MODELS: dict[str, tuple[str, Callable[[], saltus.LeafSystem], dict[str, float]]]
 
 
 class Runs:
-    """One way to run a scene, and what its runs took."""
+    """One way to run a scene, and the times of its runs."""
 
     def __init__(self, system, context, span, options):
         self.simulator = saltus.Simulator(system, options)
