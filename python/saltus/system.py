@@ -156,8 +156,8 @@ class System:
     def explain(self) -> Explanation:
         """How each Python callback runs: 'compiled', 'traced' or 'called', and why not faster.
 
-        Nothing is simulated. The functions are traced as they are before a run; outputs whose shape
-        was not said are called once.
+        Nothing is simulated. The functions are traced as they are before a run; outputs without a
+        given shape are called once.
 
         Returns
         -------

@@ -22,7 +22,7 @@ struct Value {
   long integer = 0;
 };
 
-/// The parts of a text between separators that stand in no brackets.
+/// The parts of a text between separators outside of brackets.
 std::vector<std::string> split(const std::string& text) {
   std::vector<std::string> parts(1);
   int depth = 0;

@@ -89,8 +89,8 @@ class Adder(Block, _core.Adder):
     n_in
         The number of inputs; or the operators, in their place.
     operators
-        The signs, one character an input: "+-" is u_0 - u_1. Without them all are plus, of two
-        inputs if `n_in` is not said either.
+        The signs, one character an input: "+-" is u_0 - u_1. Without them all signs are plus, for
+        two inputs if `n_in` is not given either.
     name
         The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
@@ -125,8 +125,8 @@ class Product(Block, _core.Product):
     n_in
         The number of inputs; or the operators, in their place.
     operators
-        "*" or "/" for each input: "*/" is u_0 / u_1. Without them all are "*", of two inputs if
-        `n_in` is not said either.
+        "*" or "/" for each input: "*/" is u_0 / u_1. Without them all are "*", for two inputs if
+        `n_in` is not given either.
     name
         The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 

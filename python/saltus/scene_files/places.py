@@ -31,7 +31,7 @@ def places_of(text: str, kind: str) -> dict[Path, tuple[int, int]]:
         else:
             reader.document()
     except (RecursionError, IndexError, ValueError):
-        pass  # what was read up to there is right
+        pass  # the places found up to there are right
     return reader.places
 
 

@@ -58,7 +58,9 @@ def _decoded(data: bytes, shown: str) -> str:
 
 
 def tree_of(source: Source) -> dict[str, Any]:
-    """The root table of a text. SceneError for a mistake of syntax; Wrong for what no scene has."""
+    """The root table of a text. SceneError for a mistake of syntax; Wrong for a tree that no scene
+    has.
+    """
     read = _json if source.kind == "json" else _toml
     try:
         tree = read(source)

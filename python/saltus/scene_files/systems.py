@@ -44,7 +44,7 @@ class Count:
 
 @dataclass(frozen=True)
 class Place:
-    """Where a system is defined: its path, and what its blocks may be."""
+    """The place where a system is defined: its path, and the systems that its blocks may use."""
 
     path: Path
     systems: dict[str, tuple[Path, dict[str, Any], Any]]

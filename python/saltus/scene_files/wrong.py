@@ -56,7 +56,7 @@ def table_at(path: Path, value: Any, example: str) -> dict[str, Any]:
 def require_keys(
     path: Path, table: dict[str, Any], known: Iterable[str], needed: Iterable[str] = ()
 ) -> None:
-    """Wrong for a key that nobody reads, with the nearest one, and for one that is missing."""
+    """Wrong for an unknown key, with the nearest known key, and for a missing key."""
     known = list(known)
     for key in table:
         if key not in known:

@@ -30,7 +30,7 @@ class Looks:
         self._kinds: list[tuple[Any, type]] = []
 
     def entry(self, mapping: Any, key: str) -> None:
-        """An entry of a dictionary or of a class, also one that is not there."""
+        """An entry of a dictionary or of a class, also a missing entry."""
         self._entries.append((mapping.get, key, mapping.get(key, MISSING)))
 
     def parts(self, parts: Parts, value: Any) -> None:

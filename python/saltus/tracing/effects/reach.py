@@ -62,7 +62,7 @@ def _items(container: Any) -> Iterable[Any]:
 
 
 def _generated(entry: Any) -> bool:
-    """Whether a method is one that dataclasses writes: it compares, shows or freezes fields."""
+    """Whether dataclasses wrote a method: such a method compares, shows or freezes fields."""
     function = getattr(entry, "__wrapped__", entry)
     code = getattr(function, "__code__", None)
     return code is not None and code.co_filename == "<string>" and code.co_name != "__init__"

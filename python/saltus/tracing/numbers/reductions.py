@@ -81,7 +81,7 @@ def _accumulated(name: str, a: SymbolArray, axis: Any) -> Any:
 
 
 def folding(name: str, accumulate: bool = False) -> Callable[..., Any]:
-    """np.sum, np.prod, ... as methods and functions: over all axes if not said."""
+    """np.sum, np.prod, ... as methods and functions, by default over all axes."""
 
     def function(a: Any, axis: Any = None, dtype: Any = None, out: Any = None, **o: Any) -> Any:
         return fold(name, accumulate, a, axis, dtype, out, **o)

@@ -58,7 +58,7 @@ class Ufunc:
 
 
 class NumpyType:
-    """np.float64 and the like: a type, and a function that converts."""
+    """np.float64 and similar objects: a type, and a function that converts."""
 
     def __init__(self, kind: type):
         self.type = kind

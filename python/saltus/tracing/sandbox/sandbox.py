@@ -1,4 +1,4 @@
-"""`Sandbox`: copies of the user's functions that see symbols' forms of what they refer to.
+"""`Sandbox`: copies of the user's functions that see the symbolic forms of the objects they use.
 
 A copy has the code of the function and globals of its own: numpy, math and the builtins have faces
 that take symbols; other functions are copied likewise when they are read; everything that is read
