@@ -1,8 +1,8 @@
-// What does a part of the engine cost that a scene does not need, or hardly needs? The same scene
-// with and without: a guard that never fires, a recorder of two signals, the Zeno monitor, a
-// monitor guard that is located, unread blocks and constants that could be folded. dopri5 at rtol
-// 1e-6, dop853 at 1e-8. `absent NAME off 3` makes one run of one side, three times as long, for
-// bench/instructions.py.
+// What does a part of the engine cost that a scene does not need, or hardly needs? The program runs
+// the same scene with and without the part: a guard that never fires, a recorder of two signals,
+// the Zeno monitor, a monitor guard that is located, unread blocks and constants that could be
+// folded. dopri5 at rtol 1e-6, dop853 at 1e-8. `absent NAME off 3` makes one run of one side, three
+// times as long, for bench/instructions.py.
 #include <cstring>
 #include <numbers>
 #include <saltus/library/library.hpp>

@@ -82,8 +82,8 @@ double compare(bench::Sheet& sheet, const char* scene, const Ball& ball, saltus:
   return timings[1].ratio;
 }
 
-/// For a profiler: runs only one runner, repeatedly, on the ball with drag; with a third argument
-/// on the ball without.
+/// Runs only one runner, repeatedly, for a profiler: on the ball with drag, or with a third
+/// argument on the ball without drag.
 int only(const char* who, int runs, bool parabola) {
   const Ball ball{.k = parabola ? 0.0 : 9.81 / 400.0};
   bench::FloorDopri5 dopri5(ball, 1e-8, 1e-10);

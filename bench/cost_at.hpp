@@ -16,7 +16,7 @@ struct CostPoint {
 /// The least cost of an error of at most `error`. `points` are in the order of tolerances, loosest
 /// first. Each run whose error is small enough counts with its cost. If the run before has a larger
 /// error, the cost in between is interpolated: its logarithm is linear in that of the error. The
-/// result is infinite if no run has so small an error.
+/// result is infinite if no run has an error that small.
 inline double cost_at(double error, const std::vector<CostPoint>& points) {
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < points.size(); ++k) {

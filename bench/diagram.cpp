@@ -1,7 +1,7 @@
-// What does a diagram of blocks cost, against the same equations in one leaf? The ball, the ball
-// with drag, both with six bounces, and Van der Pol's oscillator; same method, same tolerance.
-// `diagram drag blocks dopri5 1000` makes a thousand runs of one side, for a profiler or to count
-// instructions.
+// What does a diagram of blocks cost, against the same equations in one leaf? The scenes are the
+// ball, the ball with drag, both with six bounces, and Van der Pol's oscillator; method and
+// tolerance are the same. `diagram drag blocks dopri5 1000` makes a thousand runs of one side, for
+// a profiler or to count instructions.
 #include <cstring>
 #include <saltus/library/library.hpp>
 

@@ -1,6 +1,6 @@
-// What do simultaneous impacts cost, against one? One to a hundred balls, e = 0.9, that fall from one
-// height and land together, as one leaf with a vector guard and as a leaf each; ten impacts each.
-// dopri5 at rtol 1e-6. `impacts leaf 10 3` makes three runs of one of them, for a profiler.
+// What do simultaneous impacts cost, against one? One to a hundred balls, e = 0.9, fall from one
+// height and land together, as one leaf with a vector guard and as a leaf each, with ten impacts
+// each. dopri5 at rtol 1e-6. `impacts leaf 10 3` makes three runs of one of them, for a profiler.
 #include <cstring>
 #include <saltus/library/library.hpp>
 

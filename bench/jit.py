@@ -201,11 +201,11 @@ MODELS: dict[str, tuple[str, Callable[[], saltus.LeafSystem], dict[str, float]]]
 
 
 class Runs:
-    """One way to run a scene, and what its runs took."""
+    """One way to run a scene, and the times of its runs."""
 
     def __init__(self, system, context, span, options):
         self.simulator = saltus.Simulator(system, options)
-        self.core = self.simulator._core  # without what Python costs beside the run
+        self.core = self.simulator._core  # without the cost of Python beside the run
         self.context, self.end = context.with_time(span[0]), span[1]
         self.seconds = []
         self.repeat = 1

@@ -19,7 +19,7 @@ class Peer {
   /// From the start to the end; false: it gave up.
   virtual bool run() = 0;
   virtual Counts counts() const = 0;
-  /// Of the last run, in the measure of the scene.
+  /// The error of the last run, in the measure of the scene.
   virtual double error() = 0;
 };
 

@@ -25,7 +25,8 @@ class ShelfPeer final : public Peer {
     const auto& s = timed_.statistics();
     return {s.steps, s.right_hand_side_calls, s.jacobian_calls, s.linear_setups};
   }
-  /// From a run of its own that records. A wrong number of events is an infinite error.
+  /// The error comes from a run of its own that records. A wrong number of events is an infinite
+  /// error.
   double error() override {
     const saltus::Achieved found = achieved(scene_, simulate(scene_));
     if (found.event_mismatch != 0 || std::isnan(found.scaled)) return HUGE_VAL;

@@ -12,7 +12,8 @@
 
 namespace bench {
 
-/// What they share: state, matrix, rows. A derived class makes its memory in its constructor.
+/// The common part of the solvers of SUNDIALS: state, matrix, rows. A derived class makes its
+/// memory in its constructor.
 class SundialsPeer : public Peer {
  public:
   bool run() final {

@@ -1,5 +1,5 @@
-"""What Python costs: the tutorial's scenes traced and called against the same scenes in C++; one
-call of a callback; short runs (`short_runs.py`); the first result after `import saltus`.
+"""Measures the cost of Python: the tutorial's scenes traced and called against the same scenes in
+C++; one call of a callback; short runs (`short_runs.py`); the first result after `import saltus`.
 
     python bench/python_cost.py [build/bench/results]
 

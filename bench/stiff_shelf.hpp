@@ -1,5 +1,5 @@
-// The stiff scenes of the shelf as plain functions, with their Jacobians and their known answers:
-// what any program can solve that takes f, J and a tolerance. Equations, parameters and sources are
+// The stiff scenes of the shelf as plain functions, with their Jacobians and their known answers.
+// Any program that takes f, J and a tolerance can solve them. Equations, parameters and sources are
 // those of saltus/models/.
 #pragma once
 

@@ -24,7 +24,7 @@ constexpr double smooth_levels[] = {1e-8, 1e-10}, hybrid_levels[] = {1e-6, 1e-8}
 /// null instead of infinity, which JSON does not have.
 Row shown(double cost) { return std::isfinite(cost) ? Row(cost) : Row(nullptr); }
 
-/// What was found over all scenes.
+/// The results over all scenes.
 struct Found {
   std::vector<double> ratios = {};
   int missed = 0;

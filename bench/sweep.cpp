@@ -1,6 +1,7 @@
-// What does an ensemble cost? 10 000 runs of the leaf ball over 5 s with different e and y0, final
-// state only: by a hand-written loop over one plan with one simulator; by Ensemble, on one thread
-// and on two. bench/sweep.py measures the same by saltus.sweep, in turns with this loop.
+// What does an ensemble cost? It is measured on 10 000 runs of the leaf ball over 5 s with
+// different e and y0, final state only: by a hand-written loop over one plan with one simulator,
+// and by Ensemble on one thread and on two. bench/sweep.py measures the same by saltus.sweep, in
+// turns with this loop.
 //
 //     sweep                     all in turns, with ratios
 //     sweep loop|ensemble [N]   one of them N times, for callgrind; `serve`: times on request

@@ -20,7 +20,7 @@ py::array shown(const Eigen::VectorXd& values) {
 }
 
 SystemId id_of(py::handle system) {
-  // by its attribute: the id of a shared system is that of the system it represents
+  // by its attribute: the id of a shared system is the id of the system that it represents
   if (py::isinstance<System>(system)) return SystemId{system.attr("system_id").cast<int>()};
   try {
     return SystemId{system.cast<int>()};

@@ -60,7 +60,7 @@ py::dict columns(Outcomes&& o) {
                   "signals"_a = signals);
 }
 
-/// The Python exception, if it is no plain failure of one run but, for example, Ctrl-C.
+/// The Python exception, if it is more than the failure of one run, for example Ctrl-C.
 bool ends_all(const Results& results) {
   if (!results.cause) return false;
   try {
@@ -128,7 +128,7 @@ class Call {
     if (each_.is_none()) return;
     locked([&] {
       auto copy = std::make_shared<Record>(results);
-      copy->cause = nullptr;  // it would refer to the frames it went through
+      copy->cause = nullptr;  // it would refer to the frames through which it passed
       each_(run, copy, cause_of(results));
     });
   }

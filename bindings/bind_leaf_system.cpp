@@ -8,8 +8,8 @@ namespace saltus::python {
 
 namespace {
 
-/// Shows the functions held by a block to the garbage collector, so a lambda that holds its block
-/// is no leak.
+/// Shows the functions that a block holds to the garbage collector, so a lambda that holds its
+/// block is no leak.
 void let_collect(PyHeapTypeObject* heap_type) {
   PyTypeObject& type = heap_type->ht_type;
   type.tp_flags |= Py_TPFLAGS_HAVE_GC;

@@ -81,7 +81,7 @@ py::tuple event(const Record& results, std::size_t i) {
                         copy_of(e.after), e.entry, rests);
 }
 
-/// Without a kind: of all events that fired.
+/// If no kind is given, the times of all events that fired.
 py::array event_times(const Record& results, std::string_view name,
                       std::optional<std::string_view> kind) {
   if (!kind) return copy_of(results.events.times(name));

@@ -45,9 +45,9 @@ class PythonSimulator {
     return to_string(status);
   }
 
-  /// Everything since initialize(), moved out, and the exception, or None. The run may go on:
-  /// then it takes back what is shown, or a copy. An exception refers to the frames it went
-  /// through, and they refer to this simulator. So no C++ object may keep the exception, or the two
+  /// Everything since initialize(), moved out, and the exception, or None. If the run continues, it
+  /// takes the shown results back, or a copy. An exception refers to the frames through which it
+  /// passed, and they refer to this simulator. So no C++ object may keep the exception, or the two
   /// would keep each other alive.
   py::tuple results() {
     if (shown_) return py::make_tuple(shown_, py::none());
@@ -62,18 +62,18 @@ class PythonSimulator {
     return py::make_tuple(shown_, raised);
   }
 
-  /// The results of a run that does not go on: their arrays are the memory itself.
+  /// The results of a run that does not continue: their arrays are the memory itself.
   py::tuple last_results() {
     const py::tuple last = results();
     std::exchange(shown_, nullptr)->goes_on = false;
     return last;
   }
 
-  /// Runs the present traces from now on, see TracePass.
+  /// Uses the present traces from now on, see TracePass.
   bool replace_traces() {
     const bool replaced = plan_->replace_traces();
     if (replaced) simulator_.functions_replaced();
-    plan_->tapes().renew();  // last: the series are made anew by then
+    plan_->tapes().renew();  // comes last, because the series are made anew before it
     return replaced;
   }
 
@@ -85,9 +85,9 @@ class PythonSimulator {
   /// The engine's results are const, but they are part of this object's own simulator.
   Results& own() { return const_cast<Results&>(simulator_.results()); }
 
-  /// Gives the engine the results that are shown. What Python still has does not change. The engine
-  /// keeps its own status: where Ctrl-C ended a function of the model, Python shows "interrupted",
-  /// and the engine "failed".
+  /// Gives the shown results back to the engine. Results that Python still has do not change. The
+  /// engine keeps its own status: if Ctrl-C ended a function of the model, Python shows
+  /// "interrupted", and the engine "failed".
   void put_back() {
     if (!shown_) return;
     Results& shown = *shown_;
@@ -140,7 +140,7 @@ class PythonSimulator {
   std::chrono::steady_clock::time_point reported_{};
   std::shared_ptr<PythonPlan> plan_;
   Simulator simulator_;
-  std::shared_ptr<Record> shown_;  // results that Python has; null: the engine has them
+  std::shared_ptr<Record> shown_;  // results that Python has; null if the engine has them
   double counted_ = 0.0;           // see PlanTapes::consider
 };
 

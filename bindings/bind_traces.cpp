@@ -1,4 +1,4 @@
-// What python/saltus/callbacks/ makes traces with.
+// The functions with which python/saltus/callbacks/ makes traces.
 #include <array>
 #include <atomic>
 
@@ -22,7 +22,7 @@ constexpr std::array roles{"ode",        "jacobian",  "sparse_jacobian", "output
 
 py::tuple as_tuple(const Dimensions& dimensions) { return py::tuple(py::cast(dimensions)); }
 
-/// How many numbers a function returns; None for a state.
+/// The number of numbers that a function returns; None for a state.
 py::object result_size(const BlockTraces& block, const Function& function) {
   const Declarations& d = block.leaf->declarations();
   const auto place = static_cast<std::size_t>(function.index);
@@ -89,7 +89,7 @@ Trace make_trace(int function, const Tape& tape, const py::object& relations, bo
   return trace;
 }
 
-/// Traces the blocks of a system for their shapes. Throws what compile() throws.
+/// Traces the blocks of a system to find their shapes. Throws the errors of compile().
 void trace(const System& system, const py::object& callbacks) {
   compile(system, {}, trace_pass(callbacks).get());
 }

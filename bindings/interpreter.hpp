@@ -15,9 +15,9 @@ namespace saltus::python {
 inline thread_local PyThreadState* resting = nullptr;
 
 /// Runs code of Python or waits for its lock. When the interpreter shuts down, it ends every other
-/// thread that does either by pthread_exit, from within. C++ cannot let that pass: a destructor on
-/// the way would need the lock again. So the thread waits for the end of the process, as Python
-/// 3.14 has it wait.
+/// thread that does either, by pthread_exit in that thread. C++ cannot let this unwinding pass,
+/// because a destructor on the way would need the lock again. So the thread waits for the end of
+/// the process, as it does in Python 3.14.
 template <class Work>
 decltype(auto) until_shutdown(Work work) {
 #ifdef __GLIBCXX__

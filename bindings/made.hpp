@@ -5,8 +5,8 @@
 
 namespace saltus::python {
 
-/// While pybind11 makes the object it contains none, and none ever where its constructor throws;
-/// the garbage collector or a traceback may look at it then, even before it has room for a block.
+/// The object contains no block while pybind11 makes it, nor ever if its constructor throws. The
+/// garbage collector or a traceback may look at it then, even before it has room for a block.
 inline bool holds_block(PyObject* self) {
   const auto* object = reinterpret_cast<const py::detail::instance*>(self);
   if (!object->simple_layout && object->nonsimple.status == nullptr) return false;

@@ -1,5 +1,5 @@
-// Methods and linear solvers are strings in Python: a name that does not exist is a ModelError with
-// the nearest one, as soon as it is given.
+// Methods and linear solvers are strings in Python. An unknown name is at once a ModelError with
+// the nearest known name.
 #pragma once
 
 #include <pybind11/pybind11.h>

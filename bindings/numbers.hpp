@@ -25,14 +25,16 @@ Value to_value(py::handle numbers, const std::string& what);
 /// The value of numbers; empty for None.
 std::optional<Value> to_optional_value(py::handle numbers, const std::string& what);
 
-/// Numbers in the form in which most functions return them: a float, an array of doubles, a list or
-/// tuple of floats. False for anything else, and for another number of them.
+/// Reads numbers in the form in which most functions return them: a float, an array of doubles, a
+/// list or tuple of floats. False for anything else, and for a wrong number of entries.
 bool read_plain_numbers(py::handle result, VectorRef out);
-/// Numbers in any form; a ModelError if the object is not numbers, or has another number of them.
+/// Reads numbers in any form. Throws ModelError if the object is not made of numbers, or has a
+/// wrong number of entries.
 void read_any_numbers(py::handle result, VectorRef out, const std::string& what);
 
-/// Truths, such as a bool, an array or a list of them: 1 for true, -1 for false, the value of a
-/// guard that jumps. False if the object is anything else, or has another number of entries.
+/// Reads truths, such as a bool, an array or a list of them, as the values of a guard that jumps: 1
+/// for true, -1 for false. Returns false if the object is anything else, or has a wrong number of
+/// entries.
 bool read_truths(py::handle result, VectorRef out);
 
 Dimensions dimensions_of(const py::array& array);

@@ -168,10 +168,10 @@ void PlanTapes::end(const Evaluations& now, double& counted) {
   counted = run;
 }
 
-/// Without `always` it is tried once. What was interpreted is then paid for: other tapes, of
-/// another plan of the system, are compiled when as much has been interpreted again.
+/// Without `always` it is tried once. The interpreted instructions are then counted from zero:
+/// tapes of another plan of the system are compiled when as much has been interpreted again.
 void PlanTapes::compile_if_pays(TapeGroup& group, double interpreted) {
-  // Another run may hold the lock and wait for the interpreter, which this one may hold.
+  // Another run may hold the lock and wait for the interpreter, which this run may hold.
   const std::unique_lock lock(compiling_, std::try_to_lock);
   if (!lock || group.done) return;
   if (!always() && !tape::compiling_pays(interpreted, group.instructions, compiler_is_loaded()))

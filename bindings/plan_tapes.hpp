@@ -27,8 +27,8 @@ inline int series_order(const SimulatorOptions& options) {
   return options.ode_solver_method == Method::taylor ? taylor::order_of(options.rtol) : 0;
 }
 
-/// What the runs of one system have evaluated since tapes of it were compiled last, and its last
-/// run alone, in instructions.
+/// The instructions that the runs of one system have evaluated since its tapes were compiled last,
+/// and those of its last run alone.
 struct Interpreted {
   std::atomic<double> all = 0.0, last_run = 0.0;
 };
@@ -48,10 +48,10 @@ struct TapeGroup {
 
 /// Compiles the tapes of a plan once it pays, by python/saltus/jit/. Without llvmlite nothing
 /// happens, except that `always` is an error. Several runs of the plan may use it at the same time:
-/// while one of them compiles, the others go on with what they have.
+/// while one of them compiles, the others continue with the tapes that they have.
 class PlanTapes {
  public:
-  /// `order`: of the Taylor series of the states; 0: the method has none.
+  /// `order` is that of the Taylor series of the states, 0 if the method has none.
   PlanTapes(const Plan& plan, MachineCodeWhen when, std::shared_ptr<Interpreted> interpreted,
             int order);
 
@@ -60,7 +60,7 @@ class PlanTapes {
   /// During or after a run that has made so many evaluations since it began. `counted`: the
   /// instructions of this run that `end` has counted, 0 when it begins.
   void consider(const Evaluations& now, double counted);
-  /// After a run, or a piece of it: counts, and leaves the rest to the next one.
+  /// After a run, or a piece of it: counts. The next run decides whether to compile.
   void end(const Evaluations& now, double& counted);
   /// The plan has other tapes now, perhaps within a run.
   void renew();

@@ -78,7 +78,7 @@ void PythonLeaf::set_input(py::object& to, const At& at, int i) const {
   set_array(to, {u.size()}, u);
 }
 
-/// Inserts the inputs of the function, beginning at `place`; returns the place after them.
+/// Inserts the inputs of the function from `place` on; returns the place after them.
 std::size_t PythonLeaf::set_inputs(Frame& frame, const Function& function, const At& at,
                                    std::size_t place) const {
   const bool tuple = function.convention == Convention::inputs;

@@ -12,7 +12,7 @@
 
 namespace saltus::python {
 
-/// The inputs that a function reads, and therefore gets; all if not given.
+/// The inputs that a function reads, and therefore gets; if not given, all.
 using InputList = std::optional<std::vector<int>>;
 
 /// The arguments with which a function is called.
@@ -57,11 +57,11 @@ struct Function {
   bool method = false;  // the block is passed before the other arguments
   Convention convention = Convention::state;
   InputList inputs = {};
-  std::string what = {};  // names it in messages
+  std::string what = {};  // its name in messages
   Role role = Role::output;
   bool formula = false;           // a plan may compute it together with its neighbours
-  int index = 0;                  // of the declaration it belongs to, among those of its kind
-  bool in_place = false;          // it fills an array called `out`
+  int index = 0;                  // of its declaration, among those of its kind
+  bool in_place = false;          // whether it fills an array called `out`
   CompiledPointer compiled = {};  // in place of Python
   void* user_data = nullptr;      // of the compiled function
   std::unique_ptr<Frame> spare = {};

@@ -99,8 +99,8 @@ Eigen::VectorXd numbers_of_state(py::handle result, const std::string& whose) {
 
 }  // namespace
 
-/// The state that numbers alone are. An update of a block with both means the discrete one; a reset
-/// map of such a block has to say which.
+/// The state that numbers alone mean. In an update of a block with both states they are the
+/// discrete state; a reset map of such a block has to return a state.
 bool PythonLeaf::means_discrete(const Function& function, bool has_x, bool has_z) const {
   if (has_x != has_z) return has_z;
   if (has_x && function.role == Role::update) return true;

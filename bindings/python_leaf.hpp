@@ -15,7 +15,7 @@
 
 namespace saltus::python {
 
-/// While one lives, no shape is found by calling a function of the user: `build` goes by the
+/// While such an object lives, no function of the user is called to find a shape: `build` uses the
 /// declarations.
 class ShapesAsDeclared {
  public:
@@ -82,7 +82,7 @@ class PythonLeaf final : public LeafSystem {
     return std::ranges::any_of(functions_, [](const Function& f) { return f.compiled == nullptr; });
   }
 
-  /// These two serve the garbage collector.
+  /// The garbage collector calls these two.
   int traverse(visitproc visit, void* argument) const;
   void clear() { functions_.clear(); }
 

@@ -32,7 +32,8 @@ class PythonPlan {
   const SimulatorOptions& options() const { return options_; }
   const std::shared_ptr<const Plan>& plan() const { return plan_; }
 
-  /// Runs the present traces from now on, see TracePass. For a plan of a single simulator.
+  /// Uses the present traces from now on, see TracePass. The plan must belong to a single
+  /// simulator.
   bool replace_traces() { return !pass_ || pass_->replace(); }
 
   PlanTapes& tapes() { return tapes_; }
@@ -44,7 +45,7 @@ class PythonPlan {
   }
 
   SimulatorOptions options_;
-  std::shared_ptr<TracePass> pass_;  // null: every function is called
+  std::shared_ptr<TracePass> pass_;  // null if every function is called
   std::shared_ptr<const Plan> plan_;
   PlanTapes tapes_;
 };

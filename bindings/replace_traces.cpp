@@ -15,7 +15,7 @@ bool fits(const PythonLeaf& leaf, const Trace& old, const Trace& now) {
   if (old.serial == now.serial) return true;
   for (int k = 0; k < count_of(leaf.declarations().inputs); ++k)
     if (now.tape.reads_input(k) && !old.tape.reads_input(k)) return false;
-  if (leaf.function(now.function).formula) return false;  // the plan may have it in a fused one
+  if (leaf.function(now.function).formula) return false;  // the plan may have fused it with others
   const Role role = leaf.function(now.function).role;
   if (role != Role::output && role != Role::relation) return true;
   const bool slower = (old.tape.reads() | now.tape.reads()) == old.tape.reads();

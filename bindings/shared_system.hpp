@@ -42,7 +42,7 @@ class SharedSystem final : public System {
   bool fixes_input(int index) const override {
     return System::fixes_input(index) || system_->fixes_input(index);
   }
-  /// Whether it is a block inside of a diagram, where the diagram knows the sources of its inputs.
+  /// Whether it is a block inside of a diagram, which knows the sources of its inputs.
   bool is_inner() const { return inner_; }
   LeafPort output_source(int index) const override { return system_->output_source(index); }
   LeafPort input_target(int index) const override { return system_->input_target(index); }
@@ -56,7 +56,7 @@ inline SystemHandle SharedSystem::block(std::string_view name) const {
   const auto* diagram = dynamic_cast<const Diagram*>(system_.get());
   if (diagram == nullptr)
     throw ModelError(text("block '", system_->name(), "' is no diagram: it has no blocks in it"));
-  return {{system_, &(*diagram)[name]}, true};  // as long as the diagram
+  return {{system_, &(*diagram)[name]}, true};  // lives as long as the diagram
 }
 
 inline std::vector<std::string> SharedSystem::block_names() const {

@@ -1,4 +1,4 @@
-// What tracing made of one function of a Python block.
+// The result of tracing one function of a Python block.
 #pragma once
 
 #include <memory>
@@ -9,8 +9,8 @@
 
 namespace saltus::python {
 
-/// A truth made of comparisons: guards, one a comparison, what zero means to each, and the truth
-/// over theirs, which it reads as a discrete state.
+/// A truth made of comparisons: a guard for each comparison, the truth of each at zero, and a tape
+/// that computes the truth from theirs, which it reads as a discrete state.
 struct TracedRelations {
   tape::Tape differences;
   std::vector<bool> true_at_zero;
@@ -18,7 +18,7 @@ struct TracedRelations {
 };
 
 struct Trace {
-  int serial;    // another one for each
+  int serial;    // a different number for each trace
   int function;  // its number in the block
   tape::Tape tape;
   std::optional<TracedRelations> relations;
@@ -26,8 +26,8 @@ struct Trace {
   std::optional<tape::Jacobian> jacobian;                     // of an ode
 };
 
-/// Where the functions of a plan look their tape up, so that a run in pieces gets a new one between
-/// two pieces.
+/// The place where the functions of a plan find their tape, so that a run in pieces can get a new
+/// tape between two pieces.
 using Slot = std::shared_ptr<Trace>;
 
 }  // namespace saltus::python

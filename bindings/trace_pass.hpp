@@ -24,11 +24,11 @@ class TracePass final : public Refinement {
   std::shared_ptr<TracePass> of_known() const {
     return std::make_shared<TracePass>(std::make_shared<Traces>(*traces_), py::object());
   }
-  /// The plan is made: lets go of the Python function.
+  /// Releases the Python function, because the plan is made.
   void end() { trace_block_ = {}; }
 
-  /// Puts the present tapes in place of those in the plan. False if some need more than the plan
-  /// computes: the run then has to begin anew. Not while a run is under way.
+  /// Replaces the tapes in the plan by the present ones. Returns false if some need more than the
+  /// plan computes: the run then has to begin anew. It must not be called during a run.
   bool replace();
 
  private:
@@ -39,7 +39,8 @@ class TracePass final : public Refinement {
   py::object trace_block_;
 };
 
-/// What the runs of a system have interpreted, which its `callbacks` keep; of nobody else if None.
+/// The counts of the instructions that the runs of a system have interpreted, which its `callbacks`
+/// keep; new counts if None.
 std::shared_ptr<Interpreted> interpreted_by(const py::object& callbacks);
 
 /// The pass for the object `callbacks` of python/saltus/callbacks/. Null, which leaves the system

@@ -16,8 +16,8 @@ std::shared_ptr<const Declarations> traced_declarations(const PythonLeaf& leaf,
                                                         const std::vector<Shape>& outputs,
                                                         const std::vector<Slot>& slots);
 
-/// Puts traces of the same functions into the slots. False, and nothing is done, if they need more
-/// than a plan of the old ones computes. Not while a run is under way.
+/// Puts traces of the same functions into the slots. Returns false, and does nothing, if they need
+/// more than a plan of the old traces computes. It must not be called during a run.
 bool replace_traces(const PythonLeaf& leaf, const std::vector<Slot>& slots,
                     std::span<const Trace> traces);
 

@@ -60,7 +60,7 @@ std::vector<Symbol> values_of(const tape::Tape& tape, const EntryAt<Symbol>& at)
 Formula formula_of(const Slot& slot, bool joins) {
   const Reads reads = slot->tape.reads();
   if (slot->tape.reads_entry()) return {};
-  // The slot has the present tape, which may be another one later in a run in pieces.
+  // The slot has the present tape, which may be replaced between two pieces of a run.
   const Formula formula(
       [slot](const At& at, VectorRef out) { slot->tape.evaluate(at, out.data()); },
       [slot](detail::Symbols& symbols) {

@@ -1,5 +1,4 @@
-// The Python blocks of a system, the shapes of their ports, and what tracing made of their
-// functions.
+// The Python blocks of a system, the shapes of their ports, and the traces of their functions.
 #pragma once
 
 #include <optional>
@@ -18,7 +17,7 @@ namespace saltus::python {
 struct BlockTraces {
   const PythonLeaf* leaf;
   std::string path;
-  std::size_t declared;                          // how much it had declared
+  std::size_t declared;  // the number of its declarations when it was traced
   std::vector<Shape> inputs = {}, outputs = {};  // unknown before it is traced
   bool traced = false;
   std::vector<Trace> traces = {};  // of the functions that have one
@@ -29,8 +28,8 @@ struct BlockTraces {
   void guess_shapes();
 };
 
-/// It refers to the blocks of the system and keeps none alive: the Python object of the system owns
-/// this one.
+/// It refers to the blocks of the system and keeps none alive, because the Python object of the
+/// system owns this object.
 class Traces {
  public:
   explicit Traces(const System& system);
@@ -42,7 +41,7 @@ class Traces {
   void set(std::size_t number, std::vector<Trace> traces);
 
   std::vector<BlockTraces>& blocks() { return blocks_; }
-  /// What the runs of the system have interpreted.
+  /// The counts of the instructions that the runs of the system have interpreted.
   const std::shared_ptr<Interpreted>& interpreted() const { return interpreted_; }
   std::optional<std::size_t> number_of(const LeafSystem& leaf) const;
 

@@ -1,4 +1,4 @@
-# Sourced by ./dev: saying what is done, and what must be there.
+# Sourced by ./dev: shows progress, and installs or checks the programs and packages that a step needs.
 
 die() { echo "$*" >&2; exit 1; }
 
@@ -60,7 +60,7 @@ venv() {  # NAME PACKAGE...: Python packages in .venv, asked for again when what
   touch "$stamp"
 }
 
-sources=(bindings cmake include python src CMakeLists.txt pyproject.toml)  # what the Python module is made of
+sources=(bindings cmake include python src CMakeLists.txt pyproject.toml)  # the files of which the Python module is made
 is_new() { [ -e "$1" ] && [ -z "$(find "${sources[@]}" -newer "$1" -print -quit)" ]; }  # FILE: newer than these
 
 install_module() {  # EXTRA: the wheel if one was just made, else compiled in build/python

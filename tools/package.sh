@@ -21,7 +21,7 @@ build_wheel() {  # [CMAKE OPTION]: as a user's pip does, from the source distrib
     && [ "$(stat -c %s build/wheel/saltus-*.whl)" -lt 5000000 ]
 }
 
-repair_wheel() {  # its name says on which Linux it runs; auditwheel finds out, and puts in what is missing there
+repair_wheel() {  # its name says on which Linux it runs; auditwheel finds the name, and adds the libraries that are missing there
   PATH=$root/.venv/bin:$PATH "$python" -m auditwheel show build/wheel/saltus-*.whl \
     && PATH=$root/.venv/bin:$PATH "$python" -m auditwheel repair --wheel-dir build/wheel/repaired build/wheel/saltus-*.whl \
     && ls build/wheel/repaired/saltus-*manylinux*.whl

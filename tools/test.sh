@@ -1,6 +1,6 @@
 # Sourced by ./dev: the parts of the tests, and their sum.
 
-# What ./dev test runs, in this order: the wheel before the tests in Python, so that these are of what a user gets.
+# The parts of ./dev test, in their order. The wheel comes before the tests in Python, so that these test the module that a user gets.
 parts=(cpp system asan wheel python doctest typing examples snippets docs packaging)
 for_tests=(catch2 libsundials-dev graphviz)
 for_typing=(mypy==2.4.1 vermin==1.9.2 pybind11-stubgen==3.0.0 ruff==0.17.5)

@@ -25,9 +25,9 @@ inline double allowed(saltus::Method method) {
 
 /// The known answer of a run.
 struct Exact {
-  Eigen::VectorXd end = {};   ///< the state at the end; not compared if empty
-  Eigen::VectorXd size = {};  ///< of each state on the way, for rtol; that at the end if not said
-  double growth = 1.0;        ///< the error at the end from a local error of one tolerance
+  Eigen::VectorXd end = {};        ///< the state at the end; not compared if empty
+  Eigen::VectorXd size = {};       ///< of each state on the way, for rtol; by default at the end
+  double growth = 1.0;             ///< the error at the end from a local error of one tolerance
   std::vector<double> times = {};  ///< [s] of all firings
   bool events = false;             ///< whether the times are compared
   double speed = 1.0;              ///< |dg/dt| of the guards, slowest, for errors of time

@@ -1,4 +1,6 @@
-"""What the adapters share: each tolerance once for the answer, then on and on for the time."""
+"""The common part of the adapters: it runs each tolerance once for the answer, then repeatedly for
+the time.
+"""
 
 import json
 import statistics
@@ -10,7 +12,7 @@ LIMIT = 10.0  # [s] a scene of which one run takes longer is not tightened furth
 
 
 def measured(run):
-    """Cold time, median of warm ones [s], and what the run came to."""
+    """The cold time, the median of the warm times [s], and the answer of the run."""
     start = time.perf_counter()
     answer = run()
     cold, times = time.perf_counter() - start, []

@@ -1,7 +1,7 @@
 """The same scenes through other programs: `python bench/peers/run.py [PEER ...]`, with the Python
 that has the module of Saltus, such as .venv/bin/python. Each peer gets an environment of its own
-under build/peers, with the versions of requirements/. What cannot be installed, or fails, is said.
-Writes docs/peers.md and its charts. Takes some minutes.
+under build/peers, with the versions of requirements/. The program names each peer that cannot be
+installed, or fails. Writes docs/peers.md and its charts. Takes some minutes.
 """
 
 import datetime
@@ -24,7 +24,7 @@ LONGEST = 400  # [s] of one peer
 
 
 def environment(peer):
-    """Its Python; made, and filled, at the first call."""
+    """The Python of its environment, which the first call makes and fills."""
     folder = ROOT / "build" / "peers" / peer
     python = folder / "bin" / "python"
     if not python.exists():

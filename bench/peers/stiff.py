@@ -1,4 +1,6 @@
-"""What the adapters of stiff scenes share: one run a tolerance, with counts and states."""
+"""The common part of the adapters of stiff scenes: a run for each tolerance, with counts and
+states.
+"""
 
 import contextlib
 import json
@@ -10,7 +12,7 @@ LONGEST = 6.0  # [s] a scene of which one run takes longer is not tightened furt
 
 
 def warm_up(scene, method, run):
-    """What a program does once, such as to trace a function, is not timed."""
+    """Times runs. The work that a program does once, such as tracing a function, is not timed."""
     with contextlib.suppress(RuntimeError):
         run(scene, method, RTOLS[0])
 

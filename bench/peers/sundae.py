@@ -33,7 +33,9 @@ def make(scene, rtol):
 
 
 def run(scene, solvers, seen):
-    """A solver goes on with its lists of events when it is used again: what is new is behind."""
+    """A solver continues its lists of events when it is used again, so the new events are at the
+    end.
+    """
     t, x, mode, times = 0.0, np.array(scene.start), scene.mode, []
     while t < scene.end:
         cvode, guards = solvers[mode]

@@ -225,7 +225,7 @@ class DiagramBuilder:
         port
             An input of a block that was added, without a source; or its path, "block.in".
         name
-            The name of the port of the diagram; 'block_port' if not said.
+            The name of the port of the diagram; by default 'block_port'.
 
         Returns
         -------
@@ -253,7 +253,7 @@ class DiagramBuilder:
         port
             An output of a block that was added; or its path, "block.out".
         name
-            The name of the port of the diagram; 'block_port' if not said.
+            The name of the port of the diagram; by default 'block_port'.
 
         Returns
         -------

@@ -19,7 +19,7 @@ __all__ = ["SimulatorOptions"]
 
 
 def _refuse_unknown(cls: Any) -> Any:
-    """Unknown names get the nearest one, or a hint, in place of a TypeError."""
+    """An unknown name is answered with the nearest name, or a hint, in place of a TypeError."""
     generated = cls.__init__
 
     @functools.wraps(generated)
@@ -41,8 +41,8 @@ class SimulatorOptions:
     Raises
     ------
     ModelError
-        For an unknown name; the message has the nearest. A value that makes no sense is refused
-        when a run begins.
+        If a name is unknown; the message has the nearest name. A value that makes no sense is
+        refused when a run begins.
 
     Examples
     --------
@@ -69,16 +69,17 @@ class SimulatorOptions:
     Jacobian), 'dense', 'band', 'sparse', 'gmres'; `statistics.linear_solver` names the choice
     """
     find_sparsity: bool = True
-    """where a block of more than 256 states declares neither Jacobian nor sparsity, a stiff method
-    finds the sparsity by calls of its derivative near the state; `statistics.linear_solver` has
-    the outcome. False: such a block is full, or its places are unknown
+    """if a block of more than 256 states declares neither Jacobian nor sparsity, a stiff method
+    finds the sparsity by calls of its derivative near the state; `statistics.linear_solver` has the
+    outcome. With False such a block counts as full, or its places are unknown
     """
     max_major_steps: int | None = None
     """instants a run may have; more end it with the status 'step_limit'"""
     max_major_step_length: float | None = math.inf
     """[s] longest time from one instant to the next"""
     min_minor_step_size: float | None = 0.0
-    """[s] bounds of a solver step. Rarely of use: the tolerance chooses the step"""
+    """[s] bounds of a solver step. They are rarely useful, because the tolerance chooses the step
+    """
     max_minor_step_size: float | None = math.inf
     first_step: float | None = None
     """[s] the first solver step of the run that is tried; None: the tolerance chooses it"""
@@ -87,12 +88,12 @@ class SimulatorOptions:
     a Zeno hold. 0 switches the monitor off
     """
     event_scan_points: int | None = None
-    """interior points of a step at which guards are looked at, for two crossings in one step; 0
-    turns that off. None: as many as the degree of the method's dense output, that is 4 for dopri5,
-    7 for dop853, and for adams and bdf the present order, at least 3
+    """interior points of a step at which guards are evaluated, to find two crossings in one step; 0
+    switches this off. None means as many as the degree of the method's dense output, that is 4 for
+    dopri5, 7 for dop853, and for adams and bdf the present order, at least 3
     """
     max_passes: int = 100
-    """passes an instant may have before it counts as a loop without end"""
+    """number of passes of an instant before it counts as a loop without end"""
     event_seed: float = 0.0
     """seed of the random order in which executions of queued zero crossings with equal priority
     follow each other at one time; any finite number
@@ -111,8 +112,8 @@ class SimulatorOptions:
     """
     save_steps: bool | None = None
     event_rows: bool = True
-    """rows at events, at the start and at the end too. False: rows at save_at only, one for each;
-    at the time of an event the one after it
+    """record rows at events, at the start and at the end too. With False there are rows at save_at
+    only, one for each time; at the time of an event it is the row after it
     """
     dense_output: bool = False
     """keep the interpolants of the solver: `results(t)` gives state and recorded signals at any
@@ -130,14 +131,14 @@ class SimulatorOptions:
     have the same bits
     """
     throw: bool = True
-    """raise if a run does not end well; False returns the results with the status"""
+    """raise an exception if a run does not end well; False returns the results with their status"""
     progress: bool | Callable[[Progress], object] = False
-    """True shows how far the run is, by tqdm if it is installed, else on a line of stderr; a
-    function is called with a `Progress` ten times a second at most, and once at the end
+    """True shows the progress of the run, by tqdm if it is installed, otherwise on a line of
+    stderr; a function is called with a `Progress` at most ten times a second, and once at the end
     """
     interrupt: Callable[[], bool] | None = None
-    """asked about every 20 ms; True ends the run with the status 'interrupted'. Ctrl-C does so
-    anyway
+    """a function that is called about every 20 ms; if it returns True the run ends with the status
+    'interrupted'. Ctrl-C ends a run in any case
     """
 
     def __post_init__(self) -> None:

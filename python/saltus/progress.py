@@ -1,4 +1,4 @@
-"""How far a run is: a bar, a line, or a function of the user's."""
+"""The progress of a run: a bar, a line, or a function of the user."""
 
 from __future__ import annotations
 
@@ -28,9 +28,9 @@ class Progress(NamedTuple):
     time: float
     """[s] simulated time"""
     begin: float
-    """[s] where it began"""
+    """[s] simulated time at which the run began"""
     end: float
-    """[s] where it will end"""
+    """[s] simulated time at which it will end"""
     events: int
     """resets, updates and mode changes so far"""
     wall_time: float
@@ -38,7 +38,7 @@ class Progress(NamedTuple):
 
     @property
     def fraction(self) -> float:
-        """How much of the span is done, 0 to 1."""
+        """The part of the span that is done, 0 to 1."""
         length = self.end - self.begin
         if length == 0.0:
             return 1.0
@@ -58,7 +58,7 @@ class Progress(NamedTuple):
 
 
 class _Bar:
-    """tqdm's, on the terminal or in a notebook."""
+    """The bar of tqdm, on the terminal or in a notebook."""
 
     FORMAT = "{l_bar}{bar}| {n:.4g}/{total:.4g} s [{elapsed}<{remaining}, {rate_fmt}{postfix}]"
     ENDLESS = "t = {n:.4g} s [{elapsed}, {rate_fmt}{postfix}]"
@@ -102,7 +102,7 @@ class _Line:
 
 
 class _Function:
-    """The user's own."""
+    """The function of the user."""
 
     def __init__(self, function: Callable[[Progress], object]) -> None:
         self._function = function

@@ -1,4 +1,4 @@
-"""What one block gives, without a diagram written by hand."""
+"""The outputs of one block, without a diagram written by hand."""
 
 from __future__ import annotations
 
@@ -22,26 +22,26 @@ def response(
     """The outputs of a block, or of a diagram, at chosen times.
 
     It makes a diagram of the system and its sources, runs it from 0 to the last time and reads the
-    outputs, after what happens at each time. It is meant for looking at a block; for a model make
-    the diagram yourself.
+    outputs, after the events at each time. It is meant for trying a block; for a model make the
+    diagram yourself.
 
     Parameters
     ----------
     system
         A block or a diagram. It is not changed, and may be used elsewhere.
     inputs
-        One for each input, in order: a number or a vector, which stays constant, or a source, a
+        A value for each input, in order: a number or a vector, which stays constant, or a source, a
         system whose first output feeds the input. A source may be given more than once.
     t
         [s] A time, or several.
     options
-        Those of `simulate`, such as `rtol`.
+        Options of `simulate`, such as `rtol`.
 
     Returns
     -------
     float, numpy.ndarray or a tuple of them
-        The output; of several outputs a tuple. A number at one time is a float. With several times
-        the first dimension is that of the times.
+        The output; of several outputs a tuple. A number at one time is a float. If there are
+        several times, they are the first dimension.
 
     Raises
     ------

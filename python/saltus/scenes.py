@@ -38,7 +38,7 @@ class SharedSystem(System, _core.SharedSystem):
         remember(self)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """A system of the shelf, or a block in it, is made again where it is unpickled."""
+        """Pickles a system of the shelf, or a block in it, as the recipe to make it again."""
         if self._again is None:
             raise TypeError(f"cannot pickle system '{self.name}': it was made in C++")
         return self._again
@@ -80,7 +80,7 @@ class Scene:
     t_span: tuple[float, float]
     """[s] begin and end"""
     options: SimulatorOptions
-    """with the signals that the known answer speaks of, in its order"""
+    """the options of a run, with the signals of the known answer, in its order"""
     provenance: str
     """the origin of the known answer and its digits; empty if no answer is known"""
     methods: list[str]
@@ -159,9 +159,9 @@ def scene(name: str, **parameters: float) -> Scene:
     name : str
         One of the names in `saltus.shelf()`.
     **parameters : float
-        Some of those in ``scene(name).parameters``: constants of the model, where it starts, and
-        ``t_end`` [s]. The known answer is that of these values; where it is known for the usual
-        ones only, ``provenance`` says so.
+        Some of those in ``scene(name).parameters``: constants of the model, its start, and
+        ``t_end`` [s]. The known answer is that of these values; if it is known for the usual values
+        only, ``provenance`` says so.
 
     Returns
     -------
@@ -192,7 +192,7 @@ def scene(name: str, **parameters: float) -> Scene:
 
 
 def load_scene(path: str | os.PathLike[str], /, **parameters: Any) -> FileScene:
-    """A scene that stands in a file, TOML or JSON; see the guide to scene files.
+    """A scene from a file, TOML or JSON; see the guide to scene files.
 
     Nothing in a file executes code: its expressions are parsed, checked and traced.
 
@@ -201,7 +201,7 @@ def load_scene(path: str | os.PathLike[str], /, **parameters: Any) -> FileScene:
     path
         A file whose name ends in .toml or .json.
     **parameters
-        Values of parameters of the scene, in place of those in the file; others that are
+        Values of parameters of the scene, in place of those in the file. Other parameters that are
         expressions of them follow.
 
     Returns

@@ -17,7 +17,7 @@ from saltus.ports import InputPort, OutputPort, key_of
 __all__ = ["InputPort", "OutputPort", "System", "remember", "system_of"]
 
 _systems: weakref.WeakValueDictionary[int, System] = weakref.WeakValueDictionary()
-"""systems that may have made a context, by their number, for as long as they live"""
+"""living systems that may have made a context, by their number"""
 
 
 def remember(system: System) -> None:
@@ -156,8 +156,8 @@ class System:
     def explain(self) -> Explanation:
         """How each Python callback runs: 'compiled', 'traced' or 'called', and why not faster.
 
-        Nothing is simulated. The functions are traced as they are before a run; outputs whose shape
-        was not said are called once.
+        Nothing is simulated. The functions are traced as they are before a run; outputs without a
+        given shape are called once.
 
         Returns
         -------
@@ -175,7 +175,7 @@ class System:
         return callbacks.explain(self)
 
     def create_context(self, time: float = 0.0) -> _core.Context:
-        """The values every block starts with. What you change in a context changes no system.
+        """The values every block starts with. A change of a context changes no system.
 
         Parameters
         ----------
@@ -227,7 +227,7 @@ class System:
         Parameters
         ----------
         output
-            What takes the text in place of `print`.
+            The function that takes the text in place of `print`.
 
         Examples
         --------
@@ -247,11 +247,12 @@ class System:
     ) -> str:
         """The system as a picture in the language of Graphviz.
 
-        Inner diagrams are clusters. Colours tell continuous from held signals, grey is what the
-        engine folds (constant, computed once) or drops (nothing reads it), a dashed wire is read
-        at events only, such as the trigger of a reset; a legend says so. Ports carry their names
-        where these say something, wires of more than one number their width, blocks their states,
-        zero crossings and time events. A system that does not compile is drawn with the reason.
+        Inner diagrams are clusters. Colours tell continuous from held signals, grey blocks are
+        folded by the engine (constant, computed once) or dropped (nothing reads them), a dashed
+        wire is read
+        at events only, such as the trigger of a reset; a legend says so. Ports show their names if
+        these say something, wires of more than one number their width, blocks their states, zero
+        crossings and time events. A system that does not compile is drawn with the reason.
 
         Parameters
         ----------
@@ -297,7 +298,7 @@ class System:
             "blocks": a flowchart that shows what `to_dot` does. "modes": a state diagram of the
             modes of a block, with the zero crossings that lead from one to another.
         recorded_signals, max_depth
-            As for `to_dot`; for "blocks" only.
+            As for `to_dot`; they apply to "blocks" only.
 
         Returns
         -------
@@ -307,7 +308,7 @@ class System:
         Raises
         ------
         ModelError
-            For "modes" of a system that has none, and as `to_dot`.
+            If "modes" is asked of a system without modes, and as for `to_dot`.
 
         Examples
         --------

@@ -26,7 +26,7 @@ void Backlash::declare_contact(const char* event, double side, ParameterIndex wi
        .reset_map = [side](const At& at, Next& next) { next.set_discrete_state({at.z[0], side}); },
        .direction = Direction::negative_then_non_negative,
        .at_start = AtStart::fire,
-       .zeno_tolerance = 0.0,  // there is no state that could rest
+       .zeno_tolerance = 0.0,  // the block has no state that could rest
        .inputs = std::vector{0},
        .formula =
            [=](const auto& at, Index) {

@@ -7,8 +7,8 @@
 
 namespace saltus {
 
-/// The phase and its first derivative are continuous at stop_time: a stage of a step that ends
-/// there gets the value of both branches.
+/// The phase and its first derivative are continuous at stop_time, so both branches have one value
+/// for a stage at the end of a step that ends there.
 Chirp::Chirp(std::string name, const Options& options) : LeafSystem(std::move(name)) {
   detail::require_period(this->name(), "stop_time", options.stop_time);
   const ParameterIndex f0 = declare_dynamic_parameter("f0", options.f0.values),

@@ -24,7 +24,7 @@ struct TimeTable {
   double value(const At& at, Index row, Index column) const {
     return at.parameter(values)[std::clamp<Index>(row, 0, times.size() - 1) * width + column];
   }
-  /// The value of a piece, which goes on beyond its ends.
+  /// The value of a piece, which is continued beyond its ends.
   double in(const At& at, Index piece, Index column) const {
     const bool outside = piece <= 0 || piece >= times.size();
     if (outside && zero) return 0.0;
@@ -50,8 +50,8 @@ void require_table(const std::string& block, const Eigen::VectorXd& times,
 
 }  // namespace
 
-/// What is held of a linear table is whether the number of the piece is even: a solver step that
-/// ends at a time, or an ulp past it, sees one line.
+/// A linear table holds whether the number of the piece is even, so a solver step that ends at a
+/// time, or an ulp past it, sees one line.
 DataSource::DataSource(std::string name, const Eigen::VectorXd& times,
                        const Eigen::MatrixXd& values, const Options& options)
     : LeafSystem(std::move(name)) {

@@ -46,8 +46,8 @@ void Integrator::declare_ports(const Options& options) {
     hold_ = declare_input_port({.name = "hold_trigger", .shape = Shape::scalar()});
 }
 
-/// A state at its limit counts as beyond it: a state that starts exactly there is held if it is
-/// pushed outward.
+/// A state at its limit counts as beyond it, so a state that starts exactly at a limit is held if
+/// it is pushed outward.
 void Integrator::declare_limits(const Options& options) {
   const Index n = options.initial_state.values.size();
   if (options.lower_limit) {

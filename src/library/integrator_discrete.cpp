@@ -34,7 +34,7 @@ struct IntegratorRule {
   std::optional<int> trigger = {}, value = {}, hold = {};  // inputs
   std::optional<ParameterIndex> lower = {}, upper = {};
 
-  /// The first tick shows the state as it is, in any method.
+  /// At the first tick every method shows the state unchanged.
   bool starts(const VectorView& s) const { return s[s.size() - 1] < 0.0; }
   bool resets(const At& at, const VectorView& s) const {
     return trigger && at.u(*trigger) != 0.0 && s[s.size() - 1] == 0.0;

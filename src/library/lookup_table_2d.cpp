@@ -12,8 +12,8 @@ namespace saltus {
 
 namespace {
 
-/// The points of one input. If y is clipped all points are knots, otherwise the inner ones: the
-/// outer cells go on.
+/// The points of one input. If y is clipped all points are knots, otherwise only the inner points,
+/// because the outer cells are continued.
 struct Axis {
   detail::Knots points, knots;
   bool clipped, bounded;

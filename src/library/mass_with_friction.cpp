@@ -56,7 +56,7 @@ void MassWithFriction::declare_slip(const char* event, double side) {
        .reset_map = [side](const At&, Next& next) { next.set_discrete_state({side}); },
        .direction = Direction::negative_then_non_negative,
        .at_start = AtStart::fire,
-       .zeno_tolerance = 0.0,  // to stick is a state of its own
+       .zeno_tolerance = 0.0,  // sticking is a state of its own
        .formula =
            [=, limit = static_](const auto& at, Index) {
              const auto moves = at.choose(side * at.x(1) > 0.0, 1.0, -1.0);

@@ -28,8 +28,8 @@ MinMax::MinMax(std::string name, std::string_view operation, int n_inputs)
                        }});
 }
 
-/// Its guard has a kink where two of the inputs before k take over from each other: that is a root
-/// of an earlier relation, so no step spans it.
+/// The guard has a kink where two inputs before k take over from each other. The kink is a root of
+/// an earlier relation, so no step spans it.
 RelationIndex MinMax::beyond(int k, double sign) {
   std::vector<int> inputs;
   for (int j = 0; j <= k; ++j) inputs.push_back(j);

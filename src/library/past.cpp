@@ -85,7 +85,7 @@ void PastWriter::append(const AcceptedStep& step, double oldest, const std::stri
   require_continues(step, block);
   const Index before = pieces();
   const bool all_open = before > 0 && open_end() == before;
-  if (2 * before > capacity()) drop(oldest);  // so that half of the room is free, if it can be
+  if (2 * before > capacity()) drop(oldest);  // so that half of the room is free, if possible
   const Index kept = pieces();
   const int level = before == 0 ? 0 : level_at(step, next_level());
   out_[3] = 0.0;
@@ -129,7 +129,8 @@ bool PastWriter::follows(const AcceptedStep& step, const double* values, double 
                          double to) const {
   Eigen::VectorXd is(n_), has(n_);
   const VectorView all(values, points * n_);
-  // The times of the looks are rounded, and with them the values, as steep as the signal is there.
+  // The times of the looks are rounded, which changes the values by the slope of the signal times
+  // the rounding.
   const double steepest = (all.maxCoeff() - all.minCoeff()) * degree / (to - from);
   const double room =
       allowed(step, all.cwiseAbs().maxCoeff()) + 2.0 * eps * std::abs(to) * steepest;
@@ -180,7 +181,7 @@ void PastWriter::open_next() {
   out_[3] = level(first) + 1;
 }
 
-/// Removes the pieces that nobody reads any more.
+/// Removes the pieces that no reader needs any more.
 void PastWriter::drop(double oldest) {
   Index first = open_begin();
   while (first + 1 < open_end() && end(first) < oldest) ++first;

@@ -8,9 +8,9 @@
 
 namespace saltus {
 
-/// What is held is whether the level is even: one relation for any number of levels. Its guard is
-/// smooth. y is the nearest level of the kind that is held, so a solver step that goes too far, up
-/// to half an interval beyond the root, sees no jump.
+/// The block holds whether the level is even, which takes one relation for any number of levels.
+/// Its guard is smooth. y is the nearest level of the kind that is held, so a solver step that goes
+/// too far, up to half an interval beyond the root, sees no jump.
 Quantizer::Quantizer(std::string name, const Value& interval) : LeafSystem(std::move(name)) {
   for (const double step : interval.values) {
     detail::insist(step > 0.0, this->name(), "interval = ", step, "; expected a number > 0");

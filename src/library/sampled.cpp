@@ -5,8 +5,8 @@
 
 namespace saltus::detail {
 
-/// The output is that of the tick from the beginning of the instant, before the state has it: a
-/// block that reads it at this tick gets y[k], not y[k-1].
+/// From the beginning of the instant the output is that of the tick, before the state has changed.
+/// So a block that reads it at this tick gets y[k], not y[k-1].
 void SampledSystem::declare_law(const Law& law) {
   require_period(name(), "dt", law.dt);
   const Index n = law.before.values.size(), states = law.state.size();
@@ -25,7 +25,8 @@ void SampledSystem::declare_law(const Law& law) {
                                                                            Next& next) {
     Eigen::VectorXd now(1 + n + states);
     now[0] = last_tick(at.time, dt);
-    // A run that begins at a tick of an earlier run, with a state changed by hand, has had it.
+    // A run that begins at a tick of an earlier run, with a state changed by hand, has had this
+    // tick.
     if (now[0] == at.z[0]) return;
     output(at, state(at), VectorRef(now.data() + 1, n));
     if (states > 0) move(at, state(at), VectorRef(now.data() + 1 + n, states));

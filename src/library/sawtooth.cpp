@@ -8,8 +8,8 @@
 
 namespace saltus {
 
-/// What is held is whether k is even. y is that of the nearest period of this kind, so it is a line
-/// up to half a period beyond a jump.
+/// The block holds whether k is even. y is the line of the nearest period of this kind, so it is a
+/// line up to half a period beyond a jump.
 Sawtooth::Sawtooth(std::string name, const Options& options) : LeafSystem(std::move(name)) {
   const double frequency = options.frequency, period = 1.0 / frequency, delay = options.phase_delay;
   detail::insist(frequency > 0.0 && std::isfinite(frequency) && std::isfinite(period), this->name(),

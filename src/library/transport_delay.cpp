@@ -37,7 +37,7 @@ void TransportDelay::delayed(const At& at, VectorRef out) const {
     past.value(at.time - delay_, out);
 }
 
-/// Opens at least the break that is due, and all that are due within rounding of it.
+/// Opens at least the break that is due, and all breaks that are due within rounding of it.
 void TransportDelay::pass_break(const At& at, Next& next) const {
   Eigen::VectorXd z = at.z;
   detail::PastWriter past(VectorRef(z.data(), z.size()), n_);

@@ -10,7 +10,7 @@ namespace saltus::tape::detail {
 inline constexpr std::size_t longest_written_out = 32;
 
 /// The function `name` of a program, with the type of MachineFunction. `declarations` gets the
-/// declarations of what it calls.
+/// declarations of the functions that it calls.
 std::string llvm_function(const Program& program, const std::string& name,
                           std::set<std::string>& declarations);
 

@@ -44,7 +44,7 @@ class LlvmText {
   void store(const std::string& value, int width, const std::string& address);
 
   const std::string& body() const { return body_; }
-  /// The declarations of what the body calls.
+  /// The declarations of the functions that the body calls.
   const std::set<std::string>& declarations() const { return declarations_; }
 
  private:

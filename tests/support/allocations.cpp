@@ -1,4 +1,5 @@
-// malloc, counted. glibc lets a program bring its own and reach the library's under another name.
+// Counts the calls of malloc. glibc lets a program bring its own malloc and reach that of the
+// library under another name.
 #include "support/allocations.hpp"
 
 #include <atomic>

@@ -1,15 +1,15 @@
-// How often memory was asked for: by new, by Eigen, by SUNDIALS. All of them come to malloc.
+// Counts the requests for memory by new, by Eigen and by SUNDIALS. All of them call malloc.
 #pragma once
 
 namespace support {
 
-/// Calls of malloc, calloc and realloc since the program began; -1 where they cannot be counted
-/// (sanitizers, other C libraries than glibc).
+/// The number of calls of malloc, calloc and realloc since the program began; -1 if they cannot be
+/// counted (sanitizers, other C libraries than glibc).
 long allocations();
-/// How many bytes these asked for, all in all; -1 as above.
+/// The number of bytes that these calls requested in total; -1 as above.
 long allocated_bytes();
 
-/// What `act` asked for.
+/// The requests of `act`.
 template <class Act>
 long allocations_of(Act act) {
   const long before = allocations();

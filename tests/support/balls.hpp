@@ -75,17 +75,17 @@ class BallOnTable final : public saltus::LeafSystem {
   double g_, e_;
 };
 
-/// How a diagram tells that the ball touches the floor: a relation, or a boolean nobody can see
-/// into.
+/// The signal by which a diagram knows that the ball touches the floor: a relation, or an opaque
+/// boolean.
 enum class Contact { comparator, reduce, function };
 inline constexpr std::array contacts{Contact::comparator, Contact::reduce, Contact::function};
 
-/// A ball as a system of any form, with what a test needs to know of it.
+/// A ball as a system of any form, with the facts that a test needs.
 struct Scene {
   std::shared_ptr<const saltus::System> system;
   std::string form;
   saltus::OutputPort height;
-  int monitors = 1;  ///< Zeno monitors of one ball: two integrators have one each
+  int monitors = 1;  ///< Zeno monitors of one ball; two integrators have one each
   bool leaf = true;
 
   saltus::Context context(double y, double v, double t = 0.0) const {
@@ -96,7 +96,7 @@ struct Scene {
   }
 };
 
-/// The tutorial's diagram: two integrators, a floor, y < floor as `contact` tells it.
+/// The tutorial's diagram: two integrators, a floor, and the comparison y < floor in the form of `contact`.
 inline Scene blocks(Contact contact, const BallOptions& options,
                     std::shared_ptr<const saltus::System> floor) {
   using namespace saltus;
@@ -149,7 +149,7 @@ inline Scene leaf(const BallOptions& options = {}) {
   return {ball, "leaf", height};
 }
 
-/// A leaf over a floor that another block gives.
+/// A leaf over a floor that is the output of another block.
 inline Scene leaf_on(const BallOptions& options, std::shared_ptr<const saltus::System> floor) {
   saltus::DiagramBuilder builder;
   auto& ball = builder.add<BallOnTable>(options);

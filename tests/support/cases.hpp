@@ -1,4 +1,5 @@
-// What cases that must come out right share: forms of a scene, and one line a comparison.
+// The common parts of cases whose answers are known: forms of a scene, and a line for each
+// comparison.
 #pragma once
 
 #include <cstdlib>
@@ -14,7 +15,7 @@
 
 namespace support {
 
-/// A leaf made where it is used, as a system that forms share.
+/// A leaf that is made at its place of use, as a system that forms share.
 template <class Declare>
 std::shared_ptr<Leaf> make_leaf(std::string name, Declare declare) {
   return std::make_shared<Leaf>(std::move(name), declare);
@@ -34,8 +35,8 @@ inline std::vector<Form> forms(const std::shared_ptr<Leaf>& leaf) {
   return {{leaf, "leaf"}, {std::make_shared<saltus::Diagram>(builder.build()), "diagram"}};
 }
 
-/// Ten local errors of a state of this size, times the growth of the problem. BDF, which suits no
-/// smooth scene that is not stiff, takes ten times the steps there: a hundred.
+/// Ten local errors of a state of this size, times the growth of the problem. For BDF it is a
+/// hundred, because BDF takes ten times the steps on a smooth scene that is not stiff.
 inline double allowed(saltus::Method method, double rtol, double atol, double size,
                       double growth = 1.0) {
   return (method == saltus::Method::bdf ? 100.0 : 10.0) * (rtol * size + atol) * growth;
@@ -46,7 +47,7 @@ inline bool one_step(saltus::Method method) {
   return method != saltus::Method::adams && method != saltus::Method::bdf;
 }
 
-/// The largest of |found - expected|; infinite where there are more of one than of the other.
+/// The largest of |found - expected|; infinite if their numbers differ.
 inline double worst(const std::vector<double>& found, const std::vector<double>& expected) {
   if (found.size() != expected.size()) return infinite;
   double most = 0.0;

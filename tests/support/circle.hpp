@@ -1,4 +1,4 @@
-// A circle and what reads its dense output.
+// A circle, and helpers that read its dense output.
 #pragma once
 
 #include "support/cases.hpp"
@@ -23,7 +23,7 @@ inline saltus::Results run_circle(saltus::SimulatorOptions options, double end =
   return saltus::simulate(*leaf, leaf->create_context(), {0.0, end}, options);
 }
 
-/// n times, evenly spread, none at the ends.
+/// n evenly spread times, without the ends.
 inline std::vector<double> inner_times(double begin, double end, int n) {
   std::vector<double> times;
   for (int i = 0; i < n; ++i) times.push_back(begin + (end - begin) * (i + 0.5) / n);

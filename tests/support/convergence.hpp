@@ -29,7 +29,7 @@ StepErrors step_errors(int n) {
   machine.load(leaf.create_context());
   saltus::GuardSet guards;
   const double h = 4.0 / n;
-  // A tolerance that everything meets: the steps are h.
+  // A tolerance that every step meets, so that the steps are h.
   saltus::RungeKutta<Method> solver(machine, guards, {.rtol = 1e6, .atol = 1e6, .max_step = h});
   solver.restart(0.0, machine.x, {.first = true});
   StepErrors worst;
@@ -37,7 +37,7 @@ StepErrors step_errors(int n) {
     const double end = h * i;
     while (solver.time() < end) solver.advance(end);
     worst.ends = std::max(worst.ends, std::abs(solver.state()[0] - logistic_at(end)));
-    for (int k = 1; i > 1 && k < 9; ++k) {  // the first stretch is made of shorter steps
+    for (int k = 1; i > 1 && k < 9; ++k) {  // the first stretch has shorter steps
       double x = 0.0;
       const double t = end - h + h * k / 9.0;
       solver.interpolate(t, &x);

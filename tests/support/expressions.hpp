@@ -22,8 +22,8 @@ struct RandomExpression {
   bool analytic = true;  ///< complex numbers can go through all of it
 };
 
-/// The same expression for the same seed. Values stay between about 1e-3 and 1e3, away from the
-/// ends of where an operation is defined.
+/// Gives the same expression for the same seed. Values stay between about 1e-3 and 1e3, and away
+/// from the ends of the domain of each operation.
 RandomExpression random_expression(unsigned seed);
 
 /// The outputs as nodes of a graph, of states 0, 1, ... or of any other nodes.

@@ -1,4 +1,4 @@
-// Instants without a solver: a test says when, in which state, and which guard fired.
+// Instants without a solver: a test chooses the time, the state, and the guard that fired.
 #pragma once
 
 #include <memory>

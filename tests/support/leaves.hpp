@@ -1,4 +1,4 @@
-// Small leaves for tests: declared by lambdas where they are used.
+// Small leaves for tests, which are declared by lambdas at their place of use.
 #pragma once
 
 #include <functional>

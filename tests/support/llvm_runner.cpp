@@ -22,7 +22,7 @@ struct Value {
   long integer = 0;
 };
 
-/// The parts of a text between separators that stand in no brackets.
+/// The parts of a text between separators outside of brackets.
 std::vector<std::string> split(const std::string& text) {
   std::vector<std::string> parts(1);
   int depth = 0;
@@ -35,7 +35,7 @@ std::vector<std::string> split(const std::string& text) {
   }
   return parts;
 }
-/// What follows the type, if there is one.
+/// The text after the type, if there is a type.
 std::string last_word(const std::string& text) {
   if (text.ends_with(">")) {
     const std::size_t from = text.rfind('<');

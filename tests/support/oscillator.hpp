@@ -6,7 +6,7 @@
 namespace support {
 
 /// x' = y, y' = -x. From (0, 1), (x, y) is (sin t, cos t); from (1, 0) it is (cos t, -sin t).
-/// `reads`: what the derivative is said to read.
+/// `reads` is the declaration of the values that the derivative reads.
 inline void declare_oscillator(Leaf& leaf, const Eigen::Vector2d& start = {0.0, 1.0},
                                saltus::Reads reads = saltus::Reads::everything) {
   leaf.declare_continuous_state(

@@ -1,4 +1,4 @@
-// What a piece of code prints, also from C.
+// Captures the output of a piece of code, also of its C functions.
 #pragma once
 
 #include <unistd.h>

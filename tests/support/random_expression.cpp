@@ -55,7 +55,8 @@ class Draw {
     if (below(6) == 0) return constant(0.25 * static_cast<double>(below(17)) - 2.0);
     return recent();
   }
-  /// No constant, and often one of the last steps: most would lead nowhere.
+  /// A step that is no constant, and often one of the last steps; otherwise the output would not
+  /// read most steps.
   std::size_t recent() {
     const std::size_t size = e_.steps.size();
     std::size_t chosen = 0;
@@ -70,7 +71,8 @@ class Draw {
   std::size_t positive(std::size_t a) {
     return add(Op::add, constant(1.0), add(Op::mul, constant(0.5), small(a)));
   }
-  /// None for which a graph takes products: these need not be std::pow's to the last bit.
+  /// Not an exponent for which a graph uses products, which may differ from std::pow in the last
+  /// bit.
   std::size_t exponent() {
     constexpr std::array all = {-4.0, -2.3, 0.0, 1.0, 3.5, 5.0};
     return constant(all[below(all.size())]);

@@ -1,4 +1,4 @@
-// A diagram that has something of each rate.
+// A diagram with signals of each rate.
 #pragma once
 
 #include "saltus/library/library.hpp"
@@ -7,7 +7,7 @@
 
 namespace support {
 
-/// constant, held and continuous through a gain each, and what they make together.
+/// A constant, a held and a continuous signal, each through a gain, and sums of them.
 struct Rates {
   saltus::DiagramBuilder builder;
   saltus::Gain *constant, *held, *continuous;

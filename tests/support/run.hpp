@@ -1,4 +1,4 @@
-// What all tests of runs share: the methods, what was thrown, rows and events of a result.
+// The common parts of all tests of runs: the methods, thrown errors, rows and events of a result.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 
 namespace saltus {
 
-// For INFO and REQUIRE.
+// Prints a value for INFO and REQUIRE.
 inline std::ostream& operator<<(std::ostream& out, Method method) {
   return out << to_string(method);
 }
@@ -49,7 +49,7 @@ inline bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-/// How many events of a kind there were; of one name, if it is given.
+/// The number of events of a kind, and of one name if it is given.
 inline int count(const saltus::EventLog& log, saltus::EventKind kind, std::string_view name = {}) {
   int found = 0;
   for (std::size_t i = 0; i < log.size(); ++i) {

@@ -14,8 +14,8 @@ struct Named {
   saltus::tape::Node node;
 };
 
-/// Every operation of two smooth operands, each between 0 and 1, and its special cases. If `apart`,
-/// each has operands of its own, which are sums that nothing else reads.
+/// Every operation of two smooth operands, each between 0 and 1, and its special cases. If `apart`
+/// is true, each has operands of its own, which are sums that nothing else reads.
 inline std::vector<Named> operations(saltus::tape::Graph& g, saltus::tape::Node x,
                                      saltus::tape::Node y, bool apart = false) {
   using namespace saltus::tape;

@@ -2,8 +2,8 @@
 // until u turns. y = u - width / 2 while u drives it upward, u + width / 2 downward.
 // in: u; in_rate: du/dt; out: y; out_rate: dy/dt, 0 or du/dt. All scalar; u is continuous, such as
 // the position of a shaft whose speed is in_rate. Parameter "width" > 0, the whole play. The
-// contact and the turn are located as events. A start with u outside of the play around
-// initial_output is a contact, and moves y.
+// contact and the turn are located as events. If u starts outside of the play around
+// initial_output, the run starts in contact, and y moves.
 #pragma once
 
 #include "saltus/library/detail/arguments.hpp"

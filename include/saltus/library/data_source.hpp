@@ -1,8 +1,8 @@
 // y = the values of a table over the time, from values at increasing times.
 // out: scalar for one column of values, otherwise one entry for each column. Parameter "values",
-// row by row. Between two times: linear, or the value of the time before (zero_order_hold, which is
-// held). Before the first time, and from the last one on: hold (the outer value) or zero. All times
-// are exact events: no solver step spans one of them.
+// row by row. Between two times y is linear, or the value of the time before (zero_order_hold,
+// which is held). Before the first time, and from the last time on, it is the outer value (hold) or
+// zero. All times are exact events: no solver step spans one of them.
 #pragma once
 
 #include <string_view>

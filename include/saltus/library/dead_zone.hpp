@@ -10,7 +10,7 @@ namespace saltus {
 
 struct DeadZoneOptions {
   Value half_range = 1.0;  ///< >= 0, in the unit of u
-  bool shifted = false;    ///< the edge is subtracted outside the zone, so that y is continuous
+  bool shifted = false;    ///< subtracts the edge outside the zone, so that y is continuous
 };
 
 class DeadZone final : public LeafSystem {

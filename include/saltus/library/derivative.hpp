@@ -10,7 +10,7 @@ namespace saltus {
 
 struct DerivativeOptions {
   Value filter_coefficient = 100.0;  ///< [1/s] > 0
-  Value initial_state = 0.0;         ///< x at the start: u there makes y start at 0
+  Value initial_state = 0.0;         ///< x at the start; with the first value of u, y starts at 0
 };
 
 class Derivative final : public LeafSystem {

@@ -1,7 +1,7 @@
 // y[k] = (u[k] - u[k-1]) / dt, elementwise; or, with a filter of the coefficient N, the derivative
 // s N / (s + N) of u by the backward rule: y[k] = N (u[k] - x[k]), x[k] = x[k-1] + dt y[k].
 // in, out: the shape of initial_state, which is y before the first tick. Parameter
-// "filter_coefficient" [1/s], if given. The first tick gives 0: it has no u before it.
+// "filter_coefficient" [1/s], if given. At the first tick y is 0, because there is no u before it.
 #pragma once
 
 #include <optional>

@@ -1,6 +1,6 @@
 // y = true_value if condition is true, otherwise false_value; elementwise.
 // condition: one boolean, true if not 0. true_value, false_value: scalars and vectors of one width.
-// out: that width. It is a Switch whose ports stand in the order of the sentence.
+// out: that width. It is a Switch whose ports have the order of the sentence "if, then, else".
 #pragma once
 
 #include "saltus/model/leaf_system.hpp"

@@ -1,8 +1,9 @@
 // y = the value of a table at u, elementwise.
 // in: any width. out: the same width. Parameter "output_array": the values at the points of
-// input_array, which are fixed. Between points: linear, nearest, or flat (the value of the point
-// before). Beyond them: clip (the value of the outer point), linear, or error: y is not a number
-// there, and the run ends. If y reaches a derivative, the points are located, by one guard for all.
+// input_array, which are fixed. Between points y is linear, or the value of the nearest point
+// (nearest) or of the point before (flat). Beyond them it is the value of the outer point (clip),
+// linear, or not a number (error), which ends the run. If y reaches a derivative, the points are
+// located, by one guard for all.
 #pragma once
 
 #include <string_view>

@@ -1,8 +1,8 @@
 // y = the value of a table at (u_0, u_1), bilinear in each cell, elementwise.
 // in_0, in_1: scalars and vectors of one width. out: that width. Parameter "output_table": entry
-// (i, j) is the value at input_x[i], input_y[j], row by row; the points are fixed. Beyond the
-// table: clip (the value at the border), linear, or error: y is not a number there, and the run
-// ends. If y reaches a derivative, the points are located, by one guard for each input.
+// (i, j) is the value at input_x[i], input_y[j], row by row; the points are fixed. Beyond the table
+// y is the value at the border (clip), linear, or not a number (error), which ends the run. If y
+// reaches a derivative, the points are located, by one guard for each input.
 #pragma once
 
 #include <string_view>

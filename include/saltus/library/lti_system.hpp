@@ -23,7 +23,7 @@ struct LTISystemOptions {
 
 namespace detail {
 
-/// Throws ModelError for matrices or a start that do not fit one another.
+/// Throws ModelError if the matrices or the start do not fit one another.
 void require_sizes(const std::string& block, const LTISystemMatrices& matrices,
                    const LTISystemOptions& options);
 

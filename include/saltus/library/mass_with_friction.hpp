@@ -1,9 +1,9 @@
 // mass dv/dt = u - viscous v - coulomb sign(v), dx/dt = v; a body at v = 0 sticks while |u| <=
 // static.
 // in: the force u, scalar. x, v: outputs, views of the state. Parameters "mass" [kg], "coulomb"
-// [N], "static" [N] >= coulomb, "viscous" [N s/m]. In stick v is exactly 0 and x does not creep.
-// Where v reaches 0 the body stops, and goes on only if the force exceeds the static friction: both
-// are located as events.
+// [N], "static" [N] >= coulomb, "viscous" [N s/m]. While the body sticks v is exactly 0, and x does
+// not creep. When v reaches 0 the body stops, and moves on only if the force exceeds the static
+// friction. Both are located as events.
 #pragma once
 
 #include <optional>

@@ -2,10 +2,10 @@
 // in: the error, scalar. out: scalar. Parameters "kp", "ki" [1/s], "kd" [s], "n" [1/s], and the
 // limits, if given: "lower_limit", "upper_limit", "band". The derivative has a filter of the
 // coefficient n, always: see Derivative.
-// With a limit the integral i is clamped: it stands still from when v is beyond a limit and the
-// error pushes outward, until the error turns or v is inside again by `band`. Both are located. The
-// band prevents chattering: while the error falls, v would slide along the limit, neither beyond it
-// nor inside.
+// With a limit the integral i is clamped: it does not change from the time at which v is beyond a
+// limit and the error pushes outward, until the error turns or v is inside again by `band`. Both
+// times are located. The band prevents chattering: without it v would slide along the limit while
+// the error falls, neither beyond it nor inside.
 #pragma once
 
 #include <optional>
@@ -37,8 +37,8 @@ class PID final : public LeafSystem {
     ParameterIndex kp, ki, kd, n;
   };
   struct Limit {
-    Index entry = 0;       ///< of z: 1 while the integral is clamped at it
-    double outward = 0.0;  ///< 1 for the upper, -1 for the lower
+    Index entry = 0;       ///< in z: 1 while the integral is clamped at this limit
+    double outward = 0.0;  ///< 1 for the upper limit, -1 for the lower
     ParameterIndex value = {};
     RelationIndex beyond = {};
   };

@@ -1,8 +1,8 @@
 // y[k] = u[k]: the input at tick k, at t = k dt, held to the next tick.
-// in, out: the shape of initial_state, which is y before the first tick. At a tick y is u as it is
-// at that tick, with all outputs before it: a ZeroOrderHold shows a block that samples it at the
-// same tick the value before. So blocks with a slow period read those with a fast one without a
-// delay.
+// in, out: the shape of initial_state, which is y before the first tick. At a tick y is the value
+// that u has at this tick, after all outputs before it. A ZeroOrderHold, in contrast, shows a block
+// that samples it at the same tick the value before the tick. So a block with a slow period reads a
+// block with a fast period without a delay.
 #pragma once
 
 #include "saltus/library/detail/sampled.hpp"

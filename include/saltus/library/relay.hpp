@@ -1,9 +1,9 @@
 // y = on_value after u has reached on_threshold, off_value after it has fallen to off_threshold.
 // in, out: scalar. Parameters: all four numbers. Mode 1 is on, mode 0 off. Both switches are located
-// as events, everywhere: the mode is a state. A start at or above on_threshold is on, one at or
-// below off_threshold off; between them `initially_on` decides. If the thresholds are equal when the
-// block is made, it has no mode, and is on for u >= on_threshold: in a loop such a relay chatters,
-// and the run ends with that status.
+// as events, everywhere: the mode is a state. The relay starts on if u is at or above on_threshold,
+// and off if u is at or below off_threshold; between them `initially_on` decides. If the thresholds
+// are equal when the block is made, it has no mode, and is on for u >= on_threshold: in a loop such
+// a relay chatters, and the run ends with that status.
 #pragma once
 
 #include "saltus/model/leaf_system.hpp"

@@ -1,7 +1,7 @@
 // y = amplitude (t - t_k) / period for t_k <= t < t_k + period, with t_k = phase_delay + k period,
 // k = 0, 1, ...; 0 before phase_delay. period = 1 / frequency.
 // out: shape of amplitude. Parameter "amplitude". Continuous; the jumps are exact time events, and
-// the period is held in between: a solver step that ends at a jump sees none.
+// the period is held in between: a solver step that ends at a jump does not see the jump.
 #pragma once
 
 #include "saltus/library/detail/arguments.hpp"

@@ -1,7 +1,7 @@
 // y = the chosen entries of u.
 // in: a vector. out: a vector of the chosen entries, or a scalar if one index was given. The
-// entries are a list of indices, or a range start, start + step, ... before stop; counted from 0,
-// negative ones from the end, as in Python.
+// entries are a list of indices, or a range start, start + step, ... before stop. They are counted
+// from 0, negative indices from the end, as in Python.
 #pragma once
 
 #include <optional>

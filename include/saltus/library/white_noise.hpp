@@ -1,6 +1,6 @@
 // y[k] = sqrt(power / dt) times a normally distributed number, from tick k, at t = k dt, to the
-// next: noise that is white for what is slow against dt. The integral of y has the variance power
-// t.
+// next: noise that is white for signals that are slow against dt. The integral of y has the
+// variance power t.
 // out: the shape of power. Parameters "seed", "power" [s times the square of the unit of y]. Held;
 // ticks are exact time events. y[k] is a function of the seed and k, as with RandomNumber.
 #pragma once

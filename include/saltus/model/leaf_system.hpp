@@ -53,7 +53,7 @@ struct Declarations {
   List<EdgeReset> edge_resets;
   List<TimeEvent> time_events;
   List<History> histories;
-  /// Held by everybody who refers to these declarations or to a copy: the leaf itself, plans,
+  /// Everything that refers to these declarations or to a copy holds it: the leaf itself, plans,
   /// diagrams. While others hold it, each declare_* throws ModelError and changes nothing.
   std::shared_ptr<const void> use = {};
 };

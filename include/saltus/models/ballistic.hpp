@@ -34,7 +34,7 @@ class Ballistic {
   Ballistic(const BallisticProblem& problem, double t_end);
 
   const EventTimes& bounces() const noexcept { return bounces_; }
-  /// (y, v) at time t on a branch, which is continued if t is outside it.
+  /// (y, v) at time t on a branch. The branch is continued if t is outside of it.
   Eigen::VectorXd state(double t, const Branch& branch) const;
   /// The branch at time t; exactly at a bounce, the branch after it.
   Branch branch_at(double t) const;
@@ -44,7 +44,7 @@ class Ballistic {
   struct Flight {
     Real begin, y, v;
   };
-  using Flights = std::vector<Flight>;  // of one series, flight n after n bounces
+  using Flights = std::vector<Flight>;  // the flights of one series, flight n after n bounces
 
   bool fly();
   Real floor() const { return dropped_ ? problem_.dropped : problem_.floor; }

@@ -1,4 +1,4 @@
-// A buck converter, its voltage controlled by pulse-width modulation against a ramp.
+// A buck converter whose voltage is controlled by pulse-width modulation against a ramp.
 //   L di/dt = s E - v, C dv/dt = i - v / R       s = 1: switch closed
 //   open (s = 0) at each clock tick k T if a (v - v_ref) is above the ramp's lower end
 //   closed (s = 1) when a (v - v_ref) falls to the ramp, low + (high - low) (t - k T) / T

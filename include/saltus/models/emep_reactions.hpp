@@ -1,5 +1,5 @@
 // The reactions of EMEP (emep.hpp). Each has the number of its rate, one or two substances that
-// react, 0 for none, and what a unit of it changes: {substance, change}. Rates are numbered as in
+// react, 0 for none, and the changes by a unit of it: {substance, change}. Rates are numbered as in
 // the source: negative ones are photolysis, 43 to 53 deposition and loss to aerosols. Rates that
 // the source sets equal have one number here. Substances:
 // 1 NO, 2 NO2, 3 SO2, 4 CO, 5 CH4, 6 C2H6, 7 NC4H10, 8 C2H4, 9 C3H6, 10 OXYL, 11 HCHO, 12 CH3CHO,

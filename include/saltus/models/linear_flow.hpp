@@ -1,5 +1,5 @@
-// The closed form of a linear circuit x' = A x + b whose rates may lie ten decades apart: for the
-// answers of stiff scenes that are linear from event to event. In long double.
+// The closed form of a linear circuit x' = A x + b whose rates may lie ten decades apart, in long
+// double. It gives the answers of stiff scenes that are linear from event to event.
 #pragma once
 
 #include <complex>
@@ -26,7 +26,7 @@ class LinearFlow {
   using Complex = std::complex<Real>;
   using ComplexMatrix = Eigen::Matrix<Complex, Eigen::Dynamic, Eigen::Dynamic>;
 
-  Vector rest_;                                   // where A x + b = 0
+  Vector rest_;                                   // the state at which A x + b = 0
   Eigen::Vector<Complex, Eigen::Dynamic> rates_;  // eigenvalues [1/s]
   ComplexMatrix modes_, into_modes_;
 };
@@ -63,8 +63,8 @@ std::optional<Real> first_change(const Function& f, Real begin, Real least, Real
   return {};
 }
 
-/// The middles of the pieces longer than `least` [s], up to `end`, where the rows of a scene stand.
-/// A row before a quarter of such a piece is then a row of its event, and its layer.
+/// The middles of the pieces longer than `least` [s], up to `end`: the times of the rows of a
+/// scene. A row before a quarter of such a piece is then a row of its event, and its layer.
 inline std::vector<double> mark_layers(ExactPieces<LinearPiece>& all, Real least, double end) {
   std::vector<double> middles;
   for (std::size_t k = 0; k < all.pieces.size(); ++k) {

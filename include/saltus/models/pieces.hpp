@@ -15,7 +15,7 @@
 
 namespace saltus::models {
 
-using Real = long double;  ///< of closed forms, so that no rounding of their own shows
+using Real = long double;  ///< the type of closed forms, whose own rounding then does not show
 
 /// Closed forms in order: piece n is valid after n events. `Piece` has the members `Real begin` and
 /// `Eigen::VectorXd state(Real t) const`, which also accepts times outside the piece.

@@ -16,7 +16,7 @@ using SceneParameters = std::vector<std::pair<std::string, double>>;
 
 struct ShelfEntry {
   std::string name;                 ///< "bouncing-ball"
-  std::string title;                ///< one line: the scene, and its difficulty
+  std::string title;                ///< the scene and its difficulty, in one line
   std::function<Scene()> make;      ///< the scene with its usual parameters
   SceneParameters parameters = {};  ///< these
   /// The scene with some parameters changed, and its known answer for them if there is one.

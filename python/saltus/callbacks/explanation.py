@@ -75,7 +75,7 @@ def _how(callback: ExplainedCallback) -> str:
 
 
 def explained(block: Block, function: Block, outcome: Any) -> ExplainedCallback:
-    """How one function runs, by what became of it."""
+    """The explanation of one function, by the outcome of its tracing."""
     if outcome is None:
         return ExplainedCallback(block["path"], function["what"], "compiled", "")
     if hasattr(outcome, "tape"):

@@ -1,10 +1,10 @@
 """Ready blocks. `from saltus.library import *` brings them all.
 
-Where a block takes a value it takes a number or a vector; a number means a vector of equal
-entries. Every block takes `name=`; without one it is called after its class and its `system_id`,
-such as 'Gain_7'. Values called parameters live in the context, `context.with_parameter("gain.gain",
-3.0)`; times, counts and operators are fixed. A switch that reaches a derivative or a reset is
-located as an event, and its side is held in between.
+A value of a block is a number or a vector; a number means a vector of equal entries. Every block
+takes `name=`; without it the name is made of its class and its `system_id`, such as 'Gain_7'.
+Values called parameters live in the context, `context.with_parameter("gain.gain", 3.0)`; times,
+counts and operators are fixed. A switch that reaches a derivative or a reset is located as an
+event, and its side is held in between.
 """
 
 from saltus.library.arithmetic import Abs, Adder, Gain, Offset, Product, Saturate

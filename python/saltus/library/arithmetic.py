@@ -17,7 +17,7 @@ __all__ = ["Abs", "Adder", "Gain", "Offset", "Product", "Saturate"]
 
 
 def _operators(block: str, usual: str, n_in: object, operators: object) -> str:
-    """One operator an input; `usual` for each where only their number is said."""
+    """The operators, one for each input; `usual` for each if only their number is given."""
     given = [value for value in (n_in, operators) if value is not None] or [2]
     counts: list[Any] = [len(v) if isinstance(v, str) else v for v in given]
     for count in counts:
@@ -89,8 +89,8 @@ class Adder(Block, _core.Adder):
     n_in
         The number of inputs; or the operators, in their place.
     operators
-        The signs, one character an input: "+-" is u_0 - u_1. Without them all are plus, of two
-        inputs if `n_in` is not said either.
+        The signs, one character an input: "+-" is u_0 - u_1. Without them all signs are plus, for
+        two inputs if `n_in` is not given either.
     name
         The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
@@ -125,8 +125,8 @@ class Product(Block, _core.Product):
     n_in
         The number of inputs; or the operators, in their place.
     operators
-        "*" or "/" for each input: "*/" is u_0 / u_1. Without them all are "*", of two inputs if
-        `n_in` is not said either.
+        "*" or "/" for each input: "*/" is u_0 / u_1. Without them all are "*", for two inputs if
+        `n_in` is not given either.
     name
         The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
@@ -154,7 +154,7 @@ class Product(Block, _core.Product):
 
 
 class Abs(Block, _core.Abs):
-    """y = abs(u), entry by entry. Where u passes zero is located as an event.
+    """y = abs(u), entry by entry. The times at which u passes zero are located as events.
 
     Parameters
     ----------
@@ -178,8 +178,8 @@ class Saturate(Block, _core.Saturate):
     Parameters
     ----------
     lower_limit, upper_limit
-        A number or a vector each; one of them may be left out. Those given are parameters of the
-        context. Where u passes a limit is located as an event.
+        A number or a vector each; one of them may be left out. The given limits are parameters of
+        the context. The times at which u passes a limit are located as events.
     name
         The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 

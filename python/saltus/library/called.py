@@ -1,4 +1,4 @@
-"""Blocks of other tools, and how the same is done here."""
+"""Names of blocks in other tools, and the advice for each."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ DONE = {
     "Terminator": "leave it out: an output may be unconnected",
     "ToWorkspace": "record the signal: simulate(..., recorded_signals={...})",
 }
-"""blocks that are none here"""
+"""names for which the library has no block"""
 
 
 def elsewhere(name: str, known: Iterable[str]) -> AttributeError | ImportError:

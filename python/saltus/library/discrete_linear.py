@@ -32,7 +32,7 @@ class DerivativeDiscrete(Block, _core.DerivativeDiscrete):
     dt
         [s] The time from one tick to the next; ticks are at 0, dt, 2 dt, ..., counted by integers.
     filter_coefficient
-        [1/s] N > 0; if not said, the plain difference. Parameter of the context, if given.
+        [1/s] N > 0; by default the plain difference. Parameter of the context, if given.
     initial_state
         A number or a vector: y before the first tick, and the shape of the signal.
     name
@@ -188,7 +188,7 @@ class LTISystemDiscrete(Block, _core.LTISystemDiscrete):
         Matrices. D may be left out; without it, or with zeros, the input does not reach the output
         at once. Parameters of the context, row by row.
     initial_state
-        x[0]; zeros if not said.
+        x[0]; by default zeros.
     name
         The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
@@ -286,7 +286,7 @@ class TransferFunctionDiscrete(Block, _core.TransferFunctionDiscrete):
     den
         a_0, ..., a_n. The parameter `denominator` of the context.
     initial_state
-        v[-1], ..., v[-n], where v solves a_0 v[k] + ... + a_n v[k-n] = u[k]; zeros if not said.
+        v[-1], ..., v[-n], where v solves a_0 v[k] + ... + a_n v[k-n] = u[k]; by default zeros.
     name
         The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 

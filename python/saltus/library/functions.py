@@ -46,9 +46,10 @@ class ReduceBlock(LeafSystem):
     n_inputs
         How many inputs there are, 1 or more.
     function
-        Takes one tuple, of a float for each number and a read-only array for each vector; returns a
-        number, a boolean or an array. It is called as often as the engine likes, so it must not
-        change anything; once before the run, with inputs at zero, to see what it gives.
+        Takes one tuple with a float for each number and a read-only array for each vector; returns
+        a number, a boolean or an array. The engine calls it any number of times, so it must not
+        change anything. It is called once before the run, with inputs at zero, to find the kind of
+        its result.
     shape
         The shape of y, where the call before the run would not show it.
     boolean

@@ -62,7 +62,7 @@ class LTISystem(Block, _core.LTISystem):
     D
         A matrix, outputs x inputs. Without it, or if it is zero, there is no feedthrough.
     initial_state
-        x at the start, n numbers; zeros if not said.
+        x at the start, n numbers; by default zeros.
     name
         The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
@@ -114,7 +114,7 @@ class PID(Block, _core.PID):
     lower_limit, upper_limit
         The limits, in the unit of y; either may be left out.
     band
-        > 0, in the unit of y; if not said, 1e-3 of the distance of the limits, or of the limit.
+        > 0, in the unit of y; by default 1e-3 of the distance of the limits, or of the limit.
         All numbers but `initial_state` are parameters of the context, the last three if there is a
         limit.
     name
@@ -167,7 +167,7 @@ class TransferFunction(Block, _core.TransferFunction):
     den
         a_0, ..., a_n. The parameter `denominator` of the context.
     initial_state
-        v, v', ... at the start, n numbers; zeros if not said.
+        v, v', ... at the start, n numbers; by default zeros.
     initial_output
         The steady value of y at the start, in place of `initial_state`. It fixes the states of a
         steady state, whose input is y divided by the gain at s = 0.

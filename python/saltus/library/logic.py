@@ -82,9 +82,9 @@ class Switch(Block, _core.Switch):
     Parameters
     ----------
     threshold
-        Not said: control is a boolean. A number, in the unit of control: control is a real signal,
-        and true at or above it; where it passes is located as an event. It is the parameter
-        `threshold` of the context.
+        Without it control is a boolean. With a number, in the unit of control, control is a real
+        signal, and true at or above the number; the times at which it passes are located as events.
+        The number is the parameter `threshold` of the context.
     name
         The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
@@ -200,7 +200,7 @@ class MultiportSwitch(Block, _core.MultiportSwitch):
     """y = u_k, where k is the whole number nearest to the input `control`, at least 0 and at most
     the last input; entry by entry.
 
-    If y reaches a derivative, where control passes k - 1/2 is located as an event.
+    If y reaches a derivative, the times at which control passes k - 1/2 are located as events.
 
     Parameters
     ----------

@@ -58,7 +58,7 @@ class MassWithFriction(Block, _core.MassWithFriction):
     coulomb
         [N] >= 0, the friction while it slides.
     static
-        [N] >= coulomb, the largest friction while it sticks; if not said, `coulomb`.
+        [N] >= coulomb, the largest friction while it sticks; by default `coulomb`.
     viscous
         [N s/m] >= 0. All four are parameters of the context.
     initial_position, initial_velocity

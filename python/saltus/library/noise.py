@@ -73,8 +73,8 @@ class RandomNumber(Block, _core.RandomNumber):
 class WhiteNoise(Block, _core.WhiteNoise):
     """y[k] = sqrt(power / dt) times a normally distributed number, held from tick k to the next.
 
-    The noise is white for what is slow against dt: the integral of y from 0 to t has the variance
-    power t. Two blocks with one seed have the same numbers: give each its own.
+    The noise is white for signals that are slow against dt: the integral of y from 0 to t has the
+    variance power t. Two blocks with one seed have the same numbers: give each its own.
 
     Parameters
     ----------

@@ -16,7 +16,7 @@ class DeadZone(Block, _core.DeadZone):
     """y = 0 for abs(u) < half_range, entry by entry; outside u, or u -+ half_range if
     `shifted`.
 
-    If y reaches a derivative, where u passes an edge is located as an event.
+    If y reaches a derivative, the times at which u passes an edge are located as events.
 
     Parameters
     ----------
@@ -52,7 +52,7 @@ class DeadZone(Block, _core.DeadZone):
 class MinMax(Block, _core.MinMax):
     """y = the smallest, or the largest, of u_0, u_1, ..., entry by entry.
 
-    If y reaches a derivative, where another input takes over is located as an event.
+    If y reaches a derivative, the times at which another input takes over are located as events.
 
     Parameters
     ----------
@@ -82,7 +82,7 @@ class MinMax(Block, _core.MinMax):
 class Quantizer(Block, _core.Quantizer):
     """y = interval round(u / interval), entry by entry: the nearest level, with a level at 0.
 
-    If y reaches a derivative, where the level changes is located as an event.
+    If y reaches a derivative, the times at which the level changes are located as events.
 
     Parameters
     ----------
@@ -111,7 +111,7 @@ class Quantizer(Block, _core.Quantizer):
 class Sign(Block, _core.Sign):
     """y = -1 for u < 0, 0 for u = 0, 1 for u > 0, entry by entry.
 
-    If y reaches a derivative, where u passes zero is located as an event.
+    If y reaches a derivative, the times at which u passes zero are located as events.
 
     Parameters
     ----------
@@ -132,8 +132,8 @@ class Sign(Block, _core.Sign):
 class LookupTable1d(Block, _core.LookupTable1d):
     """y = the value of a table at u, entry by entry.
 
-    If y reaches a derivative, where u passes a point of the table is located as an event, by one
-    guard for all points.
+    If y reaches a derivative, the times at which u passes a point of the table are located as
+    events, by one guard for all points.
 
     Parameters
     ----------
@@ -177,8 +177,8 @@ class LookupTable1d(Block, _core.LookupTable1d):
 class LookupTable2d(Block, _core.LookupTable2d):
     """y = the value of a table at (u_0, u_1), bilinear in each cell, entry by entry.
 
-    If y reaches a derivative, where an input passes a point of the table is located as an event, by
-    one guard for each input.
+    If y reaches a derivative, the times at which an input passes a point of the table are located
+    as events, by one guard for each input.
 
     Parameters
     ----------

@@ -121,7 +121,7 @@ class DataSource(Block, _core.DataSource):
         header_lines
             How many lines to skip.
         delimiter
-            What is between two numbers.
+            The text between two numbers.
         interpolation, extrapolation, name
             As for the block.
 

@@ -19,9 +19,9 @@ class Integrator(Block, _core.Integrator):
     Parameters
     ----------
     initial_state
-        A number or a vector: where the state starts, and where a reset puts it. Where one run
-        starts is the continuous state of its context; the parameter `initial_state` of the
-        context is what a reset goes to.
+        A number or a vector: the state at the start, and after a reset. The start of one run is the
+        continuous state of its context; the parameter `initial_state` of the context is the state
+        after a reset.
     enable_reset
         Gives the input `reset_trigger`, a boolean on whose rising edge x becomes `initial_state`.
     enable_external_reset
@@ -88,8 +88,8 @@ class SecondOrderIntegrator(Block, _core.SecondOrderIntegrator):
     """d2x/dt2 = u: the position and the velocity of a body, entry by entry, with stops.
 
     Outputs: `x`, the position, and `dx`, the velocity. Where x reaches a limit outward it becomes
-    the limit, and the velocity becomes -restitution times what it was. A body with restitution 0,
-    or whose rebounds accumulate, rests at the limit until u points inward.
+    the limit, and the velocity becomes -restitution times its value before. A body with restitution
+    0, or whose rebounds accumulate, rests at the limit until u points inward.
 
     Parameters
     ----------

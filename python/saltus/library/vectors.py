@@ -24,7 +24,7 @@ __all__ = [
 
 
 def _entries(block: str, given: object) -> int | list[int] | slice:
-    """The entries that are meant; ModelError if that is not clear."""
+    """The chosen entries; ModelError if the choice is not clear."""
     found = _read(given) if isinstance(given, str) else given
     if isinstance(found, slice):
         parts = (found.start, found.stop, found.step)
@@ -205,8 +205,9 @@ class Slice(Block, _core.Slice):
     Parameters
     ----------
     entries
-        As within the brackets of an array: a whole number, which makes y a number, a list of them,
-        a `slice`, or one as text such as "1:3" or "[0, 2]". Negative ones count from the end.
+        The index, as within the brackets of an array: a whole number, which makes y a number, a
+        list of whole numbers, a `slice`, or text such as "1:3" or "[0, 2]". Negative numbers count
+        from the end.
     name
         The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 

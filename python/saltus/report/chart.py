@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 __all__ = ["draw", "panel", "save"]
 
-# one colour a method in every chart (Okabe and Ito: told apart by the colour-blind as well)
+# one colour for each method in every chart (Okabe and Ito: the colour-blind can distinguish them)
 COLOURS = {
     "dopri5": "#0072B2",
     "dop853": "#56B4E9",
@@ -43,7 +43,7 @@ STYLE: dict[Any, Any] = {
     "lines.markersize": 4.5,
     "legend.frameon": False,
     "svg.fonttype": "none",  # words stay words: a third of the size, and they can be searched
-    "svg.hashsalt": "saltus",  # the same bits each time it is drawn
+    "svg.hashsalt": "saltus",  # a chart has the same bits each time it is drawn
     "savefig.facecolor": "white",
 }
 
@@ -69,8 +69,8 @@ def draw(table: WorkPrecision) -> Figure:
 
 
 def save(figure: Figure, path: str | PathLike[str]) -> None:
-    """Writes the figure; an SVG of one table has the same bits each time, and two digits of a
-    pixel, which is more than is seen.
+    """Writes the figure. An SVG of one table has the same bits each time, and coordinates with two
+    digits of a pixel, which is more than anybody sees.
     """
     with matplotlib.rc_context(STYLE):
         if Path(path).suffix != ".svg":
@@ -82,8 +82,8 @@ def save(figure: Figure, path: str | PathLike[str]) -> None:
 
 
 def panel(axis: Any, table: WorkPrecision, key: str, bound: float) -> None:
-    """Into axes of matplotlib: `key` ("error", "event_error", ...) across, warm run time up, a line
-    for each method. Below `bound`, grey, the reference itself may be wrong.
+    """Draws into axes of matplotlib: `key` ("error", "event_error", ...) across, warm run time up,
+    a line for each method. Below `bound`, grey, the reference itself may be wrong.
     """
     axis.set_xscale("log")
     axis.set_yscale("log")
@@ -98,14 +98,14 @@ def panel(axis: Any, table: WorkPrecision, key: str, bound: float) -> None:
             _point(axis, table, error, row, colour)
     axis.margins(0.08)
     left, right = axis.get_xlim()
-    if _is_number(bound) and bound > left:  # what is left of it says only that it is small
+    if _is_number(bound) and bound > left:  # left of it the chart says only that the error is small
         axis.axvspan(left, bound, color="0.93", lw=0, zorder=0)
         axis.set_xlim(left, max(right, 2 * bound))
     _margin(axis, table)
 
 
 def _times(axis: Any) -> None:
-    """Run times in their own units; between decades too, where there are few."""
+    """Labels run times with their own units, and between decades too if there are few decades."""
     from matplotlib.ticker import (  # type: ignore[import-not-found,unused-ignore]
         EngFormatter,
         LogLocator,
@@ -117,7 +117,7 @@ def _times(axis: Any) -> None:
 
 
 def _point(axis: Any, table: WorkPrecision, error: float, row: dict[str, Any], colour: str) -> None:
-    """A marker by tolerance; open, with the number, where events are missing or too many."""
+    """A marker for each tolerance; open, with the number, if events are missing or too many."""
     off = row["event_mismatch"]
     axis.plot(
         error, row["seconds"], _marker(table, row["rtol"]), color=colour,

@@ -1,4 +1,4 @@
-"""What a report in JSON holds: each field with the kind of its value."""
+"""The fields of a report in JSON, each with the kind of its value."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from saltus.errors import ModelError
 __all__ = ["require_report"]
 
 LARGEST_COUNT = 2**63
-"""integers are counts; larger ones are no numbers of a report, and no doubles perhaps"""
+"""integers are counts; a larger integer is no number of a report, and may be no double"""
 
 
 def _is_text(value: Any) -> bool:

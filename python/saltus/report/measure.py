@@ -24,7 +24,7 @@ __all__ = ["work_precision"]
 
 Row = NDArray[np.float64]
 RowFunction = Callable[[float, Row], float]
-POINTS = 100  # output times of a known answer, where save_at does not say them
+POINTS = 100  # the number of output times of a known answer if save_at is not given
 
 
 def work_precision(
@@ -49,10 +49,10 @@ def work_precision(
 ) -> WorkPrecision:
     """Runs a scene by each method at each tolerance and compares the results.
 
-    A *row* is one vector: the numbers of the recorded signals one after the other. What is known
-    comes, in this order, from `exact`, from `reference`, else from two runs by different methods,
-    two orders tighter than the tightest of `rtols`, which the report makes itself; each method is
-    compared with the one that is not itself.
+    A *row* is one vector: the numbers of the recorded signals one after the other. The known answer
+    comes, in this order, from `exact`, from `reference`, or from two runs that the report makes by
+    different methods, two orders tighter than the tightest of `rtols`. Each method is compared with
+    the run of another method.
 
     Parameters
     ----------
@@ -73,7 +73,8 @@ def work_precision(
     recorded_signals
         The signals of a row; by default the first output.
     exact
-        `exact(t)` is the true row at time t [s], judged at `save_at`, or at 100 even times.
+        `exact(t)` is the true row at time t [s]; runs are compared with it at `save_at`, or at 100
+        even times.
     reference
         Rows computed elsewhere, as (times [s], rows) or as the `Results` of a better run.
     provenance
@@ -101,8 +102,7 @@ def work_precision(
     Raises
     ------
     ModelError
-        For what makes no sense, and where nothing is known about the scene and no method comes to
-        its end.
+        If an argument makes no sense, or if no answer is known and no method reaches the end.
 
     Examples
     --------
@@ -168,7 +168,7 @@ def _scene(
 
 
 class _Known(NamedTuple):
-    """Times, the true rows there, and where they come from; empty where nothing is known."""
+    """Times, the true rows at these times, and their provenance; empty if nothing is known."""
 
     times: Row
     rows: list[Row]

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 __all__ = ["WorkPrecision"]
 
 FORMAT = "saltus work-precision 1"
-# title, key, how it is shown; columns in which nothing is known are left out
+# title, key and format of each column; a column without a known value is left out
 COLUMNS = (
     ("method", "method", str),
     ("rtol", "rtol", "{:.0e}".format),
@@ -45,8 +45,8 @@ COLUMNS = (
 class WorkPrecision(Sequence[dict[str, Any]]):
     """A row for each method at each tolerance, as a dict; unknown values are nan.
 
-    Rows of runs that failed are here too: 'status' says how, 'message' why, and no 'seconds' is
-    known of them. docs/work_precision.md explains each column. Made by `work_precision`.
+    Failed runs have rows too: 'status' says how they ended, 'message' why, and their 'seconds' is
+    unknown. docs/work_precision.md explains each column. Made by `work_precision`.
 
     Parameters
     ----------
@@ -171,7 +171,7 @@ class WorkPrecision(Sequence[dict[str, Any]]):
         Parameters
         ----------
         path
-            Where to write it (.svg, .png, ...); not written if not said.
+            The file to write (.svg, .png, ...); by default no file is written.
 
         Returns
         -------
@@ -195,7 +195,7 @@ class WorkPrecision(Sequence[dict[str, Any]]):
 
     @property
     def methods(self) -> list[str]:
-        """In the order of their rows."""
+        """The values in the order of the rows."""
         return list(dict.fromkeys(row["method"] for row in self.rows))
 
     def __len__(self) -> int:

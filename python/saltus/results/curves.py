@@ -13,8 +13,8 @@ if TYPE_CHECKING:
 __all__ = ["Curve", "curves_of", "holds_of"]
 
 BETWEEN = 24  # points drawn within a step, from dense output
-MOST = 20_000  # of these in all, where there are fewer steps than that
-ROUNDING = 1e-9  # of the range of a curve: a smaller step is none to the eye
+MOST = 20_000  # points in all, if there are fewer steps
+ROUNDING = 1e-9  # part of the range of a curve; a smaller step is invisible
 
 
 @dataclass(frozen=True)
@@ -26,13 +26,13 @@ class Curve:
     value: np.ndarray
     """nan in each gap"""
     before: np.ndarray
-    """rows of (time, value) from which it jumps"""
+    """rows of (time, value) before each jump"""
     after: np.ndarray
-    """and to which"""
+    """rows of (time, value) after each jump"""
 
 
 def _times_between(results: Results) -> np.ndarray:
-    """[s] where dense output is asked: inside each step, and never at a row."""
+    """[s] The times at which dense output is evaluated: inside each step, and never at a row."""
     joints = results._core.joints
     each = int(np.clip(MOST // len(joints), 1, BETWEEN))
     share = np.arange(each) / each
@@ -84,7 +84,7 @@ def curves_of(results: Results) -> dict[str, list[Curve]]:
 
 
 def holds_of(results: Results) -> list[tuple[float, float]]:
-    """[s] from when to when something was at rest on a Zeno hold; overlapping ones are one."""
+    """[s] The spans in which something was at rest on a Zeno hold; overlapping spans are joined."""
     if not len(results.time):
         return []
     open_since: dict[tuple[str, str, int], float] = {}

@@ -39,7 +39,7 @@ class Event(NamedTuple):
     time: float
     """[s]"""
     jump: int
-    """the number of passes with a change until it was over; it orders events of one time"""
+    """the number of passes with a change up to the event; it orders events of one time"""
     kind: str
     """'zero_crossing', 'time', 'zeno_enter', 'zeno_release' or 'terminal'; of a queued zero
     crossing 'scheduled', 'cancelled' or 'executed'
@@ -47,19 +47,19 @@ class Event(NamedTuple):
     direction: int
     """+1: its guard was rising, -1: falling, 0: no guard"""
     block: str
-    """path of the block it belongs to"""
+    """path of its block"""
     name: str
     """the declared name"""
     predicted: float
-    """[s] when infinitely many resets would have happened, of 'zeno_enter'; when the execution is
-    due, of a queued zero crossing; else nan
+    """[s] for 'zeno_enter' the time at which infinitely many resets would have happened; for a
+    queued zero crossing the time at which its execution is due; otherwise nan
     """
     before: np.ndarray
     """continuous state of the block before it"""
     after: np.ndarray
     """and after it"""
     entry: int
-    """which guard of a vector of them fired; 0 if there is one"""
+    """the index of the guard that fired in a vector of guards; 0 for a single guard"""
     rests: tuple[int, ...] = ()
     """the entries of the block's continuous state that rest from a 'zeno_enter' on"""
 
@@ -70,7 +70,7 @@ class Event(NamedTuple):
 
 
 class EventLog(Sequence[Event]):
-    """Every event of a run, in order: a sequence of `Event`, of which a slice is a log again.
+    """Every event of a run, in order: a sequence of `Event`. A slice of it is a log again.
 
     Examples
     --------
@@ -105,17 +105,17 @@ class EventLog(Sequence[Event]):
         return (Event(*self._record.event(row)) for row in self._rows)
 
     def times(self, name: str | None = None, kind: str | None = None) -> np.ndarray:
-        """When the events of one name and kind happened.
+        """The times of the events of one name and kind.
 
         Parameters
         ----------
         name : str
-            Of the event, with or without that of its block: 'bounce' or 'ball.bounce'; of all if
-            it is left out. A name that is the path of an event means that one.
+            The name of the event, with or without that of its block: 'bounce' or 'ball.bounce'; all
+            events if it is left out. A name that is the path of an event means this event.
         kind : str, optional
             'zero_crossing', 'time', 'zeno_enter', 'zeno_release', 'terminal', 'scheduled',
-            'cancelled' or 'executed'; if not said, the four in which it had its effect: a zero
-            crossing, the one that ended the run, a time event, an execution.
+            'cancelled' or 'executed'; by default the four kinds in which an event had its effect: a
+            zero crossing, the event that ended the run, a time event, an execution.
 
         Returns
         -------
@@ -125,8 +125,8 @@ class EventLog(Sequence[Event]):
         Raises
         ------
         ModelError
-            For a kind there is not, and for a name that no event of the system has, with the
-            nearest there is.
+            If the kind does not exist, or if no event of the system has the name; the message has
+            the nearest name.
 
         Examples
         --------

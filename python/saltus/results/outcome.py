@@ -29,7 +29,7 @@ __all__ = ["Results"]
 
 
 class _Outputs(dict[str, np.ndarray]):
-    """Recorded signals by name; an unknown name is answered with the known ones."""
+    """Recorded signals by name; an unknown name is answered with the known names."""
 
     def __missing__(self, name: str) -> np.ndarray:
         raise ModelError(
@@ -40,9 +40,9 @@ class _Outputs(dict[str, np.ndarray]):
 class Results:
     """The recorded signals, the event log, the final values, and the way the run ended.
 
-    Each part is made when it is asked for, once. The arrays of a whole run show its memory without
-    a copy, and keep it as long as one of them lives; those of a `Simulator`, which may go on, are
-    copies.
+    Each part is made once, when it is first read. The arrays of a whole run show its memory without
+    a copy, and keep it as long as one of them lives; the arrays of a `Simulator`, whose run may
+    continue, are copies.
     Results can be saved (`save`), pickled, and called for values between the rows.
 
     Examples
@@ -63,7 +63,7 @@ class Results:
         self._asks = asks if core.dense else None  # the system whose outputs dense output calls
         if raised is not None and core.status == "failed":
             self.cause = raised
-            if not isinstance(raised, Error):  # the message of the run says no more
+            if not isinstance(raised, Error):  # the message of the run has no more information
                 self.message = f"t = {self._ended_at} s: {type(raised).__name__}: {raised}"
 
     @cached_property
@@ -73,7 +73,9 @@ class Results:
 
     @cached_property
     def jump(self) -> np.ndarray:
-        """Tells rows of one time apart: it goes up by one with each pass that changed something."""
+        """Distinguishes rows of one time: it increases by one with each pass that changed
+        something.
+        """
         return self._core.jump
 
     @cached_property
@@ -132,7 +134,7 @@ class Results:
 
     @cached_property
     def context(self) -> _core.Context:
-        """The values at the end; a run can go on from here."""
+        """The values at the end; a run can continue from them."""
         return self._core.context
 
     @cached_property
@@ -174,16 +176,16 @@ class Results:
 
     @property
     def span(self) -> tuple[float, float]:
-        """[s] from when to when `results(t)` answers; nan without dense output."""
+        """[s] The span in which `results(t)` answers; nan without dense output."""
         return self._core.span if self.dense else (np.nan, np.nan)
 
     def __call__(self, t: ArrayLike, side: str = "right") -> Values:
         """Every recorded signal, and the continuous state, at any time of the run.
 
-        Needs the option ``dense_output=True``. Between the steps the state is what the solver
-        itself interpolates, so the order of the method is kept: 4 for dopri5, 7 for dop853, that
-        of the step for adams and bdf. Signals are computed from that state by the blocks
-        themselves, as for a recorded row.
+        Needs the option ``dense_output=True``. Between the steps the state is the solver's own
+        interpolant, so the order of the method is kept: 4 for dopri5, 7 for dop853, the order of
+        the step for adams and bdf. Signals are computed from that state by the blocks themselves,
+        as for a recorded row.
 
         Parameters
         ----------
@@ -213,7 +215,7 @@ class Results:
         >>> bool(before.continuous_state[1] < 0 < after.continuous_state[1])
         True
         """
-        if self.dense and self._asks is None:  # it may be gone, and would be called
+        if self.dense and self._asks is None:  # its outputs would be called
             raise ModelError("these results do not know their system, so no output can be computed")
         return values_at(self._core, t, side)
 
@@ -289,17 +291,17 @@ class Results:
         Parameters
         ----------
         *names : str
-            Which signals, or entries such as 'state[0]'; all if none is named.
+            The signals, or entries such as 'state[0]'; by default all.
         ax : matplotlib Axes, optional
-            Where to draw; else each signal gets axes of its own in a new figure, one below the
-            other.
+            The axes to draw into; by default each signal gets axes of its own in a new figure, one
+            below the other.
         **style
             Passed on to matplotlib's `plot` for every curve, such as ``color="k"``.
 
         Returns
         -------
         Axes, or array of Axes
-            One if there is one, so that ``results.plot("y").set_title(...)`` works.
+            A single Axes for one signal, so that ``results.plot("y").set_title(...)`` works.
 
         Raises
         ------

@@ -15,9 +15,9 @@ if TYPE_CHECKING:
 
 __all__ = ["plot"]
 
-FEW = 60  # jumps with full markers; more of them would cover the curve
-TINY = 0.02  # of the range of the curve: the two markers of a smaller jump would lie on each other
-MANY = 400  # events with a tick each
+FEW = 60  # the number of jumps with full markers; more markers would cover the curve
+TINY = 0.02  # part of the range of the curve; the markers of a smaller jump would cover each other
+MANY = 400  # the number of events with a tick each
 Panels = list[tuple[str, list[Curve]]]
 
 
@@ -42,7 +42,7 @@ def plot(results: Results, names: tuple[str, ...], ax: Any, style: dict[str, Any
 
 
 def _chosen(results: Results, names: tuple[str, ...]) -> Panels:
-    """Which curves, under which title."""
+    """The curves of each axes, with a title."""
     if not results.outputs:
         raise ModelError("nothing was recorded, so there is nothing to draw: give recorded_signals")
     signals = curves_of(results)
@@ -82,7 +82,7 @@ def _draw(
 
 
 def _mark_jumps(ax: Any, curve: Curve, line: Any) -> None:
-    """Hollow where it jumps from, filled where it jumps to."""
+    """Draws a hollow marker before each jump and a filled marker after it."""
     leap = np.abs(curve.after[:, 1] - curve.before[:, 1])
     wide = leap > TINY * np.ptp(curve.value[np.isfinite(curve.value)])
     if not wide.any():

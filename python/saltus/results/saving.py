@@ -98,16 +98,16 @@ def load_results(path: str | PathLike[str]) -> Results:
     Returns
     -------
     Results, or Solution if `saltus.solve` made it
-        The same to the last bit: rows, events, status, statistics, final context. A run goes on
-        from its context if the system has the same blocks. Dense output is not in the file, and
-        neither is the exception of a failed run, of which the message remains.
+        The results with the same bits: rows, events, status, statistics, final context. A run
+        continues from its context if the system has the same blocks. The file has neither dense
+        output nor the exception of a failed run, but it has its message.
 
     Raises
     ------
     ModelError
         If the file is damaged, or was not written by `Results.save`.
     OSError
-        Where there is no such file, or it cannot be read.
+        If there is no such file, or it cannot be read.
 
     Examples
     --------
@@ -130,13 +130,14 @@ def load_results(path: str | PathLike[str]) -> Results:
         results: Results = KINDS[header["kind"]](_kept(header, arrays), header)
         return results
     except OSError as error:
-        # A place before the beginning of the file, or a damaged stream, which has no number.
+        # Also for a place before the beginning of the file, and for a damaged stream, which has no
+        # errno.
         if error.errno not in (None, errno.EINVAL):
             raise
         reason = str(error)
     except (zipfile.BadZipFile, ModelError, EOFError, KeyError) as error:
         reason = f"it has no {error}" if isinstance(error, KeyError) else str(error)
-    except Exception as error:  # whatever a damaged file sets off
+    except Exception as error:  # any exception that a damaged file causes
         reason = f"{type(error).__name__}: {error}"
     raise ModelError(
         f"{fspath(path)}: expected a file of Results.save; it is another one or damaged ({reason})"

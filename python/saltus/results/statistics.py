@@ -22,7 +22,9 @@ class Statistics:
     method: str
     """the method that was used"""
     stretches: list[tuple[str, float, float, int]]
-    """which method when, as (method, begin [s], end [s], steps): more than one with 'auto' only"""
+    """the method of each stretch, as (method, begin [s], end [s], steps); only 'auto' has more than
+    one
+    """
     steps: int
     """accepted minor steps"""
     rejected: int
@@ -35,7 +37,8 @@ class Statistics:
     jacobian_calls: int
     linear_setups: int
     linear_solver: str
-    """which one a stiff method used, for what size, and why; empty without a stiff method"""
+    """the linear solver of a stiff method, the size, and the reason; empty without a stiff method
+    """
     instants: int
     """major steps"""
     events: int

@@ -22,8 +22,8 @@ __all__ = ["extra", "to_pandas", "to_xarray", "write_csv"]
 
 
 def extra(library: str, what: str, instead: str = "") -> Any:
-    """A library that `what` needs and that comes with an extra of the package. Where it is not
-    installed an ImportError that says so, and what to do `instead`.
+    """A library that `what` needs and that comes with an extra of the package. If it is not
+    installed, raises an ImportError that says so, and what to do `instead`.
     """
     try:
         return importlib.import_module(library)
@@ -35,7 +35,7 @@ def extra(library: str, what: str, instead: str = "") -> Any:
 
 def columns_of(results: Results, taken: Iterable[str] = ()) -> dict[str, np.ndarray]:
     """The recorded signals, each entry of a vector by itself. ModelError if two columns would have
-    one name, or one that is `taken`.
+    one name, or a name that is `taken`.
     """
     columns: dict[str, np.ndarray] = {}
     for name, array in results.outputs.items():

@@ -20,15 +20,15 @@ __all__ = ["Values", "values_at"]
 class Values(Mapping[str, Any]):
     """The recorded signals at the times asked for, by name, and the continuous state there.
 
-    What ``results(t)`` returns. For a number `t` a scalar signal is a number, a vector an array;
-    for an array of times each has the shape of `t` in front.
+    ``results(t)`` returns it. For a number `t` a scalar signal is a number and a vector an array;
+    for an array of times the first dimensions of each are those of `t`.
 
     Attributes
     ----------
     time : float or ndarray
-        [s] as asked for.
+        [s] The given times.
     continuous_state : ndarray
-        That of all blocks, in the order of the context; the last axis counts the states.
+        The state of all blocks, in the order of the context; the last axis counts the states.
 
     Examples
     --------
@@ -72,7 +72,7 @@ def values_at(record: Record, t: ArrayLike, side: str) -> Values:
     if side not in ("left", "right"):
         raise ModelError(f"side: unknown side {side!r}{known_names(str(side), ['left', 'right'])}")
     if not record.dense:
-        if hasattr(record, "events"):  # kept data: it says why
+        if hasattr(record, "events"):  # kept data, whose call raises with the reason
             record.at([], False)
         raise ModelError(
             "this run kept no dense output, so there are values at its rows only; run it with "

@@ -41,12 +41,12 @@ HINTS: dict[type[ast.AST], str] = {
 
 @dataclass(frozen=True)
 class Word:
-    """A name in an expression: the text of Python that stands for it."""
+    """A name in an expression, and the Python text that replaces it."""
 
     code: str
     size: int | None = None
-    """None: a number; n: a vector of n, of which an entry is taken; ANY: of any length; EITHER: a
-    number or such a vector
+    """None: a number; n: a vector of n, of which an entry is taken; ANY: a vector of any length;
+    EITHER: a number or a vector of any length
     """
     truth: bool = False
     """whether it is true or false"""
@@ -58,7 +58,7 @@ class Expression:
 
     tree: ast.expr
     names: frozenset[str]
-    """the names of its scope that it reads"""
+    """the names of its scope that the expression reads"""
     boolean: bool
 
 
@@ -66,7 +66,9 @@ Scope = Mapping[str, Word]
 
 
 def expression(path: Path, text: Any, scope: Scope) -> Expression:
-    """The expression of a text or a number. Wrong, with the column, for one that is not."""
+    """The expression of a text or a number. Raises Wrong, with the column, for a text that is no
+    expression.
+    """
     if isinstance(text, (int, float)) and not isinstance(text, bool):
         return Expression(ast.Constant(float(text)), frozenset(), False)
     if not isinstance(text, str):
@@ -78,7 +80,7 @@ def expression(path: Path, text: Any, scope: Scope) -> Expression:
 
 @functools.lru_cache(maxsize=4096)
 def template(code: str) -> ast.expr:
-    """The tree of a text that stands in this package."""
+    """The tree of a text that is part of this package."""
     return ast.parse(code, mode="eval").body
 
 
@@ -99,7 +101,7 @@ class _Builder:
         }
 
     def wrong(self, message: str, node: Any = None) -> Wrong:
-        at = getattr(node, "col_offset", None)  # counts bytes, not characters
+        at = getattr(node, "col_offset", None)  # Python's parser counts bytes, not characters
         if at is None:
             return Wrong(self.path, f"'{self.short()}': {message}")
         at = len(self.line().encode()[:at].decode(errors="replace")) + self.lead()
@@ -146,7 +148,7 @@ class _Builder:
             ) from None
         except (RecursionError, MemoryError):
             raise self.too_deep() from None
-        except ValueError as error:  # a character of code 0, a number of 5000 digits
+        except ValueError as error:  # such as a character of code 0, or a number of 5000 digits
             raise self.wrong(f"no expression: {error}") from None
 
     def too_deep(self, node: Any = None) -> Wrong:
@@ -259,7 +261,7 @@ class _Builder:
             raise self.wrong("expected points of interp that increase", node)
 
     def vector(self, node: ast.expr, level: int) -> ast.expr:
-        """A whole vector, which only interp takes: the name of one, or a list of numbers."""
+        """A whole vector, which only interp takes: the name of a vector, or a list of numbers."""
         if isinstance(node, ast.List):
             return ast.List([self.built(entry, level) for entry in node.elts], ast.Load())
         word = self.scope.get(node.id) if isinstance(node, ast.Name) else None

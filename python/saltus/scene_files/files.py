@@ -47,7 +47,7 @@ def loads(text: str, kind: str = "toml", /, **parameters: Any) -> FileScene:
     Parameters
     ----------
     text
-        What a file would hold. It includes no other file.
+        The content of a file. It includes no other file.
     kind
         'toml' or 'json'.
     parameters

@@ -17,7 +17,7 @@ from saltus.scene_files.wrong import Path, Wrong, found
 __all__ = ["function_of", "list_of", "number_of", "numbers_scope", "value_of"]
 
 _made: weakref.WeakValueDictionary[str, FunctionType] = weakref.WeakValueDictionary()
-"""functions that live, by their trees: equal ones are one, so it is traced once"""
+"""living functions, by their trees: equal trees share a function, which is traced once"""
 
 
 def function_of(
@@ -52,7 +52,7 @@ def _compiled(arguments: Sequence[str], steps: list[ast.stmt], rest: str | None)
     function.body = steps
     made: dict[str, Any] = {}
     code = compile(ast.fix_missing_locations(whole), "<scene>", "exec")
-    exec(code, {"np": np, "__builtins__": {}}, made)  # defines the function, no more
+    exec(code, {"np": np, "__builtins__": {}}, made)  # only defines the function
     defined: FunctionType = made["function"]
     return defined
 
@@ -84,7 +84,7 @@ def _floats(value: Any) -> Any:
 
 
 def value_of(path: Path, value: Any, values: Mapping[str, Any]) -> Any:
-    """A number, a truth, or a list of such. A text in it is an expression, or names a list."""
+    """A number, a truth, or a list of these. A text is an expression, or the name of a list."""
     if isinstance(value, list):
         return [value_of((*path, i), entry, values) for i, entry in enumerate(value)]
     if isinstance(value, str):

@@ -72,7 +72,7 @@ def _path_of(at: Keys, text: str, folder: Path | None, inside: tuple[Path, ...])
 
 
 def _as_system(tree: dict[str, Any]) -> dict[str, Any]:
-    """What a scene is as a part of another one: its runs are left out."""
+    """The tables of a scene that is a part of another one, without its runs."""
     system = {key: value for key, value in tree.items() if key in SYSTEM_KEYS}
     if "title" in tree and "description" not in system:
         system["description"] = tree["title"]

@@ -31,14 +31,14 @@ DIRECTIONS = (
 )  # fmt: skip
 
 OTHER = ("x", "z", "mode")
-"""names that a context has for something else"""
+"""names that mean something else in a context"""
 
 
 class SceneLeaf(LeafSystem):
-    """A block whose equations stand in a scene file."""
+    """A block whose equations are in a scene file."""
 
     shown: tuple[str, ...] = ()
-    """the outputs that the file names, which are recorded if nothing is said"""
+    """the outputs that the file names, which are recorded by default"""
 
 
 def leaf_of(path: Path, table: dict[str, Any], name: str, parameters: dict[str, Any]) -> SceneLeaf:
@@ -102,8 +102,8 @@ class _Maker:
                 self.leaf.declare_discrete_state(values)
 
     def state_names(self) -> list[str]:
-        """The names of the states, which are outputs and values of a context; none if one of them
-        cannot have its name there, or if the file has another output of that name.
+        """The names of the states, which are outputs and values of a context; none if a state
+        cannot have its name there, or if the file has another output with the name of a state.
         """
         outputs = self.table.get("outputs", {})
         names = list(self.table["states"])
@@ -232,7 +232,9 @@ class _Maker:
         )
 
     def effect(self, path: Path, value: dict[str, Any]) -> tuple[ast.expr | None, list[Expression]]:
-        """The state after an event, and the expressions in it. All read the state before it."""
+        """The state after an event, and its expressions. All of them read the state before the
+        event.
+        """
         path = (*path, "set")
         if "set" not in value:
             return None, []

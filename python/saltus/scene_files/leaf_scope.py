@@ -1,4 +1,4 @@
-"""What the names in the expressions of a leaf mean."""
+"""The meanings of the names in the expressions of a leaf."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ class LeafScope:
     discrete: list[str] = field(default_factory=list)
     modes: list[str] = field(default_factory=list)
     inputs: dict[str, int | None] = field(default_factory=dict)
-    """the width of each; None: a number"""
+    """the width of each name; None for a number"""
     parameters: dict[str, Any] = field(default_factory=dict)
     taken: dict[str, str] = field(default_factory=dict)
     words: dict[str, Word] = field(default_factory=dict)
@@ -100,7 +100,9 @@ class LeafScope:
         return function_of(arguments, body, "p", before)
 
     def rates_of(self, expressions: Iterable[Expression]) -> list[str]:
-        """What an output of these expressions depends on, in the words of the declaration."""
+        """The values that an output of these expressions depends on, in the words of the
+        declaration.
+        """
         names = frozenset().union(*(each.names for each in expressions))
         parts = {
             "time": {"t"},

@@ -27,13 +27,13 @@ FUNCTION_OF = {
 
 @functools.cache
 def arguments_of(block: str) -> dict[str, inspect.Parameter]:
-    """The arguments of the constructor of a block, but for its name."""
+    """The arguments of the constructor of a block, except its name."""
     found = inspect.signature(getattr(library, block)).parameters
     return {name: each for name, each in found.items() if name != "name"}
 
 
 def library_block(path: Path, table: dict[str, Any], name: str, values: dict[str, Any]) -> System:
-    """The block of a table. Wrong for an unknown one, and for arguments that it does not have."""
+    """The block of a table. Wrong for an unknown block, and for arguments that it does not have."""
     block = _known(path, table["block"])
     known = arguments_of(block)
     given = {key: value for key, value in table.items() if key != "block"}
@@ -62,7 +62,7 @@ def _known(path: Path, block: Any) -> str:
 
 
 def _advice(block: str) -> str:
-    """The name that a block of another tool has here, or the nearest name."""
+    """The name here for a block of another tool, or the nearest name."""
     error = elsewhere(block, library.__all__)
     if isinstance(error, ImportError):
         return f"; {str(error).partition('; ')[2]}"

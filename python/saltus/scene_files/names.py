@@ -54,7 +54,7 @@ def text_at(path: Path, value: Any, example: str) -> str:
 
 
 def chosen(path: Path, value: Any, known: Iterable[str], what: str) -> str:
-    """One of the known names. Wrong, with the nearest, for another one."""
+    """One of the known names. Wrong, with the nearest name, for an unknown one."""
     known = list(known)
     if value not in known:
         name = text_at(path, value, known[0] if known else "")
@@ -63,7 +63,7 @@ def chosen(path: Path, value: Any, known: Iterable[str], what: str) -> str:
 
 
 def named_path(path: Path, text: str, blocks: Mapping[str, Any], what: str) -> str:
-    """'block.port', or 'block' where it has one such port, as 'block.port'."""
+    """The name 'block.port'; a block with a single port of the kind may be given as 'block'."""
     block, dot, port = (part.strip() for part in text.partition("."))
     if block not in blocks:
         raise Wrong(path, f"unknown block '{block}'{known_names(block, list(blocks))}")

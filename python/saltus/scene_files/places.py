@@ -1,8 +1,8 @@
 """Line and column of each key and value of a TOML or JSON text.
 
-The parsers of the standard library give no positions, and no well-kept library does. So this reads
-a text that they have accepted once more, after a mistake was found in it: it only has to know where
-keys, strings, tables and lists begin.
+The parsers of the standard library give no positions, and no well-kept library does. So after a
+mistake was found, this module reads the text that they have accepted once more. It only has to know
+where keys, strings, tables and lists begin.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ def places_of(text: str, kind: str) -> dict[Path, tuple[int, int]]:
         else:
             reader.document()
     except (RecursionError, IndexError, ValueError):
-        pass  # what was read up to there is right
+        pass  # the places found up to there are right
     return reader.places
 
 

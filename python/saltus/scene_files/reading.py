@@ -16,7 +16,7 @@ from saltus.scene_files.wrong import Wrong
 
 __all__ = ["read_file", "tree_of"]
 
-MOST_BYTES = 8_000_000  # a hundred thousand blocks; the parser of TOML reads about 1 MB a second
+MOST_BYTES = 8_000_000  # a hundred thousand blocks; the parser of TOML reads 1 MB in a second
 MOST_LEVELS = 64
 PART = r"""(?:[A-Za-z0-9_-]+|"[^"\n]*"|'[^'\n]*')[ \t]*\.[ \t]*"""
 DEEP_KEY = re.compile(rf"(?<![A-Za-z0-9_-])(?:{PART}){{{MOST_LEVELS}}}")
@@ -58,7 +58,9 @@ def _decoded(data: bytes, shown: str) -> str:
 
 
 def tree_of(source: Source) -> dict[str, Any]:
-    """The root table of a text. SceneError for a mistake of syntax; Wrong for what no scene has."""
+    """The root table of a text. SceneError for a mistake of syntax; Wrong for a tree that no scene
+    has.
+    """
     read = _json if source.kind == "json" else _toml
     try:
         tree = read(source)
@@ -72,7 +74,7 @@ def tree_of(source: Source) -> dict[str, Any]:
 
 
 def _toml(source: Source) -> Any:
-    if DEEP_KEY.search(source.text):  # for which the parser takes the square of its length
+    if DEEP_KEY.search(source.text):  # the parser's time grows as the square of its length
         raise RecursionError
     try:
         import tomllib  # type: ignore[import-not-found,unused-ignore]  # novm

@@ -33,7 +33,7 @@ MOST_ROWS = 10_000_000
 
 @dataclass(frozen=True)
 class Run:
-    """How the scene is run."""
+    """The settings of a run of the scene."""
 
     begin: float
     until: float | None
@@ -42,7 +42,7 @@ class Run:
 
 @dataclass(frozen=True)
 class Sweep:
-    """What a sweep of the scene varies."""
+    """The values that a sweep of the scene varies."""
 
     values: dict[str, list[Any]]
     paired: bool
@@ -93,7 +93,7 @@ def _option(path: Path, key: str, value: Any, values: dict[str, Any]) -> Any:
 
 
 def _times(path: Path, value: Any, begin: float, until: float | None, values: Any) -> list[float]:
-    """A list of times, or how many even ones from the begin to the end."""
+    """A list of times, or the number of even times from the begin to the end."""
     if isinstance(value, list):
         return [number_of((*path, i), time, values) for i, time in enumerate(value)]
     if type(value) is not int or not 2 <= value <= MOST_ROWS:
@@ -106,7 +106,7 @@ def _times(path: Path, value: Any, begin: float, until: float | None, values: An
 
 
 def _recorded(path: Path, value: Any, system: System) -> dict[str, OutputPort]:
-    """The signals by name; without the key all outputs that the file names."""
+    """The recorded signals by name; without the key all outputs that the file names."""
     if value is None:
         shown = system.shown if isinstance(system, SceneLeaf) else system.output_names
         return {name: system.output(name) for name in shown}

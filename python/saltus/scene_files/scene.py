@@ -62,9 +62,9 @@ class FileScene:
     context: _core.Context
     """the values at the begin of the span"""
     t_span: tuple[float, float] | None
-    """[s] begin and end; None for a file that says no end"""
+    """[s] begin and end; None for a file without an end"""
     options: SimulatorOptions
-    """with the signals to record"""
+    """the options of a run, with the signals to record"""
     tree: dict[str, Any]
     """the tables of the file, those of included files in place of their names"""
     swept: Sweep
@@ -91,7 +91,7 @@ class FileScene:
             self.swept = sweep_of(self.tree["sweep"], self.parameters)
         self.options = run.options
         self.t_span = None if run.until is None else (run.begin, run.until)
-        if not self.system.input_names:  # one with inputs is a part of another scene
+        if not self.system.input_names:  # a scene with inputs is a part of another scene
             self._check()
         with placed(("run", "begin")):
             self.context = self.system.create_context(run.begin)
@@ -131,7 +131,7 @@ class FileScene:
         Raises
         ------
         ModelError, SimulationError
-            As `saltus.simulate` does; ModelError if the file says no end of the run.
+            As from `saltus.simulate`; ModelError also if the file gives no end of the run.
         """
         return simulate(self.system, self.context, self._span(), self.options, **options)
 
@@ -149,22 +149,22 @@ class FileScene:
         Parameters
         ----------
         values
-            As for `saltus.sweep`; those of the table `sweep` if not said. A name is that of a
-            parameter of the scene, whose system is then made again for each run, or that of a
-            value of a block, such as "plant.g" or "ball.x[0]".
+            As for `saltus.sweep`; by default those of the table `sweep`. A name is a parameter of
+            the scene, whose system is then made again for each run, or a value of a block, such as
+            "plant.g" or "ball.x[0]".
         how
             Further arguments of `saltus.sweep`.
 
         Raises
         ------
         ModelError
-            As `saltus.sweep` does; if there are no values, or no end of the run.
+            As from `saltus.sweep`; also if there are no values, or no end of the run.
         """
         if values is None:
             if not self.swept.values:
                 raise ModelError(f"scene '{self.name}' says nothing to vary; write a table 'sweep'")
             values, how = self.swept.values, {"paired": self.swept.paired} | how
-        # a system cannot go to another process, the function that makes it can
+        # a system cannot be sent to another process, but the function that makes it can
         made_again = how.get("executor") == "processes" or any(
             name in self.parameters for name in _names(values)
         )
@@ -252,7 +252,7 @@ def _names(values: Any) -> list[str]:
 
 
 def _path_in(scene: FileScene, name: str) -> str:
-    """The path of a recorded signal, which holds for a system that is made anew."""
+    """The path of a recorded signal, which is valid also in a system that is made anew."""
     record = scene.tree.get("run", {}).get("record")
     return str(record[name]) if isinstance(record, dict) else name
 

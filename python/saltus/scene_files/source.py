@@ -14,7 +14,7 @@ __all__ = ["Source", "error_of"]
 
 @dataclass(frozen=True)
 class Source:
-    """A text, and what it is called in messages."""
+    """A text, and its name in messages."""
 
     file: str
     text: str

@@ -28,7 +28,7 @@ BLOCK = "{ block = 'Gain', gain = 2.0 }"
 
 @dataclass
 class Count:
-    """How many blocks were made: nested systems multiply."""
+    """The number of blocks that were made; nested systems multiply it."""
 
     blocks: int = 0
 
@@ -44,7 +44,7 @@ class Count:
 
 @dataclass(frozen=True)
 class Place:
-    """Where a system is defined: its path, and what its blocks may be."""
+    """The place where a system is defined: its path, and the systems that its blocks may use."""
 
     path: Path
     systems: dict[str, tuple[Path, dict[str, Any], Any]]
@@ -55,8 +55,8 @@ class Place:
 
 
 def parameters_of(path: Path, table: dict[str, Any], given: dict[str, Any]) -> dict[str, Any]:
-    """The values of the parameters of a table: those given, and its own, which may be expressions
-    of the ones before them.
+    """The values of the parameters of a table: the given values, and its own, which may be
+    expressions of earlier parameters.
     """
     path = (*path, "parameters")
     own = table_at(path, table.get("parameters", {}), "{ g = 9.81 }")

@@ -50,4 +50,4 @@ is always followed by '('
 """
 
 ON_ZENO = {"hold", "stop", "error"}
-"""what a guard does at a Zeno point; beside these it names a mode"""
+"""the choices for a guard at its Zeno point, besides the name of a mode"""

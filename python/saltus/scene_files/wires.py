@@ -14,7 +14,7 @@ EXAMPLE = "'gain.out -> plant.u'"
 
 
 def wires_of(path: Path, wires: Any, blocks: Mapping[str, Any]) -> Iterator[tuple[Path, str, str]]:
-    """(path, output, input) of each wire. Wrong for text that is none."""
+    """(path, output, input) of each wire. Wrong for a text that is no wire."""
     if not isinstance(wires, list):
         raise Wrong(path, f"expected a list of wires such as [{EXAMPLE}], found {found(wires)}")
     for i, text in enumerate(wires):

@@ -26,7 +26,8 @@ def text_of(tree: dict[str, Any], kind: str) -> str:
 
 
 def _lines(path: tuple[str, ...], table: dict[str, Any]) -> Iterator[str]:
-    """A table: what is no table, then a header for each table in it.
+    """The text of a table: first the entries that are no tables, then a header for each table in
+    it.
 
     The entries of a table stay in their order, which is that of states and blocks.
     """

@@ -1,4 +1,4 @@
-"""A mistake in a scene: the key it belongs to, and what is wrong there."""
+"""A mistake in a scene: its key, and the message."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class Wrong(Exception):
 
 @contextmanager
 def placed(path: Path) -> Iterator[None]:
-    """Gives a refusal of the engine, or of Python, the place of the key that it is about."""
+    """Adds the place of a key to a refusal of the engine or of Python."""
     try:
         yield
     except (ModelError, TypeError, ValueError, OverflowError) as error:
@@ -56,7 +56,7 @@ def table_at(path: Path, value: Any, example: str) -> dict[str, Any]:
 def require_keys(
     path: Path, table: dict[str, Any], known: Iterable[str], needed: Iterable[str] = ()
 ) -> None:
-    """Wrong for a key that nobody reads, with the nearest one, and for one that is missing."""
+    """Wrong for an unknown key, with the nearest known key, and for a missing key."""
     known = list(known)
     for key in table:
         if key not in known:

@@ -17,8 +17,8 @@ __all__ = ["key_of"]
 DEFAULTS = vars(SimulatorOptions())
 PLAIN = {bool, int, float, str, type(None)}
 KEPT = {"progress": False, "interrupt": None, "python": "traced"}
-"""values without which no plan is kept: it would keep the user's functions, or a called output
-might have another shape the next time
+"""the values that the options must have if a plan is kept: otherwise it would keep the user's
+functions, or a called output might have another shape the next time
 """
 
 
@@ -49,7 +49,7 @@ def _signals(signals: Any) -> Key | None:
     the blocks weakly, because a block may keep the plan, and with it this key.
     """
     if signals is None:
-        return (None,)  # what the system exports
+        return (None,)  # the outputs that the system exports
     if type(signals) is list and {str}.issuperset(map(type, signals)):
         signals = {path: path for path in signals}
     if type(signals) is not dict:

@@ -31,15 +31,15 @@ def simulate(
     system : System
         A `LeafSystem` or a `Diagram`. It never changes.
     context : Context, optional
-        The values at the beginning; those of ``system.create_context()`` if not said, as in
+        The values at the beginning; by default those of ``system.create_context()``, as in
         ``simulate(system, (0.0, 1.0))``.
     time_span : (float, float)
         [s] begin and end.
     options : SimulatorOptions, optional
-        How the run is done.
+        The options of the run.
     recorded_signals : dict of str to OutputPort or str, or a list of str, optional
-        The outputs to record, by name: ports, or paths such as "car.engine.torque". A list of
-        paths names each signal by its path. If not said: the outputs that a diagram exports.
+        The outputs to record, by name: ports, or paths such as "car.engine.torque". A list of paths
+        names each signal by its path. By default the outputs that a diagram exports.
     **option_overrides
         Any option by name; it replaces the one in `options`: ``rtol=1e-9``,
         ``dense_output=True``, ``progress=True``, ...
@@ -92,7 +92,7 @@ def simulate(
         option_overrides["recorded_signals"] = recorded_signals
     run = prepared("Simulator", system, options, option_overrides)
     context = core_context(system.create_context(begin) if context is None else context)
-    # a context from the end of a run at this time knows which events have happened already
+    # a context from the end of a run at this time records which events have happened already
     if context.time != begin:
         context = context.with_time(begin)
     return run_whole(

@@ -28,7 +28,7 @@ __all__ = ["Reached", "Simulator"]
 
 
 class Reached(str):
-    """The status of a run that went on, as text, with the values it has reached."""
+    """The status of an advanced run, as text, with the values that it has reached."""
 
     __slots__ = ("context",)
 
@@ -39,7 +39,7 @@ class Simulator:
     """A run that can be continued: `initialize(context)`, then `advance_to(t)` as often as you
     like.
 
-    In pieces or at once, the events are the same. It can be initialized again.
+    The events of a run in pieces are those of the whole run. A simulator can be initialized again.
 
     One caller uses a simulator at a time. While it runs, each further call is an `Error` that
     changes nothing, from one of its own callbacks and from another thread alike; only `time` may be
@@ -125,14 +125,14 @@ class Simulator:
         self._initialize(context)
 
     def advance_to(self, time: float, context: _core.Context | None = None) -> Reached:
-        """Goes on to `time`, or to where the run ends before.
+        """Advances the run to `time`, or to an earlier end of the run.
 
         Parameters
         ----------
         time : float
-            [s] not before the present one.
+            [s] The time to reach, not before the present time.
         context : Context, optional
-            Begins a new run with these values, as `initialize` does, before it goes on.
+            Begins a new run with these values first, as `initialize` does.
 
         Returns
         -------
@@ -149,7 +149,7 @@ class Simulator:
             a callback is raised unchanged.
         KeyboardInterrupt
             After Ctrl-C, or the stop button of a notebook; its attribute `results` has the run
-            until then. With the option ``throw=False`` nothing is raised, and the status says it.
+            until then. With the option ``throw=False`` nothing is raised, and the status shows it.
         """
         with self._turn.of("advance_to", self._core):
             end = _seconds(time)
@@ -171,7 +171,7 @@ class Simulator:
         """Replaces the traces whose sources have changed since the last piece of the run."""
         if not self._callbacks or self._callbacks.refresh(self._others) == self._version:
             return
-        self._version = -1  # never a version of the callbacks: without success they stay to do
+        self._version = -1  # no version of the callbacks: a failure is tried again
         if not self._core.replace_traces():
             raise ModelError(
                 f"t = {self.time} s: a callback depends on more than when the run began; "
@@ -201,8 +201,8 @@ class Simulator:
 
     @property
     def context(self) -> _core.Context:
-        """The present values; after an error the last accepted ones, from which
-        `initialize` goes on.
+        """The present values; after an error the last accepted values, from which `initialize` can
+        continue.
         """
         self._turn.require_idle("context", self._core)
         return self._core.context

@@ -1,4 +1,4 @@
-"""Whole runs: of `simulate`, of `solve`."""
+"""Whole runs, for `simulate` and `solve`."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ R = TypeVar("R", bound=Results)
 
 @dataclass(frozen=True, slots=True)
 class Prepared:
-    """The plan of a run, and how it is made and reported."""
+    """The plan of a run, with its options and its progress."""
 
     plan: _core.Plan
     callbacks: Callbacks | None = None
@@ -95,7 +95,9 @@ def _made(system: System, options: SimulatorOptions, key: Key | None) -> Prepare
 def checked_options(
     where: str, system: System, options: SimulatorOptions | None, overrides: Mapping[str, Any]
 ) -> SimulatorOptions:
-    """The options with those by name. ModelError if it is no system, and for unknown names."""
+    """The options, changed by those given by name. ModelError if `system` is no system, and for
+    unknown names.
+    """
     if not isinstance(system, System):
         raise ModelError(f"expected a system, found {system!r}")
     options = options or SimulatorOptions()
@@ -123,7 +125,7 @@ def advance(core: _core.Simulator, time: float, reporter: Reporter | None) -> st
 
 
 def refuse_stale(callbacks: Callbacks | None, results: Callable[[], Results]) -> None:
-    """The last resort, behind the search for writers that comes before the run."""
+    """Refuses a run in which a read value changed although no search had found a writer."""
     change = callbacks.written() if callbacks else None
     if change is None:
         return
@@ -144,8 +146,8 @@ def run_whole(
     end: float,
     outcome: Callable[[_core.Results, BaseException | None], tuple[R, BaseException | None]],
 ) -> R:
-    """One run, from the values of `context`. `outcome` makes its results, and says what is raised
-    where it ends badly.
+    """One run, from the values of `context`. `outcome` makes its results, and the exception if it
+    ends badly.
     """
     core = _core.Simulator(run.plan, run.reporter)
     core.initialize(context)

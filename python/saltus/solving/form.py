@@ -18,15 +18,15 @@ __all__ = ["PLAIN", "Form", "Names", "chosen", "form_of"]
 
 Function = Callable[..., Any]
 Names = tuple[str, ...] | None
-"""of the values that a function gets by keyword; None where a run has no such values"""
+"""names of the values that a function gets by keyword; None if a run has no such values"""
 
 
 @dataclass(frozen=True)
 class Form:
-    """How times and states of the user become those of the engine.
+    """The relation of the user's times and states to those of the engine.
 
     A run back in time counts s = -t, so dx/ds = -f(-s, x). A complex state of n numbers is a real
-    one of 2n: the real and the imaginary part of each number, one after the other.
+    state of 2n: the real and the imaginary part of each number, one after the other.
     """
 
     backward: bool = False
@@ -55,8 +55,8 @@ class Form:
         """function(t, x, *args) as a callback of a leaf, whose result stays as it is. It gets the
         values of `names`, parameters and the mode, by keyword.
 
-        Such callbacks close over the user's function, this form and constants, no more: two of them
-        that do the same share their traces.
+        Such callbacks close over the user's function, this form and constants, and nothing else. So
+        two callbacks that do the same share their traces.
         """
         if names is not None:
             return lambda time, state, /, **given: function(
@@ -125,7 +125,7 @@ class Form:
         return rows, columns
 
     def tolerance(self, tolerance: Any) -> Any:
-        """A tolerance of each number, as one of its parts."""
+        """The tolerance of each number, for each of its parts."""
         if not self.is_complex or np.ndim(tolerance) == 0:
             return tolerance
         return np.repeat(np.asarray(tolerance), 2)

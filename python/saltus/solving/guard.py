@@ -37,12 +37,12 @@ class Guard:
         r(t, x, *args) returns the state after the event from `x`, a copy of that before it.
         Without it, and if it is not terminal, the event is only logged.
     direction : {'both', 'falling', 'rising'} or number
-        Falling: from above zero to it, along the run. The engine's own names
+        'falling' means from above zero to zero, along the run. The engine's own names
         ('positive_then_non_positive', ...) and numbers with SciPy's signs are understood too.
     name : str, optional
         Its name in the event log and in messages; by default the function's, or 'event_0', ...
     terminal : bool or int, optional
-        Whether it ends the run, after its reset; n: when it happens the n-th time.
+        Whether it ends the run, after its reset; with a number n, when it happens the n-th time.
     max_count : int
         The same n, for ``terminal=True``.
     zeno_tolerance : float, optional
@@ -51,9 +51,9 @@ class Guard:
         The state after the time where events accumulate; see
         `LeafSystem.declare_zero_crossing`.
     at_start : {'auto', 'ignore', 'fire', 'error'}
-        The effect of a guard that is zero at the beginning; see the same.
+        The effect of a guard that is zero at the beginning; see `LeafSystem.declare_zero_crossing`.
     start_mode, end_mode : int, optional
-        The mode in which it can fire (all modes if not said), and the mode after it. Functions
+        The mode in which it can fire (by default all modes), and the mode after it. Functions
         with an argument `mode` get the present one.
     delay : number or callable, optional
         [s], >= 0, along the run: the event is queued, and its effect comes this much later. A
@@ -106,7 +106,7 @@ class Guard:
         for what, value in (("delay", self.delay), ("priority", self.priority)):
             if not (value is None or callable(value) or _is_number(value)):
                 raise ModelError(f"Guard: {what}: expected a number or a function, found {value!r}")
-        _ = self.engine_direction, self.engine_count  # refuse what makes no sense here, not later
+        _ = self.engine_direction, self.engine_count  # refuse impossible arguments here, not later
 
     @property
     def engine_direction(self) -> str:
@@ -166,14 +166,14 @@ def _is_number(value: Any) -> bool:
 
 
 def guards_of(events: Any) -> list[Guard]:
-    """The guards of the argument `events`: one or several, none of which may share a name."""
+    """The guards of the argument `events`, one or several, with different names."""
     single = isinstance(events, Guard) or callable(events)
     try:
         guards = [_as_guard(e) for e in ([events] if single else events)]
     except TypeError:
         guards = [_as_guard(events)]
     names = [guard.named(i) for i, guard in enumerate(guards)]
-    for i, guard in enumerate(guards):  # functions made in a loop are called the same
+    for i, guard in enumerate(guards):  # functions made in a loop have the same name
         if guard.name is None and names.count(names[i]) > 1:
             guards[i] = replace(guard, name=f"event_{i}")
     return guards

@@ -1,4 +1,4 @@
-"""Systems of `solve` that are kept, with traces and plans, for the next call that is the same.
+"""Systems of `solve` that are kept, with traces and plans, for the next equal call.
 
 A system refers to the functions it was made of, and these may refer to it. So one of the functions
 keeps it, as an attribute, where the garbage collector sees the circle: they are freed together.
@@ -25,7 +25,7 @@ MOST = 4  # systems that a function keeps
 LARGEST = 1000  # entries of an array in `args`: a system keeps it alive
 PLAIN = (bool, int, str, type(None))
 REDIRECTED = {"__wrapped__", "__signature__"}
-"""attributes by which a function says that its arguments are others"""
+"""attributes that change the arguments which a function shows"""
 
 
 @dataclass(frozen=True)
@@ -42,7 +42,7 @@ class Call:
 
 @dataclass(frozen=True)
 class Kept:
-    """A system, and what tells whether it is still right."""
+    """A system, and the data that tell whether it is still right."""
 
     key: tuple[Any, ...]
     system: SolvedSystem
@@ -55,7 +55,7 @@ class Systems(list[Kept]):
 
     def __init__(self, owner: int = 0):
         super().__init__()
-        self.owner = owner  # functools.wraps gives a function the attributes of another one
+        self.owner = owner  # functools.wraps gives a function the attributes of another function
 
     def __reduce__(self) -> tuple[Any, ...]:
         return Systems, ()
@@ -74,8 +74,8 @@ def call_of(
     form: Form,
     others: tuple[Any, ...],
 ) -> Call | None:
-    """None for a call whose system is not kept: of methods and other callable objects, with a
-    matrix as the Jacobian, with objects or long arrays in `args`.
+    """The key of a call. None if its system is not kept: for methods and other callable objects, a
+    matrix as the Jacobian, and objects or long arrays in `args`.
     """
     functions = [each for each in (f, jacobian, *functions_of(guards)) if each is not None]
     for function in functions:
@@ -115,12 +115,12 @@ def _exact(value: Any) -> Any:
     if kind is float or isinstance(value, np.floating):
         return (kind, value.tobytes() if kind is not float else value.hex())
     if kind is np.ndarray and value.size <= LARGEST and value.dtype != object:
-        return (kind, id(value))  # what is in it is watched
+        return (kind, id(value))  # its entries are watched
     return None
 
 
 def _owner_of(functions: Sequence[FunctionType]) -> FunctionType:
-    """One that holds objects itself, if there is one: it does not live longer than they do."""
+    """The function that holds objects itself, if there is one: it lives no longer than they do."""
     return next((f for f in functions if _holds(f)), functions[0])
 
 
@@ -130,7 +130,7 @@ def _holds(f: FunctionType) -> bool:
 
 
 def find(call: Call) -> SolvedSystem | None:
-    """The system there is, if nothing it was made from has changed."""
+    """The kept system, if nothing it was made from has changed."""
     systems: Systems = vars(call.owner).get(SYSTEMS, EMPTY)
     kept = next((one for one in systems if one.key == call.key), None)
     if kept is None or getattr(kept.system, "_callbacks", None) is not kept.callbacks:
@@ -146,7 +146,7 @@ def keep(call: Call, system: SolvedSystem) -> None:
     """Remember a system that is ready to run, for `find`."""
     callbacks = getattr(system, "_callbacks", None)
     if not isinstance(callbacks, Callbacks):
-        return  # all of it is called
+        return  # all functions are called
     systems = vars(call.owner).get(SYSTEMS)
     if systems is None or systems.owner != id(call.owner):
         systems = Systems(id(call.owner))

@@ -1,4 +1,4 @@
-"""`Named`: what the functions of `solve` get by name, the parameters and the mode."""
+"""`Named`: the values that the functions of `solve` get by name, the parameters and the mode."""
 
 from __future__ import annotations
 
@@ -77,9 +77,9 @@ def named_of(
     functions: Sequence[Any],
     extra: int,
 ) -> Named:
-    """What the arguments of `solve` say. Guards with a mode, and functions with an argument `mode`
-    after t, x and the `extra` arguments in `args`, make a run with modes, from mode 0 if nothing
-    else is said.
+    """The named values from the arguments of `solve`. Guards with a mode, and functions with an
+    argument `mode` after t, x and the `extra` arguments in `args`, make a run with modes, by
+    default from mode 0.
     """
     if parameters is not None and not isinstance(parameters, Mapping):
         raise ModelError(

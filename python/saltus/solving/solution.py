@@ -43,7 +43,7 @@ UNKNOWN = Known()
 
 
 class Solution(Results):
-    """`Results`, under the names of `scipy.integrate.solve_ivp` too.
+    """`Results` that have the names of `scipy.integrate.solve_ivp` too.
 
     Attributes
     ----------
@@ -53,10 +53,11 @@ class Solution(Results):
     y : ndarray, shape (n, rows)
         The same as ``outputs["x"].T``.
     t_events : list of ndarray, or None
-        [s] for each guard of `events` when it fired; of one with a delay when it had its effect.
+        [s] For each guard of `events` the times at which it fired, or for a guard with a delay those
+        of its effects.
     y_events : list of ndarray, or None
         For each guard the states before its events, shape (count, n), or (0,) as SciPy has it if
-        there is none; those after them are in `events`.
+        there is none; the states after them are in `events`.
     sol : callable, or None
         With ``dense_output=True``: ``sol(t)`` is the state, shape (n,) or (n, len(t)).
     success : bool
@@ -64,7 +65,8 @@ class Solution(Results):
     message : str
         How the run ended, in words.
     nfev, njev, nlu : int
-        Calls of `f`, Jacobians computed (0 if a constant one was given), and factorisations.
+        The numbers of calls of `f`, of computed Jacobians (0 if a constant Jacobian was given), and
+        of factorisations.
     system : LeafSystem
         The system of the run; `saltus.simulate` runs it too. None after loading from a file. It
         and `context` have the engine's form: times s = -t for a run back in time, and the real and
@@ -154,7 +156,7 @@ class Solution(Results):
 
     def _times(self, name: str) -> np.ndarray:
         form = self._known.form
-        times = self.events.times(f"{BLOCK}.{name}")  # a guard's own name may look like a path
+        times = self.events.times(f"{BLOCK}.{name}")  # the name of a guard may look like a path
         in_order: np.ndarray = form.time(np.sort(form.time(times)))
         return in_order
 
@@ -163,7 +165,7 @@ class Solution(Results):
 
     def _state_at(self, t: ArrayLike) -> np.ndarray:
         begin, end = self.span
-        if begin == end:  # the state of a run of no length, at any time
+        if begin == end:  # the constant state of a run of no length
             t = np.full(np.shape(t), begin)
         return np.moveaxis(self(t).continuous_state, -1, 0)
 
@@ -188,7 +190,7 @@ class Solution(Results):
 
 
 def _loaded(run: KeptRun, header: dict[str, Any]) -> Solution:
-    """The solution in a file; a file of an earlier version says nothing of its form."""
+    """The solution in a file. A file of an earlier version does not contain its form."""
     names = header["guards"]
     if names is not None and not (
         isinstance(names, list) and all(isinstance(name, str) for name in names)

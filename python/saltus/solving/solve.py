@@ -40,7 +40,7 @@ HINTS = OPTIONS | {
     "recorded_signals": "the state is recorded as 'x'; for other signals write a LeafSystem",
 }
 METHODS = {"RK23": "dopri5", "LSODA": "auto"}
-"""methods of SciPy that are not here, and those that do their work"""
+"""methods of SciPy that do not exist here -> the methods that replace them"""
 OWN = (
     "method",
     "args",
@@ -89,7 +89,7 @@ def solve(
         ``f(t, x, *args)`` returns dx/dt, n numbers in units of x per second; or
         ``f(t, x, out, *args)`` writes them to `out` and returns nothing. `x` is read-only.
     t_span : (float, float)
-        [s] begin and end. With an end before the begin the run goes back in time; directions of
+        [s] Begin and end. If the end is before the begin, the run goes back in time; directions of
         events are those along the run.
     x0 : array_like, shape (n,), or a number
         The state at the beginning. A complex one is run as 2n real states, its real and imaginary
@@ -97,9 +97,10 @@ def solve(
     y0 : array_like, optional
         SciPy's name for `x0`.
     parameters : mapping of str to number or array, optional
-        Values that `f`, `jacobian`, guards and resets get by keyword, those that have an argument
-        of that name: ``f(t, x, k)`` with ``parameters={"k": 0.05}``. They arrive as arrays, also
-        whole numbers. `sweep` varies those of `system_of`, quicker than a loop of calls.
+        Values that `f`, `jacobian`, guards and resets get by keyword, if they have an argument with
+        that name: ``f(t, x, k)`` with ``parameters={"k": 0.05}``. Arrays and whole numbers arrive
+        as arrays of floats. `sweep` varies the parameters of `system_of`, which is quicker than a
+        loop of calls.
     mode : int, optional
         The mode at the beginning, for guards with `start_mode` and `end_mode`; 0 if one of them
         has such a mode. Functions with an argument `mode` get the present one.
@@ -115,22 +116,22 @@ def solve(
     args : sequence
         Handed on to `f`, `jacobian`, guards and resets.
     t_eval : array_like, optional
-        [s] times in the order of the run; then there are rows at these only, at an event that
-        after it.
+        [s] Times in the order of the run. Then only these times have rows, and at the time of an
+        event it is the row after the event.
     dense_output : bool
         Keep the interpolants of the solver: then ``solution(t)`` and ``solution.sol(t)`` work.
     first_step : float, optional
-        [s] the first step that is tried; by default the tolerance chooses it.
+        [s] The first step that is tried; by default the tolerance chooses it.
     max_step : float
-        [s] longest step of the solver.
+        [s] The longest step of the solver.
     vectorized : bool
         Whether `f` takes states as columns, ``f(t, x)`` with `x` of shape (n, k); it gets one.
     jacobian : callable or array_like, optional
         ``jacobian(t, x, *args)``, or a constant, the n by n matrix df/dx; for stiff methods.
     jacobian_sparsity : optional
-        Where df/dx may differ from zero; see `LeafSystem.declare_continuous_state`.
+        The entries of df/dx that may differ from zero; see `LeafSystem.declare_continuous_state`.
     progress : bool or callable
-        True shows how far the run is; see `SimulatorOptions`.
+        True shows the progress of the run; see `SimulatorOptions`.
     **options
         Any other option of `SimulatorOptions`, such as ``zeno_tolerance=0`` or ``throw=False``.
 
@@ -176,7 +177,7 @@ def solve(
     if system is None:
         functions = [f, jacobian, *functions_of(guards or [])]
         named = named_of(parameters, mode, guards or [], functions, len(given))
-        call = None if named else call  # what functions get by name is not kept
+        call = None if named else call  # functions that get values by name are not kept
         system = SolvedSystem(
             f,
             begin,

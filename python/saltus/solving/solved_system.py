@@ -34,7 +34,7 @@ class SolvedSystem(LeafSystem):
     """
 
     check: Callable[[], Function]
-    """calls f once, see `_checked`"""
+    """whether to call f once, see `_checked`"""
 
     def __init__(
         self,
@@ -138,8 +138,8 @@ def _flow(f: Function, form: Form, x0: np.ndarray, args: tuple[Any, ...], names:
 
 
 def _takes_out(f: Function, extra: int, names: Names) -> bool:
-    """Whether f needs one argument more than t, x, `args` and those it gets by name: one to write
-    to.
+    """Whether f needs one argument more than t, x, `args` and those it gets by name: the array to
+    write to.
     """
     try:
         parameters = [
@@ -192,8 +192,8 @@ def _checked(
 
 @functools.lru_cache(maxsize=1024)
 def _label(name: str) -> SimpleNamespace:
-    """A name that a function mentions in messages only: so it is not read when it is traced, and
-    functions that differ in it alone have one trace.
+    """A name that a function uses in messages only. It is not read when the function is traced, so
+    functions that differ in it alone share a trace.
     """
     return SimpleNamespace(name=name)
 
@@ -221,8 +221,8 @@ def _derivatives(
     args: tuple[Any, ...],
     names: Names,
 ) -> dict[str, Any]:
-    """The Jacobian as arguments of `declare_continuous_state`. What SciPy takes: a function or a
-    matrix, dense or sparse; the places of a sparse one are its sparsity.
+    """The Jacobian as arguments of `declare_continuous_state`. It takes what SciPy takes: a
+    function or a matrix, dense or sparse. The entries of a sparse matrix are the sparsity.
     """
     places = form.places(sparsity)
     if jacobian is None:
@@ -299,7 +299,7 @@ class _WrongKind(ModelError, TypeError):
 
 
 def times_of(t_eval: ArrayLike, begin: float, end: float, form: Form) -> list[float]:
-    """[s] where rows are wanted, as the engine counts them."""
+    """[s] The times of the wanted rows, as the engine counts time."""
     try:
         times = np.array(t_eval, dtype=float)
     except (TypeError, ValueError):

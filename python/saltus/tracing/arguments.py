@@ -106,7 +106,7 @@ def _read_only(values: Numbers, shape: Shape) -> Numbers:
 
 
 def plain_arguments(signature: Signature, at: Point) -> tuple[list[Any], dict[str, Any]]:
-    """The same with the values of a point, as the engine passes them."""
+    """The arguments with the values of a point, as the engine passes them."""
     x, z = _read_only(at.x, signature.state_shape), _read_only(at.z, signature.discrete_shape)
     state = PlainState(x, z, at.mode, at.entry)
     inputs: list[Any] = []
@@ -175,8 +175,8 @@ def _size(signature: Signature, letter: str) -> int:
 
 
 def _meant(signature: Signature) -> str:
-    """The state that numbers alone are: the one that the block has; of both, an update writes the
-    discrete one, and a reset map has to say which.
+    """The state that numbers alone mean: the one state that the block has. If it has both, an
+    update means the discrete state, and a reset map has to return a state.
     """
     has_x, has_z = _size(signature, "x") > 0, _size(signature, "z") > 0
     if has_x != has_z:

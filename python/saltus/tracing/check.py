@@ -42,7 +42,7 @@ def _near(start: Numbers, draws: Numbers) -> Numbers:
 
 
 def points(signature: Signature, reads_mode: bool) -> list[Point]:
-    """Values near those the block starts with and far from them, of both signs."""
+    """Values near the start values of the block and far from them, of both signs."""
     x, z, p = signature.start("x"), signature.start("z"), signature.parameter_values()
     widths = [math.prod(shape) for shape in signature.input_shapes]
     draws = _draws(x.size + z.size + p.size + sum(widths))
@@ -92,8 +92,9 @@ class Check:
         """points -> Bounds"""
 
     def run(self, signature: Signature, few: bool = False) -> int:
-        """Raise a Refusal if the two differ around the values it starts with; return at how many
-        points they were compared. With `few` that is a third of them, if these are enough.
+        """Raise a Refusal if the tape and the function differ around the start values; return the
+        number of points at which they were compared. With `few` a third of the points is used, if
+        that is enough.
         """
         at = points(signature, "mode" in self.tape.reads)
         if few and (compared := self._compared(signature, at[::3])) >= FEWEST:
@@ -107,7 +108,7 @@ class Check:
         return finite
 
     def _compared(self, signature: Signature, at: list[Point]) -> int:
-        """At how many of the points both are finite, and equal."""
+        """The number of points at which both are finite, and equal."""
         function = signature.function
         if signature.owner is not None:
             function = functools.partial(function, signature.owner)
@@ -149,7 +150,7 @@ class Check:
 
     @staticmethod
     def _require_rounding(at: Point, column: int, called: float, taped: float, bound: Any) -> None:
-        room = 2.0 * bound  # each of the two errs by that
+        room = 2.0 * bound  # each of the two has this error
         if not np.isfinite(room) or (np.isfinite(taped) and abs(called - taped) <= room):
             return  # where rounding decides between branches, the point says nothing
         raise Refusal(_describe(at, called, taped, column))

@@ -22,7 +22,7 @@ from saltus.tracing.signature import Refused, Signature, Traced
 __all__ = ["Kept", "call_of", "find", "keep", "start_of"]
 
 TRACES = "__saltus_traces__"
-MOST = 8  # ways to call one function that are remembered
+MOST = 8  # the number of ways to call one function that are remembered
 
 
 @dataclass(frozen=True)
@@ -35,7 +35,7 @@ class Kept:
     """the values around which tape and function were compared"""
     outcome: Traced | Refused
     check: Check | None
-    """compares them around other values; None without a tape"""
+    """compares tape and function around other values; None without a tape"""
 
 
 class Traces(dict[Any, Kept]):
@@ -46,7 +46,7 @@ class Traces(dict[Any, Kept]):
 
 
 def find(signature: Signature) -> Traced | Refused | None:
-    """The trace there is, if nothing it was made from has changed."""
+    """The kept trace, if nothing it was made from has changed."""
     kept = _traces(signature).get(call_of(signature))
     if kept is None or not _stands_for(kept.function, signature.function):
         return None
@@ -76,7 +76,7 @@ def keep(signature: Signature, outcome: Traced | Refused, check: Check | None) -
 def _traces(signature: Signature) -> dict[Any, Kept]:
     """The traces of a function; a new dictionary for a function that cannot keep any.
 
-    A method cannot: its class would keep its objects alive.
+    A method cannot keep traces: its class would keep its objects alive.
     """
     function = signature.function
     owner = getattr(function, OWNER, function)
@@ -98,7 +98,7 @@ def call_of(signature: Signature) -> tuple[Any, ...]:
 
 
 def start_of(signature: Signature) -> tuple[bytes, ...]:
-    """The values a function starts with, to compare."""
+    """The start values of a function, to be compared."""
     values = (signature.start("x"), signature.start("z"), signature.parameter_values())
     return tuple(value.tobytes() for value in values)
 

@@ -13,5 +13,5 @@ class Known:
     """
 
     def outcome(self) -> Traced | Refused:
-        """As `trace` answers."""
+        """The answer that `trace` would give."""
         raise NotImplementedError

@@ -29,13 +29,13 @@ def readers_of_writes(
 ) -> dict[Place, Refused]:
     """The traced functions, by (block, number), that have to be called, and why.
 
-    A trace holds the values that its function read, as constants. They stay right if no callback of
-    the run writes them. A traced function writes nothing; what a called one may write is found by
-    its code and by the objects that it can reach. A function that is called for this reason may
-    write, too, for its values may lead it elsewhere then: so the search is repeated.
+    A trace holds the values that its function read, as constants. They remain right if no callback
+    of the run writes them. A traced function writes nothing. The code of a called function and the
+    objects that it can reach show what it may write. A function that is called for this reason may
+    write too, because other values may lead it elsewhere, so the search is repeated.
 
-    `looks` gets all at which the search has looked: while that and the dependencies of `outcomes`
-    stay the same, so does the answer.
+    `looks` gets everything at which the search has looked. While these objects and the dependencies
+    of `outcomes` remain the same, so does the answer.
     """
     waiting = [_Callback(words, [function]) for words, function in others]
     left: dict[Place, Traced] = {}

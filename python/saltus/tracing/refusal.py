@@ -17,7 +17,7 @@ MARK = "__saltus_traced__"
 class Refusal(BaseException):
     """Carries the reason out of the user's function.
 
-    No `Exception`, so that an `except Exception` on the way does not swallow it.
+    It is no `Exception`, so an `except Exception` on the way does not swallow it.
     """
 
     by_check = False

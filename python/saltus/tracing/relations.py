@@ -16,7 +16,7 @@ NEGATION = ("logical_not", "eq")
 
 
 class _Found:
-    """The comparisons met, in order, and the truth being built over them."""
+    """The comparisons of a truth, in order, and the node of the truth over them."""
 
     def __init__(self, graph: Any, truth_graph: Any):
         self.graph = graph
@@ -39,7 +39,7 @@ class _Found:
         return int(self.truths.discrete_state(k))
 
     def truth(self, node: int) -> int | None:
-        """The node over truths, or None where more than comparisons is read."""
+        """The node over truths, or None if it reads more than comparisons."""
         if node not in self._done:
             self._done[node] = self._built(node)
         return self._done[node]

@@ -17,7 +17,7 @@ from saltus.tracing.tracing import trace
 
 __all__ = ["Siblings"]
 
-MOST = 4  # traces of one code that a new function is compared with
+MOST = 4  # the number of traces of one code with which a new function is compared
 
 
 class Siblings:
@@ -30,10 +30,10 @@ class Siblings:
         self._made: dict[Any, list[tuple[Signature, Traced | Refused]]] = {}
 
     def trace(self, signature: Signature) -> Traced | Refused:
-        """As `trace`, but a function like one before it gets the same answer.
+        """Answers as `trace` does, but a function like an earlier one gets the same answer.
 
-        Where only numbers differ, a refusal is the same, and a tape is made anew but compared with
-        its function at fewer points.
+        If only numbers differ, a refusal is the same, and a tape is made anew but compared with its
+        function at fewer points.
         """
         if getattr(signature.function, "__code__", None) is None:
             return trace(signature)

@@ -18,7 +18,7 @@ Shape = tuple[int, ...]
 
 @dataclass(frozen=True, kw_only=True)
 class Signature:
-    """How a function is called, and around which values."""
+    """The form of a call of a function, and the values around which it is called."""
 
     function: Callable[..., Any]
     owner: Any = None
@@ -34,20 +34,20 @@ class Signature:
     mode: int = 0
     """the mode it starts in"""
     x: ArrayLike | None = None
-    """continuous state it starts with, zeros if not said; points of the check lie around it"""
+    """the continuous state at the start, zeros by default; points of the check lie around it"""
     z: ArrayLike | None = None
     parameters: Mapping[str, ArrayLike] = field(default_factory=dict)
     """the parameters by name, in the order of the engine"""
     input_shapes: Sequence[Shape] = ()
     """the shape of every input of the block: () comes as a float, (n,) as an array"""
     inputs: Sequence[int] | None = None
-    """positions of the inputs the function gets; all if not said"""
+    """positions of the inputs that the function gets; by default all"""
     kind: str = "vector"
     """'vector' and 'matrix' return numbers, 'reset' a state, 'update' a state or a discrete one"""
     out: bool = False
     """the function takes an array by the keyword `out`, fills it and returns nothing"""
     out_shape: Shape | None = None
-    """the shape of that array; (result_size,) if not said"""
+    """the shape of that array; by default (result_size,)"""
     result_size: int | None = None
     """the number of returned numbers, if it is known"""
     modes: Sequence[int] = (0, 1, 2, 3)
@@ -84,7 +84,7 @@ class Relations:
     """A truth that is made of comparisons a < b, a <= b, a > b, a >= b of real expressions.
 
     `differences` is a tape of one number for each comparison, positive where it is true, negative
-    where it is not: the guard of a `Relation`. `true_at_zero` says what zero means. `truth` is a
+    where it is not: the guard of a `Relation`. `true_at_zero` is the truth at zero. `truth` is a
     tape over their truths: it reads truth k, 0 or 1, as entry k of the discrete state, nothing
     else, and gives the values of the output.
     """
@@ -99,8 +99,8 @@ class Traced:
     """A function that became a tape, checked against the function itself."""
 
     tape: Any
-    """gives the result, flat; of a reset or an update x+, z+, mode+ one after the other, of those
-    written
+    """gives the result, flat; for a reset or an update the written ones of x+, z+, mode+, one after
+    the other
     """
     shape: Shape
     """the shape of the result"""
@@ -117,7 +117,7 @@ class Traced:
     dependencies: Dependencies
     """`dependencies.changed()` names a source of the tape that has changed"""
     compared: int = 0
-    """points at which tape and function were compared"""
+    """the number of points at which tape and function were compared"""
 
 
 @dataclass(frozen=True)

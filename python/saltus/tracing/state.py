@@ -47,7 +47,7 @@ class TracedState:
 
     @property
     def relations(self) -> Any:
-        """No tape can read these: their truths are held by the engine."""
+        """The relations, which no tape can read: the engine holds their truths."""
         refuse("reads state.relations", "a callback that reads a relation is called")
 
     def with_continuous_state(self, continuous_state: Any) -> TracedState:

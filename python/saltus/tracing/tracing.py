@@ -38,8 +38,8 @@ def trace(signature: Signature, few: bool = False) -> Traced | Refused:
     -------
     Traced or Refused
         a tape that gives the values of the function, to a few roundings; or one sentence that
-        names the obstacle, its place and a remedy. An exception of the function, called with
-        symbols, is such a reason too: it will be raised again when the function is called.
+        names the obstacle, its place and a remedy. An exception of the function in the call with
+        symbols is such a reason too; it is raised again when the function is called.
 
     Notes
     -----

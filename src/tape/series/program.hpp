@@ -134,7 +134,7 @@ struct Rate {
   Term term;
 };
 
-/// An output: where its coefficients are, and what must be computed for them.
+/// An output: the place of its coefficients, and the values and instructions that they need.
 struct Output {
   Index row = 0, value = 0;
   std::vector<int> values, instructions;  ///< in ascending order

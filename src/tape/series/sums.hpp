@@ -2,8 +2,8 @@
 //
 // Orders are computed in blocks of four. At the start of a block, `earlier_product` adds up the
 // products of coefficients that are known from earlier blocks, for all four orders: no sum across a
-// register, no load of what has just been stored, and loops only once in four orders. Then `inner`
-// adds the few others.
+// register, no load of a number that has just been stored, and loops only once in four orders. Then
+// `inner` adds the few others.
 #pragma once
 
 #include "number.hpp"
@@ -116,7 +116,7 @@ template <class N, class Place>
 template <int slot>
 inline constexpr int phase = slot < 4 ? slot : slot - 4;
 
-/// The sum of u_j v_{k-j} for j = 1 ... k - 1. `sums` is what `earlier_product` has stored.
+/// The sum of u_j v_{k-j} for j = 1 ... k - 1. `sums` has the results of `earlier_product`.
 template <int slot, class N>
 [[gnu::always_inline]] inline N inner(Row<N> u, Row<N> v, Row<N> sums, Index k) {
   constexpr int p = phase<slot>;

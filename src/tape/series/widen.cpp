@@ -52,7 +52,7 @@ class Widening {
   Index new_row() { return wide_row_size * wide_.rows++; }
 
   /// Alike instructions that do not need each other have one key: the level is 1 + the highest
-  /// level of what is read. False if an instruction has no wide kernel.
+  /// level of the rows that are read. False if an instruction has no wide kernel.
   bool sort() {
     std::vector<int> levels(static_cast<std::size_t>(program_.rows), 0);
     const auto level_of = [&](Index row) -> int& {
@@ -164,7 +164,7 @@ class Widening {
     }
   }
 
-  /// A wide row whose first `count` lanes are these: one that exists, or a copy.
+  /// A wide row whose first `count` lanes are these: an existing row, or a copy.
   Index operand(const Lanes& rows, std::size_t count) {
     const Index first = place(rows[0]);
     bool exists = first >= 0 && first % lanes == 0, all_known = true;

@@ -16,7 +16,7 @@ inline double entry(const VectorView& values, Index i) {
   return values[values.size() == 1 ? 0 : i];
 }
 
-/// The shape that fits all of them; a ShapeMismatchError if vectors of different widths meet.
+/// The shape that fits all inputs. Throws ShapeMismatchError if vectors of different widths meet.
 Shape stretched(const std::string& block, std::span<const Shape> shapes);
 
 /// The rule for an output that combines the block's inputs with `parameters`, entry by entry.

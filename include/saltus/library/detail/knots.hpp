@@ -1,4 +1,5 @@
-// The pieces between increasing knots, found by halving, of which the parity is held.
+// The pieces between increasing knots, which are found by halving. A relation holds the parity of
+// the piece.
 #pragma once
 
 #include <algorithm>
@@ -21,10 +22,10 @@ class Knots {
   Index size() const { return static_cast<Index>(knots_.size()); }
   double operator[](Index k) const { return knots_[k]; }
 
-  /// The number of knots at or before u: that of its piece.
+  /// The number of knots at or before u, which is the number of its piece.
   Index piece(double u) const { return std::ranges::upper_bound(knots_, u) - knots_.begin(); }
 
-  /// The piece of u, or the neighbour nearest to u if that piece is not of the kind that is held.
+  /// The piece of u if it has the held parity, otherwise the neighbour that is nearest to u.
   Index held(double u, bool even) const {
     const Index now = piece(u);
     if ((now % 2 == 0) == even) return now;

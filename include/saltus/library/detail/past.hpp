@@ -32,9 +32,10 @@ constexpr Index whole(double number, Index least, Index most) {
   return number < static_cast<double>(most) ? static_cast<Index>(number) : most;
 }
 
-/// A view of such a state, for a signal of n entries. Each piece is a polynomial of degree 8, given
-/// by its values at the Chebyshev points of the second kind, which include both ends; it is read by
-/// the barycentric formula (J.-P. Berrut, L. N. Trefethen, SIAM Review 46 (2004) 501, eq. 5.4).
+/// A view of the state that keeps the past of a signal of n entries. Each piece is a polynomial of
+/// degree 8, given by its values at the Chebyshev points of the second kind, which include both
+/// ends; it is read by the barycentric formula (J.-P. Berrut, L. N. Trefethen, SIAM Review 46
+/// (2004) 501, eq. 5.4).
 /// A stretch is the pieces from one break to the next. Only one stretch is open, so a reader never
 /// sees the signal of the other side of a break, however its time was rounded.
 class Past {
@@ -50,11 +51,11 @@ class Past {
   bool none_open() const { return open_end() == 0; }
   double begin(Index k) const { return piece(k)[0]; }  ///< [s]
   double end(Index k) const { return piece(k)[1]; }    ///< [s]
-  /// [s] The begin of the first stretch that is not open yet; infinite if there is none.
+  /// [s] The begin of the first stretch that is not open yet; infinite if all are open.
   double next_break() const {
     return open_end() < pieces() ? begin(open_end()) : std::numeric_limits<double>::infinity();
   }
-  /// The signal at s, as the open stretch has it; at its ends for an s outside.
+  /// The signal at s in the open stretch; for an s outside of it, the signal at its nearer end.
   void value(double s, VectorRef u) const;
 
  protected:
@@ -64,7 +65,8 @@ class Past {
   static Index stride(Index n) { return 3 + points * n; }
   Index open_begin() const { return count(1, std::max<Index>(open_end() - 1, 0)); }
   Index open_end() const { return count(2, pieces()); }
-  /// A user may have written anything to a context: no number leads out of the state.
+  /// A user may have written anything to a context, so no number is used as a place before it is
+  /// limited.
   Index count(int entry, Index most) const { return whole(z_[entry], 0, most); }
   int level(Index k) const {
     return static_cast<int>(whole(piece(k)[2], no_break, last_break_level));
@@ -78,7 +80,7 @@ class Past {
   Index n_, capacity_;
 };
 
-/// The one writer of a past.
+/// Writes a past. Nothing else does.
 class PastWriter : public Past {
  public:
   PastWriter(VectorRef z, Index n) : Past({z.data(), z.size()}, n), out_(z.data()) {}

@@ -13,7 +13,7 @@ struct Polynomials {
 
   /// The degree of the denominator: the number of states.
   Index order() const { return denominator.size() - 1; }
-  /// Whether the degrees are equal: the input then reaches the output at once.
+  /// Whether the degrees are equal, so that the input reaches the output at once.
   bool feedthrough() const { return numerator.size() == denominator.size(); }
 };
 

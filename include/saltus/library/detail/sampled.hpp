@@ -8,9 +8,9 @@
 
 namespace saltus::detail {
 
-/// At a tick all outputs change first, in the order of their wires, and then all states: blocks in
-/// a row add no delay to their own. Between ticks the output does not move, whatever the input
-/// does.
+/// At a tick all outputs change first, in the order of their wires, and then all states, so a row
+/// of blocks adds no delay to their own. Between ticks the output does not change, whatever the
+/// input does.
 class SampledSystem : public LeafSystem {
  protected:
   using LeafSystem::LeafSystem;

@@ -6,7 +6,7 @@
 
 namespace saltus::detail {
 
-/// Time [s] since `offset`, a few roundings ahead. Times that differ by rounding only are one
+/// The time [s] since `offset`, a few roundings ahead. Times that differ by rounding only are one
 /// instant, so an event may be handled a few ulps before its time. Without the lead the tick would
 /// be missed there, and never counted later.
 inline double since(double time, double offset) {

@@ -10,7 +10,8 @@
 
 namespace saltus::detail {
 
-/// What `word` means by a table of words; a ModelError with the nearest known word if it is none.
+/// The meaning of `word` in a table of words. Throws ModelError with the nearest known word if the
+/// table does not have it.
 template <class Table>
 auto meaning(const std::string& block, std::string_view what, std::string_view word,
              const Table& table) {

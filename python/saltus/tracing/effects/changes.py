@@ -1,4 +1,4 @@
-"""`Changes`: which values that a trace was made from may change during a run, and by whom."""
+"""`Changes`: the values behind a trace that may change during a run, and their writers."""
 
 from __future__ import annotations
 
@@ -22,11 +22,11 @@ class Change(NamedTuple):
     """A value that may change."""
 
     words: str
-    """how the user knows it, such as "self.drag\""""
+    """the user's words for it, such as "self.drag\""""
     writer: str
     """the callback that may write it"""
     unknown: str
-    """why it may, if the code of the writer does not show it; or nothing"""
+    """the reason, if the code of the writer does not show the write; or nothing"""
 
 
 def _memories(value: Any) -> Iterator[int]:
@@ -39,13 +39,15 @@ def _memories(value: Any) -> Iterator[int]:
 
 
 def _is_data(key: Any, value: Any) -> bool:
-    """A value that code which nobody can read may change: no function, class or part of one."""
+    """Whether unreadable code may change the value: it may if the value is no function, class or
+    part of one.
+    """
     inner = isinstance(key, str) and key.startswith("__")
     return not inner and value is not MISSING and not isinstance(value, FIXED)
 
 
 class Changes:
-    """All that the called callbacks of a run may write; `of` asks for one trace."""
+    """Everything that the called callbacks of a run may write; `of` answers for one trace."""
 
     def __init__(self) -> None:
         self._binds: dict[str, str] = {}
@@ -54,7 +56,7 @@ class Changes:
         self._kept: list[Writes] = []  # so that no identity is used twice
 
     def add(self, writer: str, writes: Writes) -> None:
-        """One more callback, by the words for it."""
+        """Adds a callback, with the user's words for it."""
         self._kept.append(writes)
         for name in writes.binds:
             self._binds.setdefault(name, writer)

@@ -37,12 +37,12 @@ DYNAMIC = frozenset(
     __setstate__ ctypes
     """.split()
 )
-"""names with which a function can reach or write what its code does not name"""
+"""names with which a function can reach or write objects that its code does not name"""
 
 
 @dataclass(frozen=True)
 class Facts:
-    """What one function, with those inside it, looks up and writes."""
+    """The names that one function, with the functions inside it, looks up and writes."""
 
     names: frozenset[str]
     """every attribute and global variable it may look up"""
@@ -53,9 +53,11 @@ class Facts:
     mutates: bool
     """it writes to an entry of something, or calls a function that may"""
     arguments: int
-    """how many the longest call has; one more than a function of NumPy needs may be its `out`"""
+    """the number of arguments of the longest call; one argument more than a function of NumPy needs
+    may be its `out`
+    """
     dynamic: str
-    """a name with which it can write anything; or nothing"""
+    """a name with which it can write everything; or nothing"""
 
 
 def _all(code: CodeType) -> Iterator[CodeType]:
@@ -84,7 +86,7 @@ def _in_place(instruction: dis.Instruction) -> bool:
 def _arguments(instruction: dis.Instruction) -> int:
     name = instruction.opname
     if name == "CALL_FUNCTION_EX":
-        return 1000  # it is not known how many
+        return 1000  # an unknown number of arguments
     call = name.startswith("CALL") and "INTRINSIC" not in name
     return instruction.arg or 0 if call else 0
 

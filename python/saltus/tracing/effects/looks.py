@@ -24,13 +24,13 @@ class Looks:
 
     def __init__(self) -> None:
         self.whole = True
-        """False: something was looked at that cannot be looked at again"""
+        """False if something was looked at that cannot be looked at again"""
         self._entries: list[tuple[Any, Any, Any]] = []
         self._parts: list[tuple[Parts, Any, list[Any]]] = []
         self._kinds: list[tuple[Any, type]] = []
 
     def entry(self, mapping: Any, key: str) -> None:
-        """An entry of a dictionary or of a class, also one that is not there."""
+        """An entry of a dictionary or of a class, also a missing entry."""
         self._entries.append((mapping.get, key, mapping.get(key, MISSING)))
 
     def parts(self, parts: Parts, value: Any) -> None:
@@ -66,7 +66,7 @@ class Looks:
 
 
 def _differ(now: Any, value: Any) -> bool:
-    """Whether they lead a search elsewhere; a number or a text leads nowhere."""
+    """Whether values lead a search to other objects; a number or a text does not."""
     return now is not value and not (isinstance(now, PLAIN) and isinstance(value, PLAIN))
 
 

@@ -2,7 +2,7 @@
 
 An object is reached from another one by an attribute if the code that was found names it anywhere,
 by all its entries if it is a container, and by everything it refers to if it is an object of a
-library. So what is found is too much rather than too little.
+library. So the search finds too much rather than too little.
 """
 
 from __future__ import annotations
@@ -62,7 +62,7 @@ def _items(container: Any) -> Iterable[Any]:
 
 
 def _generated(entry: Any) -> bool:
-    """Whether a method is one that dataclasses writes: it compares, shows or freezes fields."""
+    """Whether dataclasses wrote a method: such a method compares, shows or freezes fields."""
     function = getattr(entry, "__wrapped__", entry)
     code = getattr(function, "__code__", None)
     return code is not None and code.co_filename == "<string>" and code.co_name != "__init__"
@@ -82,7 +82,7 @@ class Reach:
         self.touched: dict[int, Any] = {}
         self.mutates = False
         self.unknown = ""
-        """why it may write anything; or nothing"""
+        """the reason why it may write everything; or nothing"""
         self.looks = Looks()
         """objects at which it has looked"""
         self._arguments = 0  # of the longest call
@@ -293,5 +293,5 @@ def _entries(holder: Any, name: str) -> Iterator[Any]:
 def _of_slot(descriptor: Any, holder: Any) -> list[Any]:
     try:
         return [descriptor.__get__(holder, type(holder))]
-    except (AttributeError, TypeError):  # not set, or of another class
+    except (AttributeError, TypeError):  # not set, or set by another class
         return []

@@ -24,7 +24,7 @@ class Writes:
     touched: dict[int, Any]
     """lists, dictionaries, sets and owners of arrays whose entries it may change"""
     unknown: str
-    """why it may write anything else; or nothing"""
+    """the reason why it may write everything else; or nothing"""
     looks: Looks
     """objects at which the search has looked"""
 

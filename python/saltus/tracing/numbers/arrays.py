@@ -31,7 +31,7 @@ __all__ = [
 
 Objects = NDArray[np.object_]
 
-LARGEST_TABLE = 64  # entries a value may choose from; each is compared at every evaluation
+LARGEST_TABLE = 64  # entries to choose from by a value; each is compared at every evaluation
 
 TYPES = {"b": np.dtype(bool), "i": np.dtype(np.int64), "f": np.dtype(np.float64)}
 WHOLE: dict[str, str] = {"b": "b", "i": "i", "u": "i", "f": "f"}
@@ -76,7 +76,7 @@ def _stacked(parts: list[Objects]) -> Objects:
 
 
 def _entry(item: Any) -> Any:
-    """The entry in an array of no dimension, which numpy may have put it in."""
+    """The entry of an array without dimensions, in which numpy may have put it."""
     return item[()] if isinstance(item, np.ndarray) and not item.ndim else item
 
 
@@ -116,7 +116,7 @@ def is_known(data: Objects) -> bool:
 
 
 def known(value: SymbolArray, what: str) -> NDArray[Any]:
-    """The plain array of numbers, where all of them are known."""
+    """The plain array of numbers, if all of them are known."""
     items = [item.known(what, "make it fixed") if type(item) is Symbol else item
              for item in value.data.flat]  # fmt: skip
     return np.array(items, dtype=TYPES[value.kind]).reshape(value.shape)

@@ -1,7 +1,7 @@
 """Functions that choose, np.where, np.select, np.clip, np.interp, and functions that test numbers.
 
-Each computes all its branches and keeps one. In a derivative that is a kink which no guard
-locates, as when the function is called: the error control of the solver meets it.
+Each computes all its branches and keeps one. In a derivative this makes a kink which no guard
+locates. The error control of the solver has to deal with it, as when the function is called.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from saltus.tracing.refusal import refuse
 
 __all__ = ["CHOICES", "clip", "round_"]
 
-LARGEST_TABLE = 64  # points of np.interp; every one of them is computed at every evaluation
+LARGEST_TABLE = 64  # the number of points of np.interp; each is computed at every evaluation
 
 
 def where(condition: Any, *branches: Any) -> Any:

@@ -130,7 +130,7 @@ def _missing(self: Symbol, name: str) -> Any:
 def _looked_up(self: SymbolArray, key: Symbol) -> Any:
     """Entry (or row) `key`, an integer that is not known, such as the mode.
 
-    NaN beyond the ends, where numpy raises.
+    NaN beyond the ends, for which numpy raises.
     """
     n = len(self.data)
     if key.kind != "i" or n > LARGEST_TABLE:

@@ -18,7 +18,7 @@ EMPTY = {"add": 0.0, "mul": 1.0, "logical_and": True, "logical_or": False}
 
 
 def _columns(a: SymbolArray, axis: Any) -> tuple[Objects, int]:
-    """The entries with the axes to fold last and flattened, and how many axes those were."""
+    """The entries with the folded axes last and flattened, and the number of these axes."""
     axes = tuple(range(a.ndim)) if axis is None else axis if isinstance(axis, tuple) else (axis,)
     axes = tuple(int(k) for k in axes)
     moved = np.moveaxis(a.data, axes, range(a.ndim - len(axes), a.ndim))
@@ -81,7 +81,7 @@ def _accumulated(name: str, a: SymbolArray, axis: Any) -> Any:
 
 
 def folding(name: str, accumulate: bool = False) -> Callable[..., Any]:
-    """np.sum, np.prod, ... as methods and functions: over all axes if not said."""
+    """np.sum, np.prod, ... as methods and functions, by default over all axes."""
 
     def function(a: Any, axis: Any = None, dtype: Any = None, out: Any = None, **o: Any) -> Any:
         return fold(name, accumulate, a, axis, dtype, out, **o)

@@ -1,6 +1,6 @@
-"""Arithmetic of single numbers, known or symbolic: numpy's for what is known, else a new node.
+"""Arithmetic of single numbers: known numbers are computed by numpy, symbolic ones make a new node.
 
-`SCALARS` has every operation of the graph by its name, and what is made of several of them.
+`SCALARS` has every operation of the graph by its name, and the operations that are made of several.
 """
 
 from __future__ import annotations

@@ -11,7 +11,7 @@ from saltus.tracing.refusal import refuse
 __all__ = ["ORDER", "Symbol", "joint", "kind_of"]
 
 ORDER = "bif"  # truth, integer, real: an operation on two kinds gives the later one
-LARGEST = 100_000  # nodes; a longer tape gains nothing over numpy
+LARGEST = 100_000  # the largest number of nodes; a longer tape gains nothing over numpy
 
 VARIABLES = {"time", "continuous_state", "discrete_state", "entry", "parameter", "input"}
 
@@ -54,7 +54,7 @@ class Symbol:
 
     @property
     def value(self) -> float | None:
-        """The number, where it is known after all."""
+        """The number, if it is known after all."""
         number: float | None = self.graph.value(self.node)
         return number
 

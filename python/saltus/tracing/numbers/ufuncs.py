@@ -78,7 +78,7 @@ def _two(ufunc: np.ufunc, arguments: tuple[Any, ...]) -> tuple[Any, Any]:
 
 
 def reduce_ufunc(ufunc: np.ufunc, method: str, *arguments: Any, **options: Any) -> Any:
-    """np.add.reduce(x) and the like, on the entries as objects."""
+    """np.add.reduce(x) and similar reductions, on the entries as objects."""
     name = UFUNCS.get(ufunc)
     if name is None or method not in ("reduce", "accumulate", "outer"):
         refuse(f"calls np.{ufunc.__name__}.{method}, which has no symbolic form")

@@ -32,7 +32,7 @@ GONE = object()
 PLAIN = (bool, int, float, str, bytes, complex, type(None), np.generic)
 """values that never change"""
 
-LARGEST = 10_000  # entries; a comparison before every run has to be quick
+LARGEST = 10_000  # the largest number of entries; a comparison before every run has to be quick
 
 Get = Callable[[Any, Any], Any]
 
@@ -98,7 +98,7 @@ class AttributeOf:
             self.object = lambda: value
 
     def moved(self, move: Callable[[Any], Any]) -> Any:
-        """The same for another object."""
+        """As above, for another object."""
         value = self.object()
         other = move(value)
         return self if other is value else type(self)(other)
@@ -124,8 +124,8 @@ def _moved_get(get: Get, move: Callable[[Any], Any]) -> Get:
 class Dependencies:
     """The values a tape was made from, by the words a user knows them by.
 
-    It refers to objects weakly where it can, but to the variables of closures and what stands in
-    them as the function does: who keeps it should show it to the garbage collector.
+    It refers to objects weakly if possible, but to the variables of closures and their contents as
+    the function does. So its owner should show it to the garbage collector.
 
     Examples
     --------
@@ -162,7 +162,7 @@ class Dependencies:
         Returns
         -------
         str or None
-            such as "self.e was 0.9, is 0.8": the tape must be made anew.
+            The change, such as "self.e was 0.9, is 0.8"; the tape must then be made anew.
         """
         for words, get, key, value, inside in self._reads:
             now = get(key, MISSING)

@@ -58,7 +58,7 @@ class Ufunc:
 
 
 class NumpyType:
-    """np.float64 and the like: a type, and a function that converts."""
+    """np.float64 and similar objects: a type, and a function that converts."""
 
     def __init__(self, kind: type):
         self.type = kind
@@ -95,7 +95,9 @@ def _numpy_value(name: str, value: Any) -> Any:
 
 
 class Numpy:
-    """numpy, or numpy.linalg, as far as it has a symbolic form; the rest is refused when used."""
+    """The functions of numpy, or numpy.linalg, that have a symbolic form; the use of any other is
+    refused.
+    """
 
     def __init__(self, module: ModuleType, words: str):
         self._module = module

@@ -1,4 +1,4 @@
-"""`Sandbox`: copies of the user's functions that see symbols' forms of what they refer to.
+"""`Sandbox`: copies of the user's functions that see the symbolic forms of the objects they use.
 
 A copy has the code of the function and globals of its own: numpy, math and the builtins have faces
 that take symbols; other functions are copied likewise when they are read; everything that is read
@@ -87,7 +87,7 @@ class Sandbox:
         self._frozen_ones: list[tuple[str, Any, Any]] = []
 
     def form_of(self, value: Any, words: str) -> Any:
-        """The form of a value from outside while tracing; `words` says where it was read."""
+        """The form of a value from outside during tracing; `words` says where it was read."""
         if isinstance(value, PLAIN):
             return value
         if id(value) not in self._copies:
@@ -149,8 +149,8 @@ class Sandbox:
         return self._object(value, words)
 
     def _frozen(self, made: Any, items: Any, words: str) -> Any:
-        """The container. `refuse_writes` compares it with its first items, for its methods cannot
-        refuse list.append(it, 1).
+        """The form of a container. `refuse_writes` compares it with its first items, because its
+        methods cannot refuse list.append(it, 1).
         """
         self._frozen_ones.append((words, made, items))
         return made
