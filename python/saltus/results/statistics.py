@@ -20,7 +20,8 @@ class Statistics:
     """
 
     method: str
-    """the method that was used"""
+    """the method that was used; with 'auto' when and why it changed, with 'adams' and 'bdf' a note
+    where errors may add up beside a fast oscillation"""
     stretches: list[tuple[str, float, float, int]]
     """the method of each stretch, as (method, begin [s], end [s], steps); only 'auto' has more than
     one

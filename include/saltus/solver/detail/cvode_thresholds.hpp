@@ -53,4 +53,21 @@ inline constexpr double judged_change = 0.01;
 /// [1] CVODE's own memory of q from change to change, CRDOWN. tests/unit/contraction_test.cpp
 inline constexpr double ratio_memory = 0.3;
 
+// --- fast parts that are hardly damped: hardly_damped.hpp
+
+/// [h |lambda|] BDF follows a slower part: a twelfth of a period. It damps a faster one: the regions
+/// where orders 3 to 5 amplify end at 2, 5 and 10 on the imaginary axis.
+/// tests/unit/hardly_damped_test.cpp
+inline constexpr double followed_reach = 0.5, damped_reach = 12.0;
+/// [of the steps] that the convergence of Adams' corrector has shortened: 0.25 to 0.5 beside fast
+/// modes (+- 30i, 300i, a clamped beam), at most 0.06 where accuracy bounds the steps (Kepler, an
+/// oscillator; rtol 1e-3 to 1e-8). tests/unit/hardly_damped_test.cpp
+inline constexpr double bounded_share = 0.12;
+/// [1] The damping ratio up to which the errors of a part may add up: an estimate for many modes,
+/// those of a beam, is 0.16. tests/unit/hardly_damped_test.cpp
+inline constexpr double undamped = 0.3;
+/// [steps] until the first look; each later one is after twice as many. [looks] that have to show
+/// such a part. tests/unit/hardly_damped_test.cpp
+inline constexpr int first_look_of_doubt = 32, looks_of_doubt = 2;
+
 }  // namespace saltus::thresholds

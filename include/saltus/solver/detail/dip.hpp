@@ -14,21 +14,17 @@ struct Dip {
   /// `highest`.
   double vertex(double highest) const {
     if (!(g[0] > 0.0 && g[1] > 0.0 && g[2] > 0.0)) return nowhere;
-    const double left = (g[1] - g[0]) / (u[1] - u[0]), right = (g[2] - g[1]) / (u[2] - u[1]);
-    const double bend = (right - left) / (u[2] - u[0]);
-    const double slope = left + bend * (u[1] - u[0]);
-    if (!(bend > 0.0) || g[1] - slope / (4.0 * bend) * slope > highest) return nowhere;
-    const double at = u[1] - slope / (2.0 * bend);
+    const double left = slope(0), opens = bend();
+    const double tilt = left + opens * (u[1] - u[0]);  // the slope at u[1]
+    if (!(opens > 0.0) || g[1] - tilt / (4.0 * opens) * tilt > highest) return nowhere;
+    const double at = u[1] - tilt / (2.0 * opens);
     return at == u[0] || at == u[1] || at == u[2] ? nowhere : at;
   }
-  /// A new look replaces an outer one.
-  void replace(double at, double value) {
-    const bool behind = at > u[1], lower = value < g[1];
-    const int out = behind == lower ? 0 : 2;  // the outer look that is not next to the lowest
-    const double inner = u[1], inner_g = g[1];
-    u[out] = lower ? inner : at, g[out] = lower ? inner_g : value;
-    if (lower) u[1] = at, g[1] = value;
-  }
+  /// Half of the second derivative of that parabola.
+  double bend() const { return (slope(1) - slope(0)) / (u[2] - u[0]); }
+
+ private:
+  double slope(int i) const { return (g[i + 1] - g[i]) / (u[i + 1] - u[i]); }
 };
 
 }  // namespace saltus

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "saltus/solver/detail/crowd_locator.hpp"
+#include "saltus/solver/detail/descent.hpp"
 #include "saltus/solver/detail/dip.hpp"
 
 namespace saltus {
@@ -13,7 +14,10 @@ namespace saltus {
 /// the piece between the last two, or in the one before, where nothing was seen without the third.
 class DipSearch : protected CrowdLocator {
  protected:
-  using CrowdLocator::CrowdLocator;
+  DipSearch(Machine& machine, GuardSet& guards, const LocatedGuards& located)
+      : CrowdLocator(machine, guards, located) {
+    beside_.assign(machine.plan().guard_slots, 1.0);
+  }
 
   /// No guard fired at `to`: the offset of a dip at which a guard fires. If there is none, returns
   /// `never` and moves `from` to the end of the part that was looked at.
@@ -51,41 +55,45 @@ class DipSearch : protected CrowdLocator {
     from = std::exchange(earlier_at_, never), oldest_at_ = never;
   }
 
-  /// The offset between two looks at which a guard seems to cross zero and come back. It is the
-  /// vertex of the parabola through three looks, moved by successive parabolic interpolation (R. P.
-  /// Brent, "Algorithms for Minimization without Derivatives", 1973, ch. 5) until the guard there
-  /// is beyond zero. `middle_` then has the guards at that offset; `never` if there is no such
-  /// offset.
+  /// The offset between two looks at which a guard crosses zero and comes back. `middle_` then has
+  /// the guards at that offset; `never` if there is no such offset.
   template <class Interpolate>
   double find_dip(double from, double to, const Interpolate& interpolate) {
     if (earlier_at_ == never) return never;
-    const double first = may_go_back_ ? earlier_at_ : from;
+    const TurnRange turn = turn_range(from, to);
     for (const std::size_t k : located_->slots) {
       const Guard& guard = (*guards_)[k];
-      if (guard.side == 0 || guard.at_zero() || guard.jumps || !may_dip(k, from, to)) continue;
-      Dip dip{{earlier_at_, from, to},
-              {guard.side * earlier_[k], guard.side * guards_->g[k], guard.side * high_[k]}};
-      // A touch within rounding is no dip; nor is a vertex far above zero.
-      const double size = std::max({dip.g[0], dip.g[1], dip.g[2]});
-      double u = dip.vertex(thresholds::shallow_dip * size);
-      for (int round = 0; round < thresholds::dip_looks && u > first && u < to; ++round) {
-        look(u, nullptr, interpolate, middle_);
-        const double g = guard.side * middle_[k];
-        if (g < -thresholds::dip_rounding * size) return u;
-        dip.replace(u, g);
-        u = dip.vertex(thresholds::slow_dip * dip.g[1]);
-      }
+      if (guard.side == 0 || guard.at_zero() || guard.jumps) continue;
+      const Dip dip{{earlier_at_, from, to},
+                    {guard.side * earlier_[k], guard.side * guards_->g[k], guard.side * high_[k]}};
+      if (!turn.contains(dip.g[1] - dip.g[0], dip.g[2] - dip.g[1])) continue;
+      const double u = follow_slope(k, dip, interpolate);
+      if (u != never) return u;
     }
     return never;
   }
 
-  /// Whether the parabola through the three looks has a vertex between them.
-  bool may_dip(std::size_t k, double from, double to) const {
-    const double side = (*guards_)[k].side, r = (to - from) / (from - earlier_at_);
-    const double rise = side * (high_[k] - guards_->g[k]),
-                 earlier_rise = side * (guards_->g[k] - earlier_[k]);
-    return rise * (1.0 + 2.0 * r) > earlier_rise * r * r && rise > earlier_rise * r * (2.0 + r);
+  /// Follows the slope of guard k from the vertex of the parabola through three looks to its least
+  /// value. Returns the offset where it is beyond zero; `never` if it comes to none.
+  template <class Interpolate>
+  double follow_slope(std::size_t k, const Dip& dip, const Interpolate& interpolate) {
+    const double size = std::max({dip.g[0], dip.g[1], dip.g[2]});
+    const double vertex = dip.vertex(thresholds::shallow_dip * size);
+    if (vertex == never) return never;
+    const double side = (*guards_)[k].side, near = thresholds::near_share * (dip.u[2] - dip.u[1]);
+    Descent descent(may_go_back_ ? dip.u[0] : dip.u[1], dip.u[2], vertex, dip.bend());
+    for (int round = 0; round < thresholds::dip_looks; ++round) {
+      const double u = descent.at(), beside = u + near < dip.u[2] ? near : -near;
+      look(u, nullptr, interpolate, middle_);
+      const double g = side * middle_[k];
+      if (g < -thresholds::dip_rounding * size) return u;  // a touch within rounding is no dip
+      look(u + beside, nullptr, interpolate, beside_);
+      if (!descent.take(g, (side * beside_[k] - g) / beside, 0.5 * beside)) break;
+    }
+    return never;
   }
+
+  List<double> beside_;  // guards next to a look, for their slopes
 };
 
 }  // namespace saltus

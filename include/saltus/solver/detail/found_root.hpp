@@ -41,15 +41,23 @@ class FoundRoot : protected DipSearch {
     return stops;
   }
 
-  /// Gives a monitor located exactly on zero its side: the sign at a point slightly later.
+  /// Gives a monitor located exactly on zero its side: the sign at a point slightly later, where it
+  /// is beyond the rounding that its last bracket showed.
   template <class Interpolate>
   void leave_zero_of_monitors(double from, double to, const Interpolate& interpolate) {
     const auto unsure = [&](std::size_t k) { return (*guards_)[k].side == 0; };
     if (std::ranges::none_of(crossed_, unsure)) return;
+    const auto rounded = [&](std::size_t k) {
+      return unsure(k) && std::abs(middle_[k]) <= noise_[k];
+    };
     const double resolution = thresholds::eps * (std::abs(t0_) + from);
-    look(std::min(to, from + std::max(thresholds::leave_roundings * resolution,
-                                      thresholds::leave_share * (to - from))),
-         nullptr, interpolate, middle_);
+    double later =
+        std::max(thresholds::leave_roundings * resolution, thresholds::leave_share * (to - from));
+    for (;; later *= thresholds::leave_growth) {
+      const double at = std::min(to, from + later);
+      look(at, nullptr, interpolate, middle_);
+      if (!(at < to) || std::ranges::none_of(crossed_, rounded)) break;
+    }
     for (const std::size_t k : crossed_) {
       if (unsure(k)) guards_->leave_to(k, sign_of(middle_[k]));
     }

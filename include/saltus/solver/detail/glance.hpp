@@ -10,6 +10,7 @@
 #include "saltus/base/list.hpp"
 #include "saltus/solver/detail/narrow.hpp"
 #include "saltus/solver/detail/search_thresholds.hpp"
+#include "saltus/solver/detail/turn_range.hpp"
 
 namespace saltus {
 
@@ -67,23 +68,20 @@ class Glance : protected Narrower {
   /// between, nor in the piece before, where the look at `to` shows more. This is true in most
   /// steps.
   bool nothing_fired(double from, double to) const {
-    const double r = (to - from) / (from - earlier_at_);
+    const TurnRange turn = turn_range(from, to);
     const bool dips = earlier_at_ != never && scans();
-    const double back = r * (2.0 + r);
     for (std::size_t i = 0; i < plain_.size(); ++i) {
       const double side = plain_[i];
       const std::size_t k = located_->slots[i];
       const double now = side * high_[k], before = side * guards_->g[k];
       if (!(now > 0.0 && now < never)) return false;  // never is infinite
-      if (!dips) continue;
-      const double rise = now - before, earlier_rise = before - side * earlier_[k];
-      // The parabola falls at `from` and rises at `to`; or falls at the earlier look and rises
-      // here.
-      const double turn = -earlier_rise * r * r;
-      if (rise < turn ? rise * (1.0 + 2.0 * r) > -turn : may_go_back_ && rise > earlier_rise * back)
-        return false;
+      if (dips && turn.contains(before - side * earlier_[k], now - before)) return false;
     }
     return true;
+  }
+  /// Where the last three looks, the last of them at `to`, can show a dip.
+  TurnRange turn_range(double from, double to) const {
+    return {(to - from) / (from - earlier_at_), may_go_back_, to == end_at_};
   }
   /// The look at `from` becomes the look before the next one, and no guard fired. A step keeps a
   /// part of the speeds of those before; its pieces keep all of those of the step.
@@ -135,6 +133,7 @@ class Glance : protected Narrower {
   // The piece that begins at the look before the last is of this step, and nothing fired in it.
   bool may_go_back_ = false;
   int scan_points_ = 0;  // interior points of a step with a look
+  double end_at_ = 0.0;  // where the part of a step that is searched ends
 
  private:
   List<double> plain_;         // plain_side() of each active guard

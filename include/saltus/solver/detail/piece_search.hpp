@@ -61,7 +61,6 @@ class PieceSearch : protected FoundRoot {
   }
 
   List<double> end_;  // guards at the end of the step, until the look at its last piece
-  double end_at_ = 0.0;
   bool to_root_ = false;
   bool records_may_differ_ = false;  // from those where the pieces of the step began
 

@@ -45,6 +45,9 @@ inline constexpr double short_share = 1e-3;
 /// [eps t] and [of the interval]: how far after its root a monitor is looked at for its side.
 /// tests/laws/tangent_pairs_test.cpp
 inline constexpr double leave_roundings = 64.0, leave_share = 1e-9;
+/// [1] Growth of that distance while the monitor is within its rounding: each look gains three of
+/// the thirty bits of the interval. tests/laws/close_pairs_test.cpp (as small)
+inline constexpr double leave_growth = 8.0;
 /// [steps] Looks inside steps that need none: the first after seven, then 15, 31, 63.
 /// tests/unit/locate_test.cpp
 inline constexpr int least_patience = 7, most_patience = 63;
@@ -56,13 +59,14 @@ inline constexpr double speed_memory = 0.5;
 /// [of the largest of three looks] The vertex of a parabola above this is no dip worth a look.
 /// tests/unit/dip_search_test.cpp
 inline constexpr double shallow_dip = 0.25;
-/// [of the middle look] A vertex above this brings the minimum no nearer to zero.
+/// [of the last look] A vertex above this brings the minimum no nearer to zero.
 /// tests/unit/dip_search_test.cpp
 inline constexpr double slow_dip = 0.5;
 /// [of the largest of three looks] A touch of zero within this is rounding, no dip.
 /// tests/unit/dip_search_test.cpp
 inline constexpr double dip_rounding = 1e-12;
-/// [looks] at the vertex: each has twice as many digits as the one before; 2^6 > 53.
+/// [places] on the way to the least value: each has 1.6 times the digits of the one before, from one
+/// or two at the vertex of the parabola; 1.6^6 > 16.
 /// tests/laws/tangent_pairs_test.cpp
 inline constexpr int dip_looks = 6;
 

@@ -72,8 +72,10 @@ class StepSolver : public Interface {
   }
 
   const SolverStatistics& statistics() const override { return statistics_; }
+  /// The method, without what `method` adds for the statistics.
+  virtual std::string name() const { return this->method(); }
   std::vector<Stretch> stretches() const final {
-    return {{this->method(), run_begun_, time_, this->statistics().steps}};
+    return {{name(), run_begun_, time_, this->statistics().steps}};
   }
   bool at_step_end() const final { return delivered_; }
   double time() const final { return time_; }
