@@ -77,7 +77,12 @@ def _event(scope: RunningScope, each: Any, name: str, trigger: int) -> Event:
 
     says, new = each.getTrigger(), each.getLevel() > 2
     assigned = [a for a in items(each, "EventAssignment") if a.getMath() is not None]
-    _require_assignable(scope, name, [a.getVariable() for a in assigned])
+    for target in (a.getVariable() for a in assigned):
+        if target not in scope.kinds.places:
+            raise ModelError(
+                f"event '{name}': it assigns '{target}', which a rule determines; "
+                "an event assigns what no assignment or algebraic rule determines"
+            )
     delay = node(each.getDelay())
     return Event(
         name=name,
@@ -97,12 +102,3 @@ def _priority(f: Nodes, given: int | None) -> int:
         return f(LOWEST)
     limited = f("maximum", f("minimum", given, LARGEST), LOWEST)
     return f("select", f("eq", given, given), limited, LOWEST)
-
-
-def _require_assignable(scope: RunningScope, name: str, targets: list[str]) -> None:
-    for target in targets:
-        if target not in scope.kinds.places:
-            raise ModelError(
-                f"event '{name}': it assigns '{target}', which a rule determines; "
-                "an event assigns what no assignment or algebraic rule determines"
-            )

@@ -16,7 +16,7 @@ __all__ = ["InitialScope", "Scope"]
 
 
 class Scope:
-    """The meaning of the ids. A derived class knows the place of a number that no formula defines."""
+    """The meaning of the ids. A derived class has the places of numbers without a formula."""
 
     at_instants = False
     """whether formulas are read at instants only: an event may have set what the model has not"""

@@ -168,7 +168,7 @@ class Model(LeafSystem):
                 self.declare_zero_crossing,
                 instant.positive(instant.truths[i]),
                 direction="rising",
-                delay=instant.number(event.delay),
+                delay=None if event.delay is None else instant.number(event.delay),
             )
             declare(
                 reset_map=instant.execute(i),
