@@ -38,8 +38,8 @@ def time_course(
     start, duration : float
         in the model's unit of time; the run begins at time 0.
     variables : list of str
-        ids of the model. A species in `amount` or in `concentration` is shown so, others by what
-        their ids stand for in formulas.
+        ids of the model. A species in `amount` or in `concentration` is shown so, every other id
+        has the value that it has in formulas.
     options
         of `SimulatorOptions`, such as `event_seed` for the order of events of equal priority. The
         tolerances are rtol=1e-9, atol=1e-13 if not said. Where a comparison is one of a curve, such

@@ -10,13 +10,20 @@ from saltus.sbml.nodes import Nodes
 from saltus.sbml.quantities import items
 from saltus.sbml.running import RunningScope
 
-__all__ = ["HIGHEST", "Event", "events_of"]
+__all__ = ["ASSIGNED", "CROSSED", "END", "HIGHEST", "START", "Event", "events_of"]
 
+START, CROSSED, ASSIGNED, END = OWN = (
+    "start of the run",
+    "comparison crossed",
+    "values assigned",
+    "end of the instant",
+)
+"""names of what happens beside the events; an id has no spaces"""
 HIGHEST = 1e300
 """a priority before those of all events"""
 LARGEST, LOWEST = 1e299, -1e299
-"""the limits of a priority; the lowest is that of an event without one, so that the look at what is
-left comes after all events
+"""the limits of a priority; the lowest is that of an event without one, so that the end of the
+instant comes after all events
 """
 
 
@@ -41,7 +48,7 @@ def events_of(scope: RunningScope) -> list[Event]:
     declared = scope.kinds.declared
     triggers = [_trigger(scope, each) for each in declared.events]
     scope.at_instants = True
-    names: set[str] = set()
+    names = set(OWN)
     events = []
     for i, each in enumerate(declared.events):
         name = _new(each.getId() or each.getName() or f"event {i + 1}", names)
@@ -70,7 +77,12 @@ def _event(scope: RunningScope, each: Any, name: str, trigger: int) -> Event:
 
     says, new = each.getTrigger(), each.getLevel() > 2
     assigned = [a for a in items(each, "EventAssignment") if a.getMath() is not None]
-    _require_assignable(scope, name, [a.getVariable() for a in assigned])
+    for target in (a.getVariable() for a in assigned):
+        if target not in scope.kinds.places:
+            raise ModelError(
+                f"event '{name}': it assigns '{target}', which a rule determines; "
+                "an event assigns what no assignment or algebraic rule determines"
+            )
     delay = node(each.getDelay())
     return Event(
         name=name,
@@ -90,12 +102,3 @@ def _priority(f: Nodes, given: int | None) -> int:
         return f(LOWEST)
     limited = f("maximum", f("minimum", given, LARGEST), LOWEST)
     return f("select", f("eq", given, given), limited, LOWEST)
-
-
-def _require_assignable(scope: RunningScope, name: str, targets: list[str]) -> None:
-    for target in targets:
-        if target not in scope.kinds.places:
-            raise ModelError(
-                f"event '{name}': it assigns '{target}', which a rule determines; "
-                "an event assigns what no assignment or algebraic rule determines"
-            )

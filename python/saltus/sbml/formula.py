@@ -28,6 +28,7 @@ class Formula(Known):
     """Nodes of a graph as a callback, which is not traced, for it is a tape."""
 
     __signature__ = SIGNATURE  # a model of thousands of formulas need not be asked for each
+    wrote_x = wrote_z = False
 
     def __init__(self, graph: _core.Graph, nodes: list[int], scalar: bool = False):
         self.tape = graph.tape(nodes)
@@ -44,40 +45,29 @@ class Formula(Known):
 
     def outcome(self) -> Traced:
         """As `tracing.trace` answers."""
-        return _traced(self.tape, () if self.scalar else (self.tape.size,), False, False)
+        return Traced(
+            tape=self.tape,
+            shape=() if self.scalar else (self.tape.size,),
+            boolean=False,
+            comparison=None,
+            relations=None,
+            wrote_x=self.wrote_x,
+            wrote_z=self.wrote_z,
+            wrote_mode=False,
+            dependencies=Dependencies(),
+        )
 
 
-class Assignment(Known):
-    """Nodes of a graph for the entries of the states as a reset map. All others stay."""
-
-    __signature__ = SIGNATURE
+class Assignment(Formula):
+    """Nodes for all entries of the states as a reset map; `x` is empty where it writes none."""
 
     def __init__(self, graph: _core.Graph, x: list[int], z: list[int]):
-        """`x` and `z` are nodes for all entries; `x` is empty where no state is written."""
-        self.all = Formula(graph, [*x, *z])
-        self.tape = self.all.tape
-        self.first = len(x)
+        super().__init__(graph, [*x, *z])
+        self.wrote_x, self.wrote_z = bool(x), True
 
     def __call__(self, time: float, state: Any, /, **parameters: float) -> Any:
-        found = self.all.numbers(time, state, parameters)
-        if self.first:
-            state = state.with_continuous_state(found[: self.first])
-        return state.with_discrete_state(found[self.first :])
-
-    def outcome(self) -> Traced:
-        """As `tracing.trace` answers."""
-        return _traced(self.tape, (), self.first > 0, True)
-
-
-def _traced(tape: Any, shape: tuple[int, ...], wrote_x: bool, wrote_z: bool) -> Traced:
-    return Traced(
-        tape=tape,
-        shape=shape,
-        boolean=False,
-        comparison=None,
-        relations=None,
-        wrote_x=wrote_x,
-        wrote_z=wrote_z,
-        wrote_mode=False,
-        dependencies=Dependencies(),
-    )
+        found = self.numbers(time, state, parameters)
+        first = len(state.continuous_state) if self.wrote_x else 0
+        if first:
+            state = state.with_continuous_state(found[:first])
+        return state.with_discrete_state(found[first:])

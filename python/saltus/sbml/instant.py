@@ -18,9 +18,8 @@ import numpy as np
 from saltus.sbml.crossing import Crossing
 from saltus.sbml.events import Event
 from saltus.sbml.formula import Assignment, Formula
-from saltus.sbml.kinds import FIRST, LATER, LOOK, RUNNING, STARTED, Kinds
+from saltus.sbml.kinds import FIRST, LATER, LOOK, RUNNING, STARTED, Kinds, assigned_by_events
 from saltus.sbml.nodes import Nodes
-from saltus.sbml.quantities import items
 from saltus.sbml.running import RunningScope
 from saltus.sbml.walk import Replaced
 
@@ -78,21 +77,20 @@ class Instant:
         shows the values before.
         """
         f = self.nodes
-        if not (strictly and self.scope.only_time(node)):
+        if not strictly or self.scope.follows_states(node):
             return node
         size = f("add", 1.0, f("abs", int(self.graph.time())))
         return f("sub", node, f("mul", AFTER, size))
 
     def positive(self, place: int) -> Formula:
         """A guard that rises where an entry of the discrete state, 0 before, becomes 1 or more."""
-        return Formula(self.graph, [self.nodes("sub", self.z[place], 0.5)], True)
+        return self.number(self.nodes("sub", self.z[place], 0.5))
 
     def before(self) -> Formula:
-        """Positive before the start of the run, negative from then on."""
-        return Formula(self.graph, [self.nodes("sub", 0.5, self.z[STARTED])], True)
+        return self.number(self.nodes("sub", 0.5, self.z[STARTED]))
 
-    def number(self, node: int | None) -> Formula | None:
-        return None if node is None else Formula(self.graph, [node], True)
+    def number(self, node: int) -> Formula:
+        return Formula(self.graph, [node], True)
 
     def start(self) -> Assignment:
         """The start of a run: no side is known."""
@@ -223,11 +221,7 @@ class Instant:
     def _follow_jumps(self) -> set[str]:
         """Species with a rate rule for their concentration, in a compartment that events change."""
         declared = self.kinds.declared
-        jump = {
-            each.getVariable()
-            for event in declared.events
-            for each in items(event, "EventAssignment")
-        }
+        jump = assigned_by_events(declared)
         return {
             name
             for name in declared.rates

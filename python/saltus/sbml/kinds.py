@@ -1,4 +1,4 @@
-"""What determines each number of a model, and in which memory it stands."""
+"""Which rule determines each number of a model, and which memory holds it."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ class Kinds:
 
     @cached_property
     def places(self) -> dict[str, tuple[str, int]]:
-        """Where the number of an id stands: ('x', 'z' or 'p', position)."""
+        """The place of the number of each id: ('x', 'z' or 'p', position)."""
         found = {name: ("x", i) for i, name in enumerate(self.states)}
         found |= {name: ("z", FIRST + i) for i, name in enumerate(self.held)}
         return found | {name: ("p", i) for i, name in enumerate(self.parameters)}

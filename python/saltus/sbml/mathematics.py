@@ -17,7 +17,7 @@ LARGEST_FACTORIAL = 170
 
 
 class Meaning(Protocol):
-    """What the words in a formula stand for."""
+    """The meaning of the words in a formula."""
 
     graph: Any
     functions: Mapping[str, Any]

@@ -26,7 +26,7 @@ class Quantity:
     compartment: str = ""
     """of a species"""
     substance: bool = True
-    """whether the id of a species stands for its amount, not its concentration"""
+    """whether the id of a species means its amount, not its concentration"""
     given_amount: bool = True
     """whether `value` is an amount"""
     boundary: bool = False
@@ -57,7 +57,7 @@ class Declared:
     initial: dict[str, Any] = field(default_factory=dict)
     events: list[Any] = field(default_factory=list)
     unknown: list[str] = field(default_factory=list)
-    """those that algebraic rules determine"""
+    """the ids that algebraic rules determine"""
 
     def reacted(self) -> set[str]:
         """The species whose amount is changed by reactions."""

@@ -11,7 +11,7 @@ from saltus.errors import ModelError
 from saltus.sbml.derivative import along
 from saltus.sbml.kinds import Kinds
 from saltus.sbml.scope import Scope
-from saltus.sbml.walk import Flows, TimeAlone
+from saltus.sbml.walk import Reads
 
 __all__ = ["RunningScope"]
 
@@ -36,7 +36,8 @@ class RunningScope(Scope):
         self.zero_below: set[int] = set()
         self.zero_above: set[int] = set()
         """numbers of the differences of which a formula counts zero to the lower or upper side"""
-        self.flows, self.only_time = Flows(graph).of, TimeAlone(graph).of
+        self.flows = Reads(graph, "time", "continuous_state", "input").of
+        self.follows_states = Reads(graph, "continuous_state").of
 
     def time(self) -> int:
         return int(self.graph.time())
@@ -100,7 +101,7 @@ class RunningScope(Scope):
         values before.
         """
         both = k in self.zero_above and k in self.zero_below
-        return not both and self.only_time(list(self.differences)[k])
+        return not (both or self.follows_states(list(self.differences)[k]))
 
     def size_of_terms(self, node: int) -> int:
         """A node for the size of the terms of a node: |a| + |b| for a - b."""

@@ -16,7 +16,7 @@ __all__ = ["InitialScope", "Scope"]
 
 
 class Scope:
-    """The meaning of the ids. A derived class says where numbers that nothing defines stand."""
+    """The meaning of the ids. A derived class has the places of numbers without a formula."""
 
     at_instants = False
     """whether formulas are read at instants only: an event may have set what the model has not"""
@@ -32,7 +32,7 @@ class Scope:
                 self._changes.setdefault(species, []).append((reaction, sign, number))
 
     def value(self, name: str) -> int:
-        """The node of what an id stands for in a formula."""
+        """The node of the value that an id has in a formula."""
         if name not in self._values:
             for each in self._order(name):
                 if each not in self._values:
@@ -50,7 +50,7 @@ class Scope:
             self._open.pop()
 
     def _order(self, name: str) -> list[str]:
-        """An id after those that its formula reads, so a long chain of rules is no deep one."""
+        """The ids that its formula reads, then the id: a long chain of rules is no deep one."""
         found: list[str] = []
         seen = {name, *self._open}
         waiting = [(name, self._read(name))]
@@ -139,7 +139,7 @@ class Scope:
         return self.value(number) if isinstance(number, str) else self.formula(number)
 
     def rate(self, name: str) -> int:
-        """The derivative of what an id stands for with respect to time."""
+        """The derivative of the value of an id with respect to time."""
         declared = self.declared
         found = declared.quantities.get(name)
         if name in declared.rates:

@@ -13,7 +13,7 @@ import numpy as np
 from saltus.errors import ModelError
 from saltus.leaf_system import LeafSystem
 from saltus.sbml.algebraic import unknowns
-from saltus.sbml.events import HIGHEST
+from saltus.sbml.events import ASSIGNED, CROSSED, END, HIGHEST, START
 from saltus.sbml.formula import Formula, evaluated
 from saltus.sbml.instant import Instant
 from saltus.sbml.kinds import LATER, RUNNING, kinds_of
@@ -23,7 +23,6 @@ from saltus.sbml.reading import model_of
 
 __all__ = ["Model", "load", "model_block"]
 
-LAST = "end of the instant"
 RESERVED = {"x", "z", "mode"}
 """ids that no state may have for a name in a context; they are outputs all the same"""
 
@@ -148,20 +147,20 @@ class Model(LeafSystem):
         declare = functools.partial(
             self.declare_zero_crossing, direction="rising", zeno_tolerance=0.0
         )
-        declare(instant.before(), instant.start(), "start", at_start="fire")
+        declare(instant.before(), instant.start(), START, at_start="fire")
         if instant.differences:
             declare(
                 instant.guards(),
                 instant.compare(),
-                "comparisons",
+                CROSSED,
                 size=2 * len(instant.differences) + 1,
-                at_start="ignore",  # `later` looks at those that begin at zero
+                at_start="ignore",  # `later` looks at a difference that begins at zero
             )
             self.declare_zero_crossing(
-                instant.positive(LATER), instant.later(), LAST, "rising", persistent=True
+                instant.positive(LATER), instant.later(), END, "rising", persistent=True
             )
         if instant.events:
-            declare(instant.positive(RUNNING), instant.assign(), "assignments")
+            declare(instant.positive(RUNNING), instant.assign(), ASSIGNED)
 
     def _declare_events(self, instant: Instant) -> None:
         for i, event in enumerate(instant.events):
@@ -169,7 +168,7 @@ class Model(LeafSystem):
                 self.declare_zero_crossing,
                 instant.positive(instant.truths[i]),
                 direction="rising",
-                delay=instant.number(event.delay),
+                delay=None if event.delay is None else instant.number(event.delay),
             )
             declare(
                 reset_map=instant.execute(i),

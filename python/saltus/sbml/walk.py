@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import Any, Generic, TypeVar
 
-__all__ = ["VARIABLES", "Flows", "Replaced", "TimeAlone", "Walk"]
+__all__ = ["VARIABLES", "Reads", "Replaced", "Walk"]
 
-VARIABLES = ("time", "continuous_state", "discrete_state", "parameter")
+VARIABLES = ("time", "continuous_state", "discrete_state", "parameter", "input", "entry")
 """operations of nodes that are variables of a formula"""
 Found = TypeVar("Found")
 
@@ -27,28 +27,18 @@ class Walk(Generic[Found]):
         raise NotImplementedError
 
 
-class Flows(Walk[bool]):
-    """Whether a node changes between instants."""
+class Reads(Walk[bool]):
+    """Whether a node reads a variable of one of these kinds."""
+
+    def __init__(self, graph: Any, *kinds: str):
+        super().__init__(graph)
+        self.kinds = kinds
 
     def made(self, node: int) -> bool:
         if self.graph.value(node) is not None:
             return False
         op, operands = self.graph.operation(node)
-        if op in VARIABLES:
-            return bool(op in ("time", "continuous_state"))
-        return op == "input" or any(map(self.of, operands))
-
-
-class TimeAlone(Walk[bool]):
-    """Whether a node changes with the time alone between instants."""
-
-    def made(self, node: int) -> bool:
-        if self.graph.value(node) is not None:
-            return True
-        op, operands = self.graph.operation(node)
-        if op in VARIABLES:
-            return bool(op != "continuous_state")
-        return all(map(self.of, operands))
+        return op in self.kinds if op in VARIABLES else any(map(self.of, operands))
 
 
 class Replaced(Walk[int]):
@@ -67,7 +57,7 @@ class Replaced(Walk[int]):
         if self.graph.value(node) is not None:
             return node
         op, operands = self.graph.operation(node)
-        if op in VARIABLES or op == "input":
+        if op in VARIABLES:
             return node
         others = [self.of(one) for one in operands]
         return node if others == operands else int(self.graph.apply(op, *others))

@@ -151,7 +151,14 @@ def test_no_callback_is_called():
     text = counted([
         dict(trigger="x > 1 && eq(time, 2)", assign={"x": "n"}, delay="d", priority="n"),
         dict(trigger="x > 1", assign=COUNT, persistent=False)])  # fmt: skip
-    assert "called" not in load(text).explain()
+    assert {each.runs for each in load(text).explain()} == {"traced"}
+
+
+def test_an_event_may_have_any_id():
+    events = [dict(trigger="x > 1", assign=COUNT, name=name)
+              for name in ("start", "comparisons", "events", "E")]  # fmt: skip
+    rows = [row for row in log_of(counted(events), 2.0) if row[1] == "executed"]
+    assert sorted(row[0] for row in rows) == ["E", "comparisons", "events", "start"]
 
 
 @pytest.mark.parametrize("persistent", [True, False])
@@ -193,7 +200,10 @@ NEGATIVE = counted([dict(trigger="x > 1", assign=COUNT, delay="-1", name="early"
 
 @pytest.mark.parametrize(
     ("text", "words"),
-    [(ENDLESS, "'small.up' -> 'small.assignments' -> 'small.down'"), (NEGATIVE, "early' is -1 s")],
+    [
+        (ENDLESS, "'small.up' -> 'small.values assigned' -> 'small.down'"),
+        (NEGATIVE, "early' is -1 s"),
+    ],
 )
 def test_events_without_end_are_named(text, words):
     with pytest.raises(saltus.SimulationError, match=words):

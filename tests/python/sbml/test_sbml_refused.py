@@ -156,3 +156,20 @@ def test_a_long_chain_of_rules_is_read_or_refused():
         assert load(text).create_context() is not None
     except saltus.ModelError as error:
         assert "nested too deep" in str(error)
+
+
+@pytest.mark.parametrize("healed", [True, False])
+def test_a_rate_that_an_event_at_the_start_makes_finite(healed):
+    """y is 0 before the event at the start: the run looks at the rate after it."""
+    text = model(
+        parameters={"x": 0, "y": 0, "n": 0},
+        rules=[("rate", "x", "1 / y")],
+        events=[dict(trigger="time >= 0", initial=False, assign={"y" if healed else "n": "1"})],
+    )
+    if healed:
+        assert saltus.simulate(load(text), (0.0, 2.0)).context.continuous_state[0] == pytest.approx(
+            2.0
+        )
+    else:
+        with pytest.raises(saltus.SimulationError, match="not finite"):
+            saltus.simulate(load(text), (0.0, 2.0))

@@ -176,7 +176,8 @@ class Departure : public FlowProbe {
       const PlanLeaf& of = machine_->plan().leaves[leaf];
       for (Index i = of.x; i < of.x + of.nx; ++i) {
         const double time = (rtol_[i] * std::abs((*x_)[i]) + atol_[i]) / std::abs(f_[i]);
-        if (!(time <= thresholds::slow_state_of_run * longest_)) continue;
+        // An infinite rate has no first time: from zero no look would be a later one.
+        if (!(time > 0.0 && time <= thresholds::slow_state_of_run * longest_)) continue;
         d = moved ? std::min(d, time) : time;
         moved = true;
       }
