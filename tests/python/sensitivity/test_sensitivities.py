@@ -63,7 +63,7 @@ class Grazing(saltus.LeafSystem):
         )
         self.declare_zero_crossing(
             lambda time, state, *, lift: state.continuous_state[0] + lift,
-            lambda time, state, lift: state.with_continuous_state(state.continuous_state * 1.5),
+            lambda time, state, lift: state.with_continuous_state([5.0, 0.0]),
             name="touch",
             direction="positive_then_non_positive",
         )
