@@ -1,6 +1,8 @@
 // TangentFlow: exact derivatives from the plan's graph, or differences.
 #include "saltus/simulation/detail/tangent_flow.hpp"
 
+#include <algorithm>
+
 #include "saltus/tape/jacobian.hpp"
 
 namespace saltus {
@@ -93,7 +95,7 @@ void TangentFlow::differences_at(double t, const double* x, const TangentColumns
   }
   for (Index k = 0; k < columns.size(); ++k) {
     TangentDirection along = columns.column(k);
-    along.x = nullptr;
+    along.x = nullptr, along.t = 0.0;
     probe_->flow(t, x, along, by.col(k).data());
   }
 }
@@ -140,12 +142,21 @@ GuardTangent TangentFlow::exact_guard(double t, const double* x, Index row,
     }
     if (kind == Variable::z) found.columns += value * columns.z.row(index);
     if (kind == Variable::y) found.columns += value * columns.y.row(index);
-    if (kind == Variable::t) found.by_time += value;
+    if (kind == Variable::t) {
+      found.by_time += value;
+      found.columns += value * columns.t;
+    }
     if (kind != Variable::p) continue;
     for (Index k = 0; k < columns.size(); ++k)
       if (nth(columns.parameters, k) == index) found.columns[k] += value;
   }
   return found;
+}
+
+bool TangentFlow::autonomous() const {
+  return exact() && std::ranges::none_of(rates_->entries, [](const Entry& entry) {
+           return entry.kind == Variable::t;
+         });
 }
 
 std::string TangentFlow::describe() const {

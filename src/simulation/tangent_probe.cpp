@@ -5,9 +5,9 @@ namespace saltus {
 
 namespace {
 
-/// A central difference has the error u^2 / 6 by its curvature and eps / u by rounding, for a
-/// relative shift u: they are equal near u = eps^(1/3).
-const double relative_shift = std::cbrt(thresholds::eps);
+/// The two differences of a smooth function agree to some u^2 = 1e-6. Those of a function with a kink
+/// or a pole nearby do not.
+constexpr double agreement = 1e-4;
 
 /// |d| in units of the size of a value; a value that was zero so far counts as 1.
 double in_sizes(double d, double size) {
@@ -21,7 +21,7 @@ void TangentProbe::note(const double* x, double step) {
   if (step > 0.0) step_ = step;
 }
 
-/// The shift that moves no value by more than a small part of its size; 0 if nothing moves, NaN if
+/// The shift that moves no value by more than its size; 0 if nothing moves, NaN if
 /// the direction is.
 double TangentProbe::shift_of(const double* x, const TangentDirection& along) const {
   double most = in_sizes(along.t, step_);
@@ -37,7 +37,16 @@ double TangentProbe::shift_of(const double* x, const TangentDirection& along) co
   look(along.y, machine_->y.size(), [&](Index i) { return std::abs(machine_->y[i]); });
   if (along.parameter >= 0 && !std::isnan(most))
     most = std::max(most, in_sizes(1.0, std::abs(machine_->p[along.parameter])));
-  return most > 0.0 ? relative_shift / most : most;
+  return most > 0.0 ? 1.0 / most : most;
+}
+
+bool TangentProbe::agree() const {
+  const double size = near_.size() > 0 ? near_.lpNorm<Eigen::Infinity>() : 0.0;
+  for (Index i = 0; i < near_.size(); ++i) {
+    if (!(std::abs(near_[i] - wide_[i]) <= agreement * std::max(std::abs(near_[i]), 1e-3 * size)))
+      return false;
+  }
+  return true;
 }
 
 Machine& TangentProbe::at(const double* x, const TangentDirection& along, double shift) {

@@ -109,7 +109,7 @@ void Tangents::begin(const Context& start) {
   }
   renew();
   variation_.emplace(Variation::Tolerances{options_->rtol.smallest(), std::move(atol)});
-  dtau_.setZero(m), lost_.assign(all.size(), 0);
+  columns_.t.setZero(m), lost_.assign(all.size(), 0);
   monitors_.clear(), predicted_.clear();
   t_ = start.time(), in_instant_ = false;
   probe_.note(machine_->x.data(), 0.0);
@@ -173,11 +173,16 @@ void Tangents::step(double from, double to, Integration& integration) {
 void Tangents::record(double t, const double* x) {
   if (in_instant_ && !committed_) return taps(t, x, before_);
   TangentColumns at = columns_;
-  if (in_instant_)
-    at.x -= flow(t, x) * dtau_;
-  else if (t < t_)
-    variation_->at(t, at.x);
+  if (!in_instant_ && t < t_) variation_->at(t, at.x);
+  fix_time(t, x, at);
   taps(t, x, at);
+}
+
+/// Turns derivatives at a moving time into those at a fixed time.
+void Tangents::fix_time(double t, const double* x, TangentColumns& at) {
+  if (at.t.isZero(0.0)) return;
+  at.x -= flow(t, x) * at.t;
+  at.t.setZero();
 }
 
 /// Adds a row of the derivatives of the recorded signals. Views of states need no differences.
@@ -222,7 +227,9 @@ void Tangents::finish() {
   Sensitivities& out = results_->sensitivities;
   const std::size_t numbers = results_->events.size() * out.size();
   out.event_times.resize(numbers), out.predicted.resize(numbers);  // a failure takes events back
-  out.continuous_state = row_major(columns_.x), out.discrete_state = row_major(columns_.z);
+  TangentColumns at = columns_;
+  fix_time(t_, machine_->x.data(), at);
+  out.continuous_state = row_major(at.x), out.discrete_state = row_major(columns_.z);
 }
 
 std::string Tangents::describe() const {

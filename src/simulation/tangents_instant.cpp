@@ -20,7 +20,8 @@ constexpr double rounding = 1e3 * thresholds::eps;
 }  // namespace
 
 void Tangents::lose(Index k, const std::string& event, const std::string& reason) {
-  dtau_[k] = nan;
+  columns_.t[k] = nan;
+  columns_.x.col(k).setConstant(nan), columns_.z.col(k).setConstant(nan);
   if (std::exchange(nth(lost_, k), char{1})) return;
   results_->sensitivities.gaps.push_back(
       {t_, event, reason, nth(results_->sensitivities.parameters, k)});
@@ -29,19 +30,23 @@ void Tangents::lose(Index k, const std::string& event, const std::string& reason
 /// Opens an instant, whose time moves as its causes do.
 void Tangents::open(const Present& present, const std::vector<int>& due) {
   t_ = present.t, in_instant_ = true, committed_ = false;
+  const double* x = machine_->x.data();
   before_ = columns_;
-  dtau_.setZero();
-  probe_.note(machine_->x.data(), 0.0);
+  fix_time(t_, x, before_);
+  probe_.note(x, 0.0);
+  const TangentColumns until = columns_;
+  const Eigen::VectorXd f = flow(t_, x);
   bool first = true;
   for (const Firing& firing : present.firings) {
-    merge(moved_by(firing, present.now(firing.guard()).jumped, machine_->x.data(), t_), first);
+    merge(moved_by(firing, present.now(firing.guard()).jumped, until, t_), first);
     first = false;
   }
   for (const int event : due) {
-    merge(moved_by(machine_->plan().scheduled(event), t_), first);
+    merge(moved_by(machine_->plan().scheduled(event), until), first);
     first = false;
   }
-  columns_.x += flow(t_, machine_->x.data()) * dtau_;
+  if (first) columns_.t.setZero();
+  columns_.x += f * (columns_.t - until.t);
 }
 
 /// Takes one more cause of the instant. Where causes move apart, their order matters.
@@ -50,16 +55,17 @@ void Tangents::merge(const Moved& moved, bool first) {
     if (!moved.obstacle.empty()) {
       lose(k, moved.event, moved.obstacle);
     } else if (first) {
-      dtau_[k] = moved.by[k];
-      if (std::isnan(dtau_[k])) lose(k, moved.event, "the guard only grazes zero");
-    } else if (std::abs(dtau_[k] - moved.by[k]) >
-               same_time * std::max(std::abs(dtau_[k]), std::abs(moved.by[k]))) {
+      columns_.t[k] = moved.by[k];
+      if (std::isnan(moved.by[k])) lose(k, moved.event, "the guard only grazes zero");
+    } else if (std::abs(columns_.t[k] - moved.by[k]) >
+               same_time * std::max(std::abs(columns_.t[k]), std::abs(moved.by[k]))) {
       lose(k, moved.event, "another event happens at the same time, and their order would change");
     }
   }
 }
 
-Tangents::Moved Tangents::moved_by(const Firing& firing, bool jumped, const double* x, double t) {
+Tangents::Moved Tangents::moved_by(const Firing& firing, bool jumped, const TangentColumns& until,
+                                   double t) {
   const Guard& guard = (*guards_)[firing.guard()];
   const GuardGroup& group = machine_->plan().guard(guard.group);
   if (guard.phase == Phase::resting || guard.phase == Phase::carried ||
@@ -68,11 +74,11 @@ Tangents::Moved Tangents::moved_by(const Firing& firing, bool jumped, const doub
   if (group.is_opaque())
     return {.event = group.name, .obstacle = "a called function decides it, which shows a sign only"};
   if (jumped) return {.event = group.name, .obstacle = "the guard jumps across zero"};
-  return crossing_time(firing.slot, group.name, t, x);
+  return crossing_time(firing.slot, group.name, t, machine_->x.data(), until);
 }
 
 /// A time event happens at a fixed time, or at one that a discrete state says.
-Tangents::Moved Tangents::moved_by(const ScheduledEvent& event, double) {
+Tangents::Moved Tangents::moved_by(const ScheduledEvent& event, const TangentColumns& until) {
   Moved moved{.by = Eigen::RowVectorXd::Zero(size()), .event = event.name};
   if (!event.by_state) return moved;
   const PlanLeaf& leaf = machine_->plan().leaf(event.leaf);
@@ -81,22 +87,21 @@ Tangents::Moved Tangents::moved_by(const ScheduledEvent& event, double) {
     *out = next(VectorView(probe.z.data() + leaf.z, leaf.nz));
   };
   for (Index k = 0; k < size(); ++k)
-    probe_.derivative(machine_->x.data(), columns_.column(k), 1, read, &moved.by[k]);
+    probe_.derivative(machine_->x.data(), until.column(k), 1, read, &moved.by[k]);
   return moved;
 }
 
-/// dtau = -(g_x S + g_p) / (g_x f- + g_t); NaN where the guard grazes zero.
+/// dtau = -(g_x S + g_p) / (g_x f- + g_t), added to the time by which the columns move already; NaN
+/// where the guard grazes zero.
 Tangents::Moved Tangents::crossing_time(Index slot, const std::string& event, double t,
-                                        const double* x) {
-  const GuardTangent guard = flow_.guard(t, x, slot, columns_);
+                                        const double* x, const TangentColumns& until) {
+  const GuardTangent guard = flow_.guard(t, x, slot, until);
   const double speed = guard.by_state.dot(flow(t, x)) + guard.by_time;
-  Moved moved{.by = -guard.columns / speed, .event = event};
+  Moved moved{.by = until.t - guard.columns / speed, .event = event};
   const bool at_rest = grazes(guard, speed, slot, t, x);
   for (Index k = 0; k < size(); ++k) {
-    if (guard.columns[k] == 0.0)
-      moved.by[k] = 0.0;  // it does not depend on the parameter
-    else if (at_rest)
-      moved.by[k] = nan;
+    // A guard that does not depend on the parameter has a time all the same.
+    if (at_rest) moved.by[k] = guard.columns[k] == 0.0 ? until.t[k] : nan;
   }
   return moved;
 }
@@ -115,7 +120,7 @@ bool Tangents::grazes(const GuardTangent& guard, double speed, Index slot, doubl
   const double ahead = std::sqrt(2.0 * error / terms / std::max(terms, 1.0));
   if (!(ahead > 0.0) || !std::isfinite(ahead)) return false;
   const Eigen::VectorXd later = VectorView(x, f.size()) + ahead * f;
-  const GuardTangent there = flow_.guard(t + ahead, later.data(), slot, columns_);
+  const GuardTangent there = flow_.guard(t + ahead, later.data(), slot, before_);
   const double curvature =
       (there.by_state.dot(flow(t + ahead, later.data())) + there.by_time - speed) / ahead;
   return curvature * speed < 0.0 && speed * speed <= 2.0 * std::abs(curvature) * error;
@@ -125,10 +130,14 @@ void Tangents::monitor(const MonitorHit& hit, const double* x) {
   const GuardGroup& group = machine_->plan().guard((*guards_)[hit.firing.guard()].group);
   TangentColumns at = columns_;
   if (hit.t < t_) variation_->at(hit.t, at.x);
-  std::swap(at, columns_);
   Moved moved = group.is_opaque() ? Moved{.by = Eigen::RowVectorXd::Constant(size(), nan)}
-                                  : crossing_time(hit.firing.slot, group.name, hit.t, x);
-  std::swap(at, columns_);
+                                  : crossing_time(hit.firing.slot, group.name, hit.t, x, at);
+  for (Index k = 0; k < size(); ++k) {
+    if (std::isnan(moved.by[k]) && nth(lost_, k) == 0)
+      results_->sensitivities.gaps.push_back(
+          {hit.t, group.name, "the monitor only grazes zero, or shows a sign only",
+           nth(results_->sensitivities.parameters, k)});
+  }
   add_event(moved.by);
 }
 
@@ -145,7 +154,7 @@ void Tangents::call(const Transition::Call& call, const double* x_next, const do
     const auto read = [&](Machine& probe, double shift, double* to) {
       for (Index i = 0; i < leaf.nx; ++i) x[i] = x_next[leaf.x + i] + shift * next_x_(leaf.x + i, k);
       for (Index i = 0; i < leaf.nz; ++i) z[i] = z_next[leaf.z + i] + shift * next_z_(leaf.z + i, k);
-      At at = probe.at(call.leaf, call.t + shift * dtau_[k], probe.x.data());
+      At at = probe.at(call.leaf, call.t + shift * columns_.t[k], probe.x.data());
       at.entry = call.entry, at.mode = mode;
       new (&at.x) VectorView(x.data(), leaf.nx);
       new (&at.z) VectorView(z.data(), leaf.nz);
@@ -155,7 +164,7 @@ void Tangents::call(const Transition::Call& call, const double* x_next, const do
       Next next(to_x, to_z, entered, leaf.path);
       (*call.map)(*leaf.system, at, next);
     };
-    probe_.derivative(machine_->x.data(), columns_.column(k, dtau_[k]), out.size(), read,
+    probe_.derivative(machine_->x.data(), columns_.column(k), out.size(), read,
                       out.data());
     next_x_.col(k).segment(leaf.x, leaf.nx) = out.head(leaf.nx);
     next_z_.col(k).segment(leaf.z, leaf.nz) = out.tail(leaf.nz);
@@ -172,21 +181,21 @@ void Tangents::evaluated() {
   if (machine_->y.size() == 0) return;
   Eigen::MatrixXd y(machine_->y.size(), size());
   for (Index k = 0; k < size(); ++k) {
-    const double dt = in_instant_ ? dtau_[k] : 0.0;
     const auto read = [&](Machine& probe, double shift, double* out) {
-      probe.evaluate_instant(t_ + shift * dt);
+      probe.evaluate_instant(t_ + shift * columns_.t[k]);
       std::copy_n(probe.y.data(), probe.y.size(), out);
     };
-    probe_.derivative(machine_->x.data(), columns_.column(k, dt), y.rows(), read, y.col(k).data());
+    probe_.derivative(machine_->x.data(), columns_.column(k), y.rows(), read, y.col(k).data());
   }
   columns_.y = std::move(y);
   clear_truths();
 }
 
 void Tangents::close() {
+  instant_time_ = columns_.t;
   if (machine_->carries())
     for (Index k = 0; k < size(); ++k) lose(k, "", "a block is carried by a moving surface");
-  columns_.x -= flow(t_, machine_->x.data()) * dtau_;
+  if (!flow_.autonomous()) fix_time(t_, machine_->x.data(), columns_);
   in_instant_ = false;
   variation_->forget();
 }
@@ -208,7 +217,7 @@ void Tangents::add_event(const Eigen::RowVectorXd& by) {
 
 void Tangents::log() {
   const std::size_t numbers = results_->events.size() * results_->sensitivities.size();
-  while (results_->sensitivities.event_times.size() < numbers) add_event(dtau_);
+  while (results_->sensitivities.event_times.size() < numbers) add_event(instant_time_);
   predicted_.clear();
 }
 
@@ -228,7 +237,7 @@ Eigen::VectorXd entries_of(std::span<const Index> states, const Eigen::VectorXd&
 
 }  // namespace
 
-void Tangents::fired(const void* monitor) { monitors_[monitor].fired(t_, dtau_); }
+void Tangents::fired(const void* monitor) { monitors_[monitor].fired(t_, columns_.t); }
 
 void Tangents::remember(const void* monitor, std::span<const Index> states,
                         const Eigen::VectorXd& next) {

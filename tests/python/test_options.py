@@ -27,7 +27,7 @@ def test_defaults_are_those_of_the_engine():
     for name in FIELDS - PYTHON_ONLY:
         assert (
             list(getattr(core, name)) == []
-            if name == "save_at"
+            if name in ("save_at", "sensitivity")
             else getattr(core, name) == getattr(python, name)
         )
 

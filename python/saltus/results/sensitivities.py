@@ -96,12 +96,12 @@ class Sensitivities(Mapping[str, np.ndarray]):
         >>> results.sensitivities.to_xarray()["x"].dims
         ('time', 'x_entry', 'parameter')
         """
-        made = extra("xarray", "to_xarray")
+        library: Any = extra("xarray", "to_xarray")
         variables: dict[str, Any] = {}
         for name, values in self._outputs.items():
             entries = [f"{name}_entry"] if values.ndim == 3 else []
             variables[name] = (("time", *entries, "parameter"), values)
-        return made.Dataset(
+        dataset: xarray.Dataset = library.Dataset(
             variables,
             coords={
                 "time": self._time,
@@ -109,6 +109,7 @@ class Sensitivities(Mapping[str, np.ndarray]):
                 "parameter": list(self.parameters),
             },
         )
+        return dataset
 
     def __repr__(self) -> str:
         lines = [f"  {name}: {values.shape}" for name, values in self._outputs.items()]

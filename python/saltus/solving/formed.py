@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from saltus import _core
+from saltus.errors import ModelError
 from saltus.results.record import Columns, Record
 from saltus.solving.form import Form
 
@@ -53,6 +54,15 @@ class Formed:
     @property
     def block(self) -> str:
         return self._record.block
+
+    @property
+    def sensitivities(self) -> dict[str, Any] | None:
+        if self._record.sensitivities is None:
+            return None
+        raise ModelError(
+            "sensitivity: a run back in time, or with complex states, has no derivatives; use a "
+            "run forwards with real states"
+        )
 
     @property
     def event_count(self) -> int:

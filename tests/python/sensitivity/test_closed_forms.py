@@ -38,7 +38,9 @@ def test_a_ball_at_all_six_impacts(method, python):
     results = fall(12.0, ode_solver_method=method, python=python)
     found = results.events.dt_dp("bounce")
     exact = method not in ("adams", "bdf")
-    np.testing.assert_allclose(found, impact_derivatives(6), rtol=1e-8 if exact else 3e-6, atol=1e-8)
+    np.testing.assert_allclose(
+        found, impact_derivatives(6), rtol=1e-8 if exact else 3e-6, atol=1e-8
+    )
     expected = [
         [4.2692770252563905, -225.42387137755526, -4.154070371383476],
         [-5.644226914561967, 369.7316543555371, 6.23501339681471],
@@ -102,7 +104,5 @@ def test_a_linear_system_is_its_own_exponential(method):
     t, w = results.time, 2.0
     c, s = np.cos(w * t), np.sin(w * t)
     by_k = np.stack([-t * s, -s - w * t * c], axis=1) / (2 * w)
-    expected = np.stack(
-        [np.stack([c, -w * s], axis=1), np.stack([s / w, c], axis=1), by_k], axis=2
-    )
+    expected = np.stack([np.stack([c, -w * s], axis=1), np.stack([s / w, c], axis=1), by_k], axis=2)
     np.testing.assert_allclose(results.sensitivities["state"], expected, rtol=1e-6, atol=1e-7)

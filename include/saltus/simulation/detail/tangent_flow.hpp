@@ -12,14 +12,16 @@
 
 namespace saltus {
 
-/// The derivatives by the chosen parameters: a column for each of them.
+/// The derivatives by the chosen parameters: a column for each of them. They are those at a time that
+/// moves by `t`: zero for a fixed time, dtau for the instant at tau, or for a fixed time after it.
 struct TangentColumns {
   Eigen::MatrixXd x, z, y;         ///< of the states, the discrete states and the signals
+  Eigen::RowVectorXd t;
   std::vector<Index> parameters;   ///< the entry of p that each column is of, or -1
   Index size() const { return static_cast<Index>(parameters.size()); }
-  /// One of them as a direction; the time moves by `t`.
-  TangentDirection column(Index k, double t = 0.0) const {
-    return {t, x.col(k).data(), z.col(k).data(), y.col(k).data(), nth(parameters, k)};
+  /// One of them as a direction.
+  TangentDirection column(Index k) const {
+    return {t[k], x.col(k).data(), z.col(k).data(), y.col(k).data(), nth(parameters, k)};
   }
 };
 
@@ -27,7 +29,7 @@ struct TangentColumns {
 struct GuardTangent {
   Eigen::VectorXd by_state;    ///< dg/dx
   double by_time = 0.0;        ///< dg/dt
-  Eigen::RowVectorXd columns;  ///< dg of each column, at a fixed time
+  Eigen::RowVectorXd columns;  ///< dg of each column
 };
 
 /// Where all functions of the flow are formulas or traced, its derivatives are exact: expressions
@@ -36,13 +38,16 @@ class TangentFlow {
  public:
   TangentFlow(const Machine& machine, TangentProbe& probe);
 
-  /// dxdot/dx at (t, x), and dxdot of each column at a fixed state, which is a column of `by`.
+  /// dxdot/dx at (t, x), and dxdot of each column at a fixed time and a fixed state,
+  /// which is a column of `by`.
   void at(double t, const double* x, const TangentColumns& columns, Eigen::MatrixXd& jacobian,
           Eigen::MatrixXd& by);
   GuardTangent guard(double t, const double* x, Index slot, const TangentColumns& columns);
 
   /// Whether the derivatives of the flow are exact.
   bool exact() const noexcept { return rates_.has_value(); }
+  /// Whether the flow is known not to depend on the time itself.
+  bool autonomous() const;
   /// In words, for `Simulator::describe`.
   std::string describe() const;
 

@@ -23,6 +23,10 @@ namespace saltus {
 /// the instant calls maps them on, in the order of the passes. At its end S = X - f+ dtau holds for
 /// a fixed time again. This is the saltation rule in all its cases: parameters in guard and reset,
 /// modes, several resets in one pass, cascades of passes.
+///
+/// A flow that does not depend on the time has one more form: X obeys the equation of S from there
+/// on, as the derivative at a fixed time after the instant. It is kept as long as possible, because
+/// S loses digits where dtau is large: after 140 bounces dtau is 3e8 times the length of a flight.
 class Tangents {
  public:
   /// Throws ModelError for a plan with a part that has no derivatives here.
@@ -81,15 +85,17 @@ class Tangents {
   std::vector<Found> found(const Layout& layout) const;
   void begin_signals(const Context& start);
   void clear_truths();
-  Moved moved_by(const Firing& firing, bool jumped, const double* x, double t);
-  Moved moved_by(const ScheduledEvent& event, double t);
-  Moved crossing_time(Index slot, const std::string& event, double t, const double* x);
+  Moved moved_by(const Firing& firing, bool jumped, const TangentColumns& until, double t);
+  Moved moved_by(const ScheduledEvent& event, const TangentColumns& until);
+  Moved crossing_time(Index slot, const std::string& event, double t, const double* x,
+                      const TangentColumns& until);
   bool grazes(const GuardTangent& guard, double speed, Index slot, double t, const double* x);
   void merge(const Moved& moved, bool first);
   void lose(Index k, const std::string& event, const std::string& reason);
   void add_event(const Eigen::RowVectorXd& by);
   Eigen::VectorXd flow(double t, const double* x);
   Eigen::MatrixXd rows_of(std::span<const Index> states) const;
+  void fix_time(double t, const double* x, TangentColumns& at);
   void taps(double t, const double* x, const TangentColumns& at);
 
   const Machine* machine_;
@@ -99,10 +105,10 @@ class Tangents {
   TangentProbe probe_;
   TangentFlow flow_;
   std::optional<Variation> variation_;
-  TangentColumns columns_;  // S between instants; X, of the moving instant, within one
-  TangentColumns before_;   // S before the instant
+  TangentColumns columns_;  // of the state between instants, then of the instant
+  TangentColumns before_;   // at a fixed time before the instant
   Eigen::MatrixXd next_x_, next_z_;
-  Eigen::RowVectorXd dtau_;
+  Eigen::RowVectorXd instant_time_;  // the derivatives of the time of the last instant
   double t_ = 0.0;  // [s] of S, or of the instant
   bool in_instant_ = false, committed_ = false;
   std::vector<char> lost_;

@@ -1,0 +1,78 @@
+// The derivatives of a run: closed forms, the trajectory as it was, nothing where nobody asks.
+#include <saltus/models/bouncing_ball.hpp>
+
+#include <cmath>
+
+#include "support/leaves.hpp"
+
+using namespace saltus;
+using namespace support;
+
+namespace {
+
+const std::vector<std::string> by = {"g", "e", "x[0]"};
+
+Results ball(SimulatorOptions options, double t_end = 12.0) {
+  const saltus::Scene scene = models::bouncing_ball();
+  return simulate(*scene.system, scene.context, {0.0, t_end}, options);
+}
+
+SimulatorOptions tight(Method method) {
+  return {.rtol = 1e-10, .atol = 1e-12, .ode_solver_method = method, .sensitivity = by};
+}
+
+}  // namespace
+
+TEST_CASE("the impacts of a ball move as the closed form says", "[sensitivity][ball]") {
+  const auto method = GENERATE(Method::dopri5, Method::dop853, Method::radau, Method::taylor);
+  INFO("method " << to_string(method));
+  const Results results = ball(tight(method));
+  const Sensitivities& found = results.sensitivities;
+  REQUIRE(found.parameters == by);
+  REQUIRE(found.event_times.size() == 6 * by.size());
+  const double g = 9.81, e = 0.9, y0 = 10.0, first = std::sqrt(2.0 * y0 / g);
+  double powers = 1.0, slope = 0.0;
+  for (std::size_t k = 0; k < 6; ++k) {
+    // t_k = t_1 (1 + 2 sum of e^j for 0 < j < k); 1e-8: a hundred tolerances, as six flights amplify
+    CHECK(std::abs(found.event_times[3 * k] + first * powers / (2.0 * g)) < 1e-8);
+    CHECK(std::abs(found.event_times[3 * k + 1] - first * slope) < 1e-8 * 40.0);
+    CHECK(std::abs(found.event_times[3 * k + 2] - first * powers / (2.0 * y0)) < 1e-8);
+    const double j = static_cast<double>(k) + 1.0;
+    powers += 2.0 * std::pow(e, j), slope += 2.0 * j * std::pow(e, j - 1.0);
+  }
+  CHECK(std::abs(found.continuous_state[1] + 225.42387137755526) < 1e-5);
+  CHECK(std::abs(found.continuous_state[4] - 369.7316543555371) < 1e-5);
+  CHECK(found.gaps.empty());
+}
+
+TEST_CASE("derivatives change no bit of a run", "[sensitivity][ball]") {
+  const auto method = GENERATE(Method::automatic, Method::bdf, Method::adams, Method::radau);
+  SimulatorOptions options{.ode_solver_method = method};
+  const Results alone = ball(options);
+  options.sensitivity = by;
+  const Results with = ball(options);
+  CHECK(alone.context.continuous_state() == with.context.continuous_state());
+  CHECK(alone.events.times("bounce") == with.events.times("bounce"));
+  CHECK(alone.statistics.steps == with.statistics.steps);
+  CHECK(alone.sensitivities.empty());
+}
+
+TEST_CASE("a run in pieces has the derivatives of a whole run", "[sensitivity][ball]") {
+  const saltus::Scene scene = models::bouncing_ball();
+  Simulator simulator(*scene.system, tight(Method::dopri5));
+  simulator.initialize(scene.context);
+  for (const double t : {1.0, 1.5, 6.0, 12.0}) simulator.advance_to(t);
+  const auto& pieces = simulator.results().sensitivities;
+  const Results whole = ball(tight(Method::dopri5));
+  REQUIRE(pieces.event_times.size() == whole.sensitivities.event_times.size());
+  for (std::size_t i = 0; i < pieces.event_times.size(); ++i)
+    CHECK(std::abs(pieces.event_times[i] - whole.sensitivities.event_times[i]) < 1e-8 * 40.0);
+}
+
+TEST_CASE("a name without a derivative is refused before the run", "[sensitivity][errors]") {
+  for (const char* name : {"h", "mode", "x[2]"}) {
+    INFO(name);
+    CHECK_THROWS_AS(ball({.sensitivity = {name}}), ModelError);
+  }
+  CHECK_THROWS_AS(ball({.sensitivity = {"e", "e"}}), ModelError);
+}
