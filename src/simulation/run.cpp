@@ -230,8 +230,8 @@ Status Run::settle(StopReason reason, double t_end, bool at_start) {
   const bool cut = instant_.executions().stops_earlier() && integration_.inside_step();
   if (outcome.restart || cut)
     integration_.restart(time_, {.horizon = outcome.horizon, .flow = instant_.flow()});
-  const Chattering::Seen seen{time_, at_root, instant_.executions().set_off(),
-                              t_end - begin_.time()};
+  const Chattering::Seen seen{time_, at_root, t_end - begin_.time(),
+                              instant_.executions().set_off()};
   if (auto ending = endings_.after_instant(outcome, seen, idle, instant_.journal()))
     return end(*ending);
   return Status::reached_end;

@@ -19,9 +19,10 @@ Chattering begun() {
 
 /// How many instants, one each `gap` seconds, until it says so; `most` + 1 if it does not.
 int instants_until(Chattering& chattering, const Outcome& outcome, double gap, bool idle, int most,
-                   double length_of_run = 1.0) {
+                   double length_of_run = 1.0, bool executed = false) {
   for (int i = 1; i <= most; ++i) {
-    if (chattering.chatters(outcome, {1.0 + i * gap, true, length_of_run}, idle, still)) return i;
+    const Chattering::Seen seen{1.0 + i * gap, !executed, length_of_run, executed};
+    if (chattering.chatters(outcome, seen, idle, still)) return i;
   }
   return most + 1;
 }
@@ -51,6 +52,12 @@ TEST_CASE("An instant that does not end chatters at once, and says how many even
   CHECK(chattering.chatters({.chatters = true, .events = 7}, {2.0, false, 1.0}, false, still));
   CHECK(chattering.found().count == 7);
   CHECK(chattering.found().since == 2.0);
+}
+
+TEST_CASE("Executions that set each other off count as roots do") {
+  Chattering close = begun(), fast = begun();
+  CHECK(instants_until(close, {}, 1e-14, false, 3000, 1.0, true) <= 2000);
+  CHECK(instants_until(fast, {}, 1e-9, false, 3000, 1.0, true) == 3001);
 }
 
 TEST_CASE("Roots within the rounding of the time chatter; a fast rhythm does not") {

@@ -22,8 +22,8 @@ class Chattering {
   struct Seen {
     double t = 0.0;              ///< [s]
     bool at_root = false;        ///< it began because a guard fired
-    bool executed = false;       ///< an execution set off another
     double length_of_run = 0.0;  ///< [s]
+    bool executed = false;       ///< an execution set off another
   };
   /// Before an instant: whether no state has moved by its tolerance since the last event.
   bool idle(const Eigen::VectorXd& x) const;
