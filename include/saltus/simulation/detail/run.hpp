@@ -98,7 +98,7 @@ class Run {
   std::vector<int> due_;
   Chattering chattering_;
   Crawl crawl_;
-  std::optional<Poles> poles_;  // where tolerances are loose
+  std::optional<Poles> poles_;        // where tolerances are loose
   std::optional<Tangents> tangents_;  // where sensitivities are asked for
   Interrupt interrupt_;
 };
