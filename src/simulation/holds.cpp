@@ -198,8 +198,7 @@ Eigen::Ref<const Eigen::VectorXd> gather(std::span<const Index> entries, const I
 bool Holds::look_for_accumulation(Hold& hold) {
   Eigen::VectorXd& next = transition_->next();
   if (!hold.monitor.on() || !hold.monitor.accumulates()) {
-    if (Tangents* tangents = transition_->tangents())
-      tangents->remember(&hold, hold.states, next);
+    if (Tangents* tangents = transition_->tangents()) tangents->remember(&hold, hold.states, next);
     changing(hold).remember(gather(hold.states, states_.data(), next, gathered_));
     double& horizon = present_->outcome.horizon;
     if (const double gap = hold.monitor.gap(); std::isfinite(gap))
@@ -207,8 +206,7 @@ bool Holds::look_for_accumulation(Hold& hold) {
     return false;
   }
   gathered_ = gather(hold.states, states_.data(), next, gathered_);
-  if (Tangents* tangents = transition_->tangents())
-    tangents->accumulate(&hold, hold.states, next);
+  if (Tangents* tangents = transition_->tangents()) tangents->accumulate(&hold, hold.states, next);
   hold.monitor.accumulate(gathered_);
   for (std::size_t i = 0; i < hold.states.size(); ++i)
     next[hold.states[i]] = gathered_[static_cast<Index>(i)];

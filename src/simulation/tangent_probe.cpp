@@ -16,25 +16,34 @@ double in_sizes(double d, double size) {
 
 }  // namespace
 
+void TangentProbe::begin() {
+  x_sizes_.setZero(machine_->x.size());
+  z_sizes_.setZero(machine_->z.size()), y_sizes_.setZero(machine_->y.size());
+  step_ = 0.0;
+}
+
 void TangentProbe::note(const double* x, double step) {
-  for (Index i = 0; i < sizes_.size(); ++i) sizes_[i] = std::max(sizes_[i], std::abs(x[i]));
-  if (step > 0.0) step_ = step;
+  const auto grow = [](Eigen::VectorXd& sizes, const double* now) {
+    for (Index i = 0; i < sizes.size(); ++i) sizes[i] = std::max(sizes[i], std::abs(now[i]));
+  };
+  grow(x_sizes_, x), grow(z_sizes_, machine_->z.data()), grow(y_sizes_, machine_->y.data());
+  step_ = std::max(step_, step);
 }
 
 /// The shift that moves no value by more than its size; 0 if nothing moves, NaN if
 /// the direction is.
 double TangentProbe::shift_of(const double* x, const TangentDirection& along) const {
-  double most = in_sizes(along.t, step_);
-  const auto look = [&](const double* d, Index size, const auto& size_of) {
+  double most = in_sizes(along.t, step_);  // a short step says nothing: it may end at an event
+  const auto look = [&](const double* d, const Eigen::VectorXd& sizes, const double* values) {
     if (d == nullptr) return;
-    for (Index i = 0; i < size; ++i) {
-      const double now = in_sizes(d[i], size_of(i));
+    for (Index i = 0; i < sizes.size(); ++i) {
+      const double now = in_sizes(d[i], std::max(std::abs(values[i]), sizes[i]));
       most = std::isnan(now) || std::isnan(most) ? nan : std::max(most, now);
     }
   };
-  look(along.x, sizes_.size(), [&](Index i) { return std::max(std::abs(x[i]), sizes_[i]); });
-  look(along.z, machine_->z.size(), [&](Index i) { return std::abs(machine_->z[i]); });
-  look(along.y, machine_->y.size(), [&](Index i) { return std::abs(machine_->y[i]); });
+  look(along.x, x_sizes_, x);
+  look(along.z, z_sizes_, machine_->z.data());
+  look(along.y, y_sizes_, machine_->y.data());
   if (along.parameter >= 0 && !std::isnan(most))
     most = std::max(most, in_sizes(1.0, std::abs(machine_->p[along.parameter])));
   return most > 0.0 ? 1.0 / most : most;
@@ -68,7 +77,7 @@ Machine& TangentProbe::at(const double* x, const TangentDirection& along, double
 void TangentProbe::let_rest(double* xdot) const {
   const RestingStates& resting = machine_->resting();
   if (!resting.any()) return;
-  for (Index i = 0; i < sizes_.size(); ++i) {
+  for (Index i = 0; i < x_sizes_.size(); ++i) {
     if (resting.rests(i)) xdot[i] = 0.0;
   }
 }
@@ -77,7 +86,7 @@ void TangentProbe::flow(double t, const double* x, const TangentDirection& along
   const auto read = [&](Machine& probe, double shift, double* xdot) {
     probe.flow(t + shift * along.t, probe.x.data(), xdot);
   };
-  derivative(x, along, sizes_.size(), read, out);
+  derivative(x, along, x_sizes_.size(), read, out);
   let_rest(out);
 }
 

@@ -62,8 +62,8 @@ std::vector<Tangents::Found> Tangents::found(const Layout& layout) const {
                             "' is a mode, an integer, so nothing has a derivative with respect to "
                             "it; expected a parameter or a start value"));
     for (Index i = 0; i < entry.size; ++i)
-      all.push_back({entry.size == 1 ? name : text(name, "[", i, "]"),
-                     {entry.kind, entry.first + i, 1}});
+      all.push_back(
+          {entry.size == 1 ? name : text(name, "[", i, "]"), {entry.kind, entry.first + i, 1}});
   }
   for (auto one = all.begin(); one != all.end(); ++one) {
     const auto same = [&](const Found& other) {
@@ -112,7 +112,7 @@ void Tangents::begin(const Context& start) {
   columns_.t.setZero(m), lost_.assign(all.size(), 0);
   monitors_.clear(), predicted_.clear();
   t_ = start.time(), in_instant_ = false;
-  probe_.note(machine_->x.data(), 0.0);
+  probe_.begin(), probe_.note(machine_->x.data(), 0.0);
   begin_signals(start);
 }
 

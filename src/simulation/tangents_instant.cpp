@@ -9,19 +9,19 @@ namespace saltus {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double no_derivative = std::numeric_limits<double>::quiet_NaN();
 /// Two causes have one time for all values of a parameter if its derivatives differ by no more than
 /// this part. The differences of called functions have errors of 1e-10 (see TangentProbe), which a
 /// slow crossing amplifies.
 constexpr double same_time = 1e-6;
 /// The rounding of a sum such as dg/dx f + dg/dt, in parts of its terms.
-constexpr double rounding = 1e3 * thresholds::eps;
+constexpr double sum_rounding = 1e3 * thresholds::eps;
 
 }  // namespace
 
 void Tangents::lose(Index k, const std::string& event, const std::string& reason) {
-  columns_.t[k] = nan;
-  columns_.x.col(k).setConstant(nan), columns_.z.col(k).setConstant(nan);
+  columns_.t[k] = no_derivative;
+  columns_.x.col(k).setConstant(no_derivative), columns_.z.col(k).setConstant(no_derivative);
   if (std::exchange(nth(lost_, k), char{1})) return;
   results_->sensitivities.gaps.push_back(
       {t_, event, reason, nth(results_->sensitivities.parameters, k)});
@@ -72,7 +72,8 @@ Tangents::Moved Tangents::moved_by(const Firing& firing, bool jumped, const Tang
       firing.from == Firing::lifts_off)
     return {.event = group.name, .obstacle = "the guard was at rest"};
   if (group.is_opaque())
-    return {.event = group.name, .obstacle = "a called function decides it, which shows a sign only"};
+    return {.event = group.name,
+            .obstacle = "a called function decides it, which shows a sign only"};
   if (jumped) return {.event = group.name, .obstacle = "the guard jumps across zero"};
   return crossing_time(firing.slot, group.name, t, machine_->x.data(), until);
 }
@@ -101,7 +102,7 @@ Tangents::Moved Tangents::crossing_time(Index slot, const std::string& event, do
   const bool at_rest = grazes(guard, speed, slot, t, x);
   for (Index k = 0; k < size(); ++k) {
     // A guard that does not depend on the parameter has a time all the same.
-    if (at_rest) moved.by[k] = guard.columns[k] == 0.0 ? until.t[k] : nan;
+    if (at_rest) moved.by[k] = guard.columns[k] == 0.0 ? until.t[k] : no_derivative;
   }
   return moved;
 }
@@ -113,7 +114,7 @@ bool Tangents::grazes(const GuardTangent& guard, double speed, Index slot, doubl
                       const double* x) {
   const Eigen::VectorXd f = flow(t, x);
   const double terms = guard.by_state.cwiseAbs().dot(f.cwiseAbs()) + std::abs(guard.by_time);
-  if (!(std::abs(speed) > rounding * terms)) return true;
+  if (!(std::abs(speed) > sum_rounding * terms)) return true;
   double error = 0.0;
   for (Index i = 0; i < f.size(); ++i)
     error += std::abs(guard.by_state[i]) * (options_->atol[i] + options_->rtol[i] * std::abs(x[i]));
@@ -124,21 +125,6 @@ bool Tangents::grazes(const GuardTangent& guard, double speed, Index slot, doubl
   const double curvature =
       (there.by_state.dot(flow(t + ahead, later.data())) + there.by_time - speed) / ahead;
   return curvature * speed < 0.0 && speed * speed <= 2.0 * std::abs(curvature) * error;
-}
-
-void Tangents::monitor(const MonitorHit& hit, const double* x) {
-  const GuardGroup& group = machine_->plan().guard((*guards_)[hit.firing.guard()].group);
-  TangentColumns at = columns_;
-  if (hit.t < t_) variation_->at(hit.t, at.x);
-  Moved moved = group.is_opaque() ? Moved{.by = Eigen::RowVectorXd::Constant(size(), nan)}
-                                  : crossing_time(hit.firing.slot, group.name, hit.t, x, at);
-  for (Index k = 0; k < size(); ++k) {
-    if (std::isnan(moved.by[k]) && nth(lost_, k) == 0)
-      results_->sensitivities.gaps.push_back(
-          {hit.t, group.name, "the monitor only grazes zero, or shows a sign only",
-           nth(results_->sensitivities.parameters, k)});
-  }
-  add_event(moved.by);
 }
 
 // --- the passes
@@ -152,8 +138,10 @@ void Tangents::call(const Transition::Call& call, const double* x_next, const do
   Eigen::VectorXd x(leaf.nx), z(leaf.nz), out(leaf.nx + leaf.nz);
   for (Index k = 0; k < size(); ++k) {
     const auto read = [&](Machine& probe, double shift, double* to) {
-      for (Index i = 0; i < leaf.nx; ++i) x[i] = x_next[leaf.x + i] + shift * next_x_(leaf.x + i, k);
-      for (Index i = 0; i < leaf.nz; ++i) z[i] = z_next[leaf.z + i] + shift * next_z_(leaf.z + i, k);
+      for (Index i = 0; i < leaf.nx; ++i)
+        x[i] = x_next[leaf.x + i] + shift * next_x_(leaf.x + i, k);
+      for (Index i = 0; i < leaf.nz; ++i)
+        z[i] = z_next[leaf.z + i] + shift * next_z_(leaf.z + i, k);
       At at = probe.at(call.leaf, call.t + shift * columns_.t[k], probe.x.data());
       at.entry = call.entry, at.mode = mode;
       new (&at.x) VectorView(x.data(), leaf.nx);
@@ -164,8 +152,7 @@ void Tangents::call(const Transition::Call& call, const double* x_next, const do
       Next next(to_x, to_z, entered, leaf.path);
       (*call.map)(*leaf.system, at, next);
     };
-    probe_.derivative(machine_->x.data(), columns_.column(k), out.size(), read,
-                      out.data());
+    probe_.derivative(machine_->x.data(), columns_.column(k), out.size(), read, out.data());
     next_x_.col(k).segment(leaf.x, leaf.nx) = out.head(leaf.nx);
     next_z_.col(k).segment(leaf.z, leaf.nz) = out.tail(leaf.nz);
   }
@@ -198,58 +185,6 @@ void Tangents::close() {
   if (!flow_.autonomous()) fix_time(t_, machine_->x.data(), columns_);
   in_instant_ = false;
   variation_->forget();
-}
-
-// --- events
-
-void Tangents::add_event(const Eigen::RowVectorXd& by) {
-  Sensitivities& out = results_->sensitivities;
-  if (out.event_times.size() >= results_->events.size() * out.size()) return;  // none are kept
-  const std::size_t number = out.event_times.size() / out.size();
-  const auto found = predicted_.find(number);
-  const bool enters = results_->events[number].kind == EventKind::zeno_enter;
-  for (Index k = 0; k < size(); ++k) {
-    out.event_times.push_back(by[k]);
-    const double predicted = found == predicted_.end() ? by[k] : found->second[k];
-    out.predicted.push_back(enters ? predicted : nan);
-  }
-}
-
-void Tangents::log() {
-  const std::size_t numbers = results_->events.size() * results_->sensitivities.size();
-  while (results_->sensitivities.event_times.size() < numbers) add_event(instant_time_);
-  predicted_.clear();
-}
-
-Eigen::MatrixXd Tangents::rows_of(std::span<const Index> states) const {
-  Eigen::MatrixXd rows(static_cast<Index>(states.size()), size());
-  for (Index i = 0; i < rows.rows(); ++i) rows.row(i) = next_x_.row(nth(states, i));
-  return rows;
-}
-
-namespace {
-
-Eigen::VectorXd entries_of(std::span<const Index> states, const Eigen::VectorXd& x) {
-  Eigen::VectorXd out(static_cast<Index>(states.size()));
-  for (Index i = 0; i < out.size(); ++i) out[i] = x[nth(states, i)];
-  return out;
-}
-
-}  // namespace
-
-void Tangents::fired(const void* monitor) { monitors_[monitor].fired(t_, columns_.t); }
-
-void Tangents::remember(const void* monitor, std::span<const Index> states,
-                        const Eigen::VectorXd& next) {
-  monitors_[monitor].remember(entries_of(states, next), rows_of(states));
-}
-
-void Tangents::accumulate(const void* monitor, std::span<const Index> states,
-                          const Eigen::VectorXd& next) {
-  const ZenoTangent& zeno = monitors_[monitor];
-  const Eigen::MatrixXd rest = zeno.accumulate(entries_of(states, next), rows_of(states));
-  for (Index i = 0; i < rest.rows(); ++i) next_x_.row(nth(states, i)) = rest.row(i);
-  predicted_[results_->events.size()] = zeno.accumulation_time();
 }
 
 }  // namespace saltus

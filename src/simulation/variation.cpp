@@ -23,7 +23,7 @@ constexpr double looked_at = 0.72;
 /// by 2^50, which is the rounding.
 constexpr int most_halvings = 10;
 /// The rounding of A S and of the differences in A, in parts of the largest value of a column.
-constexpr double rounding = 1e3 * thresholds::eps;
+constexpr double value_rounding = 1e3 * thresholds::eps;
 
 /// The Lagrange polynomial of node i at s, without the factor of node `but`.
 double basis(int i, double s, int but) {
@@ -117,7 +117,7 @@ bool Variation::is_good(const Piece& piece, const Equation& equation) {
   const Eigen::MatrixXd error =
       (Eigen::MatrixXd::Identity(n, n) - h * a_[0]).partialPivLu().solve(missed);
   for (Index k = 0; k < here.cols(); ++k) {
-    const double least = rounding * here.col(k).lpNorm<Eigen::Infinity>();
+    const double least = value_rounding * here.col(k).lpNorm<Eigen::Infinity>();
     for (Index i = 0; i < n; ++i) {
       const double size = std::max(std::abs(piece.s.front()(i, k)), std::abs(piece.s.back()(i, k)));
       // A value that is not finite cannot be made good by shorter steps.

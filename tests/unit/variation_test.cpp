@@ -61,15 +61,14 @@ TEST_CASE("a stiff equation is damped in one step", "[variation][stiff]") {
   CHECK(std::abs(s(0, 0) - 3.0) < 1e-6);
 }
 
-TEST_CASE("a column that is not a number stays one and does not hold the others up", "[variation]") {
+TEST_CASE("a column that is not a number stays one and does not hold the others up",
+          "[variation]") {
   Variation variation({.rtol = 1e-10, .atol = MatrixXd::Constant(1, 2, 1e-12)});
   MatrixXd s = MatrixXd::Ones(1, 2);
   s(0, 1) = std::numeric_limits<double>::quiet_NaN();
   variation.advance(
       0.0, 2.0,
-      [](double t, MatrixXd& a, MatrixXd& b) {
-        a.setConstant(1, 1, std::cos(t)), b.setZero(1, 2);
-      },
+      [](double t, MatrixXd& a, MatrixXd& b) { a.setConstant(1, 1, std::cos(t)), b.setZero(1, 2); },
       s);
   CHECK(std::abs(s(0, 0) - std::exp(std::sin(2.0))) < 1e-9);
   CHECK(std::isnan(s(0, 1)));

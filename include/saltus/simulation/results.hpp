@@ -65,7 +65,7 @@ struct Results {
   std::exception_ptr cause;  ///< the exception, if the status is failed
   Statistics statistics;
   Sensitivities sensitivities;  ///< with the option sensitivity; otherwise empty
-  Trajectory trajectory;  ///< with the option dense_output; otherwise empty
+  Trajectory trajectory;        ///< with the option dense_output; otherwise empty
 
   /// The continuous state and every recorded signal at any time of a run with the option
   /// dense_output, to the order of its method. At the time of an event they are the values after

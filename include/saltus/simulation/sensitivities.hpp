@@ -21,10 +21,11 @@ struct SensitivityGap {
 /// The derivatives of rows and of the final state are those at a fixed time. That of an event is
 /// the derivative of its time. After a gap they are NaN.
 struct Sensitivities {
-  std::vector<std::string> parameters;       ///< the names of the single entries
-  std::vector<std::vector<double>> signals;  ///< of each recorded signal: rows x entries x parameters
-  std::vector<double> event_times;           ///< events x parameters
-  std::vector<double> predicted;  ///< events x parameters: of Event::predicted, else NaN
+  std::vector<std::string> parameters;  ///< the names of the single entries
+  std::vector<std::vector<double>>
+      signals;                      ///< of each recorded signal: rows x entries x parameters
+  std::vector<double> event_times;  ///< events x parameters
+  std::vector<double> predicted;    ///< events x parameters: of Event::predicted, else NaN
   std::vector<double> continuous_state, discrete_state;  ///< at the end: entries x parameters
   std::vector<SensitivityGap> gaps;                      ///< in order of time
 

@@ -78,6 +78,64 @@ def test_the_time_at_which_friction_stops_a_block():
     np.testing.assert_allclose(results.sensitivities.continuous_state, 0.0, atol=1e-12)
 
 
+def test_the_time_of_a_monitor_moves():
+    """x'' = -k x from (0, 1) is largest at pi / (2 sqrt(k))."""
+
+    class Swing(saltus.LeafSystem):
+        def __init__(self, k):
+            super().__init__(name="swing")
+            self.declare_dynamic_parameter("k", k)
+            self.declare_continuous_state([0.0, 1.0], ode=self.ode)
+            self.declare_zero_crossing(
+                lambda time, state, k: state.continuous_state[1],
+                name="top",
+                direction="positive_then_non_positive",
+            )
+
+        def ode(self, time, state, *, k):
+            x, v = state.continuous_state
+            return [v, -k * x]
+
+    results = saltus.simulate(Swing(0.456), (0.0, 4.0), sensitivity=["k"], rtol=1e-11, atol=1e-13)
+    np.testing.assert_allclose(results.events.dt_dp("top"), [[-2.550601538829664]], rtol=1e-9)
+
+
+def test_a_discrete_state_and_a_cascade_carry_derivatives():
+    """A drop from `h` reaches the floor at t = h: it stores p t, and the pass after it adds p z."""
+
+    class Drop(saltus.LeafSystem):
+        def __init__(self):
+            super().__init__(name="drop")
+            self.declare_dynamic_parameter("p", 3.0)
+            self.declare_continuous_state([2.0, 0.0], ode=lambda t, s, p: [-1.0, 0.0])
+            self.declare_discrete_state([0.0])
+            self.declare_default_mode(0)
+            self.declare_zero_crossing(
+                lambda time, state, p: state.continuous_state[0],
+                lambda time, state, p: state.with_discrete_state([p * time]).with_mode(1),
+                name="floor",
+                direction="positive_then_non_positive",
+                start_mode=0,
+                end_mode=1,
+            )
+            self.declare_zero_crossing(
+                lambda time, state, p: 0.5 - state.discrete_state[0],
+                lambda time, state, p: state.with_continuous_state(
+                    [9.0, p * state.discrete_state[0]]
+                ),
+                name="filled",
+                direction="positive_then_non_positive",
+            )
+
+    results = saltus.simulate(Drop(), (0.0, 2.5), sensitivity=["p", "x[0]"], rtol=1e-9)
+    h, p = 2.0, 3.0
+    found = results.sensitivities
+    np.testing.assert_allclose(found.discrete_state, [[h, p]], rtol=1e-9)
+    # x = 9 - (t - h), and the second state p z = p^2 h
+    np.testing.assert_allclose(found.continuous_state, [[0.0, 1.0], [2 * p * h, p * p]], atol=1e-8)
+    np.testing.assert_allclose(results.events.dt_dp("filled"), [[0.0, 1.0]], atol=1e-9)
+
+
 @pytest.mark.parametrize("method", METHODS)
 def test_a_linear_system_is_its_own_exponential(method):
     class Spring(saltus.LeafSystem):

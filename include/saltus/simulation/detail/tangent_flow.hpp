@@ -15,9 +15,9 @@ namespace saltus {
 /// The derivatives by the chosen parameters: a column for each of them. They are those at a time that
 /// moves by `t`: zero for a fixed time, dtau for the instant at tau, or for a fixed time after it.
 struct TangentColumns {
-  Eigen::MatrixXd x, z, y;         ///< of the states, the discrete states and the signals
+  Eigen::MatrixXd x, z, y;  ///< of the states, the discrete states and the signals
   Eigen::RowVectorXd t;
-  std::vector<Index> parameters;   ///< the entry of p that each column is of, or -1
+  std::vector<Index> parameters;  ///< the entry of p that each column is of, or -1
   Index size() const { return static_cast<Index>(parameters.size()); }
   /// One of them as a direction.
   TangentDirection column(Index k) const {

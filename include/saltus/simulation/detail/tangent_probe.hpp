@@ -12,7 +12,7 @@ namespace saltus {
 
 /// How the values of a machine change with one parameter.
 struct TangentDirection {
-  double t = 0.0;  ///< of the time
+  double t = 0.0;                                         ///< of the time
   const double *x = nullptr, *z = nullptr, *y = nullptr;  ///< null: zero
   Index parameter = -1;                                   ///< an entry of p that changes by 1
 };
@@ -22,16 +22,18 @@ struct TangentDirection {
 class TangentProbe {
  public:
   explicit TangentProbe(const Machine& machine)
-      : machine_(&machine), probe_(machine.shared_plan()), sizes_(machine.plan().nx) {
-    sizes_.setZero();
+      : machine_(&machine), probe_(machine.shared_plan()) {
+    begin();
   }
+  /// A run begins: no size is known.
+  void begin();
 
   /// The machine with the values of the run, moved by `shift` along the direction.
   Machine& at(const double* x, const TangentDirection& along, double shift);
   /// The same without a shift.
   Machine& at(const double* x) { return at(x, {}, 0.0); }
 
-  /// Notes how large the states are, and how long a step is [s].
+  /// Notes how large the values are, and how long a step is [s].
   void note(const double* x, double step);
 
   /// d out along the direction at (t, x). `read(machine, shift, out)` computes `size` numbers on a
@@ -75,8 +77,8 @@ class TangentProbe {
 
   const Machine* machine_;
   Machine probe_;
-  Eigen::VectorXd sizes_;  // the largest of each state so far
-  double step_ = 1.0;      // [s]
+  Eigen::VectorXd x_sizes_, z_sizes_, y_sizes_;  // the largest of each value so far
+  double step_ = 0.0;                            // [s] the longest so far
   Eigen::VectorXd up_, down_, near_, wide_;
 };
 

@@ -109,7 +109,7 @@ class Tangents {
   TangentColumns before_;   // at a fixed time before the instant
   Eigen::MatrixXd next_x_, next_z_;
   Eigen::RowVectorXd instant_time_;  // the derivatives of the time of the last instant
-  double t_ = 0.0;  // [s] of S, or of the instant
+  double t_ = 0.0;                   // [s] of S, or of the instant
   bool in_instant_ = false, committed_ = false;
   std::vector<char> lost_;
   std::map<const void*, ZenoTangent> monitors_;

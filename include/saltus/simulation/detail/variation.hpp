@@ -36,7 +36,7 @@ class Variation {
 
  private:
   struct Piece {
-    double from, to;  // [s]
+    double from, to;                 // [s]
     std::vector<Eigen::MatrixXd> s;  // at the begin and at the points
   };
   void advance(double from, double to, const Equation& equation, Eigen::MatrixXd& s, int depth);

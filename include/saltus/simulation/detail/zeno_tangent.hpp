@@ -21,7 +21,8 @@ class ZenoTangent {
   /// The derivative of the accumulation time.
   Eigen::RowVectorXd accumulation_time() const;
   /// The derivatives of the accumulation state, from the states after this firing.
-  Eigen::MatrixXd accumulate(const Eigen::VectorXd& after, const Eigen::MatrixXd& derivatives) const;
+  Eigen::MatrixXd accumulate(const Eigen::VectorXd& after,
+                             const Eigen::MatrixXd& derivatives) const;
 
  private:
   struct Remainder {

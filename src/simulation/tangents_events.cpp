@@ -1,0 +1,75 @@
+// Tangents: the events of an instant, monitors, and the sums of Zeno monitors.
+#include <cmath>
+#include <limits>
+
+#include "saltus/simulation/detail/tangents.hpp"
+
+namespace saltus {
+
+void Tangents::monitor(const MonitorHit& hit, const double* x) {
+  const GuardGroup& group = machine_->plan().guard((*guards_)[hit.firing.guard()].group);
+  TangentColumns at = columns_;
+  if (hit.t < t_) variation_->at(hit.t, at.x);
+  Moved moved = group.is_opaque() ? Moved{.by = Eigen::RowVectorXd::Constant(
+                                              size(), std::numeric_limits<double>::quiet_NaN())}
+                                  : crossing_time(hit.firing.slot, group.name, hit.t, x, at);
+  for (Index k = 0; k < size(); ++k) {
+    if (std::isnan(moved.by[k]) && nth(lost_, k) == 0)
+      results_->sensitivities.gaps.push_back({hit.t, group.name,
+                                              "the monitor only grazes zero, or shows a sign only",
+                                              nth(results_->sensitivities.parameters, k)});
+  }
+  add_event(moved.by);
+}
+
+void Tangents::add_event(const Eigen::RowVectorXd& by) {
+  Sensitivities& out = results_->sensitivities;
+  if (out.event_times.size() >= results_->events.size() * out.size()) return;  // none are kept
+  const std::size_t number = out.event_times.size() / out.size();
+  const auto found = predicted_.find(number);
+  const bool enters = results_->events[number].kind == EventKind::zeno_enter;
+  for (Index k = 0; k < size(); ++k) {
+    out.event_times.push_back(by[k]);
+    const double predicted = found == predicted_.end() ? by[k] : found->second[k];
+    out.predicted.push_back(enters ? predicted : std::numeric_limits<double>::quiet_NaN());
+  }
+}
+
+void Tangents::log() {
+  const std::size_t numbers = results_->events.size() * results_->sensitivities.size();
+  while (results_->sensitivities.event_times.size() < numbers) add_event(instant_time_);
+  predicted_.clear();
+}
+
+Eigen::MatrixXd Tangents::rows_of(std::span<const Index> states) const {
+  Eigen::MatrixXd rows(static_cast<Index>(states.size()), size());
+  for (Index i = 0; i < rows.rows(); ++i) rows.row(i) = next_x_.row(nth(states, i));
+  return rows;
+}
+
+namespace {
+
+Eigen::VectorXd entries_of(std::span<const Index> states, const Eigen::VectorXd& x) {
+  Eigen::VectorXd out(static_cast<Index>(states.size()));
+  for (Index i = 0; i < out.size(); ++i) out[i] = x[nth(states, i)];
+  return out;
+}
+
+}  // namespace
+
+void Tangents::fired(const void* monitor) { monitors_[monitor].fired(t_, columns_.t); }
+
+void Tangents::remember(const void* monitor, std::span<const Index> states,
+                        const Eigen::VectorXd& next) {
+  monitors_[monitor].remember(entries_of(states, next), rows_of(states));
+}
+
+void Tangents::accumulate(const void* monitor, std::span<const Index> states,
+                          const Eigen::VectorXd& next) {
+  const ZenoTangent& zeno = monitors_[monitor];
+  const Eigen::MatrixXd rest = zeno.accumulate(entries_of(states, next), rows_of(states));
+  for (Index i = 0; i < rest.rows(); ++i) next_x_.row(nth(states, i)) = rest.row(i);
+  predicted_[results_->events.size()] = zeno.accumulation_time();
+}
+
+}  // namespace saltus
