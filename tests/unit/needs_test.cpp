@@ -57,8 +57,8 @@ TEST_CASE("marks stop behind what is not computed again", "[needs]") {
 TEST_CASE("taps pull what they need at each rate, and nothing else", "[needs]") {
   const Rates rates;
   const auto none = compile(*rates.diagram);
-  CHECK((none->needs.constants.empty() && none->needs.instants.empty() && none->needs.taps.empty() &&
-         none->needs.derivatives.empty()));
+  CHECK((none->needs.constants.empty() && none->needs.instants.empty() &&
+         none->needs.taps.empty() && none->needs.derivatives.empty()));
   const auto slow = compile(*rates.diagram, {{"s", rates.slow->output()}});
   CHECK(names(*slow, slow->needs.constants) == Names{"constant.out"});
   CHECK(names(*slow, slow->needs.instants) == Names{"held.out", "slow.out", "step.out"});
