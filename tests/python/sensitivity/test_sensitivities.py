@@ -1,5 +1,7 @@
 """Laws of the option `sensitivity`: the run stays as it is, gaps are named, errors help."""
 
+import pickle
+
 import numpy as np
 import pytest
 import saltus
@@ -171,3 +173,24 @@ def test_van_der_pol_against_differences_of_tight_runs(method, mu):
     )
     found = results.sensitivities.continuous_state[:, 0]
     np.testing.assert_allclose(found, expected, rtol=1e-6, atol=1e-8)
+
+
+def test_solve_sweep_and_pickle_have_them():
+    options = {"sensitivity": ["k", "x[0]"], "rtol": 1e-9}
+    solution = saltus.solve(lambda t, x, k: -k * x, (0, 1), [1.0], parameters={"k": 2.0}, **options)
+    expected = [[-np.exp(-2.0), np.exp(-2.0)]]
+    kept = pickle.loads(pickle.dumps(solution))
+    for results in (solution, kept):
+        np.testing.assert_allclose(results.sensitivities.continuous_state, expected, rtol=1e-8)
+    with pytest.raises(saltus.ModelError, match="no place for derivatives"):
+        solution.save("decay.npz")
+
+    def slope(results):
+        return results.sensitivities.continuous_state[1, 0]
+
+    ball = Throw(9.81, 0.5, 2.0)
+    swept = saltus.sweep(ball, {"e": [0.5, 0.7]}, (0.0, 1.0), sensitivity=["e"], reduce=slope)
+    alone = saltus.simulate(ball, (0.0, 1.0), sensitivity=["e"])
+    assert swept["slope"].values[0] == slope(alone) != 0.0
+    with pytest.raises(saltus.ModelError, match="say with reduce"):
+        saltus.sweep(ball, {"e": [0.5]}, (0.0, 1.0), sensitivity=["e"])
