@@ -15,7 +15,7 @@ namespace {
 constexpr int stages = Variation::stages;
 constexpr int points = stages + 1;
 /// The begin of a step and the Radau points, as parts of it.
-constexpr std::array<double, points> nodes{
+constexpr std::array<double, points> radau_points{
     0.0, 0.05710419611451768, 0.27684301363812383, 0.5835904323689168, 0.8602401356562195, 1.0};
 /// Where the polynomial is compared with the equation: far from the points.
 constexpr double looked_at = 0.72;
@@ -29,7 +29,7 @@ constexpr double value_rounding = 1e3 * thresholds::eps;
 double basis(int i, double s, int but) {
   double product = 1.0;
   for (int j = 0; j < points; ++j) {
-    if (j != i && j != but) product *= (s - nodes[j]) / (nodes[i] - nodes[j]);
+    if (j != i && j != but) product *= (s - radau_points[j]) / (radau_points[i] - radau_points[j]);
   }
   return product;
 }
@@ -37,7 +37,7 @@ double basis(int i, double s, int but) {
 double slope(int i, double s) {
   double sum = 0.0;
   for (int m = 0; m < points; ++m) {
-    if (m != i) sum += basis(i, s, m) / (nodes[i] - nodes[m]);
+    if (m != i) sum += basis(i, s, m) / (radau_points[i] - radau_points[m]);
   }
   return sum;
 }
@@ -47,7 +47,7 @@ const std::array<std::array<double, points>, stages>& slopes_at_nodes() {
   static const auto made = [] {
     std::array<std::array<double, points>, stages> all{};
     for (int i = 0; i < stages; ++i) {
-      for (int j = 0; j < points; ++j) all[i][j] = slope(j, nodes[i + 1]);
+      for (int j = 0; j < points; ++j) all[i][j] = slope(j, radau_points[i + 1]);
     }
     return all;
   }();
@@ -92,7 +92,7 @@ Variation::Piece Variation::collocate(double from, double to, const Equation& eq
   for (int i = 0; i < stages; ++i) {
     const auto& row = slopes_at_nodes()[i];
     const auto k = static_cast<std::size_t>(i);
-    equation(i + 1 == stages ? to : from + nodes[i + 1] * h, a_[k], b_[k]);
+    equation(i + 1 == stages ? to : from + radau_points[i + 1] * h, a_[k], b_[k]);
     for (int j = 0; j < stages; ++j)
       system_.block(i * n, j * n, n, n).diagonal().setConstant(row[j + 1]);
     system_.block(i * n, i * n, n, n) -= h * a_[k];
