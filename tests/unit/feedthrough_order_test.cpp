@@ -8,9 +8,9 @@ using namespace saltus;
 
 namespace {
 
-using Needs = std::vector<std::vector<int>>;
+using Graph = std::vector<std::vector<int>>;
 
-std::vector<int> order_of(const Needs& needs) {
+std::vector<int> order_of(const Graph& needs) {
   const auto of = [&](int i) -> const std::vector<int>& {
     return needs[static_cast<std::size_t>(i)];
   };
@@ -30,7 +30,7 @@ TEST_CASE("a node comes after all that it needs, and otherwise by its number", "
 
 TEST_CASE("a long chain needs no deep stack", "[order]") {
   const int n = 100000;
-  Needs needs(n);
+  Graph needs(n);
   for (int i = 0; i + 1 < n; ++i) needs[static_cast<std::size_t>(i)] = {i + 1};
   const std::vector<int> order = order_of(needs);
   CHECK(order.front() == n - 1);
