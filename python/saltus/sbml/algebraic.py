@@ -15,7 +15,8 @@ __all__ = ["names_in", "solved", "unknowns"]
 
 def unknowns(declared: Declared) -> list[str]:
     """An unknown for each algebraic rule, by its position: an id in the rule that is not constant,
-    and that neither a rule nor a reaction determines. ModelError for a rule without one.
+    and that neither a rule nor a reaction determines; of several, one that no event assigns, then
+    one without a value, then the first by its name. ModelError for a rule without one.
     """
     free = {
         name
@@ -23,10 +24,12 @@ def unknowns(declared: Declared) -> list[str]:
         if not found.constant and name not in declared.assigned and name not in declared.rates
     } - declared.reacted()
     late = assigned_by_events(declared)
-    choices = [
-        sorted(_read(rule.getMath(), declared) & free, key=lambda name: (name in late, name))
-        for rule in declared.algebraic
-    ]
+
+    def rank(name: str) -> tuple[bool, bool, str]:
+        return name in late, not declared.is_unset(name), name
+
+    choices = [sorted(_read(rule.getMath(), declared) & free, key=rank)
+               for rule in declared.algebraic]  # fmt: skip
     owner: dict[str, int] = {}
     for i in range(len(choices)):
         if not _matched(i, choices, owner, set()):

@@ -30,7 +30,7 @@ DEEPEST = 300
 def model_of(source: str | os.PathLike[str]) -> tuple[Any, Any]:
     """(the document, its model) of a file, or of a text that begins with '<'.
 
-    Models of level 1 and 2 are converted to level 3; submodels are flattened. ModelError for a
+    A model keeps its level; submodels are flattened. ModelError for a
     file that is not there, for no XML, for what libsbml calls an error, and for packages and
     elements that have no time course here.
     """
