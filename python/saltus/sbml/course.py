@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import numbers
 import os
 from collections.abc import Sequence
 from typing import Any
@@ -16,6 +17,11 @@ from saltus.sbml.system import Model, model_block
 from saltus.simulation import simulate
 
 __all__ = ["time_course"]
+
+ROW = 3e-14
+"""relative; how much later than its name a row is, so that it has the events at that time: more
+than the roundings of a sum of some hundred times (2e-14), less than `AFTER` of `guards`
+"""
 
 
 def time_course(
@@ -53,23 +59,24 @@ def time_course(
     Raises
     ------
     ModelError
-        As `load`; also for an unknown variable.
+        As `load`; also for an unknown variable, and for steps that are no whole number.
     SimulationError
         As `saltus.simulate`.
     """
+    _require_grid(start, duration, steps)
     _document, model = model_of(path)  # which owns the model
     how = {**dict.fromkeys(amount, "amount"), **dict.fromkeys(concentration, "concentration")}
     shown = [(name, how.get(name, "value")) for name in variables]
-    _require(steps >= 1 and duration > 0.0 and start >= 0.0, start, duration, steps)
     system = model_block(model, shown)
     times = start + duration * np.arange(steps + 1) / steps
+    late = np.where(times > 0.0, times + ROW * (1.0 + times), 0.0)
     usual: dict[str, Any] = {"rtol": 1e-9, "atol": 1e-13}
     if system.curved:
         usual["max_minor_step_size"] = duration / steps
     results = simulate(
         system,
-        (0.0, float(times[-1])),
-        save_at=times,
+        (0.0, float(late[-1])),
+        save_at=late,
         event_rows=False,
         recorded_signals={name: system.output(name) for name in system.output_names},
         **(usual | options),
@@ -86,9 +93,11 @@ def _rows(system: Model, results: Results, times: np.ndarray) -> np.ndarray:
     return np.array([evaluated(tape, t, x[i], z[i], p) for i, t in enumerate(times.tolist())])
 
 
-def _require(good: bool, start: float, duration: float, steps: int) -> None:
-    if not good:
+def _require_grid(start: float, duration: float, steps: int) -> None:
+    real = all(isinstance(one, numbers.Real) for one in (start, duration))
+    whole = isinstance(steps, numbers.Integral)
+    if not (real and whole and start >= 0.0 and duration > 0.0 and steps >= 1):
         raise ModelError(
-            "time_course: expected start >= 0, duration > 0 and steps >= 1, found "
-            f"{start:g}, {duration:g} and {steps}"
+            "time_course: expected numbers start >= 0 and duration > 0, and a whole number "
+            f"steps >= 1, found {start!r}, {duration!r} and {steps!r}"
         )

@@ -8,10 +8,11 @@ from typing import Any
 from saltus.errors import ModelError
 from saltus.sbml.walk import VARIABLES, Walk
 
-__all__ = ["along"]
+__all__ = ["Jumps", "along"]
 
 SMOOTH = {"floor", "ceil", "trunc", "sign", "rint"}
 """operations whose derivative is zero between their jumps"""
+JUMPING = SMOOTH | {"fmod"}
 
 
 def along(graph: Any, node: int, rate: Callable[[str, int], int], name: str) -> int:
@@ -93,3 +94,17 @@ class _Derivative(Walk[int]):
         raise ModelError(
             f"rateOf '{self.name}': the derivative of '{op}' is not known; write it as a formula"
         )
+
+
+class Jumps(Walk[bool]):
+    """Whether a node reads an operation that jumps, of operands of which `flows` is true."""
+
+    def __init__(self, graph: Any, flows: Callable[[int], bool]):
+        super().__init__(graph)
+        self.flows = flows
+
+    def made(self, node: int) -> bool:
+        if not self.flows(node):
+            return False
+        op, operands = self.graph.operation(node)
+        return op not in VARIABLES and (op in JUMPING or any(map(self.of, operands)))

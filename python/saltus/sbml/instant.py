@@ -6,7 +6,7 @@ plain zero crossings, which happen before any execution:
 - `compare`, where a difference crosses zero: the new sides, and the truths of the triggers.
 - `assign`, after an execution has put its values beside the states: all of them at once, then the
   sides of what has jumped, and the truths.
-- `later`, when nothing else is due: the sides of equalities after their zeros.
+- `later`, when nothing else is due: the sides after zeros that count for one moment.
 """
 
 from __future__ import annotations
@@ -18,6 +18,7 @@ import numpy as np
 from saltus.sbml.crossing import Crossing
 from saltus.sbml.events import Event
 from saltus.sbml.formula import Assignment, Formula
+from saltus.sbml.guards import Guards, just_after
 from saltus.sbml.kinds import FIRST, LATER, LOOK, RUNNING, STARTED, Kinds, assigned_by_events
 from saltus.sbml.nodes import Nodes
 from saltus.sbml.running import RunningScope
@@ -25,8 +26,6 @@ from saltus.sbml.walk import Replaced
 
 __all__ = ["Instant"]
 
-AFTER = 1e-13
-"""relative; how much later than its zero a strict comparison of the time changes"""
 TAKEN = 2.0
 """the size of a side that was taken before its own guard fires; 1 after that"""
 
@@ -42,10 +41,9 @@ class Instant:
         self.size = scope.first_side
         self.sides = self._next(len(self.differences))
         """-1, 0 or 1 for each difference, or twice that while its own guard has not fired"""
-        self.after = dict(
-            zip(sorted(scope.equalities), self._next(len(scope.equalities)), strict=True)
-        )
-        """for equalities at their zeros: the sides that follow; 0 elsewhere"""
+        momentary = sorted(scope.momentary)
+        self.after = dict(zip(momentary, self._next(len(momentary)), strict=True))
+        """for differences that have the side 0 for one moment: not 0 at that moment"""
         self.truths = self._next(len(events))
         self.values = self._next(max((len(event.values) for event in events), default=0))
         """of the event that is executed, until they are assigned"""
@@ -65,29 +63,22 @@ class Instant:
 
     def guards(self) -> Formula:
         """The differences, their negatives, and whether the sides are to be looked at."""
-        scope, f = self.scope, self.nodes
-        up = [self._late(n, k not in scope.zero_above) for k, n in enumerate(self.differences)]
-        down = [self._late(f("neg", n), k not in scope.zero_below)
-                for k, n in enumerate(self.differences)]  # fmt: skip
-        return Formula(self.graph, [*up, *down, f("sub", self.z[LOOK], 0.5)])
-
-    def _late(self, node: int, strictly: bool) -> int:
-        """A guard for a difference that becomes positive. One of the time alone that is zero at a
-        time at which its comparison has not changed yet fires just after that time: a row there
-        shows the values before.
-        """
-        f = self.nodes
-        if not strictly or self.scope.follows_states(node):
-            return node
-        size = f("add", 1.0, f("abs", int(self.graph.time())))
-        return f("sub", node, f("mul", AFTER, size))
+        guards = Guards(self.scope, self.crossing, [self.z[place] for place in self.sides])
+        return Formula(self.graph, [*guards.up(), *guards.down(), self._rises(LOOK)])
 
     def positive(self, place: int) -> Formula:
         """A guard that rises where an entry of the discrete state, 0 before, becomes 1 or more."""
-        return self.number(self.nodes("sub", self.z[place], 0.5))
+        return self.number(self._rises(place))
+
+    def _rises(self, place: int) -> int:
+        return self.nodes("sub", self.z[place], 0.5)
 
     def before(self) -> Formula:
         return self.number(self.nodes("sub", 0.5, self.z[STARTED]))
+
+    def just_after(self) -> Formula:
+        """The delay of `later`: a row at an instant is that of the instant, not of its end."""
+        return self.number(just_after(self.nodes))
 
     def number(self, node: int) -> Formula:
         return Formula(self.graph, [node], True)
@@ -98,7 +89,7 @@ class Instant:
         z = [*self.z]
         z[STARTED] = f(1.0)
         self._settle({}, z, [None] * len(self.differences))
-        z[LATER] = f.any([f("eq", z[place], 0.0) for place in self.sides])
+        z[LATER] = self._rests(z)
         return Assignment(self.graph, [], z)
 
     def compare(self) -> Assignment:
@@ -119,12 +110,20 @@ class Instant:
         self._settle({}, z, sides)
         late = [f("ne", z[self.after[k]], 0.0) for k in self.after]
         late += [f("eq", f("abs", z[place]), TAKEN) for place in self.sides]
-        z[LATER] = f.any(late)
+        z[LATER] = f.any([*late, self._rests(z)])
         return Assignment(self.graph, [], z)
 
+    def _rests(self, z: list[int]) -> int:
+        """Whether a difference is at its zero, which the new rates may make it leave. Its guard
+        need not see this: it may be above zero, by a rounding of the time at which it was located.
+        """
+        f = self.nodes
+        return f.any([f("eq", z[place], 0.0) for place in self.sides])
+
     def _turned(self, k: int, flow: int, fired: int, to: int, z: list[int]) -> int:
-        """The side of a difference after its crossing. That of an equality is 0 first, and the one
-        after it waits.
+        """The side of a difference after its crossing. One whose guard fired is 0 if it came to
+        zero only, and the flow does not lead beyond: a rate may stop there. That of a difference
+        whose zero counts by itself is 0 first, and the one after it waits.
         """
         f = self.nodes
         side, sign = self.z[self.sides[k]], f.sign(self.z[self.sides[k]])
@@ -133,22 +132,26 @@ class Instant:
         )  # its guard fires the wrong way
         own = f.all(fired, f.no(rounding))
         taken = f("select", f("eq", sign, flow), 0.0, f("mul", TAKEN, flow))
-        new = f("select", own, to, taken)
-        crossed = f("ne", new, 0.0)
+        beyond = f.any([f("gt", f("mul", self.differences[k], to), 0.0), f("eq", flow, to)])
+        new = f("select", own, f("select", beyond, to, 0.0), taken)
+        crossed = f.any([own, f("ne", new, 0.0)])
         strays = f("lt", f("mul", side, self.differences[k]), 0.0)
         strays = f.all(strays, f("lt", f("abs", side), TAKEN))
         other = f("select", strays, f.sign(self.differences[k]), side)
         plain = f("select", crossed, new, other)
         if k not in self.after:
             return plain
-        at_zero = f.all(crossed, f.no(f.all(own, f("eq", sign, to))))
-        z[self.after[k]] = f("select", at_zero, new, self.z[self.after[k]])
+        waiting = self.z[self.after[k]]
+        rested = f.all(f("eq", sign, 0.0), f("eq", waiting, 0.0))
+        leaves = f.all(own, f.any([f("eq", sign, to), rested]))
+        at_zero = f.all(crossed, f.no(leaves))
+        z[self.after[k]] = f("select", at_zero, new, waiting)
         return f("select", at_zero, 0.0, plain)
 
     def later(self) -> Assignment:
-        """Nothing else is due. Equalities leave their zeros, and differences those at which they
-        began. One whose side was taken, and that an event has turned around, has its old side from
-        now on.
+        """Nothing else is due. Differences leave zeros that count for one moment, and those at
+        which they began, to the side of the flow as it is now: an event may have stopped them. One
+        whose side was taken, and that an event has turned around, has its old side from now on.
         """
         f = self.nodes
         z, sides = [*self.z], []
@@ -156,7 +159,7 @@ class Instant:
             side = self.z[self.sides[k]]
             if k in self.after:
                 i = self.after[k]
-                side = f("select", f("ne", z[i], 0.0), z[i], side)
+                side = f("select", f("ne", z[i], 0.0), flow, side)
                 z[i] = f(0.0)
             back = f.all(f("eq", f("abs", side), TAKEN), f("lt", f("mul", side, flow), 0.0))
             if not self.scope.fires_late(k):
@@ -209,6 +212,7 @@ class Instant:
             z[i] = f(0.0)
         sides: list[int | None] = [self.z[self.sides[k]] for k in range(len(self.differences))]
         self._settle(dict(enumerate(x)), z, sides)
+        z[LATER] = f.any([f("ne", z[LATER], 0.0), self._rests(z)])
         return Assignment(self.graph, x if self._writes_states() else [], z)
 
     def _writes_states(self) -> bool:

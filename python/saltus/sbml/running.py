@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from saltus.errors import ModelError
-from saltus.sbml.derivative import along
+from saltus.sbml.derivative import Jumps, along
 from saltus.sbml.kinds import Kinds
 from saltus.sbml.scope import Scope
 from saltus.sbml.walk import Reads
@@ -38,6 +38,7 @@ class RunningScope(Scope):
         """numbers of the differences of which a formula counts zero to the lower or upper side"""
         self.flows = Reads(graph, "time", "continuous_state", "input").of
         self.follows_states = Reads(graph, "continuous_state").of
+        self.jumps = Jumps(graph, self.flows).of
 
     def time(self) -> int:
         return int(self.graph.time())
@@ -95,6 +96,13 @@ class RunningScope(Scope):
         side = self.graph.discrete_state(self.first_side + k)
         return self.apply(op, side, self.graph.constant(0.0))
 
+    @property
+    def momentary(self) -> set[int]:
+        """Numbers of the differences whose zero is a moment of its own: compared by == or !=, or
+        counted to both sides, as by x >= 4 and x <= 4.
+        """
+        return self.equalities | (self.zero_above & self.zero_below)
+
     def fires_late(self, k: int) -> bool:
         """Whether difference k is one of the time alone that is zero at a time at which its
         comparison has not changed yet. Its guard fires just after that time: a row there shows the
@@ -119,7 +127,11 @@ class RunningScope(Scope):
         return self.apply("abs", node)
 
     def curved(self, node: int) -> bool:
-        """Whether a node is no straight line in the time and the states, between instants."""
+        """Whether a node is no straight line in the time and the states, between instants: also one
+        that jumps by itself, as floor(x).
+        """
+        if self.jumps(node):
+            return True
 
         def one(kind: str, index: int) -> int:
             moves = kind in ("time", "continuous_state")

@@ -96,7 +96,7 @@ class Model(LeafSystem):
     ):
         super().__init__(name=model.getId() or "model")
         says = declared(model)
-        for name, value in (values or {}).items():
+        for name, value in _numbers_by_id(values).items():
             says.begin(name, value)
         unknown = says.unknown = unknowns(says) if says.algebraic else []
         numbers = initial_values(says, unknown)
@@ -157,7 +157,12 @@ class Model(LeafSystem):
                 at_start="ignore",  # `later` looks at a difference that begins at zero
             )
             self.declare_zero_crossing(
-                instant.positive(LATER), instant.later(), END, "rising", persistent=True
+                instant.positive(LATER),
+                instant.later(),
+                END,
+                "rising",
+                persistent=True,
+                delay=instant.just_after(),
             )
         if instant.events:
             declare(instant.positive(RUNNING), instant.assign(), ASSIGNED)
@@ -179,6 +184,12 @@ class Model(LeafSystem):
             )
             if event.delay is not None and instant.differences:
                 declare(reset_map=instant.look(), name=f"{event.name} is due", priority=HIGHEST)
+
+
+def _numbers_by_id(values: Mapping[str, float] | None) -> Mapping[str, float]:
+    if values is not None and not isinstance(values, Mapping):
+        raise ModelError(f"values: expected a dict of numbers by id, found {values!r}")
+    return values or {}
 
 
 def _require_finite_start(
