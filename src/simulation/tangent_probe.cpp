@@ -44,11 +44,6 @@ std::string first_line(const std::string& of) { return of.substr(0, of.find('\n'
 
 }  // namespace
 
-void DifferenceLadder::begin(Index size, double direction) {
-  numbers_.assign(static_cast<std::size_t>(size), {});
-  direction_ = direction, first_ = true;
-}
-
 void DifferenceLadder::look(const MovedValues& at, const Centre& centre) {
   for (std::size_t n = 0; n < numbers_.size(); ++n) {
     Number& number = numbers_[n];
@@ -106,32 +101,17 @@ void DifferenceLadder::settle(Number& number, double value, double error, double
   number = {true, value, error, blur, number.last, number.falls};
 }
 
-/// Numbers that change by no more than the rounding of their largest neighbour do not depend on the
-/// direction: their values are differences of large ones.
+/// Numbers that stay within the rounding of their largest neighbour do not depend on the direction:
+/// their values are differences of large ones.
 void DifferenceLadder::forgive(const MovedValues& at) {
   const double most = at.up.size() > 0 ? at.up.lpNorm<Eigen::Infinity>() : 0.0;
   for (std::size_t n = 0; n < numbers_.size(); ++n) {
     const auto i = static_cast<Index>(n);
-    const double change =
-        std::max(std::abs(at.up[i] - at.down[i]), std::abs(at.far_up[i] - at.far_down[i]));
-    if (!numbers_[n].settled && change <= roundings * eps * most)
-      settle(numbers_[n], (at.far_up[i] - at.far_down[i]) / (4.0 * at.shift), change / at.shift,
-             0.0);
+    const auto [low, high] = std::minmax({at.up[i], at.down[i], at.far_up[i], at.far_down[i]});
+    if (!std::isfinite(most + at.up[i] + at.down[i] + at.far_up[i] + at.far_down[i])) continue;
+    if (!numbers_[n].settled && high - low <= roundings * eps * most)
+      settle(numbers_[n], (at.far_up[i] - at.far_down[i]) / (4.0 * at.shift), high - low, 0.0);
   }
-}
-
-bool DifferenceLadder::open() const {
-  return std::ranges::any_of(numbers_, [](const Number& number) { return !number.settled; });
-}
-
-bool DifferenceLadder::blurred() const {
-  return std::ranges::any_of(numbers_, [](const Number& number) { return number.blur > 0.0; });
-}
-
-bool DifferenceLadder::write(double* out) const {
-  for (std::size_t n = 0; n < numbers_.size(); ++n)
-    out[n] = numbers_[n].settled ? numbers_[n].value : nan;
-  return !open();
 }
 
 void TangentProbe::begin() {

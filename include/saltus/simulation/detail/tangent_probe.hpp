@@ -33,14 +33,25 @@ class DifferenceLadder {
   using Centre = std::function<const Eigen::VectorXd*()>;  ///< the values without a shift, or null
 
   /// A new derivative of `size` numbers along a direction whose largest entry is `direction`.
-  void begin(Index size, double direction);
+  void begin(Index size, double direction) {
+    numbers_.assign(static_cast<std::size_t>(size), {});
+    direction_ = direction, first_ = true;
+  }
   void look(const MovedValues& at, const Centre& centre);
   /// Whether a number has no two differences that agree.
-  bool open() const;
+  bool open() const {
+    return std::ranges::any_of(numbers_, [](const Number& number) { return !number.settled; });
+  }
   /// Whether a number is settled, but rounding hides its derivative.
-  bool blurred() const;
+  bool blurred() const {
+    return std::ranges::any_of(numbers_, [](const Number& number) { return number.blur > 0.0; });
+  }
   /// NaN for the numbers that are open. True if there are none.
-  bool write(double* out) const;
+  bool write(double* out) const {
+    for (const Number& number : numbers_)
+      *out++ = number.settled ? number.value : std::numeric_limits<double>::quiet_NaN();
+    return !open();
+  }
 
  private:
   struct Number {
