@@ -18,8 +18,7 @@ constexpr double first_shift = 1e-3;
 /// (see `agreement`). The last rung is at 1e-9: c is up to 1e7, and rounding is 2e-7.
 constexpr double ladder_step = 30.0;
 constexpr int ladder_rungs = 4;
-/// The step between the larger shifts for a tiny value: each of them covers as many decades as lie
-/// between too coarse and too blurred.
+/// The step between the larger shifts for a tiny value: a good shift has about as many decades.
 constexpr double clear_step = 1e3;
 /// The two differences of sin(c u) differ by (c u)^2 / 2 of them, and after the extrapolation the
 /// error is 0.13 of the square of that: 1e-9.

@@ -63,6 +63,7 @@ def test_a_large_neighbour_hides_no_kink(big, place, expected):
 DRAWN = np.random.default_rng(1)
 NONE = {
     "a kink": (lambda p: max(p, 0.0), 0.0),
+    "an even kink": (abs, 0.0),
     "a kink beside a slope": (lambda p: 2.0 * p + abs(p - 1.0) / 10, 1.0),
     "a jump": (lambda p: [1.0, 2.0, 3.0][int(p)], 1.0),
     "a root at zero": (lambda p: math.copysign(math.sqrt(abs(p)), p), 0.0),
