@@ -83,7 +83,10 @@ bool Instant::collect() {
   const bool flipped = collector_.flip_relations();
   rows_.before(jump_, flipped);
   machine_->evaluate_instant(present_.t);
-  if (Tangents* tangents = transition_.tangents()) tangents->evaluated();
+  if (Tangents* tangents = transition_.tangents()) {
+    tangents->look_at_firings(present_);
+    tangents->evaluated();
+  }
   const bool released = collector_.collect_edges() || let_go;
   collector_.collect_crossings();
   present_.changes = flipped || released ||

@@ -7,6 +7,26 @@
 
 namespace saltus {
 
+namespace {
+
+/// Whether some of these expressions read the time, also where it has no effect nearly everywhere, as
+/// in floor(t): the flow may jump there.
+bool read_time(const tape::Graph& graph, const std::vector<tape::Node>& nodes) {
+  std::vector<char> seen(static_cast<std::size_t>(graph.size()), 0);
+  std::vector<tape::Node> open = nodes;
+  while (!open.empty()) {
+    const tape::Node node = open.back();
+    open.pop_back();
+    if (std::exchange(nth(seen, node.id), char{1})) continue;
+    const tape::Expression& of = graph[node];
+    if (of.op == tape::Op::time) return true;
+    open.insert(open.end(), of.operands.begin(), of.operands.begin() + operand_count(of.op));
+  }
+  return false;
+}
+
+}  // namespace
+
 TangentFlow::TangentFlow(const Machine& machine, TangentProbe& probe)
     : machine_(&machine), probe_(&probe), variables_(machine) {
   make();
@@ -22,6 +42,7 @@ void TangentFlow::make() {
   row_of_slot_.assign(static_cast<std::size_t>(plan.guard_slots), -1);
   if (!obstacle_.empty()) return;
   std::vector<tape::Node> rows(flow.rates.begin(), flow.rates.end());
+  reads_time_ = read_time(flow.graph, rows);
   rates_ = partials(flow, plan, rows);
   rows.clear();
   for (std::size_t slot = 0; slot < flow.guards.size(); ++slot) {
@@ -153,11 +174,7 @@ GuardTangent TangentFlow::exact_guard(double t, const double* x, Index row,
   return found;
 }
 
-bool TangentFlow::autonomous() const {
-  return exact() && std::ranges::none_of(rates_->entries, [](const Entry& entry) {
-           return entry.kind == Variable::t;
-         });
-}
+bool TangentFlow::autonomous() const { return exact() && !reads_time_; }
 
 std::string TangentFlow::describe() const {
   if (exact()) return "by exact derivatives of the flow";

@@ -2,6 +2,7 @@
 #include "saltus/simulation/detail/tangents.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace saltus {
@@ -10,6 +11,8 @@ namespace {
 
 /// One step solves a full system of five times as many unknowns.
 constexpr Index most_states = 200;
+/// [eps t] Shorter steps say nothing about the scale of time: a thousandth of a step is then a rounding.
+constexpr double least_step = 1e6;
 
 /// The first part of a plan of which no derivative is known, in words; empty if there is none.
 std::string obstacle_of(const Plan& plan) {
@@ -45,7 +48,8 @@ Tangents::Tangents(const Machine& machine, const GuardSet& guards, const Simulat
       options_(&options),
       results_(&results),
       probe_(machine),
-      flow_(machine, probe_) {
+      flow_(machine, probe_),
+      jumps_(flow_, probe_) {
   const std::string obstacle = obstacle_of(machine.plan());
   if (!obstacle.empty())
     throw ModelError(text("option sensitivity: ", obstacle,
@@ -110,6 +114,7 @@ void Tangents::begin(const Context& start) {
   renew();
   variation_.emplace(Variation::Tolerances{options_->rtol.smallest(), std::move(atol)});
   columns_.t.setZero(m), lost_.assign(all.size(), 0);
+  jumps_.begin(plan.nx);
   monitors_.clear(), predicted_.clear();
   t_ = start.time(), in_instant_ = false;
   probe_.begin(), probe_.note(machine_->x.data(), 0.0);
@@ -153,7 +158,10 @@ void Tangents::step(double from, double to, Integration& integration) {
   variation_->forget();
   t_ = to;
   if (!integration.started() || machine_->plan().nx == 0) return;
-  probe_.note(integration.state().data(), to - from);
+  // A step of some roundings of the time was cut by an event, and says nothing about the scale of it.
+  const bool cut =
+      to - from <= least_step * thresholds::eps * std::max(std::abs(from), std::abs(to));
+  probe_.note(integration.state().data(), cut ? 0.0 : to - from);
   Eigen::VectorXd x(machine_->plan().nx);
   const auto equation = [&](double t, Eigen::MatrixXd& a, Eigen::MatrixXd& b) {
     if (t < to)
@@ -166,6 +174,14 @@ void Tangents::step(double from, double to, Integration& integration) {
   const double middle = from < joint && joint < to ? joint : from;
   variation_->advance(from, middle, equation, columns_.x);
   variation_->advance(middle, to, equation, columns_.x);
+  lose_not_finite("");
+  look_for_jump(from, to, [&](double t) {
+    if (t < to)
+      integration.interpolate(t, x.data());
+    else
+      x = integration.state();
+    return x;
+  });
 }
 
 // --- rows

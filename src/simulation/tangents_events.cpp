@@ -29,6 +29,8 @@ void Tangents::add_event(const Eigen::RowVectorXd& by) {
   const auto found = predicted_.find(number);
   const bool enters = results_->events[number].kind == EventKind::zeno_enter;
   for (Index k = 0; k < size(); ++k) {
+    if (enters && !has_cause_ && matters(k))
+      lose(k, std::string(results_->events[number].name), "the block was at rest already");
     out.event_times.push_back(by[k]);
     const double predicted = found == predicted_.end() ? by[k] : found->second[k];
     out.predicted.push_back(enters ? predicted : std::numeric_limits<double>::quiet_NaN());

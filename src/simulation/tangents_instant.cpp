@@ -19,14 +19,6 @@ constexpr double sum_rounding = 1e3 * thresholds::eps;
 
 }  // namespace
 
-void Tangents::lose(Index k, const std::string& event, const std::string& reason) {
-  columns_.t[k] = no_derivative;
-  columns_.x.col(k).setConstant(no_derivative), columns_.z.col(k).setConstant(no_derivative);
-  if (std::exchange(nth(lost_, k), char{1})) return;
-  results_->sensitivities.gaps.push_back(
-      {t_, event, reason, nth(results_->sensitivities.parameters, k)});
-}
-
 /// Opens an instant, whose time moves as its causes do.
 void Tangents::open(const Present& present, const std::vector<int>& due) {
   t_ = present.t, in_instant_ = true, committed_ = false;
@@ -45,6 +37,7 @@ void Tangents::open(const Present& present, const std::vector<int>& due) {
     merge(moved_by(machine_->plan().scheduled(event), until), first);
     first = false;
   }
+  has_cause_ = !first;
   if (first) columns_.t.setZero();
   columns_.x += f * (columns_.t - until.t);
 }
@@ -56,7 +49,7 @@ void Tangents::merge(const Moved& moved, bool first) {
       lose(k, moved.event, moved.obstacle);
     } else if (first) {
       columns_.t[k] = moved.by[k];
-      if (std::isnan(moved.by[k])) lose(k, moved.event, "the guard only grazes zero");
+      if (std::isnan(moved.by[k])) lose(k, moved.event, moved.doubt);
     } else if (std::abs(columns_.t[k] - moved.by[k]) >
                same_time * std::max(std::abs(columns_.t[k]), std::abs(moved.by[k]))) {
       lose(k, moved.event, "another event happens at the same time, and their order would change");
@@ -99,10 +92,14 @@ Tangents::Moved Tangents::crossing_time(Index slot, const std::string& event, do
   const GuardTangent guard = flow_.guard(t, x, slot, until);
   const double speed = guard.by_state.dot(flow(t, x)) + guard.by_time;
   Moved moved{.by = until.t - guard.columns / speed, .event = event};
+  if (!guard.columns.allFinite() || !std::isfinite(speed))
+    moved.doubt = "the derivative of the guard is not finite";
+  const bool flat = guard.by_state.isZero(0.0) && guard.by_time == 0.0;
   const bool at_rest = grazes(guard, speed, slot, t, x);
   for (Index k = 0; k < size(); ++k) {
     // A guard that does not depend on the parameter has a time all the same.
-    if (at_rest) moved.by[k] = guard.columns[k] == 0.0 ? until.t[k] : no_derivative;
+    const bool independent = flat ? !matters(k) : guard.columns[k] == 0.0;
+    if (at_rest) moved.by[k] = independent ? until.t[k] : no_derivative;
   }
   return moved;
 }
@@ -161,6 +158,7 @@ void Tangents::call(const Transition::Call& call, const double* x_next, const do
 void Tangents::commit() {
   columns_.x = next_x_, columns_.z = next_z_;
   committed_ = true;
+  lose_not_finite("");
 }
 
 /// The held signals, and the moving ones that reset maps read, follow all that they read.
@@ -176,6 +174,7 @@ void Tangents::evaluated() {
   }
   columns_.y = std::move(y);
   clear_truths();
+  lose_not_finite("");
 }
 
 void Tangents::close() {

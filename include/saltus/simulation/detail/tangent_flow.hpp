@@ -79,6 +79,7 @@ class TangentFlow {
   FlowVariables variables_;
   int functions_ = -1;  // of the machine, when the tapes were made
   std::string obstacle_;
+  bool reads_time_ = true;
   std::optional<Partials> rates_, guards_;
   std::vector<Index> row_of_slot_;  // of `guards_`; -1: the guard is called
   Eigen::VectorXd unit_;

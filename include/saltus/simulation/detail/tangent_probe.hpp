@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <string>
+#include <vector>
 
 #include "saltus/plan/detail/machine.hpp"
 #include "saltus/simulation/detail/thresholds.hpp"
@@ -15,6 +18,62 @@ struct TangentDirection {
   double t = 0.0;                                         ///< of the time
   const double *x = nullptr, *z = nullptr, *y = nullptr;  ///< null: zero
   Index parameter = -1;                                   ///< an entry of p that changes by 1
+};
+
+/// Values of a function at a shift and at twice it, to both sides.
+struct MovedValues {
+  double shift = 0.0;
+  Eigen::VectorXd up, down, far_up, far_down;
+};
+
+/// The derivatives of several numbers, each from those shifts that suit it. A rung is a shift and
+/// twice it: if both differences agree and the number has no kink, its derivative is settled.
+class DifferenceLadder {
+ public:
+  using Centre = std::function<const Eigen::VectorXd*()>;  ///< the values without a shift, or null
+
+  /// A new derivative of `size` numbers along a direction whose largest entry is `direction`.
+  void begin(Index size, double direction) {
+    numbers_.assign(static_cast<std::size_t>(size), {});
+    direction_ = direction, first_ = true;
+  }
+  void look(const MovedValues& at, const Centre& centre);
+  /// Whether a number has no two differences that agree.
+  bool open() const {
+    return std::ranges::any_of(numbers_, [](const Number& number) { return !number.settled; });
+  }
+  /// Whether a number is settled, but rounding hides its derivative.
+  bool blurred() const {
+    return std::ranges::any_of(numbers_, [](const Number& number) { return number.blur > 0.0; });
+  }
+  /// NaN for the numbers that are open. True if there are none.
+  bool write(double* out) const {
+    for (const Number& number : numbers_)
+      *out++ = number.settled ? number.value : std::numeric_limits<double>::quiet_NaN();
+    return !open();
+  }
+
+ private:
+  struct Number {
+    bool settled = false;
+    double value = 0.0, error = 0.0;  // of the best rung
+    double blur = 0.0;                // of rounding, where it is too large
+    double last = 0.0;                // the difference of the rung before
+    int falls = 0;                    // rungs in which the difference fell towards 0
+  };
+  struct Rung {
+    double near, wide;   // the differences to the shift and to twice it
+    double most, noise;  // of the value, and of a difference by its rounding
+    double value() const { return near + (near - wide) / 3.0; }
+  };
+  void look(Number& number, const Rung& rung, bool smooth);
+  void settle(Number& number, double value, double error, double blur);
+  static bool smooth(const MovedValues& at, Index i, const Rung& rung, const Centre& centre);
+  void forgive(const MovedValues& at);
+
+  std::vector<Number> numbers_;
+  double direction_ = 1.0;
+  bool first_ = true;
 };
 
 /// A second machine beside that of a run. It takes the values of the run, moved along a direction
@@ -37,18 +96,16 @@ class TangentProbe {
   void note(const double* x, double step);
 
   /// d out along the direction at (t, x). `read(machine, shift, out)` computes `size` numbers on a
-  /// machine that is moved; the time and all that the machine does not have it moves by itself.
+  /// machine that is moved; the time and all that the machine does not have it moves by itself. NaN
+  /// where no derivative is found.
   template <class Read>
   void derivative(const double* x, const TangentDirection& along, Index size, const Read& read,
                   double* out) {
-    const double shift = shift_of(x, along);
-    if (!(shift > 0.0)) return fill(out, size, std::isnan(shift) ? nan : 0.0);
-    near_.resize(size), wide_.resize(size);
-    difference(x, along, wide_shift * shift, read, near_);
-    difference(x, along, 2.0 * wide_shift * shift, read, wide_);
-    if (!agree()) difference(x, along, small_shift * shift, read, near_), wide_ = near_;
-    for (Index i = 0; i < size; ++i) out[i] = near_[i] + (near_[i] - wide_[i]) / 3.0;
+    const auto value = [&](double shift, double* to) { read(at(x, along, shift), shift, to); };
+    search(x, along, size, std::ref(value), out);
   }
+  /// Why the last derivative has a NaN; empty if it has none.
+  const std::string& obstacle() const noexcept { return obstacle_; }
 
   /// dxdot along the direction. States at rest do not move.
   void flow(double t, const double* x, const TangentDirection& along, double* out);
@@ -56,30 +113,25 @@ class TangentProbe {
   void flow(double t, const double* x, double* xdot);
 
  private:
-  static constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  /// Differences to u and 2 u together have the error u^4 / 30 by the fifth derivative, and eps / u
-  /// by rounding: both are below 1e-12 for this relative shift.
-  static constexpr double wide_shift = 1e-3;
-  /// One difference has the error u^2 / 6 and eps / u: they are equal near u = eps^(1/3).
-  static constexpr double small_shift = 6e-6;
-  static void fill(double* out, Index size, double value) { std::fill_n(out, size, value); }
-  template <class Read>
-  void difference(const double* x, const TangentDirection& along, double shift, const Read& read,
-                  Eigen::VectorXd& out) {
-    up_.resize(out.size()), down_.resize(out.size());
-    read(at(x, along, shift), shift, up_.data());
-    read(at(x, along, -shift), -shift, down_.data());
-    out = (up_ - down_) / (2.0 * shift);
-  }
-  bool agree() const;
-  double shift_of(const double* x, const TangentDirection& along) const;
+  using Value = std::function<void(double shift, double* out)>;
+  void search(const double* x, const TangentDirection& along, Index size, const Value& value,
+              double* out);
+  void rung(double shift, const Value& value);
+  void climb_down(double shift, const Value& value);
+  void clear_up(double shift, double from, const Value& value);
+  bool found(double shift, const Value& value, Eigen::VectorXd& out);
+  double shift_of(const double* x, const TangentDirection& along, double least) const;
   void let_rest(double* xdot) const;
 
   const Machine* machine_;
   Machine probe_;
   Eigen::VectorXd x_sizes_, z_sizes_, y_sizes_;  // the largest of each value so far
   double step_ = 0.0;                            // [s] the longest so far
-  Eigen::VectorXd up_, down_, near_, wide_;
+  MovedValues moved_;
+  Eigen::VectorXd centre_;
+  bool has_centre_ = false;
+  DifferenceLadder ladder_;
+  std::string raised_, obstacle_;
 };
 
 }  // namespace saltus

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "saltus/model/context_entry.hpp"
+#include "saltus/simulation/detail/flow_jumps.hpp"
 #include "saltus/simulation/detail/integration.hpp"
 #include "saltus/simulation/detail/present.hpp"
-#include "saltus/simulation/detail/tangent_flow.hpp"
 #include "saltus/simulation/detail/transition.hpp"
 #include "saltus/simulation/detail/variation.hpp"
 #include "saltus/simulation/detail/zeno_tangent.hpp"
@@ -51,6 +51,8 @@ class Tangents {
   /// A reset map or an update is about to be called at these values of its leaf.
   void call(const Transition::Call& call, const double* x_next, const double* z_next, int mode);
   void commit();
+  /// These guards fire in the next pass.
+  void look_at_firings(const Present& present);
   /// The machine has evaluated its held signals.
   void evaluated();
   void close();
@@ -79,6 +81,7 @@ class Tangents {
   struct Moved {
     Eigen::RowVectorXd by = {};
     std::string event = {}, obstacle = {};
+    std::string doubt = "the guard only grazes zero";  ///< where a derivative is NaN
   };
 
   Index size() const { return columns_.size(); }
@@ -92,6 +95,9 @@ class Tangents {
   bool grazes(const GuardTangent& guard, double speed, Index slot, double t, const double* x);
   void merge(const Moved& moved, bool first);
   void lose(Index k, const std::string& event, const std::string& reason);
+  void lose_not_finite(const std::string& event);
+  bool matters(Index k) const;
+  void look_for_jump(double from, double to, const FlowJumps::StateAt& state);
   void add_event(const Eigen::RowVectorXd& by);
   Eigen::VectorXd flow(double t, const double* x);
   Eigen::MatrixXd rows_of(std::span<const Index> states) const;
@@ -104,13 +110,14 @@ class Tangents {
   Results* results_;
   TangentProbe probe_;
   TangentFlow flow_;
+  FlowJumps jumps_;
   std::optional<Variation> variation_;
   TangentColumns columns_;  // of the state between instants, then of the instant
   TangentColumns before_;   // at a fixed time before the instant
   Eigen::MatrixXd next_x_, next_z_;
   Eigen::RowVectorXd instant_time_;  // the derivatives of the time of the last instant
   double t_ = 0.0;                   // [s] of S, or of the instant
-  bool in_instant_ = false, committed_ = false;
+  bool in_instant_ = false, committed_ = false, has_cause_ = false;
   std::vector<char> lost_;
   std::map<const void*, ZenoTangent> monitors_;
   std::map<std::size_t, Eigen::RowVectorXd> predicted_;  // of the events with these numbers

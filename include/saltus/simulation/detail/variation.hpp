@@ -39,9 +39,15 @@ class Variation {
     double from, to;                 // [s]
     std::vector<Eigen::MatrixXd> s;  // at the begin and at the points
   };
-  void advance(double from, double to, const Equation& equation, Eigen::MatrixXd& s, int depth);
+  /// How often a step was divided, and the error of the piece before the last time [tolerances].
+  struct Halving {
+    int depth = 0;
+    double error = 0.0;
+  };
+  void advance(double from, double to, const Equation& equation, Eigen::MatrixXd& s,
+               Halving halving);
   Piece collocate(double from, double to, const Equation& equation, const Eigen::MatrixXd& s);
-  bool is_good(const Piece& piece, const Equation& equation);
+  double error_of(const Piece& piece, const Equation& equation);
 
   Tolerances tolerances_;
   std::vector<Piece> pieces_;

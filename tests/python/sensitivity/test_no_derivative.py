@@ -1,0 +1,127 @@
+"""Where a run has no derivative, or none was found, there is a gap with its reason, never a number."""
+
+import numpy as np
+import pytest
+import saltus
+from scenes_with_derivatives import METHODS, Throw
+
+
+def leaf(start, ode, **parameters):
+    block = saltus.LeafSystem(name="block")
+    for name, value in parameters.items():
+        block.declare_dynamic_parameter(name, value)
+    block.declare_continuous_state(start, ode=ode)
+    return block
+
+
+def lost(results, reason):
+    """All derivatives of the end are NaN, each with a gap of this reason."""
+    assert np.isnan(results.sensitivities.continuous_state).all()
+    assert {gap.parameter for gap in results.sensitivity_gaps} == set(
+        results.sensitivities.parameters
+    )
+    assert all(reason in gap.reason for gap in results.sensitivity_gaps)
+
+
+# x' = 2 below a and 1 above: the derivatives by x[0] and a jump where x passes a, without an event.
+BRANCHES = {
+    "where": lambda t, s, a: [np.where(s.continuous_state[0] < a, 2.0, 1.0)],
+    "sign": lambda t, s, a: [1.5 - 0.5 * np.sign(s.continuous_state[0] - a)],
+    "floor": lambda t, s, a: [2.0 - np.clip(np.floor(s.continuous_state[0] / a), 0.0, 1.0)],
+    "called": lambda t, s, a: [2.0 if float(s.continuous_state[0]) < float(a) else 1.0],
+}
+
+
+@pytest.mark.parametrize("method", [m for m in METHODS if m != "taylor"])
+@pytest.mark.parametrize("branch", BRANCHES)
+def test_a_flow_that_jumps_without_an_event_has_a_gap(branch, method):
+    block = leaf([0.3], BRANCHES[branch], a=1.0)
+    results = saltus.simulate(
+        block, (0.0, 2.0), sensitivity=["x[0]", "a"], ode_solver_method=method
+    )
+    lost(results, "jumps without an event")
+
+
+# Kinks, smooth bends and jumps of the time alone are no such jumps: closed forms at t = 2.
+SMOOTH = {
+    "a kink": ([0.3], lambda t, s: [np.maximum(s.continuous_state[0], 1.0)],
+               np.exp(1.3)),
+    "a bend": ([0.3], lambda t, s: [1.0 - s.continuous_state[0] ** 2],
+               (1 - np.tanh(2 + np.arctanh(0.3)) ** 2) / (1 - 0.3**2)),
+    "a jump of the time": ([0.3], lambda t, s: [np.where(t > 1.0, 3.0, 1.0)
+                                                - s.continuous_state[0]], np.exp(-2.0)),
+    "at rest": ([1.0], lambda t, s: [1.0 - s.continuous_state[0]], np.exp(-2.0)),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("what", SMOOTH)
+def test_a_flow_that_does_not_jump_has_a_derivative(what):
+    start, ode, expected = SMOOTH[what]
+    results = saltus.simulate(leaf(start, ode), (0.0, 2.0), sensitivity=["x[0]"], rtol=1e-9)
+    assert not results.sensitivity_gaps
+    # The kink costs the local error of the step that passes it, some sqrt(rtol) at most.
+    assert results.sensitivities.continuous_state[0, 0] == pytest.approx(expected, rel=3e-5)
+
+
+@pytest.mark.parametrize("python", ["traced", "called"])
+def test_a_jump_of_the_time_after_an_event_that_moves(python):
+    # x1 grows by floor(2 t) from the time tau = x0 of the event on: dx1/dx0 = -floor(2 tau) = -2.
+    block = leaf([1.1, 0.0], lambda t, s: [-1.0, np.floor(2 * t)])
+    block.declare_zero_crossing(
+        lambda t, s: s.continuous_state[0],
+        lambda t, s: s.with_continuous_state([9.0, 0.0]), name="hit", direction="falling")  # fmt: skip
+    results = saltus.simulate(block, (0.0, 2.6), sensitivity=["x[0]"], python=python)
+    np.testing.assert_allclose(results.sensitivities.continuous_state[:, 0], [1.0, -2.0], rtol=1e-6)
+
+
+def test_a_guard_that_is_at_zero_at_the_start_and_fires_has_a_gap():
+    ball = Throw(10.0, 0.5, height=0.0, speed=-3.0)
+    results = saltus.simulate(ball, (0.0, 0.2), sensitivity=["x[0]"])
+    assert len(results.events) == 1
+    lost(results, "at zero already")
+
+
+def test_a_ball_that_rests_from_the_start_has_a_gap():
+    results = saltus.simulate(Throw(10.0, 0.5, height=0.0), (0.0, 1.0), sensitivity=["x[0]"])
+    assert np.isnan(results.sensitivities.continuous_state).all() and results.sensitivity_gaps
+
+
+def test_a_guard_that_is_flat_at_its_zero_has_a_gap():
+    block = leaf([1.0], lambda t, s: [-1.0])
+    block.declare_zero_crossing(
+        lambda t, s: s.continuous_state[0] ** 3,
+        lambda t, s: s.with_continuous_state([1.0]), name="hit", direction="falling")  # fmt: skip
+    results = saltus.simulate(block, (0.0, 1.5), sensitivity=["x[0]"])
+    slope = results.events.dt_dp("hit")[0, 0]
+    assert np.isnan(slope) or slope == pytest.approx(1.0, rel=1e-6)
+
+
+def test_each_nan_has_a_gap():
+    # sqrt(v^2 + w^2) has no derivative at rest; the body is at rest until it is pushed.
+    def ode(t, s):
+        v, w = s.continuous_state
+        return [np.where(t < 1.0, 0.0, 1.0) - v * np.sqrt(v * v + w * w), -w]
+
+    results = saltus.simulate(leaf([0.0, 0.0], ode), (0.0, 2.0), sensitivity=["x[0]"])
+    if np.isnan(results.sensitivities.continuous_state).any():
+        assert results.sensitivity_gaps
+
+
+@pytest.mark.parametrize("method", ["auto", "dopri5", "radau", "bdf"])
+def test_pieces_of_a_run_that_meet_at_an_impact_obey_the_chain_rule_or_have_a_gap(method):
+    options = {
+        "rtol": 1e-10,
+        "atol": 1e-12,
+        "ode_solver_method": method,
+        "sensitivity": ["x[0]", "x[1]"],
+    }
+    ball = Throw(9.81, 0.8, height=10.0)
+    whole = saltus.simulate(ball, (0.0, 2.0), **options)
+    impact = whole.events.times("bounce")[0]
+    first = saltus.simulate(ball, (0.0, impact), **options)
+    second = saltus.simulate(ball, first.context, (impact, 2.0), **options)
+    found = second.sensitivities.continuous_state @ first.sensitivities.continuous_state
+    if second.sensitivity_gaps:
+        assert np.isnan(second.sensitivities.continuous_state).any()
+    else:  # the error of the event times of multistep methods is some hundred tolerances
+        np.testing.assert_allclose(found, whole.sensitivities.continuous_state, rtol=1e-5)
