@@ -132,8 +132,7 @@ class Instant:
         )  # its guard fires the wrong way
         own = f.all(fired, f.no(rounding))
         taken = f("select", f("eq", sign, flow), 0.0, f("mul", TAKEN, flow))
-        beyond = f.any([f("gt", f("mul", self.differences[k], to), 0.0), f("eq", flow, to)])
-        new = f("select", own, f("select", beyond, to, 0.0), taken)
+        new = f("select", own, self._reached(k, flow, to), taken)
         crossed = f.any([own, f("ne", new, 0.0)])
         strays = f("lt", f("mul", side, self.differences[k]), 0.0)
         strays = f.all(strays, f("lt", f("abs", side), TAKEN))
@@ -147,6 +146,13 @@ class Instant:
         at_zero = f.all(crossed, f.no(leaves))
         z[self.after[k]] = f("select", at_zero, new, waiting)
         return f("select", at_zero, 0.0, plain)
+
+    def _reached(self, k: int, flow: int, to: int) -> int:
+        """The side of a difference whose guard fired. An event may have turned it around since."""
+        f, now = self.nodes, self.differences[k]
+        beyond = f.any([f("gt", f("mul", now, to), 0.0), f("eq", flow, to)])
+        near = f("le", f("abs", now), self.crossing.noise[k])
+        return f("select", beyond, to, f("select", near, 0.0, f.sign(now)))
 
     def later(self) -> Assignment:
         """Nothing else is due. Differences leave zeros that count for one moment, and those at

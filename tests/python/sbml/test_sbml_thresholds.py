@@ -226,6 +226,15 @@ def test_the_row_of_the_start_is_that_of_time_zero(what):
     assert rows_of(text, 1.0, 4, "n")[1][:, 0].tolist() == [expected[0], *[expected[1]] * 4]
 
 
+def test_an_execution_at_the_start_that_turns_a_difference_around():
+    """m is 0, that of the time, when the run begins, and 2 when what is due has been executed."""
+    events = [
+        on("x > -1", {"m": "2"}, initial=False, delay="time / 4"),
+        on("m > time || x > 1", {"n": "n + 1"}, initial=False),
+    ]
+    assert rows_of(states({"x": "1"}, events), 1.5, 3, "n")[1][:, 0].tolist() == [1.0] * 4
+
+
 def test_rows_at_sums_of_decimal_numbers_have_what_happens_there():
     """0.1 + 0.1 + ... is a rounding from the row of the same name."""
     text = model(parameters={"t": 0.1, "n": 0},
