@@ -25,7 +25,7 @@ constexpr int most_halvings = 10;
 /// From this depth on a piece is divided only as long as its error falls: an order of 5 divides it by
 /// 32 where it resolves the equation, and rounding does not fall. A shorter pulse is searched first.
 constexpr int searched_halvings = 4;
-constexpr double falling = 0.5;
+constexpr double falling_share = 0.5;
 /// The rounding of A S and of the differences in A, in parts of the largest value of a column.
 constexpr double value_rounding = 1e3 * thresholds::eps;
 
@@ -81,7 +81,7 @@ void Variation::advance(double from, double to, const Equation& equation, Eigen:
   const double middle = from + 0.5 * (to - from);
   if (halving.depth < most_halvings && from < middle && middle < to) {
     const double error = error_of(piece, equation);
-    const bool falls = halving.depth < searched_halvings || error <= falling * halving.error;
+    const bool falls = halving.depth < searched_halvings || error <= falling_share * halving.error;
     if (error > 1.0 && falls) {
       const Halving next{halving.depth + 1, error};
       advance(from, middle, equation, s, next);

@@ -76,3 +76,32 @@ TEST_CASE("a name without a derivative is refused before the run", "[sensitivity
   }
   CHECK_THROWS_AS(ball({.sensitivity = {"e", "e"}}), ModelError);
 }
+
+TEST_CASE("a jump of the flow without an event has a gap; a kink, and a jump in time, have none",
+          "[sensitivity]") {
+  const auto gaps = [](auto rate) {
+    const Leaf leaf("leaf", [&](Leaf& l) {
+      l.declare_continuous_state(
+          {.initial = vec({0.3}), .ode = [rate](const At& at) { return rate(at.time, at.x[0]); }});
+    });
+    const Results results =
+        simulate(leaf, leaf.create_context(), {0.0, 2.0},
+                 {.ode_solver_method = Method::dopri5, .sensitivity = {"x[0]"}});
+    CHECK(std::isnan(results.sensitivities.continuous_state[0]) ==
+          !results.sensitivities.gaps.empty());
+    return results.sensitivities.gaps.size();
+  };
+  CHECK(gaps([](double, double x) { return x < 1.0 ? 2.0 : 1.0; }) == 1);
+  CHECK(gaps([](double, double x) { return std::max(x, 1.0); }) == 0);
+  CHECK(gaps([](double t, double x) { return (t < 1.0 ? 2.0 : 1.0) - x; }) == 0);
+  CHECK(gaps([](double, double x) { return -x * x * x; }) == 0);
+}
+
+TEST_CASE("a ball that is thrown down from its floor has a gap: a little lower it falls",
+          "[sensitivity][ball]") {
+  const saltus::Scene scene = models::bouncing_ball();
+  const Results results = simulate(*scene.system, scene.context.with_continuous_state({0.0, -3.0}),
+                                   {0.0, 0.2}, {.sensitivity = {"x[0]"}});
+  REQUIRE(results.sensitivities.gaps.size() == 1);
+  CHECK(results.sensitivities.gaps[0].reason == "the guard was at zero already");
+}

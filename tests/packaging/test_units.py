@@ -31,6 +31,7 @@ ELSEWHERE = {
     "simulation/detail/effects": "unit/transition_test.cpp",
     "simulation/detail/endings": "errors/chattering_errors_test.cpp",
     "simulation/detail/executions": "semantics/queue_schedule_test.cpp",
+    "simulation/detail/flow_jumps": "laws/sensitivities_test.cpp",
     "simulation/detail/flow_probe": "unit/departure_test.cpp",
     "simulation/detail/histories": "unit/library_transport_delay_test.cpp",
     "simulation/detail/instant_rows": "semantics/rows_count_test.cpp",
