@@ -47,10 +47,7 @@ Run::Run(std::shared_ptr<const Plan> plan, SimulatorOptions options)
       rows_(machine_, results_, options_),
       histories_(machine_, options_),
       endings_(machine_, options_) {
-  if (!options_.sensitivity.empty()) follow_with_tangents();
-}
-
-void Run::follow_with_tangents() {
+  if (options_.sensitivity.empty()) return;
   tangents_.emplace(machine_, guards_, options_, results_);
   instant_.follow(&*tangents_), rows_.follow(&*tangents_);
 }
@@ -204,8 +201,7 @@ void Run::log_monitors() {
   }
 }
 
-/// Runs the instant at time_, if there is one. Restarts the solver if its history is not valid any
-/// more.
+/// Runs the instant at time_, if there is one.
 Status Run::settle(StopReason reason, double t_end, bool at_start) {
   integration_.take_state(time_);
   if (accepted_.place == Place::solver) accepted_.place = Place::machine;
@@ -221,6 +217,16 @@ Status Run::settle(StopReason reason, double t_end, bool at_start) {
   accepted_.rows = results_.time.size();
   const bool at_root = reason == StopReason::root;
   const bool idle = (at_root || instant_.executions().any()) && endings_.idle();
+  const Outcome outcome = run_instant(t_end, at_start);
+  const Chattering::Seen seen{time_, at_root, t_end - begin_.time(),
+                              instant_.executions().set_off()};
+  if (auto ending = endings_.after_instant(outcome, seen, idle, instant_.journal()))
+    return end(*ending);
+  return Status::reached_end;
+}
+
+/// Restarts the solver after the instant if its history is not valid any more.
+Outcome Run::run_instant(double t_end, bool at_start) {
   accepted_.in_instant = true;
   const int jump = instant_.jump();
   const Outcome outcome = instant_.run(time_, due_, t_end - time_, at_start);
@@ -230,11 +236,7 @@ Status Run::settle(StopReason reason, double t_end, bool at_start) {
   const bool cut = instant_.executions().stops_earlier() && integration_.inside_step();
   if (outcome.restart || cut)
     integration_.restart(time_, {.horizon = outcome.horizon, .flow = instant_.flow()});
-  const Chattering::Seen seen{time_, at_root, t_end - begin_.time(),
-                              instant_.executions().set_off()};
-  if (auto ending = endings_.after_instant(outcome, seen, idle, instant_.journal()))
-    return end(*ending);
-  return Status::reached_end;
+  return outcome;
 }
 
 }  // namespace saltus

@@ -179,13 +179,16 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
     return CVodeGetCurrentTime(cvode_.get(), &t) >= 0 && t > t_stop;
   }
 
+  /// CVODE takes the scale of its first step from the end, as first_step does.
+  double end_for_scale(double t_stop) const {
+    return std::isfinite(t_stop) ? t_stop : t0_ + std::max(1.0, std::abs(t0_));
+  }
+
   void cvode_step(double t_stop) {
     if (is_beyond(t_stop)) start_cvode();
     if (CVodeSetStopTime(cvode_.get(), t_stop) < 0) fail(t0_);
     double t = t0_;
-    // CVODE takes the scale of its first step from the end, as first_step does.
-    const double scale = std::isfinite(t_stop) ? t_stop : t0_ + std::max(1.0, std::abs(t0_));
-    const int flag = CVode(cvode_.get(), scale, y_.get(), &t, CV_ONE_STEP);
+    const int flag = CVode(cvode_.get(), end_for_scale(t_stop), y_.get(), &t, CV_ONE_STEP);
     scene_.rethrow();
     if (flag < 0 && scene_.renew_linear(flag)) {
       last_message_.clear();
@@ -200,8 +203,13 @@ class CvodeSolver final : public StepSolver<CvodeSolver> {
       start_with_one_step(t0_, x1_, first_step_);
       return;
     }
+    accept(flag == CV_TSTOP_RETURN ? t_stop : t);
+  }
+
+  /// CVODE's step to t is taken.
+  void accept(double t) {
     ++steps_;
-    t1_ = flag == CV_TSTOP_RETURN ? t_stop : t;
+    t1_ = t;
     length_ = t1_ - t0_;
     if (progress_.stops_at(t0_, length_, N_VGetArrayPointer(y_.get()), n_))
       throw_step_too_small(*machine_, t0_, length_, x1_.data(), options_);

@@ -60,8 +60,8 @@ class Run {
   Status step(double t_end);
   void accept(double from);
   Status settle(StopReason reason, double t_end, bool at_start);
+  Outcome run_instant(double t_end, bool at_start);
   void log_monitors();
-  void follow_with_tangents();
   void keep_step(double from);
   void keep_histories(double from);
   [[noreturn]] void fail_at_pole(double from);
