@@ -174,7 +174,7 @@ void TangentProbe::climb_down(double shift, const Value& value) {
   if (ladder_.open()) rung(ladder_step * shift, value);
 }
 
-/// A tiny value may be one that counts as zero: shifts as for a zero, down to those of its size.
+/// A tiny value may count as zero. So this tries the shifts for a zero, down to those of its size.
 void TangentProbe::clear_up(double shift, double from, const Value& value) {
   for (double larger = from; larger > ladder_step * shift && ladder_.blurred();
        larger /= clear_step)
@@ -193,7 +193,7 @@ void TangentProbe::rung(double shift, const Value& value) {
   });
 }
 
-/// Whether the function has values there. One that raises has none: the run itself goes well.
+/// Whether the function has values there. If it raises, it has none, and the run goes on.
 bool TangentProbe::found(double shift, const Value& value, Eigen::VectorXd& out) {
   try {
     value(shift, out.data());

@@ -71,7 +71,7 @@ Tangents::Moved Tangents::moved_by(const Firing& firing, bool jumped, const Tang
   return crossing_time(firing.slot, group.name, t, machine_->x.data(), until);
 }
 
-/// A time event happens at a fixed time, or at one that a discrete state says.
+/// A time event happens at a fixed time, or at a time that follows from a discrete state.
 Tangents::Moved Tangents::moved_by(const ScheduledEvent& event, const TangentColumns& until) {
   Moved moved{.by = Eigen::RowVectorXd::Zero(size()), .event = event.name};
   if (!event.by_state) return moved;

@@ -82,6 +82,6 @@ TEST_CASE("passes that an execution sets off count until the next execution", "[
   chain.trigger(2), chain.trigger(2);  // pass 1 is one of reset maps, pass 2 one of triggers
   CHECK(3 - chain.beside() == 2);      // three passes: the execution and the reset maps count
   chain.execute(1, 3);
-  CHECK(4 - chain.beside() == 1);  // another one that was due anyway
+  CHECK(4 - chain.beside() == 1);  // another execution, which was due anyway
   CHECK(9 - chain.beside() == 6);  // five passes of reset maps after it
 }

@@ -41,8 +41,8 @@ class Guards:
         return [self._made(k, n, k not in zero_counts) for k, n in enumerate(negative)]
 
     def _made(self, k: int, node: int, strictly: bool) -> int:
-        """One that begins at zero is lowered by its rounding while its side is 0: a guard fires
-        where it comes from below zero, and the difference may leave with any slope.
+        """A guard is lowered by its rounding while its side is 0: it fires where it comes from
+        below zero, and a difference may leave its zero with any slope.
         """
         f = self.nodes
         at_zero = f("eq", self.sides[k], 0.0)
@@ -50,9 +50,9 @@ class Guards:
         return self._late(f("sub", node, lower), strictly)
 
     def _late(self, node: int, strictly: bool) -> int:
-        """One of the time alone that is zero at a time at which its comparison has not changed yet
-        fires just after that time: a row there shows the values before. It is lowered by its change
-        meanwhile, and not where it jumps or has no slope.
+        """A guard of the time alone may be zero before its comparison has changed. It then fires
+        just after that time, and a row there shows the values before. It is lowered by its change
+        in between, unless it jumps or has no slope.
         """
         f = self.nodes
         if not strictly or self.scope.follows_states(node):
