@@ -69,7 +69,6 @@ def core_trace(block: Block, function: Block, outcome: Any) -> _core.Trace | Non
     """The trace that the engine runs; None for a function that is called."""
     if not hasattr(outcome, "tape"):
         return None
-    given = any(f["role"] in ("jacobian", "sparse_jacobian") for f in block["functions"])
     return _core.Trace(
         function["number"],
         outcome.tape,
@@ -77,5 +76,9 @@ def core_trace(block: Block, function: Block, outcome: Any) -> _core.Trace | Non
         outcome.wrote_x,
         outcome.wrote_z,
         outcome.wrote_mode,
-        function["role"] == "ode" and not given,
+        function["role"] == "ode" and not _declares_jacobian(block),
     )
+
+
+def _declares_jacobian(block: Block) -> bool:
+    return any(f["role"] in ("jacobian", "sparse_jacobian") for f in block["functions"])
