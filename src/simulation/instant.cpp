@@ -69,8 +69,9 @@ void Instant::turn_beside_root() {
     const auto flow_to = [&] {
       return flow_.side(group, static_cast<Index>(k), std::abs(guards_->g[k]), 0).side;
     };
-    if (crossed_beside_root(guard.direction, guard.phase, flow_to))
-      guards_->turn(k, -firing_side(guard.direction));
+    if (!crossed_beside_root(guard.direction, guard.phase, flow_to)) continue;
+    guards_->turn(k, -firing_side(guard.direction));
+    present_.note(k).turned_beside_root = true;
   }
   guards_->beside_root.clear();
   flow_.forget();
@@ -143,10 +144,19 @@ void Instant::find_next() {
   }
 }
 
+/// Whether the commit moved a guard, which was at zero beside the root of another one, off zero.
+bool Instant::left_zero_beside_root(std::size_t k) {
+  return moves_off_zero(guards_->g[k], present_.g[k], crossings_.uncertainty(k));
+}
+
 void Instant::look_at_crossing(std::size_t k) {
   const Guard& guard = (*guards_)[k];
   const double g = present_.g[k];
   if (guard.monitor || !guard.crossed(g)) return guards_->see(k, g);
+  if (present_.now(k).turned_beside_root && !left_zero_beside_root(k)) {
+    guards_->turn(k, firing_side(guard.direction));
+    return guards_->see(k, g);
+  }
   // Its side does not change: the flow decides when integration continues (3.4).
   if (present_.note(k).put_at_zero = crossings_.is_at_zero(k); !present_.now(k).put_at_zero)
     present_.fire(k, guard.side);

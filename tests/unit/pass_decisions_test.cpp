@@ -43,6 +43,18 @@ TEST_CASE("a commit that leaves a thousandth of its way beyond zero has put the 
   CHECK_FALSE(stops_near_zero(way, way));
 }
 
+TEST_CASE("a commit moves a guard off zero only beyond where it was, and beyond its uncertainty") {
+  const double before = 1e-15, uncertainty = 1e-16;
+  for (const double sign : {-1.0, 1.0}) {
+    CHECK_FALSE(moves_off_zero(before, sign * before, uncertainty));  // not moved, or mirrored
+    CHECK_FALSE(moves_off_zero(before, sign * 0.5 * before, uncertainty));
+    CHECK(moves_off_zero(before, sign * 2.0 * before, uncertainty));
+    CHECK_FALSE(moves_off_zero(0.0, sign * uncertainty, uncertainty));
+    CHECK(moves_off_zero(0.0, sign * 2.0 * uncertainty, uncertainty));
+  }
+  CHECK_FALSE(moves_off_zero(0.0, 0.0, 0.0));
+}
+
 TEST_CASE("a guard's value is uncertain by its rounding, and by its slope times that of the time") {
   using namespace saltus::thresholds;
   CHECK(value_uncertainty(0.0, 0.0, 5.0) == 0.0);

@@ -78,6 +78,7 @@ class Instant {
   void commit();
   void find_next();
   void look_at_crossing(std::size_t k);
+  bool left_zero_beside_root(std::size_t k);
   void arm(bool at_start);
   void select_guards();
   void look_at_guards();

@@ -2,6 +2,7 @@
 // functions of values.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "saltus/simulation/detail/thresholds.hpp"
@@ -42,6 +43,18 @@ constexpr AfterPass decide_after_pass(bool holds, bool fired, bool queued) {
 /// Whether a commit that moved a guard from `before` to `now` may have meant to put it at zero.
 inline bool stops_near_zero(double before, double now) {
   return std::abs(now) <= thresholds::clearly_across * std::abs(now - before);
+}
+
+/// Whether a commit moved a guard off zero. The guard was at `before`, which counts as zero, because
+/// it was that close at the root of another guard; it came from its firing side. A guard that stays
+/// at zero has not been on its armed side: it has not crossed, whatever the flow does afterwards.
+///
+///     now                                         off zero
+///     as far from zero as before, or nearer       no
+///     within its uncertainty                      no
+///     farther                                     yes
+inline bool moves_off_zero(double before, double now, double uncertainty) {
+  return std::abs(now) > std::max(std::abs(before), uncertainty);
 }
 
 /// The uncertainty of a guard's value: its rounding, and its movement within the resolution of the

@@ -49,14 +49,16 @@ struct GuardNow {
   double location = 0.0;  ///< error of its value by the location of its root; 0 where it jumped
   /// [s] from its last firing to this one; NaN if it was clearly off zero in between
   double flight = std::numeric_limits<double>::quiet_NaN();
-  int flips = 0;               ///< flips of a relation in this instant
-  bool jumped = false;         ///< it jumped at its root
-  bool fired = false;          ///< it fired in this instant
-  bool fired_in_pass = false;  ///< it fired in this pass
-  bool frozen = false;         ///< a relation: it keeps its side through this instant
-  bool turned = false;         ///< a relation: its side changed when it was read again
-  bool put_at_zero = false;    ///< the last commit moved it to zero, within its error
-  bool noted = false;          ///< it is in the list of guards with facts
+  int flips = 0;                    ///< flips of a relation in this instant
+  bool jumped = false;              ///< it jumped at its root
+  bool fired = false;               ///< it fired in this instant
+  bool fired_in_pass = false;       ///< it fired in this pass
+  bool frozen = false;              ///< a relation: it keeps its side through this instant
+  bool turned = false;              ///< a relation: its side changed when it was read again
+  bool put_at_zero = false;         ///< the last commit moved it to zero, within its error
+  bool turned_beside_root = false;  ///< at zero at the root of another guard, and turned to its
+                                    ///< armed side, to which the flow took it
+  bool noted = false;               ///< it is in the list of guards with facts
 };
 
 /// The time of an instant, the time left of the run, and the findings pass by pass.
