@@ -31,6 +31,7 @@ void bind_discrete(py::module_& module);
 void bind_results(py::module_& module);
 void bind_simulation(py::module_& module);
 void bind_evaluate(py::module_& module);
+void bind_linearize(py::module_& module);
 void bind_ensemble(py::module_& module);
 void bind_shelf(py::module_& module);
 void bind_report(py::module_& module);

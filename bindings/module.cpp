@@ -21,6 +21,7 @@ PYBIND11_MODULE(_core, module) {
   bind_results(module);
   bind_simulation(module);
   bind_evaluate(module);
+  bind_linearize(module);
   bind_ensemble(module);
   bind_shelf(module);
   bind_report(module);

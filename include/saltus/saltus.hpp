@@ -5,6 +5,7 @@
 #include "saltus/library/library.hpp"
 #include "saltus/model/diagram_builder.hpp"
 #include "saltus/simulation/evaluate.hpp"
+#include "saltus/simulation/linearize.hpp"
 #include "saltus/simulation/outcomes.hpp"
 #include "saltus/simulation/simulate.hpp"
 #include "saltus/tape/jacobian.hpp"

@@ -12,6 +12,7 @@ from saltus.diagram import Diagram, DiagramBuilder
 from saltus.ensemble import sweep
 from saltus.errors import Error, ModelError, SimulationError
 from saltus.leaf_system import LeafSystem
+from saltus.linearization import Linearization, linearize
 from saltus.progress import Progress
 from saltus.report import WorkPrecision, work_precision
 from saltus.response import response
@@ -38,6 +39,7 @@ __all__ = [
     "Guard",
     "InputPort",
     "LeafSystem",
+    "Linearization",
     "ModelError",
     "OutputPort",
     "Progress",
@@ -55,6 +57,7 @@ __all__ = [
     "__version__",
     "compiled",
     "library",
+    "linearize",
     "load",
     "load_results",
     "load_scene",

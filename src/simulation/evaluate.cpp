@@ -1,66 +1,43 @@
-// Evaluations: a run that is begun at a context, and goes nowhere.
+// Evaluations: the values at the begin of a run that goes nowhere.
 #include "saltus/simulation/evaluate.hpp"
 
 #include <algorithm>
 
 #include "saltus/base/model_errors.hpp"
 #include "saltus/model/detail/subcontext.hpp"
-#include "saltus/plan/compile.hpp"
-#include "saltus/simulation/detail/instant.hpp"
+#include "saltus/simulation/detail/standstill.hpp"
 
 namespace saltus {
 
 namespace {
 
-/// The memory of a run at its first instant, before anything happens there.
-class Standstill {
- public:
-  Standstill(const System& system, const RecordedSignals& signals, const Context& context)
-      : machine_(compile(system, signals)),
-        guards_(machine_.plan()),
-        instant_(machine_, guards_, options_, results_),
-        time_(context.time()) {
-    require_context_of(machine_.plan(), context);
-    machine_.load(context);
-    const Continuation* earlier = context.continuation();
-    if (earlier != nullptr && instant_.fits(*earlier))
-      instant_.resume(time_, nullptr, *earlier, 0.0);
-    else
-      instant_.begin(time_, nullptr);
-  }
+Eigen::VectorXd rates(Standstill& at) {
+  Machine& machine = at.machine();
+  Eigen::VectorXd rates(machine.x.size());
+  machine.derivative(at.time(), machine.x.data(), rates.data());
+  return rates;
+}
 
-  Eigen::VectorXd rates() {
-    Eigen::VectorXd rates(machine_.x.size());
-    machine_.derivative(time_, machine_.x.data(), rates.data());
-    return rates;
-  }
-
-  SignalValue signal() {
-    const Values values = machine_.evaluate_taps(time_, machine_.x.data());
-    const Node& node = machine_.plan().node(machine_.plan().taps.front().node);
-    return {VectorView(values(node.place), node.shape.size), node.shape};
-  }
-
- private:
-  SimulatorOptions options_;
-  Results results_;
-  Machine machine_;
-  GuardSet guards_;
-  Instant instant_;
-  double time_;
-};
+SignalValue signal(Standstill& at) {
+  Machine& machine = at.machine();
+  const Values values = machine.evaluate_taps(at.time(), machine.x.data());
+  const Node& node = machine.plan().node(machine.plan().taps.front().node);
+  return {VectorView(values(node.place), node.shape.size), node.shape};
+}
 
 bool same(const LeafPort& a, const LeafPort& b) { return a.leaf == b.leaf && a.index == b.index; }
 
 }  // namespace
 
 Eigen::VectorXd evaluate_time_derivatives(const System& system, const Context& context) {
-  return Standstill(system, {}, context).rates();
+  Standstill at(compile(system));
+  at.begin(context);
+  return rates(at);
 }
 
 Eigen::VectorXd evaluate_time_derivatives(const System& system, const Context& context,
                                           const System& part) {
-  const Eigen::VectorXd rates = evaluate_time_derivatives(system, context);
+  const Eigen::VectorXd all = evaluate_time_derivatives(system, context);
   const Structure structure = structure_of(system);  // the context may be one of an equal system
   const SystemId id = part.itself().system_id();
   const auto range = std::ranges::find(structure.systems, id, &Layout::Range::id);
@@ -69,11 +46,13 @@ Eigen::VectorXd evaluate_time_derivatives(const System& system, const Context& c
   }
   const auto [first, count] =
       detail::extent(context.layout(), *range, &Layout::Leaf::x, &Layout::Leaf::nx);
-  return rates.segment(first, count);
+  return all.segment(first, count);
 }
 
 SignalValue evaluate_output(const System& system, OutputPort port, const Context& context) {
-  return Standstill(system, {{"y", port}}, context).signal();
+  Standstill at(compile(system, {{"y", port}}));
+  at.begin(context);
+  return signal(at);
 }
 
 SignalValue evaluate_input(const System& system, InputPort port, const Context& context) {

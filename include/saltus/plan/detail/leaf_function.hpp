@@ -1,0 +1,56 @@
+// LeafFunction: one function of a leaf of a plan, and its derivatives by the values that it reads.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "saltus/plan/plan.hpp"
+#include "saltus/tape/tape.hpp"
+
+namespace saltus {
+
+/// An entry of the state, of the parameters or of the signals: a value that a function reads.
+struct ReadValue {
+  Space space = Space::x;
+  Index index = 0;
+  auto operator<=>(const ReadValue&) const = default;
+};
+
+/// The values of a function that has a formula, and its derivatives, as one tape over the whole
+/// machine (see FlowVariables). The tape computes `size` values, then the derivatives, then the
+/// operands of the switches.
+struct LeafPartials {
+  struct Entry {
+    Index row = 0;
+    std::size_t read = 0;  ///< its number among the values that the function reads
+  };
+  /// A switch is at its limit where a = b: the operands of a comparison, or an operand of abs, and
+  /// zero. `scale` is the sum of the terms of a difference, |p| + |q| of p - q.
+  static constexpr Index numbers_of_switch = 3;  ///< a, b, scale
+
+  std::vector<Entry> entries;
+  Index switches = 0;
+  tape::Tape tape;
+};
+
+/// An output, a relation, a guard or the derivative of a leaf.
+struct LeafFunction {
+  std::string name;  ///< "the derivative of block 'ball'"
+  int leaf = -1;
+  Index size = 0;
+  const VectorFunction* call = nullptr;       ///< null: zero
+  std::vector<ReadValue> reads = {};          ///< that may move: truths and discrete states do not
+  std::optional<LeafPartials> partials = {};  ///< none: the function is called
+};
+
+/// The output or relation of a node. It must not be a view.
+LeafFunction function_of_node(const Plan& plan, int node);
+/// The derivative of a leaf that has a continuous state.
+LeafFunction function_of_rates(const Plan& plan, int leaf);
+/// A group of zero crossings.
+LeafFunction function_of_guard(const Plan& plan, const GuardGroup& group);
+/// The nodes that this guard reads.
+std::vector<int> nodes_of_guard(const Plan& plan, const GuardGroup& group);
+
+}  // namespace saltus

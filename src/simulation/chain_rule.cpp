@@ -1,0 +1,279 @@
+// ChainRule: the walk along the wires, and the derivatives of one function.
+#include "saltus/simulation/detail/chain_rule.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "saltus/plan/detail/needs.hpp"
+
+namespace saltus {
+
+namespace {
+
+/// [of its terms] The operands of a switch that are closer are at its limit.
+constexpr double switch_rounding = 16.0 * thresholds::eps;
+/// [of a value] The shifts with which both sides of a switch are compared. What a smooth function
+/// changes falls with the shift, by a hundred; a kink stays as it is.
+constexpr double wide_shift = 1e-4, near_shift = 1e-6;
+constexpr double smooth_fall = 0.1;
+/// [of the size of a derivative] A smaller difference of both sides is rounding.
+constexpr double side_rounding = 1e-9;
+
+std::vector<int> roots_of(const Plan& plan) {
+  std::vector<int> roots;
+  for (const int leaf : plan.odes) detail::add_derivative_roots(plan.leaf(leaf), roots);
+  for (const Tap& tap : plan.taps) roots.push_back(tap.node);
+  return roots;
+}
+
+}  // namespace
+
+ChainRule::ChainRule(Machine& machine, LinearColumns columns)
+    : machine_(machine),
+      plan_(machine.plan()),
+      columns_(std::move(columns)),
+      probe_(machine),
+      variables_(machine),
+      wanted_(plan_.nodes.size()),
+      functions_(plan_.nodes.size()) {
+  const auto never = [](const Node&) { return false; };
+  std::vector<int> roots = roots_of(plan_);
+  detail::spread(plan_, roots, wanted_, never);
+  for (const GuardGroup& group : plan_.guards) {
+    if (group.is_crossing() && plan_.crossing_of(group).has_effect())
+      detail::append(roots, nodes_of_guard(plan_, group));
+  }
+  for (const EdgeWatch& edge : plan_.edges) detail::append(roots, edge.relations);
+  List<char> reached(plan_.nodes.size());
+  detail::spread(plan_, roots, reached, never);
+  for (const int i : plan_.order) {
+    if (reached[i] == 0 || plan_.node(i).view) continue;
+    order_.push_back(i);
+    functions_[i] = function_of_node(plan_, i);
+    if (wanted_[i] != 0 && (plan_.node(i).relation || plan_.node(i).opaque())) truths_.push_back(i);
+  }
+  for (const int leaf : plan_.odes) odes_.push_back(function_of_rates(plan_, leaf));
+  unit_x_.setZero(plan_.nx), unit_y_.setZero(plan_.ny);
+}
+
+/// Whether a node keeps its value where the state moves.
+bool ChainRule::is_constant(const Node& node) const {
+  if (node.relation || node.boolean) return true;
+  return samples(plan_.output_of(node).reads);
+}
+
+void ChainRule::at(double t, const Forced& forced) {
+  t_ = t;
+  obstacle_.clear(), called_.clear();
+  y_.setZero(plan_.ny, columns_.size);
+  for (Index i = 0; i < plan_.ny; ++i)
+    if (columns_.of_signal[i] >= 0) y_(i, columns_.of_signal[i]) = 1.0;
+  probe_.begin(), probe_.note(machine_.x.data(), 0.0);
+  for (const int i : order_) evaluate(i, forced);
+  rates_.setZero(plan_.nx), rates_by_.setZero(plan_.nx, columns_.size);
+  for (const LeafFunction& ode : odes_) {
+    const Index first = plan_.leaf(ode.leaf).x;
+    call(ode, rates_.data() + first);
+    rates_by_.middleRows(first, ode.size) = derivative(ode);
+  }
+}
+
+/// The value of a node, as the run would have it, and its derivatives. What is held keeps its value.
+void ChainRule::evaluate(int i, const Forced& forced) {
+  const Node& node = plan_.node(i);
+  double* value = machine_.signal(i);
+  const bool held = node.located || (!node.relation && samples(plan_.output_of(node).reads));
+  if (!held) {
+    call(*functions_[i], value);
+    for (Index k = 0; k < node.place.size && node.relation; ++k)
+      value[k] = value[k] > 0.0 || (plan_.relation_of(node).true_at_zero && value[k] == 0.0);
+  }
+  if (forced.node == i) value[forced.entry] = value[forced.entry] == 0.0;
+  if (!is_constant(node) && !detail::is_fixed(plan_, node))
+    y_.middleRows(node.place.offset, node.place.size) = derivative(*functions_[i]);
+}
+
+void ChainRule::call(const LeafFunction& function, double* out) {
+  VectorRef values(out, function.size);
+  if (function.call == nullptr) return values.setZero(), void();
+  const At at = machine_.at(function.leaf, t_, machine_.x.data());
+  (*function.call)(*plan_.leaf(function.leaf).system, at, values);
+}
+
+Eigen::VectorXd ChainRule::value(int node) const {
+  const Place& place = plan_.node(node).place;
+  return VectorView(machine_.value(place), place.size);
+}
+
+Eigen::MatrixXd ChainRule::by(int node) const {
+  const Place& place = plan_.node(node).place;
+  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(place.size, columns_.size);
+  Eigen::RowVectorXd row(columns_.size);
+  for (Index i = 0; i < place.size && place.space != Space::z; ++i) {
+    row.setZero();
+    add({place.space, place.offset + i}, 1.0, row);
+    rows.row(i) = row;
+  }
+  return rows;
+}
+
+ChainRule::Level ChainRule::level(const LeafFunction& function) {
+  Level found{Eigen::VectorXd(function.size), {}};
+  call(function, found.value.data());
+  const std::string obstacle = std::exchange(obstacle_, {});
+  const auto called = called_;
+  found.by = derivative(function);
+  obstacle_ = obstacle, called_ = called;  // a guard decides no derivative
+  return found;
+}
+
+bool ChainRule::jumps_here(int node) {
+  const LeafFunction& function = *functions_[node];
+  Eigen::VectorXd now(function.size), moved(function.size);
+  call(function, now.data());
+  for (const ReadValue& read : function.reads) {
+    if (!moves(read)) continue;
+    const double size = std::max(std::abs(value_of(read)), std::numeric_limits<double>::min());
+    for (const double shift : {switch_rounding * size, -switch_rounding * size}) {
+      Machine& probe = probe_.at(machine_.x.data(), along(read), shift);
+      (*function.call)(*plan_.leaf(function.leaf).system,
+                       probe.at(function.leaf, t_, probe.x.data()),
+                       VectorRef(moved.data(), moved.size()));
+      if (moved != now) return true;
+    }
+  }
+  return false;
+}
+
+std::vector<std::string> ChainRule::called() const { return called_; }
+
+/// Whether a value moves with one of the columns.
+bool ChainRule::moves(const ReadValue& read) const {
+  if (read.space == Space::x) return true;
+  if (read.space == Space::p) return columns_.of_parameter[read.index] >= 0;
+  return !y_.row(read.index).isZero(0.0);
+}
+
+void ChainRule::add(const ReadValue& read, double value, Eigen::Ref<Eigen::RowVectorXd> row) const {
+  if (read.space == Space::x) row[read.index] += value;
+  if (read.space == Space::p && columns_.of_parameter[read.index] >= 0)
+    row[columns_.of_parameter[read.index]] += value;
+  if (read.space == Space::y) row += value * y_.row(read.index);
+}
+
+Eigen::MatrixXd ChainRule::derivative(const LeafFunction& function) {
+  if (function.call == nullptr) return Eigen::MatrixXd::Zero(function.size, columns_.size);
+  Eigen::MatrixXd by = function.partials ? exact(function) : differences(function);
+  if (!by.allFinite() && obstacle_.empty())
+    obstacle_ = text(function.name, " has a derivative that is not finite");
+  return by;
+}
+
+Eigen::MatrixXd ChainRule::exact(const LeafFunction& function) {
+  const LeafPartials& partials = *function.partials;
+  values_.resize(partials.tape.size());
+  variables_.at(t_, machine_.x.data(),
+                [&](const At& at) { partials.tape.evaluate(at, values_.data()); });
+  const Eigen::VectorXd values = values_;
+  if (has_switch_here(partials, function.size) && has_kink(function) && obstacle_.empty())
+    obstacle_ = text(function.name, " has a kink or a jump");
+  Eigen::MatrixXd by = Eigen::MatrixXd::Zero(function.size, columns_.size);
+  Eigen::RowVectorXd row(columns_.size);
+  for (std::size_t e = 0; e < partials.entries.size(); ++e) {
+    const auto& [i, number] = partials.entries[e];
+    const ReadValue& read = function.reads[number];
+    if (!moves(read)) continue;
+    row.setZero();
+    add(read, values[function.size + static_cast<Index>(e)], row);
+    by.row(i) += row;
+  }
+  return by;
+}
+
+Eigen::MatrixXd ChainRule::differences(const LeafFunction& function) {
+  Eigen::MatrixXd by = Eigen::MatrixXd::Zero(function.size, columns_.size);
+  Eigen::VectorXd one(function.size);
+  Eigen::RowVectorXd row(columns_.size);
+  const LeafSystem& system = *plan_.leaf(function.leaf).system;
+  const auto read_at = [&](Machine& probe, double, double* out) {
+    (*function.call)(system, probe.at(function.leaf, t_, probe.x.data()),
+                     VectorRef(out, function.size));
+  };
+  bool any = false;
+  for (const ReadValue& read : function.reads) {
+    if (!moves(read)) continue;
+    any = true;
+    probe_.derivative(machine_.x.data(), along(read), function.size, read_at, one.data());
+    if (!one.allFinite() && obstacle_.empty())
+      obstacle_ = text(function.name, ": ", probe_.obstacle());
+    for (Index i = 0; i < function.size; ++i) {
+      if (one[i] == 0.0) continue;
+      row.setZero();
+      add(read, one[i], row);
+      by.row(i) += row;
+    }
+  }
+  if (any) called_.push_back(function.name);
+  return by;
+}
+
+TangentDirection ChainRule::along(const ReadValue& read) {
+  unit_x_.setZero(), unit_y_.setZero();
+  if (read.space == Space::p) return {.parameter = read.index};
+  if (read.space == Space::x) {
+    unit_x_[read.index] = 1.0;
+    return {.x = unit_x_.data()};
+  }
+  unit_y_[read.index] = 1.0;
+  return {.y = unit_y_.data()};
+}
+
+double ChainRule::value_of(const ReadValue& read) const {
+  return *machine_.value({read.space, read.index, 1});
+}
+
+// --- kinks of formulas
+
+bool ChainRule::has_switch_here(const LeafPartials& partials, Index size) const {
+  const Index first = size + static_cast<Index>(partials.entries.size());
+  for (Index k = 0; k < partials.switches; ++k) {
+    const double* numbers = &values_[first + k * LeafPartials::numbers_of_switch];
+    if (std::abs(numbers[0] - numbers[1]) <= switch_rounding * numbers[2]) return true;
+  }
+  return false;
+}
+
+/// A switch at its limit is a kink only if the function or its derivative differs on both sides: v |v|
+/// has none at v = 0.
+bool ChainRule::has_kink(const LeafFunction& function) {
+  for (const ReadValue& read : function.reads) {
+    if (!moves(read)) continue;
+    const double size = value_of(read) == 0.0 ? 1.0 : std::abs(value_of(read));
+    const Sides wide = sides(function, read, wide_shift * size),
+                near = sides(function, read, near_shift * size);
+    const auto stays = near.misfit.array() > smooth_fall * wide.misfit.array();
+    const auto counts = near.misfit.array() > side_rounding * near.size.array();
+    if ((stays && counts).any()) return true;
+  }
+  return false;
+}
+
+/// By how much values and derivatives on both sides differ from each other and from those here.
+ChainRule::Sides ChainRule::sides(const LeafFunction& function, const ReadValue& read,
+                                  double shift) {
+  const LeafPartials& partials = *function.partials;
+  const Index count = function.size + static_cast<Index>(partials.entries.size());
+  const auto values_at = [&](double by) -> Eigen::ArrayXd {
+    Eigen::VectorXd values(partials.tape.size());
+    Machine& probe = probe_.at(machine_.x.data(), along(read), by);
+    FlowVariables(probe).at(t_, probe.x.data(),
+                            [&](const At& at) { partials.tape.evaluate(at, values.data()); });
+    return values.head(count).array();
+  };
+  const Eigen::ArrayXd low = values_at(-shift), here = values_at(0.0), high = values_at(shift);
+  return {(high - low).abs().max((high + low - 2.0 * here).abs()),
+          low.abs().max(high.abs()).max(here.abs())};
+}
+
+}  // namespace saltus

@@ -1,0 +1,268 @@
+// linearize: the columns and rows by their names, and the matrices.
+#include "saltus/simulation/linearize.hpp"
+
+#include <algorithm>
+
+#include <Eigen/Eigenvalues>
+
+#include "linear_limits.hpp"
+#include "saltus/model/context_entry.hpp"
+#include "saltus/plan/detail/fixed_inputs.hpp"
+#include "saltus/simulation/detail/given_inputs.hpp"
+
+namespace saltus {
+
+namespace {
+
+/// "y", or "y[0]", "y[1]" for a vector.
+void add_entries(std::vector<std::string>& names, const std::string& name, Index size,
+                 bool vector) {
+  for (Index i = 0; i < size; ++i) names.push_back(vector ? text(name, "[", i, "]") : name);
+}
+
+std::string prefix_of(const Plan& plan, const PlanLeaf& leaf) {
+  return plan.leaves.size() == 1 ? "" : leaf.path + ".";
+}
+
+/// "integrator.x[0]", or the name that the block gave to the state.
+std::vector<std::string> state_names(const Plan& plan) {
+  std::vector<std::string> names;
+  for (const PlanLeaf& leaf : plan.leaves) {
+    const std::string prefix = prefix_of(plan, leaf);
+    const auto& own = leaf.declared().continuous.names;
+    for (Index i = 0; i < leaf.nx; ++i)
+      names.push_back(own.empty() ? text(prefix, "x[", i, "]") : text(prefix, nth(own, i)));
+  }
+  return names;
+}
+
+RecordedSignals all_outputs(const System& system) {
+  RecordedSignals signals;
+  for (const std::string& name : system.output_names())
+    signals.push_back({name, system.output(name)});
+  return signals;
+}
+
+/// The number of an open input with this name, or -1.
+int port_of(const System& system, const std::string& name) {
+  const std::vector<std::string> names = system.input_names();
+  const auto found = std::ranges::find(names, name);
+  return found == names.end() ? -1 : static_cast<int>(found - names.begin());
+}
+
+/// The system with the values that the inputs were given.
+GivenInputs given(const System& system, const std::vector<LinearInput>& inputs) {
+  GivenInputs with(system);
+  for (const LinearInput& input : inputs) {
+    const int port = port_of(system, input.name);
+    if (port < 0) continue;
+    if (input.value && input.is_vector) with.fix_input(port, *input.value);
+    if (input.value && !input.is_vector) with.fix_input(port, (*input.value)[0]);
+    if (!with.fixes_input(port))
+      throw ModelError(text("linearize: input '", input.name, "' of system '", system.name(),
+                            "' is open and has no value; expected the value at which to linearise, "
+                            "as in {\"",
+                            input.name, "\", 0.0}, or a call of fix_input"));
+  }
+  return with;
+}
+
+void require_no_history(const Plan& plan) {
+  if (plan.histories.empty()) return;
+  throw ModelError(text("linearize: block '", plan.leaf(plan.histories.front()).path,
+                        "' keeps a history of its input, so no finite number of states describes "
+                        "it; replace it, for example by a Pade approximation (TransferFunction)"));
+}
+
+}  // namespace
+
+/// The plan of the system, and where its inputs are.
+class Linearizer::Parts {
+ public:
+  Parts(const System& system, LinearizeOptions options)
+      : options_(std::move(options)),
+        system_(given(system, options_.inputs)),
+        at_(compile(system_, options_.outputs ? *options_.outputs : all_outputs(system),
+                    options_.refinement.get())),
+        layout_(system.create_context()) {
+    options_.refinement.reset();
+    require_no_history(plan());
+    columns_ = {List<Index>(plan().np, Index{-1}), List<Index>(plan().ny, Index{-1}), plan().nx};
+    for (const LinearInput& input : options_.inputs) add(input);
+    rule_.emplace(at_.machine(), columns_);
+    for (const Tap& tap : plan().taps) {
+      const Shape& shape = plan().node(tap.node).shape;
+      add_entries(outputs_, tap.name, shape.size, shape.vector);
+    }
+  }
+
+  Linearization at(const Context& context) {
+    at_.begin(with_values(context));
+    const LinearLimits limits(at_, *rule_);
+    limits.require_motion();
+    rule_->at(at_.time(), {});
+    Linearization found = matrices();
+    if (!options_.one_sided) {
+      limits.require_smooth();
+      limits.require_guards_off_zero();
+      limits.require_relations_off_roots([&] { return matrices(); }, found);
+    }
+    limits.require_finite(found);
+    add_frozen(found);
+    return found;
+  }
+
+ private:
+  const Plan& plan() { return at_.machine().plan(); }
+
+  void add(const LinearInput& input) {
+    const int port = port_of(system_, input.name);
+    port < 0 ? add_parameter(input) : add_port(input, port);
+  }
+
+  void add_port(const LinearInput& input, int port) {
+    const LeafPort to = system_.input_target(port);
+    const auto leaf = detail::LeafNumbers(plan()).find(to.leaf).value();
+    const Node& node = plan().node(plan().leaf(leaf).inputs[to.index]);
+    add_columns(input.name, columns_.of_signal, node.place.offset, node.shape.size,
+                node.shape.vector);
+  }
+
+  void add_parameter(const LinearInput& input) {
+    const ContextEntry entry = find_input(input.name);
+    if (entry.kind != ContextEntry::Kind::parameter)
+      throw ModelError(text("linearize: '", input.name,
+                            "' is a state or a mode; expected an open input of the system or a "
+                            "parameter; A has the derivatives by the continuous states"));
+    if (input.value)
+      write_entry(layout_, entry, {input.value->data(), size_of(*input.value)}, input.name);
+    add_columns(input.name, columns_.of_parameter, entry.first, entry.size, entry.size > 1);
+    parameters_.push_back({input, entry});
+  }
+
+  /// Adds the open inputs to the names of an unknown one.
+  ContextEntry find_input(const std::string& name) {
+    try {
+      return find_entry(layout_.layout(), name);
+    } catch (const ModelError& error) {
+      std::string known = quoted_list(system_.input_names());
+      throw ModelError(text("linearize: ", error.what(),
+                            known.empty() ? std::string() : text("; open inputs: ", known)));
+    }
+  }
+
+  static std::size_t size_of(const Eigen::VectorXd& values) {
+    return static_cast<std::size_t>(values.size());
+  }
+
+  void add_columns(const std::string& name, List<Index>& of, Index first, Index size, bool vector) {
+    for (Index i = 0; i < size; ++i) {
+      if (of[first + i] >= 0)
+        throw ModelError(text("linearize: input '", name, "' is named twice"));
+      of[first + i] = columns_.size++;
+    }
+    add_entries(inputs_, name, size, vector);
+  }
+
+  Context with_values(const Context& context) const {
+    Context with = context;
+    for (const auto& [input, entry] : parameters_)
+      if (input.value)
+        write_entry(with, entry, {input.value->data(), size_of(*input.value)}, input.name);
+    return with;
+  }
+
+  Linearization matrices() {
+    const Index n = plan().nx, m = columns_.size - n;
+    Linearization found;
+    found.A = rule_->rates_by().leftCols(n), found.B = rule_->rates_by().rightCols(m);
+    const auto k = static_cast<Index>(outputs_.size());
+    found.C.resize(k, n), found.D.resize(k, m), found.y.resize(k);
+    Index row = 0;
+    for (const Tap& tap : plan().taps) {
+      const Eigen::MatrixXd by = rule_->by(tap.node);
+      found.C.middleRows(row, by.rows()) = by.leftCols(n);
+      found.D.middleRows(row, by.rows()) = by.rightCols(m);
+      found.y.segment(row, by.rows()) = rule_->value(tap.node);
+      row += by.rows();
+    }
+    found.states = state_names(plan()), found.inputs = inputs_, found.outputs = outputs_;
+    found.differences = rule_->called();
+    found.time = at_.time(), found.x = at_.machine().x, found.xdot = rule_->rates();
+    found.u = input_values();
+    return found;
+  }
+
+  Eigen::VectorXd input_values() {
+    const Index n = plan().nx;
+    Eigen::VectorXd u(columns_.size - n);
+    const auto take = [&](const List<Index>& columns, const Eigen::VectorXd& values) {
+      for (Index i = 0; i < values.size(); ++i)
+        if (columns[i] >= 0) u[columns[i] - n] = values[i];
+    };
+    take(columns_.of_parameter, at_.machine().p), take(columns_.of_signal, at_.machine().y);
+    return u;
+  }
+
+  void add_frozen(Linearization& found) {
+    for (std::size_t l = 0; l < plan().leaves.size(); ++l) {
+      const PlanLeaf& leaf = plan().leaf(l);
+      const std::string prefix = prefix_of(plan(), leaf);
+      for (Index i = 0; i < leaf.nz; ++i)
+        found.frozen.push_back({text(prefix, "z[", i, "]"), at_.machine().z[leaf.z + i]});
+      if (leaf.declared().has_modes)
+        found.frozen.push_back({prefix + "mode", static_cast<double>(at_.machine().modes[l])});
+    }
+    for (const int node : rule_->truths()) {
+      const Shape& shape = plan().node(node).shape;
+      std::vector<std::string> names;
+      add_entries(names, plan().name_of(plan().node(node)), shape.size, shape.vector);
+      const Eigen::VectorXd values = rule_->value(node);
+      for (Index i = 0; i < shape.size; ++i) found.frozen.push_back({nth(names, i), values[i]});
+    }
+  }
+
+  struct Parameter {
+    LinearInput input;
+    ContextEntry entry;
+  };
+  LinearizeOptions options_;
+  GivenInputs system_;
+  Standstill at_;
+  Context layout_;  // to find names
+  LinearColumns columns_;
+  std::optional<ChainRule> rule_;
+  std::vector<Parameter> parameters_;
+  std::vector<std::string> inputs_, outputs_;
+};
+
+Linearizer::Linearizer(const System& system, LinearizeOptions options)
+    : parts_(std::make_unique<Parts>(system, std::move(options))) {}
+Linearizer::~Linearizer() = default;
+Linearizer::Linearizer(Linearizer&&) noexcept = default;
+Linearizer& Linearizer::operator=(Linearizer&&) noexcept = default;
+
+Linearization Linearizer::at(const Context& context) { return parts_->at(context); }
+
+Linearization linearize(const System& system, const Context& context,
+                        const LinearizeOptions& options) {
+  return Linearizer(system, options).at(context);
+}
+
+Eigen::VectorXcd Linearization::poles() const {
+  if (A.rows() == 0) return {};
+  Eigen::VectorXcd poles = A.eigenvalues();
+  std::ranges::sort(poles, [](const auto& a, const auto& b) {
+    return std::pair(a.real(), a.imag()) < std::pair(b.real(), b.imag());
+  });
+  return poles;
+}
+
+std::string Linearization::method() const {
+  if (differences.empty()) return "exact";
+  std::string all;
+  for (const std::string& one : differences) all += (all.empty() ? "" : ", ") + one;
+  return text("central differences of ", all);
+}
+
+}  // namespace saltus
