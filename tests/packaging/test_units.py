@@ -42,6 +42,7 @@ ELSEWHERE = {
     "simulation/detail/run": "semantics/results_resume_test.cpp",
     "simulation/detail/tangent_flow": "laws/sensitivities_test.cpp",
     "simulation/detail/tangent_probe": "laws/sensitivities_test.cpp",
+    "simulation/detail/tangent_times": "laws/sensitivities_test.cpp",
     "simulation/detail/tangents": "laws/sensitivities_test.cpp",
     "simulation/detail/thresholds": None,
     "solver/detail/cvode": None,
