@@ -44,7 +44,8 @@ double FlowJumps::jump_of(double from, double to, const StateAt& state,
   // Where differences find no derivative, as at a kink, f itself has to change little.
   for (Index i = 0; i < a.rows(); ++i)
     if (!a.row(i).allFinite()) a.row(i).setZero();
-  const Eigen::VectorXd f[] = {flow(from, low), flow(from, high), flow(to, low), flow(to, high)};
+  const Eigen::VectorXd f[] = {probe_->flow(from, low.data()), probe_->flow(from, high.data()),
+                               probe_->flow(to, low.data()), probe_->flow(to, high.data())};
   const Eigen::VectorXd miss = 0.5 * (f[1] - f[0] + f[3] - f[2]) - a * (high - low);
   const Eigen::VectorXd noise = rate_rounding * (a.cwiseAbs() * high.cwiseAbs());
   double most = 0.0;
@@ -54,12 +55,6 @@ double FlowJumps::jump_of(double from, double to, const StateAt& state,
     if (beyond > 0.0) most = std::max(most, beyond / rates_[i]);
   }
   return most;
-}
-
-Eigen::VectorXd FlowJumps::flow(double t, const Eigen::VectorXd& x) {
-  Eigen::VectorXd f(x.size());
-  probe_->flow(t, x.data(), f.data());
-  return f;
 }
 
 }  // namespace saltus

@@ -241,10 +241,12 @@ void TangentProbe::flow(double t, const double* x, const TangentDirection& along
   let_rest(out);
 }
 
-void TangentProbe::flow(double t, const double* x, double* xdot) {
+Eigen::VectorXd TangentProbe::flow(double t, const double* x) {
+  Eigen::VectorXd xdot(machine_->plan().nx);
   Machine& probe = at(x);
-  probe.flow(t, probe.x.data(), xdot);
-  let_rest(xdot);
+  probe.flow(t, probe.x.data(), xdot.data());
+  let_rest(xdot.data());
+  return xdot;
 }
 
 }  // namespace saltus

@@ -32,27 +32,16 @@ std::string obstacle_of(const Plan& plan) {
   return {};
 }
 
-}  // namespace
-
-Tangents::Tangents(const Machine& machine, const GuardSet& guards, const SimulatorOptions& options,
-                   Results& results)
-    : machine_(&machine),
-      guards_(&guards),
-      options_(&options),
-      results_(&results),
-      probe_(machine),
-      flow_(machine, probe_),
-      jumps_(flow_, probe_) {
-  const std::string obstacle = obstacle_of(machine.plan());
-  if (!obstacle.empty())
-    throw ModelError(text("option sensitivity: ", obstacle,
-                          "; take differences of two runs for this system instead"));
-}
+/// A parameter or a start value by which the run is differentiated.
+struct Found {
+  std::string name;
+  ContextEntry entry;
+};
 
 /// The entries of the option `sensitivity`, a vector entry by entry.
-std::vector<Tangents::Found> Tangents::found(const Layout& layout) const {
+std::vector<Found> chosen_entries(const std::vector<std::string>& names, const Layout& layout) {
   std::vector<Found> all;
-  for (const std::string& name : options_->sensitivity) {
+  for (const std::string& name : names) {
     const ContextEntry entry = find_entry(layout, name);
     if (entry.kind == ContextEntry::Kind::mode)
       throw ModelError(text("option sensitivity: '", name,
@@ -72,7 +61,27 @@ std::vector<Tangents::Found> Tangents::found(const Layout& layout) const {
   return all;
 }
 
-void Tangents::require_fits(const Context& start) const { found(start.layout()); }
+}  // namespace
+
+Tangents::Tangents(const Machine& machine, const GuardSet& guards, const SimulatorOptions& options,
+                   Results& results)
+    : machine_(&machine),
+      guards_(&guards),
+      options_(&options),
+      results_(&results),
+      probe_(machine),
+      flow_(machine, probe_),
+      jumps_(flow_, probe_),
+      times_(machine, guards, options, flow_, probe_) {
+  const std::string obstacle = obstacle_of(machine.plan());
+  if (!obstacle.empty())
+    throw ModelError(text("option sensitivity: ", obstacle,
+                          "; take differences of two runs for this system instead"));
+}
+
+void Tangents::require_fits(const Context& start) const {
+  chosen_entries(options_->sensitivity, start.layout());
+}
 
 void Tangents::renew() {
   Sensitivities& out = results_->sensitivities;
@@ -84,7 +93,7 @@ void Tangents::renew() {
 
 void Tangents::begin(const Context& start) {
   using Kind = ContextEntry::Kind;
-  const std::vector<Found> all = found(start.layout());
+  const std::vector<Found> all = chosen_entries(options_->sensitivity, start.layout());
   const auto m = static_cast<Index>(all.size());
   const Plan& plan = machine_->plan();
   results_->sensitivities.parameters.clear();
@@ -139,12 +148,6 @@ void Tangents::clear_truths() {
     if ((node.relation || node.boolean) && node.place.space == Space::y && !node.view)
       columns_.y.middleRows(node.place.offset, node.place.size).setZero();
   }
-}
-
-Eigen::VectorXd Tangents::flow(double t, const double* x) {
-  Eigen::VectorXd f(machine_->plan().nx);
-  probe_.flow(t, x, f.data());
-  return f;
 }
 
 void Tangents::step(double from, double to, Integration& integration) {

@@ -39,18 +39,12 @@ void Tangents::lose_not_finite(const std::string& event) {
   }
 }
 
-/// Whether a parameter may move the state, or where f jumps.
-bool Tangents::matters(Index k) const {
-  return nth(columns_.parameters, k) >= 0 || !columns_.x.col(k).isZero(0.0) ||
-         !columns_.z.col(k).isZero(0.0) || !columns_.y.col(k).isZero(0.0);
-}
-
 /// f may jump where the state is, without an event: a branch that no guard announces. The jump would
 /// go through all columns, and the linear equation does not have it.
 void Tangents::look_for_jump(double from, double to, const FlowJumps::StateAt& state) {
   if (!jumps_.within(from, to, state, columns_)) return;
   for (Index k = 0; k < size(); ++k) {
-    if (matters(k))
+    if (columns_.matters(k))
       lose(k, "",
            "the flow jumps without an event; write the branch as a relation, or as modes with a "
            "guard");
@@ -69,8 +63,8 @@ void Tangents::look_at_firings(const Present& present) {
         flow_.guard(t_, machine_->x.data(), static_cast<Index>(number), columns_);
     const double rounding =
         guard_rounding *
-        guard.by_state.cwiseAbs().dot(machine_->x.cwiseAbs() +
-                                      std::abs(t_) * flow(t_, machine_->x.data()).cwiseAbs());
+        guard.by_state.cwiseAbs().dot(
+            machine_->x.cwiseAbs() + std::abs(t_) * probe_.flow(t_, machine_->x.data()).cwiseAbs());
     if (std::abs(present.g[number]) > std::max((*guards_)[number].error, rounding)) continue;
     for (Index k = 0; k < size(); ++k) {
       const double terms = guard.by_state.cwiseAbs().dot(columns_.x.col(k).cwiseAbs());

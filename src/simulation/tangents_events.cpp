@@ -10,9 +10,10 @@ void Tangents::monitor(const MonitorHit& hit, const double* x) {
   const GuardGroup& group = machine_->plan().guard((*guards_)[hit.firing.guard()].group);
   TangentColumns at = columns_;
   if (hit.t < t_) variation_->at(hit.t, at.x);
-  Moved moved = group.is_opaque() ? Moved{.by = Eigen::RowVectorXd::Constant(
-                                              size(), std::numeric_limits<double>::quiet_NaN())}
-                                  : crossing_time(hit.firing.slot, group.name, hit.t, x, at);
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  const MovedTime moved = group.is_opaque()
+                              ? MovedTime{.by = Eigen::RowVectorXd::Constant(size(), none)}
+                              : times_.of_crossing(hit.firing.slot, group.name, hit.t, x, at);
   for (Index k = 0; k < size(); ++k) {
     if (std::isnan(moved.by[k]) && nth(lost_, k) == 0)
       results_->sensitivities.gaps.push_back({hit.t, group.name,
@@ -29,7 +30,7 @@ void Tangents::add_event(const Eigen::RowVectorXd& by) {
   const auto found = predicted_.find(number);
   const bool enters = results_->events[number].kind == EventKind::zeno_enter;
   for (Index k = 0; k < size(); ++k) {
-    if (enters && !has_cause_ && matters(k))
+    if (enters && !has_cause_ && columns_.matters(k))
       lose(k, std::string(results_->events[number].name), "the block was at rest already");
     out.event_times.push_back(by[k]);
     const double predicted = found == predicted_.end() ? by[k] : found->second[k];
@@ -43,13 +44,13 @@ void Tangents::log() {
   predicted_.clear();
 }
 
-Eigen::MatrixXd Tangents::rows_of(std::span<const Index> states) const {
-  Eigen::MatrixXd rows(static_cast<Index>(states.size()), size());
-  for (Index i = 0; i < rows.rows(); ++i) rows.row(i) = next_x_.row(nth(states, i));
+namespace {
+
+Eigen::MatrixXd rows_of(std::span<const Index> states, const Eigen::MatrixXd& columns) {
+  Eigen::MatrixXd rows(static_cast<Index>(states.size()), columns.cols());
+  for (Index i = 0; i < rows.rows(); ++i) rows.row(i) = columns.row(nth(states, i));
   return rows;
 }
-
-namespace {
 
 Eigen::VectorXd entries_of(std::span<const Index> states, const Eigen::VectorXd& x) {
   Eigen::VectorXd out(static_cast<Index>(states.size()));
@@ -63,13 +64,13 @@ void Tangents::fired(const void* monitor) { monitors_[monitor].fired(t_, columns
 
 void Tangents::remember(const void* monitor, std::span<const Index> states,
                         const Eigen::VectorXd& next) {
-  monitors_[monitor].remember(entries_of(states, next), rows_of(states));
+  monitors_[monitor].remember(entries_of(states, next), rows_of(states, next_x_));
 }
 
 void Tangents::accumulate(const void* monitor, std::span<const Index> states,
                           const Eigen::VectorXd& next) {
   const ZenoTangent& zeno = monitors_[monitor];
-  const Eigen::MatrixXd rest = zeno.accumulate(entries_of(states, next), rows_of(states));
+  const Eigen::MatrixXd rest = zeno.accumulate(entries_of(states, next), rows_of(states, next_x_));
   for (Index i = 0; i < rest.rows(); ++i) next_x_.row(nth(states, i)) = rest.row(i);
   predicted_[results_->events.size()] = zeno.accumulation_time();
 }

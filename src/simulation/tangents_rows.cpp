@@ -17,22 +17,22 @@ std::vector<double> row_major(const Eigen::MatrixXd& values) {
 }  // namespace
 
 void Tangents::record(double t, const double* x) {
-  if (in_instant_ && !committed_) return taps(t, x, before_);
+  if (in_instant_ && !committed_) return add_row(t, x, before_);
   TangentColumns at = columns_;
   if (!in_instant_ && t < t_) variation_->at(t, at.x);
   fix_time(t, x, at);
-  taps(t, x, at);
+  add_row(t, x, at);
 }
 
 /// Turns derivatives at a moving time into those at a fixed time.
 void Tangents::fix_time(double t, const double* x, TangentColumns& at) {
   if (at.t.isZero(0.0)) return;
-  at.x -= flow(t, x) * at.t;
+  at.x -= probe_.flow(t, x) * at.t;
   at.t.setZero();
 }
 
 /// Adds a row of the derivatives of the recorded signals. Views of states need no differences.
-void Tangents::taps(double t, const double* x, const TangentColumns& at) {
+void Tangents::add_row(double t, const double* x, const TangentColumns& at) {
   const Plan& plan = machine_->plan();
   Index width = 0;
   for (const Tap& tap : plan.taps) width += plan.node(tap.node).place.size;

@@ -46,6 +46,7 @@ ELSEWHERE = {
     "simulation/detail/standstill": "unit/evaluate_test.cpp",
     "simulation/detail/tangent_flow": "laws/sensitivities_test.cpp",
     "simulation/detail/tangent_probe": "laws/sensitivities_test.cpp",
+    "simulation/detail/tangent_times": "laws/sensitivities_test.cpp",
     "simulation/detail/tangents": "laws/sensitivities_test.cpp",
     "simulation/detail/thresholds": None,
     "solver/detail/cvode": None,

@@ -23,7 +23,6 @@ class FlowJumps {
 
  private:
   double jump_of(double from, double to, const StateAt& state, const TangentColumns& columns);
-  Eigen::VectorXd flow(double t, const Eigen::VectorXd& x);
 
   TangentFlow* flow_;
   TangentProbe* probe_;

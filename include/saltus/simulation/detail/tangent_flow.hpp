@@ -19,6 +19,11 @@ struct TangentColumns {
   Eigen::RowVectorXd t;
   std::vector<Index> parameters;  ///< the entry of p that each column is of, or -1
   Index size() const { return static_cast<Index>(parameters.size()); }
+  /// Whether a parameter may move the state, or the flow at the state.
+  bool matters(Index k) const {
+    return nth(parameters, k) >= 0 || !x.col(k).isZero(0.0) || !z.col(k).isZero(0.0) ||
+           !y.col(k).isZero(0.0);
+  }
   /// One of them as a direction.
   TangentDirection column(Index k) const {
     return {t[k], x.col(k).data(), z.col(k).data(), y.col(k).data(), nth(parameters, k)};

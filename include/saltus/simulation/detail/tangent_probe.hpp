@@ -110,7 +110,7 @@ class TangentProbe {
   /// dxdot along the direction. States at rest do not move.
   void flow(double t, const double* x, const TangentDirection& along, double* out);
   /// The derivative itself, without a shift.
-  void flow(double t, const double* x, double* xdot);
+  Eigen::VectorXd flow(double t, const double* x);
 
  private:
   using Value = std::function<void(double shift, double* out)>;

@@ -11,6 +11,7 @@
 #include "saltus/simulation/detail/flow_jumps.hpp"
 #include "saltus/simulation/detail/integration.hpp"
 #include "saltus/simulation/detail/present.hpp"
+#include "saltus/simulation/detail/tangent_times.hpp"
 #include "saltus/simulation/detail/transition.hpp"
 #include "saltus/simulation/detail/variation.hpp"
 #include "saltus/simulation/detail/zeno_tangent.hpp"
@@ -73,36 +74,16 @@ class Tangents {
   std::string describe() const;
 
  private:
-  struct Found {
-    std::string name;
-    ContextEntry entry;
-  };
-  /// Why no derivative exists, or the derivatives of the time at which something happens.
-  struct Moved {
-    Eigen::RowVectorXd by = {};
-    std::string event = {}, obstacle = {};
-    std::string doubt = "the guard only grazes zero";  ///< where a derivative is NaN
-  };
-
   Index size() const { return columns_.size(); }
-  std::vector<Found> found(const Layout& layout) const;
   void begin_signals(const Context& start);
   void clear_truths();
-  Moved moved_by(const Firing& firing, bool jumped, const TangentColumns& until, double t);
-  Moved moved_by(const ScheduledEvent& event, const TangentColumns& until);
-  Moved crossing_time(Index slot, const std::string& event, double t, const double* x,
-                      const TangentColumns& until);
-  bool grazes(const GuardTangent& guard, double speed, Index slot, double t, const double* x);
-  void merge(const Moved& moved, bool first);
+  void merge(const MovedTime& moved, bool first);
   void lose(Index k, const std::string& event, const std::string& reason);
   void lose_not_finite(const std::string& event);
-  bool matters(Index k) const;
   void look_for_jump(double from, double to, const FlowJumps::StateAt& state);
   void add_event(const Eigen::RowVectorXd& by);
-  Eigen::VectorXd flow(double t, const double* x);
-  Eigen::MatrixXd rows_of(std::span<const Index> states) const;
   void fix_time(double t, const double* x, TangentColumns& at);
-  void taps(double t, const double* x, const TangentColumns& at);
+  void add_row(double t, const double* x, const TangentColumns& at);
 
   const Machine* machine_;
   const GuardSet* guards_;
@@ -111,6 +92,7 @@ class Tangents {
   TangentProbe probe_;
   TangentFlow flow_;
   FlowJumps jumps_;
+  TangentTimes times_;
   std::optional<Variation> variation_;
   TangentColumns columns_;  // of the state between instants, then of the instant
   TangentColumns before_;   // at a fixed time before the instant
