@@ -4,6 +4,8 @@ A model is a `LeafSystem` of your own or a `Diagram` of blocks from `saltus.libr
 runs it.
 """
 
+from typing import TYPE_CHECKING, Any
+
 from saltus import library, simulation
 from saltus._core import Context, State, __version__
 from saltus.callbacks import ExplainedCallback, Explanation
@@ -26,6 +28,9 @@ from saltus.solving.solve import solve
 from saltus.solving.system_of import system_of
 from saltus.system import InputPort, OutputPort, System
 
+if TYPE_CHECKING:
+    from saltus.orbits import PeriodicOrbit, periodic_orbit
+
 __all__ = [
     "Compiled",
     "Context",
@@ -42,6 +47,7 @@ __all__ = [
     "Linearization",
     "ModelError",
     "OutputPort",
+    "PeriodicOrbit",
     "Progress",
     "Results",
     "Scene",
@@ -61,6 +67,7 @@ __all__ = [
     "load",
     "load_results",
     "load_scene",
+    "periodic_orbit",
     "response",
     "scene",
     "shelf",
@@ -71,3 +78,16 @@ __all__ = [
     "system_of",
     "work_precision",
 ]
+
+
+def __getattr__(name: str) -> Any:
+    """Names that most runs leave alone are loaded when they are used."""
+    if name in ("PeriodicOrbit", "periodic_orbit"):
+        from saltus import orbits
+
+        return getattr(orbits, name)
+    raise AttributeError(f"module 'saltus' has no attribute '{name}'")
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})
