@@ -11,6 +11,7 @@ from saltus.compiled import Compiled, compiled
 from saltus.diagram import Diagram, DiagramBuilder
 from saltus.ensemble import sweep
 from saltus.errors import Error, ModelError, SimulationError
+from saltus.fitting import EventTimes, Experiment, FitProgress, FitResult, Free, fit
 from saltus.leaf_system import LeafSystem
 from saltus.progress import Progress
 from saltus.report import WorkPrecision, work_precision
@@ -33,8 +34,13 @@ __all__ = [
     "Error",
     "Event",
     "EventLog",
+    "EventTimes",
+    "Experiment",
     "ExplainedCallback",
     "Explanation",
+    "FitProgress",
+    "FitResult",
+    "Free",
     "Guard",
     "InputPort",
     "LeafSystem",
@@ -54,6 +60,7 @@ __all__ = [
     "WorkPrecision",
     "__version__",
     "compiled",
+    "fit",
     "library",
     "load",
     "load_results",
