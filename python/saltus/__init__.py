@@ -4,6 +4,8 @@ A model is a `LeafSystem` of your own or a `Diagram` of blocks from `saltus.libr
 runs it.
 """
 
+from typing import TYPE_CHECKING
+
 from saltus import library, simulation
 from saltus._core import Context, State, __version__
 from saltus.callbacks import ExplainedCallback, Explanation
@@ -11,7 +13,6 @@ from saltus.compiled import Compiled, compiled
 from saltus.diagram import Diagram, DiagramBuilder
 from saltus.ensemble import sweep
 from saltus.errors import Error, ModelError, SimulationError
-from saltus.fitting import EventTimes, Experiment, FitProgress, FitResult, Free, fit
 from saltus.leaf_system import LeafSystem
 from saltus.progress import Progress
 from saltus.report import WorkPrecision, work_precision
@@ -25,6 +26,10 @@ from saltus.solving.solution import Solution
 from saltus.solving.solve import solve
 from saltus.solving.system_of import system_of
 from saltus.system import InputPort, OutputPort, System
+
+if TYPE_CHECKING:
+    from saltus.fitting import EventTimes, Experiment, FitProgress, FitResult, Free
+    from saltus.fitting.fit import fit as fit
 
 __all__ = [
     "Compiled",
@@ -75,3 +80,16 @@ __all__ = [
     "system_of",
     "work_precision",
 ]
+
+_FITTING = frozenset({"EventTimes", "Experiment", "FitProgress", "FitResult", "Free", "fit"})
+
+
+def __getattr__(name: str) -> object:
+    """Loads `saltus.fitting` when one of its names is first used."""
+    if name not in _FITTING:
+        raise AttributeError(f"module 'saltus' has no attribute {name!r}")
+    from saltus import fitting
+
+    found: object = getattr(fitting, name)
+    globals()[name] = found
+    return found

@@ -9,6 +9,7 @@ import pytest
 
 ROOT = Path(__file__).parents[2] / "python"
 LATE = {
+    ("saltus", "saltus.fitting"): "a script without data leaves it alone",
     ("saltus._engine", "saltus.jit"): "an option that most runs leave alone",
     ("saltus.ensemble.executors", "saltus.ensemble.pools"): "loads Python's machinery of processes",
     (

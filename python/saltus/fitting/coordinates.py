@@ -10,7 +10,7 @@ import numpy as np
 from saltus import _core
 from saltus.errors import ModelError
 from saltus.fitting.experiment import Experiment
-from saltus.fitting.free import Free, frees_of
+from saltus.fitting.free import Free, frees_of, with_start
 from saltus.system import System
 
 __all__ = ["Coordinates", "Place", "places_of", "require_entry"]
@@ -99,7 +99,7 @@ def places_of(
 
 def _begun(where: str, name: str, free: Free, value: float) -> Free:
     try:
-        return free.from_value(value)
+        return with_start(free, value)
     except ModelError as error:
         raise ModelError(f"{where}: parameter '{name}': {error}") from None
 
@@ -110,15 +110,15 @@ def _refuse_twice(
     """Two names may mean one number of a context: 'x[0]' and 'height'."""
     for k, (each, context) in enumerate(zip(experiments, contexts, strict=True)):
         used: list[tuple[str, _core.Context]] = []
-        own = [place.name for place in places if place.run in (None, k)]
-        for name in [*own, *each.values]:
+        for name in [place.name for place in places if place.run in (None, k)]:
             changed = _core.with_entry(context, name, np.array([_OTHER]))
-            if name in own:
-                for other, same in used:
-                    if same == changed:
-                        raise ModelError(f"fit: {each.name}: '{other}' and '{name}' are one value")
-                used.append((name, changed))
-            elif any(same == changed for _, same in used):
+            for other, same in used:
+                if same == changed:
+                    raise ModelError(f"fit: {each.name}: '{other}' and '{name}' are one value")
+            used.append((name, changed))
+        for name in each.values:
+            changed = _core.with_entry(context, name, np.array([_OTHER]))
+            if any(same == changed for _, same in used):
                 raise ModelError(
                     f"fit: {each.name}: '{name}' is fitted, and has a value in this experiment; "
                     "remove one of them"
@@ -152,6 +152,13 @@ class Coordinates:
     def slope(self, values: np.ndarray) -> np.ndarray:
         """dp/du at values p."""
         return np.where(self.log, values, 1.0)
+
+    def scale(self, u: np.ndarray) -> np.ndarray:
+        """The unit in which the optimizer counts each number: its size at the start, or the width
+        of its bounds, or 1. That of a logarithm is 1.
+        """
+        width = np.where(np.isfinite(self.upper - self.lower), self.upper - self.lower, 1.0)
+        return np.where(self.log, 1.0, np.where(u == 0.0, width, np.abs(u)))
 
     def of_run(self, values: np.ndarray, run: int) -> dict[str, float]:
         """The values that one experiment has, by the names of its context."""

@@ -63,7 +63,7 @@ def fit(
     max_nfev: int | None = None,
     ftol: float | None = 1e-8,
     xtol: float | None = 1e-8,
-    gtol: float | None = 1e-8,
+    gtol: float | None = None,
     progress: bool | Callable[[Any], object] = False,
     options: SimulatorOptions | None = None,
     **option_overrides: Any,
@@ -115,7 +115,8 @@ def fit(
     max_nfev : int, optional
         The number of evaluations of each start; by default 100 for each parameter.
     ftol, xtol, gtol
-        When a fit has converged, as in `least_squares`.
+        When a fit has converged, as in `least_squares`; xtol is relative to the size of each
+        parameter at the start. gtol has the unit of the data, so there is none by default.
     progress : bool or callable
         True shows a line on stderr; a function is called with a `FitProgress`.
     options : SimulatorOptions, optional
@@ -186,7 +187,7 @@ def fit(
         "xtol": xtol,
         "gtol": gtol,
     }
-    optimizer = Optimizer(problem, optimize.least_squares, settings, shown)
+    optimizer = Optimizer(problem, optimize.least_squares, settings, shown, run_options.interrupt)
     begin = starts_of(coordinates, starts, seed)
     make = functools.partial(result_of, problem, loss, float(f_scale), bool(absolute_sigma))
     return optimizer.run(begin, make)

@@ -9,7 +9,7 @@ from typing import Any
 
 from saltus.errors import ModelError
 
-__all__ = ["Free", "frees_of"]
+__all__ = ["Free", "frees_of", "with_start"]
 
 
 @dataclass(frozen=True)
@@ -70,23 +70,24 @@ class Free:
         if self.log and start <= 0.0:
             raise ModelError(f"log=True needs a start value above 0, found {start:g}")
 
-    def from_value(self, value: float) -> Free:
-        """The same with a start: its own, or `value` of the context, or the middle of the bounds.
 
-        A value at a bound is no start, because the fit could hardly leave it.
-        """
-        if self.start is not None:
-            return self
-        least = max(self.lower, 0.0) if self.log else self.lower
-        if least < value < self.upper:
-            return replace(self, start=value)
-        middle = math.sqrt(least * self.upper) if self.log else (self.lower + self.upper) / 2.0
-        if not math.isfinite(middle) or (self.log and middle == 0.0):
-            raise ModelError(
-                f"the value {value:g} of the context is no start within the bounds "
-                f"{self.lower:g} to {self.upper:g}; give one: saltus.Free(start, lower, upper)"
-            )
-        return replace(self, start=middle)
+def with_start(free: Free, value: float) -> Free:
+    """The same with a start: its own, or `value` of the context, or the middle of the bounds.
+
+    A value at a bound is no start, because the fit could hardly leave it.
+    """
+    if free.start is not None:
+        return free
+    least = max(free.lower, 0.0) if free.log else free.lower
+    if least < value < free.upper:
+        return replace(free, start=value)
+    middle = math.sqrt(least * free.upper) if free.log else (free.lower + free.upper) / 2.0
+    if not math.isfinite(middle) or (free.log and middle == 0.0):
+        raise ModelError(
+            f"the value {value:g} of the context is no start within the bounds {free.lower:g} to "
+            f"{free.upper:g}; give one: saltus.Free(start, lower, upper)"
+        )
+    return replace(free, start=middle)
 
 
 def _number(what: str, value: Any) -> float:

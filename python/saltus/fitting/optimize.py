@@ -9,17 +9,13 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from saltus.errors import ModelError, SimulationError
+from saltus.fitting.jumps import meets_jump
 from saltus.fitting.problem import Point, Problem
 from saltus.fitting.progress import FitProgress, Shown
 from saltus.fitting.result import FitResult, Start
 from saltus.fitting.trial import Stopped
 
 __all__ = ["Ended", "Optimizer"]
-
-FLAT = 1e-2
-"""the cosine between residuals and a column of the Jacobian above which a fit that cannot step any
-further has met a jump of the cost; ftol = 1e-8 ends a smooth one below 2e-4
-"""
 
 
 class Ended(NamedTuple):
@@ -42,9 +38,10 @@ class Optimizer:
         least_squares: Callable[..., Any],
         settings: dict[str, Any],
         shown: Shown,
+        interrupt: Callable[[], bool] | None = None,
     ):
         self.problem, self.least_squares, self.settings = problem, least_squares, settings
-        self.shown = shown
+        self.shown, self.interrupt = shown, interrupt
         self._ended: list[tuple[Start, Point | None]] = []
         self._begun = time.perf_counter()
         self._count = 1
@@ -52,10 +49,11 @@ class Optimizer:
     def run(self, starts: list[np.ndarray], result: Callable[[Ended], FitResult]) -> FitResult:
         """The best of all starts. After Ctrl-C the exception has the best point so far."""
         self._count = len(starts)
-        self.problem.seen = lambda point: self.shown(self._now)
+        self.problem.seen = self._seen
         try:
             for u in starts:
                 self._ended.append(self._from(u))
+            self.shown(self._now, last=True)
         except Stopped as error:
             return self._interrupted(str(error), result, error)
         except KeyboardInterrupt as error:
@@ -64,8 +62,6 @@ class Optimizer:
             raise
         finally:
             self.problem.seen = lambda point: None
-        if self.shown.wanted:
-            self.shown(self._now, last=True)
         best = self._best()
         if best is None:
             raise self._failure()
@@ -73,53 +69,70 @@ class Optimizer:
         assert point is not None
         return result(self._as_ended(point, start.cost, start.status, start.message))
 
+    def _seen(self, point: Point | None) -> None:
+        """After each evaluation."""
+        self.shown(self._now)
+        if self.interrupt is not None and self.interrupt():
+            raise Stopped("the option interrupt has ended the fit")
+
     def _from(self, u: np.ndarray) -> tuple[Start, Point | None]:
         """One start; without a point if its first run fails."""
         problem, before = self.problem, self.problem.record.evaluations
         if problem.at(u) is None:
             assert problem.failed is not None
             return self._start(u, u, np.inf, "failed", str(problem.failed), before), None
-        found = self._minimized(u)
-        point = problem.at(found.x)
+        found, end = self._minimized(u)
+        point = problem.at(end)
         assert point is not None  # the optimizer was there
-        status, message = self._status(found)
-        return self._start(u, found.x, float(found.cost), status, message, before), point
+        status, message = self._status(found, point)
+        return self._start(u, end, float(found.cost), status, message, before), point
 
-    def _minimized(self, u: np.ndarray) -> Any:
-        problem, bounds = self.problem, self.problem.coordinates
+    def _minimized(self, u: np.ndarray) -> tuple[Any, np.ndarray]:
+        """The outcome of `least_squares`, and where it ended.
+
+        It gets numbers near 1, because its xtol compares the step with the length of all of them:
+        beside a parameter of 1e6 one of 1e-3 would never have to be found.
+        """
+        problem, places = self.problem, self.problem.coordinates
+        scale = places.scale(u)
+
+        def back(w: np.ndarray) -> np.ndarray:
+            inside: np.ndarray = np.clip(w * scale, places.lower, places.upper)
+            return inside
+
         try:
-            return self.least_squares(
-                problem.residuals,
-                u,
-                jac=problem.jacobian,
-                bounds=(bounds.lower, bounds.upper),
+            found = self.least_squares(
+                lambda w: problem.residuals(back(w)),
+                u / scale,
+                jac=lambda w: problem.jacobian(back(w)) * scale,
+                bounds=(places.lower / scale, places.upper / scale),
                 x_scale="jac",
                 **self.settings,
             )
         except (ValueError, TypeError) as error:  # a setting that makes no sense
             raise ModelError(f"fit: {error}") from error
+        return found, back(found.x)
 
-    def _status(self, found: Any) -> tuple[str, str]:
+    def _status(self, found: Any, point: Point) -> tuple[str, str]:
         """How `least_squares` ended, and why."""
         if found.status == 0:
             return "max_nfev", f"{found.nfev} evaluations were not enough; give max_nfev, or starts"
-        if found.status == 3 and self._is_steep(found):
+        if found.status == 3 and self._meets_jump(point):
             return "stalled", (
                 "no shorter step lowers the cost, and its gradient is not zero: the cost jumps "
-                "there, as where a sequence of events changes; give starts=..., or other data"
+                "there, as where a sequence of events changes, or runs fail; give starts=..., or "
+                "other data"
             )
         return "converged", str(found.message)
 
-    def _is_steep(self, found: Any) -> bool:
-        """Whether the residuals still have a part along the Jacobian, beyond their rounding."""
-        length = np.sqrt(2.0 * found.cost)
-        noise = self.problem.rtol * np.linalg.norm(self.problem.data / self.problem.sigma)
-        if length <= 10.0 * noise:
-            return False
-        columns = np.linalg.norm(found.jac, axis=0)
-        inside = (found.active_mask == 0) & (columns > 0.0)
-        cosines = np.abs(found.grad[inside]) / (columns[inside] * length)
-        return bool(np.any(cosines > FLAT))
+    def _meets_jump(self, point: Point) -> bool:
+        """Whether the fit has ended at a jump of its cost."""
+        problem, bounds = self.problem, self.problem.coordinates
+        noise = problem.rtol * float(np.linalg.norm(problem.data / problem.sigma))
+        limits = (bounds.lower, bounds.upper)
+        return meets_jump(
+            problem.predicted, point.u, point.residuals, point.jacobian, limits, noise
+        )
 
     def _start(
         self, u: np.ndarray, end: np.ndarray, cost: float, status: str, message: str, before: int

@@ -138,9 +138,10 @@ class Problem:
         scale = 1.0 if self.coordinates.log[column] else float(u[column])
         bounds = (float(self.coordinates.lower[column]), float(self.coordinates.upper[column]))
         step = step_of(scale, self.rtol)
-        return difference(self._predicted, u, residuals, column, step, bounds)
+        return difference(self.predicted, u, residuals, column, step, bounds)
 
-    def _predicted(self, u: np.ndarray) -> np.ndarray | None:
+    def predicted(self, u: np.ndarray) -> np.ndarray | None:
+        """The residuals at `u` by runs without derivatives; None if a run fails."""
         values = self.coordinates.outer(u)
         try:
             found = [

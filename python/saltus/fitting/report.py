@@ -108,7 +108,9 @@ def _warnings(problem: Problem, point: Point, found: Uncertainty, absolute: bool
         )
     for k, label in enumerate(coordinates.labels):
         for bound in (coordinates.lower[k], coordinates.upper[k]):
-            if abs(point.u[k] - bound) <= 1e-6 * max(abs(bound), abs(point.u[k])):
+            if np.isfinite(bound) and abs(point.u[k] - bound) <= 1e-6 * max(
+                abs(bound), abs(point.u[k])
+            ):
                 said.append(f"'{label}' ended at a bound; its standard error does not count that")
     if record.failures:
         said.append(
