@@ -59,7 +59,7 @@ def _value(value: float, error: float) -> str:
     if not (math.isfinite(error) and error > 0.0 and value != 0.0):
         return f"{value:.6g}"
     digits = math.floor(math.log10(abs(value))) - math.floor(math.log10(error)) + 2
-    return f"{value:.{min(max(digits, 4), 15)}g}"
+    return f"{value:#.{min(max(digits, 4), 15)}g}".rstrip(".")
 
 
 def _interval(ends: tuple[float, float], error: float) -> str:
