@@ -221,9 +221,9 @@ def _require_enough(
     if count < needed:
         said = f", without {missing} that are nan" if missing else ""
         raise ModelError(
-            f"fit: expected at least as many data as the {needed} parameters "
-            f"({', '.join(coordinates.labels)}), found {count}{said}; fix some of the parameters "
-            "in the context, or give more data"
+            f"fit: expected at least {needed} data, as many as parameters "
+            f"({', '.join(coordinates.labels)}), found {count}{said}; give more data, or fix "
+            "parameters in the context"
         )
     lacking = sorted({name for trial in trials for name in trial.without_sigma})
     if absolute_sigma and lacking:
