@@ -29,6 +29,8 @@ from saltus.solving.system_of import system_of
 from saltus.system import InputPort, OutputPort, System
 
 if TYPE_CHECKING:
+    from saltus.fitting import EventTimes, Experiment, FitProgress, FitResult, Free
+    from saltus.fitting.fit import fit as fit
     from saltus.orbits import PeriodicOrbit, periodic_orbit
 
 __all__ = [
@@ -39,8 +41,13 @@ __all__ = [
     "Error",
     "Event",
     "EventLog",
+    "EventTimes",
+    "Experiment",
     "ExplainedCallback",
     "Explanation",
+    "FitProgress",
+    "FitResult",
+    "Free",
     "Guard",
     "InputPort",
     "LeafSystem",
@@ -62,6 +69,7 @@ __all__ = [
     "WorkPrecision",
     "__version__",
     "compiled",
+    "fit",
     "library",
     "linearize",
     "load",
@@ -79,14 +87,23 @@ __all__ = [
     "work_precision",
 ]
 
+_LATER = {
+    **dict.fromkeys(
+        ("EventTimes", "Experiment", "FitProgress", "FitResult", "Free", "fit"), "fitting"
+    ),
+    **dict.fromkeys(("PeriodicOrbit", "periodic_orbit"), "orbits"),
+}
+"""names that most scripts leave alone -> their package, which is loaded when they are used"""
+
 
 def __getattr__(name: str) -> Any:
-    """Names that most runs leave alone are loaded when they are used."""
-    if name in ("PeriodicOrbit", "periodic_orbit"):
-        from saltus import orbits
+    if name not in _LATER:
+        raise AttributeError(f"module 'saltus' has no attribute {name!r}")
+    from importlib import import_module
 
-        return getattr(orbits, name)
-    raise AttributeError(f"module 'saltus' has no attribute '{name}'")
+    found = getattr(import_module(f"saltus.{_LATER[name]}"), name)
+    globals()[name] = found
+    return found
 
 
 def __dir__() -> list[str]:
