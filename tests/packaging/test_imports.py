@@ -9,8 +9,6 @@ import pytest
 
 ROOT = Path(__file__).parents[2] / "python"
 LATE = {
-    ("saltus", "saltus.orbits"): "most runs look for no orbit, and reading files takes time",
-    ("saltus", "saltus.fitting"): "a script without data leaves it alone",
     ("saltus._engine", "saltus.jit"): "an option that most runs leave alone",
     ("saltus.ensemble.executors", "saltus.ensemble.pools"): "loads Python's machinery of processes",
     (
