@@ -38,10 +38,10 @@ Effects::Effect Effects::effect_of(const Action& action) {
 void Effects::run_reset(const Action& action, int source) {
   const Effect effect = effect_of(action);
   Holds::Hold& hold = *effect.hold;
-  if (effect.any() && !action.carry) holds_->fired(hold, present_->t);
   const bool wrote = write(effect, action.leaf, journal_->name_of(source));
   note(action, source);
   if (!wrote || action.carry) return;
+  holds_->fired(hold, present_->t);
   if (holds_->look_for_accumulation(hold) && action.cause == Cause::edge)
     contacts_->keep_relations_of(action.index);
 }

@@ -46,11 +46,11 @@ void Holds::add_guards(const GuardSet& guards) {
             .source = guard.group,
             .entry = guard.entry,
             .on_zeno = crossing.on_zeno,
-            .states = whole(leaf)};
+            .of_plan = whole(leaf)};
     if (!crossing.holds.empty())
-      hold.states = choose(leaf, nth(crossing.holds, guard.entry));
+      hold.of_plan = choose(leaf, nth(crossing.holds, guard.entry));
     else if (crossing.touches && !steers(crossing, group.leaf))
-      hold.states = choose(leaf, crossing.touches->of_guard(guard.entry));
+      hold.of_plan = choose(leaf, crossing.touches->of_guard(guard.entry));
   }
 }
 
@@ -79,13 +79,13 @@ void Holds::add_edges() {
          .leaf = plan.edges[e].leaf,
          .source = journal_->source_of(Cause::edge, static_cast<int>(e)),
          .on_zeno = reset.on_zeno,
-         .states = whole(plan.leaf(plan.edges[e].leaf))});
+         .of_plan = whole(plan.leaf(plan.edges[e].leaf))});
   }
 }
 
 void Holds::begin() {
   for (auto* holds : {&of_guards_, &of_edges_}) {
-    for (Hold& hold : *holds) hold.monitor.forget();
+    for (Hold& hold : *holds) hold.monitor.forget(), hold.states = hold.of_plan;
   }
   count_ = 0;
   open();

@@ -1,5 +1,6 @@
 // Holds: their part of a continuation.
 #include <algorithm>
+#include <functional>
 
 #include "saltus/simulation/detail/holds.hpp"
 
@@ -8,7 +9,11 @@ namespace saltus {
 std::vector<Continuation::Firings> Holds::save() const {
   std::vector<Continuation::Firings> firings;
   for (const auto* holds : {&of_guards_, &of_edges_}) {
-    for (const Hold& hold : *holds) firings.push_back(hold.monitor.save());
+    for (const Hold& hold : *holds) {
+      Continuation::Firings& saved = firings.emplace_back(hold.monitor.save());
+      if (!saved.times.empty() || saved.holding)
+        saved.states.assign(hold.states.begin(), hold.states.end());
+    }
   }
   return firings;
 }
@@ -22,27 +27,55 @@ bool Holds::fits(const Continuation& from) const {
   return true;
 }
 
+/// The entries of x that rested in the earlier run, or would have. They may differ from those of
+/// this plan: the earlier run may have known more, or less, of what the effect writes. Contexts of
+/// earlier versions do not say.
+std::span<const Index> Holds::states_of(const Hold& hold, const Continuation::Firings& saved) {
+  return saved.states.empty() ? hold.of_plan : std::span<const Index>(saved.states);
+}
+
+namespace {
+
+/// Whether entries increase, and all are among those of a leaf.
+bool are_of(const PlanLeaf& leaf, std::span<const Index> entries) {
+  return entries.empty() ||
+         (std::ranges::adjacent_find(entries, std::greater_equal<>()) == entries.end() &&
+          entries.front() >= leaf.x && entries.back() < leaf.x + leaf.nx);
+}
+
+}  // namespace
+
 /// A firing that left other states than the hold has, or a hold where nothing can rest, comes from
 /// a damaged context.
 void Holds::require_sound(const Hold& hold, const Continuation::Firings& saved) const {
-  const bool whole = saved.after.empty() || saved.after.size() == hold.states.size();
-  const bool possible = hold.leaf >= 0 || (!saved.holding && saved.times.empty());
+  const std::size_t size = states_of(hold, saved).size();
+  const bool whole = saved.after.empty() || saved.after.size() == size;
+  const bool possible = hold.leaf >= 0
+                            ? are_of(machine_->plan().leaf(hold.leaf), saved.states)
+                            : !saved.holding && saved.times.empty() && saved.states.empty();
   if (whole && possible) return;
-  throw ModelError(text("the continuation of the context is damaged: a guard with ",
-                        hold.states.size(), " states that may rest has ", saved.after.size(),
-                        " states after its last firing", possible ? "" : ", or rests"));
+  throw ModelError(text("the continuation of the context is damaged: a guard with ", size,
+                        " states that may rest has ", saved.after.size(),
+                        " states after its last firing",
+                        possible ? "" : ", or others than those of its block"));
 }
 
 void Holds::load(const Continuation& from) {
   auto firings = from.firings.begin();
   for (auto* holds : {&of_guards_, &of_edges_}) {
-    for (Hold& hold : *holds) {
-      hold.monitor.load(*firings++);
-      if (!hold.monitor.holding) continue;
-      ++count_;
-      for (const Index i : hold.states) machine_->resting().rest(i);
-    }
+    for (Hold& hold : *holds) load(hold, *firings++);
   }
+}
+
+void Holds::load(Hold& hold, const Continuation::Firings& saved) {
+  if (!std::ranges::equal(states_of(hold, saved), hold.of_plan)) {
+    hold.earlier = saved.states;
+    hold.states = hold.earlier;
+  }
+  hold.monitor.load(saved, hold.states.size());
+  if (!hold.monitor.holding) return;
+  ++count_;
+  for (const Index i : hold.states) machine_->resting().rest(i);
 }
 
 }  // namespace saltus

@@ -1,4 +1,6 @@
 // Semantics 4.1 and 4.4: which guards have a Zeno monitor, and which states rest.
+#include <numbers>
+
 #include "support/leaves.hpp"
 
 using namespace saltus;
@@ -132,4 +134,35 @@ TEST_CASE("4.4 a run that was cut while part of a leaf rested goes on in the sam
   const auto second = simulate(leaf, first.context, {5.0, 9.5}, {});
   CHECK(std::abs(second.context.continuous_state()[2] - 0.37 * 9.5) < 1e-6);
   CHECK(second.context.continuous_state()[0] == first.context.continuous_state()[0]);
+}
+
+TEST_CASE("4.2 a firing whose reset map writes nothing is no part of a series", "[semantics]") {
+  // x' = 1; the guard crosses zero downwards at 10 log(1 - x_k) = -(2 k + 1/2) pi, so its gaps shrink
+  // by q = exp(-2 pi / 10). The reset map counts the crossings in n, from number `silent` on.
+  const auto method = GENERATE(from_range(methods));
+  const int silent = GENERATE(0, 1, 3, 4, 5, 9);
+  INFO(method << ", " << silent << " firings write nothing");
+  const double step = 2.0 * std::numbers::pi / 10.0, q = std::exp(-step);
+  const double bound = 1.0 - std::exp(-step * (silent - 0.25));
+  const Leaf leaf("leaf", [=](Leaf& l) {
+    l.declare_continuous_state(
+        {.initial = vec({0.0, 0.0}), .ode = [](const At&, VectorRef xdot) { xdot << 1.0, 0.0; }});
+    l.declare_zero_crossing(
+        {.name = "series",
+         .guard = [](const At& at) { return std::cos(10.0 * std::log(1.0 - at.x[0])); },
+         .reset_map =
+             [=](const At& at, Next& next) {
+               if (at.x[0] > bound) next.set_continuous_state({at.x[0], at.x[1] + 1.0});
+             },
+         .direction = Direction::positive_then_non_positive,
+         .on_zeno = OnZeno::stop(),
+         .zeno_tolerance = 0.5});
+  });
+  const auto results = simulate(leaf, leaf.create_context(), {0.0, 1.0 - 1e-4},
+                                {.rtol = 1e-9, .atol = 1e-11, .ode_solver_method = method});
+  REQUIRE(count(results.events, EventKind::zeno_enter) == 1);
+  // The fourth of the series accumulates: n = 4, and q / (1 - q) for the firings to come. The times
+  // are right to rtol times the slope of the guard, 10 / (1 - x) < 2e4.
+  CHECK(std::abs(results.context.time() - (1.0 - std::exp(-step * (silent + 3.25)))) < 1e-6);
+  CHECK(std::abs(results.context.continuous_state()[1] - (4.0 + q / (1.0 - q))) < 1e-5);
 }

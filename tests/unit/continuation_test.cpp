@@ -35,6 +35,7 @@ TEST_CASE("a continuation is equal to a copy and to no other", "[continuation]")
       [](auto& c) { c.guards.emplace_back(); },
       [](auto& c) { c.firings[0].times.pop_back(); },
       [](auto& c) { c.firings[0].after[0] = 5.0; },
+      [](auto& c) { c.firings[0].states.push_back(1); },
       [](auto& c) { c.firings[0].holding = false; },
       [](auto& c) { c.edges[0] = 0; },
       [](auto& c) { c.counts[0] = 8; }};

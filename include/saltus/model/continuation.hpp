@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "saltus/base/ids.hpp"
+
 namespace saltus {
 
 /// With these values a run that continues from `results.context` has the events of the unbroken
@@ -22,7 +24,8 @@ struct Continuation {
   /// One Zeno monitor.
   struct Firings {
     std::vector<double> times = {};  ///< [s] of the last firings, latest first; at most four
-    std::vector<double> after = {};  ///< the state after the latest
+    std::vector<double> after = {};  ///< the values of `states` after the latest
+    std::vector<Index> states = {};  ///< the entries of x that rest, or would rest
     bool holding = false;
     bool operator==(const Firings&) const = default;
   };

@@ -55,9 +55,6 @@ class Runs:
 
     def flow(self, context: _core.Context) -> np.ndarray:
         """d/dt of all states: discrete ones do not move."""
-        # new values, because the record of past firings that a run leaves in its context may not
-        # fit the plan of an evaluation, whose functions are called: it knows less of what may rest
-        context = context.with_continuous_state(context.continuous_state)
         rates = self.system.eval_time_derivatives(context)
         return np.concatenate([rates, np.zeros(context.num_discrete_states)])
 

@@ -30,6 +30,11 @@ struct FieldWriter {
     Tree::set(data, key, value);
   }
 
+  template <class T>
+  void optional(const char* key, const T& value) {
+    field(key, value);
+  }
+
   /// A list of items, each a row of its members.
   template <class T, class... Member>
   void rows(const char* key, const std::vector<T>& items, Member T::*... member) {
@@ -61,6 +66,12 @@ struct FieldReader {
     value = Tree::template get<T>(data, key);
   }
 
+  /// A field that data of earlier versions do not have: the value remains as it is.
+  template <class T>
+  void optional(const char* key, T& value) {
+    if (Tree::has(data, key)) field(key, value);
+  }
+
   template <class T, class... Member>
   void rows(const char* key, std::vector<T>& items, Member T::*... member) {
     for (const auto& row : Tree::items(data, key)) {
@@ -90,6 +101,7 @@ void fields_of(Archive& archive, Continuation& c) {
   archive.records("firings", c.firings, [](auto& one, auto& firings) {
     one.field("times", firings.times);
     one.field("after", firings.after);
+    one.optional("states", firings.states);
     one.field("holding", firings.holding);
   });
   archive.field("edges", c.edges);

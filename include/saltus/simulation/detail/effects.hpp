@@ -10,7 +10,7 @@ namespace saltus {
 
 /// Runs the reset maps, the changes of mode and the updates of a pass. The values that they write
 /// are committed later, together. Each is logged, and the Zeno monitor of its guard or edge counts
-/// it.
+/// it if it wrote.
 class Effects {
  public:
   Effects(const Plan& plan, const GuardSet& guards, const Edges& edges, Holds& holds,
@@ -33,7 +33,6 @@ class Effects {
     const ResetMap* map;
     const int* end_mode;  // null: none
     Holds::Hold* hold;
-    bool any() const { return *map || end_mode != nullptr; }
   };
 
   void run_update(const Action& action, int source);

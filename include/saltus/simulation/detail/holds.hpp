@@ -21,9 +21,11 @@ class Holds {
     int leaf = -1, source = -1;
     Index entry = 0;
     OnZeno on_zeno = {};
-    std::span<const Index> states = {};  ///< entries of x that rest
-    ZenoMonitor before{};                ///< the monitor before the instant, once it has changed
-    bool changed = false;                ///< in this instant
+    std::span<const Index> of_plan = {};  ///< entries of x that rest, by what the plan knows
+    std::span<const Index> states = {};   ///< those of this run: of an earlier one, if it goes on
+    std::vector<Index> earlier = {};      ///< room for `states`
+    ZenoMonitor before{};                 ///< the monitor before the instant, once it has changed
+    bool changed = false;                 ///< in this instant
   };
 
   Holds(Machine& machine, const GuardSet& guards, const SimulatorOptions& options, Flow& flow,
@@ -58,7 +60,7 @@ class Holds {
 
   /// Saves the last firings of each monitor, which a continued run needs.
   std::vector<Continuation::Firings> save() const;
-  /// Throws ModelError where their number fits and their states do not.
+  /// Throws ModelError where their number fits and their states are not of their block.
   bool fits(const Continuation& from) const;
   void load(const Continuation& from);
 
@@ -69,6 +71,8 @@ class Holds {
   std::span<const Index> choose(const PlanLeaf& leaf, const std::vector<int>& entries);
   bool steers(const ZeroCrossing& crossing, int leaf) const;
   ZenoMonitor& changing(Hold& hold);
+  static std::span<const Index> states_of(const Hold& hold, const Continuation::Firings& saved);
+  void load(Hold& hold, const Continuation::Firings& saved);
   void require_sound(const Hold& hold, const Continuation::Firings& saved) const;
   void rest(Hold& hold, double predicted);
   [[noreturn]] void throw_accumulation(const Hold& hold, double predicted) const;

@@ -75,12 +75,14 @@ class ZenoMonitor {
     saved.after.assign(after_.begin(), after_.end());
     return saved;
   }
-  void load(const Continuation::Firings& saved) {
+  /// Firings without the state after the latest, where there is a state, do not count.
+  void load(const Continuation::Firings& saved, std::size_t states) {
     forget();
+    holding = saved.holding;
+    if (saved.after.size() != states) return;
     std::copy_n(saved.times.begin(), std::min(saved.times.size(), times_.size()), times_.begin());
     after_ = Eigen::Map<const Eigen::VectorXd>(saved.after.data(),
                                                static_cast<Eigen::Index>(saved.after.size()));
-    holding = saved.holding;
   }
 
  private:
