@@ -119,7 +119,7 @@ TEST_CASE("a monitor that was saved goes on as it would have", "[zeno]") {
   monitor.holding = true;
   ZenoMonitor loaded(1e-6);
   loaded.fired(1.0);
-  loaded.load(monitor.save());
+  loaded.load(monitor.save(), 1);
   CHECK(loaded.holding);
   CHECK(loaded.gap() == monitor.gap());
   CHECK(loaded.accumulates());
@@ -129,4 +129,14 @@ TEST_CASE("a monitor that was saved goes on as it would have", "[zeno]") {
   CHECK(one == other);
   CHECK(loaded.save() == monitor.save());
   CHECK(ZenoMonitor(1e-6).save().times.empty());
+}
+
+TEST_CASE("firings without the state after the latest do not count in a monitor", "[zeno]") {
+  ZenoMonitor monitor = seen(1e-6, 5.0, {8e-7, 4e-7, 2e-7});
+  monitor.holding = true;
+  ZenoMonitor loaded(1e-6);
+  loaded.load(monitor.save(), 1);
+  CHECK(loaded.holding);
+  CHECK(loaded.save().times.empty());
+  CHECK(!loaded.accumulates());
 }
