@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "saltus/base/list.hpp"
+#include "saltus/solver/detail/clear_piece.hpp"
 #include "saltus/solver/detail/narrow.hpp"
 #include "saltus/solver/detail/search_thresholds.hpp"
 #include "saltus/solver/detail/turn_range.hpp"
@@ -77,6 +78,14 @@ class Glance : protected Narrower {
       if (!(now > 0.0 && now < never)) return false;  // never is infinite
       if (dips && turn.contains(before - side * earlier_[k], now - before)) return false;
     }
+    return true;
+  }
+  /// The same by a test that most pieces pass.
+  [[gnu::always_inline]] bool nothing_fired(const ClearPiece& piece) const {
+    const double *high = high_.data(), *last = guards_->g.data(), *earlier = earlier_.data(),
+                 *oldest = oldest_.data(), *plain = plain_.data();
+    for (const std::size_t k : located_->slots)
+      if (!piece.passes(*plain++, oldest[k], earlier[k], last[k], high[k])) return false;
     return true;
   }
   /// Where the last three looks, the last of them at `to`, can show a dip.

@@ -92,7 +92,6 @@ class GuardSearch : private PacedSearch {
   template <class Interpolate>
   [[gnu::noinline]] bool find_inside(const Part& part, bool needless,
                                      const Interpolate& interpolate) {
-    guards_->keep();
     choose_patience(needless);
     end_.swap(high_);
     end_at_ = part.to;

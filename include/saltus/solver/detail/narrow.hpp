@@ -142,18 +142,19 @@ class Narrower {
   template <class Interpolate>
   Bracket narrow_few(Bracket in, const Interpolate& interpolate) {
     auto [low, high] = in;
-    int kept = 0;   // looks in a row that kept the low (> 0) or the high (< 0) end
-    int zeros = 0;  // looks in a row with exact zeros only
+    int kept = 0;       // looks in a row that kept the low (> 0) or the high (< 0) end
+    double back = 1.0;  // [brackets] before exact zeros
     double weight = 1.0;
     for (int count = 0; count < thresholds::most_looks; ++count) {
       const double resolution = thresholds::bracket_roundings * thresholds::eps * high;
       if (high - low <= resolution) break;
-      zeros = only_exact_zeros() ? zeros + 1 : 0;
-      const double u = zeros > 0 ? before_zeros(low, high, zeros)
+      const bool zeros = only_exact_zeros();
+      const double u = zeros ? before_zeros(low, high, back * resolution)
                        : count > thresholds::bisects_after
                            ? low + 0.5 * (high - low)
                            : next_point(low, high, weight, resolution);
       if (!(u > low && u < high)) break;
+      back = zeros ? back * thresholds::plateau_growth : 1.0;
       look(u, nullptr, interpolate, middle_);
       if (few_.empty() ? note_crossed(middle_) : note_few_crossed(middle_)) {
         third_at_ = high, high = u, high_.swap(middle_);
@@ -173,9 +174,7 @@ class Narrower {
   /// An exact zero: the next look is just before it. If there is another zero, the guard is flat.
   /// The looks then go back in growing steps, because the rounding of a state makes many such
   /// plateaus, all short; the last interval is halved to the beginning of the plateau.
-  static double before_zeros(double low, double high, int zeros) {
-    const double back = thresholds::bracket_roundings * thresholds::eps * high *
-                        std::pow(thresholds::plateau_growth, zeros - 1);
+  static double before_zeros(double low, double high, double back) {
     return high - back > low ? high - back : low + 0.5 * (high - low);
   }
 

@@ -31,15 +31,16 @@ class PacedSearch : protected PieceSearch {
   void begin_pieces(double from, double even, const Interpolate& interpolate) {
     const double resolution = thresholds::eps * (std::abs(t0_) + end_at_);
     refines_ = scans() && even * thresholds::finest_piece > thresholds::look_roundings * resolution;
+    even_looks_ = 1;
     if (scans()) {
-      for (const std::size_t k : located_->slots) slow_down(k), judge_.begin_step(k);
+      for (const std::size_t k : located_->slots) slow_down(k), judge_.begin_step(k), keep_looks(k);
     }
     if (!refines_) return;
     even_ = even, records_may_differ_ = false;
     const bool first = pace_.begin_step(even);
     const bool judges_all = pace_.is_finer_than(even) && has_four_looks();
     back_to_ = judges_all ? never : from;
-    if (!judges_all) keep_looks();
+    begin_.earlier_at = earlier_at_, begin_.oldest_at = oldest_at_;
     if (first) choose_pace(from, interpolate);
   }
 
@@ -48,6 +49,12 @@ class PacedSearch : protected PieceSearch {
   template <class Interpolate>
   [[gnu::always_inline]] bool find_in_even(double from, double to, const double* end,
                                            const Interpolate& interpolate) {
+    if (is_clear(from, to)) {
+      ++even_looks_;
+      shift_all(from, to, 1.0);
+      return false;
+    }
+    even_looks_ = 1;
     if (refines_ && (pace_.is_finer_than(to - from) || hides(from, to)))
       return find_in_shorter(from, to, end, interpolate);
     return find_in_piece(from, to, end, interpolate);
@@ -120,7 +127,7 @@ class PacedSearch : protected PieceSearch {
       const double third = from + thresholds::uneven * piece, last = from + 3.0 * piece;
       look(third, nullptr, interpolate, middle_);
       look(last, nullptr, interpolate, high_);
-      copy_values(middle_, guards_->g);
+      for (const std::size_t k : located_->slots) guards_->g[k] = middle_[k];  // no others
       const bool hidden =
           judge_.any(four_looks(third, last), [&](std::size_t k, const Variation& each) {
             return each.hides() || is_steep(k, piece, each.range);
@@ -130,15 +137,28 @@ class PacedSearch : protected PieceSearch {
     }
   }
 
-  void keep_looks() {
-    copy_values(guards_->g, begin_.last), copy_values(earlier_, begin_.earlier);
-    copy_values(oldest_, begin_.oldest);
-    begin_.earlier_at = earlier_at_, begin_.oldest_at = oldest_at_;
+  void keep_looks(std::size_t k) {
+    begin_.last[k] = guards_->g[k], begin_.earlier[k] = earlier_[k], begin_.oldest[k] = oldest_[k];
   }
   void set_looks() {
-    copy_values(begin_.last, guards_->g), copy_values(begin_.earlier, earlier_);
-    copy_values(begin_.oldest, oldest_);
+    for (const std::size_t k : located_->slots) {
+      guards_->g[k] = begin_.last[k], earlier_[k] = begin_.earlier[k];
+      oldest_[k] = begin_.oldest[k];
+    }
     earlier_at_ = begin_.earlier_at, oldest_at_ = begin_.oldest_at, may_go_back_ = false;
+  }
+
+  /// Whether a sufficient test shows that nothing happens between two evenly spaced looks. In most
+  /// pieces it is the same one, because the looks before are as far apart.
+  [[gnu::always_inline]] bool is_clear(double from, double to) const {
+    static constexpr ClearPiece even({1.0, true, true}, {0.0, 1.0, 2.0, 3.0});
+    if (!refines_) return false;
+    if (pace_.is_finer_than(to - from)) return false;
+    if (even_looks_ >= 3) return nothing_fired(even);
+    if (earlier_at_ == never) return nothing_fired(ClearPiece());
+    const TurnRange turn((to - from) / (from - earlier_at_), may_go_back_, true);
+    if (oldest_at_ == never) return nothing_fired(ClearPiece(turn, {}));
+    return nothing_fired(ClearPiece(turn, {oldest_at_, earlier_at_, from, to}));
   }
 
   /// Whether there are three looks, and the one at high_.
@@ -158,6 +178,7 @@ class PacedSearch : protected PieceSearch {
   List<double> before_;     // guards where a run begins, a little later
   List<double> at_end_;     // guards at the end of an evenly spaced piece
   double even_ = 0.0;       // [s] between the evenly spaced looks
+  int even_looks_ = 1;      // looks in a row that far apart
   bool refines_ = false;    // there may be looks between these
 };
 

@@ -39,6 +39,7 @@ class PieceSearch : protected FoundRoot {
   template <class Interpolate>
   [[gnu::noinline]] bool find_in(double from, double to, const double* end,
                                  const Interpolate& interpolate, bool between = true) {
+    guards_->keep();
     for (bool looked = true; from < to; looked = false) {
       if (!looked) look(to, end, interpolate, high_);
       const double high = note_crossed(high_) ? to : next_dip(from, to, interpolate);

@@ -12,20 +12,23 @@ namespace saltus {
 /// "Numerical Methods", 1974, section 4.3.1). The divided difference g[...] is the guard's own.
 class ThirdDifference {
  public:
-  ThirdDifference(double u0, double u1, double u2, double u3) {
+  constexpr ThirdDifference(double u0, double u1, double u2, double u3) {
     // Ratios of lengths, because products of three lengths may be out of range.
     const double h = u3 - u2, first = h / (u1 - u0), second = h / (u2 - u1), all = h / (u3 - u0);
     const double overlap = -0.25 * ((u3 - u1) / (u2 - u0));
     w0_ = overlap * (first * all), w1_ = 0.25 * (first * second);
     w2_ = overlap * second, w3_ = 0.25 * all;
   }
+  /// The bound is 0, where fewer than four looks are known.
+  constexpr ThirdDifference() = default;
+
   /// The bound with its sign, for the values at the four looks.
-  double of(double g0, double g1, double g2, double g3) const {
+  constexpr double of(double g0, double g1, double g2, double g3) const {
     return w0_ * g0 + w1_ * g1 + w2_ * g2 + w3_ * g3;
   }
 
  private:
-  double w0_, w1_, w2_, w3_;
+  double w0_ = 0.0, w1_ = 0.0, w2_ = 0.0, w3_ = 0.0;
 };
 
 }  // namespace saltus
