@@ -118,6 +118,7 @@ void Tangents::begin(const Context& start) {
   columns_.t.setZero(m), lost_.assign(all.size(), 0);
   jumps_.begin(plan.nx);
   monitors_.clear(), predicted_.clear();
+  one_sided_.begin();
   t_ = start.time(), in_instant_ = false;
   probe_.begin(), probe_.note(machine_->x.data(), 0.0);
   begin_signals(start);
@@ -152,6 +153,7 @@ void Tangents::clear_truths() {
 
 void Tangents::step(double from, double to, Integration& integration) {
   variation_->forget();
+  forget_end();
   t_ = to;
   if (!integration.started() || machine_->plan().nx == 0) return;
   // A step of some roundings of the time was cut by an event, and says nothing about the scale of it.

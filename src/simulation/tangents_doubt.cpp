@@ -23,8 +23,32 @@ void Tangents::lose(Index k, const std::string& event, const std::string& reason
   columns_.t[k] = none;
   columns_.x.col(k).setConstant(none), columns_.z.col(k).setConstant(none);
   if (std::exchange(nth(lost_, k), char{1})) return;
-  results_->sensitivities.gaps.push_back(
-      {t_, event, reason, nth(results_->sensitivities.parameters, k)});
+  note_gap(t_, k, event, reason);
+}
+
+/// The gaps are in order of time. A row may be recorded twice, and has one gap.
+void Tangents::note_gap(double t, Index k, const std::string& event, const std::string& reason) {
+  std::vector<SensitivityGap>& gaps = results_->sensitivities.gaps;
+  const std::string& name = nth(results_->sensitivities.parameters, k);
+  const auto later = std::ranges::find_if(gaps, [&](const auto& gap) { return gap.time > t; });
+  const bool there = std::any_of(gaps.begin(), later, [&](const auto& gap) {
+    return gap.time == t && gap.parameter == name && gap.reason == reason;
+  });
+  if (!there) gaps.insert(later, {t, event, reason, name});
+}
+
+/// Takes the derivatives away that are one-sided at t.
+void Tangents::clear_one_sided(double t, const std::string& reason, Eigen::MatrixXd& x,
+                               Eigen::MatrixXd& z) {
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  for (Index k = 0; k < size(); ++k) {
+    if (!one_sided_.holds(t, k)) continue;
+    for (Index i = 0; i < x.rows(); ++i)
+      if (one_sided_.of_x()(i, k)) x(i, k) = none;
+    for (Index i = 0; i < z.rows(); ++i)
+      if (one_sided_.of_z()(i, k)) z(i, k) = none;
+    note_gap(t, k, one_sided_.event(), reason);
+  }
 }
 
 /// No column may become NaN in silence.

@@ -16,9 +16,7 @@ void Tangents::monitor(const MonitorHit& hit, const double* x) {
                               : times_.of_crossing(hit.firing.slot, group.name, hit.t, x, at);
   for (Index k = 0; k < size(); ++k) {
     if (std::isnan(moved.by[k]) && nth(lost_, k) == 0)
-      results_->sensitivities.gaps.push_back({hit.t, group.name,
-                                              "the monitor only grazes zero, or shows a sign only",
-                                              nth(results_->sensitivities.parameters, k)});
+      note_gap(hit.t, k, group.name, "the monitor only grazes zero, or shows a sign only");
   }
   add_event(moved.by);
 }

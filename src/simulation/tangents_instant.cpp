@@ -21,6 +21,7 @@ void Tangents::open(const Present& present, const std::vector<int>& due) {
   const double* x = machine_->x.data();
   before_ = columns_;
   fix_time(t_, x, before_);
+  one_sided_.open(*machine_, before_);
   probe_.note(x, 0.0);
   const TangentColumns until = columns_;
   const Eigen::VectorXd f = probe_.flow(t_, x);
@@ -34,12 +35,14 @@ void Tangents::open(const Present& present, const std::vector<int>& due) {
     first = false;
   }
   has_cause_ = !first;
+  if (first) cause_.clear();
   if (first) columns_.t.setZero();
   columns_.x += f * (columns_.t - until.t);
 }
 
 /// Takes one more cause of the instant. Where causes move apart, their order matters.
 void Tangents::merge(const MovedTime& moved, bool first) {
+  if (first) cause_ = moved.event;
   for (Index k = 0; k < size(); ++k) {
     if (!moved.obstacle.empty()) {
       lose(k, moved.event, moved.obstacle);
@@ -110,7 +113,10 @@ void Tangents::close() {
   instant_time_ = columns_.t;
   if (machine_->carries())
     for (Index k = 0; k < size(); ++k) lose(k, "", "a block is carried by a moving surface");
-  if (!flow_.autonomous()) fix_time(t_, machine_->x.data(), columns_);
+  TangentColumns fixed = columns_;
+  fix_time(t_, machine_->x.data(), fixed);
+  one_sided_.judge(t_, *machine_, columns_, fixed, cause_);
+  if (!flow_.autonomous()) columns_ = std::move(fixed);
   in_instant_ = false;
   variation_->forget();
 }

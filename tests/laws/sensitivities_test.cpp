@@ -105,3 +105,36 @@ TEST_CASE("a ball that is thrown down from its floor has a gap: a little lower i
   REQUIRE(results.sensitivities.gaps.size() == 1);
   CHECK(results.sensitivities.gaps[0].reason == "the guard was at zero already");
 }
+
+TEST_CASE("at an event that moves, each entry that the event changes has a gap, and no other",
+          "[sensitivity]") {
+  // x0 is a clock, x1 the time of the event; the reset map sets x2, and starts x3.
+  const Leaf leaf("leaf", [](Leaf& l) {
+    l.declare_continuous_state(
+        {.initial = vec({0.0, 0.5, 0.0, 0.0}),
+         .ode = [](const At& at, VectorRef f) { f << 1.0, 0.0, 0.0, at.z[0]; }});
+    l.declare_discrete_state(vec({0.0}));
+    l.declare_zero_crossing({.name = "on",
+                             .guard = [](const At& at) { return at.time - at.x[1]; },
+                             .reset_map =
+                                 [](const At& at, Next& next) {
+                                   next.set_continuous_state(vec({at.x[0], at.x[1], 1.0, at.x[3]}));
+                                   next.set_discrete_state(vec({1.0}));
+                                 },
+                             .direction = Direction::negative_then_non_negative});
+  });
+  const auto at_end = [&](double t) {
+    return simulate(leaf, leaf.create_context(), {0.0, t}, {.sensitivity = {"x[1]"}}).sensitivities;
+  };
+  const Sensitivities there = at_end(0.5), later = at_end(0.75);
+  const std::vector<bool> changes = {false, false, true, true};
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    INFO("state " << i);
+    CHECK(std::isnan(there.continuous_state[i]) == changes[i]);
+    CHECK(!std::isnan(later.continuous_state[i]));
+  }
+  CHECK(std::isnan(there.discrete_state[0]));
+  REQUIRE(there.gaps.size() == 1);
+  CHECK(there.gaps[0].event == "leaf.on");
+  CHECK(later.gaps.empty());
+}

@@ -44,6 +44,7 @@ ELSEWHERE = {
     "simulation/detail/rows": "laws/rows_test.cpp",
     "simulation/detail/run": "semantics/results_resume_test.cpp",
     "simulation/detail/standstill": "unit/evaluate_test.cpp",
+    "simulation/detail/one_sided": "laws/sensitivities_test.cpp",
     "simulation/detail/tangent_flow": "laws/sensitivities_test.cpp",
     "simulation/detail/tangent_probe": "laws/sensitivities_test.cpp",
     "simulation/detail/tangent_times": "laws/sensitivities_test.cpp",

@@ -7,7 +7,8 @@
 
 namespace saltus {
 
-/// An instant from which on a derivative does not exist.
+/// An instant from which on a derivative does not exist, or at which it does not: a run that ends
+/// there, or a single row there, has one-sided derivatives only.
 struct SensitivityGap {
   double time = 0.0;      ///< [s]
   std::string event;      ///< "ball.bounce"
@@ -19,7 +20,7 @@ struct SensitivityGap {
 /// axis, so entry k of a group of `parameters.size()` numbers is with respect to parameter k.
 ///
 /// The derivatives of rows and of the final state are those at a fixed time. That of an event is
-/// the derivative of its time. After a gap they are NaN.
+/// the derivative of its time. After a gap, or at it, they are NaN.
 struct Sensitivities {
   std::vector<std::string> parameters;  ///< the names of the single entries
   std::vector<std::vector<double>>

@@ -20,7 +20,9 @@ __all__ = ["Gap", "Sensitivities"]
 
 
 class Gap(NamedTuple):
-    """An instant from which on a derivative does not exist.
+    """An instant from which on a derivative does not exist, or at which it does not.
+
+    A run that ends at an event that moves, or a single row there, has one-sided derivatives only.
 
     Examples
     --------
@@ -34,7 +36,7 @@ class Gap(NamedTuple):
     event: str
     """path of the event, 'ball.bounce'"""
     parameter: str
-    """with respect to which there is no derivative from here on"""
+    """with respect to which there is no derivative"""
     reason: str
 
 

@@ -125,3 +125,78 @@ def test_pieces_of_a_run_that_meet_at_an_impact_obey_the_chain_rule_or_have_a_ga
         assert np.isnan(second.sensitivities.continuous_state).any()
     else:  # the error of the event times of multistep methods is some hundred tolerances
         np.testing.assert_allclose(found, whole.sensitivities.continuous_state, rtol=1e-5)
+
+
+# x0 is a clock, and x1' = z. At t = p = 0.5 the event changes one of them, or nothing.
+AT_P = {
+    "a jump": (lambda t, s, p: s.with_continuous_state([0.0, s.continuous_state[1]]), [1, 0, 0]),
+    "a kink": (lambda t, s, p: s.with_discrete_state([1.0]), [0, 1, 1]),
+    "nothing": (lambda t, s, p: s.with_continuous_state(s.continuous_state), [0, 0, 0]),
+}
+
+
+def event_at_p(reset):
+    block = leaf([0.0, 0.0], lambda t, s, p: [1.0, s.discrete_state[0]], p=0.5)
+    block.declare_discrete_state([0.0])
+    block.declare_continuous_state_output("x")
+    block.declare_zero_crossing(lambda t, s, p: t - p, reset, name="on", direction="rising")
+    return block
+
+
+@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("what", AT_P)
+def test_a_run_that_ends_at_an_event_that_moves_has_one_sided_derivatives_only(what, method):
+    reset, changes = AT_P[what]
+    results = saltus.simulate(
+        event_at_p(reset), (0.0, 0.5), sensitivity=["p", "x[0]"], ode_solver_method=method
+    )
+    assert results.events.times("on") == [0.5]
+    end = results.sensitivities
+    by_p = [*end.continuous_state[:, 0], *end.discrete_state[:, 0]]
+    np.testing.assert_array_equal(np.isnan(by_p), np.array(changes, bool))
+    # The event does not move with the start.
+    assert np.isfinite(end.continuous_state[:, 1]).all()
+    assert [(gap.event, gap.parameter) for gap in results.sensitivity_gaps] == (
+        [("block.on", "p")] if any(changes) else []
+    )
+
+
+def test_a_run_that_goes_on_has_derivatives_again():
+    block = event_at_p(AT_P["a kink"][0])
+    simulator = saltus.Simulator(block, sensitivity=["p"])
+    simulator.initialize(block.create_context())
+    simulator.advance_to(0.5)
+    assert np.isnan(simulator.results.sensitivities.continuous_state[1, 0])
+    simulator.advance_to(1.5)
+    assert not simulator.results.sensitivity_gaps
+    # x1 = t - p after the event; 1e-6: the tolerance of the run
+    assert simulator.results.sensitivities.continuous_state[1, 0] == pytest.approx(-1.0, abs=1e-6)
+
+
+@pytest.mark.parametrize("what", AT_P)
+def test_a_row_at_an_event_that_moves_has_one_sided_derivatives_only(what):
+    reset, changes = AT_P[what]
+    block = event_at_p(reset)
+
+    def run(**options):
+        return saltus.simulate(
+            block,
+            (0.0, 1.0),
+            sensitivity=["p"],
+            save_at=[0.25, 0.5, 0.75],
+            recorded_signals={"x": block.output("x")},
+            **options,
+        )
+
+    single = run(event_rows=False)
+    assert single.time.tolist() == [0.25, 0.5, 0.75]
+    rows = single.sensitivities["x"][:, :, 0]
+    np.testing.assert_array_equal(np.isnan(rows[1]), np.array(changes[:2], bool))
+    assert np.isfinite(rows[[0, 2]]).all()
+    assert [gap.time for gap in single.sensitivity_gaps] == ([0.5] if any(changes) else [])
+    assert all("event_rows" in gap.reason for gap in single.sensitivity_gaps)
+    # With a row on each side both have their one-sided derivatives.
+    both = run()
+    assert (both.time == 0.5).sum() == 2
+    assert np.isfinite(both.sensitivities["x"]).all()
+    assert not both.sensitivity_gaps

@@ -10,6 +10,7 @@
 #include "saltus/model/context_entry.hpp"
 #include "saltus/simulation/detail/flow_jumps.hpp"
 #include "saltus/simulation/detail/integration.hpp"
+#include "saltus/simulation/detail/one_sided.hpp"
 #include "saltus/simulation/detail/present.hpp"
 #include "saltus/simulation/detail/tangent_times.hpp"
 #include "saltus/simulation/detail/transition.hpp"
@@ -79,11 +80,14 @@ class Tangents {
   void clear_truths();
   void merge(const MovedTime& moved, bool first);
   void lose(Index k, const std::string& event, const std::string& reason);
+  void note_gap(double t, Index k, const std::string& event, const std::string& reason);
+  void forget_end();
   void lose_not_finite(const std::string& event);
   void look_for_jump(double from, double to, const FlowJumps::StateAt& state);
   void add_event(const Eigen::RowVectorXd& by);
   void fix_time(double t, const double* x, TangentColumns& at);
   void add_row(double t, const double* x, const TangentColumns& at);
+  void clear_one_sided(double t, const std::string& reason, Eigen::MatrixXd& x, Eigen::MatrixXd& z);
 
   const Machine* machine_;
   const GuardSet* guards_;
@@ -96,10 +100,12 @@ class Tangents {
   std::optional<Variation> variation_;
   TangentColumns columns_;  // of the state between instants, then of the instant
   TangentColumns before_;   // at a fixed time before the instant
+  OneSided one_sided_;
+  std::string cause_;  // of the instant: the name of an event
   Eigen::MatrixXd next_x_, next_z_;
   Eigen::RowVectorXd instant_time_;  // the derivatives of the time of the last instant
   double t_ = 0.0;                   // [s] of S, or of the instant
-  bool in_instant_ = false, committed_ = false, has_cause_ = false;
+  bool in_instant_ = false, committed_ = false, has_cause_ = false, ends_at_instant_ = false;
   std::vector<char> lost_;
   std::map<const void*, ZenoTangent> monitors_;
   std::map<std::size_t, Eigen::RowVectorXd> predicted_;  // of the events with these numbers
