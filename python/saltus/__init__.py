@@ -29,6 +29,9 @@ from saltus.solving.system_of import system_of
 from saltus.system import InputPort, OutputPort, System
 
 if TYPE_CHECKING:
+    from saltus.differentiable import RunValues
+    from saltus.differentiable.jax_function import jax_function as jax_function
+    from saltus.differentiable.torch_function import torch_function as torch_function
     from saltus.fitting import EventTimes, Experiment, FitProgress, FitResult, Free
     from saltus.fitting.fit import fit as fit
     from saltus.orbits import PeriodicOrbit, periodic_orbit
@@ -57,6 +60,7 @@ __all__ = [
     "PeriodicOrbit",
     "Progress",
     "Results",
+    "RunValues",
     "Scene",
     "SimulationError",
     "Simulator",
@@ -70,6 +74,7 @@ __all__ = [
     "__version__",
     "compiled",
     "fit",
+    "jax_function",
     "library",
     "linearize",
     "load",
@@ -84,10 +89,12 @@ __all__ = [
     "solve",
     "sweep",
     "system_of",
+    "torch_function",
     "work_precision",
 ]
 
 _LATER = {
+    **dict.fromkeys(("RunValues", "jax_function", "torch_function"), "differentiable"),
     **dict.fromkeys(
         ("EventTimes", "Experiment", "FitProgress", "FitResult", "Free", "fit"), "fitting"
     ),

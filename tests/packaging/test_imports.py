@@ -22,6 +22,8 @@ LATE = {
     ("saltus.callbacks.callbacks", "saltus.tracing"): "a system without callbacks needs no tracer",
     ("saltus.callbacks.function", "saltus.tracing"): "a system without callbacks needs no tracer",
     ("saltus.cli.scene_of", "saltus.sbml"): "loads libsbml, which other scenes leave alone",
+    ("saltus.differentiable.jax_function", "saltus.differentiable.jax_run"): "loads JAX",
+    ("saltus.differentiable.torch_function", "saltus.differentiable.torch_run"): "loads PyTorch",
     ("saltus.jit.library", "saltus.jit.compiler"): "loads llvmlite",
     ("saltus.report.table", "saltus.report.chart"): "loads matplotlib",
     ("saltus.library", "saltus.library.called"): "answers names that are wrong",

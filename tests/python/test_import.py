@@ -8,7 +8,7 @@ import saltus
 
 UNWANTED = {
     "matplotlib", "pandas", "xarray", "scipy", "tqdm", "rich", "hypothesis", "pytest",
-    "dask", "distributed", "joblib", "libsbml", "numba", "llvmlite", "jax", "cffi", "IPython",
+    "dask", "distributed", "joblib", "libsbml", "numba", "llvmlite", "jax", "torch", "cffi", "IPython",
 }  # fmt: skip
 # what people do that needs no extra
 USES = {
