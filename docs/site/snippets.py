@@ -5,6 +5,7 @@ In the line that opens a fence, after the language:
 - `continue` puts the fence after the one before it in the same language;
 - `picture=FILE` says that the last figure it makes is that picture, `drawing=FILE` that Graphviz's
   of its `system` is;
+- `needs=PACKAGE` says what it imports beyond what `./dev test` installs; without it the test skips;
 - `no-run` is for shell text only: Python and C++ shown to readers must run.
 
 A fence ```text output holds what the fence before it prints, with `...` for what may differ; with
@@ -36,6 +37,11 @@ class Fence:
     @property
     def where(self):
         return f"{self.document.relative_to(ROOT)}:{self.line}"
+
+    @property
+    def needs(self):
+        """The packages that it needs beyond those of the tests."""
+        return [f.removeprefix("needs=") for f in self.flags if f.startswith("needs=")]
 
     def file(self, flag):
         """What `picture` or `drawing` says, as a path."""

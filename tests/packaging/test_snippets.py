@@ -91,6 +91,8 @@ def run(fence, command, directory):
 @pytest.mark.parametrize("fence", cases("python"))
 def test_python(fence, tmp_path):
     assert "no-run" not in fence.flags, f"{fence.where}: Python shown to readers must run"
+    for package in fence.needs:
+        pytest.importorskip(package)
     script = tmp_path / f"{stem(fence)}.py"
     script.write_text(fence.program)
     run(fence, [sys.executable, "-W", "error", script], tmp_path)

@@ -8,7 +8,8 @@ import saltus
 
 UNWANTED = {
     "matplotlib", "pandas", "xarray", "scipy", "tqdm", "rich", "hypothesis", "pytest",
-    "dask", "distributed", "joblib", "libsbml", "numba", "llvmlite", "jax", "torch", "cffi", "IPython",
+    "dask", "distributed", "joblib", "libsbml", "numba", "llvmlite", "jax", "torch", "cffi",
+    "IPython",
 }  # fmt: skip
 # what people do that needs no extra
 USES = {

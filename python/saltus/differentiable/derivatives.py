@@ -8,7 +8,7 @@ from typing import NamedTuple, NoReturn
 import numpy as np
 
 from saltus._evaluate import rates
-from saltus.differentiable.values import RunValues
+from saltus.differentiable.values import RunValues, leaves
 from saltus.errors import SimulationError
 from saltus.results import Results
 from saltus.results.record import FIRINGS
@@ -96,7 +96,7 @@ def _at_zeno(results: Results, columns: RunValues) -> Iterator[Gap]:
 
 def raise_for_gap(where: str, found: Derivatives, parameters: tuple[str, ...]) -> None:
     """Raises SimulationError for the first value without a derivative, with the gap behind it."""
-    for name, array in found.columns.leaves():
+    for name, array in leaves(found.columns):
         missing = ~np.isfinite(array)
         if missing.any():
             parameter = parameters[int(np.argwhere(missing)[0, -1])]

@@ -57,7 +57,8 @@ def jax_function(
         list the first one of each name.
     gaps : {'error', 'nan'}
         What to do where a derivative does not exist. With 'nan' it is nan, and each sum that it
-        enters is nan, also where JAX multiplies it by 0.
+        enters is nan, also where JAX multiplies it by 0. So take the value that you need out of
+        f(p), and differentiate that in reverse mode: then only its own derivatives enter.
     **option_overrides
         Single options, but for those that this function sets: `sensitivity`, `save_steps`,
         `event_rows`, `dense_output`, `record_events` and `throw`.

@@ -16,6 +16,7 @@ import numpy as np
 
 from saltus.differentiable.parameters import flat
 from saltus.differentiable.run import Run
+from saltus.differentiable.values import mapped
 from saltus.errors import ModelError
 
 __all__ = ["function_of"]
@@ -46,7 +47,10 @@ def require_doubles(where: str) -> None:
 def _array(where: str, name: str, value: Any) -> Any:
     """Whole numbers become float64, which is exact; narrower floats have lost digits already."""
     require_doubles(where)
-    array = jnp.asarray(value)
+    try:
+        array = jnp.asarray(value)
+    except (TypeError, ValueError):
+        raise ModelError(f"{where}: {name}: expected numbers of float64, found {value!r}") from None
     if not (array.dtype == np.float64 or jnp.issubdtype(array.dtype, jnp.integer)):
         raise ModelError(
             f"{where}: {name}: expected float64, found {array.dtype}; make it with "
@@ -62,7 +66,7 @@ def _differentiable(run: Run) -> Function:
     def rule(primals: Any, tangents: Any) -> Any:
         found, columns = with_columns(*primals)
         (tangent,) = tangents
-        return found, columns.map(lambda column: column @ tangent)
+        return found, mapped(lambda column: column @ tangent, columns)
 
     function.defjvp(rule)
     return function  # type: ignore[no-any-return,unused-ignore]
@@ -86,7 +90,7 @@ def _once(run: Run) -> Function:
 
 def _shapes(run: Run, *last: int) -> Any:
     struct: Any = jax.ShapeDtypeStruct
-    return run.shapes.map(lambda shape: struct((*shape, *last), np.float64))
+    return mapped(lambda shape: struct((*shape, *last), np.float64), run.shapes)
 
 
 def _called(function: Function, shapes: Any) -> Function:

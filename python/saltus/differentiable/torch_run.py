@@ -15,6 +15,7 @@ import torch
 
 from saltus.differentiable.parameters import flat
 from saltus.differentiable.run import Run
+from saltus.differentiable.values import leaves, with_leaves
 from saltus.errors import ModelError
 
 __all__ = ["function_of"]
@@ -25,7 +26,7 @@ def function_of(run: Run) -> Callable[[Any], Any]:
 
     def function(p: Any) -> Any:
         given = flat(run, p, partial(_tensor, run.where), torch.cat)
-        return run.shapes.with_leaves(_Values.apply(given, run))
+        return with_leaves(run.shapes, _Values.apply(given, run))
 
     return function
 
@@ -47,7 +48,7 @@ def _tensor(where: str, name: str, value: Any) -> torch.Tensor:
 
 
 def _tensors(arrays: Any) -> tuple[torch.Tensor, ...]:
-    return tuple(torch.from_numpy(np.array(array, dtype=float)) for _, array in arrays.leaves())
+    return tuple(torch.from_numpy(np.array(array, dtype=float)) for _, array in leaves(arrays))
 
 
 class _Values(torch.autograd.Function):  # type: ignore[misc,unused-ignore]

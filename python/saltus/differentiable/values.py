@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from typing import Any, NamedTuple
 
-__all__ = ["RunValues"]
+__all__ = ["RunValues", "leaves", "mapped", "with_leaves"]
 
 
 class RunValues(NamedTuple):
@@ -13,9 +13,9 @@ class RunValues(NamedTuple):
 
     Examples
     --------
-    >>> from saltus.differentiable import RunValues
-    >>> RunValues({}, [0.0, 1.0], [], 12.0, {}).end_time
-    12.0
+    >>> values = saltus.RunValues({}, [0.0, 1.0], [], 12.0, {"bounce": [1.4, 4.0]})
+    >>> values.events["bounce"]
+    [1.4, 4.0]
     """
 
     outputs: dict[str, Any]
@@ -31,21 +31,24 @@ class RunValues(NamedTuple):
     events: dict[str, Any]
     """(count,) [s] the times of the first events of each name"""
 
-    def leaves(self) -> Iterator[tuple[str, Any]]:
-        """(name, array) in a fixed order."""
-        yield from self.outputs.items()
-        yield "continuous_state", self.continuous_state
-        yield "discrete_state", self.discrete_state
-        yield "end_time", self.end_time
-        yield from self.events.items()
 
-    def with_leaves(self, values: Any) -> RunValues:
-        """The same names with other arrays, given in the order of `leaves`."""
-        rest = iter(values)
-        outputs = {name: next(rest) for name in self.outputs}
-        ends = next(rest), next(rest), next(rest)
-        return RunValues(outputs, *ends, {name: next(rest) for name in self.events})
+def leaves(values: RunValues) -> Iterator[tuple[str, Any]]:
+    """(name, array) of each value, in a fixed order."""
+    yield from values.outputs.items()
+    yield "continuous_state", values.continuous_state
+    yield "discrete_state", values.discrete_state
+    yield "end_time", values.end_time
+    yield from values.events.items()
 
-    def map(self, function: Callable[[Any], Any]) -> RunValues:
-        """The same names with `function` of each array."""
-        return self.with_leaves([function(array) for _, array in self.leaves()])
+
+def with_leaves(values: RunValues, arrays: Iterable[Any]) -> RunValues:
+    """The same names with other arrays, given in the order of `leaves`."""
+    rest = iter(arrays)
+    outputs = {name: next(rest) for name in values.outputs}
+    ends = next(rest), next(rest), next(rest)
+    return RunValues(outputs, *ends, {name: next(rest) for name in values.events})
+
+
+def mapped(function: Callable[[Any], Any], values: RunValues) -> RunValues:
+    """The same names with `function` of each array."""
+    return with_leaves(values, [function(array) for _, array in leaves(values)])
