@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 import saltus
-from scenes_to_differentiate import E, G, STATE, Y0, Ball, Decay, impacts
+from scenes_to_differentiate import STATE, Y0, Ball, Decay, E, G, impacts
 
 jax = pytest.importorskip("jax")
 jnp = jax.numpy

@@ -7,7 +7,7 @@ import pytest
 import saltus
 from saltus.differentiable import run as run_module
 from saltus.errors import ModelError
-from scenes_to_differentiate import E, G, Y0, Ball
+from scenes_to_differentiate import Y0, Ball, E, G
 
 jax = pytest.importorskip("jax")
 jnp = jax.numpy

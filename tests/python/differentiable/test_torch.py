@@ -9,6 +9,8 @@ from saltus.errors import ModelError, SimulationError
 from scenes_to_differentiate import STATE, Y0, Ball, E, G, impacts
 
 torch = pytest.importorskip("torch")
+# PyTorch itself calls what it deprecates when it first loads its forward mode
+pytestmark = pytest.mark.filterwarnings("ignore:.*torch.jit.script.*:FutureWarning")
 TIGHT = {"rtol": 1e-10, "atol": 1e-12}
 
 
