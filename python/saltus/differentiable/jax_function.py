@@ -98,7 +98,7 @@ def jax_function(
     ...     ball.system, ["g", "e"], (0, 12), context=ball.context, events={"bounce": 6}, rtol=1e-9
     ... )
     >>> slopes = jax.jacfwd(f)(jax.numpy.array([9.81, 0.9]))
-    >>> slopes.events["bounce"][5].round(4).tolist()
+    >>> [round(float(slope), 4) for slope in slopes.events["bounce"][5]]
     [-0.6092, 32.6305]
     """
     extra("jax", "jax_function", " or saltus[jax]")
