@@ -3,6 +3,7 @@
 # The parts of ./dev test, in their order. The wheel comes before the tests in Python, so that these test the module that a user gets.
 parts=(cpp system asan wheel python doctest typing examples snippets docs packaging)
 for_tests=(catch2 libsundials-dev graphviz)
+for_jax=("jax>=0.5" "torch>=2.2")
 for_typing=(mypy==2.4.1 vermin==1.9.2 pybind11-stubgen==3.0.0 ruff==0.17.5)
 
 passed=0 failed=0
@@ -85,6 +86,10 @@ test_snippets() {
   SALTUS_PREFIX=$root/build/prefix/dev pytest_tests snippets tests/packaging/test_snippets.py
 }
 
+test_jax() {  # only when it is named, because of the size of the packages
+  venv jax "${for_jax[@]}" && pytest_tests jax tests/python/differentiable tests/packaging/test_docstrings.py \
+    "tests/packaging/test_snippets.py::test_python" -k "differentiable or jax or torch"
+}
 test_doctest() { pytest_tests doctest tests/packaging/test_docstrings.py; }
 
 test_docs() {
