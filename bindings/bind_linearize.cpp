@@ -71,6 +71,13 @@ void bind_linearize(py::module_& module) {
                                  frozen[py::str(name)] = value;
                                return frozen;
                              })
+      .def_property_readonly("guards",
+                             [](const Linearization& l) {
+                               std::vector<std::tuple<std::string, double, std::string>> guards;
+                               for (const auto& [name, value, direction] : l.guards)
+                                 guards.emplace_back(name, value, to_string(direction));
+                               return guards;
+                             })
       .def("method", &Linearization::method);
 
   py::class_<Linearizer>(module, "Linearizer").def(py::init(&made)).def("at", &Linearizer::at);

@@ -34,6 +34,9 @@ if TYPE_CHECKING:
     from saltus.differentiable.torch_function import torch_function as torch_function
     from saltus.fitting import EventTimes, Experiment, FitProgress, FitResult, Free
     from saltus.fitting.fit import fit as fit
+    from saltus.operating import Equilibria, OperatingPoint
+    from saltus.operating.equilibria import equilibria as equilibria
+    from saltus.operating.trim import trim as trim
     from saltus.orbits import PeriodicOrbit, periodic_orbit
 
 __all__ = [
@@ -41,6 +44,7 @@ __all__ = [
     "Context",
     "Diagram",
     "DiagramBuilder",
+    "Equilibria",
     "Error",
     "Event",
     "EventLog",
@@ -56,6 +60,7 @@ __all__ = [
     "LeafSystem",
     "Linearization",
     "ModelError",
+    "OperatingPoint",
     "OutputPort",
     "PeriodicOrbit",
     "Progress",
@@ -73,6 +78,7 @@ __all__ = [
     "WorkPrecision",
     "__version__",
     "compiled",
+    "equilibria",
     "fit",
     "jax_function",
     "library",
@@ -90,6 +96,7 @@ __all__ = [
     "sweep",
     "system_of",
     "torch_function",
+    "trim",
     "work_precision",
 ]
 
@@ -98,6 +105,7 @@ _LATER = {
     **dict.fromkeys(
         ("EventTimes", "Experiment", "FitProgress", "FitResult", "Free", "fit"), "fitting"
     ),
+    **dict.fromkeys(("Equilibria", "OperatingPoint", "equilibria", "trim"), "operating"),
     **dict.fromkeys(("PeriodicOrbit", "periodic_orbit"), "orbits"),
 }
 """names that most scripts leave alone -> their package, which is loaded when they are used"""

@@ -14,7 +14,7 @@ from saltus.callbacks import Callbacks
 from saltus.errors import ModelError
 from saltus.system import OutputPort, System
 
-__all__ = ["Linearization", "linearize"]
+__all__ = ["Linearization", "linearize", "linearizer_of"]
 
 
 class Linearization:
@@ -49,6 +49,8 @@ class Linearization:
         """what a run may change and the matrices take as constant: entries of discrete states,
         modes, and the truths of relations, 0 or 1
         """
+        self.guards: dict[str, float] = {name: value for name, value, _ in core.guards}
+        """the values of the guards that can fire in the present mode"""
         self.method: str = core.method()
         """'exact', or the called functions that were differentiated by central differences"""
         self.time: float = core.time
@@ -221,14 +223,11 @@ def linearize(
     """
     if not isinstance(system, System):
         raise ModelError(f"linearize: expected a system, found {system!r}")
-    if python not in ("traced", "called"):
-        hint = _core.known_names(str(python), ["traced", "called"])
-        raise ModelError(f"option python: unknown '{python}'{hint}")
     named = _named(inputs)
     own = {port.name: port for port in system.output_ports}
     signals = ports_of(own if outputs is None else signals_in(system, outputs))
     at = core_context(system.create_context() if context is None else context)
-    return Linearization(_linearizer(system, named, signals, bool(one_sided), python).at(at))
+    return Linearization(linearizer_of(system, named, signals, bool(one_sided), python).at(at))
 
 
 def _named(inputs: Any) -> list[tuple[str, Any]]:
@@ -247,7 +246,7 @@ def _named(inputs: Any) -> list[tuple[str, Any]]:
     return named
 
 
-def _linearizer(
+def linearizer_of(
     system: System,
     inputs: list[tuple[str, Any]],
     outputs: list[tuple[str, System, int]],
@@ -255,6 +254,9 @@ def _linearizer(
     python: str,
 ) -> _core.Linearizer:
     """Traces the functions anew: an input that is given a value may have another shape."""
+    if python not in ("traced", "called"):
+        hint = _core.known_names(str(python), ["traced", "called"])
+        raise ModelError(f"option python: unknown '{python}'{hint}")
     if python == "called":
         return _core.Linearizer(system, inputs, outputs, one_sided, None)
     callbacks = Callbacks(system)

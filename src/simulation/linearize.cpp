@@ -109,6 +109,7 @@ class Linearizer::Parts {
     }
     limits.require_finite(found);
     add_frozen(found);
+    add_guards(found);
     return found;
   }
 
@@ -219,6 +220,20 @@ class Linearizer::Parts {
       add_entries(names, plan().name_of(plan().node(node)), shape.size, shape.vector);
       const Eigen::VectorXd values = rule_->value(node);
       for (Index i = 0; i < shape.size; ++i) found.frozen.push_back({nth(names, i), values[i]});
+    }
+  }
+
+  void add_guards(Linearization& found) {
+    for (const GuardGroup& group : plan().guards) {
+      if (!group.is_crossing() || !plan().crossing_of(group).has_effect()) continue;
+      if (group.direction == Direction::edge_detection) continue;
+      const std::optional<int> mode = plan().start_mode_of(group);
+      if (mode && *mode != at_.machine().modes[group.leaf]) continue;
+      const Eigen::VectorXd values = rule_->level(function_of_guard(plan(), group)).value;
+      std::vector<std::string> names;
+      add_entries(names, group.name, group.size, group.size > 1);
+      for (Index i = 0; i < group.size; ++i)
+        found.guards.push_back({nth(names, i), values[i], group.direction});
     }
   }
 

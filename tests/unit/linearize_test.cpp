@@ -122,6 +122,16 @@ TEST_CASE("a guard with an effect at zero is refused, and clear of zero is not",
   CHECK(contains(at_floor, "guard 'ball.bounce' has an effect and is at zero"));
 }
 
+TEST_CASE("guards that can fire are named, with their values and directions", "[linearize]") {
+  const models::BouncingBall ball;
+  const Linearization found =
+      linearize(ball, ball.create_context().with_continuous_state(vec({2.5, -1.0})));
+  REQUIRE(found.guards.size() == 1);
+  CHECK(found.guards[0].name == "ball.bounce");
+  CHECK(found.guards[0].value == 2.5);
+  CHECK(found.guards[0].direction == Direction::positive_then_non_positive);
+}
+
 TEST_CASE("a block at rest is refused", "[linearize]") {
   const models::BouncingBall ball(9.81, 0.5);
   const auto start = ball.create_context().with_continuous_state({1.0, 0.0});

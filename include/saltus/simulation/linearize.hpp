@@ -48,6 +48,14 @@ struct FrozenValue {
   double value = 0.0;
 };
 
+/// The value of a guard that can fire in the present mode: its effect sets in when the value crosses
+/// zero in its direction. A guard that only watches for an edge is none.
+struct GuardValue {
+  std::string name;  ///< "thermostat.hot", or "wall.hit[1]" of a vector
+  double value = 0.0;
+  Direction direction = Direction::crosses_zero;
+};
+
 /// dx/dt = f(x, u), y = h(x, u) close to the state x0 with the inputs u0, at a fixed time:
 ///
 ///     d(x - x0)/dt = f(x0, u0) + A (x - x0) + B (u - u0)
@@ -59,6 +67,7 @@ struct Linearization {
   Eigen::MatrixXd A, B, C, D;
   std::vector<std::string> states, inputs, outputs;  ///< "integrator.x[0]", "u", "y[1]"
   std::vector<FrozenValue> frozen;
+  std::vector<GuardValue> guards;
   /// The functions that were differentiated by central differences, because they are called:
   /// "the derivative of block 'plant'". Empty: all derivatives are exact.
   std::vector<std::string> differences;

@@ -100,23 +100,25 @@ def _number(what: str, value: Any) -> float:
     return number
 
 
-def frees_of(parameters: Any) -> dict[str, Free]:
-    """The parameters of a fit by name, from a list of names or a dict as `fit` takes it."""
+def frees_of(parameters: Any, where: str = "fit: parameters") -> dict[str, Free]:
+    """The parameters of a fit by name, from a list of names or a dict as `fit` takes it. `where`
+    begins the messages of refusals.
+    """
     if isinstance(parameters, str):
         parameters = [parameters]
     if isinstance(parameters, (list, tuple)) and all(isinstance(name, str) for name in parameters):
         if len(set(parameters)) < len(parameters):
-            raise ModelError(f"fit: a parameter is named twice in {list(parameters)!r}")
+            raise ModelError(f"{where}: a parameter is named twice in {list(parameters)!r}")
         parameters = dict.fromkeys(parameters)
     if not isinstance(parameters, Mapping) or not all(isinstance(n, str) for n in parameters):
         raise ModelError(
-            "fit: parameters: expected a dict of names with start values or bounds, or a list of "
-            f"names, found {parameters!r}"
+            f"{where}: expected a dict of names with start values or bounds, or a list of names, "
+            f"found {parameters!r}"
         )
-    return {name: _free(name, given) for name, given in parameters.items()}
+    return {name: _free(f"{where}: '{name}'", given) for name, given in parameters.items()}
 
 
-def _free(name: str, given: Any) -> Free:
+def _free(where: str, given: Any) -> Free:
     try:
         if isinstance(given, Free):
             return given
@@ -129,6 +131,6 @@ def _free(name: str, given: Any) -> Free:
         return Free(given)
     except ModelError as error:
         raise ModelError(
-            f"fit: parameter '{name}': {error}. Expected a start value, (lower, upper), None or "
+            f"{where}: {error}. Expected a start value, (lower, upper), None or "
             "saltus.Free(start, lower, upper)"
         ) from None
