@@ -6,12 +6,15 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from saltus import _core
 from saltus._engine import core_context, ports_of
 from saltus._signals import signals_in
+from saltus._step import draw, step
 from saltus.callbacks import Callbacks
 from saltus.errors import ModelError
+from saltus.results.tables import extra
 from saltus.system import OutputPort, System
 
 __all__ = ["Linearization", "linearize", "linearizer_of"]
@@ -73,6 +76,81 @@ class Linearization:
         """
         return np.sort_complex(np.linalg.eigvals(self.A))
 
+    def step(self, t: ArrayLike) -> np.ndarray:
+        """The response y(t) - y0 of each output to a step of each input by 1 at t = 0.
+
+        It is exact: the exponential of [[A, B], [0, 0]] t (C. Van Loan, IEEE Trans. Autom. Control
+        23 (1978) 395). The state begins at x0, and x0 counts as an equilibrium. Needs scipy.
+
+        Parameters
+        ----------
+        t : array_like
+            [s] Times of 0 or more that do not decrease.
+
+        Returns
+        -------
+        ndarray
+            (time, output, input)
+
+        Raises
+        ------
+        ModelError
+            For other times, and if there is no state, input or output.
+
+        Examples
+        --------
+        >>> import saltus
+        >>> from saltus.library import Integrator
+        >>> saltus.linearize(Integrator(0.0), inputs={"in": 0.0}).step([1.0, 3.0])[:, 0, 0]
+        array([1., 3.])
+        """
+        self._require_all("step")
+        times = np.asarray(t, dtype=float)
+        if times.ndim != 1 or not np.all(np.diff(times, prepend=0.0) >= 0.0):
+            raise ModelError(f"step: expected times of 0 or more that do not decrease, found {t!r}")
+        return step((self.A, self.B, self.C, self.D), times)
+
+    def plot(
+        self,
+        inputs: Sequence[str] | None = None,
+        outputs: Sequence[str] | None = None,
+        *,
+        t_end: float | None = None,
+        axes: Any = None,
+    ) -> Any:
+        """Draws the poles beside the responses of outputs to steps of inputs by 1. Needs matplotlib
+        and scipy.
+
+        Parameters
+        ----------
+        inputs, outputs : list of str, optional
+            Their names; by default all.
+        t_end : float, optional
+            [s] By default a time that shows the slowest motion.
+        axes : two matplotlib Axes, optional
+            By default those of a new figure.
+
+        Returns
+        -------
+        (Axes, Axes)
+
+        Raises
+        ------
+        ModelError
+            For an unknown name, a time that is not positive, and if there is no state, input or
+            output.
+
+        Examples
+        --------
+        >>> import saltus
+        >>> from saltus.library import Integrator
+        >>> poles, response = saltus.linearize(Integrator(0.0), inputs={"in": 0.0}).plot()
+        >>> response.get_xlabel()
+        'time [s]'
+        """
+        self._require_all("plot")
+        return draw(self, inputs, outputs, t_end, axes)
+
     def to_scipy(self) -> Any:
         """A `scipy.signal.StateSpace` in continuous time. Needs scipy.
 
@@ -89,15 +167,13 @@ class Linearization:
         >>> lin.to_scipy().B
         array([[1.]])
         """
-        import scipy.signal
-
         self._require_all("to_scipy")
-        return scipy.signal.StateSpace(self.A, self.B, self.C, self.D)
+        return extra("scipy.signal", "to_scipy").StateSpace(self.A, self.B, self.C, self.D)
 
     def to_control(self) -> Any:
         """A `control.StateSpace` with the names of states, inputs and outputs.
 
-        It needs python-control, which Saltus does not install. A dot in a name becomes "_", because
+        It needs python-control, `pip install 'saltus[control]'`. A dot in a name becomes "_", because
         python-control refuses dots.
 
         Raises
@@ -112,10 +188,8 @@ class Linearization:
         >>> lin.to_control().poles()  # doctest: +SKIP
         array([0.+0.j])
         """
-        import control
-
         self._require_all("to_control")
-        return control.ss(
+        return extra("control", "to_control").ss(
             self.A,
             self.B,
             self.C,
