@@ -11,7 +11,6 @@ from numpy.typing import ArrayLike
 from saltus import _core
 from saltus._engine import core_context, ports_of
 from saltus._signals import signals_in
-from saltus._step import draw, step
 from saltus.callbacks import Callbacks
 from saltus.errors import ModelError
 from saltus.results.tables import extra
@@ -108,6 +107,8 @@ class Linearization:
         times = np.asarray(t, dtype=float)
         if times.ndim != 1 or not np.all(np.diff(times, prepend=0.0) >= 0.0):
             raise ModelError(f"step: expected times of 0 or more that do not decrease, found {t!r}")
+        from saltus._step import step
+
         return step((self.A, self.B, self.C, self.D), times)
 
     def plot(
@@ -148,6 +149,8 @@ class Linearization:
         >>> response.get_xlabel()
         'time [s]'
         """
+        from saltus._step import draw
+
         self._require_all("plot")
         return draw(self, inputs, outputs, t_end, axes)
 

@@ -28,6 +28,7 @@ LATE = {
     ("saltus.report.table", "saltus.report.chart"): "loads matplotlib",
     ("saltus.library", "saltus.library.called"): "answers names that are wrong",
     ("saltus.ports", "saltus._evaluate"): "a system has ports, and these are evaluated with it",
+    ("saltus.linearization", "saltus._step"): "step responses, which most scripts leave alone",
     ("saltus.results.outcome", "saltus.results.plot"): "loads matplotlib",
     ("saltus.system", "saltus._evaluate"): "reads contexts, which are those of systems",
     ("saltus.system", "saltus._picture"): "loads subprocess, for Graphviz",
