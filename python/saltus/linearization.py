@@ -176,8 +176,8 @@ class Linearization:
     def to_control(self) -> Any:
         """A `control.StateSpace` with the names of states, inputs and outputs.
 
-        It needs python-control, `pip install 'saltus[control]'`. A dot in a name becomes "_", because
-        python-control refuses dots.
+        It needs python-control: `pip install 'saltus[control]'`. A dot in a name becomes "_",
+        because python-control refuses dots.
 
         Raises
         ------
