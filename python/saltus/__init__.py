@@ -37,7 +37,8 @@ if TYPE_CHECKING:
     from saltus.operating import Equilibria, OperatingPoint
     from saltus.operating.equilibria import equilibria as equilibria
     from saltus.operating.trim import trim as trim
-    from saltus.orbits import PeriodicOrbit, periodic_orbit
+    from saltus.orbits import PeriodicOrbit, PeriodMap, periodic_orbit
+    from saltus.orbits.period_map import period_map as period_map
 
 __all__ = [
     "Compiled",
@@ -62,6 +63,7 @@ __all__ = [
     "ModelError",
     "OperatingPoint",
     "OutputPort",
+    "PeriodMap",
     "PeriodicOrbit",
     "Progress",
     "Results",
@@ -86,6 +88,7 @@ __all__ = [
     "load",
     "load_results",
     "load_scene",
+    "period_map",
     "periodic_orbit",
     "response",
     "scene",
@@ -106,7 +109,7 @@ _LATER = {
         ("EventTimes", "Experiment", "FitProgress", "FitResult", "Free", "fit"), "fitting"
     ),
     **dict.fromkeys(("Equilibria", "OperatingPoint", "equilibria", "trim"), "operating"),
-    **dict.fromkeys(("PeriodicOrbit", "periodic_orbit"), "orbits"),
+    **dict.fromkeys(("PeriodMap", "PeriodicOrbit", "period_map", "periodic_orbit"), "orbits"),
 }
 """names that most scripts leave alone -> their package, which is loaded when they are used"""
 
