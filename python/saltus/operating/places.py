@@ -60,12 +60,16 @@ def open_inputs(system: System, name: str) -> str:
 
 def state_names(context: _core.Context) -> tuple[str, ...]:
     """The names of all continuous states, in the order of the context."""
-    names = {}
+    names: dict[int, str] = {}
     for name in _core.entry_names(context):
-        if _core.find_entry(context, name) == 1 and name.rpartition(".")[2] != "mode":
-            kind, index = _state_at(context, name)
-            if kind == "continuous_state":
-                names[index] = name
+        size = _core.find_entry(context, name)
+        if size == 0 or name.rpartition(".")[2] == "mode":
+            continue
+        entries = [name] if size == 1 else [f"{name}[{i}]" for i in range(size)]
+        kind, first = _state_at(context, entries[0])
+        if kind == "continuous_state":
+            assert first is not None
+            names.update({first + i: entry for i, entry in enumerate(entries)})
     return tuple(names[i] for i in range(len(context.continuous_state)))
 
 

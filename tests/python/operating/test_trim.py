@@ -172,6 +172,44 @@ def test_the_unit_does_not_decide_convergence(scale):
     np.testing.assert_allclose(one.values["x[0]"], 2.0 * scale, rtol=1e-14)
 
 
+@pytest.mark.parametrize("seed", range(30))
+def test_random_flows_of_many_sizes(seed):
+    """x' = f(x) - f(x0): a point that is found is a root, whatever the units."""
+    rng = np.random.default_rng(seed)
+    n = int(rng.integers(1, 9))
+    w, size = rng.normal(size=(n, n)), 10.0 ** rng.integers(-6, 7, size=n)
+
+    def flow(x):
+        return size * (w @ np.tanh(x / size) + 3.0 * x / size)
+
+    root = rng.normal(size=n) * size
+    rest = flow(root)
+    start = root + 0.3 * size * rng.normal(size=n)
+    point = saltus.trim(saltus.system_of(lambda t, x: flow(x) - rest, start))
+    assert list(point.values) == [f"x[{i}]" for i in range(n)]
+    assert point.success
+    found = np.array(list(point.values.values()))
+    # some hundred roundings of terms of size 10
+    np.testing.assert_allclose(flow(found) / size, rest / size, atol=1e-12)
+
+
+def test_a_diagram_with_a_long_state_between_others():
+    class Rod(saltus.LeafSystem):
+        def __init__(self):
+            super().__init__(name="rod")
+            self.declare_continuous_state(np.ones(7), ode=lambda t, s: 3.0 - s.continuous_state)
+
+    builder = saltus.DiagramBuilder()
+    zero = builder.add(Constant(0.0, name="zero"))
+    for block in (Integrator(0.0, name="first"), Rod(), Integrator(0.0, name="last")):
+        builder.add(block)
+        if block.name != "rod":
+            builder.connect(zero.output(), block.input())
+    point = saltus.trim(builder.build())
+    np.testing.assert_allclose([point.values[f"rod.x[{i}]"] for i in range(7)], 3.0, **EXACT)
+    assert point.undetermined == ("first.x[0]", "last.x[0]")
+
+
 def test_a_double_root_has_no_rank():
     point = saltus.trim(saltus.system_of(lambda t, x: [(x[0] - 1.0) ** 2], [2.0]))
     # Newton halves the distance until its square is a rounding
