@@ -5,6 +5,7 @@ The pole falls at the rate sqrt((M + m) g / (M l)).
 
 import argparse
 import math
+from typing import Any
 
 import numpy as np
 import saltus
@@ -15,13 +16,13 @@ CART, BOB, LENGTH, G = 1.2, 0.3, 0.5, 9.81
 class CartPole(saltus.LeafSystem):
     """A point mass on a massless rod, which stands on a cart; the angle is 0 at the top."""
 
-    def __init__(self):
+    def __init__(self) -> None:
         super().__init__(name="cart")
         self.declare_input_port(name="force")
         names = ["position", "speed", "angle", "rate"]
         self.declare_continuous_state([0.0, 0.1, 0.2, 0.0], names=names, ode=self.ode)
 
-    def ode(self, time, state, force):
+    def ode(self, time: float, state: saltus.State, force: Any) -> list[Any]:
         _, speed, angle, rate = state.continuous_state
         sin, cos = np.sin(angle), np.cos(angle)
         push = (force + BOB * LENGTH * rate**2 * sin) / (CART + BOB)
