@@ -57,8 +57,7 @@ def is_solution(point: Point, scales: Scales, tolerance: float) -> bool:
     """Whether each |r| is below tolerance |J| |v|, or of the rounding of the unknowns.
 
     v are the sizes of the unknowns on the way. So no residual counts as small because its unit is
-    large. Below the rounding of what the equation
-    reads it does not count.
+    large. A residual below the rounding of the numbers that the equation reads counts as zero.
     """
     by = np.abs(point.jacobian)
     allowed = np.maximum(tolerance * (by @ scales.sizes), NOISE * (by @ scales.unknowns))

@@ -23,13 +23,15 @@ __all__ = ["extra", "to_pandas", "to_xarray", "write_csv"]
 
 def extra(library: str, what: str, instead: str = "") -> Any:
     """A library that `what` needs and that comes with an extra of the package. If it is not
-    installed, raises an ImportError that says so, and what to do `instead`.
+    installed, raises an ImportError that says so, and what to do `instead`. A module of a library,
+    such as scipy.optimize, comes with the library.
     """
     try:
         return importlib.import_module(library)
     except ImportError:
+        name = library.partition(".")[0]
         raise ImportError(
-            f"{what} needs {library}, which is not installed: pip install {library}{instead}"
+            f"{what} needs {name}, which is not installed: pip install {name}{instead}"
         ) from None
 
 
