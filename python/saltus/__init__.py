@@ -29,9 +29,11 @@ from saltus.solving.system_of import system_of
 from saltus.system import InputPort, OutputPort, System
 
 if TYPE_CHECKING:
+    from saltus import drawings as drawings
     from saltus.differentiable import RunValues
     from saltus.differentiable.jax_function import jax_function as jax_function
     from saltus.differentiable.torch_function import torch_function as torch_function
+    from saltus.ensemble.heat_map import plot_sweep as plot_sweep
     from saltus.fitting import EventTimes, Experiment, FitProgress, FitResult, Free
     from saltus.fitting.fit import fit as fit
     from saltus.operating import Equilibria, OperatingPoint
@@ -39,6 +41,7 @@ if TYPE_CHECKING:
     from saltus.operating.trim import trim as trim
     from saltus.orbits import PeriodicOrbit, PeriodMap, periodic_orbit
     from saltus.orbits.period_map import period_map as period_map
+    from saltus.viewing import view as view
 
 __all__ = [
     "Compiled",
@@ -80,6 +83,7 @@ __all__ = [
     "WorkPrecision",
     "__version__",
     "compiled",
+    "drawings",
     "equilibria",
     "fit",
     "jax_function",
@@ -90,6 +94,7 @@ __all__ = [
     "load_scene",
     "period_map",
     "periodic_orbit",
+    "plot_sweep",
     "response",
     "scene",
     "shelf",
@@ -100,6 +105,7 @@ __all__ = [
     "system_of",
     "torch_function",
     "trim",
+    "view",
     "work_precision",
 ]
 
@@ -110,8 +116,13 @@ _LATER = {
     ),
     **dict.fromkeys(("Equilibria", "OperatingPoint", "equilibria", "trim"), "operating"),
     **dict.fromkeys(("PeriodMap", "PeriodicOrbit", "period_map", "periodic_orbit"), "orbits"),
+    "drawings": "drawings",
+    "plot_sweep": "ensemble.heat_map",
+    "view": "viewing",
 }
-"""names that most scripts leave alone -> their package, which is loaded when they are used"""
+"""names that most scripts leave alone -> their package, loaded when they are used; its own name is
+the package itself
+"""
 
 
 def __getattr__(name: str) -> Any:
@@ -119,6 +130,8 @@ def __getattr__(name: str) -> Any:
         raise AttributeError(f"module 'saltus' has no attribute {name!r}")
     from importlib import import_module
 
+    if name == _LATER[name]:
+        return import_module(f"saltus.{name}")
     found = getattr(import_module(f"saltus.{_LATER[name]}"), name)
     globals()[name] = found
     return found

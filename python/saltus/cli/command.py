@@ -16,12 +16,21 @@ from saltus.cli import (
     report_scene,
     run_scene,
     sweep_scene,
+    view_scene,
 )
 from saltus.errors import Error
 
 __all__ = ["UsageError", "main"]
 
-SUBCOMMANDS = (list_scenes, run_scene, describe_scene, report_scene, sweep_scene, new_scene)
+SUBCOMMANDS = (
+    list_scenes,
+    run_scene,
+    view_scene,
+    describe_scene,
+    report_scene,
+    sweep_scene,
+    new_scene,
+)
 INTERRUPTED = 130  # the exit code in a shell of a program that Ctrl-C ended
 
 

@@ -10,7 +10,7 @@ import numpy as np
 if TYPE_CHECKING:
     from saltus.results.outcome import Results
 
-__all__ = ["Curve", "curves_of", "holds_of"]
+__all__ = ["Curve", "curves_of", "holds_of", "refined"]
 
 BETWEEN = 24  # points drawn within a step, from dense output
 MOST = 20_000  # points in all, if there are fewer steps
@@ -40,8 +40,10 @@ def _times_between(results: Results) -> np.ndarray:
     return np.setdiff1d(times, results.time)
 
 
-def _refined(results: Results) -> tuple[np.ndarray, np.ndarray, dict[str, np.ndarray]]:
-    """The rows, and the values of dense output between them."""
+def refined(results: Results) -> tuple[np.ndarray, np.ndarray, dict[str, np.ndarray]]:
+    """The times, jumps and signals of the rows, with the values of dense output between them."""
+    if not results.dense or len(results.time) < 2:
+        return results.time, results.jump, dict(results.outputs)
     time, more = results.time, _times_between(results)
     at = np.searchsorted(time, more)
     values = results(more)
@@ -71,10 +73,7 @@ def _curve(label: str, time: np.ndarray, jump: np.ndarray, value: np.ndarray) ->
 
 def curves_of(results: Results) -> dict[str, list[Curve]]:
     """The curves of every recorded signal, one for each of its numbers."""
-    if results.dense and len(results.time) > 1:
-        time, jump, columns = _refined(results)
-    else:
-        time, jump, columns = results.time, results.jump, dict(results.outputs)
+    time, jump, columns = refined(results)
     return {
         name: [_curve(name, time, jump, array)]
         if array.ndim == 1

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 from saltus import _core
 from saltus.errors import Error, ModelError
 from saltus.results.events import EventLog
+from saltus.results.pictures import Pictures
 from saltus.results.record import KINDS, KeptRun, Record
 from saltus.results.saving import save
 from saltus.results.sensitivities import Gap, Sensitivities
@@ -37,7 +38,7 @@ class _Outputs(dict[str, np.ndarray]):
         )
 
 
-class Results:
+class Results(Pictures):
     """The recorded signals, the event log, the final values, and the way the run ended.
 
     Each part is made once, when it is first read. The arrays of a whole run show its memory without
@@ -280,44 +281,6 @@ class Results:
         {'time': 3, 'x_entry': 1}
         """
         return to_xarray(self)
-
-    def plot(self, *names: str, ax: Any = None, **style: Any) -> Any:
-        """Draws recorded signals over time. Needs matplotlib.
-
-        A jump is a gap with a hollow marker before and a filled one after it, a Zeno hold is
-        shaded, each event has a tick at the bottom. Where the run kept dense output, curves are
-        drawn from that, else straight from row to row.
-
-        Parameters
-        ----------
-        *names : str
-            The signals, or entries such as 'state[0]'; by default all.
-        ax : matplotlib Axes, optional
-            The axes to draw into; by default each signal gets axes of its own in a new figure, one
-            below the other.
-        **style
-            Passed on to matplotlib's `plot` for every curve, such as ``color="k"``.
-
-        Returns
-        -------
-        Axes, or array of Axes
-            A single Axes for one signal, so that ``results.plot("y").set_title(...)`` works.
-
-        Raises
-        ------
-        ModelError
-            If a name is unknown, or nothing was recorded.
-
-        Examples
-        --------
-        >>> import saltus
-        >>> axes = saltus.solve(lambda t, x: -x, (0, 1), [1.0]).plot()
-        >>> axes.get_xlabel()
-        'time [s]'
-        """
-        from saltus.results.plot import plot
-
-        return plot(self, names, ax, style)
 
     def save(self, path: str | PathLike[str]) -> None:
         """Writes everything but the dense output to a file that `saltus.load_results` reads.

@@ -1,4 +1,4 @@
-"""Pictures of results, by matplotlib."""
+"""Signals over time, by matplotlib."""
 
 from __future__ import annotations
 
@@ -9,11 +9,12 @@ import numpy as np
 from saltus._core import known_names
 from saltus.errors import ModelError
 from saltus.results.curves import Curve, curves_of, holds_of
+from saltus.results.tables import extra
 
 if TYPE_CHECKING:
     from saltus.results.outcome import Results
 
-__all__ = ["plot"]
+__all__ = ["chosen", "plot", "wide_jumps"]
 
 FEW = 60  # the number of jumps with full markers; more markers would cover the curve
 TINY = 0.02  # part of the range of the curve; the markers of a smaller jump would cover each other
@@ -23,14 +24,13 @@ Panels = list[tuple[str, list[Curve]]]
 
 def plot(results: Results, names: tuple[str, ...], ax: Any, style: dict[str, Any]) -> Any:
     """Draws the signals for `Results.plot`."""
-    panels = _chosen(results, names)
+    panels = chosen(results, names)
     if ax is not None:
         curves = [curve for _, group in panels for curve in group]
         _draw(ax, results, curves, panels[0][0] if len(panels) == 1 else "", style)
         ax.set_xlabel("time [s]")
         return ax
-    import matplotlib.pyplot as plt
-
+    plt = extra("matplotlib.pyplot", "plot", ", or install Saltus with the extra [plot]")
     count = len(panels)
     size = (7.0, 3.6 if count == 1 else 1.2 + 1.9 * count)
     _, axes = plt.subplots(count, 1, sharex=True, squeeze=False, figsize=size, layout="constrained")
@@ -41,7 +41,7 @@ def plot(results: Results, names: tuple[str, ...], ax: Any, style: dict[str, Any
     return axes[0, 0] if count == 1 else axes[:, 0]
 
 
-def _chosen(results: Results, names: tuple[str, ...]) -> Panels:
+def chosen(results: Results, names: tuple[str, ...]) -> Panels:
     """The curves of each axes, with a title."""
     if not results.outputs:
         raise ModelError("nothing was recorded, so there is nothing to draw: give recorded_signals")
@@ -81,10 +81,16 @@ def _draw(
     ax.margins(x=0.01)
 
 
+def wide_jumps(curve: Curve) -> np.ndarray:
+    """Which jumps are wide enough for markers."""
+    leap = np.abs(curve.after[:, 1] - curve.before[:, 1])
+    finite = curve.value[np.isfinite(curve.value)]
+    return leap > TINY * (np.ptp(finite) if finite.size else 0.0)
+
+
 def _mark_jumps(ax: Any, curve: Curve, line: Any) -> None:
     """Draws a hollow marker before each jump and a filled marker after it."""
-    leap = np.abs(curve.after[:, 1] - curve.before[:, 1])
-    wide = leap > TINY * np.ptp(curve.value[np.isfinite(curve.value)])
+    wide = wide_jumps(curve)
     if not wide.any():
         return
     color, size = line.get_color(), 5.0 if np.count_nonzero(wide) <= FEW else 2.0
