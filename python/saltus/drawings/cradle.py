@@ -42,7 +42,9 @@ def newtons_cradle(
         return still[i] + length * np.sin(angle), -length * np.cos(angle)
 
     def prepare(ax: Any, film: Film) -> None:
-        wide = max(float(np.max(np.abs(pick(film.values, first + i)))) for i in range(balls)) + 2 * r
+        wide = (
+            max(float(np.max(np.abs(pick(film.values, first + i)))) for i in range(balls)) + 2 * r
+        )
         frame(ax, (still[0] - wide, still[-1] + wide), (-length - 2.0 * r, 0.12 * length))
         bare(ax)
         rod(ax, (still[0] - r, 0.0), (still[-1] + r, 0.0), 4.0)
@@ -54,5 +56,3 @@ def newtons_cradle(
             disc(ax, x, y, r, BLUE)
 
     return Drawing(draw, prepare)
-
-

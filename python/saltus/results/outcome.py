@@ -19,7 +19,6 @@ from saltus.results.saving import save
 from saltus.results.sensitivities import Gap, Sensitivities
 from saltus.results.statistics import Statistics
 from saltus.results.tables import to_pandas, to_xarray, write_csv
-from saltus.results.text import as_html, as_text
 from saltus.results.values import Values, values_at
 
 if TYPE_CHECKING:
@@ -318,9 +317,13 @@ class Results(Pictures):
         return {"cause": self.cause, "message": self.message}
 
     def __repr__(self) -> str:
+        from saltus.results.text import as_text
+
         return as_text(self)
 
     def _repr_html_(self) -> str:
+        from saltus.results.text import as_html
+
         return as_html(self)
 
 

@@ -115,7 +115,7 @@ def _dense(results: Results, schedule: Schedule) -> Values:
 
     def chosen(left: Any, right: Any) -> np.ndarray:
         where = schedule.left.reshape(-1, *[1] * (np.ndim(left) - 1))
-        return np.where(where, left, right)
+        return np.asarray(np.where(where, left, right))
 
     state = chosen(before.continuous_state, after.continuous_state)
     return Values(schedule.times, state, {n: chosen(before[n], after[n]) for n in before})
@@ -139,9 +139,10 @@ def _between(time: np.ndarray, column: np.ndarray, schedule: Schedule) -> np.nda
     at = schedule.times
     first = np.searchsorted(time, at, side="left")  # the first row at or after the time
     last = np.searchsorted(time, at, side="right") - 1  # the last row at or before it
-    begin = np.clip(np.where(schedule.left, first, last), 0, len(time) - 1)
-    end = np.clip(np.where(first > last, first, begin), 0, len(time) - 1)
+    row = first <= last  # there is a row at this time
+    begin = np.clip(np.where(row & schedule.left, first, last), 0, len(time) - 1)
+    end = np.clip(np.where(row, begin, first), 0, len(time) - 1)
     width = time[end] - time[begin]
     share = np.divide(at - time[begin], width, out=np.zeros_like(at), where=width > 0)
     share = share.reshape(-1, *[1] * (column.ndim - 1))
-    return (1.0 - share) * column[begin] + share * column[end]
+    return np.asarray((1.0 - share) * column[begin] + share * column[end])

@@ -11,15 +11,16 @@ FETCHED = re.compile(r'<link rel="stylesheet"\s*href="https?:[^>]*>')
 ICON = re.compile(r'<i class="fa ([\w -]+)"></i>')
 SYMBOLS = {
     "fa-minus": "&minus;",
-    "fa-fast-backward": "&#x23EE;&#xFE0E;",
-    "fa-step-backward": "&#x25C1;&#xFE0E;|",
+    "fa-fast-backward": "|&#x25C0;&#xFE0E;",
+    "fa-step-backward": "&#x25C1;&#xFE0E;",
     "fa-play fa-flip-horizontal": "&#x25C0;&#xFE0E;",
-    "fa-pause": "&#x23F8;&#xFE0E;",
+    "fa-pause": "||",
     "fa-play": "&#x25B6;&#xFE0E;",
-    "fa-step-forward": "|&#x25B7;&#xFE0E;",
-    "fa-fast-forward": "&#x23ED;&#xFE0E;",
+    "fa-step-forward": "&#x25B7;&#xFE0E;",
+    "fa-fast-forward": "&#x25B6;&#xFE0E;|",
     "fa-plus": "+",
 }
+"""signs that most fonts have; U+FE0E asks for a letter in place of a coloured picture"""
 
 
 def player(jshtml: str) -> str:

@@ -38,7 +38,10 @@ def by_matplotlib(chart: Chart, ax: Any, style: dict[str, Any]) -> Any:
 
 
 def _add(ax: Any, layer: Layer, style: dict[str, Any]) -> None:
-    look = {"color": COLOURS[layer.colour % len(COLOURS)], "label": layer.label or "_"}
+    look: dict[str, Any] = {
+        "color": COLOURS[layer.colour % len(COLOURS)],
+        "label": layer.label or "_",
+    }
     look |= LOOKS[layer.kind]
     if layer.kind in ("hollow", "filled") and len(layer.x) > FEW:
         look["markersize"] = 2.0
@@ -57,6 +60,9 @@ def _scales(ax: Any, chart: Chart) -> None:
         ax.set_xscale("log")
     if chart.y_log:
         ax.set_yscale("log")
+    if chart.span is not None and chart.span[1] > chart.span[0]:
+        margin = 0.01 * (chart.span[1] - chart.span[0])
+        ax.set_xlim(chart.span[0] - margin, chart.span[1] + margin)
     if chart.backwards:
         ax.xaxis.set_inverted(True)
     if chart.rows:

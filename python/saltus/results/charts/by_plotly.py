@@ -52,6 +52,8 @@ def by_plotly(chart: Chart, style: dict[str, Any]) -> Any:
     drawn = figure(xaxis=_axis(chart.x_label, chart.x_log), yaxis=_axis(chart.y_label, chart.y_log))
     for layer in chart.layers:
         drawn.add_trace(_trace(layer, style))
+    if chart.span is not None and chart.span[1] > chart.span[0]:
+        drawn.update_xaxes(range=list(chart.span))
     if chart.backwards:
         drawn.update_xaxes(autorange="reversed")
     if chart.rows:

@@ -42,6 +42,8 @@ class Chart:
     y_log: bool = False
     backwards: bool = False
     """whether x decreases to the right"""
+    span: tuple[float, float] | None = None
+    """begin and end of x; by default those of the layers"""
     rows: list[str] = field(default_factory=list)
     """names of the rows y = 0, 1, ... from the top, in place of a scale"""
 
@@ -49,8 +51,6 @@ class Chart:
 def checked_backend(backend: str, ax: Any) -> None:
     """ModelError for an unknown backend, and for axes of matplotlib with another one."""
     if backend not in BACKENDS:
-        raise ModelError(
-            f"backend: unknown {backend!r}{known_names(str(backend), list(BACKENDS))}"
-        )
+        raise ModelError(f"backend: unknown {backend!r}{known_names(str(backend), list(BACKENDS))}")
     if backend == "plotly" and ax is not None:
         raise ModelError("ax: these are axes of matplotlib; with backend='plotly' leave them out")

@@ -29,9 +29,13 @@ def chart_of(results: Results, x: Which, y: Which) -> Chart:
     if len(points):
         leap = _leaps(time, jump, points)
         flow = np.insert(points, leap, np.nan, axis=0)
-        layers = [Layer(*flow.T, kind="line"), *_jumps(points[leap - 1], points[leap])]
-        layers.append(Layer(*points[:1].T, kind="square"))
+        layers = [_layer(flow, "line"), *_jumps(points[leap - 1], points[leap])]
+        layers.append(_layer(points[:1], "square"))
     return Chart(*labels, layers)
+
+
+def _layer(points: np.ndarray, kind: str) -> Layer:
+    return Layer(points[:, 0], points[:, 1], kind)
 
 
 def _leaps(time: np.ndarray, jump: np.ndarray, points: np.ndarray) -> np.ndarray:
@@ -47,7 +51,7 @@ def _jumps(before: np.ndarray, after: np.ndarray) -> list[Layer]:
     gap = np.full_like(before, np.nan)
     dashed = np.stack([before, after, gap], axis=1).reshape(-1, 2)[:-1]
     return [
-        Layer(*dashed.T, kind="jump"),
-        Layer(*before.T, kind="hollow"),
-        Layer(*after.T, kind="filled"),
+        _layer(dashed, "jump"),
+        _layer(before, "hollow"),
+        _layer(after, "filled"),
     ]

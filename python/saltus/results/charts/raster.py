@@ -28,7 +28,9 @@ def chart_of(results: Results, names: tuple[str, ...]) -> Chart:
         if spans:
             x = np.array([edge for begin, end in spans for edge in (begin, end, np.nan)])
             layers.append(Layer(x, np.full(len(x), float(row)), "bar", row))
-    return Chart("time [s]", "", layers, rows=rows)
+    ends = sorted([float(results.time[0]), results._ended_at]) if len(results.time) else None
+    span = None if ends is None else (ends[0], ends[1])
+    return Chart("time [s]", "", layers, span=span, rows=rows)
 
 
 def _happened(results: Results) -> list[str]:

@@ -85,7 +85,7 @@ def wide_jumps(curve: Curve) -> np.ndarray:
     """Which jumps are wide enough for markers."""
     leap = np.abs(curve.after[:, 1] - curve.before[:, 1])
     finite = curve.value[np.isfinite(curve.value)]
-    return leap > TINY * (np.ptp(finite) if finite.size else 0.0)
+    return np.asarray(leap > TINY * (np.ptp(finite) if finite.size else 0.0))
 
 
 def _mark_jumps(ax: Any, curve: Curve, line: Any) -> None:

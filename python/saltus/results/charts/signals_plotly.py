@@ -52,4 +52,4 @@ def _add(
     wide = wide_jumps(curve)
     for kind, points in (("hollow", curve.before[wide]), ("filled", curve.after[wide])):
         if len(points):
-            drawn.add_trace(scatter(*points.T, kind, colour, **place))
+            drawn.add_trace(scatter(points[:, 0], points[:, 1], kind, colour, **place))
