@@ -45,6 +45,11 @@ def drawing(fence):
     return run(fence)["system"]._repr_svg_()  # None where Graphviz is not installed
 
 
+def animation(fence, path):
+    """A GIF of the `animation` that the fence makes, small enough for a page."""
+    run(fence)["animation"].save(path, dpi=64)
+
+
 def main():
     os.chdir(tempfile.mkdtemp())  # programs may write files
     for fence in fences("python"):
@@ -55,6 +60,10 @@ def main():
             if text:
                 path.write_text(text)
                 print(os.path.relpath(path, ROOT), flush=True)
+        if path := fence.file("animation"):
+            animation(fence, path)
+            plt.close("all")
+            print(os.path.relpath(path, ROOT), flush=True)
 
 
 if __name__ == "__main__":

@@ -4,7 +4,7 @@ In the line that opens a fence, after the language:
 
 - `continue` puts the fence after the one before it in the same language;
 - `picture=FILE` says that the last figure it makes is that picture, `drawing=FILE` that Graphviz's
-  of its `system` is;
+  of its `system` is, `animation=FILE` that a GIF of its `animation` is;
 - `needs=PACKAGE` says what it imports beyond what `./dev test` installs; without it the test skips;
 - `no-run` is for shell text only: Python and C++ shown to readers must run.
 

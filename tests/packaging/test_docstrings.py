@@ -2,11 +2,13 @@
 
 import doctest
 import inspect
+import sys
 
 import numpy as np
 import pytest
 import saltus
-from saltus import library, report, scene_files
+from saltus import drawings, library, report, scene_files
+from saltus.results import pictures
 
 NEEDED = {"saltus.jax_function": "jax", "saltus.torch_function": "torch"}
 """name -> the package of its example, which `./dev test` does not install"""
@@ -17,8 +19,10 @@ def public_objects():
     """(name, object) of everything in the public lists, once each."""
     modules = {
         "saltus": saltus,
+        "saltus.drawings": drawings,
         "saltus.library": library,
         "saltus.report": report,
+        "saltus.results.pictures": pictures,  # what `Results` inherits
         "saltus.scene_files": scene_files,
     }
     found = {}
@@ -78,4 +82,6 @@ def test_the_example_runs(path, tmp_path, monkeypatch):
     said = []
     runner = doctest.DocTestRunner(optionflags=FLAGS, verbose=False)
     runner.run(test, out=said.append)
+    if "matplotlib.pyplot" in sys.modules:
+        sys.modules["matplotlib.pyplot"].close("all")  # or it warns of the twentieth figure
     assert not runner.failures, "".join(said)

@@ -9,7 +9,7 @@ import saltus
 UNWANTED = {
     "matplotlib", "pandas", "xarray", "scipy", "tqdm", "rich", "hypothesis", "pytest",
     "dask", "distributed", "joblib", "libsbml", "numba", "llvmlite", "jax", "torch", "cffi",
-    "IPython",
+    "IPython", "plotly", "PIL",
 }  # fmt: skip
 # what people do that needs no extra
 USES = {
@@ -23,6 +23,9 @@ saltus.solve(lambda t, x: -x, (0, 1), [1.0], dense_output=True)(0.5)
     "sweep": """
 ball = saltus.scene("bouncing-ball").system
 saltus.sweep(ball, {"e": [0.5, 0.6]}, (0, 1), executor="serial", as_dict=True)
+""",
+    "drawings": """
+saltus.drawings.of_scene("two-walls", {"length": 1.0})
 """,
     "pictures": """
 scene = saltus.scene("bouncing-ball-blocks").system
@@ -61,7 +64,8 @@ def test_no_extra_is_imported_before_it_is_used(use):
 
 def test_the_machinery_for_pictures_and_the_command_line_waits_too():
     loaded = python("import sys, saltus; print(*sys.modules)").split()
-    for module in ("saltus._picture", "saltus.cli", "saltus.report.chart", "subprocess"):
+    for module in ("saltus._picture", "saltus.cli", "saltus.report.chart", "subprocess", "saltus.viewing",
+                   "saltus.drawings", "saltus.results.animation", "saltus.results.charts"):  # fmt: skip
         assert module not in loaded, module
 
 

@@ -8,14 +8,13 @@ from saltus.drawings.balls import ball, ball_between_walls
 from saltus.drawings.bodies import bodies
 from saltus.drawings.cradle import newtons_cradle
 from saltus.drawings.drawing import Drawing, pick
-from saltus.drawings.of_scene import NAMES, of_scene
+from saltus.drawings.of_scene import of_scene
 from saltus.drawings.pendulums import pendulum, pendulum_on_cart
 from saltus.drawings.rocking import rocking_block
 from saltus.drawings.springs import mass_on_spring, quarter_car
 from saltus.drawings.wheel import rimless_wheel
 
 __all__ = [
-    "NAMES",
     "Drawing",
     "ball",
     "ball_between_walls",

@@ -15,11 +15,17 @@ from saltus.results.values import Values
 __all__ = ["ball", "ball_between_walls"]
 
 Floor = float | str | Callable[[Any], Any]
+WIDE = 2.5  # a strip of the past is so much wider than the other side
 TRAIL = 40  # the number of earlier places of the ball that are drawn
 
 
 def ball(
-    height: Which = 0, *, floor: Floor = 0.0, across: Which | None = None, radius: float = 0.0
+    height: Which = 0,
+    *,
+    floor: Floor = 0.0,
+    across: Which | None = None,
+    past: float = 0.0,
+    radius: float = 0.0,
 ) -> Drawing:
     """A ball over a floor or a table that moves.
 
@@ -31,8 +37,17 @@ def ball(
         [m] its height: a constant, a recorded signal, or a function of the time [s].
     across : str or int, optional
         [m] the ball's place across; by default it falls on one line.
+    past : float
+        [s] of earlier heights that run out of the picture on the left, as on a strip of paper.
     radius : float
-        [m] by default a fortieth of the picture.
+        [m] by default a twenty-fifth of the largest height.
+
+    Examples
+    --------
+    >>> import saltus
+    >>> run = saltus.scene("bouncing-ball", t_end=1.0).simulate(dense_output=True)
+    >>> run.animate(saltus.drawings.ball("y[0]"), fps=10)
+    <Animation: 11 frames, 1 s at 10 frames a second>
     """
 
     def surface(values: Values) -> Any:
@@ -48,7 +63,10 @@ def ball(
     def prepare(ax: Any, film: Film) -> None:
         low, high, r = size(film)
         margin = 0.08 * (high - low or 1.0)
-        left, right = _width(film, across, 0.55 * (high - low or 1.0))
+        half = 0.55 * (high - low or 1.0)
+        left, right = _width(film, across, half)
+        if past:
+            left = -WIDE * (right := half)
         frame(ax, (left - 2 * r, right + 2 * r), (low - margin, high + 2 * r + margin))
         ax.set_xticks([])
         ax.set_ylabel("height [m]")
@@ -61,6 +79,11 @@ def ball(
         x = 0.0 if across is None else pick(now, across)
         if across is not None:
             _trail(ax, now, across, height, r)
+        elif past:
+            times = now.film.times[: now.index + 1]
+            strip = (times - now.time) / past * -ax.get_xlim()[0]
+            y = pick(now.film.values, height)[: now.index + 1] + r
+            ax.plot(strip[strip > ax.get_xlim()[0]], y[strip > ax.get_xlim()[0]], color=ORANGE)
         disc(ax, x, pick(now, height) + r, r, BLUE)
 
     return Drawing(draw, prepare)
@@ -88,6 +111,13 @@ def ball_between_walls(place: Which = 0, *, length: float = 1.0, radius: float =
         [m] of the ball, from 0 to `length`.
     radius : float
         [m] by default a thirtieth of the length; the walls are drawn that much farther out.
+
+    Examples
+    --------
+    >>> import saltus
+    >>> run = saltus.scene("two-walls", t_end=1.0).simulate(dense_output=True)
+    >>> run.animate(saltus.drawings.ball_between_walls(), fps=10)
+    <Animation: 11 frames, 1 s at 10 frames a second>
     """
     r = radius or length / 30.0
 

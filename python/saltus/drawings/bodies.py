@@ -32,6 +32,13 @@ def bodies(
         Draws a body at (0, 0) too.
     trail : int
         The number of frames behind a body in which its path is drawn.
+
+    Examples
+    --------
+    >>> import saltus
+    >>> run = saltus.scene("pleiades", t_end=1.0).simulate(dense_output=True)
+    >>> run.animate(saltus.drawings.bodies([(0, 7), (1, 8)]), fps=10)
+    <Animation: 11 frames, 1 s at 10 frames a second>
     """
 
     def paths(film: Film) -> list[tuple[Any, Any]]:

@@ -32,6 +32,13 @@ def newtons_cradle(
         The places [m] are the recorded numbers `first` to `first` + n - 1, as in the scene
         'newtons-cradle': ball i hangs still at i `gap`, and two touch when their places are equal.
         The drawing puts a diameter between them.
+
+    Examples
+    --------
+    >>> import saltus
+    >>> run = saltus.scene("newtons-cradle", t_end=0.3).simulate(dense_output=True)
+    >>> run.animate(saltus.drawings.newtons_cradle(5, gap=1e-3), fps=30)
+    <Animation: 10 frames, 0.3 s at 30 frames a second>
     """
     r = radius or 0.1 * length
     still = np.arange(balls) * (2.0 * r + gap)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -40,7 +40,7 @@ class Drawing:
 
     draw: Callable[[Any, Moment], Any]
     """``draw(ax, now)`` adds to the axes what one frame shows; it is removed before the next"""
-    prepare: Callable[[Any, Film], Any] = nothing_first
+    prepare: Callable[[Any, Film], Any] = field(default_factory=lambda: nothing_first)
     """``prepare(ax, film)`` draws, once, what does not move, and sets the limits; `film.values` has
     the values of all frames"""
 
@@ -72,8 +72,8 @@ def pick(values: Values, which: Which) -> Any:
     --------
     >>> import saltus
     >>> ball = saltus.scene("bouncing-ball").simulate(dense_output=True)
-    >>> saltus.drawings.pick(ball(1.0), "y[1]"), saltus.drawings.pick(ball([0.0, 1.0]), 1)
-    (-9.81, array([ 0.  , -9.81]))
+    >>> saltus.drawings.pick(ball(0.0), "y[0]"), saltus.drawings.pick(ball([0.0, 0.5]), 0).shape
+    (10.0, (2,))
     """
     shape = np.shape(values.time)
     entries: dict[str, np.ndarray] = {}

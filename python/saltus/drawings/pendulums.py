@@ -22,6 +22,13 @@ def pendulum(angle: Which = 0, *, length: float = 1.0, upright: bool = False) ->
         [rad] from the lowest place, positive to the right; with `upright` from the highest.
     length : float
         [m] of the rod.
+
+    Examples
+    --------
+    >>> import saltus
+    >>> run = saltus.solve(lambda t, x: [x[1], -x[0]], (0, 1), [1.0, 0.0], dense_output=True)
+    >>> run.animate(saltus.drawings.pendulum(), fps=10)
+    <Animation: 11 frames, 1 s at 10 frames a second>
     """
     down = 1.0 if upright else -1.0
 
@@ -58,6 +65,13 @@ def pendulum_on_cart(
         [rad] from the highest place, positive to the right; without `upright` from the lowest.
     length : float
         [m] of the rod.
+
+    Examples
+    --------
+    >>> import saltus
+    >>> run = saltus.solve(lambda t, x: [1.0, -x[1]], (0, 1), [0.0, 0.2], dense_output=True)
+    >>> run.animate(saltus.drawings.pendulum_on_cart("x[0]", "x[1]"), fps=10)
+    <Animation: 11 frames, 1 s at 10 frames a second>
     """
     up = 1.0 if upright else -1.0
     width, height = 0.5 * length, 0.25 * length

@@ -24,6 +24,13 @@ def rocking_block(angle: Which = 0, *, alpha: float = 0.2, magnify: float = 1.0)
         [rad] between the diagonal and the upright side.
     magnify : float
         The drawn angle is so many times the true one.
+
+    Examples
+    --------
+    >>> import saltus
+    >>> run = saltus.scene("rocking-block", t_end=1.0).simulate(dense_output=True)
+    >>> run.animate(saltus.drawings.rocking_block(), fps=10)
+    <Animation: 11 frames, 1 s at 10 frames a second>
     """
     half, height = np.sin(alpha), 2.0 * np.cos(alpha)  # of a diagonal of length 2
     corners = np.array([(-half, 0.0), (half, 0.0), (half, height), (-half, height)])

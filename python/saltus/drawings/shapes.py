@@ -52,7 +52,7 @@ def rod(ax: Any, begin: ArrayLike, end: ArrayLike, width: float = 2.0) -> None:
 
 
 def ground(ax: Any, x: ArrayLike, y: ArrayLike, depth: float) -> None:
-    """A surface, hatched below it down to `depth` [unit of the axes]; above it if it is negative."""
+    """A surface, hatched below it down to `depth`; above it if `depth` is negative."""
     x, y = np.asarray(x, dtype=float), np.asarray(y, dtype=float)
     look = {"facecolor": "none", "edgecolor": PALE, "hatch": "////", "linewidth": 0.0}
     ax.fill_between(x, y - depth, y, **look)

@@ -22,6 +22,13 @@ def mass_on_spring(place: Which = 0, *, belt: float = 0.0) -> Drawing:
         [m] of the mass, 0 where the spring is relaxed, positive away from the wall.
     belt : float
         [m/s] the speed of the belt below the mass, whose marks move with it.
+
+    Examples
+    --------
+    >>> import saltus
+    >>> run = saltus.solve(lambda t, x: [x[1], -x[0]], (0, 1), [1.0, 0.0], dense_output=True)
+    >>> run.animate(saltus.drawings.mass_on_spring(), fps=10)
+    <Animation: 11 frames, 1 s at 10 frames a second>
     """
 
     def scale(film: Film) -> float:
@@ -64,6 +71,13 @@ def quarter_car(
         [m] the height of the road under the wheel; by default 0.
     radius : float
         [m] of the wheel.
+
+    Examples
+    --------
+    >>> import saltus
+    >>> run = saltus.solve(lambda t, x: [-x[0], -x[1]], (0, 1), [0.1, 0.05], dense_output=True)
+    >>> run.animate(saltus.drawings.quarter_car("x[0]", "x[1]"), fps=10)
+    <Animation: 11 frames, 1 s at 10 frames a second>
     """
     rest, thick = 3.2 * radius, 1.2 * radius
 

@@ -28,6 +28,13 @@ def rimless_wheel(
         [rad] of the ground.
     event : str
         The name of the event at which the next spoke takes over; it is counted.
+
+    Examples
+    --------
+    >>> import saltus
+    >>> run = saltus.scene("rimless-wheel").simulate(dense_output=True)
+    >>> run.animate(saltus.drawings.rimless_wheel(), speed=31.0, fps=10)
+    <Animation: 11 frames, 1 s at 10 frames a second...>
     """
     spokes = max(round(np.pi / alpha), 2)
     step = 2.0 * np.sin(alpha)  # along the ground, from spoke to spoke
@@ -39,14 +46,14 @@ def rimless_wheel(
 
     def draw(ax: Any, now: Moment) -> None:
         foot, theta = now.fired(event) * step * downhill, pick(now, angle)
-        hub = foot + [np.sin(theta), np.cos(theta)]
+        hub = foot + np.array([np.sin(theta), np.cos(theta)])
         # the picture moves with the wheel, and marks on the ground show that
-        middle = hub - [np.sin(slope), np.cos(slope)]
+        middle = hub - np.array([np.sin(slope), np.cos(slope)])
         far = np.array([-3.0, 3.0])
         along = middle + far[:, None] * downhill
         ground(ax, along[:, 0] - hub[0], along[:, 1] - hub[1] + 0.6, 0.25)
         for k in range(now.fired(event) - 3, now.fired(event) + 5):
-            mark = k * step * downhill - hub + [0.0, 0.6]
+            mark = k * step * downhill - hub + np.array([0.0, 0.6])
             ax.plot(*mark, marker="|", color=ORANGE, markersize=7, markeredgewidth=1.5)
         for k in range(spokes):
             turn = theta + 2.0 * alpha * k

@@ -16,7 +16,14 @@ __all__ = ["Pictures"]
 
 
 class Pictures:
-    """The part of `Results` that draws."""
+    """The part of `Results` that draws.
+
+    Examples
+    --------
+    >>> import saltus
+    >>> saltus.scene("bouncing-ball").simulate().plot_phase().get_ylabel()
+    'y[1]'
+    """
 
     def plot(self, *names: str, ax: Any = None, backend: str = "matplotlib", **style: Any) -> Any:
         """Draws recorded signals over time. Needs matplotlib or plotly.
@@ -126,7 +133,7 @@ class Pictures:
         Examples
         --------
         >>> import saltus
-        >>> tanks = saltus.scene("water-tanks", t_end=5.0).simulate()
+        >>> tanks = saltus.scene("water-tanks", t_end=7.0).simulate()
         >>> [label.get_text() for label in tanks.plot_events().get_yticklabels()]
         ['tanks.second_low', 'tanks.first_low']
         """

@@ -89,7 +89,8 @@ def view(
         for name, value in given.items():
             if value is not None:
                 raise ModelError(f"view: {name}: these results come from a run that is over")
-        return written(made_page(what, None, title, "", draw, speed), path, browse)
+        text = made_page(what, _system_of(what), title, "", draw, speed)
+        return written(text, path, browse)
     target = _target(path)  # refuses a wrong name before a run
     chosen = _scene_of(what)
     system = chosen if isinstance(chosen, System) else chosen.system
@@ -112,19 +113,22 @@ def view_results(
     browse: bool | None,
 ) -> Path:
     """Writes the page for `Results.view`."""
-    if system is None:
-        known = getattr(results, "system", None) or results._asks
-        system = known if isinstance(known, System) else None
     target = _target(path)
-    text = made_page(results, system, title, "", draw, None)
+    text = made_page(results, system or _system_of(results), title, "", draw, None)
     return written(text, target, browse if browse is not None else path is None)
+
+
+def _system_of(results: Results) -> System | None:
+    """The system of a run, where the results know it."""
+    known = getattr(results, "system", None) or results._asks
+    return known if isinstance(known, System) else None
 
 
 def _scene_of(what: Any) -> Any:
     """A scene or a system."""
     if isinstance(what, (str, os.PathLike)):
         name = os.fspath(what)
-        if str(name).lower().endswith(FILES) or name not in shelf() and os.path.exists(name):
+        if str(name).lower().endswith(FILES) or (name not in shelf() and os.path.exists(name)):
             return load_scene(name)
         return scene(str(name))
     if isinstance(what, System) or all(hasattr(what, n) for n in ("system", "context", "t_span")):

@@ -2,6 +2,7 @@
 
 import subprocess
 import sys
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -88,7 +89,7 @@ def test_an_event_has_two_frames_at_its_own_time(ball):
     assert shown(animation) == [(t, side) for t in bounces for side in ("left", "right")]
     np.testing.assert_allclose(bounces, [1.0, 2.0, 2.5], atol=1e-9)
     film = list(animation.film)
-    for before, after in zip(film, film[1:], strict=False):
+    for before, after in pairwise(film):
         if before.events and before.side == "left":
             assert after.side == "right" and after.time == before.time
             assert before["x"][1] == pytest.approx(-after["x"][1] / E)
@@ -99,9 +100,7 @@ def test_slow_motion_stretches_the_film_around_events_only(ball):
     """Each window of 2 w takes 2 w / factor: three bounces whose windows do not meet."""
     window, factor, fps = 0.05, 0.1, 100.0
     plain = ball.animate(nothing, fps=fps).film
-    slow = ball.animate(
-        nothing, fps=fps, slow_motion={"bounce": factor}, slow_window=window
-    ).film
+    slow = ball.animate(nothing, fps=fps, slow_motion={"bounce": factor}, slow_window=window).film
     more = 3 * 2 * window * (1.0 / factor - 1.0)  # [s]
     assert len(slow) - len(plain) == pytest.approx(more * fps, abs=1)
     steps = np.diff(slow.times) * fps
@@ -173,7 +172,9 @@ def test_rows_that_are_close_enough_do_without_dense_output():
 
 
 def test_rows_that_are_too_far_apart_are_refused():
-    with pytest.raises(ModelError, match="dense_output=True, or with rows at save_at times"):
+    with pytest.raises(
+        ModelError, match="run it with dense_output=True, or with rows at save_at times"
+    ):
         fall(dense_output=False).animate(nothing)
 
 
@@ -208,7 +209,9 @@ def test_a_plain_function_draws(ball):
     (mine,) = ax.plot([0, 1], [0, 1])
     animation = ball.animate(lambda ax, now: ax.text(0, 0, f"{now.time:.2f}"), ax=ax)
     animation.show_frame(3)
-    assert mine in ax.lines and [t.get_text() for t in ax.texts] == [f"{animation.film[3].time:.2f}"]
+    assert mine in ax.lines and [t.get_text() for t in ax.texts] == [
+        f"{animation.film[3].time:.2f}"
+    ]
 
 
 def test_the_title_says_time_side_and_event(ball):
@@ -225,7 +228,7 @@ def test_html_needs_nothing_from_elsewhere(ball, tmp_path):
     animation.save(tmp_path / "ball.html")
     text = (tmp_path / "ball.html").read_text()
     assert text.startswith("<!DOCTYPE html>") and text.count("data:image/png;base64") == 14
-    for sign in ("http://", "https://", "<link", " src=\"/", "@import", "fa-play"):
+    for sign in ("http://", "https://", "<link", ' src="/', "@import", "fa-play"):
         assert sign not in text, sign
     assert "anim-slider" in animation._repr_html_()
 
@@ -268,7 +271,7 @@ def test_wrong_options_are_named(ball, options, says):
 def test_wrong_drawings_and_files_are_named(ball, tmp_path):
     with pytest.raises(ModelError, match=r"expected a function draw\(ax, now\)"):
         ball.animate("ball")
-    with pytest.raises(ModelError, match="expected a name that ends in .html, .gif"):
+    with pytest.raises(ModelError, match=r"expected a name that ends in \.html, \.gif"):
         ball.animate(nothing).save(tmp_path / "ball.svg")
     with pytest.raises(IndexError, match="frame 79 of 79"):
         ball.animate(nothing).film[79]

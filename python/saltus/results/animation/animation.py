@@ -12,6 +12,7 @@ import numpy as np
 
 from saltus.errors import ModelError
 from saltus.results.animation.film import Film, film_of
+from saltus.results.animation.gif import write_gif
 from saltus.results.animation.player import page, player
 from saltus.results.animation.schedule import Schedule, schedule_of, slow_spans
 from saltus.results.record import FIRINGS
@@ -128,8 +129,8 @@ class Animation:
         ----------
         path : str or path
             The suffix says what is written: '.html', one page that needs nothing else; '.gif', by
-            pillow, which comes with matplotlib, or '.png' and '.webp'; '.mp4', '.mov' and '.mkv',
-            for which ffmpeg is needed.
+            pillow, which comes with matplotlib, with 64 colours and times in hundredths of a
+            second; '.png' and '.webp'; '.mp4', '.mov' and '.mkv', for which ffmpeg is needed.
         dpi : float
             Pixels an inch of the figure; not for '.html'.
 
@@ -142,10 +143,15 @@ class Animation:
         if suffix in (".html", ".htm"):
             Path(path).write_text(page(Path(path).stem, self.to_jshtml()), encoding="utf-8")
             return
+        if suffix == ".gif":
+            write_gif(path, self.show_frame, len(self.film), self.fps, dpi)
+            return
         self.func_animation.save(path, writer=_writer(suffix, self.fps), dpi=dpi)
 
     def _repr_html_(self) -> str:
-        return self.to_jshtml()
+        text = self.to_jshtml()
+        extra("matplotlib.pyplot", "animate").close(self.figure)  # or a notebook shows it again
+        return text
 
     def __repr__(self) -> str:
         last = (len(self.film) - 1) / self.fps
@@ -205,13 +211,13 @@ def _schedule(
 
 def _axes() -> Any:
     plt = extra("matplotlib.pyplot", "animate")
-    figure, ax = plt.subplots(figsize=(5.0, 3.6), layout="constrained")
+    _, ax = plt.subplots(figsize=(5.0, 3.6), layout="constrained")
     return ax
 
 
 def _writer(suffix: str, fps: float) -> Any:
     library = extra("matplotlib.animation", "animate")
-    if suffix in (".gif", ".png", ".apng", ".webp"):
+    if suffix in (".png", ".apng", ".webp"):
         return library.PillowWriter(fps=fps)
     if suffix not in (".mp4", ".mov", ".mkv"):
         raise ModelError(
