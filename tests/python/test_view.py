@@ -60,12 +60,13 @@ def browser(monkeypatch):
 
 
 def test_a_scene_with_a_drawing(tmp_path, browser):
+    open_before = plt.get_fignums()
     path = saltus.view("newtons-cradle", path=tmp_path / "cradle.html")
     text, page = read(path)
     assert page.headings == ["Film", "Plots", "Diagram", "Events", "Statistics"]
     assert "12 events" in text and "five balls" in text
     assert text.count("cradle.impact</td>") == 12
-    assert browser == [] and plt.get_fignums() == []
+    assert browser == [] and plt.get_fignums() == open_before
 
 
 def test_a_smooth_scene_has_neither_film_nor_events(tmp_path):
