@@ -151,7 +151,9 @@ def _by_matplotlib(
         _, ax = plt.subplots(figsize=(5.6, 4.0), layout="constrained")
     across, up = np.argsort(x), np.argsort(y)
     mesh = np.ma.masked_invalid(values[np.ix_(up, across)])
-    drawn = ax.pcolormesh(x[across], y[up], mesh, **({"shading": "nearest"} | style))
+    drawn = ax.pcolormesh(
+        x[across], y[up], mesh, **({"shading": "nearest", "rasterized": True} | style)
+    )
     rows, columns = np.nonzero(failed)
     if len(rows):
         ax.plot(x[columns], y[rows], "x", color="#b3261e", markersize=5)

@@ -240,6 +240,15 @@ def test_a_gif_has_the_frames(ball, tmp_path):
     with Image.open(tmp_path / "ball.gif") as image:
         assert image.n_frames == len(animation.film) == 27
         assert image.info["duration"] == 100  # [ms]
+        assert image.convert("RGB").getpixel((1, 1)) == (255, 255, 255)
+
+
+def test_curves_keep_their_colour(ball):
+    """Each frame draws them anew, with the first colour of the cycle."""
+    animation = ball.animate(lambda ax, now: ax.plot([0, 1], [0, 1]), fps=10)
+    ax = animation.figure.axes[0]
+    colours = {animation.show_frame(k).axes[0].lines[0].get_color() for k in range(4)}
+    assert len(colours) == 1 and len(ax.lines) == 1
 
 
 def test_matplotlib_has_its_own_animation(ball):

@@ -81,6 +81,7 @@ class Animation:
         for artist in self._ax.get_children():
             if artist not in self._fixed:
                 artist.remove()
+        self._ax.set_prop_cycle(None)  # a curve has the same colour in each frame
         self._draw(self._ax, moment)
         side = {"left": "x\u207b", "right": "x\u207a"}[moment.side]
         names = f"  {side} {', '.join(moment.events)}" if moment.events else ""

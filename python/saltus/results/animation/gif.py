@@ -12,6 +12,7 @@ from saltus.results.tables import extra
 __all__ = ["write_gif"]
 
 COLOURS = 64
+NEARLY_WHITE = 3 * 245  # of 3 * 255; the mean of white and the edges of letters
 SAMPLES = 16  # the number of frames from which the palette is made
 
 
@@ -48,4 +49,11 @@ def _palette(frames: list[Any]) -> Any:
     strip = image.new("RGB", (width, height * len(frames)))
     for k, frame in enumerate(frames):
         strip.paste(frame, (0, k * height))
-    return strip.quantize(COLOURS)
+    found = strip.quantize(COLOURS)
+    colours = found.getpalette()[: 3 * COLOURS]
+    brightest = max(range(0, len(colours), 3), key=lambda i: sum(colours[i : i + 3]))
+    if sum(colours[brightest : brightest + 3]) > NEARLY_WHITE:  # paper is white
+        colours[brightest : brightest + 3] = [255, 255, 255]
+    found.putpalette(colours)
+    found.load()  # only now the palette is that of the pixels
+    return found
