@@ -51,9 +51,10 @@ def _palette(frames: list[Any]) -> Any:
         strip.paste(frame, (0, k * height))
     found = strip.quantize(COLOURS)
     colours = found.getpalette()[: 3 * COLOURS]
-    brightest = max(range(0, len(colours), 3), key=lambda i: sum(colours[i : i + 3]))
-    if sum(colours[brightest : brightest + 3]) > NEARLY_WHITE:  # paper is white
-        colours[brightest : brightest + 3] = [255, 255, 255]
+    # pillow compares colours in steps of 4, so that a colour next to white could take its place
+    for i in range(0, len(colours), 3):
+        if sum(colours[i : i + 3]) > NEARLY_WHITE:
+            colours[i : i + 3] = [255, 255, 255]  # paper is white
     found.putpalette(colours)
     found.load()  # only now the palette is that of the pixels
     return found
