@@ -1,5 +1,5 @@
 """What MkDocs is told beyond mkdocs.yml: pages from outside docs/, links that hold on a site as in
-a checkout, fences that carry notes for the tests.
+a checkout, fences that carry notes for the tests, formulas.
 """
 
 import logging
@@ -14,6 +14,7 @@ ROOT = Path(__file__).parents[2]
 sys.path.insert(0, str(Path(__file__).parent))
 
 import cpp_reference  # noqa: E402
+import mathematics  # noqa: E402
 
 # parameters of compiled functions stand in the stubs, where griffe does not look for them
 logging.getLogger("mkdocs.plugins.griffe").addFilter(
@@ -27,6 +28,7 @@ PAGES = {
     "KNOWN_GAPS.md": "known_gaps.md",
     "CONTRIBUTING.md": "contributing.md",
 }
+FORMULAS = {}  # of the pages between their Markdown and their HTML
 FENCE = re.compile(r"^(```+[a-z]+)[ \t][^\n]*$", re.M)  # ```python continue
 CODE = re.compile(r"(^```.*?^```[ \t]*$)", re.M | re.S)
 SCENE = re.compile(r"^\| \[([\w-]+)\]\(([\w-]+)\.md\) \| (.*) \|\n", re.M)
@@ -51,8 +53,13 @@ def on_page_markdown(markdown, page, config, files):
     markdown = re.sub(r"^```text output.*$", "``` {.text .output}", markdown, flags=re.M)
     parts = CODE.split(FENCE.sub(r"\1", markdown))
     for i in range(0, len(parts), 2):  # the others are code
-        parts[i] = LINK.sub(lambda link: rewritten(link, origin, page), parts[i])
+        text = mathematics.take(parts[i], FORMULAS.setdefault(page.file.src_uri, []))
+        parts[i] = LINK.sub(lambda link: rewritten(link, origin, page), text)
     return "".join(parts)
+
+
+def on_page_content(html, page, config, files):
+    return mathematics.put(html, FORMULAS.pop(page.file.src_uri, []))
 
 
 def rewritten(link, origin, page):
