@@ -94,7 +94,7 @@ test_doctest() { pytest_tests doctest tests/packaging/test_docstrings.py; }
 
 test_docs() {
   venv docs -r docs/site/requirements.txt \
-    && pytest_tests site tests/packaging/test_site.py tests/packaging/test_site_seen.py tests/packaging/test_mathematics.py
+    && pytest_tests site tests/packaging/test_site.py tests/packaging/test_{course_pages,mathematics,site_seen}.py
 }
 
 test_typing() {

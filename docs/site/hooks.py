@@ -31,7 +31,7 @@ PAGES = {
 FORMULAS = {}  # of the pages between their Markdown and their HTML
 FENCE = re.compile(r"^(```+[a-z]+)[ \t][^\n]*$", re.M)  # ```python continue
 CODE = re.compile(r"(^```.*?^```[ \t]*$)", re.M | re.S)
-SCENE = re.compile(r"^\| \[([\w-]+)\]\(([\w-]+)\.md\) \| (.*) \|\n", re.M)
+SCENE = re.compile(r"^\| \[([\w -]+)\]\(([\w/-]+)\.md\) \| (.*) \|\n", re.M)
 LINK = re.compile(r"(!?)\[([^\]]*)\]\(([^)\s#]*)(#[^)\s]*)?\)")
 
 
@@ -88,6 +88,6 @@ def place_on_site(path):
 def gallery(markdown):
     """The tables of scenes as cards with their pictures."""
     card = r"- [![](\2.svg)<b>\1</b><br>\3](\2.md)\n"
-    rows = re.compile(r"^\| scene \| \|\n\| --- \| --- \|\n((?:\|.*\n?)+)", re.M)
+    rows = re.compile(r"^\| (?:scene|model) \| \|\n\| --- \| --- \|\n((?:\|.*\n?)+)", re.M)
     opened, closed = '<div class="gallery" markdown>\n\n', "\n</div>\n"
     return rows.sub(lambda table: opened + SCENE.sub(card, table[1]) + closed, markdown)

@@ -38,22 +38,23 @@ def with_gaps(results, values):
     return times, np.insert(values, jumps, np.nan, axis=0)
 
 
-def mark_events(axis, results):
-    """A tick on the time axis for each event, holds shaded."""
+def mark_events(axis, results, begin=-np.inf, end=np.inf):
+    """A tick on the time axis for each event between two times, holds shaded."""
     events = results.events
     times = np.unique(
         [round(e.time, 12) for e in events if e.kind in ("zero_crossing", "terminal")]
     )
+    times = times[(begin <= times) & (times <= end)]
     if len(times):
         axis.plot(
             times, 0 * times, "|", transform=axis.get_xaxis_transform(),
             color="tab:red", ms=5, mew=0.7, clip_on=False,
         )  # fmt: skip
-    begins = [e.time for e in events if e.kind == "zeno_enter"]
-    ends = [e.time for e in events if e.kind == "zeno_release"]
-    for begin in begins[:50]:
-        end = min([t for t in ends if t > begin], default=results.time[-1])
-        axis.axvspan(begin, end, color=SHADE, lw=0)
+    entered = [e.time for e in events if e.kind == "zeno_enter"]
+    left = [e.time for e in events if e.kind == "zeno_release"]
+    for enter in entered[:50]:
+        leave = min([t for t in left if t > enter], default=results.time[-1])
+        axis.axvspan(enter, leave, color=SHADE, lw=0)
 
 
 def save(figure, path):
