@@ -15,6 +15,7 @@ sys.path.insert(0, str(Path(__file__).parent))
 
 import cpp_reference  # noqa: E402
 import mathematics  # noqa: E402
+import names  # noqa: E402
 
 # parameters of compiled functions stand in the stubs, where griffe does not look for them
 logging.getLogger("mkdocs.plugins.griffe").addFilter(
@@ -32,13 +33,23 @@ FORMULAS = {}  # of the pages between their Markdown and their HTML
 FENCE = re.compile(r"^(```+[a-z]+)[ \t][^\n]*$", re.M)  # ```python continue
 CODE = re.compile(r"(^```.*?^```[ \t]*$)", re.M | re.S)
 SCENE = re.compile(r"^\| \[([\w -]+)\]\(([\w/-]+)\.md\) \| (.*) \|\n", re.M)
+TABLE = re.compile(r"<table(>.*?</table>)", re.S)
+CELL = re.compile(r"<td.*?</td>", re.S)
 LINK = re.compile(r"(!?)\[([^\]]*)\]\(([^)\s#]*)(#[^)\s]*)?\)")
+
+
+def on_config(config):
+    version = re.search(
+        r"^project\(saltus VERSION ([\d.]+)", (ROOT / "CMakeLists.txt").read_text(), re.M
+    )
+    config.copyright = f"Saltus {version[1]}"  # in the foot of each page
+    return config
 
 
 def on_files(files, config):
     for source, target in PAGES.items():
         files.append(File.generated(config, target, content=(ROOT / source).read_text()))
-    for path, text in cpp_reference.pages(ROOT):
+    for path, text in [*cpp_reference.pages(ROOT), names.page(ROOT)]:
         files.append(File.generated(config, path, content=text))
     return files
 
@@ -59,7 +70,15 @@ def on_page_markdown(markdown, page, config, files):
 
 
 def on_page_content(html, page, config, files):
+    html = TABLE.sub(marked, html)
     return mathematics.put(html, FORMULAS.pop(page.file.src_uri, []))
+
+
+def marked(table):
+    """A table of many columns and long texts gets a mark: on a telephone its columns are wider."""
+    cells = [re.sub(r"<[^>]*>", "", cell) for cell in CELL.findall(table[0])]
+    many = table[0].partition("</tr>")[0].count("<th") > 3
+    return f"<table data-wide{table[1]}" if many and max(map(len, cells)) > 60 else table[0]
 
 
 def rewritten(link, origin, page):

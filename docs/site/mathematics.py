@@ -24,9 +24,11 @@ WORDS = re.compile(r"(<p>)?xFormula(\d+)x(?(1)</p>)")
 ALIGN = re.compile(r'<mtd columnalign="(\w+)"')  # which Chromium does not read
 UNREAD = re.compile(r"\\|<m[io]>&(amp;)?</m[io]>")  # commands that the converter does not know
 # the space of TeX between a function and an argument without brackets, on either side
-BEFORE = re.compile(r"(</m(?:i|n|row|sub|sup)>)(<mi>(?:sin|cos|tan|exp|ln|log)</mi>)")
-AFTER = re.compile(r"(?<!<msup>)(?<!<msub>)(<mi>(?:sin|cos|tan|exp|ln|log)</mi>)(?=<m[ins])")
+FUNCTION = r"(<mi>(?:arc)?(?:sin|cos|tan|exp|ln|log|sign)</mi>)"
+BEFORE = re.compile(rf"(</m(?:i|n|row|sub|sup)>){FUNCTION}")
+AFTER = re.compile(rf"(?<!<msup>)(?<!<msub>){FUNCTION}(?=<m[ins])")
 THIN = '<mspace width="0.17em" />'
+SIGN = re.compile(r"(<mo>&#x0003D;</mo>)<mo>(?=&#x02212;)")  # of a number, no difference
 
 
 def mathml(tex, own=False):
@@ -37,6 +39,7 @@ def mathml(tex, own=False):
     if unread := UNREAD.search(text):
         raise refused(tex, text[max(unread.start() - 20, 0) :][:60])
     text = AFTER.sub(rf"\1{THIN}", BEFORE.sub(rf"\1{THIN}\2", text))
+    text = SIGN.sub(r'\1<mo form="prefix">', text)
     text = ALIGN.sub(r'\g<0> style="text-align: \1"', text)
     return f'<div class="formula">{text}</div>' if own else text
 

@@ -46,6 +46,11 @@ def test_a_function_has_a_space_before_what_has_no_brackets():
     assert "<mi>sin</mi><mspace" in text and "<msup><mi>sin</mi><mn>2</mn></msup>" in text
 
 
+def test_the_sign_of_a_number_is_no_difference():
+    assert '<mo form="prefix">' in mathematics.mathml("a = -b")
+    assert "prefix" not in mathematics.mathml("a - b")
+
+
 @pytest.mark.parametrize("text", ["`$x$`", "``a ` $x$``", "5 $ and 6 $", "from $5 to $6", "$ x $"])
 def test_what_is_no_formula_stays(text):
     found = []

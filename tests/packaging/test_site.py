@@ -35,6 +35,31 @@ def test_it_can_be_searched(site):
     assert {"semantics.html", "blocks.html", "api/runs.html"} <= places
 
 
+def test_every_page_has_the_version(site):
+    import saltus
+
+    bare = [
+        p.name
+        for p in site.glob("**/*.html")
+        if f"Saltus {saltus.__version__}" not in p.read_text()
+    ]
+    assert not bare
+
+
+def test_names_of_other_programs_lead_to_ours(site):
+    text = re.sub(r"</?code>", "", (site / "names.html").read_text())
+    for name, program, here in (
+        ("Sum", "Simulink", "Adder"),
+        ("Unit Delay", "Simulink", "UnitDelay"),
+        ("ConstantVectorSource", "Drake", "Constant"),
+        ("Nonlinear.Limiter", "Modelica", "Saturate"),
+        ("FeedthroughBlock", "Collimator", "FunctionBlock"),
+        ("MakeWitnessFunction with an event", "Drake", "declare_zero_crossing(guard"),
+    ):
+        row = rf"<td>{re.escape(name)}.*?</td>\s*<td>{program}</td>\s*<td>{re.escape(here)}"
+        assert re.search(row, text), f"{name} of {program} is not {here}"
+
+
 def test_every_public_name_is_in_the_reference(site):
     import saltus
 

@@ -78,8 +78,8 @@ def page(name):
         table(["event", "times", f"first [{text.get('unit', 's')}]"], events(results)),
         table(["parameter", "value", "unit", ""], parameters(scene)),
         "## Its law",
-        f"{text['law']} `tests/python/scene_files/test_file_models.py` tests it,\n"
-        "and that the file and the script below give the same bits.",
+        f"{text['law']} A test compares it.\n"
+        "Another compares the file with the script below to the last bit.",
         "## Source",
         text["source"],
         "## As a file",
