@@ -25,10 +25,12 @@ ALIGN = re.compile(r'<mtd columnalign="(\w+)"')  # which Chromium does not read
 UNREAD = re.compile(r"\\|<m[io]>&(amp;)?</m[io]>")  # commands that the converter does not know
 # the space of TeX between a function and an argument without brackets, on either side
 FUNCTION = r"(<mi>(?:arc)?(?:sin|cos|tan|exp|ln|log|sign)</mi>)"
-BEFORE = re.compile(rf"(</m(?:i|n|row|sub|sup)>){FUNCTION}")
-AFTER = re.compile(rf"(?<!<msup>)(?<!<msub>){FUNCTION}(?=<m[ins])")
+BEFORE = re.compile(rf"(</m(?:i|n|row|sub|sup)>)((?:<msup>|<msub>)?{FUNCTION})")
+AFTER = re.compile(rf"(?<!<msup>)(?<!<msub>){FUNCTION}(?=<m[inst])")
 THIN = '<mspace width="0.17em" />'
-SIGN = re.compile(r"(<mo>&#x0003D;</mo>)<mo>(?=&#x02212;)")  # of a number, no difference
+SIGN = re.compile(
+    r"(<mo[^>]*>(?:&#x0003D;|&#x02264;|&#x02265;|&#x00028;|,)</mo>|</mtext>)<mo>(?=&#x02212;)"
+)  # of a number, no difference
 
 
 def mathml(tex, own=False):

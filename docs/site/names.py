@@ -62,19 +62,27 @@ def key(row):
 
 
 def index(root):
-    """All rows, by name."""
+    """All rows, by name; programs that give a thing one name share a row."""
     found = list(of_blocks((root / "docs" / "blocks.md").read_text()))
     for program in PROGRAMS:
         text = (root / "docs" / "coming_from" / f"{program}.md").read_text()
         found += of_program(text.replace("](../", "]("))
-    return sorted(dict.fromkeys(found), key=key)
+    merged = {}
+    for name, program, here in found:
+        merged.setdefault((name.strip("`"), here), []).append((name, program))
+    rows = []
+    for (_, here), there in merged.items():
+        programs = ", ".join(dict.fromkeys(program for _, program in there))
+        rows.append((there[0][0], programs, here))
+    return sorted(rows, key=key)
 
 
 def page(root):
     """(path, markdown) of the index, a heading for each letter."""
     lines, letter = [TEXT], None
     for name, program, here in index(root):
-        if (first := key((name, program))[0][:1].upper()) != letter:
+        first = key((name, program))[0][:1].upper()
+        if (first := "0-9" if first.isdigit() else first) != letter:
             letter = first
             lines.append(f"\n## {letter}\n\n| there | in | here |\n| --- | --- | --- |")
         lines.append(f"| {name} | {program} | {here} |")
