@@ -28,9 +28,8 @@ FUNCTION = r"(<mi>(?:arc)?(?:sin|cos|tan|exp|ln|log|sign)</mi>)"
 BEFORE = re.compile(rf"(</m(?:i|n|row|sub|sup)>)((?:<msup>|<msub>)?{FUNCTION})")
 AFTER = re.compile(rf"(?<!<msup>)(?<!<msub>){FUNCTION}(?=<m[inst])")
 THIN = '<mspace width="0.17em" />'
-SIGN = re.compile(
-    r"(<mo[^>]*>(?:&#x0003D;|&#x02264;|&#x02265;|&#x00028;|,)</mo>|</mtext>)<mo>(?=&#x02212;)"
-)  # of a number, no difference
+# after these a minus is the sign of a number, no difference
+SIGN = re.compile(r"(<mo[^>]*>(?:&#x0003D;|&#x02264;|&#x02265;|&#x00028;|,)</mo>)<mo>(?=&#x02212;)")
 
 
 def mathml(tex, own=False):

@@ -48,7 +48,8 @@ def test_a_function_has_a_space_before_what_has_no_brackets():
 
 def test_the_sign_of_a_number_is_no_difference():
     assert '<mo form="prefix">' in mathematics.mathml("a = -b")
-    assert "prefix" not in mathematics.mathml("a - b")
+    assert '<mo form="prefix">' in mathematics.mathml("(-b)")
+    assert "prefix" not in mathematics.mathml(r"a - b + \text{heater} - T")
 
 
 @pytest.mark.parametrize("text", ["`$x$`", "``a ` $x$``", "5 $ and 6 $", "from $5 to $6", "$ x $"])
