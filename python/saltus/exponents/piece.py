@@ -43,6 +43,8 @@ class Piece:
     """[s]"""
     end: _core.Context
     has_events: bool
+    rested: bool
+    """whether a block came to rest in it: then nothing is left of its directions"""
 
 
 class Pieces:
@@ -72,7 +74,8 @@ class Pieces:
         refuse_gap(self.runs.where, results, self.names, derivatives)
         self._require_labels(derivatives, end)
         elapsed = end.time - begin.time
-        return Piece(derivatives[self.active], elapsed, end, len(results.events) > 0)
+        rested = any(e.kind == "zeno_enter" for e in results.events)
+        return Piece(derivatives[self.active], elapsed, end, len(results.events) > 0, rested)
 
     def _moving(self, begin: _core.Context, duration: float, latest: float) -> Results:
         """The run to the first end at which no block is at rest."""

@@ -81,7 +81,7 @@ def _divided(
         piece = pieces.run(context, duration, end)
         turned, grown = _orthonormal(piece.matrix @ frame)
         apart = _apart(grown, lost)
-        shortest = duration <= longest * 2.0**-DIVISIONS
+        shortest = piece.rested or duration <= longest * 2.0**-DIVISIONS
         if apart <= MOST or (shortest and not piece.has_events):
             return piece, turned, grown
         if shortest:

@@ -62,15 +62,28 @@ class Pulled(saltus.LeafSystem):
         )
 
 
-def test_a_gap_has_its_event_time_and_reason():
-    def push(t, state):
-        return state.with_continuous_state(0.9 * state.continuous_state)
+class Twins(saltus.LeafSystem):
+    """Two states that fall to 0 together, each with a guard of its own."""
 
+    def __init__(self):
+        super().__init__(name="twins")
+        self.declare_continuous_state([1.0, 1.0], ode=lambda t, s: [-1.0, -1.0])
+        for i in (0, 1):
+            self.declare_zero_crossing(
+                lambda t, s, i=i: s.continuous_state[i],
+                lambda t, s: s.with_continuous_state([1.0, 1.0]),
+                name=f"floor{i}",
+                direction="positive_then_non_positive",
+            )
+
+
+def test_a_gap_has_its_event_time_and_reason():
     with pytest.raises(saltus.SimulationError) as caught:
-        saltus.lyapunov(Pulled(-1.0 + 1e-13, push), time=10.0)
+        saltus.lyapunov(Twins(), time=1.7)
     text = str(caught.value)
-    assert "there is no derivative by 'x[0]' at the event 'pulled.edge'" in text
-    assert "grazes zero" in text and abs(caught.value.time - np.pi) < 1e-5
+    assert "there is no derivative by 'x[0]' at the event 'twins.floor" in text
+    assert "another event happens at the same time" in text
+    np.testing.assert_allclose(caught.value.time, 1.0, rtol=1e-12)
 
 
 def test_a_run_that_ends_early():
