@@ -22,7 +22,8 @@ def standard_errors(durations: np.ndarray, logs: np.ndarray) -> np.ndarray:
     variance of the mean is that of the B means divided by B - 1 (G. Fishman, Monte Carlo, Springer
     1996, section 6.3). 0 for a direction of which nothing is left, inf with too few pieces.
     """
-    return np.max([_by_batches(durations, logs, count) for count in BATCHES], axis=0)
+    batches = [_by_batches(durations, logs, count) for count in BATCHES]
+    return np.asarray(np.max(batches, axis=0))
 
 
 def _by_batches(durations: np.ndarray, logs: np.ndarray, count: int) -> np.ndarray:

