@@ -1,4 +1,4 @@
-"""A field or property of a result that promises a number has one, and no array without dimension."""
+"""A field or property of a result that promises a number has one, no array without dimension."""
 
 import inspect
 
