@@ -6,9 +6,13 @@ tries COUNT new stories, in batches of their own seeds: Hypothesis keeps what it
 """
 
 import sys
+from pathlib import Path
 
 import numpy as np
 import saltus
+
+sys.path.append(str(Path(__file__).parents[1]))  # where `places` is, if no pytest says so
+
 from draw_effects import build, stories
 from hypothesis import HealthCheck, given, note, seed, settings
 
@@ -51,7 +55,7 @@ def check_one_answer(story) -> None:
 
 
 def try_stories(count: int, first_seed: int = 0) -> int:
-    """Tries `count` stories; returns how many ran. AssertionError, with the story, where one fails."""
+    """Tries `count` stories; returns how many ran. AssertionError where one fails: it is printed."""
     ran = 0
 
     def check(story):
