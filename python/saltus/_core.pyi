@@ -617,6 +617,9 @@ class MassWithFriction(System):
         /,
     ) -> None: ...
 
+class RigidBody(System):
+    def __init__(self, name: str, mass: float, inertia: object, gravity: object, position: object, velocity: object, orientation: object, rates: object, /) -> None: ...
+
 class Derivative(System):
     def __init__(self, arg0: str, arg1: Any, arg2: Any, /) -> None: ...
 

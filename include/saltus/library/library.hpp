@@ -52,6 +52,7 @@
 #include "saltus/library/reciprocal.hpp"
 #include "saltus/library/reduce_block.hpp"
 #include "saltus/library/relay.hpp"
+#include "saltus/library/rigid_body.hpp"
 #include "saltus/library/saturate.hpp"
 #include "saltus/library/sawtooth.hpp"
 #include "saltus/library/scalar_broadcast.hpp"

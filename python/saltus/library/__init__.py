@@ -40,7 +40,7 @@ from saltus.library.logic import (
     Switch,
 )
 from saltus.library.maps import Exponent, Logarithm, Power, Reciprocal, SquareRoot, Trigonometric
-from saltus.library.mechanics import Backlash, MassWithFriction
+from saltus.library.mechanics import Backlash, MassWithFriction, RigidBody
 from saltus.library.noise import RandomNumber, WhiteNoise
 from saltus.library.nonlinear import DeadZone, LookupTable1d, LookupTable2d, MinMax, Quantizer, Sign
 from saltus.library.signals import Chirp, DataSource, Sawtooth
@@ -110,6 +110,7 @@ __all__ = [
     "Reciprocal",
     "ReduceBlock",
     "Relay",
+    "RigidBody",
     "Saturate",
     "Sawtooth",
     "ScalarBroadcast",
