@@ -27,8 +27,8 @@ void bind_mechanics(py::module_& module) {
         const Arguments of(name);
         const auto vector = [&](const py::object& numbers, std::string_view what, Index n) {
           const Eigen::VectorXd found = of.value(numbers, what).values;
-          detail::insist(found.size() == n, name, what, " has ", found.size(),
-                         " values; expected ", n);
+          detail::insist(found.size() == n, name, what, " has ", found.size(), " values; expected ",
+                         n);
           return found;
         };
         const Eigen::MatrixXd j = of.matrix(inertia, "inertia");

@@ -2,8 +2,8 @@
 #include "saltus/library/rigid_body.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <type_traits>
 
 #include "saltus/library/detail/arguments.hpp"
 
@@ -21,6 +21,47 @@ void require_sound(const std::string& block, const RigidBodyOptions& o) {
                  "; expected a quaternion (w, x, y, z) that is not 0");
 }
 
+/// The derivative of entry i of (p, v, q, w): as a formula it has an exact Jacobian and a series.
+struct Motion {
+  ParameterIndex mass, gravity;
+  Eigen::Matrix3d inertia, inverse;
+
+  template <class Values>
+  auto operator()(const Values& at, Index i) const {
+    using Number = std::decay_t<decltype(at.x(0) + at.u(0, 0))>;
+    if (i < 3) return Number(at.x(3 + i));
+    if (i < 6) return Number(at.u(0, i - 3) / at.p(mass, 0) + at.p(gravity, i - 3));
+    return i < 10 ? Number(turn(at, i - 6)) : Number(spin(at, i - 10));
+  }
+
+  /// Entry i of q (0, w) / 2 + (1 - q.q) q / 2, with the vector part behind entry 0.
+  template <class Values>
+  auto turn(const Values& at, Index i) const {
+    const auto q = [&](Index k) { return at.x(6 + k); };
+    const auto w = [&](Index k) { return at.x(10 + k % 3); };
+    const auto norm = q(0) * q(0) + q(1) * q(1) + q(2) * q(2) + q(3) * q(3);
+    const auto back = 0.5 * (1.0 - norm) * q(i);
+    using Number = std::decay_t<decltype(back)>;
+    if (i == 0) return Number(-0.5 * (q(1) * w(0) + q(2) * w(1) + q(3) * w(2)) + back);
+    const Index j = i % 3, k = (i + 1) % 3;  // the axes behind i - 1
+    return Number(0.5 * (q(0) * w(i - 1) + q(1 + j) * w(k) - q(1 + k) * w(j)) + back);
+  }
+
+  /// Entry i of J^-1 (T - w x J w).
+  template <class Values>
+  auto spin(const Values& at, Index i) const {
+    const auto w = [&](Index k) { return at.x(10 + k); };
+    const auto momentum = [&](Index k) {
+      return inertia(k, 0) * w(0) + inertia(k, 1) * w(1) + inertia(k, 2) * w(2);
+    };
+    const auto torque = [&](Index k) {
+      const Index a = (k + 1) % 3, b = (k + 2) % 3;
+      return at.u(1, k) - (w(a) * momentum(b) - w(b) * momentum(a));
+    };
+    return inverse(i, 0) * torque(0) + inverse(i, 1) * torque(1) + inverse(i, 2) * torque(2);
+  }
+};
+
 }  // namespace
 
 RigidBody::RigidBody(std::string name, const Options& options) : LeafSystem(std::move(name)) {
@@ -33,21 +74,10 @@ RigidBody::RigidBody(std::string name, const Options& options) : LeafSystem(std:
   Eigen::VectorXd initial(13);
   initial << options.initial_position, options.initial_velocity,
       options.initial_orientation.normalized(), options.initial_rates;
-  const Eigen::Matrix3d inertia = options.inertia, inverse = inertia.inverse();
-  const auto motion = [=](const At& at, VectorRef xdot) {
-    const Eigen::Vector3d rates = at.x.tail<3>(), torque = at.u[1];
-    const double w = at.x[6];
-    const Eigen::Vector3d axis = at.x.segment<3>(7);
-    xdot.head<3>() = at.x.segment<3>(3);
-    xdot.segment<3>(3) = at.u[0] / at.p[mass] + at.parameter(gravity);
-    const double back = 0.5 * (1.0 - at.x.segment<4>(6).squaredNorm());  // 0 for a unit quaternion
-    xdot[6] = -0.5 * axis.dot(rates) + back * w;
-    xdot.segment<3>(7) = 0.5 * (w * rates + axis.cross(rates)) + back * axis;
-    xdot.tail<3>() = inverse * (torque - rates.cross(inertia * rates));
-  };
-  declare_continuous_state({.initial = initial,
-                            .ode = motion,
-                            .reads = Reads::continuous_state | Reads::inputs});
+  declare_continuous_state(
+      {.initial = initial,
+       .reads = Reads::continuous_state | Reads::inputs,
+       .formula = Motion{mass, gravity, options.inertia, options.inertia.inverse()}});
   const auto show = [this](const char* output, Index first, Index size) {
     declare_output_port({.name = output,
                          .shape = Shape::of(size),

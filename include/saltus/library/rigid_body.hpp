@@ -13,13 +13,13 @@
 namespace saltus {
 
 struct RigidBodyOptions {
-  double mass = 1.0;                                          ///< [kg] > 0
-  Eigen::Matrix3d inertia = Eigen::Matrix3d::Identity();      ///< J [kg m^2], symmetric, positive
-  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();          ///< g [m/s^2]
+  double mass = 1.0;                                           ///< [kg] > 0
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Identity();       ///< J [kg m^2], symmetric, positive
+  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();           ///< g [m/s^2]
   Eigen::Vector3d initial_position = Eigen::Vector3d::Zero();  ///< [m]
   Eigen::Vector3d initial_velocity = Eigen::Vector3d::Zero();  ///< [m/s]
-  Eigen::Vector4d initial_orientation{1.0, 0.0, 0.0, 0.0};    ///< a quaternion, made unit
-  Eigen::Vector3d initial_rates = Eigen::Vector3d::Zero();    ///< [rad/s]
+  Eigen::Vector4d initial_orientation{1.0, 0.0, 0.0, 0.0};     ///< a quaternion, made unit
+  Eigen::Vector3d initial_rates = Eigen::Vector3d::Zero();     ///< [rad/s]
 };
 
 class RigidBody final : public LeafSystem {

@@ -106,9 +106,9 @@ class RigidBody(Block, _core.RigidBody):
     Inputs: `force`, F [N] in the axes of the world, and `torque`, T [N m] in the axes of the body,
     3 each. Outputs: `position` p [m] and `velocity` v [m/s] in the axes of the world, 3 each;
     `orientation`, the quaternion q (w, x, y, z) that turns vectors of the body into those of the
-    world, 4; `rates`, w [rad/s] in the axes of the body, 3. A term (1 - q.q) q / 2 of dq/dt, 0 for a
-    unit quaternion, draws the norm of q back to 1 at the rate of 1 /s, so that errors of the solver
-    do not add up in it. Euler's equations: Goldstein, Classical Mechanics, section 5.5.
+    world, 4; `rates`, w [rad/s] in the axes of the body, 3. A term (1 - q.q) q / 2 of dq/dt, 0 for
+    a unit quaternion, draws the norm of q back to 1 at the rate of 1 /s, so that errors of the
+    solver do not add up in it. Euler's equations: Goldstein, Classical Mechanics, section 5.5.
 
     Parameters
     ----------
