@@ -46,6 +46,7 @@ from saltus.library.nonlinear import DeadZone, LookupTable1d, LookupTable2d, Min
 from saltus.library.signals import Chirp, DataSource, Sawtooth
 from saltus.library.sources import Clock, Constant, Pulse, Ramp, Sine, Step
 from saltus.library.state import Integrator, SecondOrderIntegrator
+from saltus.library.state_machine import StateMachine, Transition
 from saltus.library.vectors import (
     CrossProduct,
     Demultiplexer,
@@ -120,12 +121,14 @@ __all__ = [
     "Slice",
     "SourceBlock",
     "SquareRoot",
+    "StateMachine",
     "Step",
     "Stop",
     "SumOfElements",
     "Switch",
     "TransferFunction",
     "TransferFunctionDiscrete",
+    "Transition",
     "TransportDelay",
     "Trigonometric",
     "UnitDelay",

@@ -12,6 +12,7 @@ CALLED = {
     "Add": "Adder",
     "BandLimitedWhiteNoise": "WhiteNoise",
     "Bias": "Offset",
+    "Chart": "StateMachine",
     "CombiTimeTable": "DataSource",
     "Delay": "DelayN",
     "Demux": "Demultiplexer",
