@@ -32,6 +32,7 @@ CALLED = {
     "FixedDelay": "TransportDelay",
     "FromWorkspace": "DataSource",
     "Logic": "LogicalOperator",
+    "LookupTableND": "LookupTableNd",
     "MATLABFcn": "ReduceBlock",
     "MatlabFunction": "ReduceBlock",
     "Mux": "Multiplexer",
