@@ -2,6 +2,7 @@
 #include "blocks.hpp"
 #include "saltus/library/abs.hpp"
 #include "saltus/library/adder.hpp"
+#include "saltus/library/bus.hpp"
 #include "saltus/library/cross_product.hpp"
 #include "saltus/library/dead_zone.hpp"
 #include "saltus/library/demultiplexer.hpp"
@@ -11,6 +12,7 @@
 #include "saltus/library/logarithm.hpp"
 #include "saltus/library/lookup_table_1d.hpp"
 #include "saltus/library/lookup_table_2d.hpp"
+#include "saltus/library/lookup_table_nd.hpp"
 #include "saltus/library/min_max.hpp"
 #include "saltus/library/multiplexer.hpp"
 #include "saltus/library/offset.hpp"
@@ -33,6 +35,22 @@ void bind_arithmetic(py::module_& module) {
   using Handle = const py::object&;
   py::class_<Abs, System>(module, "Abs").def(py::init<std::string>());
   py::class_<Adder, System>(module, "Adder").def(py::init<std::string, std::string_view>());
+  using Signals = std::vector<std::pair<std::string, std::optional<Index>>>;
+  const auto layout_of = [](const Signals& signals) {
+    BusLayout layout;
+    for (const auto& [signal, width] : signals)
+      layout.push_back({signal, width ? Shape::of(*width) : Shape::scalar()});
+    return layout;
+  };
+  py::class_<BusCreator, System>(module, "BusCreator")
+      .def(py::init([layout_of](const std::string& name, const Signals& signals) {
+        return std::make_unique<BusCreator>(name, layout_of(signals));
+      }));
+  py::class_<BusSelector, System>(module, "BusSelector")
+      .def(py::init([layout_of](const std::string& name, const Signals& signals,
+                                const std::vector<std::string>& names) {
+        return std::make_unique<BusSelector>(name, layout_of(signals), names);
+      }));
   py::class_<CrossProduct, System>(module, "CrossProduct").def(py::init<std::string>());
   py::class_<DeadZone, System>(module, "DeadZone")
       .def(py::init([](const std::string& name, Handle half_range, bool shifted) {
@@ -61,6 +79,15 @@ void bind_arithmetic(py::module_& module) {
         return std::make_unique<LookupTable2d>(
             name, of.value(input_x, "input_x").values, of.value(input_y, "input_y").values,
             of.matrix(table, "output_table"), LookupTable2dOptions{extrapolation});
+      }));
+  py::class_<LookupTableNd, System>(module, "LookupTableNd")
+      .def(py::init([](const std::string& name, const std::vector<py::object>& axes, Handle table,
+                       std::string_view extrapolation) {
+        const Arguments of(name);
+        std::vector<Eigen::VectorXd> points;
+        for (const py::object& axis : axes) points.push_back(of.value(axis, "input_axes").values);
+        return std::make_unique<LookupTableNd>(name, points, of.value(table, "output_table").values,
+                                               LookupTableNdOptions{extrapolation});
       }));
   py::class_<MinMax, System>(module, "MinMax").def(py::init<std::string, std::string_view, int>());
   py::class_<Multiplexer, System>(module, "Multiplexer").def(py::init<std::string, int>());

@@ -2,6 +2,7 @@
 #include "blocks.hpp"
 #include "saltus/library/backlash.hpp"
 #include "saltus/library/mass_with_friction.hpp"
+#include "saltus/library/rigid_body.hpp"
 
 namespace saltus::python {
 
@@ -17,6 +18,28 @@ void bind_mechanics(py::module_& module) {
         return std::make_unique<MassWithFriction>(
             name, MassWithFrictionOptions{mass, coulomb, static_friction, viscous, initial_position,
                                           initial_velocity});
+      }));
+  py::class_<RigidBody, System>(module, "RigidBody")
+      .def(py::init([](const std::string& name, double mass, const py::object& inertia,
+                       const py::object& gravity, const py::object& position,
+                       const py::object& velocity, const py::object& orientation,
+                       const py::object& rates) {
+        const Arguments of(name);
+        const auto vector = [&](const py::object& numbers, std::string_view what, Index n) {
+          const Eigen::VectorXd found = of.value(numbers, what).values;
+          detail::insist(found.size() == n, name, what, " has ", found.size(), " values; expected ",
+                         n);
+          return found;
+        };
+        const Eigen::MatrixXd j = of.matrix(inertia, "inertia");
+        detail::insist(j.rows() == 3 && j.cols() == 3, name, "inertia is ", j.rows(), " x ",
+                       j.cols(), "; expected 3 x 3");
+        return std::make_unique<RigidBody>(
+            name, RigidBodyOptions{mass, j, vector(gravity, "gravity", 3),
+                                   vector(position, "initial_position", 3),
+                                   vector(velocity, "initial_velocity", 3),
+                                   vector(orientation, "initial_orientation", 4),
+                                   vector(rates, "initial_rates", 3)});
       }));
 }
 

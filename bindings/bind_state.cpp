@@ -2,6 +2,7 @@
 #include "blocks.hpp"
 #include "saltus/library/integrator.hpp"
 #include "saltus/library/second_order_integrator.hpp"
+#include "saltus/library/slew_rate_limiter.hpp"
 
 namespace saltus::python {
 
@@ -33,6 +34,13 @@ void bind_state(py::module_& module) {
                                          of.value(velocity, "initial_velocity"),
                                          of.optional(lower_limit, "lower_limit"),
                                          of.optional(upper_limit, "upper_limit"), restitution});
+      }));
+  py::class_<SlewRateLimiter, System>(module, "SlewRateLimiter")
+      .def(py::init([](const std::string& name, double upper, double lower, double time_constant,
+                       Handle initial_state) {
+        return std::make_unique<SlewRateLimiter>(
+            name, SlewRateLimiterOptions{lower, upper, time_constant,
+                                         Arguments(name).value(initial_state, "initial_state")});
       }));
   bind_mechanics(module);
 }

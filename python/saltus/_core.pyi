@@ -475,6 +475,14 @@ class Abs(System):
 class Adder(System):
     def __init__(self, arg0: str, arg1: str, /) -> None: ...
 
+class BusCreator(System):
+    def __init__(self, arg0: str, arg1: list[tuple[str, int | None]], /) -> None: ...
+
+class BusSelector(System):
+    def __init__(
+        self, arg0: str, arg1: list[tuple[str, int | None]], arg2: list[str], /
+    ) -> None: ...
+
 class CrossProduct(System):
     def __init__(self, arg0: str, /) -> None: ...
 
@@ -501,6 +509,9 @@ class LookupTable1d(System):
 
 class LookupTable2d(System):
     def __init__(self, arg0: str, arg1: Any, arg2: Any, arg3: Any, arg4: str, /) -> None: ...
+
+class LookupTableNd(System):
+    def __init__(self, arg0: str, arg1: list[object], arg2: Any, arg3: str, /) -> None: ...
 
 class MinMax(System):
     def __init__(self, arg0: str, arg1: str, arg2: int, /) -> None: ...
@@ -601,6 +612,9 @@ class SecondOrderIntegrator(System):
         self, arg0: str, arg1: Any, arg2: Any, arg3: Any, arg4: Any, arg5: float, /
     ) -> None: ...
 
+class SlewRateLimiter(System):
+    def __init__(self, arg0: str, arg1: float, arg2: float, arg3: float, arg4: Any, /) -> None: ...
+
 class Backlash(System):
     def __init__(self, arg0: str, arg1: float, arg2: float, /) -> None: ...
 
@@ -616,6 +630,9 @@ class MassWithFriction(System):
         arg6: float,
         /,
     ) -> None: ...
+
+class RigidBody(System):
+    def __init__(self, name: str, mass: float, inertia: object, gravity: object, position: object, velocity: object, orientation: object, rates: object, /) -> None: ...
 
 class Derivative(System):
     def __init__(self, arg0: str, arg1: Any, arg2: Any, /) -> None: ...

@@ -1,45 +1,14 @@
 // y = the value of a table at (u_0, u_1), bilinear in each cell, elementwise.
 #include "saltus/library/lookup_table_2d.hpp"
 
-#include <limits>
-
+#include "saltus/library/detail/axis.hpp"
 #include "saltus/library/detail/elementwise.hpp"
-#include "saltus/library/detail/knots.hpp"
 #include "saltus/library/detail/pieces.hpp"
 #include "saltus/library/lti_system.hpp"
 
 namespace saltus {
 
 namespace {
-
-/// The points of one input. If y is clipped all points are knots, otherwise only the inner points,
-/// because the outer cells are continued.
-struct Axis {
-  detail::Knots points, knots;
-  bool clipped, bounded;
-
-  Axis(const Eigen::VectorXd& at, std::string_view extrapolation)
-      : points({at.begin(), at.end()}),
-        knots(extrapolation == "clip" ? std::vector<double>(at.begin(), at.end())
-                                      : std::vector<double>(at.begin() + 1, at.end() - 1)),
-        clipped(extrapolation == "clip"),
-        bounded(extrapolation == "error") {}
-
-  /// The line through points `first` and `first + 1`: y = (1 - part) y_first + part y_next.
-  struct Place {
-    Index first;
-    double part;
-  };
-  Place place(double u, bool even) const {
-    const Index piece = knots.held(u, even), last = points.size() - 1;
-    if (clipped && piece == 0) return {0, 0.0};
-    if (clipped && piece == points.size()) return {last - 1, 1.0};
-    const Index first = clipped ? piece - 1 : piece;
-    if (bounded && !(u >= points[0] && u <= points[last]))
-      return {first, std::numeric_limits<double>::quiet_NaN()};
-    return {first, (u - points[first]) / (points[first + 1] - points[first])};
-  }
-};
 
 void require_cells(const std::string& block, const Eigen::VectorXd& x, const Eigen::VectorXd& y,
                    const Eigen::MatrixXd& table, std::string_view extrapolation) {
@@ -57,10 +26,10 @@ LookupTable2d::LookupTable2d(std::string name, const Eigen::VectorXd& input_x,
                              const Options& options)
     : LeafSystem(std::move(name)) {
   require_cells(this->name(), input_x, input_y, output_table, options.extrapolation);
-  const Axis x(input_x, options.extrapolation), y(input_y, options.extrapolation);
+  const detail::Axis x(input_x, options.extrapolation), y(input_y, options.extrapolation);
   const ParameterIndex values =
       declare_dynamic_parameter("output_table", detail::by_rows(output_table));
-  const auto axis = [this](const char* relation, const Axis& along) {
+  const auto axis = [this](const char* relation, const detail::Axis& along) {
     const int k = declare_input_port();
     const auto guard = [knots = along.knots, k](const At& at, VectorRef out) {
       for (Index i = 0; i < out.size(); ++i) out[i] = knots.guard(detail::entry(at.u[k], i));
@@ -74,7 +43,7 @@ LookupTable2d::LookupTable2d(std::string name, const Eigen::VectorXd& input_x,
   const RelationIndex even_x = axis("even_x", x), even_y = axis("even_y", y);
   const auto bilinear = [=, columns = input_y.size()](const At& at, VectorRef out) {
     for (Index i = 0; i < out.size(); ++i) {
-      const auto of = [&](int k, const Axis& along, RelationIndex even) {
+      const auto of = [&](int k, const detail::Axis& along, RelationIndex even) {
         const bool one = at.u[k].size() == 1;
         return along.place(detail::entry(at.u[k], i), at.relation(even, one ? 0 : i));
       };

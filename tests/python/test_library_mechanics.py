@@ -128,3 +128,33 @@ def test_the_kinks_of_a_table_are_located(method):
 def test_refusals(make, message):
     with pytest.raises(saltus.ModelError, match=message):
         make()
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_a_rigid_body_is_a_symmetric_top(method):
+    """J = diag(1, 1, 2), w_3 = 2: w_1 + i w_2 turns at 2 rad/s. The angular momentum stays, in the
+    axes of the world, and so does the norm of the quaternion."""
+    body = RigidBody(2.0, np.diag([1.0, 1.0, 2.0]), initial_rates=[0.3, 0.0, 2.0])
+    t = [1.0, 5.0]
+    options = {"rtol": 1e-9, "atol": 1e-11, "ode_solver_method": method}
+    p, _, q, w = response(body, [2.0, 0, 0], [0, 0, 0], t=t, **options)
+    # a thousand tolerances over 5 s
+    np.testing.assert_allclose(w[:, 0], 0.3 * np.cos(2 * np.array(t)), atol=1e-6)
+    np.testing.assert_allclose(w[:, 1], 0.3 * np.sin(2 * np.array(t)), atol=1e-6)
+    np.testing.assert_allclose(p[:, 0], 0.5 * np.square(t), atol=1e-6)
+    for (a, *axis), rate in zip(q, w, strict=True):
+        momentum = np.array([1.0, 1.0, 2.0]) * rate
+        turned = momentum + 2 * np.cross(axis, np.cross(axis, momentum) + a * momentum)
+        np.testing.assert_allclose(turned, [0.3, 0.0, 4.0], atol=1e-5)
+        assert np.hypot(a, np.linalg.norm(axis)) == pytest.approx(1.0, abs=1e-6)
+
+
+def test_a_rigid_body_refuses_impossible_bodies():
+    with pytest.raises(saltus.ModelError, match="symmetric, positive definite"):
+        RigidBody(1.0, np.diag([1.0, 1.0, 0.0]))
+    with pytest.raises(saltus.ModelError, match="inertia is 2 x 2; expected 3 x 3"):
+        RigidBody(1.0, np.eye(2))
+    with pytest.raises(saltus.ModelError, match="initial_rates has 2"):
+        RigidBody(initial_rates=[1.0, 2.0])
+    with pytest.raises(saltus.ModelError, match="mass = -1 kg"):
+        RigidBody(-1.0)

@@ -8,6 +8,7 @@ event, and its side is held in between.
 """
 
 from saltus.library.arithmetic import Abs, Adder, Gain, Offset, Product, Saturate
+from saltus.library.buses import BusCreator, BusSelector
 from saltus.library.discrete import (
     DelayN,
     DiscreteClock,
@@ -40,12 +41,21 @@ from saltus.library.logic import (
     Switch,
 )
 from saltus.library.maps import Exponent, Logarithm, Power, Reciprocal, SquareRoot, Trigonometric
-from saltus.library.mechanics import Backlash, MassWithFriction
+from saltus.library.mechanics import Backlash, MassWithFriction, RigidBody
 from saltus.library.noise import RandomNumber, WhiteNoise
-from saltus.library.nonlinear import DeadZone, LookupTable1d, LookupTable2d, MinMax, Quantizer, Sign
+from saltus.library.nonlinear import (
+    DeadZone,
+    LookupTable1d,
+    LookupTable2d,
+    LookupTableNd,
+    MinMax,
+    Quantizer,
+    Sign,
+)
 from saltus.library.signals import Chirp, DataSource, Sawtooth
 from saltus.library.sources import Clock, Constant, Pulse, Ramp, Sine, Step
-from saltus.library.state import Integrator, SecondOrderIntegrator
+from saltus.library.state import Integrator, SecondOrderIntegrator, SlewRateLimiter
+from saltus.library.state_machine import StateMachine, Transition
 from saltus.library.vectors import (
     CrossProduct,
     Demultiplexer,
@@ -62,6 +72,8 @@ __all__ = [
     "Abs",
     "Adder",
     "Backlash",
+    "BusCreator",
+    "BusSelector",
     "Chirp",
     "Clock",
     "Comparator",
@@ -92,6 +104,7 @@ __all__ = [
     "LogicalOperator",
     "LookupTable1d",
     "LookupTable2d",
+    "LookupTableNd",
     "MassWithFriction",
     "MinMax",
     "Multiplexer",
@@ -110,21 +123,25 @@ __all__ = [
     "Reciprocal",
     "ReduceBlock",
     "Relay",
+    "RigidBody",
     "Saturate",
     "Sawtooth",
     "ScalarBroadcast",
     "SecondOrderIntegrator",
     "Sign",
     "Sine",
+    "SlewRateLimiter",
     "Slice",
     "SourceBlock",
     "SquareRoot",
+    "StateMachine",
     "Step",
     "Stop",
     "SumOfElements",
     "Switch",
     "TransferFunction",
     "TransferFunctionDiscrete",
+    "Transition",
     "TransportDelay",
     "Trigonometric",
     "UnitDelay",

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from numpy.typing import ArrayLike
+
 from saltus import _core
 from saltus.library.block import Block
 
-__all__ = ["Backlash", "MassWithFriction"]
+__all__ = ["Backlash", "MassWithFriction", "RigidBody"]
 
 
 class Backlash(Block, _core.Backlash):
@@ -94,4 +96,69 @@ class MassWithFriction(Block, _core.MassWithFriction):
     ):
         super().__init__(
             self._named(name), mass, coulomb, static, viscous, initial_position, initial_velocity
+        )
+
+
+class RigidBody(Block, _core.RigidBody):
+    """dp/dt = v, mass dv/dt = F + mass g, dq/dt = q (0, w) / 2, J dw/dt = T - w x J w: a rigid body
+    with six degrees of freedom.
+
+    Inputs: `force`, F [N] in the axes of the world, and `torque`, T [N m] in the axes of the body,
+    3 each. Outputs: `position` p [m] and `velocity` v [m/s] in the axes of the world, 3 each;
+    `orientation`, the quaternion q (w, x, y, z) that turns vectors of the body into those of the
+    world, 4; `rates`, w [rad/s] in the axes of the body, 3. A term (1 - q.q) q / 2 of dq/dt, 0 for
+    a unit quaternion, draws the norm of q back to 1 at the rate of 1 /s, so that errors of the
+    solver do not add up in it. Euler's equations: Goldstein, Classical Mechanics, section 5.5.
+
+    Parameters
+    ----------
+    mass
+        [kg] > 0, a parameter of the context.
+    inertia
+        J [kg m^2] about the centre of mass, a symmetric, positive definite matrix, 3 x 3; by
+        default the unit matrix.
+    gravity
+        g [m/s^2] in the axes of the world, 3, a parameter of the context.
+    initial_position, initial_velocity, initial_orientation, initial_rates
+        The state at the start. The quaternion is made a unit one.
+    name
+        The name in messages, in contexts and for `diagram[...]`; by default its class and number.
+
+    Raises
+    ------
+    ModelError
+        If the mass or the inertia is not positive, the inertia not symmetric, or a size is wrong.
+
+    Examples
+    --------
+    A body thrown up at 20 m/s:
+
+    >>> from saltus.library import RigidBody
+    >>> body = RigidBody(gravity=[0, 0, -10], initial_velocity=[0, 0, 20])
+    >>> p, v, q, w = saltus.response(body, [0, 0, 0], [0, 0, 0], t=[1.0, 2.0])
+    >>> p[:, 2].round(6)
+    array([15., 20.])
+    """
+
+    def __init__(
+        self,
+        mass: float = 1.0,
+        inertia: ArrayLike = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)),
+        *,
+        gravity: ArrayLike = (0.0, 0.0, 0.0),
+        initial_position: ArrayLike = (0.0, 0.0, 0.0),
+        initial_velocity: ArrayLike = (0.0, 0.0, 0.0),
+        initial_orientation: ArrayLike = (1.0, 0.0, 0.0, 0.0),
+        initial_rates: ArrayLike = (0.0, 0.0, 0.0),
+        name: str | None = None,
+    ):
+        super().__init__(
+            self._named(name),
+            mass,
+            inertia,
+            gravity,
+            initial_position,
+            initial_velocity,
+            initial_orientation,
+            initial_rates,
         )

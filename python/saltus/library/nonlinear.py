@@ -4,12 +4,24 @@ or a reset, and costs nothing elsewhere.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
+import numpy as np
 from numpy.typing import ArrayLike
 
 from saltus import _core
+from saltus.errors import ModelError
 from saltus.library.block import Block
 
-__all__ = ["DeadZone", "LookupTable1d", "LookupTable2d", "MinMax", "Quantizer", "Sign"]
+__all__ = [
+    "DeadZone",
+    "LookupTable1d",
+    "LookupTable2d",
+    "LookupTableNd",
+    "MinMax",
+    "Quantizer",
+    "Sign",
+]
 
 
 class DeadZone(Block, _core.DeadZone):
@@ -216,3 +228,57 @@ class LookupTable2d(Block, _core.LookupTable2d):
         name: str | None = None,
     ):
         super().__init__(self._named(name), input_x, input_y, output_table, extrapolation)
+
+
+class LookupTableNd(Block, _core.LookupTableNd):
+    """y = the value of a table at (u_0, u_1, ...), linear along each input in each cell, entry by
+    entry.
+
+    If y reaches a derivative, the times at which an input passes a point of the table are located
+    as events, by one guard for each input. A value takes 2^n products for n inputs.
+
+    Parameters
+    ----------
+    input_axes
+        A list with the points of each input, 2 or more numbers that increase. They are fixed.
+    output_table
+        An array with a dimension for each input: entry [i, j, ...] is the value at
+        input_axes[0][i], input_axes[1][j], ... The parameter `output_table` of the context, row by
+        row.
+    extrapolation
+        "clip", the value at the border; "linear"; or "error": y is not a number there, and the run
+        ends with an error.
+    name
+        The name in messages, in contexts and for `diagram[...]`; by default its class and number.
+
+    Raises
+    ------
+    ModelError
+        If the table does not fit, the points do not increase, or the word is unknown.
+
+    Examples
+    --------
+    >>> from saltus.library import LookupTableNd
+    >>> x, y, z = [0.0, 1.0], [0.0, 2.0], [0.0, 1.0, 4.0]
+    >>> table = LookupTableNd([x, y, z], np.add.outer(np.add.outer(x, y), z))
+    >>> saltus.response(table, 0.5, 1.0, [2.0, 9.0])
+    array([3.5, 5.5])
+    """
+
+    def __init__(
+        self,
+        input_axes: Sequence[ArrayLike],
+        output_table: ArrayLike,
+        extrapolation: str = "clip",
+        *,
+        name: str | None = None,
+    ):
+        called = self._named(name)
+        table, axes = np.asarray(output_table, dtype=float), list(input_axes)
+        expected = tuple(np.size(axis) for axis in axes)
+        if table.ndim > 1 and table.shape != expected:  # in a file it is a list
+            raise ModelError(
+                f"block '{called}': output_table has the shape {table.shape}; expected {expected}, "
+                "as input_axes says"
+            )
+        super().__init__(called, axes, table.ravel(), extrapolation)

@@ -7,7 +7,7 @@ from numpy.typing import ArrayLike
 from saltus import _core
 from saltus.library.block import Block
 
-__all__ = ["Integrator", "SecondOrderIntegrator"]
+__all__ = ["Integrator", "SecondOrderIntegrator", "SlewRateLimiter"]
 
 
 class Integrator(Block, _core.Integrator):
@@ -139,3 +139,46 @@ class SecondOrderIntegrator(Block, _core.SecondOrderIntegrator):
             upper_limit,
             restitution,
         )
+
+
+class SlewRateLimiter(Block, _core.SlewRateLimiter):
+    """dy/dt = min(max((u - y) / time_constant, lower_limit), upper_limit), entry by entry: y
+    follows u, but no faster than the limits, in continuous time.
+
+    A rate of u is not needed. Where u is slower than the limits, y lags it by time_constant times
+    its rate. The times at which a limit begins and ends to act are located. `RateLimiter` is the
+    same at ticks.
+
+    Parameters
+    ----------
+    upper_limit, lower_limit
+        [1/s] Numbers >= 0 and <= 0, parameters of the context.
+    time_constant
+        [s] > 0, a parameter of the context.
+    initial_state
+        y at the start, a number or a vector.
+    name
+        The name in messages, in contexts and for `diagram[...]`; by default its class and number.
+
+    Raises
+    ------
+    ModelError
+        If a limit has the wrong sign, or the time constant is not above 0.
+
+    Examples
+    --------
+    >>> from saltus.library import SlewRateLimiter
+    >>> saltus.response(SlewRateLimiter(0.5), 2.0, t=[1.0, 2.0, 9.0]).round(6)
+    array([0.5, 1. , 2. ])
+    """
+
+    def __init__(
+        self,
+        upper_limit: float = 1.0,
+        lower_limit: float = -1.0,
+        time_constant: float = 0.001,
+        initial_state: ArrayLike = 0.0,
+        *,
+        name: str | None = None,
+    ):
+        super().__init__(self._named(name), upper_limit, lower_limit, time_constant, initial_state)
