@@ -16,7 +16,7 @@ from saltus.orbits.states import States
 from saltus.results import Results
 from saltus.simulation import Simulator
 
-__all__ = ["NotALabel", "Piece", "Pieces"]
+__all__ = ["NotALabel", "Piece", "Pieces", "require_moving"]
 
 ELSEWHERE = 0.381966
 """the part of a piece that is left where its end meets an event: no simple fraction"""
