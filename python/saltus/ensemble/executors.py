@@ -11,7 +11,7 @@ from saltus.ensemble.job import Job, Watch
 from saltus.ensemble.table import Table
 from saltus.errors import ModelError
 
-__all__ = ["run"]
+__all__ = ["Outcome", "chosen", "run"]
 
 KINDS = ("threads", "processes", "serial")
 Outcome = tuple[Columns, "BaseException | None", str, int]
@@ -70,3 +70,20 @@ def _in_processes(
     if len(lost) == table.runs:
         raise ModelError(pools.NO_MAIN)
     return columns, raised
+
+
+def chosen(job: Job, table: Table, executor: Any, workers: int | None) -> tuple[str, int]:
+    """The name and the number of workers of the executor that `run` would take."""
+    count = _workers(workers, table.runs)
+    if executor is None:
+        if not job.needs_interpreter:
+            return "threads", count
+        return ("serial", 1) if workers is None or count == 1 else ("processes", count)
+    if not isinstance(executor, str):
+        return type(executor).__name__, count
+    if executor not in KINDS:
+        hint = _core.known_names(executor, list(KINDS))
+        raise ModelError(f"sweep: unknown executor '{executor}'{hint}")
+    if executor == "threads" and job.is_factory:
+        raise ModelError("sweep: a function makes systems one by one: no threads share a plan")
+    return executor, 1 if executor == "serial" else count
