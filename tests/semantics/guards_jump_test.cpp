@@ -81,13 +81,17 @@ TEST_CASE("2.1 a ball whose guard is the truth `above the floor` bounces and sta
   const auto method = GENERATE(from_range(methods));
   const auto direction = GENERATE(Direction::positive_then_non_positive, Direction::crosses_zero,
                                   Direction::edge_detection);
-  const double below = GENERATE(-1.0, 0.0);
+  using Values = std::pair<double, double>;
+  // Only edge_detection sees a change between two values on one side of zero.
+  const auto [above, below] = GENERATE(Values{1.0, -1.0}, Values{1.0, 0.0}, Values{0.0, 1.0},
+                                       Values{3.0, 2.0}, Values{-2.0, -1e6});
+  if (direction != Direction::edge_detection && !(above > 0.0 && below <= 0.0)) return;
   constexpr double g = 10.0, e = 0.8;
   const Leaf ball("ball", [=](Leaf& l) {
     l.declare_continuous_state({.initial = vec({5.0, 0.0}),
                                 .ode = [](const At& at, VectorRef xdot) { xdot << at.x[1], -g; }});
     l.declare_zero_crossing({.name = "bounce",
-                             .guard = [=](const At& at) { return at.x[0] > 0.0 ? 1.0 : below; },
+                             .guard = [=](const At& at) { return at.x[0] > 0.0 ? above : below; },
                              .reset_map =
                                  [=](const At& at, Next& next) {
                                    next.set_continuous_state({std::abs(at.x[0]), -e * at.x[1]});
