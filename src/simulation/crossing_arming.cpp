@@ -42,7 +42,7 @@ CrossingFacts CrossingArming::facts_of(std::size_t k, bool at_start) const {
           .effect = crossing.has_effect(),
           .reset = static_cast<bool>(crossing.reset_map),
           .resets = transition_->effects(),
-          .jumped = now.jumped};
+          .jumped = now.jumped()};
 }
 
 /// The facts about guard k that the decisions ask the flow for.
