@@ -109,7 +109,8 @@ TEST_CASE("a run in pieces has the events of the whole run", "[laws][islands]") 
   CHECK(events(whole.results().events) == events(pieces.results().events));
   in_order(pieces.results().events);
   // A piece ends a step: the states differ by the error of a step, some ten in each flight.
-  const auto difference = whole.context().continuous_state() - pieces.context().continuous_state();
+  const Eigen::VectorXd difference =
+      whole.context().continuous_state() - pieces.context().continuous_state();
   CHECK(difference.cwiseAbs().maxCoeff() < 100.0 * 1e-9 * 10.0);
 }
 
