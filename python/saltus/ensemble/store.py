@@ -3,30 +3,23 @@
 from __future__ import annotations
 
 import hashlib
-import inspect
 import json
 import os
 import pickle
-import re
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
-from saltus import _core
-from saltus._engine import core_context
 from saltus.ensemble.columns import Columns
+from saltus.ensemble.fingerprint import fingerprint
 from saltus.ensemble.job import Job
 from saltus.ensemble.table import Table
 from saltus.errors import ModelError
-from saltus.system import OutputPort, System
 
 __all__ = ["Store"]
 
 FORMAT = 1
 DIGEST = 32  # [bytes] the SHA-256 of a chunk, before its pickle
 CHUNKS = 64  # without `chunk`, a sweep has about as many parts
-ADDRESS = re.compile(r" at 0x[0-9a-f]+")
 
 
 class Store:
@@ -35,9 +28,9 @@ class Store:
     def __init__(self, path: str | os.PathLike[str], job: Job, table: Table, chunk: int | None):
         self.path = Path(path)
         found = self._manifest()
-        default = -(-table.runs // CHUNKS) if found is None else found.get("chunk")
-        self.chunk = chunk if chunk is not None else default
-        task = {**_task(job, table), "format": FORMAT, "chunk": self.chunk}
+        usual = -(-table.runs // CHUNKS) if found is None else int(found["chunk"])
+        self.chunk = usual if chunk is None else chunk
+        task = {**fingerprint(job, table), "format": FORMAT, "chunk": self.chunk}
         if found is None:
             self.path.mkdir(parents=True, exist_ok=True)
             _write(self.path / "manifest.json", json.dumps(task, indent=1).encode())
@@ -57,10 +50,10 @@ class Store:
             return None
         try:
             read = json.loads(file.read_bytes())
-            if isinstance(read, dict) and read.get("chunk", 0) >= 1:
-                return read
-        except (ValueError, TypeError):
-            pass
+        except ValueError:
+            read = None
+        if isinstance(read, dict) and isinstance(read.get("chunk"), int) and read["chunk"] >= 1:
+            return read
         raise ModelError(f"sweep: store: '{file}' is damaged; remove the directory")
 
     def cuts(self, runs: int) -> list[tuple[int, int]]:
@@ -94,75 +87,3 @@ def _write(file: Path, data: bytes) -> None:
         opened.flush()
         os.fsync(opened.fileno())
     os.replace(part, file)
-
-
-def _task(job: Job, table: Table) -> dict[str, str]:
-    """A digest of each thing on which the results depend."""
-    options = {k: v for k, v in vars(job.options).items() if k != "progress"}
-    return {
-        "system": _digest(_system(job)),
-        "values": _digest([(name, _exact(c)) for name, c in table.columns.items()]),
-        "t_span": _digest(job.span),
-        "options": _digest(options),
-        "recorded_signals": _digest([(n, _port(p)) for n, p in job.signals.items()]),
-        "context": _digest(repr(_context(job))),
-        "reduce": _digest(_code(job.reduce)),
-        "saltus": _core.__version__,
-    }
-
-
-def _digest(value: object) -> str:
-    return hashlib.sha256(ADDRESS.sub("", repr(value)).encode()).hexdigest()
-
-
-def _exact(column: Any) -> object:
-    if isinstance(column, np.ndarray):
-        return column.dtype.str, column.shape, column.tobytes().hex()
-    return [_exact(v) if isinstance(v, np.ndarray) else v for v in column]
-
-
-def _system(job: Job) -> object:
-    """The values and names of all blocks, their classes and wires; the code of a factory."""
-    if not isinstance(job.system, System):
-        return _code(job.system)
-    begin = job.system.create_context(job.span[0])
-    return core_context(begin).to_json(), job.system.to_dot(), _blocks(job.system)
-
-
-def _blocks(system: Any) -> list[object]:
-    """The classes of a system and of its blocks, and their attributes that are plain values."""
-    inner = getattr(system, "blocks", None) or ()
-    blocks = inner.values() if isinstance(inner, dict) else inner
-    own = {name: _plain(v) for name, v in sorted(getattr(system, "__dict__", {}).items())}
-    return [_code(type(system)), own, *(_blocks(b) for b in blocks if b is not system)]
-
-
-def _plain(value: object) -> object:
-    if isinstance(value, np.ndarray):
-        return _exact(value)
-    if isinstance(value, (bool, int, float, complex, str, np.number)):
-        return repr(value)
-    if isinstance(value, (list, tuple)):
-        return [_plain(v) for v in value]
-    if isinstance(value, dict):
-        return [(str(k), _plain(v)) for k, v in value.items()]
-    return type(value).__qualname__
-
-
-def _context(job: Job) -> str | None:
-    return None if job.context is None else core_context(job.context).to_json()
-
-
-def _port(port: OutputPort | str) -> str:
-    return port if isinstance(port, str) else repr(port)
-
-
-def _code(function: Any) -> object:
-    """The name of a function or a class, and its source where Python finds it."""
-    if function is None:
-        return None
-    name = getattr(function, "__qualname__", type(function).__qualname__)
-    try:
-        return name, inspect.getsource(function)
-    except (TypeError, OSError):  # compiled, or typed at a prompt
-        return name, ""

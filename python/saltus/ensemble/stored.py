@@ -1,4 +1,8 @@
-"""A sweep with a store: only the missing chunks are run, and each is kept when it is finished."""
+"""A sweep with a store: only the missing chunks are run, and each is kept when it is finished.
+
+A fingerprint cannot see all on which results depend, for example a file that a function reads. So
+one finished row is run again before the others, and its results have to be those in the store.
+"""
 
 from __future__ import annotations
 
@@ -8,14 +12,19 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
 
+import numpy as np
+
 from saltus.ensemble import executors, pools
-from saltus.ensemble.columns import Columns, empty, failed, join
+from saltus.ensemble.columns import PLAIN, WIDE, Columns, empty, failed, join
 from saltus.ensemble.job import Job, NoSystem, Watch
 from saltus.ensemble.store import Store
 from saltus.ensemble.table import Table
 from saltus.errors import ModelError
 
 __all__ = ["run_stored"]
+
+SAME = [name for name in (*PLAIN, *WIDE) if name != "wall_time"]
+"""columns that are equal in each run of a row"""
 
 
 class _Stored:
@@ -38,6 +47,24 @@ class _Stored:
         self.lost.pop(number, None)
         self.watch(sum(len(c["status"]) for c in self.done.values()))
 
+    def known_row(self) -> dict[str, Any]:
+        """The values of the first finished row."""
+        first = self.cuts[min(self.done)][0]
+        return self.table.part(first, first + 1)
+
+    def require_same(self, again: Columns) -> None:
+        """ModelError if a finished row that was run again has other results than in the store."""
+        kept = self.done[min(self.done)]
+        for name in SAME:
+            now, then = np.asarray(again[name][0]), np.asarray(kept[name][0])
+            then = then[: len(now)] if now.ndim else then  # a chunk has the width of its widest row
+            if not np.array_equal(now, then, equal_nan=True):
+                raise ModelError(
+                    f"sweep: store '{self.store.path}': run {self.cuts[min(self.done)][0]} has "
+                    f"{name} = {now} now, and {then} in the store, so the system has changed "
+                    "since; take another directory, or remove this one"
+                )
+
     def columns(self) -> Columns:
         return join([self._chunk(i, b - a) for i, (a, b) in enumerate(self.cuts)])
 
@@ -58,6 +85,9 @@ def run_stored(
         _run_here(state, count)
         return state.columns(), state.raised, kind, count
     sent = pools.pickled(job) if kind == "processes" else job
+    if state.done:
+        with _pool(executor, kind, 1) as pool:
+            state.require_same(pools.submitted(pool, sent, state.known_row(), -1).result())
     for attempt in range(retries + 1):
         if state.raised is None and state.missing():
             with _pool(executor, kind, count) as pool:
@@ -66,6 +96,11 @@ def run_stored(
 
 
 def _run_here(state: _Stored, threads: int) -> None:
+    if state.done:
+        again, state.raised = state.job.run(state.known_row(), 1, None)
+        if state.raised is not None:
+            return
+        state.require_same(again)
     for number in state.missing():
         columns, state.raised = state.job.run(state.table.part(*state.cuts[number]), threads, None)
         if state.raised is not None:

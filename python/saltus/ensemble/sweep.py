@@ -22,9 +22,7 @@ from saltus.ensemble.dataset import (
 from saltus.ensemble.executors import run
 from saltus.ensemble.job import Job
 from saltus.ensemble.progress import Progress
-from saltus.ensemble.store import Store
-from saltus.ensemble.stored import run_stored
-from saltus.ensemble.table import table_of
+from saltus.ensemble.table import Table, table_of
 from saltus.errors import ModelError
 from saltus.results import Results
 from saltus.simulation import SimulatorOptions
@@ -32,6 +30,8 @@ from saltus.system import OutputPort, System
 
 if TYPE_CHECKING:
     import pandas  # type: ignore[import-untyped,import-not-found,unused-ignore]
+
+    from saltus.ensemble.store import Store
 
 __all__ = ["sweep"]
 
@@ -111,8 +111,8 @@ def sweep(
     chunk : int, optional
         With a store, the rows of a chunk; by default such that there are at most 64 chunks.
     retries : int
-        With a store, how often a chunk is submitted again whose worker died. Its rows then have
-        the status 'failed' and the cause as their message, and the next call runs them again.
+        With a store, how often a chunk is submitted again whose worker died. After that its rows
+        have the status 'failed' and the cause as their message; the next call runs them again.
     **option_overrides
         Single options.
 
@@ -132,7 +132,7 @@ def sweep(
     ModelError
         Before anything is run, if a name is unknown (the message has the nearest), a value is
         impossible, a function needs more than the values, or a system cannot go to another process.
-        Also if a function makes something else than a system.
+        Also if a function makes something else than a system, or a store belongs to another sweep.
     ImportError
         Before anything is run, if xarray is not installed, unless `as_dict`.
     KeyboardInterrupt
@@ -160,6 +160,8 @@ def sweep(
         if kept is None:
             columns, raised, kind, count = run(job, table, executor, workers, shown.watch)
         else:
+            from saltus.ensemble.stored import run_stored
+
             columns, raised, kind, count = run_stored(
                 job, table, executor, workers, shown.watch, kept, retries
             )
@@ -184,7 +186,11 @@ def _store(
             raise ModelError(f"sweep: {name}: expected {least} or more, found {value!r}")
         if path is None and value != 0:
             raise ModelError(f"sweep: {name}={value} needs a store: say store='a directory'")
-    return None if path is None else Store(path, job, table, chunk)  # type: ignore[arg-type]
+    if path is None:
+        return None
+    from saltus.ensemble.store import Store
+
+    return Store(path, job, table, chunk)  # type: ignore[arg-type]
 
 
 def _name_of(reduce: Callable[[Results], Any] | None) -> str:

@@ -58,8 +58,8 @@ def test_a_killed_sweep_goes_on_with_the_missing_chunks(tmp_path):
     assert 2 <= finished < 6
     before = len(log.read_text().split())
     resumed = swept(path, counted, GRID | {"log": str(log)}, chunk=1)
-    # `check` makes no system here: all values are arguments of the function
-    assert len(log.read_text().split()) - before == 6 - finished
+    # the missing rows, and one that is run again as a check of the store
+    assert len(log.read_text().split()) - before == 6 - finished + 1
     equal(resumed, saltus.sweep(make_ball, GRID, (0.0, 5.0), as_dict=True))
 
 
@@ -85,6 +85,47 @@ def test_a_store_of_another_sweep_is_refused(tmp_path):
     ):
         with pytest.raises(ModelError, match=f"another sweep, with other {name};"):
             swept(tmp_path, make, values, **more)
+
+
+def of_file(e, path=""):
+    with open(path) as file:
+        return make_ball(e=e, y0=float(file.read()))
+
+
+@pytest.mark.parametrize("executor", ["serial", "processes"])
+def test_what_no_fingerprint_sees_is_found_by_a_row_that_is_run_again(tmp_path, executor):
+    file, path = tmp_path / "height", tmp_path / "store"
+    grid = {"e": [0.5, 0.6], "path": str(file)}
+    file.write_text("10.0")
+    first = swept(path, of_file, grid, executor=executor, workers=1)
+    equal(swept(path, of_file, grid, executor=executor, workers=1), first)
+    file.write_text("5.0")
+    with pytest.raises(ModelError, match=r"run 0 has .* now, and .* in the store"):
+        swept(path, of_file, grid, executor=executor, workers=1)
+
+
+RATES = {"rate": -1.0}
+
+
+def decaying(rate):
+    return saltus.system_of(lambda t, x: rate * x, [1.0])
+
+
+def by_global():
+    return saltus.system_of(lambda t, x: RATES["rate"] * x, [1.0])
+
+
+def test_values_that_a_function_reads_belong_to_the_fingerprint(tmp_path, monkeypatch):
+    grid = {"x[0]": [1.0, 2.0]}
+    swept(tmp_path / "closure", decaying(-1.0), grid)
+    swept(tmp_path / "global", by_global(), grid)
+    swept(tmp_path / "closure", decaying(-1.0), grid)
+    swept(tmp_path / "global", by_global(), grid)
+    with pytest.raises(ModelError, match="with other system;"):
+        swept(tmp_path / "closure", decaying(-2.0), grid)
+    monkeypatch.setitem(RATES, "rate", -2.0)
+    with pytest.raises(ModelError, match="with other system;"):
+        swept(tmp_path / "global", by_global(), grid)
 
 
 @pytest.mark.parametrize("executor", ["serial", "threads"])
