@@ -146,7 +146,8 @@ bool ContactGuards::follow_surface(SurfaceContact& contact) {
   double* x = machine_->x.data();
   if (contact.look_ahead == 0.0) {
     // Exactly at rest: the last reset left a flight too short to be seen.
-    if (transition_->wrote_x() && contacts_.settle(contact, t, x)) present_->outcome.restart = true;
+    const bool wrote = transition_->wrote_x(contact.members.front().leaf);
+    if (wrote && contacts_.settle(contact, t, x)) present_->outcome.restart = true;
     contacts_.choose_look_ahead(contact, t, x, longest);
   }
   const bool moves = contact.carried || contacts_.moves(contact, t, x, longest);

@@ -1,11 +1,10 @@
-// linearize: the columns and rows by their names, and the matrices.
+// Linearizer: the columns and rows of the matrices, and their values.
 #include "saltus/simulation/linearize.hpp"
 
 #include <algorithm>
 
-#include <Eigen/Eigenvalues>
-
 #include "linear_limits.hpp"
+#include "linear_names.hpp"
 #include "saltus/model/context_entry.hpp"
 #include "saltus/plan/detail/fixed_inputs.hpp"
 #include "saltus/simulation/detail/given_inputs.hpp"
@@ -13,28 +12,6 @@
 namespace saltus {
 
 namespace {
-
-/// "y", or "y[0]", "y[1]" for a vector.
-void add_entries(std::vector<std::string>& names, const std::string& name, Index size,
-                 bool vector) {
-  for (Index i = 0; i < size; ++i) names.push_back(vector ? text(name, "[", i, "]") : name);
-}
-
-std::string prefix_of(const Plan& plan, const PlanLeaf& leaf) {
-  return plan.leaves.size() == 1 ? "" : leaf.path + ".";
-}
-
-/// "integrator.x[0]", or the name that the block gave to the state.
-std::vector<std::string> state_names(const Plan& plan) {
-  std::vector<std::string> names;
-  for (const PlanLeaf& leaf : plan.leaves) {
-    const std::string prefix = prefix_of(plan, leaf);
-    const auto& own = leaf.declared().continuous.names;
-    for (Index i = 0; i < leaf.nx; ++i)
-      names.push_back(own.empty() ? text(prefix, "x[", i, "]") : text(prefix, nth(own, i)));
-  }
-  return names;
-}
 
 RecordedSignals all_outputs(const System& system) {
   RecordedSignals signals;
@@ -262,22 +239,6 @@ Linearization Linearizer::at(const Context& context) { return parts_->at(context
 Linearization linearize(const System& system, const Context& context,
                         const LinearizeOptions& options) {
   return Linearizer(system, options).at(context);
-}
-
-Eigen::VectorXcd Linearization::poles() const {
-  if (A.rows() == 0) return {};
-  Eigen::VectorXcd poles = A.eigenvalues();
-  std::ranges::sort(poles, [](const auto& a, const auto& b) {
-    return std::pair(a.real(), a.imag()) < std::pair(b.real(), b.imag());
-  });
-  return poles;
-}
-
-std::string Linearization::method() const {
-  if (differences.empty()) return "exact";
-  std::string all;
-  for (const std::string& one : differences) all += (all.empty() ? "" : ", ") + one;
-  return text("central differences of ", all);
 }
 
 }  // namespace saltus

@@ -86,19 +86,6 @@ void Run::initialize(const Context& context) {
   endings_.begin(time_);
 }
 
-Results Run::take_results() {
-  EventLog next = results_.events.emptied();
-  Results taken = std::move(results_);
-  results_.events = std::move(next);
-  rows_.renew();
-  if (tangents_) tangents_->renew();
-  if (options_.dense_output && begun_) {
-    results_.trajectory.start(machine_.shared_plan(), begin_, options_);
-    results_.trajectory.open(time_, machine_, instant_.contacts());
-  }
-  return taken;
-}
-
 Status Run::advance_to(double t_end) {
   require_ready(t_end);
   const auto start = std::chrono::steady_clock::now();

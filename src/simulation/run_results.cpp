@@ -57,4 +57,17 @@ std::string Run::describe() const {
   return plan().describe() + integration_.describe() + (tangents_ ? tangents_->describe() : "");
 }
 
+Results Run::take_results() {
+  EventLog next = results_.events.emptied();
+  Results taken = std::move(results_);
+  results_.events = std::move(next);
+  rows_.renew();
+  if (tangents_) tangents_->renew();
+  if (options_.dense_output && begun_) {
+    results_.trajectory.start(machine_.shared_plan(), begin_, options_);
+    results_.trajectory.open(time_, machine_, instant_.contacts());
+  }
+  return taken;
+}
+
 }  // namespace saltus

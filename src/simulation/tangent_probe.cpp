@@ -1,6 +1,10 @@
 // TangentProbe: how far a machine is moved, and the derivatives by differences.
 #include "saltus/simulation/detail/tangent_probe.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 #include "saltus/base/detail/forced_unwind.hpp"
 #include "saltus/base/error.hpp"
 
@@ -9,30 +13,16 @@ namespace saltus {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double eps = std::numeric_limits<double>::epsilon();
 
 /// Differences to u and 2 u together have the error u^4 / 30 by the fifth derivative, and eps / u
 /// by rounding: both are below 1e-12 for this relative shift.
 constexpr double first_shift = 1e-3;
 /// The next rung below. A function that changes c times as fast as its arguments needs c u < 0.014
-/// (see `agreement`). The last rung is at 1e-9: c is up to 1e7, and rounding is 2e-7.
+/// (see `agreement` in difference_ladder.cpp). The last rung is at 1e-9: c is up to 1e7, and rounding is 2e-7.
 constexpr double ladder_step = 30.0;
 constexpr int ladder_rungs = 4;
 /// The step between the larger shifts for a tiny value: a good shift has about as many decades.
 constexpr double clear_step = 1e3;
-/// The two differences of sin(c u) differ by (c u)^2 / 2 of them, and after the extrapolation the
-/// error is 0.13 of the square of that: 1e-9.
-constexpr double agreement = 1e-4;
-/// Numbers of roundings that a function may have in its value.
-constexpr double roundings = 16.0;
-/// Rounding above this part of a derivative is worth more calls. A value counts like a derivative of
-/// its size, as if it changed by itself where its arguments change by 1.
-constexpr double blurred_part = 1e-8;
-/// The even part of a function, in its change by the shift, that x^2 has with a relative shift of
-/// 1e-3. A larger one is a large curvature or a kink at the value.
-constexpr double even_part = 2e-3;
-/// A difference that falls by this factor from rung to rung goes to 0: v |v| at v = 0, or v^3.
-constexpr double falling = 10.0;
 
 /// |d| in units of the size of a value; a value that was zero so far counts as 1.
 double in_sizes(double d, double size) {
@@ -42,76 +32,6 @@ double in_sizes(double d, double size) {
 std::string first_line(const std::string& of) { return of.substr(0, of.find('\n')); }
 
 }  // namespace
-
-void DifferenceLadder::look(const MovedValues& at, const Centre& centre) {
-  for (std::size_t n = 0; n < numbers_.size(); ++n) {
-    Number& number = numbers_[n];
-    if (number.settled && number.blur == 0.0) continue;
-    const auto i = static_cast<Index>(n);
-    const double size = std::max(std::abs(at.up[i]), std::abs(at.down[i]));
-    const Rung rung{(at.up[i] - at.down[i]) / (2.0 * at.shift),
-                    (at.far_up[i] - at.far_down[i]) / (4.0 * at.shift), size,
-                    eps * size / at.shift};
-    if (std::isfinite(rung.near) && std::isfinite(rung.wide))
-      look(number, rung, smooth(at, i, rung, centre));
-  }
-  if (first_) forgive(at);
-  first_ = false;
-}
-
-/// Whether the number has no kink at the value itself, where all central differences agree. The
-/// mean of both sides is f + a |u| + b u^2: four times that of u less that of 2 u has no b.
-bool DifferenceLadder::smooth(const MovedValues& at, Index i, const Rung& rung,
-                              const Centre& centre) {
-  const double mean = 0.5 * (at.up[i] + at.down[i]), far = 0.5 * (at.far_up[i] + at.far_down[i]);
-  const double change = at.shift * std::abs(rung.near), even = std::abs(far - mean);
-  const double blur = roundings * at.shift * rung.noise;
-  if (even <= even_part * change + blur) return true;
-  const Eigen::VectorXd* values = centre();
-  if (values == nullptr) return false;
-  const double kink = std::abs(4.0 * (mean - (*values)[i]) - (far - (*values)[i]));
-  return kink <= 10.0 * agreement * std::max(change, even) + 4.0 * blur;
-}
-
-void DifferenceLadder::look(Number& number, const Rung& rung, bool smooth) {
-  const double size = std::max(std::abs(rung.near), std::abs(rung.wide));
-  const double apart = std::abs(rung.near - rung.wide);
-  const bool falls = number.last > 0.0 && size > 0.0 && size * falling <= number.last;
-  number.falls = falls ? number.falls + 1 : 0;
-  number.last = size;
-  if (!smooth) return;
-  const double noise = roundings * rung.noise;
-  if (apart <= agreement * size + noise) {
-    const double error = size > 0.0 ? apart * (apart / size) : 0.0;
-    const bool blurred = rung.noise > blurred_part * std::max(size, rung.most * direction_);
-    settle(number, rung.value(), error + rung.noise, blurred ? rung.noise : 0.0);
-  } else if (number.falls >= 2) {
-    const bool square = std::abs(rung.wide) > 3.0 * std::abs(rung.near);
-    settle(number, square ? rung.value() : 2.0 * rung.near - rung.wide, apart, 0.0);
-  }
-}
-
-/// A later rung replaces a blurred derivative if it lies inside the blur.
-void DifferenceLadder::settle(Number& number, double value, double error, double blur) {
-  if (number.settled) {
-    if (error >= number.error) return;
-    if (std::abs(value - number.value) > 2.0 * roundings * number.blur) return;
-  }
-  number = {true, value, error, blur, number.last, number.falls};
-}
-
-/// Numbers that stay within the rounding of their largest neighbour do not depend on the direction:
-/// their values are differences of large ones.
-void DifferenceLadder::forgive(const MovedValues& at) {
-  const double most = at.up.size() > 0 ? at.up.lpNorm<Eigen::Infinity>() : 0.0;
-  for (std::size_t n = 0; n < numbers_.size(); ++n) {
-    const auto i = static_cast<Index>(n);
-    const auto [low, high] = std::minmax({at.up[i], at.down[i], at.far_up[i], at.far_down[i]});
-    if (!std::isfinite(most + at.up[i] + at.down[i] + at.far_up[i] + at.far_down[i])) continue;
-    if (!numbers_[n].settled && high - low <= roundings * eps * most)
-      settle(numbers_[n], (at.far_up[i] - at.far_down[i]) / (4.0 * at.shift), high - low, 0.0);
-  }
-}
 
 void TangentProbe::begin() {
   x_sizes_.setZero(machine_->x.size());

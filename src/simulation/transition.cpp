@@ -24,11 +24,13 @@ Transition::Transition(Machine& machine)
       z_minus_(machine.z.size()),
       y_minus_(machine.y.size()),
       x_next_(machine.x.size()),
-      z_next_(machine.z.size()) {}
+      z_next_(machine.z.size()),
+      effects_(machine.plan().leaves.size() + 1, 0) {}
 
 void Transition::open() {
   pass_wrote_ = entered_ = restarts_ = wrote_mode_ = false;
-  effects_ = 0;
+  if (wrote_any_) std::ranges::fill(effects_, 0);
+  wrote_any_ = false;
   copy(machine_->x, x_minus_), copy(machine_->x, x_next_);
   copy(machine_->z, z_minus_), copy(machine_->y, y_minus_);
   modes_next_ = machine_->modes;
@@ -84,7 +86,8 @@ Transition::Wrote Transition::apply(const Call& call, VectorRef x, VectorRef z, 
 
 void Transition::count(int leaf, Wrote wrote) {
   pass_wrote_ = pass_wrote_ || wrote.x || wrote.z;
-  effects_ += wrote.x;
+  effects_[machine_->plan().island_of[leaf] + 1] += wrote.x;
+  wrote_any_ = wrote_any_ || wrote.x;
   restarts_ = restarts_ || wrote.x || (wrote.z && derivatives_read(Reads::discrete_state, leaf));
 }
 

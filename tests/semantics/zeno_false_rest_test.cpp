@@ -1,4 +1,5 @@
 // Semantics 4.2: what is no Zeno point, and no rest.
+#include "support/islands.hpp"
 #include "support/leaves.hpp"
 
 using namespace saltus;
@@ -87,4 +88,32 @@ TEST_CASE("4.2 a hold leaves no speed: a ball that keeps its height does not res
   const double rise = 32.0 * eps * std::abs(floor) + 1e-15;
   CHECK(std::abs(results.context.continuous_state()[1]) < std::sqrt(2.0 * g * rise) + g * 1e-6);
   CHECK(std::abs(results.context.continuous_state()[0] - floor) < 1e-9);
+}
+
+TEST_CASE("4.2 a reset of another island puts nothing to rest", "[semantics]") {
+  // The guard of x' = -t starts at zero, and its slope is zero there: it fires at once, and its reset
+  // map writes no continuous state. The ball on the floor, which is reset at the same time, rests.
+  const auto slides = make_leaf("slides", [](Leaf& l) {
+    l.declare_continuous_state(
+        {.initial = vec({0.0}), .ode = [](const At& at) { return -at.time; }});
+    l.declare_discrete_state({.initial = vec({0.0})});
+    l.declare_zero_crossing(
+        {.name = "count",
+         .guard = [](const At& at) { return at.x[0]; },
+         .reset_map = [](const At& at, Next& next) { next.set_discrete_state({at.z[0] + 1.0}); },
+         .direction = Direction::positive_then_non_positive});
+  });
+  DiagramBuilder builder;
+  builder.add(slides);
+  builder.add(std::make_shared<Ball>(BallOptions{}, "ball"));
+  const Diagram scene = builder.build();
+  const Context start = scene.create_context().with_continuous_state(vec({0.0, 0.0, 0.0}));
+  const Results results = simulate(scene, start, {0.0, 1.0}, {.rtol = 1e-10, .atol = 1e-10});
+  // x(1) = -1/2. The solver is exact for a cubic in t, up to rounding.
+  CHECK(std::abs(results.context.continuous_state()[0] + 0.5) < 1e-12);
+  CHECK(results.context.discrete_state()[0] == 1.0);
+  for (std::size_t i = 0; i < results.events.size(); ++i)
+    CHECK(
+        (results.events[i].block == "ball" || results.events[i].kind == EventKind::zero_crossing));
+  CHECK(count(results.events, EventKind::zeno_enter) == 1);
 }

@@ -107,21 +107,31 @@ TEST_CASE("the next pass begins with the present values", "[transition]") {
   leaves.run(add_one);
   leaves.transition.commit(), leaves.transition.begin_pass();
   CHECK_FALSE(leaves.transition.pass_wrote());
-  CHECK(leaves.transition.wrote_x());
+  CHECK(leaves.transition.wrote_x(0));
   leaves.run(add_one);
   leaves.transition.commit();
   CHECK(leaves.machine.x[0] == 3.0);
-  CHECK(leaves.transition.effects() == 2);
+  CHECK(leaves.transition.effects(0) == 2);
+}
+
+TEST_CASE("what a pass writes in one island is no effect in another", "[transition]") {
+  TwoLeaves leaves;
+  leaves.run(add_one, 1), leaves.run(write_z, 0);
+  CHECK(leaves.transition.effects(1) == 1);
+  CHECK_FALSE(leaves.transition.wrote_x(0));
+  CHECK(leaves.transition.pass_wrote());
+  leaves.transition.commit(), leaves.transition.open();
+  CHECK_FALSE(leaves.transition.wrote_x(1));
 }
 
 TEST_CASE("writing an equal value is a reset; writing nothing is none", "[transition]") {
   TwoLeaves leaves;
   CHECK_FALSE(leaves.run(write_nothing));
   CHECK_FALSE(leaves.transition.pass_wrote());
-  CHECK(leaves.transition.effects() == 0);
+  CHECK(leaves.transition.effects(0) == 0);
   CHECK(leaves.run(write_equal));
   CHECK(leaves.transition.pass_wrote());
-  CHECK(leaves.transition.effects() == 1);
+  CHECK(leaves.transition.effects(0) == 1);
 }
 
 TEST_CASE("the solver restarts where f or x may have changed, and nowhere else", "[transition]") {

@@ -60,8 +60,10 @@ class Transition {
   bool restarts() const;
 
   bool pass_wrote() const noexcept { return pass_wrote_; }  ///< the last pass wrote states
-  bool wrote_x() const noexcept { return effects_ > 0; }    ///< some pass of it wrote states
-  int effects() const noexcept { return effects_; }  ///< reset maps that wrote continuous state
+  /// The number of reset maps of this instant that wrote continuous state in the island of a leaf.
+  /// Those of another island say nothing about the flow of this one.
+  int effects(int leaf) const { return effects_[machine_->plan().island_of[leaf] + 1]; }
+  bool wrote_x(int leaf) const { return effects(leaf) > 0; }
   bool entered_mode() const noexcept { return entered_; }  ///< in some pass of this instant
 
   /// Whether some derivative reads the discrete state or the mode of a leaf.
@@ -88,7 +90,8 @@ class Transition {
   List<int> modes_minus_;    // before the instant, once a commit has changed a mode
   bool wrote_mode_ = false;  // in the last pass: modes_next_ may differ from the modes
   bool pass_wrote_ = false, entered_ = false, restarts_ = false;
-  int effects_ = 0;
+  List<int> effects_;       // of each island, from the second place on; of no island, the first
+  bool wrote_any_ = false;  // some place of effects_ is not zero
 };
 
 }  // namespace saltus
