@@ -129,5 +129,5 @@ def test_all_of_them_in_a_file(tmp_path):
     """The table is 3 t, of which the limiter follows the first half per second."""
     file = tmp_path / "scene.toml"
     file.write_text(FILE)
-    results = saltus.scene_files.load(file).simulate()
+    results = saltus.load_scene(file).simulate()
     assert results.outputs["y"][-1] == pytest.approx(0.5, abs=1e-3)  # within the lag at the start
