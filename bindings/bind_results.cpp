@@ -1,5 +1,7 @@
 // Results: columns as NumPy arrays over the C++ memory, which lives as long as any of them, or over
 // copies.
+#include <algorithm>
+
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
@@ -25,10 +27,16 @@ py::ssize_t rows(const SharedRecord& results) {
   return static_cast<py::ssize_t>(results->time.size());
 }
 
+/// The number of rows of a signal: those of its island, if it has one.
+py::ssize_t rows(const SharedRecord& results, const RecordedSignal& signal) {
+  if (signal.island < 0) return rows(results);
+  return static_cast<py::ssize_t>(nth(results->islands, signal.island).time.size());
+}
+
 py::dict outputs(const SharedRecord& results) {
   py::dict all;
   for (RecordedSignal& signal : results->signals) {
-    std::vector<py::ssize_t> dimensions{rows(results)};
+    std::vector<py::ssize_t> dimensions{rows(results, signal)};
     if (signal.shape.vector) dimensions.push_back(signal.shape.size);
     all[py::str(signal.name)] = column(results, signal.values, std::move(dimensions));
   }
@@ -95,8 +103,7 @@ py::array event_times(const Record& results, std::string_view name,
 }
 
 /// The counts, by the names of the fields of saltus.results.Statistics.
-py::dict statistics(const Record& results) {
-  const Statistics& s = results.statistics;
+py::dict counts_of(const Statistics& s) {
   py::dict by_name;
   for (const auto& [name, count] : s.events_by_name) by_name[py::str(name)] = count;
   using py::literals::operator""_a;
@@ -110,6 +117,24 @@ py::dict statistics(const Record& results) {
                   "linear_setups"_a = s.linear_setups, "linear_solver"_a = s.linear_solver,
                   "instants"_a = s.instants, "events"_a = s.events, "events_by_name"_a = by_name,
                   "wall_time"_a = s.wall_time);
+}
+
+py::dict statistics(const Record& results) { return counts_of(results.statistics); }
+
+/// The islands that stepped apart, each in the order of the fields of saltus.results.Island.
+py::list islands(const SharedRecord& results) {
+  py::list all;
+  for (std::size_t k = 0; k < results->islands.size(); ++k) {
+    IslandResults& island = results->islands[k];
+    py::list signals;
+    for (const RecordedSignal& signal : results->signals)
+      if (signal.island == static_cast<int>(k)) signals.append(signal.name);
+    const auto n = static_cast<py::ssize_t>(island.time.size());
+    all.append(py::make_tuple(island.name, island.blocks, column(results, island.time, {n}),
+                              column(results, island.jump, {n}), counts_of(island.statistics),
+                              py::tuple(signals)));
+  }
+  return all;
 }
 
 /// The derivatives, in the form of saltus.results.Sensitivities; None if nobody asked for them.
@@ -164,6 +189,13 @@ void bind_results(py::module_& module) {
       .def_property_readonly("jump",
                              [](const SharedRecord& r) { return column(r, r->jump, {rows(r)}); })
       .def_property_readonly("outputs", &outputs)
+      .def_property_readonly("islands", &islands)
+      .def_property_readonly("apart",
+                             [](const Record& r) {
+                               return std::ranges::any_of(r.signals, [](const RecordedSignal& s) {
+                                 return s.island >= 0;
+                               });
+                             })
       .def_readonly("context", &Results::context)
       .def_property_readonly("status", [](const Record& r) { return to_string(r.status); })
       .def_readonly("message", &Results::message)

@@ -46,6 +46,7 @@ class DeclarationWriter {
   void put(const Slot& slot);
   void put_ode(const Slot& slot);
   void put_output(const Slot& slot);
+  void put_guard(const Slot& slot, ZeroCrossing& crossing);
   void put_relation(const Slot& slot);
   void put_relations(const Slot& slot, OutputDeclaration& output);
   RelationIndex add_relation(Relation relation);
@@ -88,9 +89,7 @@ void DeclarationWriter::put(const Slot& slot) {
       declared_.continuous.sparse_jacobian = taped(slot);
       return;
     case Role::guard:
-      crossing().guard = taped(slot);
-      crossing().formula = formula(slot);
-      return;
+      return put_guard(slot, crossing());
     case Role::reset_map:
       crossing().reset_map = TapedReset{slot, crossing().reset_map, &original_};
       return;
@@ -124,6 +123,15 @@ void DeclarationWriter::put_ode(const Slot& slot) {
   if (state.sparsity) slot->jacobian = at_places(*slot->jacobian, *state.sparsity);
   state.sparsity = slot->jacobian->entries;
   state.sparse_jacobian = TapedEntries{slot};
+}
+
+/// A truth becomes the difference of its sides. The truth changes where the difference crosses zero;
+/// the difference itself changes all the time.
+void DeclarationWriter::put_guard(const Slot& slot, ZeroCrossing& crossing) {
+  crossing.guard = taped(slot);
+  crossing.formula = formula(slot);
+  if (slot->relations && crossing.direction == Direction::edge_detection)
+    crossing.direction = Direction::crosses_zero;
 }
 
 void DeclarationWriter::put_output(const Slot& slot) {

@@ -93,7 +93,8 @@ test_jax() {  # only when it is named, because of the size of the packages
 test_doctest() { pytest_tests doctest tests/packaging/test_docstrings.py; }
 
 test_docs() {
-  venv docs -r docs/site/requirements.txt && pytest_tests site tests/packaging/test_site.py
+  venv docs -r docs/site/requirements.txt \
+    && pytest_tests site tests/packaging/test_site.py tests/packaging/test_{course_pages,mathematics,site_seen}.py
 }
 
 test_typing() {

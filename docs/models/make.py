@@ -1,21 +1,17 @@
 """A picture of each scene of the shelf, from a run: `python docs/models/make.py [NAME ...]`."""
 
 import argparse
-import io
-import re
+import sys
 import textwrap
 from pathlib import Path
 
-import matplotlib
-
-matplotlib.use("svg")
-import matplotlib.pyplot as plt
 import numpy as np
-
 import saltus
 
-INK, MID, PALE, SHADE = "black", "0.45", "0.75", "0.9"
-LINES = ("black", "tab:blue", "tab:red", "tab:green", "tab:orange", "tab:purple", "tab:brown")
+sys.path.insert(0, str(Path(__file__).parents[1] / "site"))
+
+from style import mark_events, plt, save, with_gaps
+
 LONG = 1e5  # [s] spans longer than this have a logarithmic time axis
 MANY = 24  # more components than this are points in space
 # scenes that an orbit shows better than its coordinates do: columns (x, y) of each curve
@@ -37,21 +33,6 @@ LOG_FROM = {
 EVERY = {"brusselator": 2, "brusselator-2d": 2, "cusp": 3, "medakzo": 2}
 HALF = {"beam", "plate"}  # of states that end with their rates the first half
 LINEAR = {"emep"}  # spans longer than LONG that are seen better over time as it is
-plt.rcParams.update(
-    {
-        "font.size": 8,
-        "axes.spines.top": False,
-        "axes.spines.right": False,
-        "axes.titlesize": 8,
-        "axes.titlelocation": "left",
-        "axes.prop_cycle": plt.cycler(color=LINES),
-        "lines.linewidth": 1.0,
-        "legend.frameon": False,
-        "svg.fonttype": "none",  # words stay words
-        "svg.hashsalt": "saltus",  # the same bits each time it is drawn
-        "savefig.facecolor": "white",
-    }
-)
 
 
 def logarithmic(scene):
@@ -78,32 +59,6 @@ def columns(results):
         for i in range(a.shape[1])
     ]
     return np.hstack(list(arrays.values())).astype(float), names
-
-
-def with_gaps(results, values):
-    """Times and values with a row of NaN at each jump, over which no line is drawn."""
-    jumps = 1 + np.flatnonzero(np.diff(results.jump) > 0)
-    jumps = [j for j in jumps if not np.allclose(values[j], values[j - 1], rtol=1e-6, atol=0)]
-    times = np.insert(results.time, jumps, np.nan)
-    return times, np.insert(values, jumps, np.nan, axis=0)
-
-
-def mark_events(axis, results):
-    """A tick on the time axis for each event, holds shaded."""
-    events = results.events
-    times = np.unique(
-        [round(e.time, 12) for e in events if e.kind in ("zero_crossing", "terminal")]
-    )
-    if len(times):
-        axis.plot(
-            times, 0 * times, "|", transform=axis.get_xaxis_transform(),
-            color="tab:red", ms=5, mew=0.7, clip_on=False,
-        )  # fmt: skip
-    begins = [e.time for e in events if e.kind == "zeno_enter"]
-    ends = [e.time for e in events if e.kind == "zeno_release"]
-    for begin in begins[:50]:
-        end = min([t for t in ends if t > begin], default=results.time[-1])
-        axis.axvspan(begin, end, color=SHADE, lw=0)
 
 
 def scaled(values, names):
@@ -193,14 +148,6 @@ def picture(name):
     width = 15 * figure.get_figwidth()  # in letters
     figure.axes[0].set_title(textwrap.fill(f"{name}: {scene.title}", int(width)))
     return figure
-
-
-def save(figure, path):
-    """As SVG with two digits of a pixel, which is more than is seen."""
-    text = io.StringIO()
-    figure.savefig(text, format="svg", metadata={"Date": None, "Creator": None}, dpi=110)
-    plt.close(figure)
-    path.write_text(re.sub(r"(\d\.\d\d)\d+", r"\1", text.getvalue()))
 
 
 def main():

@@ -64,7 +64,7 @@ def prose(words):
     """Text as Markdown: equations, which are indented, become code."""
     equations = re.compile(r"((?:^  .*\n?)+)", re.M)
     parts = equations.split(words)
-    parts[::2] = [re.sub(r"([<>*_\[\]])", r"\\\1", part) for part in parts[::2]]
+    parts[::2] = [re.sub(r"([>*_\[\]])", r"\\\1", part.replace("<", "&lt;")) for part in parts[::2]]
     parts[1::2] = [f"\n```text\n{part.rstrip()}\n```\n\n" for part in parts[1::2]]
     return "".join(parts)
 

@@ -1,5 +1,5 @@
 """What MkDocs is told beyond mkdocs.yml: pages from outside docs/, links that hold on a site as in
-a checkout, fences that carry notes for the tests.
+a checkout, fences that carry notes for the tests, formulas.
 """
 
 import logging
@@ -14,6 +14,8 @@ ROOT = Path(__file__).parents[2]
 sys.path.insert(0, str(Path(__file__).parent))
 
 import cpp_reference  # noqa: E402
+import mathematics  # noqa: E402
+import names  # noqa: E402
 
 # parameters of compiled functions stand in the stubs, where griffe does not look for them
 logging.getLogger("mkdocs.plugins.griffe").addFilter(
@@ -27,16 +29,27 @@ PAGES = {
     "KNOWN_GAPS.md": "known_gaps.md",
     "CONTRIBUTING.md": "contributing.md",
 }
+FORMULAS = {}  # of the pages between their Markdown and their HTML
 FENCE = re.compile(r"^(```+[a-z]+)[ \t][^\n]*$", re.M)  # ```python continue
 CODE = re.compile(r"(^```.*?^```[ \t]*$)", re.M | re.S)
-SCENE = re.compile(r"^\| \[([\w-]+)\]\(([\w-]+)\.md\) \| (.*) \|\n", re.M)
+SCENE = re.compile(r"^\| \[([\w -]+)\]\(([\w/-]+)\.md\) \| (.*) \|\n", re.M)
+TABLE = re.compile(r"<table(>.*?</table>)", re.S)
+CELL = re.compile(r"<td.*?</td>", re.S)
 LINK = re.compile(r"(!?)\[([^\]]*)\]\(([^)\s#]*)(#[^)\s]*)?\)")
+
+
+def on_config(config):
+    version = re.search(
+        r"^project\(saltus VERSION ([\d.]+)", (ROOT / "CMakeLists.txt").read_text(), re.M
+    )
+    config.copyright = f"Saltus {version[1]}"  # in the foot of each page
+    return config
 
 
 def on_files(files, config):
     for source, target in PAGES.items():
         files.append(File.generated(config, target, content=(ROOT / source).read_text()))
-    for path, text in cpp_reference.pages(ROOT):
+    for path, text in [*cpp_reference.pages(ROOT), names.page(ROOT)]:
         files.append(File.generated(config, path, content=text))
     return files
 
@@ -51,8 +64,21 @@ def on_page_markdown(markdown, page, config, files):
     markdown = re.sub(r"^```text output.*$", "``` {.text .output}", markdown, flags=re.M)
     parts = CODE.split(FENCE.sub(r"\1", markdown))
     for i in range(0, len(parts), 2):  # the others are code
-        parts[i] = LINK.sub(lambda link: rewritten(link, origin, page), parts[i])
+        text = mathematics.take(parts[i], FORMULAS.setdefault(page.file.src_uri, []))
+        parts[i] = LINK.sub(lambda link: rewritten(link, origin, page), text)
     return "".join(parts)
+
+
+def on_page_content(html, page, config, files):
+    html = TABLE.sub(marked, html)
+    return mathematics.put(html, FORMULAS.pop(page.file.src_uri, []))
+
+
+def marked(table):
+    """A table of many columns and long texts gets a mark: on a telephone its columns are wider."""
+    cells = [re.sub(r"<[^>]*>", "", cell) for cell in CELL.findall(table[0])]
+    many = table[0].partition("</tr>")[0].count("<th") > 3
+    return f"<table data-wide{table[1]}" if many and max(map(len, cells)) > 60 else table[0]
 
 
 def rewritten(link, origin, page):
@@ -81,6 +107,6 @@ def place_on_site(path):
 def gallery(markdown):
     """The tables of scenes as cards with their pictures."""
     card = r"- [![](\2.svg)<b>\1</b><br>\3](\2.md)\n"
-    rows = re.compile(r"^\| scene \| \|\n\| --- \| --- \|\n((?:\|.*\n?)+)", re.M)
+    rows = re.compile(r"^\| (?:scene|model) \| \|\n\| --- \| --- \|\n((?:\|.*\n?)+)", re.M)
     opened, closed = '<div class="gallery" markdown>\n\n', "\n</div>\n"
     return rows.sub(lambda table: opened + SCENE.sub(card, table[1]) + closed, markdown)

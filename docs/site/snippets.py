@@ -5,6 +5,7 @@ In the line that opens a fence, after the language:
 - `continue` puts the fence after the one before it in the same language;
 - `picture=FILE` says that the last figure it makes is that picture, `drawing=FILE` that Graphviz's
   of its `system` is, `animation=FILE` that a GIF of its `animation` is;
+- `beside=FOLDER` runs it beside the scene files of that folder of the checkout;
 - `needs=PACKAGE` says what it imports beyond what `./dev test` installs; without it the test skips;
 - `no-run` is for shell text only: Python and C++ shown to readers must run.
 
@@ -42,6 +43,12 @@ class Fence:
     def needs(self):
         """The packages that it needs beyond those of the tests."""
         return [f.removeprefix("needs=") for f in self.flags if f.startswith("needs=")]
+
+    @property
+    def beside(self):
+        """The scene files that it reads."""
+        folders = [f.removeprefix("beside=") for f in self.flags if f.startswith("beside=")]
+        return [path for folder in folders for path in (ROOT / folder).glob("*.toml")]
 
     def file(self, flag):
         """What `picture` or `drawing` says, as a path."""

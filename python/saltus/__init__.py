@@ -34,6 +34,8 @@ if TYPE_CHECKING:
     from saltus.differentiable.jax_function import jax_function as jax_function
     from saltus.differentiable.torch_function import torch_function as torch_function
     from saltus.ensemble.heat_map import plot_sweep as plot_sweep
+    from saltus.exponents import LyapunovSpectrum
+    from saltus.exponents.lyapunov import lyapunov as lyapunov
     from saltus.fitting import EventTimes, Experiment, FitProgress, FitResult, Free
     from saltus.fitting.fit import fit as fit
     from saltus.operating import Equilibria, OperatingPoint
@@ -63,6 +65,7 @@ __all__ = [
     "InputPort",
     "LeafSystem",
     "Linearization",
+    "LyapunovSpectrum",
     "ModelError",
     "OperatingPoint",
     "OutputPort",
@@ -92,6 +95,7 @@ __all__ = [
     "load",
     "load_results",
     "load_scene",
+    "lyapunov",
     "period_map",
     "periodic_orbit",
     "plot_sweep",
@@ -111,6 +115,7 @@ __all__ = [
 
 _LATER = {
     **dict.fromkeys(("RunValues", "jax_function", "torch_function"), "differentiable"),
+    **dict.fromkeys(("LyapunovSpectrum", "lyapunov"), "exponents"),
     **dict.fromkeys(
         ("EventTimes", "Experiment", "FitProgress", "FitResult", "Free", "fit"), "fitting"
     ),

@@ -107,6 +107,10 @@ void require_sound(const Continuation& c) {
   for (const std::int64_t count : c.counts)
     require(count >= 0 && count <= std::numeric_limits<std::int64_t>::max() / 2,
             text("a count of ", count));
+  for (const Continuation& island : c.islands) {
+    require(island.islands.empty(), "an island with islands");
+    require_sound(island);
+  }
 }
 
 namespace {

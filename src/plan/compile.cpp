@@ -11,6 +11,7 @@
 #include "saltus/plan/detail/kept.hpp"
 #include "saltus/plan/detail/needs.hpp"
 #include "saltus/plan/detail/order.hpp"
+#include "saltus/plan/detail/passes.hpp"
 
 namespace saltus {
 
@@ -203,13 +204,7 @@ struct Sound {
   Sound(const System& system, const RecordedSignals& recorded, const Replacements& replacements)
       : plan(flatten(system, replacements)) {
     add_taps(plan, recorded);
-    roots = find_roots(plan);
-    find_located(plan, roots);
-    release_held_relations(plan);
-    add_order(plan);
-    lay_out(plan);
-    find_rates(plan);
-    check_edges(plan);
+    roots = find_shapes_and_rates(plan);
   }
 
   Plan plan;
@@ -245,10 +240,18 @@ Sound refined(const System& system, const RecordedSignals& recorded, Refinement&
 
 }  // namespace
 
-std::shared_ptr<const Plan> compile(const System& system, const RecordedSignals& recorded,
-                                    Refinement* refinement) {
-  auto [plan, roots] =
-      refinement ? refined(system, recorded, *refinement) : Sound(system, recorded, {});
+Roots detail::find_shapes_and_rates(Plan& plan) {
+  Roots roots = find_roots(plan);
+  find_located(plan, roots);
+  release_held_relations(plan);
+  add_order(plan);
+  lay_out(plan);
+  find_rates(plan);
+  check_edges(plan);
+  return roots;
+}
+
+std::shared_ptr<const Plan> detail::completed(Plan plan, const Roots& roots) {
   find_slices(plan, roots);
   add_guards(plan);
   add_edges(plan);
@@ -257,6 +260,13 @@ std::shared_ptr<const Plan> compile(const System& system, const RecordedSignals&
   plan.series = std::make_shared<Kept<FlowSeries>>();
   plan.divisors = std::make_shared<Kept<FlowDivisors>>();
   return std::make_shared<const Plan>(std::move(plan));
+}
+
+std::shared_ptr<const Plan> compile(const System& system, const RecordedSignals& recorded,
+                                    Refinement* refinement) {
+  auto [plan, roots] =
+      refinement ? refined(system, recorded, *refinement) : Sound(system, recorded, {});
+  return completed(std::move(plan), roots);
 }
 
 }  // namespace saltus

@@ -81,6 +81,7 @@ void CrossingArming::arm(std::size_t k, bool at_start) {
   const GuardGroup& group = group_of(k);
   const auto slot = static_cast<Index>(k);
   const CrossingFacts facts = facts_of(k, at_start);
+  if (facts.direction == Direction::edge_detection) arm_edge(k);
   if (!facts.fired && (at_start || facts.entered) && begins_as_wished(group, k, at_start)) return;
   if (!needs_flow(facts, [&] { return uncertainty(k); })) return;
   const bool counts_as_zero = facts.entered || facts.put_at_zero || facts.phase == Phase::waiting;
@@ -88,6 +89,24 @@ void CrossingArming::arm(std::size_t k, bool at_start) {
   const Departure::Side flow = flow_->side(group, slot, error, facts.fired ? facts.came_from : 0);
   const Ask ask{this, &group, k, facts.came_from, flow.rounding};
   carry_out(k, decide_crossing(facts, {flow.side, flow.rounding}, ask), flow.rounding);
+}
+
+/// A guard of edge_detection that fired, and whose reset map wrote the state. If it is a truth, or
+/// another guard that jumped off its side of zero, it is decided as one of either direction (2.5):
+/// where the flow leads back to its value before, it compares with that value from now on, so that
+/// leaving the floor is no second change; where the flow does not lead away, its states rest.
+void CrossingArming::arm_edge(std::size_t k) {
+  CrossingFacts facts = facts_of(k, false);
+  const bool left_its_side = facts.came_from != 0 && facts.came_from * facts.g <= 0.0;
+  if (!facts.fired || !facts.reset || !facts.wrote() || !facts.jumped || !left_its_side) return;
+  facts.direction = Direction::crosses_zero;
+  const GuardGroup& group = group_of(k);
+  const Departure::Side flow =
+      flow_->side(group, static_cast<Index>(k), present_->error_so_far(k, false), facts.came_from);
+  const Ask ask{this, &group, k, facts.came_from, flow.rounding};
+  const Arming arming = decide_fired(facts, {flow.side, flow.rounding}, ask);
+  if (arming.then == Arming::Then::rest) return carry_out(k, arming, flow.rounding);
+  if (arming.side == facts.came_from) guards_->set_base(k, present_->now(k).before);
 }
 
 double CrossingArming::uncertainty(std::size_t k) {

@@ -49,6 +49,17 @@ EventLog EventLog::emptied() const {
   return log;
 }
 
+void EventLog::append(const EventLog& other, std::size_t i, int source, int jump) {
+  Row row = other.rows_[i];
+  const double* states = other.states_.data() + row.states;
+  const int* rests = other.rests_.data() + row.first_rest;
+  row.source = source, row.jump = jump;
+  row.states = states_.size(), row.first_rest = rests_.size();
+  states_.insert(states_.end(), states, states + 2 * row.width);
+  rests_.insert(rests_.end(), rests, rests + row.rests);
+  rows_.push_back(row);
+}
+
 void EventLog::shorten(std::size_t n) {
   if (n >= rows_.size()) return;
   states_.resize(rows_[n].states);

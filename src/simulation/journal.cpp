@@ -29,6 +29,15 @@ EventName name_in(const Plan& plan, const Entry& entry) {
 
 }  // namespace
 
+std::vector<EventName> event_names(const Plan& plan) {
+  std::vector<EventName> names;
+  for (const GuardGroup& group : plan.guards) names.push_back(name_in(plan, group));
+  for (const EdgeWatch& edge : plan.edges) names.push_back(name_in(plan, edge));
+  for (const ScheduledEvent& event : plan.schedule) names.push_back(name_in(plan, event));
+  add_silent(plan, names);
+  return names;
+}
+
 Journal::Journal(const Machine& machine, const Transition& transition,
                  const SimulatorOptions& options, Results& results)
     : machine_(&machine),
@@ -36,13 +45,9 @@ Journal::Journal(const Machine& machine, const Transition& transition,
       transition_(&transition),
       options_(&options),
       results_(&results) {
-  std::vector<EventName> names;
-  for (const GuardGroup& group : plan_->guards) names.push_back(name_in(*plan_, group));
-  for (const EdgeWatch& edge : plan_->edges) names.push_back(name_in(*plan_, edge));
-  for (const ScheduledEvent& event : plan_->schedule) names.push_back(name_in(*plan_, event));
-  counts_.assign(names.size(), 0), earlier_.assign(plan_->guards.size(), 0);
-  add_silent(*plan_, names);
-  results.events.begin(std::move(names));
+  counts_.assign(plan_->guards.size() + plan_->edges.size() + plan_->schedule.size(), 0);
+  earlier_.assign(plan_->guards.size(), 0);
+  results.events.begin(event_names(*plan_));
 }
 
 void Journal::begin() {

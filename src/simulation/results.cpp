@@ -3,13 +3,27 @@
 
 namespace saltus {
 
-Eigen::Map<const RecordedSignal::Matrix> Results::output(std::string_view name) const {
+const RecordedSignal& Results::signal(std::string_view name) const {
   std::vector<std::string> known;
   for (const RecordedSignal& signal : signals) {
-    if (signal.name == name) return signal.matrix();
+    if (signal.name == name) return signal;
     known.push_back(signal.name);
   }
   throw ModelError(text("nothing was recorded under '", name, "'", known_names(name, known)));
+}
+
+Eigen::Map<const RecordedSignal::Matrix> Results::output(std::string_view name) const {
+  return signal(name).matrix();
+}
+
+const std::vector<double>& Results::time_of(std::string_view name) const {
+  const int island = signal(name).island;
+  return island < 0 ? time : nth(islands, island).time;
+}
+
+const std::vector<int>& Results::jump_of(std::string_view name) const {
+  const int island = signal(name).island;
+  return island < 0 ? jump : nth(islands, island).jump;
 }
 
 Moment Results::at(double t, Side side) const {

@@ -22,6 +22,14 @@ SimulatorOptions checked_for(const Plan& plan, SimulatorOptions options) {
   return options;
 }
 
+void require_common_step(const Context& context) {
+  if (context.continuation() == nullptr || context.continuation()->islands.empty()) return;
+  throw ModelError(
+      "the context ended a run whose islands stepped apart; continue it with the option "
+      "islands = true, or take context.with_time(context.time()), which begins anew from its "
+      "values");
+}
+
 }  // namespace
 
 Run::Run(const System& system, SimulatorOptions options)
@@ -55,6 +63,7 @@ Run::Run(std::shared_ptr<const Plan> plan, SimulatorOptions options)
 /// A context that is refused leaves the run as it is.
 void Run::initialize(const Context& context) {
   require_context_of(plan(), context);
+  require_common_step(context);
   if (context.continuation() != nullptr) instant_.fits(*context.continuation());
   if (tangents_) tangents_->require_fits(context);
   instant_.executions().require_fits(context);

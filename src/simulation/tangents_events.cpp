@@ -68,9 +68,21 @@ void Tangents::remember(const void* monitor, std::span<const Index> states,
 void Tangents::accumulate(const void* monitor, std::span<const Index> states,
                           const Eigen::VectorXd& next) {
   const ZenoTangent& zeno = monitors_[monitor];
+  if (!zeno.knows()) return lose_accumulation();
   const Eigen::MatrixXd rest = zeno.accumulate(entries_of(states, next), rows_of(states, next_x_));
   for (Index i = 0; i < rest.rows(); ++i) next_x_.row(nth(states, i)) = rest.row(i);
   predicted_[results_->events.size()] = zeno.accumulation_time();
+}
+
+void Tangents::lose_accumulation() {
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  Eigen::RowVectorXd time = Eigen::RowVectorXd::Zero(size());
+  for (Index k = 0; k < size(); ++k) {
+    if (!columns_.matters(k)) continue;
+    time[k] = none, next_x_.col(k).setConstant(none), next_z_.col(k).setConstant(none);
+    lose(k, cause_, "the run began between the last events before the rest; begin it earlier");
+  }
+  predicted_[results_->events.size()] = time;
 }
 
 }  // namespace saltus

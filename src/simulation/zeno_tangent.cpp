@@ -9,6 +9,12 @@ void ZenoTangent::fired(double t, const Eigen::RowVectorXd& dt) {
   std::ranges::rotate(times_, times_.end() - 1);
   std::ranges::rotate(tangents_, tangents_.end() - 1);
   times_[0] = t, tangents_[0] = dt;
+  ++count_;
+}
+
+bool ZenoTangent::knows() const {
+  if (count_ < 3 || after_tangent_.size() == 0) return false;
+  return gap(0) / gap(1) <= thresholds::slow_series || count_ >= 4;
 }
 
 /// q / (1 - q) as ZenoMonitor::remainder has it, with its derivative dq / (1 - q)^2.

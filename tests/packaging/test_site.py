@@ -1,9 +1,7 @@
 """The site of the documents builds without a warning, fetches nothing, and leaves nothing out."""
 
 import json
-import os
 import re
-import subprocess
 import sys
 from pathlib import Path
 
@@ -21,20 +19,6 @@ FETCHED = re.compile(
 )
 
 
-@pytest.fixture(scope="module")
-def site(tmp_path_factory):
-    out = tmp_path_factory.mktemp("site")
-    done = subprocess.run(
-        [sys.executable, "-m", "mkdocs", "build", "--strict", "--site-dir", out],
-        cwd=ROOT,
-        env=os.environ | {"NO_MKDOCS_2_WARNING": "1"},
-        capture_output=True,
-        text=True,
-    )
-    assert done.returncode == 0, done.stderr
-    return out
-
-
 def test_it_fetches_nothing(site):
     pages = list(site.glob("**/*.html"))
     assert len(pages) > 50
@@ -49,6 +33,33 @@ def test_it_can_be_searched(site):
     index = json.loads((site / "search" / "search_index.json").read_text())
     places = {entry["location"].split("#")[0] for entry in index["docs"] if "Zeno" in entry["text"]}
     assert {"semantics.html", "blocks.html", "api/runs.html"} <= places
+
+
+def test_every_page_has_the_version(site):
+    import saltus
+
+    bare = [
+        p.name
+        for p in site.glob("**/*.html")
+        if f"Saltus {saltus.__version__}" not in p.read_text()
+    ]
+    assert not bare
+
+
+def test_names_of_other_programs_lead_to_ours(site):
+    text = re.sub(r"</?code>", "", (site / "names.html").read_text())
+    for name, program, here in (
+        ("Sum", "Simulink", "Adder"),
+        ("Unit Delay", "Simulink", "UnitDelay"),
+        ("ConstantVectorSource", "Drake", "Constant"),
+        ("Nonlinear.Limiter", "Modelica", "Saturate"),
+        ("FeedthroughBlock", "Collimator", "FunctionBlock"),
+        ("MakeWitnessFunction with an event", "Drake", "declare_zero_crossing(guard"),
+    ):
+        row = (
+            rf"<td>{re.escape(name)}.*?</td>\s*<td>[^<]*{program}[^<]*</td>\s*<td>{re.escape(here)}"
+        )
+        assert re.search(row, text), f"{name} of {program} is not {here}"
 
 
 def test_every_public_name_is_in_the_reference(site):

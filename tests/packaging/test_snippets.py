@@ -7,6 +7,7 @@ snippets sets it).
 
 import os
 import re
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -72,6 +73,8 @@ def programs(tmp_path_factory):
 
 
 def run(fence, command, directory):
+    for file in fence.beside:
+        shutil.copy(file, directory)
     path = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
     done = subprocess.run(
         command,

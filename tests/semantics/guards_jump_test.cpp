@@ -79,13 +79,15 @@ TEST_CASE("2.1 a monitor that jumps is logged each time", "[semantics]") {
 TEST_CASE("2.1 a ball whose guard is the truth `above the floor` bounces and stays above",
           "[semantics]") {
   const auto method = GENERATE(from_range(methods));
-  const auto direction = GENERATE(Direction::positive_then_non_positive, Direction::crosses_zero);
+  const auto direction = GENERATE(Direction::positive_then_non_positive, Direction::crosses_zero,
+                                  Direction::edge_detection);
+  const double below = GENERATE(-1.0, 0.0);
   constexpr double g = 10.0, e = 0.8;
   const Leaf ball("ball", [=](Leaf& l) {
     l.declare_continuous_state({.initial = vec({5.0, 0.0}),
                                 .ode = [](const At& at, VectorRef xdot) { xdot << at.x[1], -g; }});
     l.declare_zero_crossing({.name = "bounce",
-                             .guard = [](const At& at) { return at.x[0] > 0.0 ? 1.0 : -1.0; },
+                             .guard = [=](const At& at) { return at.x[0] > 0.0 ? 1.0 : below; },
                              .reset_map =
                                  [=](const At& at, Next& next) {
                                    next.set_continuous_state({std::abs(at.x[0]), -e * at.x[1]});
@@ -110,7 +112,8 @@ namespace {
 
 /// A block that falls onto a floor; its guard is the truth `above the floor`. The reset map keeps a
 /// part of the speed.
-Leaf falling_onto(double floor, double kept, double g = 10.0) {
+Leaf falling_onto(double floor, double kept, double g = 10.0,
+                  Direction direction = Direction::positive_then_non_positive) {
   return Leaf("block", [=](Leaf& l) {
     l.declare_continuous_state({.initial = vec({floor + 5.0, -1.0}),
                                 .ode = [=](const At& at, VectorRef xdot) { xdot << at.x[1], -g; }});
@@ -119,7 +122,7 @@ Leaf falling_onto(double floor, double kept, double g = 10.0) {
          .guard = [=](const At& at) { return at.x[0] > floor ? 1.0 : -1.0; },
          .reset_map = [=](const At& at,
                           Next& next) { next.set_continuous_state({at.x[0], kept * at.x[1]}); },
-         .direction = Direction::positive_then_non_positive});
+         .direction = direction});
   });
 }
 
@@ -129,7 +132,9 @@ TEST_CASE("2.1 a block that a truth stops at once rests there, wherever its floo
           "[semantics]") {
   const auto method = GENERATE(from_range(methods));
   const double floor = GENERATE(0.0, 3.0, -1e5);
-  const Leaf block = falling_onto(floor, 0.0);
+  const auto direction = GENERATE(Direction::positive_then_non_positive, Direction::crosses_zero,
+                                  Direction::edge_detection);
+  const Leaf block = falling_onto(floor, 0.0, 10.0, direction);
   const auto results =
       simulate(block, block.create_context(), {0.0, 7.0}, {.ode_solver_method = method});
   INFO(method << ", floor at " << floor);
@@ -144,7 +149,8 @@ TEST_CASE("2.1 a block that a truth only slows, or that nothing pulls on, does n
           "[semantics]") {
   const auto method = GENERATE(from_range(methods));
   const double kept = GENERATE(1.0, 0.5, 0.01);
-  const Leaf block = falling_onto(2.0, kept);
+  const auto direction = GENERATE(Direction::positive_then_non_positive, Direction::edge_detection);
+  const Leaf block = falling_onto(2.0, kept, 10.0, direction);
   const auto results =
       simulate(block, block.create_context(), {0.0, 3.0}, {.ode_solver_method = method});
   INFO(method << ", kept " << kept);

@@ -34,3 +34,16 @@ TEST_CASE("the accumulation of a geometric series has its derivative", "[zeno][t
     CHECK(std::abs(zeno.accumulate(state, slope)(0, 0)) < 1e-8);
   }
 }
+
+TEST_CASE("sums of firings before the run have no derivative", "[zeno][tangent]") {
+  for (const double q : {0.3, 0.95}) {  // the sum of the last three firings, and of the last four
+    ZenoTangent zeno;
+    const int needed = q > thresholds::slow_series ? 4 : 3;
+    for (int k = 10; k < 10 + needed; ++k) {
+      CHECK_FALSE(zeno.knows());
+      zeno.remember(Eigen::VectorXd::Ones(1), Eigen::MatrixXd::Ones(1, 1));
+      zeno.fired(time_of(k, q), Eigen::RowVectorXd::Zero(1));
+    }
+    CHECK(zeno.knows());
+  }
+}

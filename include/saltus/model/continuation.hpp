@@ -36,6 +36,10 @@ struct Continuation {
   std::vector<Firings> firings = {};      ///< of the guards, then of the watched edges
   std::vector<int> edges = {};            ///< watched signals: true (1) or false (0)
   std::vector<std::int64_t> counts = {};  ///< firings of each guard, for max_count
+  /// Of each island of a run with the option islands. All other lists are then empty, and `jump` is
+  /// the sum.
+  std::vector<Continuation> islands = {};
+  bool settled = true;  ///< of an island: the events at its time have happened
   bool operator==(const Continuation&) const = default;
 };
 

@@ -110,6 +110,9 @@ class EventLog {
     states_.insert(states_.end(), after, after + row.width);
     rows_.push_back(row);
   }
+  const Row& row(std::size_t i) const { return rows_[i]; }
+  /// Appends event i of another log, under a source and a jump of this one.
+  void append(const EventLog& other, std::size_t i, int source, int jump);
 
  private:
   /// The sources that a name means. ModelError if there is none.

@@ -45,6 +45,7 @@ struct RecordedSignal {
   std::string name;
   Shape shape;
   std::vector<double> values;
+  int island = -1;  ///< the island whose rows it has; -1: the rows of Results::time
 
   using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   Eigen::Map<const Matrix> matrix() const {
@@ -53,10 +54,23 @@ struct RecordedSignal {
   }
 };
 
+/// One island of a run with the option islands.
+struct IslandResults {
+  std::string name;          ///< the path of its first block
+  std::size_t blocks = 0;    ///< how many blocks it has
+  std::vector<double> time;  ///< [s] of its rows; never decreases
+  std::vector<int> jump;     ///< j of each row, counted in this island alone
+  Statistics statistics;
+};
+
 struct Results {
-  std::vector<double> time;  ///< [s] never decreases
-  std::vector<int> jump;     ///< j of each row, which tells rows of equal time apart
+  /// [s] Never decreases. Empty if islands stepped apart, unless all signals have one table: with
+  /// save_at and event_rows = false.
+  std::vector<double> time;
+  std::vector<int> jump;  ///< j of each row, which tells rows of equal time apart
   std::vector<RecordedSignal> signals;
+  /// The islands that stepped apart, each with the rows of its signals; otherwise empty.
+  std::vector<IslandResults> islands;
   EventLog events;
   Context context;  ///< the values at the end; a run can continue from here
   Status status = Status::reached_end;
@@ -75,6 +89,13 @@ struct Results {
 
   /// A recorded signal by name, rows by width; a ModelError lists the names there are.
   Eigen::Map<const RecordedSignal::Matrix> output(std::string_view name) const;
+  /// [s] The times of the rows of a recorded signal: those of its island, or `time`.
+  const std::vector<double>& time_of(std::string_view name) const;
+  /// j of the rows of a recorded signal: that of its island, or `jump`.
+  const std::vector<int>& jump_of(std::string_view name) const;
+
+ private:
+  const RecordedSignal& signal(std::string_view name) const;
 };
 
 }  // namespace saltus

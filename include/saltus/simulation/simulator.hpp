@@ -10,6 +10,7 @@
 namespace saltus {
 
 class Run;
+class IslandRuns;
 
 /// Advances a context of a system from instant to instant. The system must outlive it. It can be
 /// initialized again and keeps its memory.
@@ -58,7 +59,8 @@ class Simulator {
   std::string describe() const;
 
  private:
-  std::unique_ptr<Run> run_;
+  std::unique_ptr<Run> run_;             // one step for all states
+  std::unique_ptr<IslandRuns> islands_;  // or islands that step apart
 };
 
 }  // namespace saltus

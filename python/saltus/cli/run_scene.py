@@ -126,7 +126,7 @@ def _summary(results: Results, scene: Chosen) -> dict[str, Any]:
         "continuous_state": _values([context.continuous_state]),
         "discrete_state": _values([context.discrete_state]),
         "modes": list(context.modes),
-        "rows": len(results.time),
+        "rows": sum(len(island.time) for island in results.islands) or len(results.time),
         "cost": {
             "method": s.method,
             "steps": s.steps,

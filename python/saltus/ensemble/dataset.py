@@ -13,7 +13,16 @@ from saltus.ensemble.table import Table
 from saltus.errors import ModelError
 from saltus.results.tables import extra
 
-__all__ = ["Arrays", "arrays_of", "refuse_reserved", "summary", "to_dataset", "to_dict", "xarray"]
+__all__ = [
+    "WELL",
+    "Arrays",
+    "arrays_of",
+    "refuse_reserved",
+    "summary",
+    "to_dataset",
+    "to_dict",
+    "xarray",
+]
 
 Arrays = dict[str, tuple[tuple[str, ...], np.ndarray]]
 """Each name with its dimensions and its values; the dimensions of the runs come first."""
@@ -21,6 +30,7 @@ Arrays = dict[str, tuple[tuple[str, ...], np.ndarray]]
 RESERVED = {"status", "message", "block", "events", "steps", "end_time", "wall_time",
             "continuous_state", "discrete_state", "modes", "time", "run"}  # fmt: skip
 WELL = ("reached_end", "terminal", "zeno_stop")
+"""the statuses of a run that ended as its user asked"""
 
 
 def xarray() -> Any:

@@ -242,9 +242,9 @@ class LookupTableNd(Block, _core.LookupTableNd):
     input_axes
         A list with the points of each input, 2 or more numbers that increase. They are fixed.
     output_table
-        An array with a dimension for each input: entry [i, j, ...] is the value at
-        input_axes[0][i], input_axes[1][j], ... The parameter `output_table` of the context, row by
-        row.
+        An array with a dimension for each input: entry [i, j, ...] is the value at point i of the
+        first input, point j of the second, and so on. The parameter `output_table` of the context,
+        row by row.
     extrapolation
         "clip", the value at the border; "linear"; or "error": y is not a number there, and the run
         ends with an error.

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, overload
 
 import numpy as np
 
@@ -85,7 +85,11 @@ class PeriodicOrbit:
         largest = float(np.max(np.abs(self.multipliers), initial=0.0))
         return None if abs(largest - 1.0) <= MARGIN else largest < 1.0
 
-    def dperiod(self, wrt: str | None = None) -> Any:
+    @overload
+    def dperiod(self, wrt: str) -> float: ...
+    @overload
+    def dperiod(self, wrt: None = None) -> np.ndarray: ...
+    def dperiod(self, wrt: str | None = None) -> float | np.ndarray:
         """The derivative of the period by a parameter, or by all of `wrt`.
 
         By the implicit function theorem: the orbit of P(x, p) = x moves by (1 - P_x)^-1 P_p. For a
@@ -119,7 +123,8 @@ class PeriodicOrbit:
         >>> bool(orbit.dperiod("w") < 0)  # it turns faster
         True
         """
-        return self._derivative(1, wrt)
+        found = self._derivative(1, wrt)
+        return found if wrt is None else float(found)
 
     def dx0(self, wrt: str | None = None) -> np.ndarray:
         """The derivative of `x0` by a parameter, or by all of `wrt`.
@@ -148,10 +153,9 @@ class PeriodicOrbit:
         >>> saltus.periodic_orbit(cooler, period=2.0, wrt=["k"]).dx0("k").round(6)
         array([1.])
         """
-        found: np.ndarray = self._derivative(0, wrt)
-        return found
+        return self._derivative(0, wrt)
 
-    def _derivative(self, which: int, wrt: str | None) -> Any:
+    def _derivative(self, which: int, wrt: str | None) -> np.ndarray:
         if self.status != "converged":
             raise SimulationError(
                 f"periodic_orbit: no orbit was found (status '{self.status}': {self.message}), so "
@@ -161,8 +165,8 @@ class PeriodicOrbit:
         if wrt is not None and wrt not in self.parameters:
             hint = known_names(str(wrt), list(self.parameters))
             raise ModelError(f"{wrt!r} was not among the parameters of wrt=[...]{hint}")
-        found = self._by()[which]
-        return found if wrt is None else found[..., self.parameters.index(wrt)]
+        found: np.ndarray = self._by()[which]
+        return found if wrt is None else np.asarray(found[..., self.parameters.index(wrt)])
 
     def plot(self, x: str | int = 0, y: str | int = 1, ax: Any = None, **style: Any) -> Any:
         """Draws the orbit in the plane of two states, or over time if there is one state. Needs

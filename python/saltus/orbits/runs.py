@@ -46,7 +46,7 @@ class Runs:
         """A run to `end` without derivatives; refused if it ends before."""
         options = {"recorded_signals": {}, **self.options, **more}
         results = simulate(self.system, context, (context.time, end), **options)
-        self._require_end(results, end)
+        self.require_reached(results, results.status)
         return results
 
     def derived(self, context: _core.Context, end: float, names: Sequence[str]) -> Results:
@@ -87,9 +87,10 @@ class Runs:
             run.advance_to(further)
         return run.results.events
 
-    def _require_end(self, results: Results, end: float) -> None:
-        if results.status != "reached_end":
-            self._ended_early(results, results.status)
+    def require_reached(self, results: Results, status: str) -> None:
+        """Refuses a run that an event ended."""
+        if status != "reached_end":
+            self._ended_early(results, status)
 
     def _ended_early(self, results: Results, status: str) -> NoReturn:
         at = results.context.time

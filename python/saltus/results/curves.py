@@ -73,19 +73,26 @@ def _curve(label: str, time: np.ndarray, jump: np.ndarray, value: np.ndarray) ->
 
 def curves_of(results: Results) -> dict[str, list[Curve]]:
     """The curves of every recorded signal, one for each of its numbers."""
+    if results._core.apart:
+        return {
+            name: _curves(name, results.time_of(name), results.jump_of(name), array)
+            for name, array in results.outputs.items()
+        }
     time, jump, columns = refined(results)
-    return {
-        name: [_curve(name, time, jump, array)]
-        if array.ndim == 1
-        else [_curve(f"{name}[{i}]", time, jump, array[:, i]) for i in range(array.shape[1])]
-        for name, array in columns.items()
-    }
+    return {name: _curves(name, time, jump, array) for name, array in columns.items()}
+
+
+def _curves(name: str, time: np.ndarray, jump: np.ndarray, array: np.ndarray) -> list[Curve]:
+    if array.ndim == 1:
+        return [_curve(name, time, jump, array)]
+    return [_curve(f"{name}[{i}]", time, jump, array[:, i]) for i in range(array.shape[1])]
 
 
 def holds_of(results: Results) -> list[tuple[float, float]]:
     """[s] The spans in which something was at rest on a Zeno hold; overlapping spans are joined."""
-    if not len(results.time):
+    if not results._core.apart and not len(results.time):
         return []
+    end = results.context.time if results._core.apart else float(results.time[-1])
     open_since: dict[tuple[str, str, int], float] = {}
     spans = []
     for e in results.events:
@@ -94,7 +101,7 @@ def holds_of(results: Results) -> list[tuple[float, float]]:
             open_since.setdefault(key, e.time)
         elif e.kind == "zeno_release" and key in open_since:
             spans.append((open_since.pop(key), e.time))
-    spans += [(begin, float(results.time[-1])) for begin in open_since.values()]
+    spans += [(begin, end) for begin in open_since.values()]
     merged: list[tuple[float, float]] = []
     for begin, end in sorted(spans):
         if merged and begin <= merged[-1][1]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, Protocol
 
 import numpy as np
@@ -28,6 +28,10 @@ class Record(Protocol):
     def jump(self) -> np.ndarray: ...
     @property
     def outputs(self) -> Columns: ...
+    @property
+    def islands(self) -> list[tuple[Any, ...]]: ...
+    @property
+    def apart(self) -> bool: ...
     @property
     def context(self) -> _core.Context: ...
     @property
@@ -72,6 +76,9 @@ class KeptRun:
     event_names: list[str]
     """'ball.bounce' of every event that could have been"""
     sensitivities: dict[str, Any] | None = None
+    islands: list[tuple[Any, ...]] = field(default_factory=list)
+    """as `_core.Results.islands`"""
+    apart: bool = False
     dense = False
     span = (float("nan"), float("nan"))
     joints = np.empty(0)
@@ -91,6 +98,8 @@ class KeptRun:
             events=[record.event(i) for i in range(record.event_count)],
             event_names=record.event_names,
             sensitivities=record.sensitivities,
+            islands=[(*one[:2], *map(np.array, one[2:4]), *one[4:]) for one in record.islands],
+            apart=record.apart,
         )
 
     @property

@@ -53,6 +53,11 @@ def save(run: KeptRun, path: str | PathLike[str], kind: dict[str, Any]) -> None:
             "save: the file format has no place for derivatives; write them with numpy.savez, or "
             "the whole results with pickle"
         )
+    if run.apart:
+        raise ModelError(
+            "save: the file format has one table, and the islands of this run have rows of their "
+            "own; run it with save_at=[...] and event_rows=False, or write the results with pickle"
+        )
     arrays = {"time": run.time, "jump": run.jump}
     arrays |= {f"output {i}": array for i, array in enumerate(run.outputs.values())}
     arrays["event time"] = np.array([e[0] for e in run.events], dtype=float)

@@ -12,9 +12,17 @@ __all__ = ["as_html", "as_text"]
 
 
 def _span(results: Results) -> str:
+    if results._core.apart:
+        return f"to t = {results.context.time:g} s"
     if not len(results.time):
         return f"t = {results.context.time:g} s"
     return f"t = {results.time[0]:g} to {results.time[-1]:g} s"
+
+
+def _rows(results: Results) -> str:
+    if results._core.apart:
+        return f"{sum(len(one.time) for one in results.islands)} rows"
+    return f"{len(results.time)} rows"
 
 
 def _duration(seconds: float) -> str:
@@ -48,6 +56,7 @@ def _facts(results: Results) -> list[tuple[str, str]]:
     facts = [
         ("why", results.message),
         ("outputs", signals or "nothing recorded"),
+        ("islands", f"{len(results.islands)} that stepped apart" if results.islands else ""),
         ("events", _events(results)),
         ("at rest", ", ".join(f"{e.block} from {e.time:.6g} s" for e in rests[:5])),
         (
@@ -64,7 +73,7 @@ def _facts(results: Results) -> list[tuple[str, str]]:
 
 
 def as_text(results: Results) -> str:
-    head = f"{results.status}, {len(results.time)} rows, {_span(results)}"
+    head = f"{results.status}, {_rows(results)}, {_span(results)}"
     lines = [f"  {name:<12}  {text}" for name, text in _facts(results)]
     return "\n".join([f"<{type(results).__name__}: {head}", *lines]) + ">"
 
@@ -80,7 +89,7 @@ def as_html(results: Results) -> str:
     title = (
         f"<b>{type(results).__name__}</b>: "
         f"<span style='color:{'#2a7d2a' if good else '#b3261e'}'>{results.status}</span>, "
-        f"{len(results.time)} rows, {html.escape(_span(results))}"
+        f"{_rows(results)}, {html.escape(_span(results))}"
     )
     rows = "".join(row(name, text) for name, text in _facts(results))
     return f"<div>{title}<table><tbody>{rows}</tbody></table></div>"

@@ -25,7 +25,9 @@ NUMBERS = (
     "first_step", "zeno_tolerance", "event_scan_points", "max_passes", "event_seed",
 )  # fmt: skip
 COUNTS = ("max_major_steps", "event_scan_points", "max_passes")
-TRUTHS = ("find_sparsity", "save_steps", "event_rows", "dense_output", "record_events")
+TRUTHS = (
+    "find_sparsity", "save_steps", "event_rows", "dense_output", "record_events", "islands",
+)  # fmt: skip
 WORDS = ("method", "linear_solver", "machine_code")
 KEYS = ("begin", "until", "rtol", "atol", "save_at", "record", *NUMBERS, *TRUTHS, *WORDS)
 MOST_ROWS = 10_000_000

@@ -29,6 +29,9 @@ class Formed:
         self._record = record
         self._form = form
         self.dense: bool = record.dense
+        # The functions of a user are one leaf, so there is one island.
+        self.apart = False
+        self.islands: list[tuple[Any, ...]] = []
 
     @property
     def time(self) -> np.ndarray:

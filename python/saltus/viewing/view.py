@@ -12,6 +12,7 @@ from typing import Any
 from saltus._core import Context
 from saltus.errors import ModelError
 from saltus.results import Results
+from saltus.results.tables import extra
 from saltus.scenes import Scene, load_scene, scene, shelf
 from saltus.simulation import simulate
 from saltus.system import System
@@ -172,8 +173,6 @@ def made_page(
 
 def _film(results: Results, draw: Callable[..., Any], speed: float | None) -> str:
     """The player of the film, with the length that suits a page."""
-    from saltus.results.tables import extra
-
     begin, end = results.span if results.dense else (results.time[0], results.time[-1])
     length = min(max(end - begin, SHORTEST), LENGTH)
     usual = (end - begin) / length if end > begin else 1.0

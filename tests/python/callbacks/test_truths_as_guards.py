@@ -133,6 +133,9 @@ BOUNCES = {
     "in both directions": (1.0, lambda x: x >= 0.0, "both"),
     "below the ceiling": (-1.0, lambda x: x < 0.0, "falling"),
     "above the ceiling": (-1.0, lambda x: x > 0.0, "rising"),
+    "any change, above the floor": (1.0, lambda x: x > 0.0, "edge_detection"),
+    "any change, below the floor": (1.0, lambda x: x <= 0.0, "edge_detection"),
+    "any change, of two comparisons": (1.0, lambda x: (x > 0.0) & (x < 9.0), "edge_detection"),
 }
 
 

@@ -16,9 +16,9 @@ def times(results, event):
     return np.array([e.time for e in results.events if e.name.rpartition(".")[2] == event])
 
 
-def test_there_are_twenty_models_and_the_four_scenes_of_the_tutorial():
-    assert len(MODELS) == 20
-    assert len(FILES) == 24
+def test_there_are_models_and_the_four_scenes_of_the_tutorial():
+    assert len(MODELS) == 21
+    assert len(FILES) == 25
 
 
 @pytest.mark.parametrize("name", MODELS)
@@ -191,3 +191,14 @@ def test_the_elevator_stops_where_it_was_called():
     opened = results.outputs["open"] > 0
     stops = results.outputs["y"][1:][opened[1:] & ~opened[:-1]]
     assert stops == pytest.approx([12.0, 3.0, 6.0], abs=1e-9)
+
+
+def test_the_drive_with_play_does_not_come_to_rest():
+    results = run("backlash_drive")
+    motor, load = results.outputs["motor"], results.outputs["load"]
+    assert np.abs(motor - load).max() <= 0.1 + 1e-9  # half the width of the play
+    # The describing function of the play has its first harmonic balanced at A = 0.133 rad and
+    # w = 0.628 rad/s. The loop passes 0.24 of the third harmonic, less than 1/3 of the first.
+    periods = np.diff(times(results, "drive_up"))[-3:]
+    assert periods == pytest.approx(2 * np.pi / 0.628, rel=0.24 / 3)
+    assert np.ptp(motor[results.time > 45.0]) == pytest.approx(2 * 0.133, rel=0.24 / 3)

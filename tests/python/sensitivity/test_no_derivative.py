@@ -200,3 +200,20 @@ def test_a_row_at_an_event_that_moves_has_one_sided_derivatives_only(what):
     assert (both.time == 0.5).sum() == 2
     assert np.isfinite(both.sensitivities["x"]).all()
     assert not both.sensitivity_gaps
+
+
+@pytest.mark.parametrize("after", [3, 2, 1])
+def test_a_run_that_begins_just_before_the_rest_has_a_gap(after):
+    """The place of rest is predicted from the last firings, some of which the run has not seen."""
+    ball = saltus.scene("bouncing-ball")
+    whole = saltus.simulate(ball.system, ball.context, (0.0, 30.0), rtol=1e-9, atol=1e-11)
+    times = whole.events.times("bounce")
+    begin = 0.5 * (times[-after - 1] + times[-after])
+    first = saltus.simulate(ball.system, ball.context, (0.0, begin), rtol=1e-9, atol=1e-11)
+    results = saltus.simulate(
+        ball.system, first.context, (begin, 30.0), sensitivity=["x[1]"], rtol=1e-9, atol=1e-11
+    )
+    entered = [e for e in results.events if e.kind == "zeno_enter"]
+    assert len(entered) == 1
+    lost(results, "the run began between the last events before the rest")
+    assert results.sensitivity_gaps[0].event == "ball.bounce"

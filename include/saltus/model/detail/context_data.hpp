@@ -54,6 +54,12 @@ struct FieldWriter {
     }
     Tree::set(data, key, list);
   }
+
+  /// As `records`, but nothing is written for an empty list.
+  template <class T, class Fields>
+  void optional_records(const char* key, std::vector<T>& items, const Fields& fields) {
+    if (!items.empty()) records(key, items, fields);
+  }
 };
 
 /// Reads fields from a record, one for each call.
@@ -89,6 +95,11 @@ struct FieldReader {
       fields(reader, items.emplace_back());
     }
   }
+
+  template <class T, class Fields>
+  void optional_records(const char* key, std::vector<T>& items, const Fields& fields) {
+    if (Tree::has(data, key)) records(key, items, fields);
+  }
 };
 
 template <class Archive>
@@ -106,6 +117,9 @@ void fields_of(Archive& archive, Continuation& c) {
   });
   archive.field("edges", c.edges);
   archive.field("counts", c.counts);
+  archive.optional("settled", c.settled);
+  archive.optional_records("islands", c.islands,
+                           [](auto& one, auto& island) { fields_of(one, island); });
 }
 
 template <class Archive>

@@ -31,6 +31,7 @@ class CrossingArming {
 
   const GuardGroup& group_of(std::size_t k) const;
   CrossingFacts facts_of(std::size_t k, bool at_start) const;
+  void arm_edge(std::size_t k);
   bool begins_as_wished(const GuardGroup& group, std::size_t k, bool at_start);
   void carry_out(std::size_t k, const Arming& arming, double error);
   bool reset_turns(const GuardGroup& group, std::size_t k);

@@ -16,6 +16,10 @@
 
 namespace saltus {
 
+/// The names of all declared events of a plan, by number of their source; last the names of events
+/// that can never fire.
+std::vector<EventName> event_names(const Plan& plan);
+
 /// A source of events has a number: guard groups first, then watched edges, then scheduled events.
 class Journal {
  public:

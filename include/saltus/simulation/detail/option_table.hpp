@@ -90,6 +90,7 @@ inline const std::tuple option_table{
     Option<bool>{"event_rows", &SimulatorOptions::event_rows},
     Option<bool>{"dense_output", &SimulatorOptions::dense_output},
     Option<bool>{"record_events", &SimulatorOptions::record_events},
+    Option<bool>{"islands", &SimulatorOptions::islands},
     Option<std::function<bool()>>{"interrupt", &SimulatorOptions::interrupt},
 };
 

@@ -51,6 +51,7 @@ struct GuardNow {
   double flight = std::numeric_limits<double>::quiet_NaN();
   int flips = 0;                    ///< flips of a relation in this instant
   bool jumped = false;              ///< it jumped at its root
+  double before = 0.0;              ///< edge_detection: its value before its root
   bool fired = false;               ///< it fired in this instant
   bool fired_in_pass = false;       ///< it fired in this pass
   bool frozen = false;              ///< a relation: it keeps its side through this instant

@@ -81,6 +81,7 @@ class Tangents {
   void merge(const MovedTime& moved, bool first);
   void lose(Index k, const std::string& event, const std::string& reason);
   void note_gap(double t, Index k, const std::string& event, const std::string& reason);
+  void lose_accumulation();
   void forget_end();
   void lose_not_finite(const std::string& event);
   void look_for_jump(double from, double to, const FlowJumps::StateAt& state);

@@ -18,6 +18,9 @@ class ZenoTangent {
   void remember(Eigen::VectorXd after, Eigen::MatrixXd derivatives) {
     after_ = std::move(after), after_tangent_ = std::move(derivatives);
   }
+  /// Whether all firings that the sums use were in this run: a run that begins between the last ones
+  /// has the times of the earlier ones from its context, without their derivatives.
+  bool knows() const;
   /// The derivative of the accumulation time.
   Eigen::RowVectorXd accumulation_time() const;
   /// The derivatives of the accumulation state, from the states after this firing.
@@ -35,6 +38,7 @@ class ZenoTangent {
 
   std::array<double, 4> times_{};  // [s] latest first
   std::array<Eigen::RowVectorXd, 4> tangents_;
+  int count_ = 0;  // of firings
   Eigen::VectorXd after_;
   Eigen::MatrixXd after_tangent_;
 };

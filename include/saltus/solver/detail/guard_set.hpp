@@ -82,6 +82,10 @@ class GuardSet {
   void set_error(std::size_t k, double error) { ++version_, guards_[k].error = error; }
   /// Sets the value that edge_detection compares with.
   void set_base(std::size_t k, double value) { ++version_, guards_[k].base = value; }
+  /// The value that edge_detection compared with before the last root.
+  double base_before_root(std::size_t k) const {
+    return k < kept_.size() ? kept_[k].base : guards_[k].base;
+  }
   /// Notes a look at which the guard did not fire.
   void see(std::size_t k, double value) {
     ++version_;

@@ -1,0 +1,16 @@
+// The passes of compile() over a plan that has its leaves, wires and recorded signals.
+#pragma once
+
+#include <memory>
+
+#include "saltus/plan/detail/needs.hpp"
+
+namespace saltus::detail {
+
+/// The passes that may refuse a plan. They find the shape and the rate of every signal.
+Roots find_shapes_and_rates(Plan& plan);
+
+/// The other passes: needs, guards, edges, schedule, fused formulas.
+std::shared_ptr<const Plan> completed(Plan plan, const Roots& roots);
+
+}  // namespace saltus::detail

@@ -1,0 +1,43 @@
+// Islands: the parts of a plan that read nothing of each other.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "saltus/plan/plan.hpp"
+
+namespace saltus {
+
+/// The islands of a plan: two blocks are in one island if a wire leads from one to the other, or if
+/// both have a queued zero crossing, because all of these share one queue. A source with neither
+/// state nor event, for example a Constant or a Sine, joins nothing: each island that reads it has a
+/// copy of it. A block without state and event, whose outputs nobody reads or records, is in no
+/// island.
+struct Islands {
+  /// A block that joins parts, which without it would be islands.
+  struct Join {
+    std::string reader;     ///< "supervisor.total", the name of an output, or of a block
+    std::size_t parts = 0;  ///< the number of parts with a state or an event that it reads; its own
+                            ///< part does not count
+  };
+
+  std::vector<std::vector<int>> leaves;  ///< of each island, in the order of their declaration
+  std::vector<std::vector<int>> taps;    ///< of each island: its recorded signals
+  List<int> of_leaf;        ///< the island of each leaf; -1: copied into its readers, or in none
+  std::vector<Join> joins;  ///< the block that joins most parts first
+
+  std::size_t count() const { return leaves.size(); }
+  /// The number of islands, and the blocks that join.
+  std::string describe() const;
+};
+
+/// Finds the islands; the time is linear in blocks and wires. They are ordered by their first
+/// block, copies left out.
+Islands find_islands(const Plan& plan);
+
+/// The plan of one island: its blocks alone, with their paths, declarations and order. Only the
+/// recorded signals of its own blocks are in it.
+std::shared_ptr<const Plan> plan_of_island(const Plan& plan, const Islands& islands, std::size_t k);
+
+}  // namespace saltus

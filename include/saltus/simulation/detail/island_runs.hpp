@@ -1,0 +1,95 @@
+// IslandRuns: the islands of a system as runs of their own. It implements Simulator.
+#pragma once
+
+#include <chrono>
+#include <exception>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "saltus/plan/islands.hpp"
+#include "saltus/simulation/detail/run.hpp"
+
+namespace saltus {
+
+/// One island after the other runs to the common end. If an island ends the run earlier, at t*, the
+/// islands that are ahead run again, from the start of the run to t*. A run is deterministic: each
+/// island has the bits of its part run alone to t*. The logs, rows and counts of all islands are put
+/// together when they are asked for.
+class IslandRuns {
+ public:
+  IslandRuns(std::shared_ptr<const Plan> plan, Islands islands, SimulatorOptions options);
+  IslandRuns(const IslandRuns&) = delete;  // its runs refer to it
+  IslandRuns& operator=(const IslandRuns&) = delete;
+
+  void initialize(const Context& context);
+  Status advance_to(double t_end);
+  void functions_replaced();
+  /// [s] The time that all islands have reached; during a run the mean of their times.
+  double time() const noexcept;
+  Context context() const;
+  const Results& results() const noexcept;
+  Results take_results();
+  const Plan& plan() const noexcept { return *plan_; }
+  std::string describe() const;
+  Turn claim(std::string_view what) const { return Turn(caller_, time_, what); }
+
+ private:
+  struct Island {
+    std::unique_ptr<Run> run;
+    std::shared_ptr<const Layout> layout = {};
+    Context begin = {};
+    std::vector<int> sources = {};     ///< the number in the whole plan of each source of events
+    std::vector<int> signals = {};     ///< the number in the whole plan of each recorded signal
+    bool terminal = false;             ///< it has a guard that ends the run
+    std::size_t rows = 0, events = 0;  ///< the number that the results have already
+    int jump = 0;                      ///< j of the last event that the results have
+  };
+
+  SimulatorOptions options_for(const std::vector<int>& leaves, const SimulatorOptions& options);
+  void add_island(std::size_t k, const SimulatorOptions& options,
+                  const std::vector<std::pair<std::string, int>>& sources);
+  void require_fits(const Context& context) const;
+  Context part_of(const Context& whole, std::size_t k) const;
+  void require_ready(double t_end) const;
+  void run_all(double t_end);
+  void run_one(std::size_t k, double& t_end);
+  void run_again(std::size_t k, double t_end);
+  bool interrupted();
+  void count_running() const;
+  bool interrupted_between();
+  void end_with(std::size_t k);
+  Status leave();
+  void merge() const;
+  void merge_rows(std::size_t k) const;
+  void merge_table() const;
+  void merge_events() const;
+  void merge_statistics() const;
+  void renew() const;
+
+  std::shared_ptr<const Plan> plan_;
+  Islands islands_;
+  SimulatorOptions options_;
+  std::vector<std::size_t> order_;  ///< islands that can end the run come first
+  mutable std::vector<Island> all_;
+  mutable Results results_;
+  mutable bool merged_ = true;
+  std::vector<EventName> names_;
+  int queue_ = -1;      ///< the island that has the queue of executions
+  bool table_ = false;  ///< all signals have one table
+  Context begin_;
+  std::vector<double> ends_;  ///< [s] of the pieces of the run
+  double time_ = 0.0, wall_time_ = 0.0;
+  bool over_ = false, under_way_ = false, again_ = false, stopped_ = false;
+  std::optional<std::size_t> ender_;  ///< the island that ended the run
+  std::exception_ptr raised_;         ///< by `interrupt`, between two islands
+  const Run* running_ = nullptr;
+  Statistics finished_;  ///< counts of the islands that have run, for the progress of the run
+  double finished_time_ = 0.0;  ///< [s] the sum of the times that they have run
+  std::chrono::steady_clock::time_point asked_{};
+  mutable Caller caller_{};
+};
+
+}  // namespace saltus
