@@ -103,7 +103,7 @@ void ContactGuards::arm_crossing(std::size_t k) {
                         : known                ? known->error
                                                : guard.error;
   if (SurfaceContact* contact = contact_of(k))
-    arm(*contact, contact_error(flow.rounding, present_->g[k], before));
+    arm(*contact, contact_error(flow.rounding, present_->g[k], before, present_->now(k).jump));
 }
 
 /// Begins to watch a relation at rest. The value of an opaque boolean has no meaning at rest.

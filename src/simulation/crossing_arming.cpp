@@ -42,7 +42,7 @@ CrossingFacts CrossingArming::facts_of(std::size_t k, bool at_start) const {
           .effect = crossing.has_effect(),
           .reset = static_cast<bool>(crossing.reset_map),
           .resets = transition_->effects(),
-          .jumped = now.jumped};
+          .jumped = now.jumped()};
 }
 
 /// The facts about guard k that the decisions ask the flow for.
@@ -73,7 +73,7 @@ struct CrossingArming::Ask {
     return arming->transition_->wrote_x() && flow().stops_at_jump(*group, slot(), from, before());
   }
   /// The execution of a queued guard is not at hand: it may come later, or have come already.
-  bool reset_turns() const { return !group->queued && arming->reset_turns(*group, k); }
+  bool reset_turns() const { return !group->queued && arming->reset_turns(*group, k, from); }
   bool turned_round(int side) const { return arming->turned_round(*group, k, side); }
 };
 
@@ -91,22 +91,29 @@ void CrossingArming::arm(std::size_t k, bool at_start) {
   carry_out(k, decide_crossing(facts, {flow.side, flow.rounding}, ask), flow.rounding);
 }
 
-/// A guard of edge_detection that fired, and whose reset map wrote the state. If it is a truth, or
-/// another guard that jumped off its side of zero, it is decided as one of either direction (2.5):
-/// where the flow leads back to its value before, it compares with that value from now on, so that
-/// leaving the floor is no second change; where the flow does not lead away, its states rest.
+/// A guard of edge_detection that jumped and fired, and whose reset map wrote the state. Its own zero
+/// has no meaning, so its values count from the middle between its value before and its present one.
+/// Then it is decided as a guard of either direction (2.5): where the flow leads back to its value
+/// before, it compares with that value from now on, so that leaving the floor is no second change;
+/// where the flow does not lead away, its states rest.
 void CrossingArming::arm_edge(std::size_t k) {
   CrossingFacts facts = facts_of(k, false);
-  const bool left_its_side = facts.came_from != 0 && facts.came_from * facts.g <= 0.0;
-  if (!facts.fired || !facts.reset || !facts.wrote() || !facts.jumped || !left_its_side) return;
+  const double before = present_->now(k).before;
+  if (!facts.fired || !facts.reset || !facts.wrote() || !facts.jumped || facts.g == before) return;
+  const auto slot = static_cast<Index>(k);
+  const double middle = 0.5 * before + 0.5 * facts.g;
   facts.direction = Direction::crosses_zero;
+  facts.came_from = before > facts.g ? 1 : -1;
+  facts.g -= middle;
   const GuardGroup& group = group_of(k);
+  flow_->count_from(slot, middle);
   const Departure::Side flow =
-      flow_->side(group, static_cast<Index>(k), present_->error_so_far(k, false), facts.came_from);
+      flow_->side(group, slot, present_->error_so_far(k, false), facts.came_from);
   const Ask ask{this, &group, k, facts.came_from, flow.rounding};
   const Arming arming = decide_fired(facts, {flow.side, flow.rounding}, ask);
+  flow_->count_from(-1, 0.0);
   if (arming.then == Arming::Then::rest) return carry_out(k, arming, flow.rounding);
-  if (arming.side == facts.came_from) guards_->set_base(k, present_->now(k).before);
+  if (arming.side == facts.came_from) guards_->set_base(k, before);
 }
 
 double CrossingArming::uncertainty(std::size_t k) {
@@ -170,9 +177,9 @@ void CrossingArming::carry_out(std::size_t k, const Arming& arming, double error
   if (hold.monitor.holding) contacts_->arm_crossing(k);
 }
 
-/// Whether the guard's own reset map, applied to the present state, turns the flow to the armed
-/// side.
-bool CrossingArming::reset_turns(const GuardGroup& group, std::size_t k) {
+/// Whether the guard's own reset map, applied to the present state, turns the flow to the side
+/// `from`, which the guard came from.
+bool CrossingArming::reset_turns(const GuardGroup& group, std::size_t k, int from) {
   const PlanLeaf& of = machine_->plan().leaf(group.leaf);
   trial_ = machine_->x, trial_z_ = machine_->z;
   machine_->evaluate_instant(present_->t);
@@ -181,7 +188,7 @@ bool CrossingArming::reset_turns(const GuardGroup& group, std::size_t k) {
   int mode = at.mode;
   Next next({trial_.data() + of.x, of.nx}, {trial_z_.data() + of.z, of.nz}, mode, of.path);
   machine_->plan().crossing_of(group).reset_map(*of.system, at, next);
-  return (*guards_)[k].came_from * flow_->slope_from(trial_, group, static_cast<Index>(k)) > 0.0;
+  return from * flow_->slope_from(trial_, group, static_cast<Index>(k)) > 0.0;
 }
 
 /// Whether the flow of the mode before led a guard at zero to the other side. If so, both flows

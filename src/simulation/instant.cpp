@@ -22,10 +22,10 @@ void Instant::open(double t, const std::vector<int>& due, double longest) {
   for (const Firing& root : present_.firings) {
     const std::size_t k = root.guard();
     GuardNow& now = present_.note(k);
-    now.jumped = root.jump > 0.0 && root.jump > crossings_.uncertainty(k);  // else: rounding
-    now.location = location_error(guards_->g[k], now.jumped);
+    if (root.jump > 0.0 && root.jump > crossings_.uncertainty(k)) now.jump = root.jump;
+    now.location = location_error(guards_->g[k], now.jumped());
     now.before = guards_->base_before_root(k);
-    if (root.at_zero && !now.jumped) now.flight = t - (*guards_)[k].armed_at;
+    if (root.at_zero && !now.jumped()) now.flight = t - (*guards_)[k].armed_at;
   }
   flow_.forget();  // it belongs to x-
   for (const int event : due)

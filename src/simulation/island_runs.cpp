@@ -2,11 +2,8 @@
 #include "saltus/simulation/detail/island_runs.hpp"
 
 #include <algorithm>
-#include <numeric>
 
 #include "saltus/base/detail/forced_unwind.hpp"
-#include "saltus/simulation/detail/option_table.hpp"
-#include "width.hpp"
 
 namespace saltus {
 
@@ -14,94 +11,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Throws ModelError for an option that islands do not have yet.
-void require_supported(const SimulatorOptions& options, const Islands& islands) {
-  const auto refuse = [&](std::string_view option, std::string_view instead) {
-    throw ModelError(text("option ", option, ": not supported with islands = true in a system of ",
-                          islands.count(), " islands; ", instead));
-  };
-  if (options.dense_output)
-    refuse("dense_output", "name the times in save_at, or run it with islands = false");
-  if (!options.sensitivity.empty()) refuse("sensitivity", "run it with islands = false");
-}
-
-Tolerance tolerance_of(const Tolerance& tolerance, const Plan& plan,
-                       const std::vector<int>& leaves) {
-  if (!tolerance.by_state()) return tolerance;
-  std::vector<double> each;
-  for (const int i : leaves) {
-    const PlanLeaf& leaf = plan.leaf(i);
-    for (Index x = leaf.x; x < leaf.x + leaf.nx; ++x) each.push_back(tolerance[x]);
-  }
-  return each;
-}
-
-bool has_terminal_guard(const Plan& plan) {
-  return std::ranges::any_of(plan.leaves, [](const PlanLeaf& leaf) {
-    return std::ranges::any_of(leaf.declared().zero_crossings, &ZeroCrossing::terminal);
-  });
-}
-
-/// The names of all sources of events with their numbers, sorted.
-std::vector<std::pair<std::string, int>> numbered(const std::vector<EventName>& names) {
-  std::vector<std::pair<std::string, int>> all;
-  for (const EventName& name : names) all.emplace_back(name.full(), std::ssize(all));
-  std::ranges::sort(all);
-  return all;
-}
-
 }  // namespace
-
-IslandRuns::IslandRuns(std::shared_ptr<const Plan> plan, Islands islands, SimulatorOptions options)
-    : plan_(std::move(plan)),
-      islands_(std::move(islands)),
-      options_(std::move(options)),
-      names_(event_names(*plan_)),
-      table_(!options_.save_at.empty() && !options_.event_rows) {
-  detail::check(options_);
-  require_widths(options_, *plan_);
-  require_supported(options_, islands_);
-  const auto sources = numbered(names_);
-  all_.reserve(islands_.count());
-  for (std::size_t k = 0; k < islands_.count(); ++k) add_island(k, options_, sources);
-  order_.resize(all_.size());
-  std::iota(order_.begin(), order_.end(), std::size_t{0});
-  std::ranges::stable_sort(order_, std::greater<>(),
-                           [&](std::size_t k) { return all_[k].terminal; });
-  renew();
-}
-
-SimulatorOptions IslandRuns::options_for(const std::vector<int>& leaves,
-                                         const SimulatorOptions& options) {
-  SimulatorOptions own = options;
-  own.rtol = tolerance_of(options.rtol, *plan_, leaves);
-  own.atol = tolerance_of(options.atol, *plan_, leaves);
-  own.islands = false, own.throw_errors = false;
-  own.interrupt = [this] { return interrupted(); };
-  return own;
-}
-
-void IslandRuns::add_island(std::size_t k, const SimulatorOptions& options,
-                            const std::vector<std::pair<std::string, int>>& sources) {
-  const std::shared_ptr<const Plan> part = plan_of_island(*plan_, islands_, k);
-  Island island{.run = std::make_unique<Run>(part, options_for(islands_.leaves[k], options)),
-                .terminal = has_terminal_guard(*part)};
-  auto layout = std::make_shared<Layout>();
-  for (const PlanLeaf& leaf : part->leaves)
-    layout->leaves.push_back(
-        {leaf.path, leaf.x, leaf.nx, leaf.z, leaf.nz, leaf.p, leaf.np, leaf.declared().parameters});
-  island.layout = std::move(layout);
-  for (const EventName& name : event_names(*part))
-    island.sources.push_back(
-        std::ranges::lower_bound(sources, name.full(), {}, &std::pair<std::string, int>::first)
-            ->second);
-  island.signals = islands_.taps[k];
-  for (const PlanLeaf& leaf : part->leaves) {
-    if (std::ranges::any_of(leaf.declared().zero_crossings, &ZeroCrossing::is_queued))
-      queue_ = static_cast<int>(k);
-  }
-  all_.push_back(std::move(island));
-}
 
 void IslandRuns::initialize(const Context& context) {
   require_context_of(*plan_, context);
@@ -126,14 +36,6 @@ void IslandRuns::initialize(const Context& context) {
 
 void IslandRuns::functions_replaced() {
   for (Island& island : all_) island.run->functions_replaced();
-}
-
-std::string IslandRuns::describe() const {
-  std::string out = plan_->describe() + islands_.describe();
-  for (std::size_t k = 0; k < std::min<std::size_t>(all_.size(), 3); ++k)
-    out += text("  island of '", plan_->leaf(islands_.leaves[k].front()).path,
-                "': ", islands_.leaves[k].size(), " of the blocks; ", all_[k].run->describe());
-  return out + (all_.size() > 3 ? "  ...\n" : "");
 }
 
 void IslandRuns::require_ready(double t_end) const {

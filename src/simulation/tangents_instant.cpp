@@ -27,7 +27,7 @@ void Tangents::open(const Present& present, const std::vector<int>& due) {
   const Eigen::VectorXd f = probe_.flow(t_, x);
   bool first = true;
   for (const Firing& firing : present.firings) {
-    merge(times_.of(firing, present.now(firing.guard()).jumped, until, t_), first);
+    merge(times_.of(firing, present.now(firing.guard()).jumped(), until, t_), first);
     first = false;
   }
   for (const int event : due) {

@@ -1,5 +1,6 @@
 // An event of one island asks nothing of another: the calls of a scene are the sum of the calls of
-// its parts, and an island at rest costs as much as alone.
+// its parts, between two events there are only calls of one island, and an island at rest costs as
+// much as alone.
 #include "support/islands.hpp"
 
 using namespace saltus;
@@ -23,7 +24,80 @@ Statistics of(int n, bool islands) {
   return simulate(scene, start, {0.0, 3.0}, {.islands = islands}).statistics;
 }
 
+/// A call of a function of a leaf.
+struct Call {
+  char leaf, kind;  // kind: derivative, guard, reset map
+  double time;
+  bool operator==(const Call&) const = default;
+};
+
+/// y'' = -9.81 from rest at the height `h`; it bounces at y = 0. It logs all calls.
+std::shared_ptr<Leaf> logged_ball(char name, double h, std::vector<Call>& calls) {
+  return make_leaf(std::string(1, name), [name, h, &calls](Leaf& l) {
+    l.declare_continuous_state({.initial = vec({h, 0.0}), .ode = [=, &calls](const At& at, VectorRef dx) {
+                                  calls.push_back({name, 'd', at.time});
+                                  dx[0] = at.x[1], dx[1] = -9.81;
+                                }});
+    l.declare_zero_crossing({.name = "bounce",
+                             .guard =
+                                 [=, &calls](const At& at) {
+                                   calls.push_back({name, 'g', at.time});
+                                   return at.x[0];
+                                 },
+                             .reset_map =
+                                 [=, &calls](const At& at, Next& next) {
+                                   calls.push_back({name, 'r', at.time});
+                                   next.set_continuous_state({0.0, -0.8 * at.x[1]});
+                                 },
+                             .direction = Direction::positive_then_non_positive});
+  });
+}
+
+/// All calls of a run of some of three balls.
+std::vector<Call> calls_of(const std::string& names, const SimulatorOptions& options) {
+  std::vector<Call> calls;
+  DiagramBuilder builder;
+  for (const char name : names) builder.add(logged_ball(name, 1.0 + 0.3 * (name - 'a'), calls));
+  const Diagram scene = builder.build();
+  const Context start = scene.create_context();
+  calls.clear();  // those with which a leaf checks its declarations
+  simulate(scene, start, {0.0, 2.0}, options);
+  return calls;
+}
+
+std::vector<Call> of_leaf(char name, std::vector<Call> calls) {
+  std::erase_if(calls, [name](const Call& call) { return call.leaf != name; });
+  return calls;
+}
+
+/// The number of calls of other leaves between the first and the last bounce of each leaf.
+std::ptrdiff_t strangers(const std::string& names, const std::vector<Call>& calls) {
+  std::ptrdiff_t n = 0;
+  for (const char name : names) {
+    const auto bounce = [name](const Call& c) { return c.leaf == name && c.kind == 'r'; };
+    const auto first = std::ranges::find_if(calls, bounce);
+    const auto last = std::find_if(calls.rbegin(), calls.rend(), bounce).base();
+    REQUIRE(std::count_if(first, last, bounce) >= 2);
+    n += std::count_if(first, last, [name](const Call& c) { return c.leaf != name; });
+  }
+  return n;
+}
+
 }  // namespace
+
+TEST_CASE("between two events of an island no other island is called", "[absent][islands]") {
+  SimulatorOptions options;
+  options.ode_solver_method = GENERATE(Method::dopri5, Method::dop853, Method::radau, Method::bdf);
+  INFO("method " << options.ode_solver_method);
+  const std::string names = "abc";
+  CHECK(strangers(names, calls_of(names, options)) > 100);  // one common step calls all of them
+  options.islands = true;
+  const std::vector<Call> apart = calls_of(names, options);
+  CHECK(strangers(names, apart) == 0);
+  // Each island has the calls of its leaf alone, at the same times and in the same order.
+  for (const char name : names)
+    CHECK(of_leaf(name, apart) == of_leaf(name, calls_of(std::string(1, name), options)));
+}
 
 TEST_CASE("an event of one island asks nothing of another", "[absent][islands]") {
   int calls = 0, guards = 0;

@@ -109,7 +109,8 @@ TEST_CASE("a run in pieces has the events of the whole run", "[laws][islands]") 
   CHECK(events(whole.results().events) == events(pieces.results().events));
   in_order(pieces.results().events);
   // A piece ends a step: the states differ by the error of a step, some ten in each flight.
-  const auto difference = whole.context().continuous_state() - pieces.context().continuous_state();
+  const Eigen::VectorXd difference =
+      whole.context().continuous_state() - pieces.context().continuous_state();
   CHECK(difference.cwiseAbs().maxCoeff() < 100.0 * 1e-9 * 10.0);
 }
 
@@ -266,4 +267,45 @@ TEST_CASE("tolerances by state go to the states of each island", "[laws][islands
   const Results whole = run_of({0, 1}, 3.0, by_state);
   same_events(whole.events, run_of({0}, 3.0, first).events);
   same_events(whole.events, run_of({1}, 3.0, second).events);
+}
+
+namespace {
+
+/// x' = 1 from 0; a queued zero crossing triggers at x = 1, and sets x to 0 after 0.5 s.
+std::shared_ptr<Leaf> late(const std::string& name) {
+  return make_leaf(name, [](Leaf& l) {
+    l.declare_continuous_state({.initial = vec({0.0}), .ode = [](const At&) { return 1.0; }});
+    l.declare_zero_crossing(
+        {.name = "late",
+         .guard = [](const At& at) { return at.x[0] - 1.0; },
+         .reset_map = [](const At&, Next& next) { next.set_continuous_state({0.0}); },
+         .direction = Direction::negative_then_non_negative,
+         .delay = 0.5});
+  });
+}
+
+}  // namespace
+
+TEST_CASE("blocks with queued zero crossings are one island, whose executions wait in the context",
+          "[laws][islands]") {
+  DiagramBuilder builder, queue;
+  builder.add(late("one"));
+  builder.add(std::make_shared<Ball>(BallOptions{}, "ball"));
+  builder.add(late("two"));
+  queue.add(late("one")), queue.add(late("two"));
+  const Diagram scene = builder.build(), alone = queue.build();
+  const Context start = scene.create_context().with_continuous_state(vec({0.0, 1.0, 0.0, 0.0}));
+  const SimulatorOptions options{.islands = true};
+  const Results first = simulate(scene, start, {0.0, 1.25}, options);
+  REQUIRE(first.islands.size() == 2);
+  REQUIRE(first.context.pending() != nullptr);
+  CHECK(first.context.pending()->all.size() == 2);
+  CHECK(first.context.pending()->all[0].leaf == 0);
+  CHECK(first.context.pending()->all[1].leaf == 2);
+  const Results second = simulate(scene, first.context, {1.25, 2.25}, options);
+  const Results begin = simulate(alone, alone.create_context(), {0.0, 1.25}, {});
+  const Results rest = simulate(alone, begin.context, {1.25, 2.25}, {});
+  CHECK(count(second.events, EventKind::executed) == 2);
+  same_events(first.events, begin.events);
+  same_events(second.events, rest.events);
 }

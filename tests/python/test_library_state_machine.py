@@ -51,7 +51,7 @@ def test_guards_and_times_against_the_closed_form(method):
     results = saltus.simulate(diagram, (0.0, 6.0), ode_solver_method=method, rtol=1e-9)
     events = results.events
     for name, time in (("down_to_rising", np.pi / 6), ("up_to_falling", 7 * np.pi / 6)):
-        # located on a signal that is computed exactly, within 100 eps (t + h), semantics 2.9
+        # located on a signal that is computed exactly, within 100 eps (t + h)
         assert events.times(name).tolist() == pytest.approx([time], abs=2e-13)
     assert events.times("rising_to_up") == pytest.approx(np.pi / 6 + 0.25, abs=4e-13)
     context = results.context

@@ -27,4 +27,6 @@ TEST_CASE("The guard of a contact has the largest of its errors") {
   CHECK(contact_error(1e-15, -3e-15, 2e-15) == 3e-15);
   CHECK(contact_error(4e-15, 3e-15, 2e-15) == 4e-15);
   CHECK(contact_error(1e-15, 0.0, 2e-15) == 2e-15);
+  CHECK(contact_error(1e-15, 2.0, 0.0, 1.0) == 3.0);  // a guard that jumps from 3 to 2
+  CHECK(contact_error(1e-15, 0.0, 0.0, 1.0) == 1.0);  // from 1 to 0
 }

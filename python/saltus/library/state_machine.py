@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -13,64 +12,19 @@ from saltus._core import known_names
 from saltus._porting import refusing
 from saltus.errors import BlockParameterError
 from saltus.leaf_system import LeafSystem
-from saltus.library.by_name import FIRST, Named, Words, inputs_of_all
+from saltus.library.by_name import FIRST, Named, Words
+from saltus.library.transitions import (
+    Action,
+    Condition,
+    Transition,
+    after_actions,
+    due,
+    events_of,
+    order,
+    reader,
+)
 
 __all__ = ["StateMachine", "Transition"]
-
-Action = Callable[..., Mapping[str, Any]]
-
-
-@dataclass(frozen=True)
-class Transition:
-    """A transition of a `StateMachine` from the state `source` to the state `target`.
-
-    It has a `guard`, a `trigger` or a time `after`, and is taken
-
-    - with a `guard`, a function that returns a truth, as soon as that is true, also where it is
-      true when `source` is entered;
-    - with a `trigger`, a function that returns a truth, each time that *becomes* true while
-      `source` is active; if there is a `guard` too, it has to be true at that time;
-    - with `after` [s], that time after `source` was entered; if there is a `guard` too, as soon as
-      it is true from then on.
-
-    Of the transitions from one state that could be taken at one time, that with the highest
-    `priority` is taken; of equal ones the first in the list. `action` returns the new values of
-    variables, such as `{"count": count + 1}`, in between the actions of exit and entry. `name` is
-    that of the event, by default "source_to_target". A transition from a state to itself leaves and
-    enters it; its guard is then taken anew only after it was false.
-
-    Examples
-    --------
-    >>> from saltus.library import StateMachine, Transition
-    >>> blink = [Transition("on", "off", after=0.5), Transition("off", "on", after=1.0)]
-    >>> saltus.response(StateMachine(["on", "off"], blink), t=[0.25, 0.75, 1.75])
-    array([0., 1., 0.])
-    """
-
-    source: str
-    target: str
-    guard: Callable[..., Any] | None = None
-    trigger: Callable[..., Any] | None = None
-    after: float | None = None
-    action: Action | None = None
-    priority: float = 0.0
-    name: str | None = None
-
-
-@dataclass(frozen=True)
-class _Condition:
-    """When a transition is taken."""
-
-    guard: Named | None
-    trigger: Named | None
-    after: float | None
-
-    def holds(self, now: dict[str, Any]) -> Any:
-        """The truth of a condition without a trigger."""
-        if self.after is None:
-            return None if self.guard is None else self.guard(now)
-        due = now["since"] >= self.after
-        return due if self.guard is None else np.logical_and(due, self.guard(now))
 
 
 class StateMachine(LeafSystem):
@@ -180,13 +134,13 @@ class StateMachine(LeafSystem):
             self.declare_input_port(each, shape=())
         self._declare_outputs(dict(outputs or {}))
         self._declare_start(self._first)
-        events = _events_of(transitions)
-        before: dict[str, list[_Condition]] = {state: [] for state in self._states}
-        for each, event in sorted(zip(transitions, events, strict=True), key=_order):
-            condition = self._condition_of(each, f"transition '{event}'")
-            self._declare_transition(each, event, condition, tuple(before[each.source]))
-            if condition.trigger is None and each.source != each.target:
-                before[each.source].append(condition)
+        events = events_of(transitions)
+        before: dict[str, list[Condition]] = {state: [] for state in self._states}
+        for taken, event in sorted(zip(transitions, events, strict=True), key=order):
+            condition = self._condition_of(taken, f"transition '{event}'")
+            self._declare_transition(taken, event, condition, tuple(before[taken.source]))
+            if condition.trigger is None and taken.source != taken.target:
+                before[taken.source].append(condition)
 
     @property
     def states(self) -> tuple[str, ...]:
@@ -236,7 +190,7 @@ class StateMachine(LeafSystem):
 
     def _declare_output(self, name: str, given: Callable[..., Any]) -> None:
         function = Named(self._words, f"output '{name}'", given)
-        known, read = _reader(self._words, self._first, [function])
+        known, read = reader(self._words, self._first, [function])
         self.declare_output_port(
             lambda *values, **parameters: function(known(*values, **parameters)),
             name=name,
@@ -248,10 +202,10 @@ class StateMachine(LeafSystem):
     def _declare_start(self, first: int) -> None:
         """Enters the first state, when a run starts for the first time."""
         words, act = self._words, self._actions["entry"].get(self._states[first])
-        known, read = _reader(words, first, [act])
+        known, read = reader(words, first, [act])
 
         def enter(*values: Any, **parameters: Any) -> Any:
-            z = _after(words, known(*values, **parameters), [], act, first)
+            z = after_actions(words, known(*values, **parameters), [], act, first)
             return values[1].with_discrete_state(z)
 
         self.declare_zero_crossing(
@@ -266,14 +220,14 @@ class StateMachine(LeafSystem):
             requires_inputs=read,
         )
 
-    def _condition_of(self, each: Transition, where: str) -> _Condition:
+    def _condition_of(self, each: Transition, where: str) -> Condition:
         self._at(each.source, where), self._at(each.target, where)
         self._require_condition(each, where)
         guard = self._named(f"guard of {where}", each.guard)
-        return _Condition(guard, self._named(f"trigger of {where}", each.trigger), each.after)
+        return Condition(guard, self._named(f"trigger of {where}", each.trigger), each.after)
 
     def _declare_transition(
-        self, each: Transition, event: str, condition: _Condition, first: tuple[_Condition, ...]
+        self, each: Transition, event: str, condition: Condition, first: tuple[Condition, ...]
     ) -> None:
         """A transition, which waits behind those that come first."""
         where, words = f"transition '{event}'", self._words
@@ -282,7 +236,7 @@ class StateMachine(LeafSystem):
         leave = [self._actions["exit"].get(each.source)]
         leave.append(self._named(f"action of {where}", each.action))
         enter = self._actions["entry"].get(each.target)
-        known, read = _reader(
+        known, read = reader(
             words, self._first, [guard, trigger, *leave, enter, *(other.guard for other in first)]
         )
 
@@ -291,7 +245,7 @@ class StateMachine(LeafSystem):
             taken = state.mode == source  # a transition of a higher priority may have left it
             if trigger is not None and guard is not None:
                 taken = np.logical_and(taken, guard(now))
-            z = _after(words, now, leave, enter, target)
+            z = after_actions(words, now, leave, enter, target)
             changed = [np.where(taken, *pair) for pair in zip(z, state.discrete_state, strict=True)]
             mode = np.where(taken, target, state.mode)
             return state.with_discrete_state(changed).with_mode(mode)
@@ -300,7 +254,7 @@ class StateMachine(LeafSystem):
             now = known(*values, **parameters)
             if trigger is not None:
                 return trigger(now)
-            return _due(values[1].mode == source, condition, first, now)
+            return due(values[1].mode == source, condition, first, now)
 
         edge = {"start_mode": source, "at_start": "ignore"}
         self.declare_zero_crossing(
@@ -320,78 +274,3 @@ class StateMachine(LeafSystem):
             raise self._fail(f"{where}: expected a trigger or a time 'after', found both")
         if each.after is not None and not 0.0 < each.after < math.inf:
             raise self._fail(f"{where}: after = {each.after} s; expected a time above 0")
-
-
-def _reader(
-    words: Words, first: int, functions: Sequence[Named | None]
-) -> tuple[Callable[..., dict[str, Any]], list[int]]:
-    """Name -> value for some functions, from the arguments of a callback; the inputs it has.
-
-    The state before the start counts as the first one.
-    """
-    read, count = inputs_of_all(words, functions), words.states
-    positions = np.array([*range(count), first])
-
-    def known(time: Any, state: Any, *inputs: Any, **parameters: Any) -> dict[str, Any]:
-        values = words.values(time, state, read, inputs, parameters)
-        return values | {"state": positions[state.mode]}
-
-    return known, read
-
-
-def _due(
-    active: Any, condition: _Condition, first: Sequence[_Condition], now: dict[str, Any]
-) -> Any:
-    """The guard of a transition that is taken where a condition holds: above zero where it does.
-
-    It is below zero in all other states, so that the pass that enters the state carries it across
-    zero if the condition holds. A guard of that mode alone would wait then, if it has fired at the
-    same time before, and the transition would be lost. It is below zero, too, where a transition
-    that comes first is taken.
-    """
-    for other in first:
-        active = np.logical_and(active, np.logical_not(other.holds(now)))
-    if condition.guard is None:
-        return np.where(active, now["since"] - condition.after, -1.0)
-    return np.where(np.logical_and(active, condition.holds(now)), 1.0, -1.0)
-
-
-def _after(
-    words: Words,
-    known: dict[str, Any],
-    leave: Sequence[Named | None],
-    enter: Named | None,
-    target: int,
-) -> list[Any]:
-    """The discrete state after the actions, each of which sees what the one before left."""
-    for act in leave:
-        known = known | _changes(words, known, act)
-    known = known | {"since": 0.0, "state": target}
-    known = known | _changes(words, known, enter)
-    return [known["time"], *(known[name] for name in words.variables)]
-
-
-def _changes(words: Words, known: dict[str, Any], act: Named | None) -> Mapping[str, Any]:
-    """What an action returns."""
-    changes = {} if act is None else act(known)
-    for name in changes:
-        if act is not None and name not in words.variables:
-            found = known_names(str(name), list(words.variables))
-            raise BlockParameterError(
-                f"block '{words.block}': {act.what}: there is no variable '{name}'{found}"
-            )
-    return changes
-
-
-def _order(pair: tuple[Transition, str]) -> float:
-    return -pair[0].priority
-
-
-def _events_of(transitions: Sequence[Transition]) -> list[str]:
-    """The names of the events; a second transition between two states gets a number."""
-    events: list[str] = []
-    for each in transitions:
-        name = each.name or f"{each.source}_to_{each.target}"
-        others = sum(other.partition(" ")[0] == name for other in events) if not each.name else 0
-        events.append(f"{name} {others + 1}" if others else name)
-    return events

@@ -78,6 +78,8 @@ def _argument(
         return _function(path, block, value, values)
     if isinstance(value, str) and "str" in kind:
         return value
+    if isinstance(value, list) and "str" in kind and all(isinstance(v, str) for v in value):
+        return value  # names, such as those of the signals of a bus
     if isinstance(value, bool) != (kind in ("bool", "bool | None")) and value is not None:
         raise Wrong(path, f"expected {_kind(kind)}, found {found(value)}")
     if isinstance(value, str) and kind.startswith("int"):

@@ -55,7 +55,7 @@ def check_one_answer(story) -> None:
 
 
 def try_stories(count: int, first_seed: int = 0) -> int:
-    """Tries `count` stories; returns how many ran. AssertionError where one fails: it is printed."""
+    """Tries `count` stories; returns how many ran. AssertionError where one fails."""
     ran = 0
 
     def check(story):

@@ -57,6 +57,45 @@ def test_any_scene_ends_and_its_rows_and_events_hold_together(scene):
     check_events(results)
 
 
+def by_block(results):
+    """The story of each block without j, which counts the jumps of all."""
+    found = {}
+    for _, kind, direction, block, name in story(results):
+        found.setdefault(block, []).append((kind, direction, name))
+    return found
+
+
+@several
+@given(scenes())
+def test_islands_step_apart_to_the_same_end(scene):
+    fine = {"rtol": 1e-9, "atol": 1e-11}
+    first_run(scene)
+    results, finer = run(scene, **fine), run(scene, rtol=1e-11, atol=1e-13)
+    try:
+        apart = run(scene, islands=True, **fine)
+    except saltus.ModelError as error:
+        assume("with islands = true" not in str(error))
+        raise
+    event(f"{len(apart.islands)} islands")
+    if not apart.islands:
+        check_same_run(results, apart)
+        return
+    assert [e.time for e in apart.events] == sorted(e.time for e in apart.events)
+    assume(results.status in ("reached_end", "terminal") and results.status == finer.status)
+    assume(by_block(results) == by_block(finer))  # else the scene hangs on a hair
+    assert apart.status == results.status
+    end = scene.span[1]
+    last = [e for r in (results, finer, apart) for e in r.events if e.time > end - 1e-6]
+    assume(not last)  # they may as well come after the end
+    assert by_block(apart) == by_block(results)
+    spread = 1e-6 + 100 * np.max(
+        np.abs(finer.context.continuous_state - results.context.continuous_state), initial=0.0
+    )
+    np.testing.assert_allclose(
+        apart.context.continuous_state, results.context.continuous_state, rtol=1e-6, atol=spread
+    )
+
+
 @several
 @given(scenes())
 def test_what_is_recorded_changes_nothing(scene):

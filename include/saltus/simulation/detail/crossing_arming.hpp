@@ -34,7 +34,7 @@ class CrossingArming {
   void arm_edge(std::size_t k);
   bool begins_as_wished(const GuardGroup& group, std::size_t k, bool at_start);
   void carry_out(std::size_t k, const Arming& arming, double error);
-  bool reset_turns(const GuardGroup& group, std::size_t k);
+  bool reset_turns(const GuardGroup& group, std::size_t k, int from);
   bool turned_round(const GuardGroup& group, std::size_t k, int side);
 
   Machine* machine_;

@@ -50,9 +50,11 @@ inline double error_so_far(const ErrorFacts& facts) {
   return facts.counts_as_zero ? value : 0.0;
 }
 
-/// The bound of the guard of a block at rest: all terms that apply.
-inline double contact_error(double rounding, double value, double before) {
-  return std::max({rounding, std::abs(value), before});
+/// The bound of the guard of a block at rest: all terms that apply. A guard that jumped at its root
+/// has a value on each side of the jump, and the block may rest a rounding beside it on either side:
+/// both count as zero.
+inline double contact_error(double rounding, double value, double before, double jump = 0.0) {
+  return std::max({rounding, std::abs(value) + jump, before});
 }
 
 }  // namespace saltus

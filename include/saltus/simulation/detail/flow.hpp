@@ -18,6 +18,8 @@ class Flow {
   void forget() noexcept { known_ = false; }
   /// Guards read other values than before, though f may not.
   void forget_looks() noexcept { departure_.forget_looks(); }
+  /// The values of one guard count from `zero`, in place of its own zero; -1: of none.
+  void count_from(Index slot, double zero) { departure_.count_from(slot, zero); }
   /// f at the present state, if it is known.
   const Eigen::VectorXd* known() const noexcept { return known_ ? &departure_.flow() : nullptr; }
 

@@ -24,6 +24,14 @@ class FlowProbe {
   /// What guards read, besides t and x, has changed.
   void forget_looks() noexcept { flight_ = {}; }
 
+  /// From now on the values of one guard count from `zero`, in place of its own zero; -1: of none.
+  void count_from(Index slot, double zero) {
+    if (shifted_ >= 0) looked_at_[group_of_[shifted_]] = 0;
+    shifted_ = slot, zero_ = zero;
+    if (shifted_ >= 0) looked_at_[group_of_[shifted_]] = 0;
+    forget_looks();
+  }
+
   /// Rounding of a guard at the point of departure.
   double rounding(Index slot) {
     forget_looks();
@@ -117,6 +125,7 @@ class FlowProbe {
   /// Evaluates the group of one guard. All guards would cost n squared where n of them depart.
   void look(double t, const Eigen::VectorXd& x, Index slot, Eigen::VectorXd& g) {
     machine_->guards_of({&group_of_[slot], 1}, t, x.data(), g.data());
+    if (shifted_ >= 0 && group_of_[shifted_] == group_of_[slot]) g[shifted_] -= zero_;
   }
 
   /// The guard at the point of departure, computed at the first call.
@@ -180,6 +189,8 @@ class FlowProbe {
   List<int> group_of_;            // of each slot
   List<std::int64_t> looked_at_;  // of each group: the departure that g0_ belongs to
   std::int64_t departures_ = 0;
+  Index shifted_ = -1;  // the slot whose values count from zero_
+  double zero_ = 0.0;
   Flight flight_;
   Eigen::VectorXd f_disturbed_, trial_, g0_, g_disturbed_;
 };

@@ -50,7 +50,7 @@ struct GuardNow {
   /// [s] from its last firing to this one; NaN if it was clearly off zero in between
   double flight = std::numeric_limits<double>::quiet_NaN();
   int flips = 0;                    ///< flips of a relation in this instant
-  bool jumped = false;              ///< it jumped at its root
+  double jump = 0.0;                ///< the size of its jump at its root; 0: none
   double before = 0.0;              ///< edge_detection: its value before its root
   bool fired = false;               ///< it fired in this instant
   bool fired_in_pass = false;       ///< it fired in this pass
@@ -60,6 +60,8 @@ struct GuardNow {
   bool turned_beside_root = false;  ///< at zero at the root of another guard, and turned to its
                                     ///< armed side, to which the flow took it
   bool noted = false;               ///< it is in the list of guards with facts
+
+  bool jumped() const noexcept { return jump > 0.0; }
 };
 
 /// The time of an instant, the time left of the run, and the findings pass by pass.

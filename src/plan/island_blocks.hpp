@@ -1,0 +1,23 @@
+// The blocks of a plan as islands see them: which have states or events, count, or are copied.
+#pragma once
+
+#include <vector>
+
+#include "saltus/base/list.hpp"
+#include "saltus/plan/plan.hpp"
+
+namespace saltus::detail {
+
+struct IslandBlocks {
+  explicit IslandBlocks(const Plan& plan);
+
+  List<char> read;    ///< of each node: whether it is read or recorded
+  List<char> live;    ///< of each leaf: it has a state or an event; a located boolean has events
+  List<char> active;  ///< of each leaf: it is live, or is read or recorded, or feeds such a leaf
+  List<char> copied;  ///< of each leaf: neither it nor any block that it reads is live
+};
+
+/// The other leaves that a leaf reads, in order.
+std::vector<int> sources_of(const Plan& plan, int leaf);
+
+}  // namespace saltus::detail

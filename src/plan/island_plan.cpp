@@ -1,0 +1,47 @@
+// The plan of one island.
+#include <algorithm>
+
+#include "saltus/plan/detail/passes.hpp"
+#include "saltus/plan/islands.hpp"
+
+namespace saltus {
+
+using namespace detail;
+
+namespace {
+
+/// The number in the part of a node of the whole. The leaves of the part are sorted.
+int in_part(const Plan& whole, const Plan& part, const std::vector<int>& leaves, int number) {
+  const Node& node = whole.node(number);
+  const PlanLeaf& leaf = part.leaf(std::ranges::lower_bound(leaves, node.leaf) - leaves.begin());
+  return node.relation ? leaf.relations[node.index] : leaf.outputs[node.index];
+}
+
+}  // namespace
+
+std::shared_ptr<const Plan> plan_of_island(const Plan& whole, const Islands& islands,
+                                           std::size_t k) {
+  const std::vector<int>& leaves = islands.leaves[k];
+  Structure structure;
+  Replacements declarations;
+  for (const int i : leaves) {
+    structure.leaves.push_back({whole.leaf(i).system, whole.leaf(i).path});
+    declarations.push_back(whole.leaf(i).declarations);
+  }
+  Plan part;
+  add_leaves(part, structure, declarations);
+  for (std::size_t l = 0; l < leaves.size(); ++l) {
+    const List<int>& inputs = whole.leaf(leaves[l]).inputs;
+    for (std::size_t input = 0; input < inputs.size(); ++input)
+      part.leaves[l].inputs[input] = in_part(whole, part, leaves, inputs[input]);
+  }
+  add_needs(part);
+  for (const int tap : islands.taps[k]) {
+    const Tap& recorded = nth(whole.taps, tap);
+    part.taps.push_back({recorded.name, in_part(whole, part, leaves, recorded.node)});
+  }
+  const Roots roots = find_shapes_and_rates(part);
+  return completed(std::move(part), roots);
+}
+
+}  // namespace saltus
