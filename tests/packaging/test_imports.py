@@ -33,6 +33,8 @@ LATE = {
     ("saltus.cli.view_scene", "saltus.results.tables"): "advice for a missing library",
     ("saltus.cli.view_scene", "saltus.simulation.simulate"): "other commands run nothing",
     ("saltus.cli.view_scene", "saltus.viewing.view"): "loads pages, as other commands do not",
+    ("saltus.ensemble.sweep", "saltus.ensemble.store"): "an option that most sweeps leave alone",
+    ("saltus.ensemble.sweep", "saltus.ensemble.stored"): "an option that most sweeps leave alone",
     ("saltus.ensemble.heat_map", "saltus.results.charts.by_plotly"): "loads plotly",
     ("saltus.results.charts", "saltus.results.charts.phase"): "loads matplotlib",
     ("saltus.results.charts", "saltus.results.charts.raster"): "loads matplotlib",

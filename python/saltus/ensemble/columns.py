@@ -9,7 +9,7 @@ import numpy as np
 
 from saltus import _core
 
-__all__ = ["NOT_RUN", "STATUS", "Columns", "empty", "failed", "join"]
+__all__ = ["NOT_RUN", "PLAIN", "STATUS", "WIDE", "Columns", "empty", "failed", "join"]
 
 Columns = dict[str, Any]
 """'status', 'end_time', 'wall_time', 'events', 'steps': one value a run; 'continuous_state',

@@ -11,7 +11,7 @@ from saltus.ensemble.job import Job, Watch
 from saltus.ensemble.table import Table
 from saltus.errors import ModelError
 
-__all__ = ["run"]
+__all__ = ["Outcome", "chosen", "run"]
 
 KINDS = ("threads", "processes", "serial")
 Outcome = tuple[Columns, "BaseException | None", str, int]
@@ -28,34 +28,35 @@ def run(job: Job, table: Table, executor: Any, workers: int | None, watch: Watch
     """Runs the job by the given executor, or by a suitable one. Returns the outcome, the executor's
     name and the number of workers.
     """
+    kind, count = chosen(job, table, executor, workers)
+    if kind == "processes":
+        return *_in_processes(job, table, count, watch), kind, count
+    if kind in KINDS:
+        return *job.run(table.columns, count, watch), kind, count
+    from saltus.ensemble import pools  # loaded only when processes are needed
+
+    return *pools.run_pooled(executor, job, table, count, watch), kind, count
+
+
+def chosen(job: Job, table: Table, executor: Any, workers: int | None) -> tuple[str, int]:
+    """The name of the executor, and the number of workers.
+
+    Without an executor the system and `workers` decide, never the clock: the same call runs the
+    same way.
+    """
     count = _workers(workers, table.runs)
     if executor is None:
-        return _run_as_suits(job, table, workers, count, watch)
+        if not job.needs_interpreter:
+            return "threads", count
+        return ("serial", 1) if workers is None or count == 1 else ("processes", count)
     if not isinstance(executor, str):
-        from saltus.ensemble import pools  # loaded only when processes are needed
-
-        columns, raised = pools.run_pooled(executor, job, table, count, watch)
-        return columns, raised, type(executor).__name__, count
+        return type(executor).__name__, count
     if executor not in KINDS:
         hint = _core.known_names(executor, list(KINDS))
         raise ModelError(f"sweep: unknown executor '{executor}'{hint}")
-    if executor == "processes":
-        return *_in_processes(job, table, count, watch), executor, count
     if executor == "threads" and job.is_factory:
         raise ModelError("sweep: a function makes systems one by one: no threads share a plan")
-    count = count if executor == "threads" else 1
-    return *job.run(table.columns, count, watch), executor, count
-
-
-def _run_as_suits(job: Job, table: Table, workers: int | None, count: int, watch: Watch) -> Outcome:
-    """Chooses an executor by the system and `workers`, never by the clock: the same call runs the
-    same way.
-    """
-    if not job.needs_interpreter:
-        return *job.run(table.columns, count, watch), "threads", count
-    if workers is None or count == 1:
-        return *job.run(table.columns, 1, watch), "serial", 1
-    return *_in_processes(job, table, count, watch), "processes", count
+    return executor, 1 if executor == "serial" else count
 
 
 def _in_processes(

@@ -17,7 +17,7 @@ from saltus.ensemble.job import Job, NoSystem, Watch
 from saltus.ensemble.table import Column, Table
 from saltus.errors import ModelError
 
-__all__ = ["pickled", "process_pool", "run_pooled"]
+__all__ = ["REMEDY", "pickled", "process_pool", "run_pooled", "submitted"]
 
 REMEDY = (
     "give a function that makes the system instead, at the top level of a module that the other "
@@ -51,6 +51,22 @@ def _run_part(job: Job | bytes, values: dict[str, Column]) -> Columns:
     """In the other process."""
     columns: Columns = (_unpickled(job) if isinstance(job, bytes) else job).run(values)[0]
     return columns
+
+
+def _run_again(job: Job | bytes, values: dict[str, Column], attempt: int) -> Columns:
+    """A part in its attempt of this number, by which Dask takes it for another task."""
+    del attempt
+    return _run_part(job, values)
+
+
+def submitted(executor: Any, job: Job | bytes, values: dict[str, Column], attempt: int) -> Any:
+    """The future of one part. ModelError for an executor without `submit`."""
+    if hasattr(executor, "submit"):
+        return executor.submit(_run_again, job, values, attempt)
+    raise ModelError(
+        "sweep: a store needs 'threads', 'processes', 'serial' or an executor with submit(), "
+        f"found {executor!r}"
+    )
 
 
 @contextmanager

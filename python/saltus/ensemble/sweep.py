@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import time
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
@@ -21,7 +22,7 @@ from saltus.ensemble.dataset import (
 from saltus.ensemble.executors import run
 from saltus.ensemble.job import Job
 from saltus.ensemble.progress import Progress
-from saltus.ensemble.table import table_of
+from saltus.ensemble.table import Table, table_of
 from saltus.errors import ModelError
 from saltus.results import Results
 from saltus.simulation import SimulatorOptions
@@ -29,6 +30,8 @@ from saltus.system import OutputPort, System
 
 if TYPE_CHECKING:
     import pandas  # type: ignore[import-untyped,import-not-found,unused-ignore]
+
+    from saltus.ensemble.store import Store
 
 __all__ = ["sweep"]
 
@@ -47,6 +50,9 @@ def sweep(
     progress: bool = False,
     paired: bool = False,
     as_dict: bool = False,
+    store: str | os.PathLike[str] | None = None,
+    chunk: int | None = None,
+    retries: int = 0,
     **option_overrides: Any,
 ) -> Any:
     """Runs a system once for each point of a grid of values, or for each row of a table.
@@ -97,6 +103,16 @@ def sweep(
         The columns of a dict belong together, row by row.
     as_dict : bool
         Return a dict of numpy arrays with the same names and shapes, which needs no xarray.
+    store : path, optional
+        A directory that keeps finished chunks of rows, so that the same call after a kill runs only
+        the missing ones and gives the same bits (the wall times of finished rows included). A chunk
+        is written whole or not at all; a damaged one is run again; a store of another sweep is
+        refused. Chunks are pickles: open only a store that you trust.
+    chunk : int, optional
+        With a store, the rows of a chunk; by default such that there are at most 64 chunks.
+    retries : int
+        With a store, how often a chunk is submitted again whose worker died. After that its rows
+        have the status 'failed' and the cause as their message; the next call runs them again.
     **option_overrides
         Single options.
 
@@ -116,7 +132,7 @@ def sweep(
     ModelError
         Before anything is run, if a name is unknown (the message has the nearest), a value is
         impossible, a function needs more than the values, or a system cannot go to another process.
-        Also if a function makes something else than a system.
+        Also if a function makes something else than a system, or a store belongs to another sweep.
     ImportError
         Before anything is run, if xarray is not installed, unless `as_dict`.
     KeyboardInterrupt
@@ -138,9 +154,17 @@ def sweep(
     if not as_dict:
         xarray()
     job.check(table.columns)
+    kept = _store(store, chunk, retries, job, table)
     start = time.perf_counter()
     with Progress(table.runs, progress or bool(job.options.progress)) as shown:
-        columns, raised, kind, count = run(job, table, executor, workers, shown.watch)
+        if kept is None:
+            columns, raised, kind, count = run(job, table, executor, workers, shown.watch)
+        else:
+            from saltus.ensemble.stored import run_stored
+
+            columns, raised, kind, count = run_stored(
+                job, table, executor, workers, shown.watch, kept, retries
+            )
     attributes = summary(columns, time.perf_counter() - start)
     attributes |= {"executor": kind, "workers": count, "saltus": _core.__version__}
     give = to_dict if as_dict else to_dataset
@@ -150,6 +174,23 @@ def sweep(
         raised.results = results  # type: ignore[attr-defined]
         raise raised
     return results
+
+
+def _store(
+    path: str | os.PathLike[str] | None, chunk: object, retries: object, job: Job, table: Table
+) -> Store | None:
+    for name, value, least in (("chunk", chunk, 1), ("retries", retries, 0)):
+        if value is None and name == "chunk":
+            continue
+        if not isinstance(value, int) or isinstance(value, bool) or value < least:
+            raise ModelError(f"sweep: {name}: expected {least} or more, found {value!r}")
+        if path is None and value != 0:
+            raise ModelError(f"sweep: {name}={value} needs a store: say store='a directory'")
+    if path is None:
+        return None
+    from saltus.ensemble.store import Store
+
+    return Store(path, job, table, chunk)  # type: ignore[arg-type]
 
 
 def _name_of(reduce: Callable[[Results], Any] | None) -> str:
