@@ -102,8 +102,9 @@ void bind_arithmetic(py::module_& module) {
   py::class_<Product, System>(module, "Product").def(py::init<std::string, std::string_view>());
   py::class_<ProductOfElements, System>(module, "ProductOfElements").def(py::init<std::string>());
   py::class_<Quantizer, System>(module, "Quantizer")
-      .def(py::init([](const std::string& name, Handle interval) {
-        return std::make_unique<Quantizer>(name, Arguments(name).value(interval, "interval"));
+      .def(py::init([](const std::string& name, Handle interval, double hysteresis) {
+        return std::make_unique<Quantizer>(name, Arguments(name).value(interval, "interval"),
+                                           QuantizerOptions{hysteresis});
       }));
   py::class_<Reciprocal, System>(module, "Reciprocal").def(py::init<std::string>());
   py::class_<Saturate, System>(module, "Saturate")

@@ -26,14 +26,16 @@ void bind_state(py::module_& module) {
       }));
   py::class_<SecondOrderIntegrator, System>(module, "SecondOrderIntegrator")
       .def(py::init([](const std::string& name, Handle position, Handle velocity,
-                       Handle lower_limit, Handle upper_limit, double restitution) {
+                       Handle lower_limit, Handle upper_limit, double restitution, Handle slowest,
+                       Handle fastest) {
         const Arguments of(name);
         return std::make_unique<SecondOrderIntegrator>(
-            name,
-            SecondOrderIntegratorOptions{of.value(position, "initial_position"),
-                                         of.value(velocity, "initial_velocity"),
-                                         of.optional(lower_limit, "lower_limit"),
-                                         of.optional(upper_limit, "upper_limit"), restitution});
+            name, SecondOrderIntegratorOptions{of.value(position, "initial_position"),
+                                               of.value(velocity, "initial_velocity"),
+                                               of.optional(lower_limit, "lower_limit"),
+                                               of.optional(upper_limit, "upper_limit"), restitution,
+                                               of.optional(slowest, "lower_velocity_limit"),
+                                               of.optional(fastest, "upper_velocity_limit")});
       }));
   py::class_<SlewRateLimiter, System>(module, "SlewRateLimiter")
       .def(py::init([](const std::string& name, double upper, double lower, double time_constant,

@@ -532,7 +532,7 @@ class ProductOfElements(System):
     def __init__(self, arg0: str, /) -> None: ...
 
 class Quantizer(System):
-    def __init__(self, arg0: str, arg1: Any, /) -> None: ...
+    def __init__(self, arg0: str, arg1: Any, arg2: float, /) -> None: ...
 
 class Reciprocal(System):
     def __init__(self, arg0: str, /) -> None: ...
@@ -609,7 +609,16 @@ class Integrator(System):
 
 class SecondOrderIntegrator(System):
     def __init__(
-        self, arg0: str, arg1: Any, arg2: Any, arg3: Any, arg4: Any, arg5: float, /
+        self,
+        arg0: str,
+        arg1: Any,
+        arg2: Any,
+        arg3: Any,
+        arg4: Any,
+        arg5: float,
+        arg6: Any,
+        arg7: Any,
+        /,
     ) -> None: ...
 
 class SlewRateLimiter(System):

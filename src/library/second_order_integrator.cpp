@@ -1,6 +1,8 @@
 // d2x/dt2 = u: position x and velocity dx, elementwise; at a limit of x the body stops, or rebounds.
 #include "saltus/library/second_order_integrator.hpp"
 
+#include <algorithm>
+
 #include "saltus/library/detail/elementwise.hpp"
 
 namespace saltus {
@@ -11,16 +13,7 @@ SecondOrderIntegrator::SecondOrderIntegrator(std::string name, const Options& op
   require_inside(options);
   const Shape shape = options.initial_position.shape();
   declare_input_port({.name = "in", .shape = shape});
-  Eigen::VectorXd initial(2 * n_);
-  initial.head(n_) = options.initial_position.values;
-  for (Index i = 0; i < n_; ++i)
-    initial[n_ + i] = detail::entry(
-        {options.initial_velocity.values.data(), options.initial_velocity.values.size()}, i);
-  declare_continuous_state({.initial = initial,
-                            .reads = Reads::continuous_state | Reads::inputs,
-                            .formula = [n = n_](const auto& at, Index i) {
-                              return i < n ? at.x(n + i) : at.u(0, i - n);
-                            }});
+  declare_motion(options);
   declare_output_port({.name = "x",
                        .shape = shape,
                        .reads = Reads::continuous_state,
@@ -35,19 +28,80 @@ SecondOrderIntegrator::SecondOrderIntegrator(std::string name, const Options& op
   if (options.upper_limit) declare_limit("upper_limit", *options.upper_limit, 1.0, restitution);
 }
 
+/// d(x, dx)/dt = (dx, u), where u is 0 for an entry that is pushed beyond a limit of dx.
+void SecondOrderIntegrator::declare_motion(const Options& options) {
+  Eigen::VectorXd initial(2 * n_);
+  initial.head(n_) = options.initial_position.values;
+  for (Index i = 0; i < n_; ++i)
+    initial[n_ + i] = detail::entry(
+        {options.initial_velocity.values.data(), options.initial_velocity.values.size()}, i);
+  std::optional<RelationIndex> slow, fast, pushed_up;
+  if (options.lower_velocity_limit)
+    slow = declare_velocity_limit("lower_velocity_limit", "at_lower_velocity_limit",
+                                  *options.lower_velocity_limit, -1.0);
+  if (options.upper_velocity_limit)
+    fast = declare_velocity_limit("upper_velocity_limit", "at_upper_velocity_limit",
+                                  *options.upper_velocity_limit, 1.0);
+  if (!slow && !fast) {
+    declare_continuous_state({.initial = initial,
+                              .reads = Reads::continuous_state | Reads::inputs,
+                              .formula = [n = n_](const auto& at, Index i) {
+                                return i < n ? at.x(n + i) : at.u(0, i - n);
+                              }});
+    return;
+  }
+  pushed_up = declare_relation(
+      {.name = "rising", .size = n_, .reads = Reads::inputs, .formula = [](const auto& at) {
+         return at.u(0);
+       }});
+  declare_continuous_state(
+      {.initial = initial,
+       .reads = Reads::continuous_state | Reads::inputs | Reads::relations,
+       .formula = [n = n_, slow, fast, up = *pushed_up](const auto& at, Index i) {
+         if (i < n) return at.x(n + i);
+         const Index j = i - n;
+         const auto u = at.u(0, j);
+         const auto rising = fast ? at.choose(at.relation(*fast, j), 0.0, u) : u;
+         const auto falling = slow ? at.choose(at.relation(*slow, j), 0.0, u) : u;
+         return at.choose(at.relation(up, j), rising, falling);
+       }});
+}
+
+RelationIndex SecondOrderIntegrator::declare_velocity_limit(const char* parameter,
+                                                            const char* relation,
+                                                            const Value& limit, double outward) {
+  const ParameterIndex k = declare_dynamic_parameter(parameter, limit.values);
+  (outward > 0.0 ? fastest_ : slowest_) = k;
+  return declare_relation({.name = relation,
+                           .true_at_zero = true,
+                           .size = n_,
+                           .reads = Reads::continuous_state,
+                           .inputs = std::vector<int>{},
+                           .formula = [k, outward, n = n_](const auto& at, Index i) {
+                             return outward * (at.x(n + i) - at.p(k, k.size == 1 ? 0 : i));
+                           }});
+}
+
+void SecondOrderIntegrator::require_width(const char* what,
+                                          const std::optional<Value>& value) const {
+  const Index found = value ? value->values.size() : 1;
+  detail::insist(found == 1 || found == n_, name(), what, " has ", found,
+                 " values, initial_position has ", n_, "; expected one value or as many");
+}
+
 void SecondOrderIntegrator::require_sound(const Options& o) const {
   detail::insist(n_ > 0, name(), "initial_position is an empty vector; give at least one number");
   detail::insist(o.restitution >= 0.0 && o.restitution <= 1.0, name(),
                  "restitution = ", o.restitution, "; expected 0 to 1");
   if (o.lower_limit && o.upper_limit)
     detail::require_ordered(name(), *o.lower_limit, *o.upper_limit);
-  for (const auto& [what, value] :
-       {std::pair{"initial_velocity", std::optional(o.initial_velocity)},
-        std::pair{"lower_limit", o.lower_limit}, std::pair{"upper_limit", o.upper_limit}}) {
-    const Index found = value ? value->values.size() : 1;
-    detail::insist(found == 1 || found == n_, name(), what, " has ", found,
-                   " values, initial_position has ", n_, "; expected one value or as many");
-  }
+  if (o.lower_velocity_limit && o.upper_velocity_limit)
+    detail::require_ordered(name(), *o.lower_velocity_limit, *o.upper_velocity_limit);
+  require_width("initial_velocity", o.initial_velocity);
+  require_width("lower_limit", o.lower_limit);
+  require_width("upper_limit", o.upper_limit);
+  require_width("lower_velocity_limit", o.lower_velocity_limit);
+  require_width("upper_velocity_limit", o.upper_velocity_limit);
 }
 
 /// Throws ModelError for an entry that starts beyond a limit.
@@ -59,6 +113,9 @@ void SecondOrderIntegrator::require_inside(const Options& o) const {
     const double x = o.initial_position.values[i];
     detail::insist(x >= of(o.lower_limit, x) && x <= of(o.upper_limit, x), name(),
                    "initial_position ", x, " is outside the limits; expected a start between them");
+    const double v = of(o.initial_velocity, 0.0);
+    detail::insist(v >= of(o.lower_velocity_limit, v) && v <= of(o.upper_velocity_limit, v), name(),
+                   "initial_velocity ", v, " is outside the limits; expected a start between them");
   }
 }
 
@@ -67,10 +124,13 @@ void SecondOrderIntegrator::declare_limit(const char* parameter, const Value& li
   const ParameterIndex k = declare_dynamic_parameter(parameter, limit.values);
   std::vector<std::vector<int>> rests;
   for (int i = 0; i < static_cast<int>(n_); ++i) rests.push_back({i, static_cast<int>(n_) + i});
-  const auto stop = [=, n = n_](const At& at, Next& next) {
+  const auto stop = [=, n = n_, slowest = slowest_, fastest = fastest_](const At& at, Next& next) {
     Eigen::VectorXd x = at.x;
     x[at.entry] = detail::entry(at.parameter(k), at.entry);
-    x[n + at.entry] *= -at.parameter(restitution)[0];
+    double& v = x[n + at.entry];
+    v *= -at.parameter(restitution)[0];
+    if (slowest) v = std::max(v, detail::entry(at.parameter(*slowest), at.entry));
+    if (fastest) v = std::min(v, detail::entry(at.parameter(*fastest), at.entry));
     next.set_continuous_state(x);
   };
   declare_zero_crossing({.name = parameter,

@@ -65,3 +65,37 @@ TEST_CASE("options of a SecondOrderIntegrator that do not fit are refused", "[li
   CHECK(contains(made({.initial_velocity = Value{1.0, 2.0}}), "initial_velocity has 2 values"));
   CHECK(contains(made({.restitution = 2.0}), "restitution = 2; expected 0 to 1"));
 }
+
+/// Pushed by 2 from rest: v = 2 t until 3, at 1.5 s, where x = 2.25; then x = 2.25 + 3 (t - 1.5). From
+/// t = 3 pushed by -1, it leaves the limit: v = 3 - (t - 3).
+TEST_CASE("a velocity stops at its limit and leaves it when it is pushed back",
+          "[library][state]") {
+  const Scene<SecondOrderIntegrator> scene(
+      fed_by<Step>(Step::Options{.start_value = 2.0, .end_value = -1.0, .step_time = 3.0}),
+      Options{.lower_velocity_limit = -1.0, .upper_velocity_limit = 3.0});
+  const Numbers x = scene.at({1.0, 3.0, 4.0}), v = scene.at({1.0, 3.0, 4.0, 20.0}, 1);
+  const Numbers exact_x{1.0, 6.75, 9.25}, exact_v{2.0, 3.0, 2.0, -1.0};
+  for (std::size_t i = 0; i < x.size(); ++i) CHECK_THAT(x[i], WithinAbs(exact_x[i], rounding));
+  for (std::size_t i = 0; i < v.size(); ++i) CHECK_THAT(v[i], WithinAbs(exact_v[i], rounding));
+}
+
+/// The trap: a rebound at -2 e would leave the velocity beyond its lower limit for good.
+TEST_CASE("a rebound is within the limits of the velocity", "[library][state]") {
+  const Scene<SecondOrderIntegrator> scene(fed_by<Constant>(0.0),
+                                           Options{.initial_velocity = 2.0,
+                                                   .upper_limit = 1.0,
+                                                   .restitution = 1.0,
+                                                   .lower_velocity_limit = -0.5});
+  CHECK_THAT(scene.at({1.5}, 1)[0], WithinAbs(-0.5, rounding));
+  CHECK_THAT(scene.at({1.5})[0], WithinAbs(0.5, rounding));
+}
+
+TEST_CASE("limits of the velocity are refused where they do not fit", "[library][errors]") {
+  const auto refused = [](const Options& options) {
+    return model_error([&] { SecondOrderIntegrator("s", options); });
+  };
+  CHECK(contains(refused({.initial_velocity = 2.0, .upper_velocity_limit = 1.0}),
+                 "initial_velocity 2 is outside the limits"));
+  CHECK(contains(refused({.lower_velocity_limit = Value{1.0, 2.0}}),
+                 "lower_velocity_limit has 2 values"));
+}

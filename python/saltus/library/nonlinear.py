@@ -96,10 +96,17 @@ class Quantizer(Block, _core.Quantizer):
 
     If y reaches a derivative, the times at which the level changes are located as events.
 
+    With a hysteresis h above 0 the level is a discrete state: it is left for the nearest level
+    where u is (interval + h) / 2 away from it, so that noise below h does not make it chatter. The
+    changes are then located everywhere, and the input has the shape of the interval.
+
     Parameters
     ----------
     interval
         > 0, a number, or a vector as wide as the input. It is the parameter `interval` of the
+        context.
+    hysteresis
+        0, or less than the smallest interval. Above 0 it is the parameter `hysteresis` of the
         context.
     name
         The name in messages, in contexts and for `diagram[...]`; by default its class and number.
@@ -107,7 +114,7 @@ class Quantizer(Block, _core.Quantizer):
     Raises
     ------
     ModelError
-        If the interval is not above 0.
+        If the interval is not above 0, or the hysteresis is not from 0 to below the interval.
 
     Examples
     --------
@@ -116,8 +123,8 @@ class Quantizer(Block, _core.Quantizer):
     array([ 0. ,  0.5, -1.5])
     """
 
-    def __init__(self, interval: ArrayLike, *, name: str | None = None):
-        super().__init__(self._named(name), interval)
+    def __init__(self, interval: ArrayLike, *, hysteresis: float = 0.0, name: str | None = None):
+        super().__init__(self._named(name), interval, hysteresis)
 
 
 class Sign(Block, _core.Sign):

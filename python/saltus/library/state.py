@@ -102,13 +102,17 @@ class SecondOrderIntegrator(Block, _core.SecondOrderIntegrator):
         context.
     restitution
         0 to 1. Parameter of the context, if there is a limit.
+    lower_velocity_limit, upper_velocity_limit
+        Of the velocity, a number or a vector each; either may be left out. Parameters of the
+        context. An entry at a limit keeps its velocity while u points outward, and a rebound is
+        within the limits.
     name
         The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
     Raises
     ------
     ModelError
-        If the limits cross, the start is outside of them, or the restitution is impossible.
+        If limits cross, the start is outside of them, or the restitution is impossible.
 
     Examples
     --------
@@ -129,6 +133,8 @@ class SecondOrderIntegrator(Block, _core.SecondOrderIntegrator):
         lower_limit: ArrayLike | None = None,
         upper_limit: ArrayLike | None = None,
         restitution: float = 0.0,
+        lower_velocity_limit: ArrayLike | None = None,
+        upper_velocity_limit: ArrayLike | None = None,
         name: str | None = None,
     ):
         super().__init__(
@@ -138,6 +144,8 @@ class SecondOrderIntegrator(Block, _core.SecondOrderIntegrator):
             lower_limit,
             upper_limit,
             restitution,
+            lower_velocity_limit,
+            upper_velocity_limit,
         )
 
 
