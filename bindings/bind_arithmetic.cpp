@@ -13,6 +13,9 @@
 #include "saltus/library/lookup_table_1d.hpp"
 #include "saltus/library/lookup_table_2d.hpp"
 #include "saltus/library/lookup_table_nd.hpp"
+#include "saltus/library/matrix_inversion.hpp"
+#include "saltus/library/matrix_multiplication.hpp"
+#include "saltus/library/matrix_transposition.hpp"
 #include "saltus/library/min_max.hpp"
 #include "saltus/library/multiplexer.hpp"
 #include "saltus/library/offset.hpp"
@@ -88,6 +91,18 @@ void bind_arithmetic(py::module_& module) {
         for (const py::object& axis : axes) points.push_back(of.value(axis, "input_axes").values);
         return std::make_unique<LookupTableNd>(name, points, of.value(table, "output_table").values,
                                                LookupTableNdOptions{extrapolation});
+      }));
+  using Rectangle = std::pair<Index, Index>;
+  const auto shape_of = [](const Rectangle& of) { return MatrixShape{of.first, of.second}; };
+  py::class_<MatrixInversion, System>(module, "MatrixInversion")
+      .def(py::init<std::string, Index>());
+  py::class_<MatrixMultiplication, System>(module, "MatrixMultiplication")
+      .def(py::init([shape_of](const std::string& name, Rectangle left, Rectangle right) {
+        return std::make_unique<MatrixMultiplication>(name, shape_of(left), shape_of(right));
+      }));
+  py::class_<MatrixTransposition, System>(module, "MatrixTransposition")
+      .def(py::init([shape_of](const std::string& name, Rectangle shape) {
+        return std::make_unique<MatrixTransposition>(name, shape_of(shape));
       }));
   py::class_<MinMax, System>(module, "MinMax").def(py::init<std::string, std::string_view, int>());
   py::class_<Multiplexer, System>(module, "Multiplexer").def(py::init<std::string, int>());

@@ -56,7 +56,7 @@ TEST_CASE("a stiff scene allocates nothing in its loop", "[absent][allocation]")
 
 TEST_CASE("a thousand bounces allocate nothing", "[absent][allocation]") {
   const auto method = GENERATE(from_range(methods));
-  for (const Scene& scene : all_forms({.e = 1.0})) {
+  for (const BallScene& scene : all_forms({.e = 1.0})) {
     INFO(scene.form << ", method " << method);
     loop_is_free(*scene.system, scene.context(0.1, 0.0), 10.0, 12.0, 300.0,
                  {.ode_solver_method = method});
@@ -166,7 +166,7 @@ TEST_CASE("holds and releases allocate nothing, in a leaf and in a diagram",
 TEST_CASE("holds and releases of balls from blocks allocate nothing", "[absent][allocation]") {
   const auto method = GENERATE(from_range(methods));
   for (const Contact contact : contacts) {
-    const Scene scene =
+    const BallScene scene =
         blocks(contact, {.e = 0.3},
                std::make_shared<Pulse>("floor", Pulse::Options{.amplitude = 0.1, .period = 2.0}));
     INFO(scene.form << ", method " << method);

@@ -24,7 +24,7 @@ TEST_CASE("a comparison that reaches no derivative, guard or reset is no guard",
 
 TEST_CASE("without a Zeno tolerance there is no Zeno event", "[absent]") {
   const auto method = GENERATE(from_range(methods));
-  for (const Scene& scene : all_forms({.e = 0.5, .zeno_tolerance = 0.0})) {
+  for (const BallScene& scene : all_forms({.e = 0.5, .zeno_tolerance = 0.0})) {
     INFO(scene.form << ", method " << method);
     const auto results = simulate(*scene.system, scene.context(1.0, 0.0), {0.0, 3.0},
                                   {.ode_solver_method = method, .throw_errors = false});

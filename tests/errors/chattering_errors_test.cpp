@@ -95,7 +95,7 @@ TEST_CASE("sliding in a diagram with a Comparator or a lambda chatters", "[error
 TEST_CASE("a ball without Zeno monitor past its Zeno time chatters", "[errors][chattering]") {
   const auto method = GENERATE(from_range(methods));
   const double e = GENERATE(0.0, 0.3, 0.9);
-  for (const Scene& scene : all_forms({.e = e})) {
+  for (const BallScene& scene : all_forms({.e = e})) {
     INFO(scene.form << ", method " << method << ", e = " << e);
     const auto results =
         simulate(*scene.system, scene.context(0.1, 0.0), {0.0, 10.0},

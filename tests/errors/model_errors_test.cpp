@@ -8,7 +8,7 @@ using namespace saltus;
 using namespace support;
 
 TEST_CASE("spans and times that make no sense are refused", "[errors]") {
-  const Scene scene = leaf();
+  const BallScene scene = leaf();
   const auto run = [&](double begin, double end) {
     return message<ModelError>(
         [&] { simulate(*scene.system, scene.context(1.0, 0.0), {begin, end}); });
@@ -47,7 +47,7 @@ TEST_CASE("an unknown direction is refused with the nearest name", "[errors]") {
 }
 
 TEST_CASE("a context of another system is refused", "[errors]") {
-  const Scene scene = leaf();
+  const BallScene scene = leaf();
   const Leaf other("other", [](Leaf& l) { declare_ramp(l); });
   CHECK(contains(
       message<ModelError>([&] { simulate(*scene.system, other.create_context(), {0.0, 1.0}); }),
@@ -56,7 +56,7 @@ TEST_CASE("a context of another system is refused", "[errors]") {
 }
 
 TEST_CASE("a recorded signal that is unknown, foreign or named twice is refused", "[errors]") {
-  const Scene scene = leaf();
+  const BallScene scene = leaf();
   const Leaf other("other", [](Leaf& l) { declare_ramp(l); });
   const auto record = [&](RecordedSignals signals) {
     return message<ModelError>([&] {

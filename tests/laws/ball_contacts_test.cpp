@@ -9,7 +9,7 @@ namespace {
 
 /// One edge or zero crossing per contact: the crossings of the relation are logged beside the
 /// resets.
-std::vector<double> contact_times(const Scene& scene, const Results& results) {
+std::vector<double> contact_times(const BallScene& scene, const Results& results) {
   return results.events.times(scene.leaf ? "bounce" : "difference");
 }
 
@@ -20,7 +20,7 @@ TEST_CASE("contact k of a ball as a leaf comes when the closed form says", "[law
   const double e = GENERATE(0.5, 0.9, 1.0);
   INFO("method " << method << ", e = " << e);
   const BallExact exact{9.81, e, 10.0};
-  const Scene scene = leaf({.e = e});
+  const BallScene scene = leaf({.e = e});
   const double end = exact.contact(6) + 0.1 * exact.speed(6) / 9.81;
   const double rtol = 1e-9, atol = 1e-11;
   const auto results = simulate(*scene.system, scene.context(10.0, 0.0), {0.0, end},
@@ -45,7 +45,7 @@ TEST_CASE("a ball from blocks bounces when its leaf does, whatever tells the con
           "[laws][ball]") {
   const auto method = GENERATE(from_range(methods));
   const Contact contact = GENERATE(from_range(contacts));
-  const Scene scene = blocks(contact, {.e = 0.9});
+  const BallScene scene = blocks(contact, {.e = 0.9});
   INFO("method " << method << ", " << scene.form);
   const BallExact exact{9.81, 0.9, 10.0};
   const double rtol = 1e-9, atol = 1e-11;
@@ -64,7 +64,7 @@ TEST_CASE("a ball from blocks bounces when its leaf does, whatever tells the con
 
 TEST_CASE("the one-step method is exact on parabolas: contacts right to rounding", "[laws][ball]") {
   const BallExact exact{9.81, 0.9, 10.0};
-  for (const Scene& scene : all_forms({.e = 0.9})) {
+  for (const BallScene& scene : all_forms({.e = 0.9})) {
     INFO(scene.form);
     const auto results = simulate(*scene.system, scene.context(10.0, 0.0), {0.0, 12.0},
                                   {.ode_solver_method = Method::dopri5});
@@ -86,7 +86,7 @@ TEST_CASE("the one-step method is exact on parabolas: contacts right to rounding
 
 TEST_CASE("with restitution 1 the energy stays over many bounces", "[laws][ball]") {
   const auto method = GENERATE(from_range(methods));
-  const Scene scene = leaf({.e = 1.0});
+  const BallScene scene = leaf({.e = 1.0});
   const double rtol = 1e-8, atol = 1e-10;
   const auto results = simulate(*scene.system, scene.context(10.0, 0.0), {0.0, 300.0},
                                 {.rtol = rtol, .atol = atol, .ode_solver_method = method});

@@ -23,7 +23,7 @@ void rests(const std::string& scene, Method method, const Results& results, doub
 void late_in_time(Method method, double t0) {
   const BallExact exact{g, 0.5, 1.0};
   const double rtol = 1e-9, atol = 1e-11;
-  for (const Scene& scene :
+  for (const BallScene& scene :
        {leaf({.g = g, .e = 0.5}), blocks(Contact::comparator, {.g = g, .e = 0.5})}) {
     const auto results =
         simulate(*scene.system, scene.context(1.0, 0.0, t0), {t0, t0 + 3.0},
@@ -46,7 +46,7 @@ void late_in_time(Method method, double t0) {
 
 void far_from_zero(Method method, double floor, double e, bool of_blocks) {
   const BallOptions options{.g = g, .e = e, .floor = floor};
-  const Scene scene = of_blocks ? blocks(Contact::comparator, options) : leaf(options);
+  const BallScene scene = of_blocks ? blocks(Contact::comparator, options) : leaf(options);
   const double rtol = 1e-13, atol = 1e-10;
   const auto results =
       simulate(*scene.system, scene.context(floor + 1.0, 0.0), {0.0, 15.0},
@@ -59,7 +59,7 @@ void far_from_zero(Method method, double floor, double e, bool of_blocks) {
 void of_any_size(Method method, double y0, double gravity) {
   for (const double e : {0.0, 0.5, 0.9}) {
     const BallExact exact{gravity, e, y0};
-    for (const Scene& scene :
+    for (const BallScene& scene :
          {leaf({.g = gravity, .e = e}), blocks(Contact::comparator, {.g = gravity, .e = e})}) {
       INFO("y0 " << y0 << ", g " << gravity << ", e " << e);
       const auto results =

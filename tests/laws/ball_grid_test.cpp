@@ -46,7 +46,7 @@ struct Problem {
   }
 };
 
-std::vector<Scene> both_forms(const Problem& p) {
+std::vector<BallScene> both_forms(const Problem& p) {
   const BallOptions options{.g = p.exact.g, .e = p.exact.e};
   return {leaf(options), blocks(Contact::comparator, options)};
 }
@@ -61,7 +61,7 @@ TEST_CASE("contacts of a ball in any units come when the closed form says", "[la
         e < 0.5 ? 3 : 6;  // after three contacts with e = 0.1 a flight is 1e-6 of the drop
     const Problem p(u, e, method);
     const double end = p.exact.contact(n) + p.exact.speed(n) / u.g;  // at the next apex
-    for (const Scene& scene : both_forms(p)) {
+    for (const BallScene& scene : both_forms(p)) {
       INFO("y0 " << u.y0 << ", g " << u.g << ", e " << e);
       const auto results = simulate(*scene.system, scene.context(u.y0, 0.0), {0.0, end}, p.options);
       CHECK(results.status == Status::reached_end);
@@ -86,7 +86,7 @@ TEST_CASE("past its Zeno time a ball in any units rests, where and when the seri
     const double blind = p.steps * (p.options.rtol * u.y0 + p.options.atol);
     const double time = p.time_error(1) + 800.0 * eps * rest / ((1.0 - e) * (1.0 - e)) +
                         8.0 * std::sqrt(2.0 * blind / u.g) / (1.0 - e);
-    for (const Scene& scene : both_forms(p)) {
+    for (const BallScene& scene : both_forms(p)) {
       INFO("y0 " << u.y0 << ", g " << u.g << ", e " << e);
       const auto results = simulate(*scene.system, scene.context(u.y0, 0.0), {0.0, end}, p.options);
       CHECK(results.status == Status::reached_end);
@@ -111,7 +111,7 @@ TEST_CASE("with e = 1 the ten thousandth bounce is as high as the first", "[laws
   const auto method = GENERATE(from_range(methods));
   const int n = one_step(method) ? 10000 : 1000;
   const Problem p({1.0, 2.0}, 1.0, method);  // t1 = 1 s, contacts at 1, 3, 5, ...
-  const Scene scene = leaf({.g = 2.0, .e = 1.0});
+  const BallScene scene = leaf({.g = 2.0, .e = 1.0});
   const auto results = simulate(*scene.system, scene.context(1.0, 0.0), {0.0, 2.0 * n}, p.options);
   CHECK(results.status == Status::reached_end);
   CHECK(results.statistics.events == n);

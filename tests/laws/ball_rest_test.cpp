@@ -14,7 +14,7 @@ double least_speed(double zeno_tolerance, double atol) {
   return std::max(0.5 * g * zeno_tolerance, std::sqrt(2.0 * g * 1e4 * atol));
 }
 
-void comes_to_rest(const Scene& scene, Method method, double e, double y0, double end) {
+void comes_to_rest(const BallScene& scene, Method method, double e, double y0, double end) {
   INFO(scene.form << ", method " << method << ", e = " << e);
   const double atol = 1e-10;
   const auto results =
@@ -36,7 +36,7 @@ TEST_CASE("a ball of any restitution ends at rest on the floor, by any method",
           "[laws][ball][zeno]") {
   const auto method = GENERATE(from_range(methods));
   const double e = GENERATE(0.0, 0.1, 0.5, 0.9);
-  for (const Scene& scene : all_forms({.g = g, .e = e})) {
+  for (const BallScene& scene : all_forms({.g = g, .e = e})) {
     comes_to_rest(scene, method, e, 1.0, 1.5 * BallExact{g, e, 1.0}.rest() + 0.1);
   }
 }
@@ -52,7 +52,7 @@ TEST_CASE("a ball of restitution 0.999 ends at rest after thousands of bounces",
 TEST_CASE("the accumulation time is predicted from the gaps before", "[laws][ball][zeno]") {
   const double e = GENERATE(0.3, 0.5, 0.8, 0.9);
   const BallExact exact{g, e, 1e-3};
-  for (const Scene& scene : all_forms({.g = g, .e = e})) {
+  for (const BallScene& scene : all_forms({.g = g, .e = e})) {
     INFO(scene.form << ", e = " << e);
     const auto results =
         simulate(*scene.system, scene.context(1e-3, 0.0), {0.0, 1.0},
@@ -71,7 +71,7 @@ TEST_CASE("the accumulation time is predicted from the gaps before", "[laws][bal
 TEST_CASE("a ball placed at rest on the floor rests there", "[laws][ball][zeno]") {
   const auto method = GENERATE(from_range(methods));
   const double floor = GENERATE(0.0, 5.0, -3.0, 0.1);
-  for (const Scene& scene : all_forms({.g = g, .floor = floor})) {
+  for (const BallScene& scene : all_forms({.g = g, .floor = floor})) {
     INFO(scene.form << ", method " << method << ", floor " << floor);
     const auto results = simulate(*scene.system, scene.context(floor, 0.0), {0.0, 3.0},
                                   {.ode_solver_method = method});

@@ -12,7 +12,7 @@ constexpr double g = 10.0;
 TEST_CASE("a ball thrown up from the floor flies and comes back", "[laws][ball][start]") {
   const auto method = GENERATE(from_range(methods));
   const double floor = GENERATE(0.0, 0.3);
-  for (const Scene& scene : all_forms({.g = g, .e = 0.5, .floor = floor})) {
+  for (const BallScene& scene : all_forms({.g = g, .e = 0.5, .floor = floor})) {
     INFO(scene.form << ", method " << method << ", floor " << floor);
     const double rtol = 1e-9, atol = 1e-11;
     const auto results = simulate(*scene.system, scene.context(floor, 5.0), {0.0, 1.25},
@@ -29,7 +29,7 @@ TEST_CASE("a ball thrown up from the floor flies and comes back", "[laws][ball][
 TEST_CASE("a ball thrown down on the floor it touches bounces at once, at t0",
           "[laws][ball][start]") {
   const auto method = GENERATE(from_range(methods));
-  for (const Scene& scene : all_forms({.g = g, .e = 0.5})) {
+  for (const BallScene& scene : all_forms({.g = g, .e = 0.5})) {
     INFO(scene.form << ", method " << method);
     const auto results = simulate(*scene.system, scene.context(0.0, -4.0), {0.0, 0.2},
                                   {.ode_solver_method = method});
@@ -41,7 +41,7 @@ TEST_CASE("a ball thrown down on the floor it touches bounces at once, at t0",
 
 TEST_CASE("a ball that starts below the floor is not invented a bounce", "[laws][ball][start]") {
   const auto method = GENERATE(from_range(methods));
-  for (const Scene& scene : all_forms({.g = g, .e = 0.5})) {
+  for (const BallScene& scene : all_forms({.g = g, .e = 0.5})) {
     INFO(scene.form << ", method " << method);
     const auto results = simulate(*scene.system, scene.context(-1.0, -1.0), {0.0, 1.0},
                                   {.ode_solver_method = method});
@@ -53,7 +53,7 @@ TEST_CASE("a ball that starts below the floor is not invented a bounce", "[laws]
 TEST_CASE("a ball thrown up from below the floor passes it, then bounces on it",
           "[laws][ball][start]") {
   const auto method = GENERATE(from_range(methods));
-  for (const Scene& scene : all_forms({.g = g, .e = 0.5})) {
+  for (const BallScene& scene : all_forms({.g = g, .e = 0.5})) {
     INFO(scene.form << ", method " << method);
     const auto results = simulate(*scene.system, scene.context(-1.0, 6.0), {0.0, 1.1},
                                   {.ode_solver_method = method});
@@ -65,7 +65,7 @@ TEST_CASE("a ball thrown up from below the floor passes it, then bounces on it",
 TEST_CASE("a first impact right after the start is a bounce, not a Zeno hold",
           "[laws][ball][start]") {
   const double t0 = GENERATE(0.0, -5.0, 1e6);
-  for (const Scene& scene : all_forms({.g = g, .e = 0.5})) {
+  for (const BallScene& scene : all_forms({.g = g, .e = 0.5})) {
     INFO(scene.form << ", t0 = " << t0);
     const auto results = simulate(*scene.system, scene.context(1e-7, -10.0, t0), {t0, t0 + 0.1},
                                   {.ode_solver_method = Method::dopri5});
@@ -76,7 +76,7 @@ TEST_CASE("a first impact right after the start is a bounce, not a Zeno hold",
 
 TEST_CASE("a run from t = -5 s is the run from 0, moved", "[laws][ball][start]") {
   const auto method = GENERATE(from_range(methods));
-  const Scene scene = leaf({.g = g, .e = 0.7});
+  const BallScene scene = leaf({.g = g, .e = 0.7});
   const SimulatorOptions options{.rtol = 1e-10, .atol = 1e-12, .ode_solver_method = method};
   const auto moved = simulate(*scene.system, scene.context(5.0, 0.0, -5.0), {-5.0, 0.0}, options);
   const auto still = simulate(*scene.system, scene.context(5.0, 0.0), {0.0, 5.0}, options);

@@ -28,7 +28,7 @@ std::vector<double> releases(const Results& results) {
 TEST_CASE("a floor that drops under a resting ball lets it go exactly then", "[laws][ball][zeno]") {
   const auto method = GENERATE(from_range(methods));
   const double drop = GENERATE(1.0, 1.0 / 3.0);
-  for (const Scene& scene :
+  for (const BallScene& scene :
        all_forms_over({.g = g, .e = 0.5}, [&] { return step(0.0, -2.0, drop); })) {
     INFO(scene.form << ", method " << method << ", drop at " << drop);
     const double rtol = 1e-9, atol = 1e-11;
@@ -49,7 +49,8 @@ TEST_CASE("the tutorial's third scene: to rest, let go at 1 s, seven bounces by 
   const auto method = GENERATE(from_range(methods));
   const double e = 0.8, y0 = 1e-3;
   const BallExact exact{g, e, y0};
-  for (const Scene& scene : all_forms_over({.g = g, .e = e}, [&] { return step(0.0, -y0, 1.0); })) {
+  for (const BallScene& scene :
+       all_forms_over({.g = g, .e = e}, [&] { return step(0.0, -y0, 1.0); })) {
     INFO(scene.form << ", method " << method);
     const auto results = simulate(*scene.system, scene.context(y0, 0.0), {0.0, 1.1},
                                   {.rtol = 1e-10, .atol = 1e-13, .ode_solver_method = method});
@@ -71,7 +72,7 @@ TEST_CASE("the tutorial's third scene: to rest, let go at 1 s, seven bounces by 
 
 TEST_CASE("a floor that steps up under a resting ball carries it", "[laws][ball][zeno]") {
   const auto method = GENERATE(from_range(methods));
-  for (const Scene& scene :
+  for (const BallScene& scene :
        all_forms_over({.g = g, .e = 0.5}, [&] { return step(0.0, 0.75, 1.0); })) {
     INFO(scene.form << ", method " << method);
     const auto results =
@@ -87,7 +88,7 @@ TEST_CASE("a floor that steps up under a resting ball carries it", "[laws][ball]
 
 TEST_CASE("a floor that steps up past a flying ball takes it along", "[laws][ball]") {
   const auto method = GENERATE(from_range(methods));
-  for (const Scene& scene :
+  for (const BallScene& scene :
        all_forms_over({.g = g, .e = 0.5}, [&] { return step(0.0, 3.0, 0.1); })) {
     INFO(scene.form << ", method " << method);
     const auto results = simulate(*scene.system, scene.context(1.0, 0.0), {0.0, 0.12},
@@ -104,7 +105,7 @@ TEST_CASE("a floor that steps up past a flying ball takes it along", "[laws][bal
 TEST_CASE("a ball that a floor took along bounces on it and comes to rest there",
           "[laws][ball][zeno]") {
   const auto method = GENERATE(from_range(methods));
-  for (const Scene& scene :
+  for (const BallScene& scene :
        all_forms_over({.g = g, .e = 0.5}, [&] { return step(0.0, 3.0, 0.1); })) {
     INFO(scene.form << ", method " << method);
     const auto results = simulate(*scene.system, scene.context(1.0, 0.0), {0.0, 0.4},

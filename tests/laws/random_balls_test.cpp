@@ -37,7 +37,7 @@ TEST_CASE("no ball of 500 falls through its floor, gains energy or takes long",
                  span = draw.uniform(0.5, 5.0);
     const Method method = draw.any(methods);
     const auto forms = all_forms({.e = e, .floor = floor});
-    const Scene& scene = draw.any(forms);
+    const BallScene& scene = draw.any(forms);
     INFO("scene " << n << ": " << scene.form << ", " << method << ", e " << e << ", height "
                   << height << ", v " << v << ", floor " << floor << ", rtol " << rtol << ", atol "
                   << atol << ", t0 " << t0 << ", span " << span);

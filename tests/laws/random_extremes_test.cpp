@@ -23,7 +23,7 @@ void none_falls(Method method, bool of_blocks, double farthest, double latest) {
     const double t0 = real(-1.0, 1.0) * std::pow(10.0, real(-3.0, 1.0)) * 0.1 * latest * t1;
     const double rtol = std::pow(10.0, real(-12.0, -4.0)), atol = rtol * height;
     const BallOptions options{.g = g, .e = e, .floor = floor};
-    const Scene scene = of_blocks ? blocks(Contact::comparator, options) : leaf(options);
+    const BallScene scene = of_blocks ? blocks(Contact::comparator, options) : leaf(options);
     const double end = t0 + t1 * real(1.0, 30.0);
     const auto results = simulate(*scene.system, scene.context(floor + height, 0.0, t0), {t0, end},
                                   {.rtol = rtol,

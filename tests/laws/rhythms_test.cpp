@@ -39,7 +39,7 @@ TEST_CASE("a ball that gains at each bounce never comes to rest", "[laws][ball][
   const double y0 = 1e-12, g = 9.81;  // the first flight: 9e-7 s, below the Zeno tolerance
   const BallExact exact{g, e, y0};
   const int n = e < 1.1 ? 1000 : 30;
-  for (const Scene& scene :
+  for (const BallScene& scene :
        {leaf({.g = g, .e = e}), blocks(Contact::comparator, {.g = g, .e = e})}) {
     const double end = 0.5 * (exact.contact(n) + exact.contact(n + 1));
     const auto results =

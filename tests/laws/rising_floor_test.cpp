@@ -65,7 +65,7 @@ TEST_CASE("a floor that rises continuously under a held ball carries it, by ever
   const auto ramp = [] {
     return std::make_shared<Ramp>("floor", RampOptions{.slope = 0.5, .start_time = 1.0});
   };
-  for (const Scene& scene : all_forms_over({.g = g, .e = 0.5}, ramp)) {
+  for (const BallScene& scene : all_forms_over({.g = g, .e = 0.5}, ramp)) {
     const auto results = simulate(*scene.system, scene.context(0.0, 0.0), {0.0, 3.0},
                                   {.ode_solver_method = method, .throw_errors = false});
     CHECK(results.status == Status::reached_end);
@@ -96,7 +96,7 @@ TEST_CASE("steps of a floor, up and down, each take a resting ball to the new he
     return std::make_shared<Pulse>(
         "floor", PulseOptions{.amplitude = 0.2, .period = 2.0, .phase_delay = 1.0});
   };
-  for (const Scene& scene : all_forms_over({.g = g, .e = 0.5}, stairs)) {
+  for (const BallScene& scene : all_forms_over({.g = g, .e = 0.5}, stairs)) {
     INFO(scene.form);
     for (const double t : {1.5, 2.9, 3.5, 4.9, 5.5}) {
       const auto results = simulate(*scene.system, scene.context(0.0, 0.0), {0.0, t},

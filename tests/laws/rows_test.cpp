@@ -41,7 +41,7 @@ TEST_CASE("time never decreases and no row stands twice, whatever is recorded", 
   const auto drop = [] {
     return std::make_shared<Step>("floor", Step::Options{.end_value = -0.5, .step_time = 3.0});
   };
-  for (const Scene& scene : all_forms_over({.e = 0.6}, drop)) {
+  for (const BallScene& scene : all_forms_over({.e = 0.6}, drop)) {
     INFO(scene.form << ", method " << method);
     for (const std::vector<double>& times :
          {std::vector<double>{}, {0.0, 0.5, 1.0, 3.0, 4.0}, {0.25}}) {
@@ -94,7 +94,7 @@ TEST_CASE("the row before a bounce shows the ball falling, the row after it risi
           "[laws][rows]") {
   const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
-  const Scene scene = leaf({.e = 0.5});
+  const BallScene scene = leaf({.e = 0.5});
   const auto results =
       simulate(*scene.system, scene.context(1.0, 0.0), {0.0, 0.6},
                {.ode_solver_method = method, .recorded_signals = {{"y", scene.height}}});
@@ -109,7 +109,7 @@ TEST_CASE("the row before a bounce shows the ball falling, the row after it risi
 }
 
 TEST_CASE("a run of zero length has the rows of its start", "[laws][rows]") {
-  const Scene scene = leaf({.e = 0.5});
+  const BallScene scene = leaf({.e = 0.5});
   const auto results = simulate(*scene.system, scene.context(1.0, 0.0, 3.0), {3.0, 3.0},
                                 {.recorded_signals = {{"y", scene.height}}});
   CHECK(results.time == std::vector{3.0});

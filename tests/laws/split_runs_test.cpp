@@ -49,7 +49,7 @@ TEST_CASE("ticks are counted the same in one run and in many, recorded or not", 
 TEST_CASE("a run that goes on from results.context has the events of the unbroken run",
           "[laws][split]") {
   const auto method = GENERATE(from_range(methods));
-  for (const Scene& scene : all_forms({.e = 0.8})) {
+  for (const BallScene& scene : all_forms({.e = 0.8})) {
     INFO(scene.form << ", method " << method);
     const SimulatorOptions options{.rtol = 1e-9, .atol = 1e-11, .ode_solver_method = method};
     const auto whole = simulate(*scene.system, scene.context(1.0, 0.0), {0.0, 3.0}, options);
@@ -67,7 +67,7 @@ TEST_CASE("a run that goes on from results.context has the events of the unbroke
 
 TEST_CASE("a run split where the ball rests goes on resting", "[laws][split]") {
   const auto method = GENERATE(from_range(methods));
-  for (const Scene& scene : all_forms({.e = 0.5})) {
+  for (const BallScene& scene : all_forms({.e = 0.5})) {
     INFO(scene.form << ", method " << method);
     const SimulatorOptions options{.ode_solver_method = method};
     const auto first = simulate(*scene.system, scene.context(1.0, 0.0), {0.0, 3.0}, options);
@@ -80,7 +80,7 @@ TEST_CASE("a run split where the ball rests goes on resting", "[laws][split]") {
 TEST_CASE("advance_to in pieces has the events of one run, and its numbers to the tolerance",
           "[laws][split]") {
   const auto method = GENERATE(from_range(methods));
-  for (const Scene& scene : all_forms({.e = 0.8})) {
+  for (const BallScene& scene : all_forms({.e = 0.8})) {
     INFO(scene.form << ", method " << method);
     const SimulatorOptions options{.rtol = 1e-9, .atol = 1e-11, .ode_solver_method = method};
     Simulator whole(*scene.system, options), pieces(*scene.system, options);

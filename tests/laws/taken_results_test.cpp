@@ -5,7 +5,7 @@ using namespace saltus;
 using namespace support;
 
 TEST_CASE("results that were taken leave the simulator fit for another run", "[laws][taken]") {
-  const Scene scene = leaf({.e = 0.6});
+  const BallScene scene = leaf({.e = 0.6});
   Simulator simulator(*scene.system, {.recorded_signals = {{"y", scene.height}}});
   simulator.initialize(scene.context(1.0, 0.3));
   simulator.advance_to(4.0);
@@ -18,7 +18,7 @@ TEST_CASE("results that were taken leave the simulator fit for another run", "[l
 
 TEST_CASE("results that were taken in the middle of a run leave the rest to be recorded",
           "[laws][taken]") {
-  const Scene scene = leaf({.e = 0.6});
+  const BallScene scene = leaf({.e = 0.6});
   Simulator whole(*scene.system, {.recorded_signals = {{"y", scene.height}}});
   Simulator pieces(*scene.system, {.recorded_signals = {{"y", scene.height}}});
   for (Simulator* simulator : {&whole, &pieces}) {

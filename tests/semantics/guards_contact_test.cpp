@@ -90,7 +90,7 @@ TEST_CASE("2.5 a floor that steps up past a rising ball lets it not fall through
   const auto step = [] {
     return std::make_shared<Step>("floor", Step::Options{.end_value = 3.0, .step_time = 0.1});
   };
-  for (const Scene& scene : all_forms_over({.g = g, .e = 0.5}, step)) {
+  for (const BallScene& scene : all_forms_over({.g = g, .e = 0.5}, step)) {
     INFO(scene.form << ", method " << method);
     // The reset map turns an upward velocity down, into the floor: no time can pass, it rests.
     const auto results = simulate(*scene.system, scene.context(0.0, 5.0), {0.0, 1.0},

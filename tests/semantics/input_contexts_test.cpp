@@ -21,8 +21,8 @@ Leaf with_parameters(std::string name, const std::vector<std::pair<std::string, 
 }
 
 /// A ball after three bounces, with everything that a continuation may have.
-const Scene& scene() {
-  static const Scene ball = leaf({.e = 0.6});
+const BallScene& scene() {
+  static const BallScene ball = leaf({.e = 0.6});
   return ball;
 }
 nlohmann::ordered_json good() {

@@ -59,7 +59,7 @@ TEST_CASE("3.10 the solver is restarted once for each bounce, and for nothing el
           "[semantics]") {
   const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
-  const Scene scene = leaf({.e = 1.0});
+  const BallScene scene = leaf({.e = 1.0});
   const auto results =
       simulate(*scene.system, scene.context(1.0, 0.0), {0.0, 10.0}, {.ode_solver_method = method});
   CHECK(results.events.size() == 11);  // t1 = 0.4515 s, then every 0.903 s

@@ -30,7 +30,7 @@ TEST_CASE("5.8 dense output is what the solver itself interpolates", "[semantics
 
 TEST_CASE("5.8 at the times of rows dense output has the bits of the rows", "[semantics]") {
   const auto method = GENERATE(from_range(methods));
-  for (const Scene& scene : all_forms({.e = 0.7})) {
+  for (const BallScene& scene : all_forms({.e = 0.7})) {
     INFO(scene.form << ", method " << method);
     const auto results = simulate(*scene.system, scene.context(1.0, 0.0), {0.0, 1.2},
                                   {.ode_solver_method = method,

@@ -15,12 +15,12 @@ struct Outcome {
   EventLog events;
 };
 
-Outcome run(const Scene& scene, SimulatorOptions options) {
+Outcome run(const BallScene& scene, SimulatorOptions options) {
   auto results = simulate(*scene.system, scene.context(1.0, 0.3), {0.0, 4.0}, options);
   return {results.context, results.events};
 }
 
-std::vector<Scene> scenes() {
+std::vector<BallScene> scenes() {
   const auto step = [] {
     return std::make_shared<Step>("floor", Step::Options{.end_value = -0.5, .step_time = 3.5});
   };
@@ -31,7 +31,7 @@ std::vector<Scene> scenes() {
 
 TEST_CASE("5.7 the same run twice gives the same bits", "[semantics]") {
   const auto method = GENERATE(from_range(methods));
-  for (const Scene& scene : scenes()) {
+  for (const BallScene& scene : scenes()) {
     INFO(scene.form << ", method " << method);
     const Outcome a = run(scene, {.ode_solver_method = method}),
                   b = run(scene, {.ode_solver_method = method});
@@ -42,7 +42,7 @@ TEST_CASE("5.7 the same run twice gives the same bits", "[semantics]") {
 
 TEST_CASE("5.7 a simulator that is initialized again repeats its run bit for bit", "[semantics]") {
   const auto method = GENERATE(from_range(methods));
-  for (const Scene& scene : scenes()) {
+  for (const BallScene& scene : scenes()) {
     INFO(scene.form << ", method " << method);
     Simulator simulator(*scene.system,
                         {.ode_solver_method = method, .recorded_signals = {{"y", scene.height}}});
@@ -64,7 +64,7 @@ TEST_CASE("5.7 a simulator that is initialized again repeats its run bit for bit
 
 TEST_CASE("5.2 recording changes no bit of the context and of the event log", "[semantics]") {
   const auto method = GENERATE(from_range(methods));
-  for (const Scene& scene : scenes()) {
+  for (const BallScene& scene : scenes()) {
     INFO(scene.form << ", method " << method);
     const RecordedSignals signals{{"y", scene.height}};
     std::vector<double> times;
@@ -95,7 +95,7 @@ TEST_CASE("5.2 recording changes no bit of the context and of the event log", "[
 
 TEST_CASE("5.7 two threads over one system give the bits of one", "[semantics]") {
   const auto method = GENERATE(Method::dopri5, Method::bdf);
-  for (const Scene& scene : scenes()) {
+  for (const BallScene& scene : scenes()) {
     INFO(scene.form << ", method " << method);
     const Outcome alone = run(scene, {.ode_solver_method = method});
     Outcome a, b;

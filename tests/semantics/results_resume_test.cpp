@@ -51,7 +51,7 @@ TEST_CASE("5.6 a relation at exactly zero keeps its side across a split", "[sema
 
 TEST_CASE("5.6 a hold is known after a split, not found again", "[semantics]") {
   const auto method = GENERATE(from_range(methods));
-  for (const Scene& scene : all_forms({.e = 0.5})) {
+  for (const BallScene& scene : all_forms({.e = 0.5})) {
     INFO(scene.form << ", method " << method);
     const SimulatorOptions options{.ode_solver_method = method};
     const auto whole = in_pieces(*scene.system, scene.context(1.0, 0.0), {5.0}, options);
@@ -68,7 +68,7 @@ TEST_CASE("5.6 a hold that was split is released by the floor that would have re
   const auto drop = [] {
     return std::make_shared<Step>("floor", Step::Options{.end_value = -2.0, .step_time = 3.0});
   };
-  for (const Scene& scene : all_forms_over({.e = 0.5}, drop)) {
+  for (const BallScene& scene : all_forms_over({.e = 0.5}, drop)) {
     INFO(scene.form << ", method " << method);
     const SimulatorOptions options{.rtol = 1e-9, .atol = 1e-11, .ode_solver_method = method};
     const auto whole = in_pieces(*scene.system, scene.context(1.0, 0.0), {3.5}, options);
@@ -82,7 +82,7 @@ TEST_CASE("5.6 a hold that was split is released by the floor that would have re
 TEST_CASE("5.6 gaps are remembered across a split: the hold begins at the same bounce",
           "[semantics]") {
   const double before_rest = GENERATE(1e-3, 1e-5, 3e-6, 1.5e-6);  // [s]
-  for (const Scene& scene : all_forms({.g = 10.0, .e = 0.5})) {
+  for (const BallScene& scene : all_forms({.g = 10.0, .e = 0.5})) {
     INFO(scene.form << ", split " << before_rest << " s before rest");
     const SimulatorOptions options{
         .rtol = 1e-10, .atol = 1e-14, .ode_solver_method = Method::dopri5};
@@ -96,7 +96,7 @@ TEST_CASE("5.6 gaps are remembered across a split: the hold begins at the same b
 
 TEST_CASE("5.6 an event exactly at the split happens once", "[semantics]") {
   const auto method = GENERATE(from_range(methods));
-  for (const Scene& scene : all_forms({.e = 0.8})) {
+  for (const BallScene& scene : all_forms({.e = 0.8})) {
     INFO(scene.form << ", method " << method);
     const SimulatorOptions options{.rtol = 1e-9, .atol = 1e-11, .ode_solver_method = method};
     const auto whole = simulate(*scene.system, scene.context(1.0, 0.0), {0.0, 1.5}, options);
@@ -111,7 +111,7 @@ TEST_CASE("5.6 an event exactly at the split happens once", "[semantics]") {
 
 TEST_CASE("5.6 a run split anywhere has the events of the unbroken run", "[semantics]") {
   const auto method = GENERATE(from_range(methods));
-  for (const Scene& scene : all_forms({.e = 0.7})) {
+  for (const BallScene& scene : all_forms({.e = 0.7})) {
     const SimulatorOptions options{.rtol = 1e-9, .atol = 1e-11, .ode_solver_method = method};
     const auto whole = in_pieces(*scene.system, scene.context(1.0, 0.0), {2.4}, options);
     for (int i = 1; i < 10; ++i) {
@@ -129,7 +129,7 @@ TEST_CASE("5.6 a run split anywhere has the events of the unbroken run", "[seman
 TEST_CASE("5.6 a context that was copied continues like the one it was copied from",
           "[semantics]") {
   const auto method = GENERATE(from_range(methods));
-  for (const Scene& scene : all_forms({.e = 0.8})) {
+  for (const BallScene& scene : all_forms({.e = 0.8})) {
     INFO(scene.form << ", method " << method);
     const SimulatorOptions options{.ode_solver_method = method};
     const auto first = simulate(*scene.system, scene.context(1.0, 0.0), {0.0, 1.0}, options);

@@ -37,7 +37,7 @@ std::vector<Ending> endings() {
           {"a ball without monitor", Status::chattering,
            [=](auto o) {
              o.zeno_tolerance = 0.0;
-             const Scene scene = leaf({.e = 0.5});
+             const BallScene scene = leaf({.e = 0.5});
              return simulate(*scene.system, scene.context(1.0, 0.0), {0.0, 3.0}, o);
            }},
           {"an interrupt", Status::interrupted,

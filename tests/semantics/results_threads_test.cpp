@@ -8,7 +8,7 @@ using namespace support;
 
 TEST_CASE("5.7 eight threads over one system give the bits of one", "[semantics]") {
   const auto method = GENERATE(from_range(methods));
-  for (const Scene& scene : all_forms({.e = 0.6})) {
+  for (const BallScene& scene : all_forms({.e = 0.6})) {
     INFO(scene.form << ", method " << method);
     const auto run = [&] {
       return simulate(*scene.system, scene.context(1.0, 0.3), {0.0, 3.0},

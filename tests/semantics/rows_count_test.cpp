@@ -7,7 +7,7 @@ using namespace support;
 
 TEST_CASE("5.1 one row for each accepted step, and one more after each pass", "[semantics]") {
   const auto method = GENERATE(from_range(methods));
-  for (const Scene& scene : all_forms({.e = 0.8})) {
+  for (const BallScene& scene : all_forms({.e = 0.8})) {
     INFO(scene.form << ", method " << method);
     const auto results =
         simulate(*scene.system, scene.context(1.0, 0.0), {0.0, 3.0},
@@ -24,7 +24,7 @@ TEST_CASE("5.1 one row for each accepted step, and one more after each pass", "[
 TEST_CASE("5.3 the event log is complete though nothing is recorded", "[semantics]") {
   const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
-  const Scene scene = leaf({.e = 1.0});
+  const BallScene scene = leaf({.e = 1.0});
   const auto results =
       simulate(*scene.system, scene.context(1.0, 0.0), {0.0, 10.0}, {.ode_solver_method = method});
   CHECK(results.time.empty());
@@ -40,7 +40,7 @@ TEST_CASE("5.3 the event log is complete though nothing is recorded", "[semantic
 TEST_CASE("5.3 a release and a time event are in the log with their kind", "[semantics]") {
   const auto method = GENERATE(from_range(methods));
   INFO("method " << method);
-  const Scene scene = leaf_on(
+  const BallScene scene = leaf_on(
       {}, std::make_shared<Step>("floor", Step::Options{.end_value = -1.0, .step_time = 1.0}));
   const auto results =
       simulate(*scene.system, scene.context(0.0, 0.0), {0.0, 1.1}, {.ode_solver_method = method});
@@ -101,7 +101,7 @@ TEST_CASE("5.1 a guard that only ends the run leaves one row and is no jump", "[
 TEST_CASE("5.1 in the row before a pass a trigger that fired is true, in the one after it false",
           "[semantics]") {
   const auto method = GENERATE(from_range(methods));
-  const Scene scene = blocks(GENERATE(from_range(contacts)), {.e = 0.8});
+  const BallScene scene = blocks(GENERATE(from_range(contacts)), {.e = 0.8});
   INFO(scene.form << ", method " << method);
   const System& touches = dynamic_cast<const Diagram&>(*scene.system)["touches"];
   const auto results =

@@ -74,7 +74,7 @@ TEST_CASE(
   SimulatorOptions loose = options;
   loose.zeno_tolerance = 0.003;
   for (std::size_t i = 0; i < all_forms(ball).size(); ++i) {
-    const Scene by_guard = all_forms(patient)[i], by_options = all_forms(ball)[i];
+    const BallScene by_guard = all_forms(patient)[i], by_options = all_forms(ball)[i];
     INFO(by_guard.form);
     const auto a = simulate(*by_guard.system, by_guard.context(0.2, 0.0), {0.0, 1.0}, options);
     const auto b = simulate(*by_options.system, by_options.context(0.2, 0.0), {0.0, 1.0}, loose);
@@ -87,7 +87,7 @@ TEST_CASE(
 
 TEST_CASE("4.3 a monitored guard that never rests logs no prediction", "[semantics]") {
   const auto method = GENERATE(from_range(methods));
-  const Scene scene = leaf({.e = 1.0});
+  const BallScene scene = leaf({.e = 1.0});
   const auto results =
       simulate(*scene.system, scene.context(1.0, 0.0), {0.0, 5.0}, {.ode_solver_method = method});
   for (std::size_t i = 0; i < results.events.size(); ++i)

@@ -16,7 +16,7 @@ TEST_CASE("4.2 gaps that shrink more slowly than geometrically accumulate too", 
 
 TEST_CASE("4.2 a reset that leaves no time to pass holds at once: restitution 0", "[semantics]") {
   const auto method = GENERATE(from_range(methods));
-  for (const Scene& scene : all_forms({.g = 10.0, .e = 0.0})) {
+  for (const BallScene& scene : all_forms({.g = 10.0, .e = 0.0})) {
     INFO(scene.form << ", method " << method);
     const auto results = simulate(*scene.system, scene.context(0.2, 0.0), {0.0, 1.0},
                                   {.rtol = 1e-9, .atol = 1e-11, .ode_solver_method = method});
@@ -54,7 +54,7 @@ TEST_CASE("4.2 a fast rhythm with equal gaps is no hold, below the tolerance and
 
 TEST_CASE("4.4 on hold the state is the same to the last bit, row after row", "[semantics]") {
   const auto method = GENERATE(from_range(methods));
-  for (const Scene& scene : all_forms({.e = 0.5, .floor = 0.3})) {
+  for (const BallScene& scene : all_forms({.e = 0.5, .floor = 0.3})) {
     INFO(scene.form << ", method " << method);
     std::vector<double> times;
     for (int i = 0; i <= 50; ++i) times.push_back(2.0 + 0.1 * i);  // at rest from 1.16 s on
@@ -73,7 +73,7 @@ TEST_CASE("4.4 an Integrator on hold holds its own state; others of the diagram 
           "[semantics]") {
   const auto method = GENERATE(from_range(methods));
   for (const Contact contact : contacts) {
-    const Scene ball = blocks(contact, {.e = 0.5});
+    const BallScene ball = blocks(contact, {.e = 0.5});
     DiagramBuilder builder;
     builder.add(std::const_pointer_cast<System>(ball.system));
     auto& one = builder.add<Constant>("one", 1.0);

@@ -25,7 +25,7 @@ std::vector<double> releases(const Results& results) {
 
 TEST_CASE("4.5 a floor that rises continuously under a resting ball carries it", "[semantics]") {
   const auto method = GENERATE(from_range(methods));
-  for (const Scene& scene : all_forms_over({.g = g, .e = 0.5}, [] { return ramp(0.5); })) {
+  for (const BallScene& scene : all_forms_over({.g = g, .e = 0.5}, [] { return ramp(0.5); })) {
     INFO(scene.form << ", method " << method);
     const auto results = simulate(*scene.system, scene.context(0.0, 0.0), {0.0, 3.0},
                                   {.ode_solver_method = method, .throw_errors = false});
@@ -38,9 +38,9 @@ TEST_CASE("4.5 a floor that rises continuously under a resting ball carries it",
 TEST_CASE("4.5 a floor that begins to fall lets a resting ball go exactly then", "[semantics]") {
   const auto method = GENERATE(from_range(methods));
   // At 1 s the floor leaves with 1 m/s; the ball catches up after 2 / g = 0.2 s and bounces.
-  const std::vector<Scene> scenes{leaf_on({.g = g, .e = 0.5}, ramp(-1.0)),
-                                  blocks(Contact::comparator, {.g = g, .e = 0.5}, ramp(-1.0))};
-  for (const Scene& scene : scenes) {
+  const std::vector<BallScene> scenes{leaf_on({.g = g, .e = 0.5}, ramp(-1.0)),
+                                      blocks(Contact::comparator, {.g = g, .e = 0.5}, ramp(-1.0))};
+  for (const BallScene& scene : scenes) {
     INFO(scene.form << ", method " << method);
     const auto results = simulate(*scene.system, scene.context(0.0, 0.0), {0.0, 1.19},
                                   {.rtol = 1e-9, .atol = 1e-11, .ode_solver_method = method});
@@ -55,7 +55,7 @@ TEST_CASE("4.5 a floor that begins to fall lets go of a ball whose contact is op
           "[semantics]") {
   const auto method = GENERATE(from_range(methods));
   const auto contact = GENERATE(Contact::reduce, Contact::function);
-  const Scene scene = blocks(contact, {.g = g, .e = 0.5}, ramp(-1.0));
+  const BallScene scene = blocks(contact, {.g = g, .e = 0.5}, ramp(-1.0));
   INFO(scene.form << ", method " << method);
   const auto results = simulate(*scene.system, scene.context(0.0, 0.0), {0.0, 1.19},
                                 {.rtol = 1e-9, .atol = 1e-11, .ode_solver_method = method});
@@ -65,7 +65,7 @@ TEST_CASE("4.5 a floor that begins to fall lets go of a ball whose contact is op
 
 TEST_CASE("4.5 a ball let go by a floor lands on it again, bounces and rests", "[semantics]") {
   const auto method = GENERATE(from_range(methods));
-  const Scene scene =
+  const BallScene scene =
       leaf_on({.g = g, .e = 0.5},
               std::make_shared<Step>("floor", Step::Options{.end_value = -0.2, .step_time = 1.0}));
   INFO("method " << method);

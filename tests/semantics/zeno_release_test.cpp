@@ -31,7 +31,7 @@ Results touched(double y, double v, double end, Method method) {
 TEST_CASE("4.3 the prediction is exact however early the tolerance begins the hold",
           "[semantics]") {
   const double tolerance = GENERATE(0.1, 1e-3, 1e-5);
-  for (const Scene& scene : all_forms({.g = 10.0, .e = 0.5, .zeno_tolerance = tolerance})) {
+  for (const BallScene& scene : all_forms({.g = 10.0, .e = 0.5, .zeno_tolerance = tolerance})) {
     INFO(scene.form << ", zeno_tolerance " << tolerance);
     const auto results =
         simulate(*scene.system, scene.context(0.2, 0.0), {0.0, 1.0},

@@ -49,7 +49,7 @@ void no_ball_falls(bool up_too, bool forms_agree) {
     const double start = std::array{0.0, 0.2, 1.0}[random() % 3], end = stairs.times.back() + 0.5;
     const auto method = methods[random() % methods.size()];
     std::vector<double> heights;
-    for (const Scene& scene :
+    for (const BallScene& scene :
          all_forms_over({.g = 10.0, .e = e}, [&] { return floor_of(stairs); })) {
       const auto results = simulate(
           *scene.system, scene.context(start, 0.0), {0.0, end},

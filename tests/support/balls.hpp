@@ -81,7 +81,7 @@ enum class Contact { comparator, reduce, function };
 inline constexpr std::array contacts{Contact::comparator, Contact::reduce, Contact::function};
 
 /// A ball as a system of any form, with the facts that a test needs.
-struct Scene {
+struct BallScene {
   std::shared_ptr<const saltus::System> system;
   std::string form;
   saltus::OutputPort height;
@@ -97,8 +97,8 @@ struct Scene {
 };
 
 /// The tutorial's diagram: two integrators, a floor, and the comparison y < floor in the form of `contact`.
-inline Scene blocks(Contact contact, const BallOptions& options,
-                    std::shared_ptr<const saltus::System> floor) {
+inline BallScene blocks(Contact contact, const BallOptions& options,
+                        std::shared_ptr<const saltus::System> floor) {
   using namespace saltus;
   DiagramBuilder builder;
   const Integrator::Options integrator{.enable_reset = true,
@@ -139,18 +139,18 @@ inline Scene blocks(Contact contact, const BallOptions& options,
           height, 2, false};
 }
 
-inline Scene blocks(Contact contact, const BallOptions& options = {}) {
+inline BallScene blocks(Contact contact, const BallOptions& options = {}) {
   return blocks(contact, options, std::make_shared<saltus::Constant>("floor", options.floor));
 }
 
-inline Scene leaf(const BallOptions& options = {}) {
+inline BallScene leaf(const BallOptions& options = {}) {
   auto ball = std::make_shared<Ball>(options);
   const saltus::OutputPort height = ball->output(0);
   return {ball, "leaf", height};
 }
 
 /// A leaf over a floor that is the output of another block.
-inline Scene leaf_on(const BallOptions& options, std::shared_ptr<const saltus::System> floor) {
+inline BallScene leaf_on(const BallOptions& options, std::shared_ptr<const saltus::System> floor) {
   saltus::DiagramBuilder builder;
   auto& ball = builder.add<BallOnTable>(options);
   builder.add(floor);
@@ -159,8 +159,8 @@ inline Scene leaf_on(const BallOptions& options, std::shared_ptr<const saltus::S
 }
 
 /// All forms of a ball over a fixed floor.
-inline std::vector<Scene> all_forms(const BallOptions& options = {}) {
-  std::vector<Scene> all{
+inline std::vector<BallScene> all_forms(const BallOptions& options = {}) {
+  std::vector<BallScene> all{
       leaf(options), leaf_on(options, std::make_shared<saltus::Constant>("floor", options.floor))};
   for (const Contact contact : contacts) all.push_back(blocks(contact, options));
   return all;
@@ -168,8 +168,8 @@ inline std::vector<Scene> all_forms(const BallOptions& options = {}) {
 
 /// All forms of a ball over the floor that `make_floor` makes.
 template <class MakeFloor>
-std::vector<Scene> all_forms_over(const BallOptions& options, MakeFloor make_floor) {
-  std::vector<Scene> all{leaf_on(options, make_floor())};
+std::vector<BallScene> all_forms_over(const BallOptions& options, MakeFloor make_floor) {
+  std::vector<BallScene> all{leaf_on(options, make_floor())};
   for (const Contact contact : contacts) all.push_back(blocks(contact, options, make_floor()));
   return all;
 }

@@ -79,7 +79,7 @@ inline std::vector<double> firing_times(const saltus::EventLog& log) {
   return times;
 }
 
-/// The contacts of the ball of a `Scene`, leaf or blocks, in order.
+/// The contacts of the ball of a `BallScene`, leaf or blocks, in order.
 inline std::vector<double> contact_times(const saltus::EventLog& log) {
   std::vector<double> times;
   for (std::size_t i = 0; i < log.size(); ++i) {

@@ -9,7 +9,7 @@ using namespace support;
 namespace {
 
 /// A context that is awkward to write: numbers without short decimal form, after bounces.
-Context awkward(const Scene& scene) {
+Context awkward(const BallScene& scene) {
   return simulate(*scene.system, scene.context(1.0 / 3.0, 1e-300), {0.1, 1.7},
                   {.rtol = 1e-9, .atol = 1e-11})
       .context;
@@ -18,7 +18,7 @@ Context awkward(const Scene& scene) {
 }  // namespace
 
 TEST_CASE("a context comes back from JSON to the last bit", "[context][json]") {
-  for (const Scene& scene : all_forms({.e = 0.6})) {
+  for (const BallScene& scene : all_forms({.e = 0.6})) {
     INFO(scene.form);
     const Context context = awkward(scene);
     const Context back = context_from_json(*scene.system, to_json(context));
@@ -32,7 +32,7 @@ TEST_CASE("a context comes back from JSON to the last bit", "[context][json]") {
 TEST_CASE("a run from a context read back is the run from the context, to the last bit",
           "[context][json]") {
   const auto method = GENERATE(from_range(methods));
-  for (const Scene& scene : all_forms({.e = 0.6})) {
+  for (const BallScene& scene : all_forms({.e = 0.6})) {
     INFO(scene.form << ", method " << method);
     const Context context = awkward(scene);
     const Context back = context_from_json(*scene.system, to_json(context));
@@ -45,7 +45,7 @@ TEST_CASE("a run from a context read back is the run from the context, to the la
 }
 
 TEST_CASE("text that is no context of the system is refused", "[context][json][errors]") {
-  const Scene ball = leaf(), blocks_ball = blocks(support::Contact::comparator);
+  const BallScene ball = leaf(), blocks_ball = blocks(support::Contact::comparator);
   const auto refused = [&](const std::string& text) {
     return message<ModelError>([&] { context_from_json(*ball.system, text); });
   };

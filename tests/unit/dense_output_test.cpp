@@ -64,7 +64,7 @@ TEST_CASE("a ball between bounces, at them and at rest, against the closed form"
 TEST_CASE("dense output rides on a surface that moves", "[dense]") {
   const auto method = GENERATE(from_range(methods));
   struct Ride {
-    Scene scene;
+    BallScene scene;
     double (*floor)(double);
   };
   const BallOptions ball{.g = 10.0, .e = 0.5};

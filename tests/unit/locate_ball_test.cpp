@@ -8,7 +8,7 @@ namespace {
 
 /// Largest error of the contact times to t = 26 s.
 double worst_contact(Method method) {
-  const Scene scene = leaf({.e = 0.9});
+  const BallScene scene = leaf({.e = 0.9});
   const auto results = simulate(*scene.system, scene.context(10.0, 0.0), {0.0, 26.0},
                                 {.rtol = 1e-10, .atol = 1e-12, .ode_solver_method = method});
   const BallExact exact{9.81, 0.9, 10.0};

@@ -46,7 +46,7 @@ TEST_CASE("a guard at zero when a stretch begins is seen in its first step", "[l
   const auto method = GENERATE(Method::adams, Method::bdf);
   const double e = GENERATE(0.1, 0.5, 0.9), rtol = GENERATE(1e-4, 1e-7, 1e-10);
   INFO("method " << method << ", e " << e << ", rtol " << rtol);
-  const Scene scene = leaf({.e = e});
+  const BallScene scene = leaf({.e = e});
   const BallExact exact{9.81, e, 10.0};
   const auto results = run(*scene.system, scene.context(10.0, 0.0), exact.rest() + 1.0, method,
                            {.rtol = rtol, .atol = 0.01 * rtol});

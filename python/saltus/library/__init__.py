@@ -41,6 +41,11 @@ from saltus.library.logic import (
     Switch,
 )
 from saltus.library.maps import Exponent, Logarithm, Power, Reciprocal, SquareRoot, Trigonometric
+from saltus.library.matrices import (
+    MatrixInversion,
+    MatrixMultiplication,
+    MatrixTransposition,
+)
 from saltus.library.mechanics import Backlash, MassWithFriction, RigidBody
 from saltus.library.noise import RandomNumber, WhiteNoise
 from saltus.library.nonlinear import (
@@ -106,6 +111,9 @@ __all__ = [
     "LookupTable2d",
     "LookupTableNd",
     "MassWithFriction",
+    "MatrixInversion",
+    "MatrixMultiplication",
+    "MatrixTransposition",
     "MinMax",
     "Multiplexer",
     "MultiportSwitch",

@@ -19,7 +19,7 @@ from hypothesis import HealthCheck, given, note, seed, settings
 # The steps may differ where the engine knows from a trace what a function reads. 1.3 s of a flow
 # with rates near 1 keeps the errors of both at some 100 steps of the tolerance 1e-9.
 BOUND = 1e-6
-BATCH = 500
+BATCH = 100  # Hypothesis keeps the choices of all examples of a call: 300 MB for 500 stories
 
 
 def run(story, python):

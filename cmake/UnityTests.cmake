@@ -1,0 +1,44 @@
+# saltus_unity_tests(RESULT FILE...): with SALTUS_UNITY, RESULT is a list of written files, each of which includes ten of these
+# tests. Each template is then instantiated once for ten tests, which halves the work. Names that two tests have stay apart,
+# because each test is in a namespace of its own; what a test includes is included before, outside of it. Without SALTUS_UNITY,
+# RESULT is the files themselves.
+function(saltus_unity_tests result)
+  set(files ${ARGN})
+  if(SALTUS_UNITY)
+    set(files "")
+    set(number 0)
+    list(LENGTH ARGN count)
+    foreach(first RANGE 0 ${count} 10)
+      list(SUBLIST ARGN ${first} 10 some)
+      if(some)
+        math(EXPR number "${number} + 1")
+        set(file ${CMAKE_CURRENT_BINARY_DIR}/unity/tests_${number}.cpp)
+        saltus_write_unity(${file} ${some})
+        list(APPEND files ${file})
+      endif()
+    endforeach()
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${ARGN})  # a test may include more
+  endif()
+  set(${result} ${files} PARENT_SCOPE)
+endfunction()
+
+function(saltus_write_unity file)
+  set(includes "")
+  set(bodies "")
+  foreach(test IN LISTS ARGN)
+    file(STRINGS ${test} own REGEX "^#include ")
+    cmake_path(GET test PARENT_PATH folder)
+    foreach(line IN LISTS own)
+      string(REGEX REPLACE "^#include \"(.*)\"$" "${folder}/\\1" beside "${line}")
+      if(EXISTS ${beside})  # it lies beside the test, not on the path
+        set(line "#include \"${beside}\"")
+      endif()
+      list(APPEND includes ${line})
+    endforeach()
+    cmake_path(GET test STEM name)
+    string(APPEND bodies "namespace ${name} {\n#include \"${test}\"\n}\n")
+  endforeach()
+  list(REMOVE_DUPLICATES includes)
+  list(JOIN includes "\n" includes)
+  file(CONFIGURE OUTPUT ${file} CONTENT "${includes}\n${bodies}" @ONLY)  # leaves the file alone if nothing changed
+endfunction()
