@@ -71,11 +71,6 @@ void write_choice(SeriesWriter& writer, const Instruction& i, Index, Index k) {
   const std::array<Written, 3> operands{condition, rows[i.a], rows[i.b]};
   writer.store(Memory::rows, i.to + k, writer.apply(Op::select, operands));
 }
-constexpr WriteHandlers all_written(WriteHandler handler) {
-  WriteHandlers made;
-  for (std::size_t slot = 1; slot < 8; ++slot) made.orders[slot] = handler;
-  return made;
-}
 
 struct Remainder {
   static void begin(Start<double> s) {

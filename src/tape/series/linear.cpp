@@ -121,11 +121,6 @@ void write_next(SeriesWriter& writer, const Instruction& i, Index own, Index k) 
   writer.store(Memory::rows, i.to + lanes * (k + 1), inverse_of(k + 1) * rates);
 }
 
-constexpr WriteHandlers all_written(WriteHandler handler, WriteHandler begin = nullptr) {
-  WriteHandlers made{.begin = begin};
-  for (std::size_t slot = 1; slot < 8; ++slot) made.orders[slot] = handler;
-  return made;
-}
 constexpr Handlers all_orders(Handler handler, Handler begin = nullptr) {
   Handlers made{.begin = begin};
   for (std::size_t slot = 1; slot < 8; ++slot) made.orders[slot] = handler;

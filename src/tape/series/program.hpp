@@ -46,6 +46,13 @@ struct WriteHandlers {
   WriteHandler begin = nullptr, earlier = nullptr, orders[8] = {};
 };
 
+/// One handler for all orders from 1 on.
+constexpr WriteHandlers all_written(WriteHandler handler, WriteHandler begin = nullptr) {
+  WriteHandlers made{.begin = begin};
+  for (std::size_t slot = 1; slot < 8; ++slot) made.orders[slot] = handler;
+  return made;
+}
+
 /// The rows that a recurrence needs in each lane.
 struct Reads {
   bool a = false, b = false;    ///< all coefficients of an operand, not only the newest
