@@ -26,6 +26,8 @@ class Store:
     """Files `chunk-000000.pickle` of columns, and `manifest.json`, which says of which sweep."""
 
     def __init__(self, path: str | os.PathLike[str], job: Job, table: Table, chunk: int | None):
+        if not isinstance(path, (str, os.PathLike)):
+            raise ModelError(f"sweep: store: expected the path of a directory, found {path!r}")
         self.path = Path(path)
         found = self._manifest()
         usual = -(-table.runs // CHUNKS) if found is None else int(found["chunk"])
@@ -46,7 +48,10 @@ class Store:
             raise ModelError(f"sweep: store: expected a directory, found the file '{self.path}'")
         if not file.exists():
             if self.path.is_dir() and any(p.suffix != ".part" for p in self.path.iterdir()):
-                raise ModelError(f"sweep: store '{self.path}' has files, but no manifest.json")
+                raise ModelError(
+                    f"sweep: store '{self.path}' has files, but no manifest.json, so it is no store; "
+                    f"take an empty directory, or one that does not exist"
+                )
             return None
         try:
             read = json.loads(file.read_bytes())

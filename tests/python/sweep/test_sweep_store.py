@@ -175,3 +175,19 @@ def test_impossible_numbers(tmp_path, bad):
         swept(tmp_path, **bad)
     with pytest.raises(ModelError, match="needs a store"):
         saltus.sweep(make_ball, GRID, (0.0, 5.0), chunk=2)
+
+
+def test_what_is_no_store_is_refused_and_left_alone(tmp_path):
+    file, folder = tmp_path / "file", tmp_path / "folder"
+    file.write_text("mine")
+    folder.mkdir()
+    (folder / "notes.txt").write_text("mine")
+    for path, words in [
+        (5, "expected the path of a directory, found 5"),
+        (file, "expected a directory, found the file"),
+        (folder, "so it is no store; take an empty directory"),
+    ]:
+        with pytest.raises(ModelError, match=words):
+            swept(path)
+    assert file.read_text() == (folder / "notes.txt").read_text() == "mine"
+    assert os.listdir(folder) == ["notes.txt"]
