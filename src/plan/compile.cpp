@@ -239,12 +239,6 @@ Sound refined(const System& system, const RecordedSignals& recorded, Refinement&
   return sound;
 }
 
-/// A single block needs no search.
-List<int> islands_by_leaf(const Plan& plan) {
-  if (plan.leaves.size() < 2) return List<int>(plan.leaves.size(), 0);
-  return find_islands(plan).of_leaf;
-}
-
 }  // namespace
 
 Roots detail::find_shapes_and_rates(Plan& plan) {
@@ -263,7 +257,6 @@ std::shared_ptr<const Plan> detail::completed(Plan plan, const Roots& roots) {
   add_guards(plan);
   add_edges(plan);
   add_schedule(plan);
-  plan.island_of = islands_by_leaf(plan);
   fuse(plan);
   plan.series = std::make_shared<Kept<FlowSeries>>();
   plan.divisors = std::make_shared<Kept<FlowDivisors>>();

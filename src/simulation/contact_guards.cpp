@@ -146,7 +146,8 @@ bool ContactGuards::follow_surface(SurfaceContact& contact) {
   double* x = machine_->x.data();
   if (contact.look_ahead == 0.0) {
     // Exactly at rest: the last reset left a flight too short to be seen.
-    const bool wrote = transition_->wrote_x(contact.members.front().leaf);
+    const bool wrote =
+        transition_->wrote_x(machine_->plan().guard((*guards_)[contact.guard()].group));
     if (wrote && contacts_.settle(contact, t, x)) present_->outcome.restart = true;
     contacts_.choose_look_ahead(contact, t, x, longest);
   }

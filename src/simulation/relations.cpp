@@ -90,7 +90,7 @@ bool Relations::read(const GuardGroup& group, std::size_t k) {
                             .fired = now.fired,
                             .came_from = (*guards_)[k].came_from,
                             .turned = now.turned,
-                            .wrote = transition_->wrote_x(group.leaf)};
+                            .wrote = transition_->wrote_x(group)};
   const std::optional<int> by_value = decide_relation(facts);
   const int side = by_value ? *by_value : side_by_flow(group, k, facts.crossed_to());
   if (side == 0) return false;

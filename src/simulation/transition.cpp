@@ -25,7 +25,7 @@ Transition::Transition(Machine& machine)
       y_minus_(machine.y.size()),
       x_next_(machine.x.size()),
       z_next_(machine.z.size()),
-      effects_(machine.plan().leaves.size() + 1, 0) {}
+      effects_(machine.plan().leaves.size(), 0) {}
 
 void Transition::open() {
   pass_wrote_ = entered_ = restarts_ = wrote_mode_ = false;
@@ -86,9 +86,16 @@ Transition::Wrote Transition::apply(const Call& call, VectorRef x, VectorRef z, 
 
 void Transition::count(int leaf, Wrote wrote) {
   pass_wrote_ = pass_wrote_ || wrote.x || wrote.z;
-  effects_[machine_->plan().island_of[leaf] + 1] += wrote.x;
+  effects_[leaf] += wrote.x;
   wrote_any_ = wrote_any_ || wrote.x;
   restarts_ = restarts_ || wrote.x || (wrote.z && derivatives_read(Reads::discrete_state, leaf));
+}
+
+int Transition::effects(const GuardGroup& guard) const {
+  if (!wrote_any_) return 0;
+  int sum = 0;
+  for (const int leaf : guard.leaves) sum += effects_[leaf];
+  return sum;
 }
 
 bool Transition::run(const Call& call) {

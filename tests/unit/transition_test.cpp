@@ -114,11 +114,15 @@ TEST_CASE("the next pass begins with the present values", "[transition]") {
   CHECK(leaves.transition.effects(0) == 2);
 }
 
-TEST_CASE("what a pass writes in one island is no effect in another", "[transition]") {
+TEST_CASE("a reset has an effect on the guards that its block changes, and on no other",
+          "[transition]") {
   TwoLeaves leaves;
-  leaves.run(add_one, 1), leaves.run(write_z, 0);
-  CHECK(leaves.transition.effects(1) == 1);
+  leaves.run(add_one, 1), leaves.run(add_one, 1), leaves.run(write_z, 0);
+  CHECK(leaves.transition.effects(1) == 2);
   CHECK_FALSE(leaves.transition.wrote_x(0));
+  CHECK_FALSE(leaves.transition.wrote_x(GuardGroup{.leaf = 1, .leaves = {0}}));
+  CHECK_FALSE(leaves.transition.wrote_x(GuardGroup{.leaf = 1}));
+  CHECK(leaves.transition.effects(GuardGroup{.leaf = 0, .leaves = {0, 1}}) == 2);
   CHECK(leaves.transition.pass_wrote());
   leaves.transition.commit(), leaves.transition.open();
   CHECK_FALSE(leaves.transition.wrote_x(1));

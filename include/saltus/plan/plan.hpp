@@ -138,7 +138,6 @@ struct Plan {
   List<ScheduledEvent> schedule;
   std::vector<Tap> taps;
   std::vector<int> histories;  // leaves that keep a history
-  List<int> island_of;         // of each leaf, as in Islands::of_leaf
   struct {
     Walk derivatives, guards;
   } walks;  // derivatives with odes, and what guards need with the guards

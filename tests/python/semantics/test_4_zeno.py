@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import saltus
 from blocks import Ball, Block, go, kinds, x
-from saltus.library import Ramp, Step
+from saltus.library import Adder, Ramp, Slice, Step
 
 FINE = {"rtol": 1e-10, "atol": 1e-12}
 METHODS = ["dopri5", "adams", "bdf", "radau", "taylor", "auto"]
@@ -53,6 +53,42 @@ def test_4_2_a_steady_fast_rhythm_is_not_zeno():
     results = go(Block(declare), 1.0005e-4)
     assert results.events.times("back") == pytest.approx(1e-7 * np.arange(1, 1001), rel=1e-6)
     assert entered(results) == []
+
+
+def slides(self):
+    """x' = -t from 0: `count` fires at once, and the slope of its guard is zero there."""
+    self.declare_continuous_state([0.0], ode=lambda t, s: [-t])
+    self.declare_continuous_state_output("x")
+    self.declare_discrete_state([0.0])
+    self.declare_zero_crossing(
+        x,
+        lambda t, s: s.with_discrete_state(s.discrete_state + 1.0),
+        name="count",
+        direction="positive_then_non_positive",
+    )
+
+
+@pytest.mark.parametrize("python", ["traced", "called"])
+@pytest.mark.parametrize("recorded", [False, True])
+@pytest.mark.parametrize("method", METHODS)
+def test_4_2_a_recorded_sum_with_a_ball_that_comes_to_rest_brings_nothing_else_to_rest(
+    method, recorded, python
+):
+    if (method, python) == ("taylor", "called"):  # no series of what is called
+        method = "dop853"
+    builder = saltus.DiagramBuilder()
+    block, ball = builder.add(Block(slides, "slides"), Ball())
+    total = builder.add(Adder(2))
+    height = builder.add(Slice("0"))
+    builder.connect(block.output_ports[0], total.input_ports[0])
+    builder.connect(ball.output_ports[0], height.input_ports[0])
+    builder.connect(height.output_ports[0], total.input_ports[1])
+    if recorded:
+        builder.export_output(total.output_ports[0], "sum")
+    results = go(builder.build(), 1.0, ode_solver_method=method, python=python, **FINE)
+    # x(1) = -1/2, and each of fewer than a thousand steps may err by the tolerance.
+    assert results.context.continuous_state == pytest.approx([-0.5, 0.0, 0.0], abs=1e-7)
+    assert [event.block for event in entered(results)] == ["ball"]
 
 
 @pytest.mark.parametrize("method", METHODS)

@@ -55,7 +55,7 @@ struct CrossingFacts {
   int came_from = 0;         ///< the side it fired from
   bool effect = false;       ///< it writes a state or a mode
   bool reset = false;        ///< by a reset map
-  int resets = 0;            ///< in this instant, that wrote continuous state of its island
+  int resets = 0;            ///< in this instant, of blocks whose continuous state changes it
   bool jumped = false;       ///< at its root: its value does not say how far its zero is
 
   bool either() const { return direction == Direction::crosses_zero; }

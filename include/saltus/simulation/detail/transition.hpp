@@ -15,7 +15,8 @@ namespace saltus {
 class Tangents;
 
 /// Holds the values before the instant and the values to come. The reset maps of one pass write the
-/// values to come; `commit` makes them the present ones. This class knows nothing of guards.
+/// values to come; `commit` makes them the present ones. This class counts which blocks were reset,
+/// and decides nothing.
 class Transition {
  public:
   explicit Transition(Machine& machine);
@@ -60,10 +61,13 @@ class Transition {
   bool restarts() const;
 
   bool pass_wrote() const noexcept { return pass_wrote_; }  ///< the last pass wrote states
-  /// The number of reset maps of this instant that wrote continuous state in the island of a leaf.
-  /// Those of another island say nothing about the flow of this one.
-  int effects(int leaf) const { return effects_[machine_->plan().island_of[leaf] + 1]; }
+  /// The number of reset maps of this instant that wrote the continuous state of a leaf.
+  int effects(int leaf) const { return effects_[leaf]; }
   bool wrote_x(int leaf) const { return effects(leaf) > 0; }
+  /// The number of those that wrote a continuous state which changes a guard. The others say nothing
+  /// about the flow of that guard.
+  int effects(const GuardGroup& guard) const;
+  bool wrote_x(const GuardGroup& guard) const { return effects(guard) > 0; }
   bool entered_mode() const noexcept { return entered_; }  ///< in some pass of this instant
 
   /// Whether some derivative reads the discrete state or the mode of a leaf.
@@ -90,7 +94,7 @@ class Transition {
   List<int> modes_minus_;    // before the instant, once a commit has changed a mode
   bool wrote_mode_ = false;  // in the last pass: modes_next_ may differ from the modes
   bool pass_wrote_ = false, entered_ = false, restarts_ = false;
-  List<int> effects_;       // of each island, from the second place on; of no island, the first
+  List<int> effects_;       // of each leaf
   bool wrote_any_ = false;  // some place of effects_ is not zero
 };
 
