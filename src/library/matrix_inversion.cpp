@@ -6,7 +6,7 @@
 #include <Eigen/LU>
 
 #include "saltus/base/error.hpp"
-#include "saltus/library/detail/matrix_ports.hpp"
+#include "saltus/library/detail/matrix_arguments.hpp"
 
 namespace saltus {
 

@@ -1,7 +1,7 @@
 // Y = U_0 U_1: y_ij is the sum of a_il b_lj over l.
 #include "saltus/library/matrix_multiplication.hpp"
 
-#include "saltus/library/detail/matrix_ports.hpp"
+#include "saltus/library/detail/matrix_arguments.hpp"
 
 namespace saltus {
 

@@ -1,7 +1,7 @@
 // Y = U^T: y_ij = u_ji.
 #include "saltus/library/matrix_transposition.hpp"
 
-#include "saltus/library/detail/matrix_ports.hpp"
+#include "saltus/library/detail/matrix_arguments.hpp"
 
 namespace saltus {
 

@@ -1,8 +1,6 @@
 // The shape of a matrix that travels as a signal: the vector of its entries, row by row.
 #pragma once
 
-#include <string>
-
 #include "saltus/base/view.hpp"
 
 namespace saltus {

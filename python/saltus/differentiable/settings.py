@@ -10,6 +10,7 @@ import numpy as np
 
 from saltus._core import known_names
 from saltus._porting import OPTIONS, refuse
+from saltus._whole import is_whole
 from saltus.errors import ModelError
 from saltus.options import SimulatorOptions
 
@@ -47,8 +48,7 @@ def counts_of(where: str, events: Any) -> dict[str, int]:
             f"names, found {events!r}"
         )
     for name, count in events.items():
-        whole = isinstance(count, (int, np.integer)) and not isinstance(count, bool)
-        if not isinstance(name, str) or not whole or count < 1:
+        if not isinstance(name, str) or not is_whole(count) or count < 1:
             raise ModelError(
                 f"{where}: events: expected a name and a count of 1 or more, found {name!r}: "
                 f"{count!r}"

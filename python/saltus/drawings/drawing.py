@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from saltus._core import known_names
+from saltus._whole import is_whole
 from saltus.errors import ModelError
 from saltus.results.animation.film import Film, Moment
 from saltus.results.values import Values
@@ -81,7 +82,7 @@ def pick(values: Values, which: Which) -> Any:
         flat = np.asarray(array).reshape(*shape, -1)
         vector = np.ndim(array) > len(shape)
         entries |= {f"{name}[{i}]" if vector else name: flat[..., i] for i in range(flat.shape[-1])}
-    if isinstance(which, (int, np.integer)) and 0 <= which < len(entries):
+    if is_whole(which) and 0 <= which < len(entries):
         found = list(entries.values())[which]
     elif which in entries:
         found = entries[str(which)]

@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike
 
 from saltus import _core
 from saltus._engine import core_context
+from saltus._whole import is_whole
 from saltus.errors import ModelError
 from saltus.exponents.averages import running, standard_errors
 from saltus.exponents.piece import NotALabel, Pieces, require_moving
@@ -179,8 +180,7 @@ def _unconverged(exponents: np.ndarray, errors: np.ndarray, time: float, toleran
 def _require_count(count: int | None, most: int, system: System) -> None:
     if not most:
         raise ModelError(f"{WHERE}: '{system.name}' has no states; expected some that move")
-    whole = isinstance(count, (int, np.integer)) and not isinstance(count, bool)
-    if count is not None and not (whole and 1 <= count <= most):
+    if count is not None and not (is_whole(count) and 1 <= count <= most):
         raise ModelError(
             f"{WHERE}: count: expected an integer from 1 to {most}, the number of states, found "
             f"{count!r}"

@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from saltus._whole import is_whole
 from saltus.errors import ModelError
 from saltus.fitting.coordinates import Coordinates
 
@@ -17,7 +18,7 @@ def starts_of(coordinates: Coordinates, count: Any, seed: Any) -> list[np.ndarra
     `count` - 1 equal parts of its bounds (McKay, Beckman and Conover, Technometrics 21, 1979), of a
     logarithm in equal factors.
     """
-    if not isinstance(count, (int, np.integer)) or isinstance(count, bool) or count < 1:
+    if not is_whole(count) or count < 1:
         raise ModelError(f"fit: starts: expected a number of starts, 1 or more, found {count!r}")
     if count == 1:
         return [coordinates.start]

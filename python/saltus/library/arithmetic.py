@@ -6,10 +6,10 @@ from __future__ import annotations
 
 from typing import Any
 
-import numpy as np
 from numpy.typing import ArrayLike
 
 from saltus import _core
+from saltus._whole import is_whole
 from saltus.errors import BlockParameterError
 from saltus.library.block import Block
 
@@ -21,7 +21,7 @@ def _operators(block: str, usual: str, n_in: object, operators: object) -> str:
     given = [value for value in (n_in, operators) if value is not None] or [2]
     counts: list[Any] = [len(v) if isinstance(v, str) else v for v in given]
     for count in counts:
-        if not isinstance(count, (int, np.integer)) or isinstance(count, bool) or count < 1:
+        if not is_whole(count) or count < 1:
             raise BlockParameterError(
                 f"block '{block}': expected the number of inputs, or an operator for each such as "
                 f"'{usual}{usual}', found {count!r}"

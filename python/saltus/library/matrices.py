@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-import numpy as np
-
 from saltus import _core
+from saltus._whole import is_whole
 from saltus.errors import ModelError
 from saltus.library.block import Block
 
@@ -14,7 +13,7 @@ __all__ = ["MatrixInversion", "MatrixMultiplication", "MatrixTransposition"]
 
 
 def _count(block: str, what: str, given: object) -> int:
-    if isinstance(given, (int, np.integer)) and not isinstance(given, bool) and given > 0:
+    if is_whole(given) and given > 0:
         return int(given)
     raise ModelError(f"block '{block}': {what}: expected a whole number above 0, found {given!r}")
 

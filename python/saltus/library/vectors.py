@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, TypeGuard
 
 import numpy as np
 
 from saltus import _core
+from saltus._whole import is_whole
 from saltus.errors import ModelError
 from saltus.library.block import Block
 
@@ -28,20 +28,16 @@ def _entries(block: str, given: object) -> int | list[int] | slice:
     found = _read(given) if isinstance(given, str) else given
     if isinstance(found, slice):
         parts = (found.start, found.stop, found.step)
-        if all(part is None or _is_whole(part) for part in parts):
+        if all(part is None or is_whole(part) for part in parts):
             return found
-    elif _is_whole(found):
+    elif is_whole(found):
         return int(found)
-    elif isinstance(found, (list, tuple, np.ndarray)) and all(_is_whole(each) for each in found):
+    elif isinstance(found, (list, tuple, np.ndarray)) and all(is_whole(each) for each in found):
         return [int(each) for each in found]
     raise ModelError(
         f"block '{block}': expected a whole number, a list of them or a slice such as '1:3', found "
         f"{given!r}"
     )
-
-
-def _is_whole(value: Any) -> TypeGuard[int]:
-    return isinstance(value, int | np.integer) and not isinstance(value, bool)
 
 
 def _read(words: str) -> object:

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from saltus import _core
+from saltus._whole import is_whole
 from saltus.errors import ModelError
 from saltus.operating.point import OperatingPoint
 from saltus.operating.question import Question, question_of
@@ -134,7 +135,7 @@ def equilibria(
 def _frees(where: str, starts: Any, count: Any) -> dict[str, Any]:
     """The free values as `trim` takes them."""
     if isinstance(starts, Mapping):
-        if isinstance(count, bool) or not isinstance(count, (int, np.integer)) or count < 1:
+        if not is_whole(count) or count < 1:
             raise ModelError(f"{where}: count: expected 1 or more starts, found {count!r}")
         for name, bounds in starts.items():
             if not (isinstance(bounds, (tuple, list)) and np.all(np.isfinite(bounds))):

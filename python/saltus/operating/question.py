@@ -10,6 +10,7 @@ import numpy as np
 
 from saltus import _core
 from saltus._engine import core_context
+from saltus._whole import is_whole
 from saltus.errors import ModelError
 from saltus.fitting.free import Free, frees_of
 from saltus.operating.begin import begun, fixed_value
@@ -159,6 +160,5 @@ def _require_numbers(where: str, tolerance: Any, max_nfev: Any) -> None:
         raise ModelError(
             f"{where}: tolerance: expected a number between 0 and 1, found {tolerance!r}"
         )
-    whole = isinstance(max_nfev, (int, np.integer)) and not isinstance(max_nfev, bool)
-    if max_nfev is not None and not (whole and max_nfev >= 1):
+    if max_nfev is not None and not (is_whole(max_nfev) and max_nfev >= 1):
         raise ModelError(f"{where}: max_nfev: expected an integer of 1 or more, found {max_nfev!r}")

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 
 from saltus import _core
 from saltus._engine import core_context
+from saltus._whole import is_whole
 from saltus.errors import ModelError, SimulationError
 from saltus.orbits.arc import Arc
 from saltus.orbits.closing import Closing
@@ -270,5 +271,5 @@ def _require_numbers(
     if not (isinstance(transient, (int, float, np.number)) and 0.0 <= transient < np.inf):
         raise ModelError(f"{WHERE}: transient: expected a time of 0 s or more, found {transient!r}")
     for name, count in {"firings": firings, "max_iterations": max_iterations}.items():
-        if not (isinstance(count, (int, np.integer)) and count >= 1):
+        if not (is_whole(count) and count >= 1):
             raise ModelError(f"{WHERE}: {name}: expected an integer of 1 or more, found {count!r}")

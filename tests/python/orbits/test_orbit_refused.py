@@ -18,6 +18,7 @@ def wheel():
         ({"period": -1.0}, "period: expected a positive number, found -1.0"),
         ({"period": 1.0, "firings": 2}, "counts those of a section"),
         ({"section": "wheel.spoke", "firings": 0}, "firings: expected an integer of 1 or more"),
+        ({"section": "wheel.spoke", "firings": True}, "firings: expected an integer of 1 or more"),
         ({"section": "wheel.spoke", "max_iterations": 0}, "max_iterations: expected an integer"),
         ({"section": "wheel.spoke", "transient": -1.0}, "transient: expected a time of 0 s"),
         ({"section": "wheel.spoke", "wrt": "e"}, "wrt: expected a list of names"),

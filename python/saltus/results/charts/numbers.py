@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from saltus._core import known_names
+from saltus._whole import is_whole
 from saltus.errors import ModelError
 from saltus.results.curves import Curve, curves_of
 
@@ -32,7 +33,7 @@ def labels_of(results: Results) -> list[str]:
 def label_of(results: Results, which: Which) -> str:
     """The name of a recorded number. ModelError if there is none."""
     labels = labels_of(results)
-    if isinstance(which, (int, np.integer)) and not isinstance(which, bool):
+    if is_whole(which):
         if 0 <= which < len(labels):
             return labels[which]
         raise ModelError(
