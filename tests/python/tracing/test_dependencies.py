@@ -7,6 +7,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from saltus.tracing.sandbox.dependencies import entries
 from tracing_cases import evaluate, reason, traced
 
 G = 9.81
@@ -242,6 +243,23 @@ def test_a_look_at_dependencies_reads_each_once():
     dependencies = traced(Ball.reset, owner=ball).dependencies
     overhead = 2  # `changed`, and the end of the profile
     assert calls_in(dependencies.changed) <= overhead + 3 * len(dependencies)
+
+
+@pytest.mark.parametrize("container", [list, dict, "list in a list", "list in a dict"])
+def test_the_look_at_a_container_that_has_grown_does_not_look_at_its_entries(container):
+    """A callback may append at each call, a million times: its length says that it has changed."""
+    grows = {} if container is dict else []
+    holder = {"list in a list": [grows], "list in a dict": {"log": grows}}.get(container, grows)
+    dependencies = traced(lambda t, s: t if not isinstance(holder, tuple) else 0.0).dependencies
+    assert dependencies.changed() is None
+    n = 20_000
+    if container is dict:
+        grows.update((k, float(k)) for k in range(n))
+    else:
+        grows.extend(range(n))
+    assert "changed in place" in dependencies.changed()
+    assert calls_in(dependencies.changed) < 100
+    assert calls_in(lambda: entries(holder)) < 100
 
 
 def test_a_second_trace_does_not_search_again():

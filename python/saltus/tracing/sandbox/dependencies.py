@@ -56,9 +56,11 @@ def entries(value: Any) -> int:
     """How many numbers a comparison of the value has to look at."""
     if isinstance(value, np.ndarray):
         return value.size
-    if isinstance(value, (list, tuple)):
-        return sum(map(entries, value))
-    return sum(map(entries, value.values())) if isinstance(value, dict) else 1
+    if not isinstance(value, (list, tuple, dict)):
+        return 1
+    if len(value) > LARGEST:  # too many already
+        return len(value)
+    return sum(map(entries, value.values() if isinstance(value, dict) else value))
 
 
 def _changes(value: Any) -> bool:
@@ -75,8 +77,20 @@ def same(a: Any, b: Any) -> bool:
 
 
 def same_content(value: Any, inside: Any) -> bool:
-    """Whether a container has the parts that one had when it was read."""
-    return bool(content(value) == inside)
+    """Whether a container has the parts that one had when it was read: content(value) == inside. The
+    comparison ends at the first difference: a list that callbacks append to may have become long.
+    """
+    if not isinstance(value, (list, tuple, dict)):
+        return bool(content(value) == inside)
+    kind = dict if isinstance(value, dict) else type(value)
+    if not isinstance(inside, tuple) or len(inside) != len(value) + 1 or inside[0] is not kind:
+        return False
+    if not isinstance(value, dict):
+        return all(map(same_content, value, inside[1:]))
+    return all(
+        key == name and same_content(entry, part)
+        for (key, entry), (name, part) in zip(value.items(), inside[1:], strict=True)
+    )
 
 
 def _named(value: Any) -> str:
@@ -169,10 +183,10 @@ class Dependencies:
             if now is GONE:
                 continue
             if now is value:
-                if inside is None or content(now) == inside:
+                if inside is None or same_content(now, inside):
                     continue
                 return f"{words} changed in place"
-            if not (same(value, now) if inside is None else content(now) == inside):
+            if not (same(value, now) if inside is None else same_content(now, inside)):
                 return f"{words} was {_named(value)}, is {_named(now)}"
         return None
 

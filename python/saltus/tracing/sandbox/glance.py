@@ -10,8 +10,8 @@ from saltus.tracing.sandbox.dependencies import (
     MISSING,
     AttributeOf,
     Dependencies,
-    content,
     same,
+    same_content,
 )
 
 __all__ = ["Glance"]
@@ -70,6 +70,6 @@ class Glance:
                 return True
         for get, key, inside in self._contents:
             now = get(key, MISSING)
-            if now is not GONE and content(now) != inside:
+            if now is not GONE and not same_content(now, inside):
                 return True
         return False
