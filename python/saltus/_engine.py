@@ -29,6 +29,9 @@ _UNBOUNDED = {
     "min_minor_step_size": 0.0,
     "max_minor_step_size": math.inf,
 }
+TRUTHS = (bool, np.bool_)
+NUMBERS = ("int", "float", "ArrayLike")
+"""the beginnings of the types of options that are numbers"""
 
 
 def ports_of(signals: Any) -> list[tuple[str, System, int]]:
@@ -49,8 +52,7 @@ def core_options(options: SimulatorOptions) -> _core.SimulatorOptions:
         value = getattr(options, field.name)
         if field.name in PYTHON_ONLY:
             continue
-        if field.type == "bool" and not isinstance(value, (bool, np.bool_)):
-            raise ModelError(f"option {field.name}: expected bool, found {value!r}")
+        _require_kind(field.name, str(field.type), value)
         try:
             setattr(
                 core,
@@ -61,8 +63,7 @@ def core_options(options: SimulatorOptions) -> _core.SimulatorOptions:
             raise ModelError(
                 f"option {field.name}: expected {field.type}, found {value!r}"
             ) from None
-    if not isinstance(options.throw, (bool, np.bool_)):
-        raise ModelError(f"option throw: expected bool, found {options.throw!r}")
+    _require_kind("throw", "bool", options.throw)
     _require_known("python", options.python, WAYS)
     _require_known("machine_code", options.machine_code, WHEN)
     if options.machine_code == "always":
@@ -71,6 +72,15 @@ def core_options(options: SimulatorOptions) -> _core.SimulatorOptions:
         require_installed()
     core.set_recorded_signals(ports_of(options.recorded_signals))
     return core
+
+
+def _require_kind(option: str, kind: str, value: object) -> None:
+    """Python takes True for 1 and 3 for true; an option does not."""
+    if value is None and "None" in kind:
+        return
+    wants_truth = kind.startswith("bool")
+    if (wants_truth or kind.startswith(NUMBERS)) and wants_truth != isinstance(value, TRUTHS):
+        raise ModelError(f"option {option}: expected {kind}, found {value!r}")
 
 
 def _require_known(option: str, word: object, words: tuple[str, ...]) -> None:

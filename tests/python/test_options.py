@@ -104,6 +104,22 @@ def test_refusals(options, message):
     assert str(caught.value).startswith(message)
 
 
+NOT_MEANT = {"bool": 1, "int": True, "float": True, "ArrayLike": True}
+
+
+@pytest.mark.parametrize(
+    ("name", "wrong"),
+    [
+        (field.name, NOT_MEANT[kind])
+        for field in dataclasses.fields(SimulatorOptions)
+        if (kind := str(field.type).partition(" ")[0]) in NOT_MEANT and field.name != "progress"
+    ],
+)
+def test_a_number_is_no_truth_and_a_truth_is_no_number(name, wrong):
+    with pytest.raises(saltus.ModelError, match=f"option {name}: expected .*, found {wrong}"):
+        ball_run(**{name: wrong})
+
+
 def test_refused_in_the_options_themselves():
     with pytest.raises(
         saltus.ModelError, match="SimulatorOptions: unknown option 'atoll'; did you mean 'atol'"
