@@ -70,12 +70,12 @@ def test_the_machinery_for_pictures_and_the_command_line_waits_too():
 
 
 def test_import_reads_few_files():
-    """Reading modules takes most of the time: some 85 of the package, and some of the language."""
+    """Reading modules takes most of the time: some 90 of the package, and some of the language."""
     code = (
         "import numpy, sys; before = len(sys.modules); import saltus;"
         "print(len(sys.modules) - before)"
     )
-    assert int(python(code)) <= 115
+    assert int(python(code)) <= 120
 
 
 def test_all_names_are_there():

@@ -97,6 +97,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
             return 0
         message = " ".join(str(error).split())  # one line, also for an algebraic loop
+        message = message.removeprefix(f"{chosen.name}: ")  # saltus.sweep says its name too
         print(f"saltus {chosen.name}: {message}", file=sys.stderr)
         return 2
     except KeyboardInterrupt:

@@ -49,10 +49,6 @@ class Chosen:
     file: FileScene | None = None
     """the scene file that was read"""
 
-    def again(self, name: str, settings: dict[str, Any]) -> Chosen:
-        """The scene of the same name with other settings. A file is not read again."""
-        return chosen_scene(name, settings) if self.file is None else _of_file(self.file, settings)
-
     def with_span(self, begin: float | None, end: float | None) -> Chosen:
         """The scene with the span from the command line in place of the usual one."""
         if begin is None and end is None:
@@ -71,8 +67,12 @@ class Chosen:
         return self.span
 
 
-def chosen_scene(name: str, settings: dict[str, Any]) -> Chosen:
-    """The scene with this name and these settings. ModelError for unknown names."""
+def chosen_scene(name: str, settings: dict[str, Any], file: FileScene | None = None) -> Chosen:
+    """The scene with this name and these settings; of a `file` that was read, if it is given.
+    ModelError for unknown names.
+    """
+    if file is not None:
+        return _of_file(file, settings)
     if name.lower().endswith((".toml", ".json")):
         return _of_file(load_scene(name), settings)
     if name.lower().endswith((".xml", ".sbml")):

@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 import os
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from saltus import _core
 from saltus.ensemble.columns import Columns
-from saltus.ensemble.job import Job, Watch
+from saltus.ensemble.runs import Runs, Watch
 from saltus.ensemble.table import Table
 from saltus.errors import ModelError
 
-__all__ = ["Outcome", "chosen", "run"]
+if TYPE_CHECKING:
+    from saltus.ensemble.store import Store
+
+__all__ = ["Outcome", "chosen", "run", "store_of"]
 
 KINDS = ("threads", "processes", "serial")
 Outcome = tuple[Columns, "BaseException | None", str, int]
@@ -24,10 +27,17 @@ def _workers(workers: int | None, runs: int) -> int:
     return min(workers or cores or 1, runs)
 
 
-def run(job: Job, table: Table, executor: Any, workers: int | None, watch: Watch) -> Outcome:
-    """Runs the job by the given executor, or by a suitable one. Returns the outcome, the executor's
-    name and the number of workers.
+def run(
+    job: Runs, table: Table, executor: Any, workers: int | None, watch: Watch,
+    store: Store | None = None, retries: int = 0,
+) -> Outcome:  # fmt: skip
+    """Runs the job by the given executor, or by a suitable one; with a store, what is not in it.
+    Returns the outcome, the executor's name and the number of workers.
     """
+    if store is not None:
+        from saltus.ensemble.stored import run_stored
+
+        return run_stored(job, table, executor, workers, watch, store, retries)
     kind, count = chosen(job, table, executor, workers)
     if kind == "processes":
         return *_in_processes(job, table, count, watch), kind, count
@@ -38,7 +48,7 @@ def run(job: Job, table: Table, executor: Any, workers: int | None, watch: Watch
     return *pools.run_pooled(executor, job, table, count, watch), kind, count
 
 
-def chosen(job: Job, table: Table, executor: Any, workers: int | None) -> tuple[str, int]:
+def chosen(job: Runs, table: Table, executor: Any, workers: int | None) -> tuple[str, int]:
     """The name of the executor, and the number of workers.
 
     Without an executor the system and `workers` decide, never the clock: the same call runs the
@@ -60,7 +70,7 @@ def chosen(job: Job, table: Table, executor: Any, workers: int | None) -> tuple[
 
 
 def _in_processes(
-    job: Job, table: Table, count: int, watch: Watch
+    job: Runs, table: Table, count: int, watch: Watch
 ) -> tuple[Columns, BaseException | None]:
     from saltus.ensemble import pools
 
@@ -71,3 +81,21 @@ def _in_processes(
     if len(lost) == table.runs:
         raise ModelError(pools.NO_MAIN)
     return columns, raised
+
+
+def store_of(
+    path: str | os.PathLike[str] | None, chunk: object, retries: object, job: Runs, table: Table
+) -> Store | None:
+    """The store in this directory, or None without a path. ModelError for impossible arguments."""
+    for name, value, least in (("chunk", chunk, 1), ("retries", retries, 0)):
+        if value is None and name == "chunk":
+            continue
+        if not isinstance(value, int) or isinstance(value, bool) or value < least:
+            raise ModelError(f"sweep: {name}: expected {least} or more, found {value!r}")
+        if path is None and value != 0:
+            raise ModelError(f"sweep: {name}={value} needs a store: say store='a directory'")
+    if path is None:
+        return None
+    from saltus.ensemble.store import Store
+
+    return Store(path, job, table, chunk)  # type: ignore[arg-type]

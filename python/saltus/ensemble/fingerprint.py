@@ -16,7 +16,7 @@ from saltus.ensemble.job import Job
 from saltus.ensemble.table import Table
 from saltus.system import OutputPort, System
 
-__all__ = ["fingerprint"]
+__all__ = ["digest", "fingerprint"]
 
 ADDRESS = re.compile(r" at 0x[0-9a-f]+")
 UNSEEN = ("_callbacks", "_made")
@@ -44,6 +44,11 @@ def fingerprint(job: Job, table: Table) -> dict[str, str]:
         "reduce": _digest(_Values().of(job.reduce)),
         "saltus": _core.__version__,
     }
+
+
+def digest(value: object) -> str:
+    """The digest of values, of functions by their code, and of what they read."""
+    return _digest(_Values().of(value))
 
 
 def _digest(value: object) -> str:

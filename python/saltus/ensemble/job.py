@@ -13,21 +13,17 @@ from saltus import _core
 from saltus._engine import core_context, core_options
 from saltus._signals import port_of
 from saltus.callbacks import Callbacks, planned
-from saltus.ensemble.columns import Columns, empty, failed, join
-from saltus.ensemble.table import Column
+from saltus.ensemble.columns import Columns, failed
+from saltus.ensemble.runs import NoSystem, Outcome, Watch, each, said
+from saltus.ensemble.table import Column, Table, entry
 from saltus.errors import ModelError
 from saltus.options import SimulatorOptions
 from saltus.results import Results
 from saltus.system import OutputPort, System
 
-__all__ = ["Job", "NoSystem", "Watch"]
+__all__ = ["Job"]
 
-Watch = Callable[[int], bool]
 Values = Mapping[str, Column]
-
-
-class NoSystem(ModelError):
-    """The function that was given to a sweep makes no system, so no row can run."""
 
 
 @dataclass(frozen=True)
@@ -129,7 +125,7 @@ class Job:
     def _first(self, values: Values, own: list[str]) -> None:
         """Checks the names that are no arguments of the factory by the first system."""
         assert not isinstance(self.system, System)
-        system = self._make({name: _entry(values[name], 0) for name in own}, own)
+        system = self._make({name: entry(values[name], 0) for name in own}, own)
         rest = {name: column[:1] for name, column in values.items() if name not in own}
         context = system.create_context()
         for name in rest:
@@ -142,15 +138,20 @@ class Job:
                 ) from None
         self.ensemble(system, rest)
 
-    def run(self, values: Values, threads: int = 1, watch: Watch | None = None) -> tuple[Any, Any]:
+    def run(self, values: Values, threads: int = 1, watch: Watch | None = None) -> Outcome:
         """The columns of the runs with these values, and the exception of a signal, or None."""
         if isinstance(self.system, System):
             return self._run(self.system, values, threads, watch)
-        return self._run_each(values, watch)
+        own = self.for_factory(list(values))
+        return each(values, watch, lambda row: self._run_one(row, own))
 
-    def _run(
-        self, system: System, values: Values, threads: int, watch: Watch | None
-    ) -> tuple[Columns, BaseException | None]:
+    def fingerprint(self, table: Table) -> dict[str, str]:
+        """A digest of each thing on which the results depend, by name."""
+        from saltus.ensemble.fingerprint import fingerprint
+
+        return fingerprint(self, table)
+
+    def _run(self, system: System, values: Values, threads: int, watch: Watch | None) -> Outcome:
         ensemble = self.ensemble(system, values)
         reduced = _Reduced(self.reduce)
         each = None if self.reduce is None else reduced
@@ -162,31 +163,14 @@ class Job:
             columns["names"]["mode"] = ensemble.state_names("mode")
         return columns, raised
 
-    def _run_each(
-        self, values: Values, watch: Watch | None
-    ) -> tuple[Columns, BaseException | None]:
-        own = self.for_factory(list(values))
-        runs = len(next(iter(values.values())))
-        parts: list[Columns] = []
-        raised: BaseException | None = None
-        while raised is None and len(parts) < runs:
-            if watch is not None and watch(len(parts)):
-                break
-            row = {name: _entry(column, len(parts)) for name, column in values.items()}
-            part, raised = self._run_one(row, own)
-            parts.append(part)
-        if len(parts) < runs:
-            parts.append(empty(runs - len(parts)))
-        return join(parts), raised
-
-    def _run_one(self, row: Mapping[str, Any], own: list[str]) -> tuple[Columns, Any]:
+    def _run_one(self, row: Mapping[str, Any], own: list[str]) -> Outcome:
         try:
             rest = {name: [value] for name, value in row.items() if name not in own}
             return self._run(self._make(row, own), rest, 1, None)
         except NoSystem:
             raise
         except Exception as error:  # the factory raised it, or the values do not fit its system
-            return failed(1, _said(error)), None
+            return failed(1, said(error)), None
         except KeyboardInterrupt as error:
             return failed(1, "interrupted"), error
 
@@ -205,7 +189,7 @@ class _Reduced:
         try:
             self.values[run] = self.reduce(Results(core, raised))
         except Exception as error:
-            self.errors[run] = f"reduce: {_said(error)}"
+            self.errors[run] = f"reduce: {said(error)}"
 
     def note(self, columns: Columns) -> None:
         failure = _core.status_names().index("failed")
@@ -216,16 +200,6 @@ class _Reduced:
 
 def _name(function: Any) -> str:
     return getattr(function, "__name__", type(function).__name__)
-
-
-def _said(error: BaseException) -> str:
-    return f"{type(error).__name__}: {error}" if not isinstance(error, ModelError) else str(error)
-
-
-def _entry(column: Column, run: int) -> Any:
-    """One value; a number of NumPy becomes a number of Python."""
-    value = column[run]
-    return value.item() if isinstance(value, np.generic) else value
 
 
 def _numbers(name: str, column: Column) -> np.ndarray:

@@ -13,7 +13,7 @@ from contextlib import contextmanager
 from typing import Any
 
 from saltus.ensemble.columns import Columns, empty, failed, join
-from saltus.ensemble.job import Job, NoSystem, Watch
+from saltus.ensemble.runs import NoSystem, Runs, Watch
 from saltus.ensemble.table import Column, Table
 from saltus.errors import ModelError
 
@@ -29,7 +29,7 @@ NO_MAIN = (
 )
 
 
-def pickled(job: Job) -> bytes:
+def pickled(job: Runs) -> bytes:
     """The job for another process; a ModelError with advice if it cannot go there."""
     try:
         return pickle.dumps(job)
@@ -42,24 +42,24 @@ def pickled(job: Job) -> bytes:
 
 
 @functools.lru_cache(maxsize=4)
-def _unpickled(job: bytes) -> Job:
-    loaded: Job = pickle.loads(job)
+def _unpickled(job: bytes) -> Runs:
+    loaded: Runs = pickle.loads(job)
     return loaded
 
 
-def _run_part(job: Job | bytes, values: dict[str, Column]) -> Columns:
+def _run_part(job: Runs | bytes, values: dict[str, Column]) -> Columns:
     """In the other process."""
     columns: Columns = (_unpickled(job) if isinstance(job, bytes) else job).run(values)[0]
     return columns
 
 
-def _run_again(job: Job | bytes, values: dict[str, Column], attempt: int) -> Columns:
+def _run_again(job: Runs | bytes, values: dict[str, Column], attempt: int) -> Columns:
     """A part in its attempt of this number, by which Dask takes it for another task."""
     del attempt
     return _run_part(job, values)
 
 
-def submitted(executor: Any, job: Job | bytes, values: dict[str, Column], attempt: int) -> Any:
+def submitted(executor: Any, job: Runs | bytes, values: dict[str, Column], attempt: int) -> Any:
     """The future of one part. ModelError for an executor without `submit`."""
     if hasattr(executor, "submit"):
         return executor.submit(_run_again, job, values, attempt)
@@ -97,7 +97,7 @@ def _cuts(runs: int, workers: int) -> list[tuple[int, int]]:
 
 
 def run_pooled(
-    executor: Any, job: Job | bytes, table: Table, workers: int, watch: Watch | None
+    executor: Any, job: Runs | bytes, table: Table, workers: int, watch: Watch | None
 ) -> tuple[Columns, BaseException | None]:
     """The columns of all runs in their order, and the exception that was raised, or None."""
     cuts = _cuts(table.runs, workers)
@@ -117,7 +117,7 @@ def run_pooled(
     return join(parts), raised
 
 
-def _submitted(executor: Any, job: Job | bytes, values: list[Any]) -> Any:
+def _submitted(executor: Any, job: Runs | bytes, values: list[Any]) -> Any:
     """The parts one after another. Closing the iterator cancels the parts that have not begun."""
     if hasattr(executor, "submit"):
         futures = [executor.submit(_run_part, job, part) for part in values]
@@ -139,7 +139,7 @@ def _results_of(futures: list[Any]) -> Iterator[Any]:
             future.cancel()
 
 
-def _mapped(executor: Any, job: Job | bytes, values: list[Any]) -> Iterator[Any]:
+def _mapped(executor: Any, job: Runs | bytes, values: list[Any]) -> Iterator[Any]:
     done = iter(executor.map(functools.partial(_run_part, job), values))
     for _ in values:
         yield functools.partial(next, done)

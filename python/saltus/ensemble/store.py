@@ -10,8 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from saltus.ensemble.columns import Columns
-from saltus.ensemble.fingerprint import fingerprint
-from saltus.ensemble.job import Job
+from saltus.ensemble.runs import Runs
 from saltus.ensemble.table import Table
 from saltus.errors import ModelError
 
@@ -25,14 +24,14 @@ CHUNKS = 64  # without `chunk`, a sweep has about as many parts
 class Store:
     """Files `chunk-000000.pickle` of columns, and `manifest.json`, which says of which sweep."""
 
-    def __init__(self, path: str | os.PathLike[str], job: Job, table: Table, chunk: int | None):
+    def __init__(self, path: str | os.PathLike[str], job: Runs, table: Table, chunk: int | None):
         if not isinstance(path, (str, os.PathLike)):
             raise ModelError(f"sweep: store: expected the path of a directory, found {path!r}")
         self.path = Path(path)
         found = self._manifest()
         usual = -(-table.runs // CHUNKS) if found is None else int(found["chunk"])
         self.chunk = usual if chunk is None else chunk
-        task = {**fingerprint(job, table), "format": FORMAT, "chunk": self.chunk}
+        task = {**job.fingerprint(table), "format": FORMAT, "chunk": self.chunk}
         if found is None:
             self.path.mkdir(parents=True, exist_ok=True)
             _write(self.path / "manifest.json", json.dumps(task, indent=1).encode())
@@ -49,8 +48,8 @@ class Store:
         if not file.exists():
             if self.path.is_dir() and any(p.suffix != ".part" for p in self.path.iterdir()):
                 raise ModelError(
-                    f"sweep: store '{self.path}' has files, but no manifest.json, so it is no store; "
-                    f"take an empty directory, or one that does not exist"
+                    f"sweep: store '{self.path}' has files, but no manifest.json, so it is no "
+                    "store; take an empty directory, or one that does not exist"
                 )
             return None
         try:

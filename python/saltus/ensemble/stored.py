@@ -16,7 +16,7 @@ import numpy as np
 
 from saltus.ensemble import executors, pools
 from saltus.ensemble.columns import PLAIN, WIDE, Columns, empty, failed, join
-from saltus.ensemble.job import Job, NoSystem, Watch
+from saltus.ensemble.runs import NoSystem, Runs, Watch
 from saltus.ensemble.store import Store
 from saltus.ensemble.table import Table
 from saltus.errors import ModelError
@@ -30,7 +30,7 @@ SAME = [name for name in (*PLAIN, *WIDE) if name != "wall_time"]
 class _Stored:
     """The chunks of one call: those that are finished, and why others are lost."""
 
-    def __init__(self, job: Job, table: Table, store: Store, watch: Watch):
+    def __init__(self, job: Runs, table: Table, store: Store, watch: Watch):
         self.job, self.table, self.store, self.watch = job, table, store, watch
         self.cuts = store.cuts(table.runs)
         loaded = ((i, store.load(i, b - a)) for i, (a, b) in enumerate(self.cuts))
@@ -75,7 +75,7 @@ class _Stored:
 
 
 def run_stored(
-    job: Job, table: Table, executor: Any, workers: int | None, watch: Watch, store: Store,
+    job: Runs, table: Table, executor: Any, workers: int | None, watch: Watch, store: Store,
     retries: int,
 ) -> executors.Outcome:  # fmt: skip
     """As `executors.run`. A chunk that was lost is submitted again up to `retries` times."""
@@ -96,16 +96,19 @@ def run_stored(
 
 
 def _run_here(state: _Stored, threads: int) -> None:
-    if state.done:
-        again, state.raised = state.job.run(state.known_row(), 1, None)
-        if state.raised is not None:
-            return
-        state.require_same(again)
-    for number in state.missing():
-        columns, state.raised = state.job.run(state.table.part(*state.cuts[number]), threads, None)
-        if state.raised is not None:
-            return
-        state.keep(number, columns)
+    try:
+        if state.done:
+            again, state.raised = state.job.run(state.known_row(), 1, None)
+            if state.raised is None:
+                state.require_same(again)
+        for number in state.missing() if state.raised is None else []:
+            part = state.table.part(*state.cuts[number])
+            columns, state.raised = state.job.run(part, threads, None)
+            if state.raised is not None:
+                return
+            state.keep(number, columns)
+    except KeyboardInterrupt as error:  # while a chunk was written
+        state.raised = error
 
 
 @contextmanager
@@ -117,7 +120,7 @@ def _pool(executor: Any, kind: str, count: int) -> Iterator[Any]:
         yield pool
 
 
-def _run_round(state: _Stored, pool: Any, job: Job | bytes, attempt: int) -> None:
+def _run_round(state: _Stored, pool: Any, job: Runs | bytes, attempt: int) -> None:
     """Submits all missing chunks. Their results are kept in the order of the rows."""
     missing = state.missing()
     parts = [state.table.part(*state.cuts[number]) for number in missing]

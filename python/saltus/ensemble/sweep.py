@@ -19,10 +19,10 @@ from saltus.ensemble.dataset import (
     to_dict,
     xarray,
 )
-from saltus.ensemble.executors import run
+from saltus.ensemble.executors import run, store_of
 from saltus.ensemble.job import Job
 from saltus.ensemble.progress import Progress
-from saltus.ensemble.table import Table, table_of
+from saltus.ensemble.table import table_of
 from saltus.errors import ModelError
 from saltus.results import Results
 from saltus.simulation import SimulatorOptions
@@ -30,8 +30,6 @@ from saltus.system import OutputPort, System
 
 if TYPE_CHECKING:
     import pandas  # type: ignore[import-untyped,import-not-found,unused-ignore]
-
-    from saltus.ensemble.store import Store
 
 __all__ = ["sweep"]
 
@@ -154,17 +152,12 @@ def sweep(
     if not as_dict:
         xarray()
     job.check(table.columns)
-    kept = _store(store, chunk, retries, job, table)
+    kept = store_of(store, chunk, retries, job, table)
     start = time.perf_counter()
     with Progress(table.runs, progress or bool(job.options.progress)) as shown:
-        if kept is None:
-            columns, raised, kind, count = run(job, table, executor, workers, shown.watch)
-        else:
-            from saltus.ensemble.stored import run_stored
-
-            columns, raised, kind, count = run_stored(
-                job, table, executor, workers, shown.watch, kept, retries
-            )
+        columns, raised, kind, count = run(
+            job, table, executor, workers, shown.watch, kept, retries
+        )
     attributes = summary(columns, time.perf_counter() - start)
     attributes |= {"executor": kind, "workers": count, "saltus": _core.__version__}
     give = to_dict if as_dict else to_dataset
@@ -174,23 +167,6 @@ def sweep(
         raised.results = results  # type: ignore[attr-defined]
         raise raised
     return results
-
-
-def _store(
-    path: str | os.PathLike[str] | None, chunk: object, retries: object, job: Job, table: Table
-) -> Store | None:
-    for name, value, least in (("chunk", chunk, 1), ("retries", retries, 0)):
-        if value is None and name == "chunk":
-            continue
-        if not isinstance(value, int) or isinstance(value, bool) or value < least:
-            raise ModelError(f"sweep: {name}: expected {least} or more, found {value!r}")
-        if path is None and value != 0:
-            raise ModelError(f"sweep: {name}={value} needs a store: say store='a directory'")
-    if path is None:
-        return None
-    from saltus.ensemble.store import Store
-
-    return Store(path, job, table, chunk)  # type: ignore[arg-type]
 
 
 def _name_of(reduce: Callable[[Results], Any] | None) -> str:

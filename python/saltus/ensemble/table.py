@@ -11,7 +11,7 @@ import numpy as np
 
 from saltus.errors import ModelError
 
-__all__ = ["Column", "Table", "table_of"]
+__all__ = ["Column", "Table", "entry", "table_of"]
 
 
 Column = np.ndarray | list[Any]  # an array of numbers; a list of anything else
@@ -37,6 +37,12 @@ class Table:
     def part(self, first: int, last: int) -> dict[str, Column]:
         """The columns of the runs `first` to `last` - 1."""
         return {name: column[first:last] for name, column in self.columns.items()}
+
+
+def entry(column: Column, run: int) -> Any:
+    """One value; a number of NumPy becomes a number of Python."""
+    value = column[run]
+    return value.item() if isinstance(value, np.generic) else value
 
 
 def table_of(values: object, paired: bool) -> Table:
