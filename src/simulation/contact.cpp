@@ -11,8 +11,8 @@ namespace saltus {
 Contacts::Contacts(Machine& machine, const SimulatorOptions& options)
     : machine_(&machine), absolute_(machine.plan().nx) {
   for (Index i = 0; i < absolute_.size(); ++i) absolute_[i] = options.atol[i] / options.rtol[i];
-  for (auto* v :
-       {&original_, &begun_, &once_, &twice_, &trial_, &f_, &f1_, &slow_, &stood_, &later_})
+  for (auto* v : {&original_, &begun_, &once_, &twice_, &trial_, &f_, &f1_, &slow_, &stood_,
+                  &later_, &slope_})
     v->setZero(machine.plan().nx);
   z_.setZero(machine.plan().nz);
   g_.setOnes(machine.plan().guard_slots);
@@ -83,11 +83,55 @@ bool Contacts::settle(const SurfaceContact& contact, double t, double* x) {
     const double furthest = extrapolate(contact, begun_.data());
     if (!(furthest > 1.0)) {
       std::copy_n(begun_.data(), begun_.size(), x);
+      if (contact.lands) land(contact, t, x);
       return begun_.allFinite();
     }
   }
   std::copy_n(original_.data(), original_.size(), x);
   return false;
+}
+
+/// The derivatives of the guard by the states that rest, in units of the sizes of these. Returns the
+/// square of their norm.
+double Contacts::slope(const SurfaceContact& contact, double t, double* x) {
+  const double g = guard(contact, t, x), part = std::sqrt(thresholds::eps);
+  double sum = 0.0;
+  for (const Index i : contact.states) {
+    const double there = x[i];
+    x[i] += part * (std::abs(there) + absolute_[i]);
+    slope_[i] = (guard(contact, t, x) - g) / part;
+    x[i] = there;
+    sum += slope_[i] * slope_[i];
+  }
+  return sum;
+}
+
+void Contacts::find_place(SurfaceContact& contact, double t, const double* x) {
+  contact.lands = false;
+  if (contact.opaque) return;
+  stood_ = VectorView(x, stood_.size());
+  land(contact, t, stood_.data());
+  const double square = slope(contact, t, stood_.data());
+  if (!(square > 0.0) || !std::isfinite(square)) return;
+  begun_ = stood_;
+  const double off = -contact.pressed * std::sqrt(thresholds::eps / square);
+  for (const Index i : contact.states)
+    begun_[i] += off * slope_[i] * (std::abs(stood_[i]) + absolute_[i]);
+  reset(contact, t, begun_.data(), once_.data());
+  contact.lands = std::ranges::all_of(contact.states, [&](Index i) {
+    const double moved = std::abs(begun_[i] - stood_[i]);
+    return slope_[i] == 0.0 || std::abs(once_[i] - begun_[i]) <= thresholds::same_place * moved;
+  });
+}
+
+/// Newton's method on the guard, in the direction of its slope.
+void Contacts::land(const SurfaceContact& contact, double t, double* x) {
+  for (int round = 0; round < thresholds::landing_rounds; ++round) {
+    const double square = slope(contact, t, x), g = guard(contact, t, x);
+    if (g == 0.0 || !(square > 0.0) || !std::isfinite(g / square)) return;
+    for (const Index i : contact.states)
+      x[i] -= g / square * slope_[i] * (std::abs(x[i]) + absolute_[i]);
+  }
 }
 
 /// Releases or holds the states of a contact.
@@ -104,6 +148,21 @@ double Contacts::guard_after(const SurfaceContact& contact, double t, const doub
   trial_ = now + 0.5 * d * (f_ + f1_);
   machine_->guards_at(t + d, trial_.data(), g_.data());
   return -contact.pressed * g_[contact.slot];
+}
+
+double Contacts::guard(const SurfaceContact& contact, double t, const double* x) {
+  machine_->guards_at(t, x, g_.data());
+  return g_[contact.slot];
+}
+
+bool Contacts::follows(const SurfaceContact& contact, double t, const double* x) {
+  const double d = contact.look_ahead;
+  machine_->flow(t, x, slow_.data());
+  later_ = VectorView(x, slow_.size()) + d * slow_;
+  const double left = guard(contact, t + d, later_.data());
+  if (contact.opaque || left * contact.pressed >= 0.0) return true;
+  return settle(contact, t + d, later_.data()) &&
+         std::abs(guard(contact, t + d, later_.data())) <= 0.5 * std::abs(left);
 }
 
 double Contacts::lift(const SurfaceContact& contact, double t, const double* x) {

@@ -135,24 +135,31 @@ void ContactGuards::arm(SurfaceContact& contact, double error) {
   if (contact.carried)
     guards_->carry(k);
   else if (contact.opaque)
-    guards_->wait(k, 0, error);
+    guards_->wait(k, 0, contact.error);
   else
-    guards_->rest(k, contact.pressed, error);
+    guards_->rest(k, contact.pressed, contact.error);
 }
 
 /// Finds out whether the contact is carried, and its lift. False if its flow leads off the surface.
 bool ContactGuards::follow_surface(SurfaceContact& contact) {
+  using thresholds::kept_error;
   const double t = present_->t, longest = present_->longest;
   double* x = machine_->x.data();
+  bool placed = false;
   if (contact.look_ahead == 0.0) {
+    contacts_.find_place(contact, t, x);
     // Exactly at rest: the last reset left a flight too short to be seen.
-    const bool wrote =
-        transition_->wrote_x(machine_->plan().guard((*guards_)[contact.guard()].group));
-    if (wrote && contacts_.settle(contact, t, x)) present_->outcome.restart = true;
+    placed = transition_->wrote_x(group_of(contact.guard())) && contacts_.settle(contact, t, x);
+    present_->outcome.restart = present_->outcome.restart || placed;
     contacts_.choose_look_ahead(contact, t, x, longest);
   }
   const bool moves = contact.carried || contacts_.moves(contact, t, x, longest);
   if (moves) contact.carried = contacts_.settle(contact, t, x);
+  if (placed) {
+    // The reset maps leave the block beside its surface by a rounding, of either sign.
+    const double beside = std::abs(contacts_.guard(contact, t, x));
+    contact.error = std::max(contact.error, std::min(beside, kept_error * contact.error));
+  }
   const double lift = contacts_.lift(contact, t, x);
   const Pressure pressure = decide_pressure(contact.carried, contact.pressed_on, lift);
   contact.carried = pressure.carried, contact.pressed_on = pressure.pressed_on;

@@ -16,7 +16,9 @@ ContactGuards::Taken ContactGuards::take(const Firing& firing) {
     return Taken::let_go;
   }
   if (present_->pass > 0 || contact == nullptr) return Taken::no;
-  return wake(*contact) ? Taken::let_go : Taken::yes;
+  if (wake(*contact)) return Taken::let_go;
+  present_->contact_changed = true;
+  return Taken::yes;
 }
 
 /// Handles a contact whose surface begins to move, or whose flow leads off the surface. True if it
@@ -29,11 +31,12 @@ bool ContactGuards::wake(SurfaceContact& contact) {
   const double g = present_->g[k];
   const auto may_be_carried = [&] {
     return !contact.members.empty() && contacts_.settle(contact, t, x) &&
-           contacts_.lift(contact, t, x) < 0.0;
+           contacts_.lift(contact, t, x) < 0.0 && contacts_.follows(contact, t, x);
   };
   switch (decide_waking(contact.carried, g, contact.pressed, may_be_carried)) {
     case Waking::carry:
-      contact.carried = true;
+      contact.carried = present_->outcome.restart = true;
+      machine_->guards_at(t, x, present_->g.data());  // the block has been put on its surface
       return false;
     case Waking::stay:
       contact.error = error_after_wavering(contact.error, g);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "saltus/simulation/detail/tangents.hpp"
 
@@ -48,7 +49,7 @@ Outcome Instant::run(double t, const std::vector<int>& due, double longest, bool
       armed = false;
       continue;
     }
-    if (armed) break;
+    if (armed && !std::exchange(present_.contact_changed, false)) break;
     journal_.at_jump(jump_);
     arm(at_start);
     armed = true;

@@ -23,6 +23,7 @@ struct SurfaceContact {
   int pressed = -1;  // sign of the guard where the flow presses on the surface
   bool opaque = false;
   bool carried = false;     // the surface moves, and the blocks move with it
+  bool lands = false;       // the reset maps leave its place as it is: the surface decides it
   bool pressed_on = false;  // the flow led into the surface when it last led anywhere
   double error = 0.0;       // the guard is at zero within it
   double look_ahead = 0.0;  // [s] see lift
@@ -56,8 +57,16 @@ class Contacts final : public Carrier {
   }
 
   /// Moves the contact's entries of x to the fixed point. If there is no fixed point, returns false
-  /// and leaves x unchanged.
+  /// and leaves x unchanged. Where a whole range of places is fixed, as by h + |y - h|, the place is
+  /// that of the surface.
   bool settle(const SurfaceContact& contact, double t, double* x);
+  /// Finds out whether the reset maps leave the place of a block close to its surface as it is.
+  void find_place(SurfaceContact& contact, double t, const double* x);
+  /// The value of its guard.
+  double guard(const SurfaceContact& contact, double t, const double* x);
+  /// Whether the reset maps take the block after a surface that moves away from it. A map that turns
+  /// the position round, as h + |y - h|, leaves a block above its surface where it is.
+  bool follows(const SurfaceContact& contact, double t, const double* x);
   /// How far the free flow from x takes the guard off the surface: 8 g(d/2) - g(d), in which the
   /// third order cancels. A negative lift means that the flow presses on the surface. An opaque
   /// boolean has a sign only.
@@ -77,6 +86,8 @@ class Contacts final : public Carrier {
  private:
   void reset(const SurfaceContact& contact, double t, const double* from, double* to);
   double extrapolate(const SurfaceContact& contact, double* x);
+  double slope(const SurfaceContact& contact, double t, double* x);
+  void land(const SurfaceContact& contact, double t, double* x);
   void free(const SurfaceContact& contact, bool yes);
   double guard_after(const SurfaceContact& contact, double t, const double* x, double d);
 
@@ -84,7 +95,8 @@ class Contacts final : public Carrier {
   Eigen::VectorXd absolute_;      // a state below this size counts as zero
   List<SurfaceContact> of_slot_;  // made once, so that a hold allocates nothing
   std::vector<int> present_;      // slots
-  Eigen::VectorXd original_, begun_, once_, twice_, trial_, f_, f1_, slow_, stood_, later_, z_, g_;
+  Eigen::VectorXd original_, begun_, once_, twice_, trial_, f_, f1_, slow_, stood_, later_, slope_,
+      z_, g_;
 };
 
 }  // namespace saltus

@@ -75,7 +75,7 @@ class Present {
     firings.clear(), actions.clear();
     for (const std::size_t k : noted_) now_[k] = {};
     noted_.clear(), fired_in_pass_.clear();
-    outcome = {};
+    outcome = {}, contact_changed = false;
   }
   /// A pass begins: no guard has fired in it yet.
   void open_pass() {
@@ -101,7 +101,9 @@ class Present {
   double t = 0.0;        ///< [s]
   double longest = 0.0;  ///< [s] from here to the end of the run
   int pass = 0;
-  bool changes = false;  ///< whether the pass to come changes something; else it only logs
+  bool changes = false;          ///< whether the pass to come changes something; else it only logs
+  bool contact_changed = false;  ///< a contact is carried now, or has a wider error: it has to
+                                 ///< be armed, though nothing is committed
   std::vector<Firing> firings = {};  ///< for the pass to come
   std::vector<Action> actions = {};  ///< likewise
   std::vector<double> g;             ///< the guards at (t, x)

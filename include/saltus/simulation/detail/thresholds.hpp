@@ -85,6 +85,13 @@ inline constexpr int fixed_point_rounds = 6;
 /// [eps of the size of a state] A reset that moves a state by less has reached its fixed point.
 /// tests/unit/contact_test.cpp
 inline constexpr double fixed_point_roundings = 64.0;
+/// [rounds] of Newton's method onto the surface: one for a guard that is linear, one for the rounding
+/// of its slope, and one for curvature, of which a look ahead leaves little.
+/// tests/semantics/zeno_stays_at_rest_test.cpp (as small)
+inline constexpr int landing_rounds = 3;
+/// [of a movement] A reset map that moves a state by less, after it has been moved, leaves it there.
+/// tests/semantics/zeno_stays_at_rest_test.cpp (as large)
+inline constexpr double same_place = 1e-3;
 /// [eps] Relative movement of a state by curvature. It leaves nine digits above the rounding,
 /// enough to know the sign. tests/unit/contact_test.cpp
 inline constexpr double visible_lift = 1e9 * eps;
