@@ -1,16 +1,15 @@
 // y follows u through a play.
 #include "saltus/library/backlash.hpp"
 
-#include <cmath>
+#include "saltus/library/detail/parameter_checks.hpp"
 
 namespace saltus {
 
 /// z = (y while it rests; 1 while u drives y upward, -1 downward, 0 while y rests).
 Backlash::Backlash(std::string name, double width, const Options& options)
     : LeafSystem(std::move(name)) {
-  detail::insist(width > 0.0 && std::isfinite(width), this->name(), "width = ", width,
-                 "; expected a finite number > 0");
   const ParameterIndex play = declare_dynamic_parameter("width", width);
+  declare_parameter_check(detail::positive(play, "width"));
   declare_discrete_state(Eigen::Vector2d(options.initial_output, 0.0));
   declare_input_port({.name = "in", .shape = Shape::scalar()});
   declare_input_port({.name = "in_rate", .shape = Shape::scalar()});

@@ -2,14 +2,13 @@
 #include "saltus/library/dead_zone.hpp"
 
 #include "saltus/library/detail/elementwise.hpp"
+#include "saltus/library/detail/parameter_checks.hpp"
 
 namespace saltus {
 
 DeadZone::DeadZone(std::string name, const Options& options) : LeafSystem(std::move(name)) {
-  for (const double half : options.half_range.values) {
-    detail::insist(half >= 0.0, this->name(), "half_range = ", half, "; expected a number >= 0");
-  }
   const ParameterIndex k = declare_dynamic_parameter("half_range", options.half_range.values);
+  declare_parameter_check(detail::not_negative(k, "half_range"));
   const std::vector<Shape> shapes{options.half_range.shape()};
   declare_input_port({.name = "in"});
   const auto outside = [&](const char* relation, double sign) {

@@ -1,22 +1,19 @@
 // y = N (u - x), dx/dt = y, elementwise: the derivative of u behind a filter, s N / (s + N).
 #include "saltus/library/derivative.hpp"
 
-#include <cmath>
-
 #include "saltus/library/detail/elementwise.hpp"
+#include "saltus/library/detail/parameter_checks.hpp"
 
 namespace saltus {
 
 Derivative::Derivative(std::string name, const Options& options) : LeafSystem(std::move(name)) {
   const Value &coefficient = options.filter_coefficient, &initial = options.initial_state;
-  for (const double each : coefficient.values) {
-    detail::insist(each > 0.0 && std::isfinite(each), this->name(), "filter_coefficient = ", each,
-                   " 1/s; expected a finite number > 0, several times the fastest frequency of u");
-  }
   const Index found = coefficient.values.size(), expected = initial.values.size();
   detail::insist(found == 1 || found == expected, this->name(), "filter_coefficient has ", found,
                  " values, initial_state has ", expected, "; expected one value or as many");
   const ParameterIndex k = declare_dynamic_parameter("filter_coefficient", coefficient.values);
+  declare_parameter_check(detail::positive(k, "filter_coefficient", " 1/s",
+                                           ", several times the fastest frequency of u"));
   declare_input_port({.name = "in", .shape = initial.shape()});
   const auto slope = [k](const auto& at) { return at.p(k) * (at.u(0) - at.x()); };
   declare_continuous_state({.initial = initial.values,

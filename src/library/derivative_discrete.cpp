@@ -1,7 +1,7 @@
 // y[k] = (u[k] - u[k-1]) / dt, or the same behind a filter.
 #include "saltus/library/derivative_discrete.hpp"
 
-#include <cmath>
+#include "saltus/library/detail/parameter_checks.hpp"
 
 namespace saltus {
 
@@ -9,12 +9,12 @@ namespace saltus {
 /// filter N is infinite, the gain 1 / dt.
 DerivativeDiscrete::DerivativeDiscrete(std::string name, double dt, const Options& options)
     : SampledSystem(std::move(name)) {
-  const double found = options.filter_coefficient.value_or(1.0);
-  detail::insist(found > 0.0 && std::isfinite(found), this->name(), "filter_coefficient = ", found,
-                 " 1/s; expected a finite number > 0, or none for the plain difference");
   std::optional<ParameterIndex> coefficient;
-  if (options.filter_coefficient)
+  if (options.filter_coefficient) {
     coefficient = declare_dynamic_parameter("filter_coefficient", *options.filter_coefficient);
+    declare_parameter_check(detail::positive(*coefficient, "filter_coefficient", " 1/s",
+                                             ", or none for the plain difference"));
+  }
   const Index n = options.initial_state.values.size();
   declare_input_port({.name = "in", .shape = options.initial_state.shape()});
   const auto gain = [=](const At& at) {

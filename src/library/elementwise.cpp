@@ -34,14 +34,4 @@ std::optional<Index> relation_width(const std::string& block,
   return shape.size > 1 ? std::optional(shape.size) : std::nullopt;
 }
 
-void require_ordered(const std::string& block, const Value& lower, const Value& upper) {
-  const std::vector<Shape> shapes{lower.shape(), upper.shape()};
-  for (Index i = 0; i < stretched(block, shapes).size; ++i) {
-    const double low = lower.values[lower.values.size() == 1 ? 0 : i];
-    const double high = upper.values[upper.values.size() == 1 ? 0 : i];
-    insist(low <= high, block, "lower_limit ", low, " is above upper_limit ", high,
-           "; expected lower_limit <= upper_limit");
-  }
-}
-
 }  // namespace saltus::detail

@@ -2,6 +2,7 @@
 #include "saltus/library/integrator.hpp"
 
 #include "saltus/library/detail/elementwise.hpp"
+#include "saltus/library/detail/parameter_checks.hpp"
 
 namespace saltus {
 
@@ -26,8 +27,6 @@ void Integrator::require_sound(const Options& o) const {
   if (!o.enable_limits) return;
   detail::insist(o.lower_limit || o.upper_limit, name(),
                  "enable_limits without a limit; give lower_limit, upper_limit or both");
-  if (o.lower_limit && o.upper_limit)
-    detail::require_ordered(name(), *o.lower_limit, *o.upper_limit);
   for (const auto& limit : {o.lower_limit, o.upper_limit}) {
     const Index found = limit ? limit->values.size() : 1, expected = o.initial_state.values.size();
     detail::insist(found == 1 || found == expected, name(), "a limit has ", found,
@@ -70,6 +69,7 @@ void Integrator::declare_limits(const Options& options) {
                           .inputs = std::vector<int>{},
                           .formula = [k = *upper_](const auto& at) { return at.x() - at.p(k); }});
   }
+  if (lower_ && upper_) declare_parameter_check(detail::ordered(*lower_, *upper_));
   rising_ = declare_relation({.name = "rising",
                               .size = n,
                               .reads = Reads::inputs,

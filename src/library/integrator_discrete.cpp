@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "saltus/library/detail/elementwise.hpp"
+#include "saltus/library/detail/parameter_checks.hpp"
 #include "saltus/library/detail/words.hpp"
 #include "saltus/library/integrator.hpp"
 
@@ -91,6 +92,7 @@ IntegratorDiscrete::IntegratorDiscrete(std::string name, double dt, const Option
     rule.lower = declare_dynamic_parameter("lower_limit", o.lower_limit->values);
   if (o.enable_limits && o.upper_limit)
     rule.upper = declare_dynamic_parameter("upper_limit", o.upper_limit->values);
+  if (rule.lower && rule.upper) declare_parameter_check(detail::ordered(*rule.lower, *rule.upper));
   Eigen::VectorXd start(shape.size + 1);
   start << o.initial_state.values, -1.0;
   declare_law(

@@ -1,18 +1,18 @@
 // mass dv/dt = u - viscous v - coulomb sign(v), dx/dt = v; a body at v = 0 sticks.
 #include "saltus/library/mass_with_friction.hpp"
 
-#include <cmath>
+#include "saltus/library/detail/parameter_checks.hpp"
 
 namespace saltus {
 
 /// z = 1 while it slides upward, -1 downward, 0 while it sticks.
 MassWithFriction::MassWithFriction(std::string name, const Options& options)
     : LeafSystem(std::move(name)) {
-  require_sound(options);
   mass_ = declare_dynamic_parameter("mass", options.mass);
   coulomb_ = declare_dynamic_parameter("coulomb", options.coulomb);
   static_ = declare_dynamic_parameter("static", options.static_friction.value_or(options.coulomb));
   viscous_ = declare_dynamic_parameter("viscous", options.viscous);
+  declare_checks();
   declare_discrete_state(Eigen::VectorXd::Zero(1));
   declare_input_port({.name = "in", .shape = Shape::scalar()});
   declare_motion(options);
@@ -21,15 +21,15 @@ MassWithFriction::MassWithFriction(std::string name, const Options& options)
   declare_stick();
 }
 
-void MassWithFriction::require_sound(const Options& o) const {
-  detail::insist(o.mass > 0.0 && std::isfinite(o.mass), name(), "mass = ", o.mass,
-                 " kg; expected a finite number > 0");
-  detail::insist(o.coulomb >= 0.0, name(), "coulomb = ", o.coulomb, " N; expected a number >= 0");
-  detail::insist(o.viscous >= 0.0, name(), "viscous = ", o.viscous,
-                 " N s/m; expected a number >= 0");
-  const double rest = o.static_friction.value_or(o.coulomb);
-  detail::insist(rest >= o.coulomb, name(), "static friction ", rest, " N is below coulomb ",
-                 o.coulomb, " N; expected static friction >= coulomb");
+void MassWithFriction::declare_checks() {
+  declare_parameter_check(detail::positive(mass_, "mass", " kg"));
+  declare_parameter_check(detail::not_negative(coulomb_, "coulomb", " N"));
+  declare_parameter_check(detail::not_negative(viscous_, "viscous", " N s/m"));
+  declare_parameter_check([rest = static_, moving = coulomb_](const std::string& block,
+                                                              const ParameterValues& p) {
+    detail::insist(p[rest] >= p[moving], block, "static friction ", p[rest], " N is below coulomb ",
+                   p[moving], " N; expected static friction >= coulomb");
+  });
 }
 
 void MassWithFriction::declare_motion(const Options& options) {

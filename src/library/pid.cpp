@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "saltus/library/detail/parameter_checks.hpp"
+
 namespace saltus {
 
 namespace {
@@ -17,25 +19,15 @@ auto pid_sum(const At& at, const Gains& k) {
 }  // namespace
 
 PID::PID(std::string name, const Options& options) : LeafSystem(std::move(name)) {
-  require_sound(options);
   k_.kp = declare_dynamic_parameter("kp", options.kp);
   k_.ki = declare_dynamic_parameter("ki", options.ki);
   k_.kd = declare_dynamic_parameter("kd", options.kd);
   k_.n = declare_dynamic_parameter("n", options.n);
+  declare_parameter_check(detail::positive(k_.n, "n", " 1/s", ": the derivative needs its filter"));
   declare_input_port({.name = "in", .shape = Shape::scalar()});
   if (options.lower_limit || options.upper_limit) declare_limits(options);
   declare_state(options.initial_state);
   declare_output();
-}
-
-void PID::require_sound(const Options& o) const {
-  detail::insist(o.n > 0.0 && std::isfinite(o.n), name(), "n = ", o.n,
-                 " 1/s; expected a finite number > 0: the derivative needs its filter");
-  const double low = o.lower_limit.value_or(-HUGE_VAL), high = o.upper_limit.value_or(HUGE_VAL);
-  detail::insist(low < high, name(), "lower_limit ", low, " is not below upper_limit ", high,
-                 "; expected lower_limit < upper_limit");
-  detail::insist(o.band.value_or(1.0) > 0.0, name(), "band = ", o.band.value_or(1.0),
-                 "; expected a number > 0");
 }
 
 void PID::declare_limits(const Options& o) {
@@ -47,6 +39,9 @@ void PID::declare_limits(const Options& o) {
   declare_discrete_state(Eigen::VectorXd::Zero((o.lower_limit ? 1 : 0) + (o.upper_limit ? 1 : 0)));
   if (o.lower_limit) declare_limit("lower_limit", *o.lower_limit, -1.0, band);
   if (o.upper_limit) declare_limit("upper_limit", *o.upper_limit, 1.0, band);
+  declare_parameter_check(detail::positive(band, "band"));
+  if (limits_.size() == 2)
+    declare_parameter_check(detail::apart(limits_[0].value, limits_[1].value));
 }
 
 /// The integral is clamped where v is beyond the limit while the error pushes outward, and released

@@ -2,7 +2,8 @@
 #include "saltus/library/pid_discrete.hpp"
 
 #include <algorithm>
-#include <cmath>
+
+#include "saltus/library/detail/parameter_checks.hpp"
 
 namespace saltus {
 
@@ -36,19 +37,10 @@ struct PIDRule {
   }
 };
 
-void require_sound_pid(const std::string& block, const PIDDiscreteOptions& o) {
-  detail::insist(o.n > 0.0 && std::isfinite(o.n), block, "n = ", o.n,
-                 " 1/s; expected a finite number > 0");
-  const double low = o.lower_limit.value_or(-HUGE_VAL), high = o.upper_limit.value_or(HUGE_VAL);
-  detail::insist(low < high, block, "lower_limit ", low, " is not below upper_limit ", high,
-                 "; expected lower_limit < upper_limit");
-}
-
 }  // namespace
 
 PIDDiscrete::PIDDiscrete(std::string name, double dt, const Options& o)
     : SampledSystem(std::move(name)) {
-  require_sound_pid(this->name(), o);
   PIDRule rule{.dt = dt};
   rule.kp = declare_dynamic_parameter("kp", o.kp);
   rule.ki = declare_dynamic_parameter("ki", o.ki);
@@ -56,6 +48,8 @@ PIDDiscrete::PIDDiscrete(std::string name, double dt, const Options& o)
   rule.n = declare_dynamic_parameter("n", o.n);
   if (o.lower_limit) rule.lower = declare_dynamic_parameter("lower_limit", *o.lower_limit);
   if (o.upper_limit) rule.upper = declare_dynamic_parameter("upper_limit", *o.upper_limit);
+  declare_parameter_check(detail::positive(rule.n, "n", " 1/s"));
+  if (rule.lower && rule.upper) declare_parameter_check(detail::apart(*rule.lower, *rule.upper));
   declare_input_port({.name = "in", .shape = Shape::scalar()});
   declare_law(
       {.dt = dt,

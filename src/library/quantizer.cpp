@@ -7,18 +7,16 @@
 
 #include "saltus/library/detail/elementwise.hpp"
 #include "saltus/library/detail/operations.hpp"
+#include "saltus/library/detail/parameter_checks.hpp"
 
 namespace saltus {
 
 Quantizer::Quantizer(std::string name, const Value& interval, const Options& options)
     : LeafSystem(std::move(name)) {
-  for (const double step : interval.values) {
-    detail::insist(step > 0.0, this->name(), "interval = ", step, "; expected a number > 0");
-    detail::insist(options.hysteresis >= 0.0 && options.hysteresis < step, this->name(),
-                   "hysteresis = ", options.hysteresis, "; expected 0, or less than the interval ",
-                   step);
-  }
   const ParameterIndex k = declare_dynamic_parameter("interval", interval.values);
+  declare_parameter_check(detail::positive(k, "interval"));
+  detail::insist(options.hysteresis >= 0.0, this->name(), "hysteresis = ", options.hysteresis,
+                 "; expected 0, or less than the interval");
   if (options.hysteresis > 0.0)
     declare_levels(interval, k, options.hysteresis);
   else
@@ -30,6 +28,11 @@ Quantizer::Quantizer(std::string name, const Value& interval, const Options& opt
 void Quantizer::declare_levels(const Value& interval, ParameterIndex k, double hysteresis) {
   const Shape shape = interval.shape();
   const ParameterIndex h = declare_dynamic_parameter("hysteresis", hysteresis);
+  declare_parameter_check([=](const std::string& block, const ParameterValues& p) {
+    for (const double step : p.vector(k))
+      detail::insist(p[h] >= 0.0 && p[h] < step, block, "hysteresis = ", p[h],
+                     "; expected 0, or less than the interval ", step);
+  });
   declare_input_port({.name = "in", .shape = shape});
   declare_discrete_state(Eigen::VectorXd::Zero(shape.size));
   const auto moves = [&](const char* event, double sign) {

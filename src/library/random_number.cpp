@@ -6,6 +6,7 @@
 
 #include "saltus/base/philox.hpp"
 #include "saltus/library/detail/elementwise.hpp"
+#include "saltus/library/detail/parameter_checks.hpp"
 #include "saltus/library/detail/schedule.hpp"
 
 namespace saltus {
@@ -30,12 +31,11 @@ RandomNumber::RandomNumber(std::string name, double dt, const Options& options)
 }
 
 void RandomNumber::declare_normal(double dt, const Options& o) {
-  for (const double each : o.standard_deviation.values)
-    detail::insist(each >= 0.0, name(), "standard_deviation = ", each, "; expected a number >= 0");
   const ParameterIndex seed = declare_dynamic_parameter("seed", o.seed),
                        mean = declare_dynamic_parameter("mean", o.mean.values),
                        deviation = declare_dynamic_parameter("standard_deviation",
                                                              o.standard_deviation.values);
+  declare_parameter_check(detail::not_negative(deviation, "standard_deviation"));
   const std::vector<Shape> shapes{o.mean.shape(), o.standard_deviation.shape()};
   declare_output_port({.name = "out",
                        .calc =
@@ -50,10 +50,10 @@ void RandomNumber::declare_normal(double dt, const Options& o) {
 }
 
 void RandomNumber::declare_uniform(double dt, const Options& o) {
-  detail::require_ordered(name(), o.lower_limit, o.upper_limit);
   const ParameterIndex seed = declare_dynamic_parameter("seed", o.seed),
                        lower = declare_dynamic_parameter("lower_limit", o.lower_limit.values),
                        upper = declare_dynamic_parameter("upper_limit", o.upper_limit.values);
+  declare_parameter_check(detail::ordered(lower, upper));
   const std::vector<Shape> shapes{o.lower_limit.shape(), o.upper_limit.shape()};
   declare_output_port({.name = "out",
                        .calc =

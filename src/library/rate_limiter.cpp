@@ -3,16 +3,16 @@
 
 #include <algorithm>
 
+#include "saltus/library/detail/parameter_checks.hpp"
+
 namespace saltus {
 
 RateLimiter::RateLimiter(std::string name, double dt, const Options& options)
     : LeafSystem(std::move(name)) {
   detail::require_period(this->name(), "dt", dt);
-  detail::insist(options.lower_limit <= options.upper_limit, this->name(), "lower_limit ",
-                 options.lower_limit, " /s is above upper_limit ", options.upper_limit,
-                 " /s; expected lower_limit <= upper_limit");
   const ParameterIndex lower = declare_dynamic_parameter("lower_limit", options.lower_limit);
   const ParameterIndex upper = declare_dynamic_parameter("upper_limit", options.upper_limit);
+  declare_parameter_check(detail::ordered(lower, upper, " /s"));
   const Shape shape = options.initial_state.shape();
   Eigen::VectorXd z(shape.size + 1);
   z << options.initial_state.values, 0.0;  // y, and whether there was a tick
@@ -27,8 +27,7 @@ RateLimiter::RateLimiter(std::string name, double dt, const Options& options)
     const double down = dt * at.p[lower], up = dt * at.p[upper];
     for (Index i = 0; i < n; ++i) {
       const double u = at.u[0][i];
-      // not std::clamp: a context may have limits that cross
-      now[i] = at.z[n] == 0.0 ? u : std::max(at.z[i] + down, std::min(u, at.z[i] + up));
+      now[i] = at.z[n] == 0.0 ? u : std::clamp(u, at.z[i] + down, at.z[i] + up);
     }
     now[n] = 1.0;
     next.set_discrete_state(now);

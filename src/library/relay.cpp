@@ -6,9 +6,6 @@
 namespace saltus {
 
 Relay::Relay(std::string name, const Options& options) : LeafSystem(std::move(name)) {
-  detail::insist(options.off_threshold <= options.on_threshold, this->name(), "off_threshold ",
-                 options.off_threshold, " is above on_threshold ", options.on_threshold,
-                 "; expected off_threshold <= on_threshold");
   const ParameterIndex on = declare_dynamic_parameter("on_threshold", options.on_threshold);
   const ParameterIndex high = declare_dynamic_parameter("on_value", options.on_value);
   const ParameterIndex low = declare_dynamic_parameter("off_value", options.off_value);
@@ -17,6 +14,12 @@ Relay::Relay(std::string name, const Options& options) : LeafSystem(std::move(na
     declare_comparison(on, high, low);  // one threshold, so it is one parameter
   } else {
     const ParameterIndex off = declare_dynamic_parameter("off_threshold", options.off_threshold);
+    declare_parameter_check([=](const std::string& block, const ParameterValues& p) {
+      detail::insist(p[off] < p[on], block, "off_threshold ", p[off], " is not below on_threshold ",
+                     p[on],
+                     "; expected off_threshold < on_threshold, or a Relay made with one "
+                     "threshold");
+    });
     declare_modes(options.initially_on, {on, off}, high, low);
   }
 }

@@ -6,13 +6,13 @@
 #include <type_traits>
 
 #include "saltus/library/detail/arguments.hpp"
+#include "saltus/library/detail/parameter_checks.hpp"
 
 namespace saltus {
 
 namespace {
 
 void require_sound(const std::string& block, const RigidBodyOptions& o) {
-  detail::insist(o.mass > 0.0, block, "mass = ", o.mass, " kg; expected a number > 0");
   const bool positive = o.inertia.allFinite() && o.inertia == o.inertia.transpose() &&
                         Eigen::LLT<Eigen::Matrix3d>(o.inertia).info() == Eigen::Success;
   detail::insist(positive, block, "inertia is not a symmetric, positive definite 3 x 3 matrix");
@@ -67,6 +67,7 @@ struct Motion {
 RigidBody::RigidBody(std::string name, const Options& options) : LeafSystem(std::move(name)) {
   require_sound(this->name(), options);
   const ParameterIndex mass = declare_dynamic_parameter("mass", options.mass);
+  declare_parameter_check(detail::positive(mass, "mass", " kg"));
   const ParameterIndex gravity =
       declare_dynamic_parameter("gravity", Eigen::VectorXd(options.gravity));
   declare_input_port({.name = "force", .shape = Shape::of(3)});

@@ -2,13 +2,13 @@
 #include "saltus/library/saturate.hpp"
 
 #include "saltus/library/detail/elementwise.hpp"
+#include "saltus/library/detail/parameter_checks.hpp"
 
 namespace saltus {
 
 Saturate::Saturate(std::string name, const Options& options) : LeafSystem(std::move(name)) {
   const auto& [lower, upper] = options;
   detail::insist(lower || upper, this->name(), "no limit; give lower_limit, upper_limit or both");
-  if (lower && upper) detail::require_ordered(this->name(), *lower, *upper);
   std::vector<Shape> limits;
   for (const auto& limit : {lower, upper}) {
     if (limit) limits.push_back(limit->shape());
@@ -17,6 +17,7 @@ Saturate::Saturate(std::string name, const Options& options) : LeafSystem(std::m
   const auto width = detail::relation_width(this->name(), limits);
   const Limit below = limit("lower_limit", lower, "below", width, -1.0);
   const Limit above = limit("upper_limit", upper, "above", width, 1.0);
+  if (lower && upper) declare_parameter_check(detail::ordered(*below.value, *above.value));
   declare_output_port({.name = "out",
                        .shape = {},
                        .shape_rule = detail::stretch(this->name(), limits),

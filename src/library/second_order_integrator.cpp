@@ -4,13 +4,21 @@
 #include <algorithm>
 
 #include "saltus/library/detail/elementwise.hpp"
+#include "saltus/library/detail/parameter_checks.hpp"
 
 namespace saltus {
+
+namespace {
+
+void require_restitution(const std::string& block, double found) {
+  detail::insist(found >= 0.0 && found <= 1.0, block, "restitution = ", found, "; expected 0 to 1");
+}
+
+}  // namespace
 
 SecondOrderIntegrator::SecondOrderIntegrator(std::string name, const Options& options)
     : LeafSystem(std::move(name)), n_(options.initial_position.values.size()) {
   require_sound(options);
-  require_inside(options);
   const Shape shape = options.initial_position.shape();
   declare_input_port({.name = "in", .shape = shape});
   declare_motion(options);
@@ -22,10 +30,21 @@ SecondOrderIntegrator::SecondOrderIntegrator(std::string name, const Options& op
                        .shape = shape,
                        .reads = Reads::continuous_state,
                        .view = Place{Space::x, n_, n_}});
-  if (!options.lower_limit && !options.upper_limit) return;
+  if (options.lower_limit || options.upper_limit) declare_limits(options);
+  require_inside(options);
+}
+
+void SecondOrderIntegrator::declare_limits(const Options& options) {
   const ParameterIndex restitution = declare_dynamic_parameter("restitution", options.restitution);
-  if (options.lower_limit) declare_limit("lower_limit", *options.lower_limit, -1.0, restitution);
-  if (options.upper_limit) declare_limit("upper_limit", *options.upper_limit, 1.0, restitution);
+  declare_parameter_check([restitution](const std::string& block, const ParameterValues& p) {
+    require_restitution(block, p[restitution]);
+  });
+  std::optional<ParameterIndex> lower, upper;
+  if (options.lower_limit)
+    lower = declare_limit("lower_limit", *options.lower_limit, -1.0, restitution);
+  if (options.upper_limit)
+    upper = declare_limit("upper_limit", *options.upper_limit, 1.0, restitution);
+  if (lower && upper) declare_parameter_check(detail::ordered(*lower, *upper));
 }
 
 /// d(x, dx)/dt = (dx, u), where u is 0 for an entry that is pushed beyond a limit of dx.
@@ -42,6 +61,8 @@ void SecondOrderIntegrator::declare_motion(const Options& options) {
   if (options.upper_velocity_limit)
     fast = declare_velocity_limit("upper_velocity_limit", "at_upper_velocity_limit",
                                   *options.upper_velocity_limit, 1.0);
+  if (slow && fast)
+    declare_parameter_check(detail::ordered(*slowest_, *fastest_, "", "velocity_limit"));
   if (!slow && !fast) {
     declare_continuous_state({.initial = initial,
                               .reads = Reads::continuous_state | Reads::inputs,
@@ -91,12 +112,7 @@ void SecondOrderIntegrator::require_width(const char* what,
 
 void SecondOrderIntegrator::require_sound(const Options& o) const {
   detail::insist(n_ > 0, name(), "initial_position is an empty vector; give at least one number");
-  detail::insist(o.restitution >= 0.0 && o.restitution <= 1.0, name(),
-                 "restitution = ", o.restitution, "; expected 0 to 1");
-  if (o.lower_limit && o.upper_limit)
-    detail::require_ordered(name(), *o.lower_limit, *o.upper_limit);
-  if (o.lower_velocity_limit && o.upper_velocity_limit)
-    detail::require_ordered(name(), *o.lower_velocity_limit, *o.upper_velocity_limit);
+  require_restitution(name(), o.restitution);
   require_width("initial_velocity", o.initial_velocity);
   require_width("lower_limit", o.lower_limit);
   require_width("upper_limit", o.upper_limit);
@@ -119,8 +135,8 @@ void SecondOrderIntegrator::require_inside(const Options& o) const {
   }
 }
 
-void SecondOrderIntegrator::declare_limit(const char* parameter, const Value& limit, double outward,
-                                          ParameterIndex restitution) {
+ParameterIndex SecondOrderIntegrator::declare_limit(const char* parameter, const Value& limit,
+                                                    double outward, ParameterIndex restitution) {
   const ParameterIndex k = declare_dynamic_parameter(parameter, limit.values);
   std::vector<std::vector<int>> rests;
   for (int i = 0; i < static_cast<int>(n_); ++i) rests.push_back({i, static_cast<int>(n_) + i});
@@ -142,6 +158,7 @@ void SecondOrderIntegrator::declare_limit(const char* parameter, const Value& li
                          .formula = [k, outward](const auto& at, Index i) {
                            return outward * (at.x(i) - at.p(k, k.size == 1 ? 0 : i));
                          }});
+  return k;
 }
 
 }  // namespace saltus

@@ -5,14 +5,15 @@ namespace saltus {
 
 SlewRateLimiter::SlewRateLimiter(std::string name, const Options& options)
     : LeafSystem(std::move(name)) {
-  detail::require_period(this->name(), "time_constant", options.time_constant);
-  detail::insist(options.lower_limit <= 0.0 && options.upper_limit >= 0.0, this->name(),
-                 "lower_limit ", options.lower_limit, " /s, upper_limit ", options.upper_limit,
-                 " /s; expected lower_limit <= 0 <= upper_limit");
   const Shape shape = options.initial_state.shape();
   const ParameterIndex lower = declare_dynamic_parameter("lower_limit", options.lower_limit);
   const ParameterIndex upper = declare_dynamic_parameter("upper_limit", options.upper_limit);
   const ParameterIndex lag = declare_dynamic_parameter("time_constant", options.time_constant);
+  declare_parameter_check([=](const std::string& block, const ParameterValues& p) {
+    detail::require_period(block, "time_constant", p[lag]);
+    detail::insist(p[lower] <= 0.0 && p[upper] >= 0.0, block, "lower_limit ", p[lower],
+                   " /s, upper_limit ", p[upper], " /s; expected lower_limit <= 0 <= upper_limit");
+  });
   declare_input_port({.name = "in", .shape = shape});
   const auto limit = [&](const char* relation, ParameterIndex rate, double outward) {
     return declare_relation({.name = relation,

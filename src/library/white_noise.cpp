@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "saltus/base/philox.hpp"
+#include "saltus/library/detail/parameter_checks.hpp"
 #include "saltus/library/detail/schedule.hpp"
 
 namespace saltus {
@@ -12,12 +13,11 @@ namespace saltus {
 WhiteNoise::WhiteNoise(std::string name, double dt, const Options& options)
     : LeafSystem(std::move(name)) {
   detail::require_period(this->name(), "dt", dt);
-  for (const double each : options.power.values)
-    detail::insist(each >= 0.0, this->name(), "power = ", each, "; expected a number >= 0");
   detail::insist(std::isfinite(options.seed), this->name(), "seed = ", options.seed,
                  "; expected a finite number");
   const ParameterIndex seed = declare_dynamic_parameter("seed", options.seed),
                        power = declare_dynamic_parameter("power", options.power.values);
+  declare_parameter_check(detail::not_negative(power, "power"));
   declare_output_port({.name = "out",
                        .calc =
                            [=](const At& at, VectorRef out) {

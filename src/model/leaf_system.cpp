@@ -198,6 +198,13 @@ ParameterIndex LeafSystem::declare_dynamic_parameter(std::string parameter,
   return index;
 }
 
+void LeafSystem::declare_parameter_check(ParameterCheck check) {
+  require_unused();
+  const Eigen::VectorXd& values = declared_.parameter_values;
+  check(name(), ParameterValues({values.data(), values.size()}));
+  declared_.parameter_checks.push_back(std::move(check));
+}
+
 int LeafSystem::declare_input_port(InputDeclaration input) {
   require_unused();
   detail::name_it(input.name, declared_.inputs, "in_", name());

@@ -12,7 +12,6 @@
 #include "saltus/plan/detail/needs.hpp"
 #include "saltus/plan/detail/order.hpp"
 #include "saltus/plan/detail/passes.hpp"
-#include "saltus/plan/islands.hpp"
 
 namespace saltus {
 
@@ -197,6 +196,8 @@ void add_schedule(Plan& plan) {
     }
     if (plan.leaves[l].nx > 0) plan.odes.push_back(static_cast<int>(l));
     if (!plan.leaves[l].declared().histories.empty()) plan.histories.push_back(static_cast<int>(l));
+    if (!plan.leaves[l].declared().parameter_checks.empty())
+      plan.checked.push_back(static_cast<int>(l));
   }
 }
 

@@ -64,11 +64,20 @@ void require_context_of(const Plan& plan, const Context& context) {
 void Memory::take(const Context& context) {
   if (known_ == nullptr || known_ != context.layout_) require_context_of(*plan_, context);
   known_ = context.layout_;
+  check_parameters(context);
   x = context.continuous_state();
   z = context.discrete_state();
   p = context.parameters();
   modes = context.modes();
   y.setZero();
+}
+
+void Memory::check_parameters(const Context& context) const {
+  for (const int number : plan_->checked) {
+    const PlanLeaf& leaf = plan_->leaf(number);
+    const ParameterValues values({context.parameters().data() + leaf.p, leaf.np});
+    for (const ParameterCheck& check : leaf.declared().parameter_checks) check(leaf.path, values);
+  }
 }
 
 void Machine::load(const Context& context) {

@@ -104,13 +104,13 @@ def test_the_parameters_of_a_transfer_function_are_those_of_the_context():
     [
         (lambda: TransferFunction([1, 0, 0], [1, 1], name="g"), "the degree 2 in s"),
         (lambda: Derivative(0.0), "expected a finite number > 0"),
-        (lambda: PID(1.0, n=np.inf), "expected a finite number > 0"),
+        (lambda: PID(1.0, n=np.inf), "give a finite value"),
         (lambda: LTISystem([[1, 2]], 1, 1), "A is 1 x 2"),
         (lambda: LTISystem([1, 2], 1, 1), "expected a matrix, found an array of 1 dimensions"),
         (lambda: MinMax("mean"), "unknown operator 'mean'"),
         (lambda: Trigonometric("sine"), "did you mean 'sin'"),
         (lambda: DeadZone(-1.0), "half_range = -1; expected a number >= 0"),
-        (lambda: Quantizer(0.0), "interval = 0; expected a number > 0"),
+        (lambda: Quantizer(0.0), "interval = 0; expected a finite number > 0"),
     ],
 )
 def test_refusals(make, message):
@@ -208,7 +208,7 @@ def test_a_rate_limiter_starts_at_its_input():
 @pytest.mark.parametrize(
     ("make", "message"),
     [
-        (lambda: Relay(0.0, 1.0), "off_threshold 1 is above on_threshold 0"),
+        (lambda: Relay(0.0, 1.0), "off_threshold 1 is not below on_threshold 0"),
         (lambda: LookupTable1d([0, 1], [1]), "input_array has 2 values, output_array has 1"),
         (lambda: LookupTable1d([1, 0], [1, 2]), "expected points that increase"),
         (lambda: LookupTable1d([0, 1], [1, 2], "cubic"), "unknown interpolation 'cubic'"),
@@ -312,13 +312,6 @@ def test_the_integral_waits_while_the_error_is_zero_and_falls_with_it():
     diagram = three_levels(pid, 0.0, 2.0, 0.0, -1.0)
     end = saltus.simulate(diagram, (0.0, 4.0)).context[pid]
     assert end.continuous_state[0] == pytest.approx(4.0, abs=1e-5)
-
-
-def test_limits_that_a_context_crosses_do_not_end_the_process():
-    limiter = RateLimiter(0.1, name="limiter")
-    limiter.input().fix_value(1.0)
-    begin = limiter.create_context().with_parameter("upper_limit", -2.0)
-    assert saltus.simulate(limiter, begin, (0.0, 1.0)).status == "reached_end"
 
 
 def test_a_relay_of_one_threshold_has_one_parameter():

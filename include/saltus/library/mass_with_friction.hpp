@@ -28,7 +28,7 @@ class MassWithFriction final : public LeafSystem {
   explicit MassWithFriction(std::string name, const Options& options = {});
 
  private:
-  void require_sound(const Options& options) const;
+  void declare_checks();
   void declare_motion(const Options& options);
   void declare_slip(const char* event, double side);
   void declare_stick();

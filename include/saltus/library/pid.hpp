@@ -43,7 +43,6 @@ class PID final : public LeafSystem {
     RelationIndex beyond = {};
   };
 
-  void require_sound(const Options& options) const;
   void declare_limits(const Options& options);
   void declare_limit(const char* parameter, double value, double outward, ParameterIndex band);
   void declare_state(double initial);

@@ -37,8 +37,9 @@ class SecondOrderIntegrator final : public LeafSystem {
   void declare_motion(const Options& options);
   RelationIndex declare_velocity_limit(const char* parameter, const char* relation,
                                        const Value& limit, double outward);
-  void declare_limit(const char* parameter, const Value& limit, double outward,
-                     ParameterIndex restitution);
+  void declare_limits(const Options& options);
+  ParameterIndex declare_limit(const char* parameter, const Value& limit, double outward,
+                               ParameterIndex restitution);
 
   Index n_ = 1;                                      // width
   std::optional<ParameterIndex> slowest_, fastest_;  // limits of dx

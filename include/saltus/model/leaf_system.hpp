@@ -12,6 +12,7 @@
 #include "saltus/base/matrix_entry.hpp"
 #include "saltus/model/event.hpp"
 #include "saltus/model/history.hpp"
+#include "saltus/model/parameter_check.hpp"
 #include "saltus/model/right_hand_side.hpp"
 #include "saltus/model/system.hpp"
 
@@ -46,6 +47,7 @@ struct Declarations {
   bool has_modes = false;
   std::vector<Layout::Parameter> parameters;
   Eigen::VectorXd parameter_values;
+  List<ParameterCheck> parameter_checks;
   List<InputDeclaration> inputs;
   List<OutputDeclaration> outputs;
   List<Relation> relations;
@@ -104,6 +106,10 @@ class LeafSystem : public System {
   /// A number or vector that is part of the context.
   ParameterIndex declare_dynamic_parameter(std::string name, const Eigen::VectorXd& value);
   ParameterIndex declare_dynamic_parameter(std::string name, double value);
+
+  /// Refuses values of the parameters declared so far. The check is called at once with their
+  /// default values, and with those of each context from which a run or an evaluation begins.
+  void declare_parameter_check(ParameterCheck check);
 
   int declare_input_port(InputDeclaration input = {});
   int declare_output_port(OutputDeclaration output);

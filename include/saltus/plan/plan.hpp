@@ -138,6 +138,7 @@ struct Plan {
   List<ScheduledEvent> schedule;
   std::vector<Tap> taps;
   std::vector<int> histories;  // leaves that keep a history
+  std::vector<int> checked;    // leaves with parameter checks
   struct {
     Walk derivatives, guards;
   } walks;  // derivatives with odes, and what guards need with the guards

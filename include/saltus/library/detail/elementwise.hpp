@@ -26,7 +26,4 @@ ShapeRule stretch(std::string block, std::vector<Shape> parameters = {});
 /// unless a parameter is wider than one.
 std::optional<Index> relation_width(const std::string& block, const std::vector<Shape>& parameters);
 
-/// Refuses a lower limit above the upper one.
-void require_ordered(const std::string& block, const Value& lower, const Value& upper);
-
 }  // namespace saltus::detail

@@ -54,12 +54,15 @@ class Memory {
   List<int> modes;
 
  protected:
-  /// The values of a context; ModelError for a context of another system.
+  /// The values of a context. ModelError for a context of another system, and for parameters that a
+  /// block refuses.
   void take(const Context& context);
 
   std::shared_ptr<const Plan> plan_;
 
  private:
+  void check_parameters(const Context& context) const;
+
   std::shared_ptr<const Layout> known_;  // a layout that is known to fit the plan
 };
 
