@@ -1,6 +1,7 @@
 // Results: columns as NumPy arrays over the C++ memory, which lives as long as any of them, or over
 // copies.
 #include <algorithm>
+#include <sstream>
 
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
@@ -210,6 +211,12 @@ void bind_results(py::module_& module) {
           [](const Record& r) { return py::make_tuple(r.trajectory.begin(), r.trajectory.end()); })
       .def_property_readonly(
           "joints", [](const Record& r) { return py::array(py::cast(r.trajectory.joints())); })
+      .def("__repr__",
+           [](const Record& r) {
+             std::ostringstream out;
+             out << static_cast<const Results&>(r);
+             return out.str();
+           })
       .def("at", &at)
       .def("event", &event)
       .def("event_times", &event_times);

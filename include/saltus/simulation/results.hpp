@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <exception>
+#include <iosfwd>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -97,5 +98,9 @@ struct Results {
  private:
   const RecordedSignal& signal(std::string_view name) const;
 };
+
+/// Writes some ten lines: the status with its reason, the rows, the recorded signals, the events by
+/// name, what rests, the steps and calls, and the time that the run took. Needs `<ostream>`.
+std::ostream& operator<<(std::ostream& out, const Results& results);
 
 }  // namespace saltus

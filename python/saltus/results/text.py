@@ -65,7 +65,7 @@ def _facts(results: Results) -> list[tuple[str, str]]:
         ),
         ("calls", f"{s.right_hand_side_calls} right-hand side, {s.guard_calls} guards"),
         ("took", _duration(s.wall_time)),
-        ("dense output", "results(t) from {:g} to {:g} s".format(*results.span))
+        ("dense output", "at any time from {:g} to {:g} s".format(*results.span))
         if results.dense
         else ("dense output", ""),
     ]

@@ -1,6 +1,7 @@
 """What `print(results)` and a notebook show."""
 
 import numpy as np
+import pytest
 import saltus
 from systems import Ball, run
 
@@ -15,7 +16,7 @@ def test_a_run_in_words():
     assert "events: ball.bounce " in text
     assert "at rest       ball from 4.28" in text  # t1 (1 + e) / (1 - e), t1 = sqrt(2 y0 / g)
     assert "steps of dopri5, 0 rejected" in text
-    assert "results(t) from 0 to 6 s" in text
+    assert "at any time from 0 to 6 s" in text
     assert "took" in text
 
 
@@ -32,6 +33,22 @@ def test_why_it_ended_badly():
     assert "<Results: step_limit" in repr(results)
     assert "raise max_major_steps" in repr(results)
     assert "#b3261e" in results._repr_html_()
+
+
+@pytest.mark.parametrize(
+    ("scene", "options"),
+    [
+        ("bouncing-ball", {}),
+        ("bouncing-ball", {"dense_output": True}),
+        ("bouncing-ball", {"max_major_steps": 2, "throw": False}),
+        ("water-tanks", {"record_events": False}),
+        ("newtons-cradle", {"islands": True}),
+        ("van-der-pol", {"ode_solver_method": "auto"}),
+    ],
+)
+def test_cpp_shows_the_same(scene, options):
+    results = saltus.scene(scene).simulate(**options)
+    assert repr(results._core) == repr(results)
 
 
 def test_html_of_a_notebook():
