@@ -1,24 +1,19 @@
-# saltus_unity_tests(RESULT FILE...): with SALTUS_UNITY, RESULT is a list of written files, each of which includes ten of these
-# tests. Each template is then instantiated once for ten tests, which halves the work. Names that two tests have stay apart,
-# because each test is in a namespace of its own; what a test includes is included before, outside of it. Without SALTUS_UNITY,
-# RESULT is the files themselves.
+# saltus_unity_tests(RESULT FILE...): RESULT is a list of written files, each of which includes ten of these tests. Each template is
+# then instantiated once for ten tests, which halves the work. Names that two tests have stay apart, because each test is in a
+# namespace of its own; what a test includes is included before, outside of it.
 function(saltus_unity_tests result)
-  set(files ${ARGN})
-  if(SALTUS_UNITY)
-    set(files "")
-    set(number 0)
-    list(LENGTH ARGN count)
-    foreach(first RANGE 0 ${count} 10)
-      list(SUBLIST ARGN ${first} 10 some)
-      if(some)
-        math(EXPR number "${number} + 1")
-        set(file ${CMAKE_CURRENT_BINARY_DIR}/unity/tests_${number}.cpp)
-        saltus_write_unity(${file} ${some})
-        list(APPEND files ${file})
-      endif()
-    endforeach()
-    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${ARGN})  # a test may include more
-  endif()
+  set(files "")
+  set(number 0)
+  list(LENGTH ARGN count)
+  math(EXPR last "${count} - 1")
+  foreach(first RANGE 0 ${last} 10)
+    list(SUBLIST ARGN ${first} 10 some)
+    math(EXPR number "${number} + 1")
+    set(file ${CMAKE_CURRENT_BINARY_DIR}/unity/tests_${number}.cpp)
+    saltus_write_unity(${file} ${some})
+    list(APPEND files ${file})
+  endforeach()
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${ARGN})  # a test may include more
   set(${result} ${files} PARENT_SCOPE)
 endfunction()
 

@@ -39,7 +39,7 @@ const auto above_half = [](DiagramBuilder& builder, auto& block) {
 
 /// sin t reaches 0.5 at pi/6 and -0.5 at 7 pi/6.
 TEST_CASE("a Relay switches at its thresholds, with hysteresis", "[library][logic]") {
-  const Scene<Relay> scene(sine, levels(0.5, -0.5));
+  const BlockRun<Relay> scene(sine, levels(0.5, -0.5));
   CHECK(scene.at({0.5, 0.6, 3.5, 3.7}) == Numbers{-1.0, 2.0, 2.0, -1.0});
   const auto results = scene.run(7.0);
   CHECK_THAT(results.events.times("block.turn_on")[0], WithinAbs(pi / 6.0, rounding));
@@ -53,7 +53,7 @@ TEST_CASE("a Relay that starts beyond a threshold has that side from the start",
   const auto start = [](double u, bool initially_on) {
     Relay::Options options = levels(1.0, 0.0);
     options.initially_on = initially_on;
-    return Scene<Relay>(fed_by<Constant>(u), options).at({0.0, 1.0});
+    return BlockRun<Relay>(fed_by<Constant>(u), options).at({0.0, 1.0});
   };
   CHECK(start(1.5, false) == Numbers{2.0, 2.0});
   CHECK(start(1.0, false) == Numbers{2.0, 2.0});
@@ -63,8 +63,8 @@ TEST_CASE("a Relay that starts beyond a threshold has that side from the start",
 }
 
 TEST_CASE("a Relay follows a held signal that jumps", "[library][logic]") {
-  const Scene<Relay> scene(fed_by<Pulse>(Pulse::Options{.amplitude = 2.0, .period = 2.0}),
-                           levels(1.0, 0.5));
+  const BlockRun<Relay> scene(fed_by<Pulse>(Pulse::Options{.amplitude = 2.0, .period = 2.0}),
+                              levels(1.0, 0.5));
   CHECK(scene.at({0.5, 1.5, 2.5, 3.5}) == Numbers{2.0, -1.0, 2.0, -1.0});
 }
 
@@ -82,7 +82,7 @@ TEST_CASE("a Relay with equal thresholds in a loop ends as chattering", "[librar
       simulate(diagram, diagram.create_context(), {0.0, 2.0}, {.throw_errors = false});
   CHECK(results.status == Status::chattering);
   CHECK(contains(model_error([] { Relay("r", levels(0.0, 1.0)); }),
-                 "off_threshold 1 is above on_threshold 0"));
+                 "off_threshold 1 is not below on_threshold 0"));
 }
 
 TEST_CASE("IfThenElse chooses entry by entry", "[library][logic]") {
@@ -117,29 +117,29 @@ TEST_CASE("the integral over the switches of a MultiportSwitch is exact", "[libr
 
 TEST_CASE("Counter counts edges", "[library][logic]") {
   const std::vector<double> times{1.0, 3.0, 7.0, 13.5};
-  CHECK(Scene<Counter>(above_half).at(times) == Numbers{1.0, 1.0, 2.0, 3.0});
-  CHECK(Scene<Counter>(above_half, Counter::Options{.edge = Edge::either}).at(times) ==
+  CHECK(BlockRun<Counter>(above_half).at(times) == Numbers{1.0, 1.0, 2.0, 3.0});
+  CHECK(BlockRun<Counter>(above_half, Counter::Options{.edge = Edge::either}).at(times) ==
         Numbers{1.0, 2.0, 3.0, 5.0});
-  CHECK(Scene<Counter>(above_half, Counter::Options{.limit = 2}).at(times) ==
+  CHECK(BlockRun<Counter>(above_half, Counter::Options{.limit = 2}).at(times) ==
         Numbers{1.0, 1.0, 0.0, 1.0});
   CHECK(contains(model_error([] { Counter("c", {.limit = 0}); }), "limit = 0"));
 }
 
 TEST_CASE("Stop ends the run when its input becomes true", "[library][logic]") {
-  const auto results = Scene<Stop>(above_half).run(10.0);
+  const auto results = BlockRun<Stop>(above_half).run(10.0);
   CHECK(results.status == Status::terminal);
   CHECK_THAT(results.context.time(), WithinAbs(pi / 6.0, rounding));
-  CHECK(Scene<Stop>(fed_by<Constant>(1.0)).run(10.0).context.time() == 0.0);
-  CHECK(Scene<Stop>(fed_by<Constant>(0.0)).run(10.0).status == Status::reached_end);
+  CHECK(BlockRun<Stop>(fed_by<Constant>(1.0)).run(10.0).context.time() == 0.0);
+  CHECK(BlockRun<Stop>(fed_by<Constant>(0.0)).run(10.0).status == Status::reached_end);
 }
 
 TEST_CASE("HitCrossing logs and changes nothing", "[library][logic]") {
-  const Scene<HitCrossing> both(sine, HitCrossing::Options{.offset = 0.5});
+  const BlockRun<HitCrossing> both(sine, HitCrossing::Options{.offset = 0.5});
   const auto hits = both.run(6.0).events.times("block.hit");
   REQUIRE(hits.size() == 2);
   CHECK_THAT(hits[0], WithinAbs(pi / 6.0, rounding));
   CHECK_THAT(hits[1], WithinAbs(5.0 * pi / 6.0, rounding));
-  const Scene<HitCrossing> falling(
+  const BlockRun<HitCrossing> falling(
       sine,
       HitCrossing::Options{.offset = 0.5, .direction = Direction::positive_then_non_positive});
   CHECK(falling.run(6.0).events.times("block.hit").size() == 1);
@@ -147,13 +147,14 @@ TEST_CASE("HitCrossing logs and changes nothing", "[library][logic]") {
 
 /// u = t after 0.95 s, sampled each 0.1 s: y climbs by 0.05 a tick from u(0) = 0.
 TEST_CASE("RateLimiter follows with limited rates, exactly", "[library][discrete]") {
-  const Scene<RateLimiter> up(clock_in, 0.1, RateLimiter::Options{.upper_limit = 0.5});
+  const BlockRun<RateLimiter> up(clock_in, 0.1, RateLimiter::Options{.upper_limit = 0.5});
   const Numbers y = up.at({0.05, 0.15, 0.95});
   CHECK(y[0] == 0.0);
   CHECK_THAT(y[1], WithinAbs(0.05, rounding));
   CHECK_THAT(y[2], WithinAbs(0.45, rounding));
-  const Scene<RateLimiter> down(fed_by<Step>(Step::Options{.start_value = 4.0, .end_value = 0.0}),
-                                0.25, RateLimiter::Options{.lower_limit = -2.0});
+  const BlockRun<RateLimiter> down(
+      fed_by<Step>(Step::Options{.start_value = 4.0, .end_value = 0.0}), 0.25,
+      RateLimiter::Options{.lower_limit = -2.0});
   CHECK(down.at({0.1, 1.1, 1.3, 9.0}) == Numbers{4.0, 3.5, 3.0, 0.0});
   CHECK(contains(model_error([] { RateLimiter("r", 0.0); }), "dt = 0 s"));
   CHECK(contains(model_error([] { RateLimiter("r", 1.0, {.lower_limit = 2.0}); }),

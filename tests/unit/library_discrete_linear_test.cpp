@@ -23,7 +23,7 @@ void check_close(const Numbers& found, const Numbers& exact) {
 }
 
 Numbers integrated(std::string_view method) {
-  return Scene<IntegratorDiscrete>(ramp, 1.0, IntegratorDiscrete::Options{.method = method})
+  return BlockRun<IntegratorDiscrete>(ramp, 1.0, IntegratorDiscrete::Options{.method = method})
       .at(six);
 }
 
@@ -49,7 +49,7 @@ TEST_CASE("an IntegratorDiscrete is reset at the tick that sees the edge", "[lib
     builder.connect(builder.add<Constant>("to", 10.0).output(), block.input(2));
   };
   const auto with = [&](std::string_view method) {
-    return Scene<IntegratorDiscrete>(
+    return BlockRun<IntegratorDiscrete>(
                wire, 1.0,
                IntegratorDiscrete::Options{
                    .method = method, .enable_reset = true, .enable_external_reset = true})
@@ -67,7 +67,7 @@ TEST_CASE("an IntegratorDiscrete does not wind up", "[library][sampled]") {
   for (const std::string_view method : {"forward", "backward"}) {
     const IntegratorDiscrete::Options options{
         .method = method, .enable_limits = true, .upper_limit = 2.0};
-    const Numbers y = Scene<IntegratorDiscrete>(turn, 1.0, options).at({2.0, 3.0, 4.0, 5.0});
+    const Numbers y = BlockRun<IntegratorDiscrete>(turn, 1.0, options).at({2.0, 3.0, 4.0, 5.0});
     CHECK(y == (method == "forward" ? Numbers{2.0, 2.0, 1.0, 0.0} : Numbers{2.0, 1.0, 0.0, -1.0}));
   }
 }
@@ -78,8 +78,8 @@ TEST_CASE("an IntegratorDiscrete on hold does not change", "[library][sampled]")
     builder.connect(builder.add<Step>("hold", Step::Options{.step_time = 2.5}).output(),
                     block.input(1));
   };
-  const Scene<IntegratorDiscrete> scene(wire, 1.0,
-                                        IntegratorDiscrete::Options{.enable_hold = true});
+  const BlockRun<IntegratorDiscrete> scene(wire, 1.0,
+                                           IntegratorDiscrete::Options{.enable_hold = true});
   CHECK(scene.at(six) == Numbers{0.0, 1.0, 2.0, 3.0, 3.0, 3.0});
 }
 
@@ -87,7 +87,7 @@ TEST_CASE("an IntegratorDiscrete on hold does not change", "[library][sampled]")
 TEST_CASE("a TransferFunctionDiscrete is its power series in 1 / z", "[library][sampled]") {
   const Eigen::Vector3d den(1.0, -1.0, -1.0);
   const auto of = [&](const Eigen::VectorXd& num) {
-    return Scene<TransferFunctionDiscrete>(impulse, 1.0, num, den).at(six);
+    return BlockRun<TransferFunctionDiscrete>(impulse, 1.0, num, den).at(six);
   };
   CHECK(of(Eigen::VectorXd::Ones(1)) == Numbers{0.0, 0.0, 1.0, 1.0, 2.0, 3.0});
   CHECK(of(Eigen::Vector2d(1.0, 0.0)) == Numbers{0.0, 1.0, 1.0, 2.0, 3.0, 5.0});
@@ -101,11 +101,11 @@ TEST_CASE("an LTISystemDiscrete is its transfer function", "[library][sampled]")
                       .B = Eigen::Vector2d(1.0, 0.0),
                       .C = Eigen::RowVector2d(2.0, 3.0),
                       .D = Eigen::MatrixXd::Constant(1, 1, 2.0)};
-  CHECK(Scene<LTISystemDiscrete>(impulse, 1.0, m).at(six) ==
+  CHECK(BlockRun<LTISystemDiscrete>(impulse, 1.0, m).at(six) ==
         Numbers{2.0, 2.0, 5.0, 7.0, 12.0, 19.0});
   m.D.reset();
   const LTISystemDiscrete::Options start{Eigen::Vector2d(1.0, 1.0)};
-  CHECK(Scene<LTISystemDiscrete>(fed_by<Constant>(0.0), 1.0, m, start).at(six) ==
+  CHECK(BlockRun<LTISystemDiscrete>(fed_by<Constant>(0.0), 1.0, m, start).at(six) ==
         Numbers{5.0, 7.0, 12.0, 19.0, 31.0, 50.0});
   const Bench<LTISystemDiscrete> bench({1.0}, 1.0, m);
   CHECK(bench.node().needs.empty());
@@ -113,26 +113,28 @@ TEST_CASE("an LTISystemDiscrete is its transfer function", "[library][sampled]")
 
 TEST_CASE("a FilterDiscrete is the sum of its last inputs", "[library][sampled]") {
   const Eigen::Vector3d b(1.0, 10.0, 100.0);
-  CHECK(Scene<FilterDiscrete>(impulse, 1.0, b).at(six) == Numbers{1.0, 10.0, 100.0, 0.0, 0.0, 0.0});
-  CHECK(Scene<FilterDiscrete>(ramp, 1.0, b, FilterDiscrete::Options{2.0}).at({0.0, 1.0, 2.0}) ==
+  CHECK(BlockRun<FilterDiscrete>(impulse, 1.0, b).at(six) ==
+        Numbers{1.0, 10.0, 100.0, 0.0, 0.0, 0.0});
+  CHECK(BlockRun<FilterDiscrete>(ramp, 1.0, b, FilterDiscrete::Options{2.0}).at({0.0, 1.0, 2.0}) ==
         Numbers{220.0, 201.0, 12.0});
 }
 
 /// Of u = 3 t: 3 from the second tick on. The filter of N = 2 with dt = 1: y[k] = 3 (1 - 3^-k).
 TEST_CASE("a DerivativeDiscrete is a difference, or its filter", "[library][sampled]") {
   const auto slope = fed_by<Ramp>(Ramp::Options{.slope = 3.0, .start_time = 0.0});
-  CHECK(Scene<DerivativeDiscrete>(slope, 0.5).at({0.0, 0.5, 1.0, 1.7}) ==
+  CHECK(BlockRun<DerivativeDiscrete>(slope, 0.5).at({0.0, 0.5, 1.0, 1.7}) ==
         Numbers{0.0, 3.0, 3.0, 3.0});
   Numbers exact;
   for (const double k : six) exact.push_back(3.0 * (1.0 - std::pow(3.0, -k)));
-  check_close(Scene<DerivativeDiscrete>(slope, 1.0, DerivativeDiscrete::Options{2.0}).at(six),
+  check_close(BlockRun<DerivativeDiscrete>(slope, 1.0, DerivativeDiscrete::Options{2.0}).at(six),
               exact);
 }
 
 TEST_CASE("the first tick of a derivative makes no kick", "[library][sampled]") {
-  CHECK(Scene<DerivativeDiscrete>(fed_by<Constant>(5.0), 1.0).at({0.0, 1.0}) == Numbers{0.0, 0.0});
+  CHECK(BlockRun<DerivativeDiscrete>(fed_by<Constant>(5.0), 1.0).at({0.0, 1.0}) ==
+        Numbers{0.0, 0.0});
   const PIDDiscrete::Options options{.kp = 0.0, .kd = 1.0};
-  CHECK(Scene<PIDDiscrete>(fed_by<Constant>(5.0), 1.0, options).at({0.0, 1.0}) ==
+  CHECK(BlockRun<PIDDiscrete>(fed_by<Constant>(5.0), 1.0, options).at({0.0, 1.0}) ==
         Numbers{0.0, 0.0});
 }
 
@@ -143,13 +145,13 @@ TEST_CASE("a PIDDiscrete adds its three parts", "[library][sampled]") {
   Numbers exact;
   for (const double k : six)
     exact.push_back(2.0 * k + 2.0 * k * (k - 1.0) + 0.5 * (1.0 - std::pow(3.0, -k)) + 7.0);
-  check_close(Scene<PIDDiscrete>(ramp, 1.0, options).at(six), exact);
+  check_close(BlockRun<PIDDiscrete>(ramp, 1.0, options).at(six), exact);
 }
 
 /// A forward rule would multiply the state of the filter by 1 - n dt = -1e6 at each tick.
 TEST_CASE("the derivative of a PIDDiscrete is stable for a fast filter", "[library][sampled]") {
   const PIDDiscrete::Options options{.kp = 0.0, .kd = 1.0, .n = 1e6};
-  const Numbers y = Scene<PIDDiscrete>(ramp, 1.0, options).at({1.0, 5.0, 50.0});
+  const Numbers y = BlockRun<PIDDiscrete>(ramp, 1.0, options).at({1.0, 5.0, 50.0});
   for (const double each : y) CHECK_THAT(each, WithinAbs(1.0, 1.1e-6));  // n / (1 + n dt)
 }
 
@@ -159,7 +161,7 @@ TEST_CASE("the integral of a PIDDiscrete does not wind up", "[library][sampled]"
   const auto turn =
       fed_by<Step>(Step::Options{.start_value = 1.0, .end_value = -1.0, .step_time = 4.0});
   const PIDDiscrete::Options options{.ki = 1.0, .lower_limit = -2.0, .upper_limit = 2.0};
-  const Scene<PIDDiscrete> scene(turn, 0.5, options);
+  const BlockRun<PIDDiscrete> scene(turn, 0.5, options);
   CHECK(scene.at({0.5, 1.5, 3.5, 4.0, 5.0, 6.0}) == Numbers{1.5, 2.0, 2.0, 0.5, -0.5, -1.5});
 }
 

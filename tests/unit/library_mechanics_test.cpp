@@ -48,7 +48,7 @@ std::size_t events(const Results& results, const std::string& name) {
 
 /// u = 2 sin t drives it from u = 1/2 up to 2, from 1 down to -2, and from -1 up.
 TEST_CASE("a Backlash rests in its play and follows in contact", "[library][mechanics]") {
-  const Scene<Backlash> scene(swing, 1.0);
+  const BlockRun<Backlash> scene(swing, 1.0);
   const std::vector<double> times{0.1, 1.0, 0.5 * pi, 2.5, 4.0, 1.5 * pi, 5.5, 7.5};
   const Numbers y = scene.at(times), rate = scene.at(times, 1);
   const Numbers exact{0.0,  2.0 * std::sin(1.0) - 0.5, 1.5, 1.5, 2.0 * std::sin(4.0) + 0.5, -1.5,
@@ -59,7 +59,7 @@ TEST_CASE("a Backlash rests in its play and follows in contact", "[library][mech
 }
 
 TEST_CASE("the contacts of a Backlash are located", "[library][mechanics]") {
-  const auto results = Scene<Backlash>(swing, 1.0).run(2.0 * pi);
+  const auto results = BlockRun<Backlash>(swing, 1.0).run(2.0 * pi);
   const auto at = [&](const char* event) { return results.events.times(text("block.", event)); };
   REQUIRE(at("drive_up").size() == 2);
   CHECK_THAT(at("drive_up")[0], WithinAbs(std::asin(0.25), rounding));
@@ -72,15 +72,15 @@ TEST_CASE("the contacts of a Backlash are located", "[library][mechanics]") {
 
 /// A rate of 0 is no turn: y goes on with u. u - 1/4 is reached at 1/4, and the turn is at u = 2.
 TEST_CASE("a Backlash whose input stops keeps its contact", "[library][mechanics]") {
-  const Scene<Backlash> scene(stop_and_go, 0.5);
+  const BlockRun<Backlash> scene(stop_and_go, 0.5);
   const Numbers y = scene.at({0.2, 1.0, 1.5, 2.5, 3.0, 3.25, 4.0});
   const Numbers exact{0.0, 0.75, 0.75, 1.25, 1.75, 1.75, 1.25};
   for (std::size_t i = 0; i < y.size(); ++i) CHECK_THAT(y[i], WithinAbs(exact[i], rounding));
 }
 
 TEST_CASE("a Backlash may start in contact, on either side", "[library][mechanics]") {
-  const Scene<Backlash> above(swing, 1.0, Backlash::Options{.initial_output = -2.0});
-  const Scene<Backlash> below(swing, 1.0, Backlash::Options{.initial_output = 3.0});
+  const BlockRun<Backlash> above(swing, 1.0, Backlash::Options{.initial_output = -2.0});
+  const BlockRun<Backlash> below(swing, 1.0, Backlash::Options{.initial_output = 3.0});
   CHECK(above.at({0.0})[0] == -0.5);
   CHECK(below.at({0.0, 0.4}) == Numbers{0.5, 0.5});  // u rises: it leaves at once
 }
@@ -112,7 +112,7 @@ TEST_CASE("a Backlash that reaches a derivative is exact there", "[library][mech
 /// v = 2 - t until it stops at 2 s, after 2 m; x does not creep afterwards, to the last bit.
 TEST_CASE("a body with friction stops, and sticks", "[library][mechanics]") {
   const MassWithFriction::Options options{.initial_velocity = 2.0};
-  const Scene<MassWithFriction> scene(fed_by<Constant>(0.0), options);
+  const BlockRun<MassWithFriction> scene(fed_by<Constant>(0.0), options);
   const Numbers x = scene.at({1.0, 2.0, 50.0}), v = scene.at({1.0, 2.5, 50.0}, 1);
   CHECK_THAT(x[0], WithinAbs(1.5, rounding));
   CHECK_THAT(x[1], WithinAbs(2.0, rounding));
@@ -126,7 +126,7 @@ TEST_CASE("a body with friction stops, and sticks", "[library][mechanics]") {
 TEST_CASE("a body slips beyond the static friction only", "[library][mechanics]") {
   const MassWithFriction::Options options{.mass = 2.0, .coulomb = 1.0, .static_friction = 3.0};
   const auto after = [&](double force) {
-    return Scene<MassWithFriction>(pushed(0.0, force, 0.0), options).at({1.5, 2.0, 9.0}, 1);
+    return BlockRun<MassWithFriction>(pushed(0.0, force, 0.0), options).at({1.5, 2.0, 9.0}, 1);
   };
   CHECK(after(2.9) == Numbers{0.0, 0.0, 0.0});
   CHECK(after(3.0) == Numbers{0.0, 0.0, 0.0});
@@ -140,7 +140,7 @@ TEST_CASE("a body slips beyond the static friction only", "[library][mechanics]"
 /// A force at the friction, and then less: with equal frictions a body that slipped at the limit
 /// would be driven backward by its own friction.
 TEST_CASE("a body at the limit of its friction stays", "[library][mechanics]") {
-  const Scene<MassWithFriction> held(pushed(1.0, 0.5, 0.0), MassWithFriction::Options{});
+  const BlockRun<MassWithFriction> held(pushed(1.0, 0.5, 0.0), MassWithFriction::Options{});
   CHECK(held.at({1.0, 2.0, 5.0}) == Numbers{0.0, 0.0, 0.0});
   CHECK(held.run(3.0).events.times("block.slip_up").empty());
 }
@@ -148,7 +148,7 @@ TEST_CASE("a body at the limit of its friction stays", "[library][mechanics]") {
 /// The force falls under the friction while the body has moved for no time at all.
 TEST_CASE("a body that slips for an instant sticks again", "[library][mechanics]") {
   const auto peak = fed_by<Sine>(Sine::Options{.amplitude = 1.0 + 1e-9});
-  const Scene<MassWithFriction> scene(peak, MassWithFriction::Options{});
+  const BlockRun<MassWithFriction> scene(peak, MassWithFriction::Options{});
   const auto results = scene.run(6.0);
   const std::size_t slips = events(results, "slip_up") + events(results, "slip_down");
   CHECK(slips == events(results, "stick"));
@@ -158,7 +158,7 @@ TEST_CASE("a body that slips for an instant sticks again", "[library][mechanics]
 
 /// The force is turned while the body moves: it stops, and slips to the other side at once.
 TEST_CASE("a body that is pushed back turns without sticking", "[library][mechanics]") {
-  const Scene<MassWithFriction> scene(pushed(3.0, -3.0, -3.0), MassWithFriction::Options{});
+  const BlockRun<MassWithFriction> scene(pushed(3.0, -3.0, -3.0), MassWithFriction::Options{});
   // v = 2 t, then 2 - 4 (t - 1) to 0 at 1.5 s, then -2 (t - 1.5).
   const Numbers v = scene.at({1.0, 1.25, 2.0, 3.0}, 1);
   const Numbers exact{2.0, 1.0, -1.0, -3.0};
@@ -168,7 +168,7 @@ TEST_CASE("a body that is pushed back turns without sticking", "[library][mechan
 /// v' = 10 sin t - sign(v): what friction takes is what the force gives.
 TEST_CASE("the work of friction is the loss of energy", "[library][mechanics]") {
   const MassWithFriction::Options options{.initial_velocity = 3.0};
-  const Results results = Scene<MassWithFriction>(fed_by<Constant>(0.0), options).run(9.0);
+  const Results results = BlockRun<MassWithFriction>(fed_by<Constant>(0.0), options).run(9.0);
   CHECK_THAT(results.context.continuous_state()[0], WithinAbs(0.5 * 3.0 * 3.0, rounding));
 }
 

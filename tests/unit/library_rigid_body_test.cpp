@@ -32,7 +32,7 @@ RigidBody::Options top() {
 /// With J = diag(1, 1, 2) and w_3 = 2: dw_1/dt = -2 w_2, dw_2/dt = 2 w_1.
 TEST_CASE("a RigidBody free of torque precesses and keeps its angular momentum",
           "[library][mechanics]") {
-  const Scene<RigidBody> scene(pushed, top());
+  const BlockRun<RigidBody> scene(pushed, top());
   const Results results = scene.run(3.0);
   const Eigen::VectorXd x = results.context.continuous_state();
   const Eigen::Vector3d rates = x.tail(3);
@@ -49,7 +49,7 @@ TEST_CASE("a RigidBody free of torque precesses and keeps its angular momentum",
 /// thousand turns leave what one step adds in a second, at most 100 tolerances; a norm of 2, as a
 /// context may have it, decays by dn/dt = (n - n^3) / 2 to 1 + 1.5 / 2 exp(-t).
 TEST_CASE("the quaternion of a RigidBody keeps its norm", "[library][mechanics]") {
-  const Scene<RigidBody> scene(pushed, top());
+  const BlockRun<RigidBody> scene(pushed, top());
   const Results loose = scene.run(3000.0, {.rtol = 1e-4, .atol = 1e-6});
   CHECK_THAT(loose.context.continuous_state().segment(6, 4).norm(), WithinAbs(1.0, 1e-2));
   Eigen::VectorXd x = scene.diagram.create_context().continuous_state();
@@ -64,7 +64,7 @@ TEST_CASE("a tumbling RigidBody keeps its energy", "[library][mechanics]") {
   RigidBody::Options box = top();
   box.inertia = Eigen::Vector3d(1.0, 2.0, 3.0).asDiagonal();
   box.initial_rates = {0.01, 2.0, 0.01};  // about the middle axis, which is unstable
-  const Scene<RigidBody> scene(pushed, box);
+  const BlockRun<RigidBody> scene(pushed, box);
   const Eigen::VectorXd x = scene.run(20.0).context.continuous_state();
   const Eigen::Vector3d w = x.tail(3);
   const double found = w.dot(box.inertia * w), expected = 8.0 + 4e-4;
@@ -74,7 +74,7 @@ TEST_CASE("a tumbling RigidBody keeps its energy", "[library][mechanics]") {
 
 /// Force 2 N on 2 kg: x = t^2 / 2; thrown up: z = 20 t - 5 t^2.
 TEST_CASE("the centre of a RigidBody moves as a point", "[library][mechanics]") {
-  const Scene<RigidBody> scene(pushed, top());
+  const BlockRun<RigidBody> scene(pushed, top());
   const Eigen::VectorXd x = scene.run(3.0).context.continuous_state();
   CHECK_THAT(x[0], WithinAbs(4.5, solver_tolerance));
   CHECK_THAT(x[2], WithinAbs(15.0, 10.0 * solver_tolerance));  // |v| is 20

@@ -56,9 +56,9 @@ double integral(double t, Connect connect, Arguments&&... arguments) {
 /// One block behind sources, in a diagram that can be run. `wire` adds the sources and connects
 /// them.
 template <class Block>
-struct Scene {
+struct BlockRun {
   template <class Wire, class... Arguments>
-  explicit Scene(Wire wire, Arguments&&... arguments)
+  explicit BlockRun(Wire wire, Arguments&&... arguments)
       : diagram(build(block, wire, std::forward<Arguments>(arguments)...)) {}
 
   std::vector<double> at(const std::vector<double>& times, int port = 0) const {

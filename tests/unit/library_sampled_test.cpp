@@ -76,7 +76,7 @@ TEST_CASE("a slow block reads a fast one at their common tick", "[library][sampl
 /// 1000 ticks of 1/3 s: each adds dt * 3 = 1, to the last bit. The second run goes on from a tick.
 TEST_CASE("ticks are counted exactly, in one run and in two", "[library][sampled]") {
   const double dt = 1.0 / 3.0;
-  const Scene<IntegratorDiscrete> scene(fed_by<Constant>(3.0), dt);
+  const BlockRun<IntegratorDiscrete> scene(fed_by<Constant>(3.0), dt);
   const Numbers y = scene.at(ticks(1001, dt));
   for (std::size_t k = 0; k < y.size(); ++k) CHECK(y[k] == static_cast<double>(k));
   const Results first = scene.run(100 * dt);
@@ -85,7 +85,7 @@ TEST_CASE("ticks are counted exactly, in one run and in two", "[library][sampled
 }
 
 TEST_CASE("a run that begins between two ticks shows the value before the first", "[library]") {
-  const Scene<RateTransition> scene(fed_by<Constant>(7.0), 1.0, RateTransition::Options{-1.0});
+  const BlockRun<RateTransition> scene(fed_by<Constant>(7.0), 1.0, RateTransition::Options{-1.0});
   auto options = precise();
   options.recorded_signals = {{"y", scene.block->output()}};
   const auto results =
@@ -181,7 +181,7 @@ TEST_CASE("a forward integrator closes a loop", "[library][sampled]") {
 }
 
 TEST_CASE("a DiscreteClock shows the time of the last tick", "[library][sampled]") {
-  const Scene<DiscreteClock> scene([](DiagramBuilder&, auto&) {}, 0.25);
+  const BlockRun<DiscreteClock> scene([](DiagramBuilder&, auto&) {}, 0.25);
   CHECK(scene.at({0.0, 0.2, 0.25, 0.9, 1.0}) == Numbers{0.0, 0.0, 0.25, 0.75, 1.0});
 }
 
@@ -191,7 +191,7 @@ TEST_CASE("an edge between two ticks is seen at the second, once", "[library][sa
       fed_by<Pulse>(Pulse::Options{.period = 9.0, .pulse_width = 1.2 / 9.0, .phase_delay = 1.2});
   const auto seen = [&](Edge edge) {
     const EdgeDetection::Options options{.edge = edge};
-    return Scene<EdgeDetection>(pulse, 1.0, options).at({1.5, 2.0, 2.9, 3.0, 3.9, 4.0});
+    return BlockRun<EdgeDetection>(pulse, 1.0, options).at({1.5, 2.0, 2.9, 3.0, 3.9, 4.0});
   };
   CHECK(seen(Edge::rising) == Numbers{0.0, 1.0, 1.0, 0.0, 0.0, 0.0});
   CHECK(seen(Edge::falling) == Numbers{0.0, 0.0, 0.0, 1.0, 1.0, 0.0});
@@ -200,8 +200,8 @@ TEST_CASE("an edge between two ticks is seen at the second, once", "[library][sa
 
 TEST_CASE("an input that is true at the start has an edge only if it was false", "[library]") {
   const auto first = [](bool before) {
-    return Scene<EdgeDetection>(fed_by<Constant>(1.0), 1.0,
-                                EdgeDetection::Options{.initial_state = before})
+    return BlockRun<EdgeDetection>(fed_by<Constant>(1.0), 1.0,
+                                   EdgeDetection::Options{.initial_state = before})
         .at({0.0})[0];
   };
   CHECK(first(false) == 1.0);

@@ -11,7 +11,7 @@ using Catch::Matchers::WithinAbs;
 using Options = SecondOrderIntegrator::Options;
 
 TEST_CASE("without limits position and velocity are the integrals", "[library][state]") {
-  const Scene<SecondOrderIntegrator> scene(
+  const BlockRun<SecondOrderIntegrator> scene(
       fed_by<Constant>(Value{2.0, 0.0}),
       Options{.initial_position = {1.0, 0.0}, .initial_velocity = Value{-1.0, 3.0}});
   CHECK_THAT(scene.at({2.0}, 0)[0], WithinAbs(1.0 - 2.0 + 4.0, rounding));
@@ -23,7 +23,7 @@ TEST_CASE("without limits position and velocity are the integrals", "[library][s
 
 /// Pushed by 1 the body reaches 0.5 at t = 1 and stays; from t = 3 it is pushed by -1 and leaves.
 TEST_CASE("a body stops at its limit and leaves it when it is pushed inward", "[library][state]") {
-  const Scene<SecondOrderIntegrator> scene(
+  const BlockRun<SecondOrderIntegrator> scene(
       fed_by<Step>(Step::Options{.start_value = 1.0, .end_value = -1.0, .step_time = 3.0}),
       Options{.lower_limit = -10.0, .upper_limit = 0.5});
   const Numbers x = scene.at({0.5, 2.0, 4.0}), v = scene.at({0.5, 2.0, 4.0}, 1);
@@ -37,7 +37,7 @@ TEST_CASE("a body stops at its limit and leaves it when it is pushed inward", "[
 /// Dropped from 1 with g = 2: it reaches the floor at 1 with the speed 2, and rebounds with 1.
 TEST_CASE("with a restitution the body rebounds, and comes to rest in the end",
           "[library][state]") {
-  const Scene<SecondOrderIntegrator> scene(
+  const BlockRun<SecondOrderIntegrator> scene(
       fed_by<Constant>(-2.0),
       Options{.initial_position = 1.0, .lower_limit = 0.0, .restitution = 0.5});
   CHECK_THAT(scene.at({1.25})[0], WithinAbs(0.25 - 0.0625, rounding));
@@ -47,7 +47,7 @@ TEST_CASE("with a restitution the body rebounds, and comes to rest in the end",
 }
 
 TEST_CASE("each entry stops by itself", "[library][state]") {
-  const Scene<SecondOrderIntegrator> scene(
+  const BlockRun<SecondOrderIntegrator> scene(
       fed_by<Constant>(Value{2.0, -2.0}),
       Options{.initial_position = {0.0, 0.0}, .upper_limit = Value{1.0, 5.0}});
   const auto results = scene.run(3.0);
@@ -70,7 +70,7 @@ TEST_CASE("options of a SecondOrderIntegrator that do not fit are refused", "[li
 /// t = 3 pushed by -1, it leaves the limit: v = 3 - (t - 3).
 TEST_CASE("a velocity stops at its limit and leaves it when it is pushed back",
           "[library][state]") {
-  const Scene<SecondOrderIntegrator> scene(
+  const BlockRun<SecondOrderIntegrator> scene(
       fed_by<Step>(Step::Options{.start_value = 2.0, .end_value = -1.0, .step_time = 3.0}),
       Options{.lower_velocity_limit = -1.0, .upper_velocity_limit = 3.0});
   const Numbers x = scene.at({1.0, 3.0, 4.0}), v = scene.at({1.0, 3.0, 4.0, 20.0}, 1);
@@ -81,11 +81,11 @@ TEST_CASE("a velocity stops at its limit and leaves it when it is pushed back",
 
 /// The trap: a rebound at -2 e would leave the velocity beyond its lower limit for good.
 TEST_CASE("a rebound is within the limits of the velocity", "[library][state]") {
-  const Scene<SecondOrderIntegrator> scene(fed_by<Constant>(0.0),
-                                           Options{.initial_velocity = 2.0,
-                                                   .upper_limit = 1.0,
-                                                   .restitution = 1.0,
-                                                   .lower_velocity_limit = -0.5});
+  const BlockRun<SecondOrderIntegrator> scene(fed_by<Constant>(0.0),
+                                              Options{.initial_velocity = 2.0,
+                                                      .upper_limit = 1.0,
+                                                      .restitution = 1.0,
+                                                      .lower_velocity_limit = -0.5});
   CHECK_THAT(scene.at({1.5}, 1)[0], WithinAbs(-0.5, rounding));
   CHECK_THAT(scene.at({1.5})[0], WithinAbs(0.5, rounding));
 }

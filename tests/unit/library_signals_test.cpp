@@ -17,8 +17,8 @@ const auto alone = [](DiagramBuilder&, auto&) {};
 /// The phase is t^2 / 2 + t up to 2 s, where the frequency is 3, and grows by 3 a second
 /// afterwards.
 TEST_CASE("a Chirp sweeps its frequency, and then keeps it", "[library][signals]") {
-  const Scene<Chirp> scene(alone,
-                           Chirp::Options{.f0 = 1.0, .f1 = 3.0, .stop_time = 2.0, .phi = 0.5});
+  const BlockRun<Chirp> scene(alone,
+                              Chirp::Options{.f0 = 1.0, .f1 = 3.0, .stop_time = 2.0, .phi = 0.5});
   const std::vector<double> times{0.0, 1.0, 2.0, 3.0};
   const Numbers y = scene.at(times), phase{0.0, 1.5, 4.0, 7.0};
   // A few roundings of a phase below 8: 8 * 2e-16 * 4.
@@ -29,7 +29,7 @@ TEST_CASE("a Chirp sweeps its frequency, and then keeps it", "[library][signals]
 
 TEST_CASE("a Sawtooth rises from each jump to the next", "[library][signals]") {
   const Sawtooth::Options options{.amplitude = {2.0, -4.0}, .frequency = 0.5, .phase_delay = 1.0};
-  const Scene<Sawtooth> scene(alone, options);
+  const BlockRun<Sawtooth> scene(alone, options);
   const std::vector<double> times{0.0, 0.5, 1.0, 2.0, 2.5, 3.0, 4.0, 5.0};
   CHECK(scene.at(times) == Numbers{0.0, 0.0, 0.0, 1.0, 1.5, 0.0, 1.0, 0.0});
   CHECK(at_times(scene.diagram, scene.block->output(), times, 1)[4] == -3.0);
@@ -60,7 +60,7 @@ TEST_CASE("a DataSource is linear between its times", "[library][signals]") {
   const Eigen::Vector4d times(1.0, 2.0, 4.0, 5.0), values(0.0, 3.0, 1.0, 1.0);
   const std::vector<double> at{0.0, 1.0, 1.5, 2.0, 3.0, 4.0, 4.5, 5.0, 9.0};
   const auto of = [&](std::string_view beyond) {
-    return Scene<DataSource>(alone, times, values, DataSource::Options{.extrapolation = beyond})
+    return BlockRun<DataSource>(alone, times, values, DataSource::Options{.extrapolation = beyond})
         .at(at);
   };
   CHECK(of("hold") == Numbers{0.0, 0.0, 1.5, 3.0, 2.0, 1.0, 1.0, 1.0, 1.0});
@@ -80,8 +80,8 @@ TEST_CASE("no solver step spans a time of a table", "[library][signals]") {
 TEST_CASE("a DataSource may hold, and have columns", "[library][signals]") {
   const Eigen::Vector3d times(0.0, 1.0, 3.0);
   const Eigen::Matrix<double, 3, 2> values{{1.0, 10.0}, {2.0, 20.0}, {3.0, 30.0}};
-  const Scene<DataSource> scene(alone, times, values,
-                                DataSource::Options{.interpolation = "zero_order_hold"});
+  const BlockRun<DataSource> scene(alone, times, values,
+                                   DataSource::Options{.interpolation = "zero_order_hold"});
   const std::vector<double> at{0.0, 0.9, 1.0, 2.9, 3.0, 8.0};
   CHECK(scene.at(at) == Numbers{1.0, 1.0, 2.0, 2.0, 3.0, 3.0});
   CHECK(at_times(scene.diagram, scene.block->output(), at, 1) ==

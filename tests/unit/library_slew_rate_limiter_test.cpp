@@ -12,8 +12,8 @@ using Options = SlewRateLimiter::Options;
 /// A step to 2 at rate 1 and time constant 0.5: a line until 0.5 is left, at 1.5, then exp.
 TEST_CASE("a SlewRateLimiter follows a step along a line, then an exponential",
           "[library][nonlinear]") {
-  const Scene<SlewRateLimiter> scene(fed_by<Constant>(2.0),
-                                     Options{.time_constant = 0.5, .initial_state = 0.0});
+  const BlockRun<SlewRateLimiter> scene(fed_by<Constant>(2.0),
+                                        Options{.time_constant = 0.5, .initial_state = 0.0});
   const Numbers y = scene.at({0.5, 1.0, 1.5, 2.5});
   CHECK_THAT(y[0], WithinAbs(0.5, solver_tolerance));
   CHECK_THAT(y[1], WithinAbs(1.0, solver_tolerance));
@@ -23,7 +23,7 @@ TEST_CASE("a SlewRateLimiter follows a step along a line, then an exponential",
 
 /// The trap: the end of the limit is a kink of the derivative. It is located: the line ends at 1.5.
 TEST_CASE("the end of the limit is an event", "[library][nonlinear]") {
-  const Scene<SlewRateLimiter> scene(fed_by<Constant>(2.0), Options{.time_constant = 0.5});
+  const BlockRun<SlewRateLimiter> scene(fed_by<Constant>(2.0), Options{.time_constant = 0.5});
   const Results results = scene.run(3.0);
   REQUIRE(results.events.size() == 1);
   CHECK_THAT(results.events[0].time, WithinAbs(1.5, rounding));
@@ -33,10 +33,10 @@ TEST_CASE("the end of the limit is an event", "[library][nonlinear]") {
 /// has decayed; each entry, and each direction, has its own limit.
 TEST_CASE("a SlewRateLimiter lags a slow input, and limits each direction",
           "[library][nonlinear]") {
-  const Scene<SlewRateLimiter> slow(fed_by<Ramp>(Ramp::Options{.slope = 0.5, .start_time = 0.0}),
-                                    Options{.time_constant = 0.1});
+  const BlockRun<SlewRateLimiter> slow(fed_by<Ramp>(Ramp::Options{.slope = 0.5, .start_time = 0.0}),
+                                       Options{.time_constant = 0.1});
   CHECK_THAT(slow.at({5.0})[0], WithinAbs(2.5 - 0.05 * (1.0 - std::exp(-50.0)), solver_tolerance));
-  const Scene<SlewRateLimiter> two(
+  const BlockRun<SlewRateLimiter> two(
       fed_by<Constant>(Value{10.0, -10.0}),
       Options{.lower_limit = -2.0, .upper_limit = 3.0, .initial_state = {0.0, 0.0}});
   const Eigen::VectorXd y = two.run(1.0).context.continuous_state();
