@@ -34,10 +34,11 @@ struct Call {
 /// y'' = -9.81 from rest at the height `h`; it bounces at y = 0. It logs all calls.
 std::shared_ptr<Leaf> logged_ball(char name, double h, std::vector<Call>& calls) {
   return make_leaf(std::string(1, name), [name, h, &calls](Leaf& l) {
-    l.declare_continuous_state({.initial = vec({h, 0.0}), .ode = [=, &calls](const At& at, VectorRef dx) {
-                                  calls.push_back({name, 'd', at.time});
-                                  dx[0] = at.x[1], dx[1] = -9.81;
-                                }});
+    l.declare_continuous_state(
+        {.initial = vec({h, 0.0}), .ode = [=, &calls](const At& at, VectorRef dx) {
+           calls.push_back({name, 'd', at.time});
+           dx[0] = at.x[1], dx[1] = -9.81;
+         }});
     l.declare_zero_crossing({.name = "bounce",
                              .guard =
                                  [=, &calls](const At& at) {
