@@ -99,7 +99,7 @@ def test_a_simulator_goes_on_after_it_refused_a_context():
     with pytest.raises(ModelError):
         simulator.initialize(good.with_parameters(bad))
     simulator.initialize(good)
-    assert simulator.advance_to(0.1).time == 0.1
+    assert simulator.advance_to(0.1) == "reached_end"
 
 
 def test_values_without_a_run_refuse_them_too():
