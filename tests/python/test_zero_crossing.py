@@ -48,7 +48,7 @@ def go(block, end=1.0, **options):
         ({"start_mode": "fast"}, "start_mode: expected a mode, an integer, found 'fast'"),
         ({"zeno_tolerance": "small"}, "zeno_tolerance: expected a time [s], found 'small'"),
         (
-            {"holds": [0, 1]},
+            {"holds": [0, 1], "size": 2},
             "holds: expected a list for each guard, of positions in the continuous state, "
             "found [0, 1]",
         ),

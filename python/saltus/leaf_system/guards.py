@@ -9,8 +9,15 @@ from numpy.typing import ArrayLike
 from saltus import _core
 from saltus._declarations import EVERYTHING, RequiresInputs, callback_of, direction_of, inputs_of
 from saltus._porting import refusing
+from saltus._whole import is_whole
 
 __all__ = ["DeclaresGuards"]
+
+
+def _for_each_guard(holds: object, size: object) -> object:
+    """The positions of a single guard as a list of lists."""
+    flat = isinstance(holds, (list, tuple)) and len(holds) > 0 and all(map(is_whole, holds))
+    return [holds] if flat and size == 1 else holds
 
 
 class DeclaresGuards(_core.LeafSystem):
@@ -34,7 +41,7 @@ class DeclaresGuards(_core.LeafSystem):
         size: int = 1,
         at_start: str = "auto",
         on_zeno: str | int = "hold",
-        holds: Sequence[Sequence[int]] | None = None,
+        holds: Sequence[Sequence[int]] | Sequence[int] | None = None,
         formula: bool = False,
         delay: float | Callable[..., ArrayLike] | None = None,
         priority: float | Callable[..., ArrayLike] | None = None,
@@ -68,7 +75,10 @@ class DeclaresGuards(_core.LeafSystem):
           at the accumulation state until the guard moves to its armed side. 'stop': the run ends,
           status 'zeno_stop'. 'error': a SimulationError. An integer: the mode to go on in.
         - `holds` lists, for each of the `size` guards, the positions in the continuous state that
-          rest on a hold, such as [[0, 1]]; without it all of them rest.
+          rest on a hold, such as [[0, 1], [2, 3]], or [0, 1] for a single guard. Without it those
+          rest that the reset map changes and those that the guard reads, or all where a function is
+          called. A floor whose position is a state of the same block rests too, unless `holds`
+          leaves it out.
         - `zeno_tolerance` [s] overrides that of the simulator options, 0 switches the monitor off.
         - `formula` has the meaning of the same argument of `declare_output_port`, for the guard.
 
@@ -126,7 +136,7 @@ class DeclaresGuards(_core.LeafSystem):
             "at_start": at_start,
             "on_zeno": on_zeno,
             "zeno_tolerance": zeno_tolerance,
-            "holds": holds,
+            "holds": _for_each_guard(holds, size),
             "formula": bool(formula),
             "inputs": inputs_of(requires_inputs),
             "delay": callback_of(delay),

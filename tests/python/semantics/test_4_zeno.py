@@ -253,3 +253,36 @@ def test_4_4_a_hold_stops_what_a_traced_guard_and_its_reset_touch(python, tmp_pa
     results.save(tmp_path / "ball.npz")
     again = saltus.load_results(tmp_path / "ball.npz")
     assert [e.rests for e in again.events] == [e.rests for e in results.events]
+
+
+@pytest.mark.parametrize("holds", [[0, 1], [[0, 1]]])
+@pytest.mark.parametrize("mirrored", [False, True])
+@pytest.mark.parametrize("python", ["traced", "called"])
+def test_4_4_a_ball_rests_on_a_table_of_its_own_block_that_swings_on(holds, mirrored, python):
+    w = np.pi
+
+    def flow(t, s):
+        _, v, h, u = s.continuous_state
+        return np.array([v, -9.81, u, -(w**2) * h])
+
+    def bounce(t, s):
+        y, v, h, u = s.continuous_state
+        return s.with_continuous_state(
+            np.array([h + np.abs(y - h) if mirrored else h, u - 0.4 * (v - u), h, u])
+        )
+
+    both = saltus.LeafSystem(name="both")
+    both.declare_continuous_state([0.5, 0.0, 0.1, 0.0], ode=flow)
+    both.declare_zero_crossing(
+        lambda t, s: s.continuous_state[0] - s.continuous_state[2],
+        bounce,
+        name="hit",
+        direction="positive_then_non_positive",
+        holds=holds,
+    )
+    results = go(both, 6.0, python=python, rtol=1e-9, atol=1e-11)
+    assert len(entered(results)) == 1
+    # The table swings with 0.1 cos(w t), whose acceleration of 1 m/s^2 never lets the ball go. An
+    # oscillation adds up the errors of its steps: hundreds, each within the tolerance.
+    at_end = [0.1 * np.cos(6 * w), -0.1 * w * np.sin(6 * w)]
+    assert results.context.continuous_state == pytest.approx(np.tile(at_end, 2), abs=1e-7)
