@@ -12,8 +12,12 @@ import saltus
 from make import INK, PALE, plt
 from saltus.library import (
     PID,
+    Abs,
     Backlash,
     Chirp,
+    Comparator,
+    Constant,
+    Counter,
     DataSource,
     DeadZone,
     DelayN,
@@ -22,9 +26,11 @@ from saltus.library import (
     DiscreteClock,
     EdgeDetection,
     FilterDiscrete,
+    Integrator,
     IntegratorDiscrete,
     LookupTable1d,
     LookupTable2d,
+    LookupTableNd,
     LTISystemDiscrete,
     MassWithFriction,
     MinMax,
@@ -35,11 +41,17 @@ from saltus.library import (
     RateLimiter,
     RateTransition,
     Relay,
+    RigidBody,
+    Saturate,
     Sawtooth,
+    SecondOrderIntegrator,
     Sign,
     Sine,
+    SlewRateLimiter,
+    StateMachine,
     TransferFunction,
     TransferFunctionDiscrete,
+    Transition,
     TransportDelay,
     UnitDelay,
     WhiteNoise,
@@ -98,6 +110,51 @@ SAMPLED = [
     ("TransportDelay", TransportDelay(1.5), [STEP]),
 ]
 
+PUMP = StateMachine(
+    ["filling", "draining"],
+    [
+        Transition("filling", "draining", guard=lambda u: u > 1.0),
+        Transition("draining", "filling", after=2.0),
+    ],
+    inputs=["u"],
+    outputs={"pump": {"filling": 0.0, "draining": 1.0}},
+)
+STATES = [
+    (
+        "Integrator, limited",
+        Integrator(enable_limits=True, lower_limit=-1, upper_limit=1.5),
+        [SINE],
+    ),
+    (
+        "SecondOrderIntegrator,\nrebound",
+        SecondOrderIntegrator(3.0, lower_limit=0.0, restitution=0.7),
+        [Constant(-2.0)],
+    ),
+    (
+        "SecondOrderIntegrator,\nlimited speed",
+        SecondOrderIntegrator(upper_velocity_limit=0.5),
+        [STEP],
+    ),
+    ("SlewRateLimiter", SlewRateLimiter(0.5, -1.0), [STEP]),
+    ("Quantizer, hysteresis", Quantizer(1.0, hysteresis=0.5), [SINE]),
+    ("Saturate", Saturate(lower_limit=-1.0, upper_limit=1.5), [SINE]),
+    ("Abs", Abs(), [SINE]),
+    ("Comparator, >", Comparator(">"), [SINE, SECOND]),
+    ("Counter", Counter(), [Pulse(1.0, period=2.0)]),
+    ("StateMachine", PUMP, [SINE]),
+    (
+        "LookupTableNd",
+        LookupTableNd([[-2, 0, 2], [-2, 2]], [[1, 0], [0, 1], [1, -1]]),
+        [SINE, COSINE],
+    ),
+    (
+        "RigidBody, its rates",
+        RigidBody(inertia=np.diag([1.0, 2.0, 3.0]), initial_rates=[0.01, 2.0, 0.0]),
+        [Constant(np.zeros(3)), Constant(np.zeros(3))],
+        3,
+    ),
+]
+
 
 def draw(axis, title, block, inputs, port=0):
     """The inputs pale, the output black."""
@@ -136,12 +193,22 @@ def more_blocks():
     return sheet(SAMPLED, 5)
 
 
+def blocks_with_states():
+    """Twelve blocks, most of them with states of their own."""
+    return sheet(STATES, 3)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--out", type=Path, default=Path(make.__file__).parent)
     folder = parser.parse_args().out
     folder.mkdir(parents=True, exist_ok=True)
-    for figure, name in [(blocks(), "blocks.svg"), (more_blocks(), "blocks_sampled.svg")]:
+    sheets = {
+        "blocks.svg": blocks(),
+        "blocks_states.svg": blocks_with_states(),
+        "blocks_sampled.svg": more_blocks(),
+    }
+    for name, figure in sheets.items():
         figure.savefig(folder / name, metadata={"Date": None, "Creator": None})
         print(folder / name)
 

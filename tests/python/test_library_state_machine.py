@@ -224,3 +224,28 @@ def test_an_action_that_writes_what_is_no_variable():
         saltus.ModelError, match=r"entry of 'a': there is no variable 'cont'.*'count'"
     ):
         saltus.simulate(machine, (0.0, 1.0))
+
+
+@pytest.mark.parametrize("python", ["traced", "called"])
+@pytest.mark.parametrize("more", [{}, {"after": 0.25}, {"trigger": lambda u: u > 0.0}])
+@pytest.mark.parametrize("guard", [lambda u: u - 1.0, lambda u: ~bool(u <= 0.5)])
+def test_a_guard_that_returns_a_number_is_refused(python, more, guard):
+    ways = [Transition("a", "b", guard=guard, **more)]
+    machine = StateMachine(["a", "b"], ways, inputs=["u"], name="m")
+    with pytest.raises(saltus.Error, match=r"guard of transition 'a_to_b': expected a truth"):
+        saltus.response(machine, Sine(), t=[0.5, 1.0, 7.0], python=python)
+
+
+@pytest.mark.parametrize("python", ["traced", "called"])
+def test_truths_of_every_kind_are_guards(python):
+    for guard in (
+        lambda u: u > 0.5,
+        lambda u: np.logical_and(u > 0.5, u < 2.0),
+        lambda u: (u > 0.5) & (u < 2.0),
+        lambda u: np.logical_not(u <= 0.5),
+        lambda u: not u <= 0.5,
+        lambda u: bool(u > 0.5),
+    ):
+        machine = StateMachine(["a", "b"], [Transition("a", "b", guard=guard)], inputs=["u"])
+        seen = saltus.response(machine, Sine(), t=[0.4, 0.6], python=python)
+        assert seen.tolist() == [0.0, 1.0]

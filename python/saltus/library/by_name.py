@@ -9,10 +9,12 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
 from saltus._core import known_names
 from saltus.errors import BlockParameterError
 
-__all__ = ["ENTERED", "FIRST", "Named", "Words", "inputs_of_all"]
+__all__ = ["ENTERED", "FIRST", "Named", "Truth", "Words", "inputs_of_all"]
 
 ENTERED = 0
 """the entry of the discrete state with the time at which the active state was entered"""
@@ -65,6 +67,21 @@ class Named:
             if set(names) & set(self.names):
                 found.add(value)
         return sorted(found)
+
+
+class Truth(Named):
+    """A function that returns a truth. BlockParameterError for one that returns a number: of
+    u - 1.0 it would only be asked whether it is exactly zero.
+    """
+
+    def __call__(self, known: dict[str, Any]) -> Any:
+        found = super().__call__(known)
+        if isinstance(found, bool) or getattr(found, "dtype", None) == np.bool_:
+            return found
+        raise BlockParameterError(
+            f"block '{self.words.block}': {self.what}: expected a truth, such as "
+            f"`lambda u: u > 1.0`, found the number {found!r}"
+        )
 
 
 def inputs_of_all(words: Words, functions: Sequence[Named | None]) -> list[int]:

@@ -12,7 +12,7 @@ from saltus._core import known_names
 from saltus._porting import refusing
 from saltus.errors import BlockParameterError
 from saltus.leaf_system import LeafSystem
-from saltus.library.by_name import FIRST, Named, Words
+from saltus.library.by_name import FIRST, Named, Truth, Words
 from saltus.library.transitions import (
     Action,
     Condition,
@@ -72,7 +72,7 @@ class StateMachine(LeafSystem):
     ------
     BlockParameterError
         If there is no state, a name is unknown or used twice, a transition has no condition, or
-        `after` is not above 0.
+        `after` is not above 0. In a run, for a guard that returns a number.
 
     Examples
     --------
@@ -223,7 +223,7 @@ class StateMachine(LeafSystem):
     def _condition_of(self, each: Transition, where: str) -> Condition:
         self._at(each.source, where), self._at(each.target, where)
         self._require_condition(each, where)
-        guard = self._named(f"guard of {where}", each.guard)
+        guard = each.guard and Truth(self._words, f"guard of {where}", each.guard)
         return Condition(guard, self._named(f"trigger of {where}", each.trigger), each.after)
 
     def _declare_transition(
