@@ -156,13 +156,17 @@ double Contacts::guard(const SurfaceContact& contact, double t, const double* x)
 }
 
 bool Contacts::follows(const SurfaceContact& contact, double t, const double* x) {
-  const double d = contact.look_ahead;
+  if (contact.opaque) return true;
+  const double later = t + contact.look_ahead;
   machine_->flow(t, x, slow_.data());
-  later_ = VectorView(x, slow_.size()) + d * slow_;
-  const double left = guard(contact, t + d, later_.data());
-  if (contact.opaque || left * contact.pressed >= 0.0) return true;
-  return settle(contact, t + d, later_.data()) &&
-         std::abs(guard(contact, t + d, later_.data())) <= 0.5 * std::abs(left);
+  later_ = VectorView(x, slow_.size()) + contact.look_ahead * slow_;
+  const double rounding = thresholds::fixed_point_roundings * thresholds::eps *
+                          std::sqrt(slope(contact, later, later_.data()));
+  const double seen = std::max(contact.error, rounding);
+  const double left = std::abs(guard(contact, later, later_.data()));
+  return left <= seen || (settle(contact, later, later_.data()) &&
+                          std::abs(guard(contact, later, later_.data())) <=
+                              std::max(seen, thresholds::follows_to * left));
 }
 
 double Contacts::lift(const SurfaceContact& contact, double t, const double* x) {

@@ -154,7 +154,7 @@ bool ContactGuards::follow_surface(SurfaceContact& contact) {
     contacts_.choose_look_ahead(contact, t, x, longest);
   }
   const bool moves = contact.carried || contacts_.moves(contact, t, x, longest);
-  if (moves) contact.carried = contacts_.settle(contact, t, x);
+  if (moves) contact.carried = contacts_.settle(contact, t, x) && contacts_.follows(contact, t, x);
   if (placed) {
     // The reset maps leave the block beside its surface by a rounding, of either sign.
     const double beside = std::abs(contacts_.guard(contact, t, x));

@@ -12,7 +12,7 @@ ContactGuards::Taken ContactGuards::take(const Firing& firing) {
   SurfaceContact* contact = contacts_.empty() ? nullptr : contacts_.on(firing.slot);
   if (firing.from == Firing::lifts_off) {
     if (contact == nullptr) return Taken::yes;
-    let_go(*contact);
+    let_go(*contact, -contact->pressed);
     return Taken::let_go;
   }
   if (present_->pass > 0 || contact == nullptr) return Taken::no;
@@ -31,10 +31,14 @@ bool ContactGuards::wake(SurfaceContact& contact) {
   const double g = present_->g[k];
   const auto may_be_carried = [&] {
     return !contact.members.empty() && contacts_.settle(contact, t, x) &&
-           contacts_.lift(contact, t, x) < 0.0 && contacts_.follows(contact, t, x);
+           contacts_.lift(contact, t, x) < 0.0;
   };
   switch (decide_waking(contact.carried, g, contact.pressed, may_be_carried)) {
     case Waking::carry:
+      if (!contacts_.follows(contact, t, x)) {  // the surface goes through the block
+        let_go(contact, g * contact.pressed > 0.0 ? contact.pressed : -contact.pressed);
+        return true;
+      }
       contact.carried = present_->outcome.restart = true;
       machine_->guards_at(t, x, present_->g.data());  // the block has been put on its surface
       return false;
@@ -44,22 +48,21 @@ bool ContactGuards::wake(SurfaceContact& contact) {
     case Waking::release:
       break;
   }
-  let_go(contact);
+  let_go(contact, -contact.pressed);
   return true;
 }
 
-/// Releases the blocks of a contact. The distance from a falling surface grows as the third power
-/// of time, so the guard is at zero until it exceeds the tolerance.
-void ContactGuards::let_go(SurfaceContact& contact) {
+/// Releases the blocks of a contact to a side of its guard. The distance from a falling surface grows
+/// as the third power of time, so the guard is at zero until it exceeds the tolerance.
+void ContactGuards::let_go(SurfaceContact& contact, int side) {
   const std::size_t k = contact.guard();
   const GuardGroup& group = group_of(k);
-  const int armed = -contact.pressed;
   const double error = std::max(contact.error, flow_->tolerance(contact.slot, contact.opaque));
   leave(k);
-  guards_->wait(k, armed, error);
+  guards_->wait(k, side, error);
   if (group.is_crossing()) return holds_->release(holds_->of_guard(k));
   guards_->keep_truth(k, false);
-  machine_->truth_at(group.index, (*guards_)[k].entry) = armed > 0 ? 1.0 : 0.0;
+  machine_->truth_at(group.index, (*guards_)[k].entry) = side > 0 ? 1.0 : 0.0;
 }
 
 void ContactGuards::look_at_held(std::size_t k) {

@@ -92,3 +92,25 @@ TEST_CASE("4.5 a ball does not hover where its floor moves away, whatever its re
   CHECK(std::abs(results.context.continuous_state()[0] - 3.0 * speed) <= 1e-14);
   CHECK(std::abs(results.context.continuous_state()[1] - speed) <= 1e-14);
 }
+
+TEST_CASE("4.5 a guard that the time takes on through a block at rest is not kept at zero",
+          "[semantics]") {
+  // g = t - 1 + x / 5. The resets x+ = x / 2 set g back by less and less, until t = 1 at x = 0. From
+  // then on the time alone moves g, and no reset can hold it: x' = 1 / 10 goes on from there.
+  const auto method = GENERATE(from_range(methods));
+  const Leaf leaf("leaf", [](Leaf& l) {
+    l.declare_continuous_state({.initial = vec({1.0}), .ode = [](const At&) { return 0.1; }});
+    l.declare_zero_crossing(
+        {.name = "pass",
+         .guard = [](const At& at) { return at.time - 1.0 + 0.2 * at.x[0]; },
+         .reset_map = [](const At& at, Next& next) { next.set_continuous_state({0.5 * at.x[0]}); },
+         .direction = Direction::negative_then_non_negative});
+  });
+  const auto results = simulate(leaf, leaf.create_context(), {0.0, 3.0},
+                                {.rtol = 1e-8, .atol = 1e-10, .ode_solver_method = method});
+  INFO(method);
+  CHECK(count(results.events, EventKind::zeno_enter) == 1);
+  CHECK(count(results.events, EventKind::zeno_release) == 1);
+  // It rests within the Zeno tolerance of 1e-6 s on either side of t = 1, at a rate of 0.1.
+  CHECK(std::abs(results.context.continuous_state()[0] - 0.2) <= 2e-7 + 1e-8);
+}

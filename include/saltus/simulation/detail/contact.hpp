@@ -64,8 +64,8 @@ class Contacts final : public Carrier {
   void find_place(SurfaceContact& contact, double t, const double* x);
   /// The value of its guard.
   double guard(const SurfaceContact& contact, double t, const double* x);
-  /// Whether the reset maps take the block after a surface that moves away from it. A map that turns
-  /// the position round, as h + |y - h|, leaves a block above its surface where it is.
+  /// Whether the reset maps keep the block on its surface while that moves. Their fixed point may be
+  /// elsewhere: a map that halves a state takes it to zero.
   bool follows(const SurfaceContact& contact, double t, const double* x);
   /// How far the free flow from x takes the guard off the surface: 8 g(d/2) - g(d), in which the
   /// third order cancels. A negative lift means that the flow presses on the surface. An opaque

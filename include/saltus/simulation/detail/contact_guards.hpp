@@ -53,7 +53,7 @@ class ContactGuards {
   void arm(SurfaceContact& contact, double error);
   bool follow_surface(SurfaceContact& contact);
   bool wake(SurfaceContact& contact);
-  void let_go(SurfaceContact& contact);
+  void let_go(SurfaceContact& contact, int side);
   void release_kicked_edge(std::size_t e);
   void engage();
 

@@ -92,6 +92,10 @@ inline constexpr int landing_rounds = 3;
 /// [of a movement] A reset map that moves a state by less, after it has been moved, leaves it there.
 /// tests/semantics/zeno_stays_at_rest_test.cpp (as large)
 inline constexpr double same_place = 1e-3;
+/// [of a movement] Reset maps take a block after its surface if they leave less of what the surface
+/// moves: a fixed point on the surface leaves rounding, any other one all of it.
+/// tests/semantics/zeno_stays_at_rest_test.cpp (as large)
+inline constexpr double follows_to = 0.5;
 /// [eps] Relative movement of a state by curvature. It leaves nine digits above the rounding,
 /// enough to know the sign. tests/unit/contact_test.cpp
 inline constexpr double visible_lift = 1e9 * eps;
