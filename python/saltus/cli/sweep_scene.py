@@ -25,6 +25,7 @@ from saltus.ensemble.executors import run, store_of
 from saltus.ensemble.progress import Progress
 from saltus.ensemble.runs import Outcome
 from saltus.ensemble.table import Table, entry
+from saltus.errors import ModelError
 
 __all__ = ["act", "add_arguments"]
 
@@ -81,6 +82,8 @@ def act(chosen: argparse.Namespace) -> int:
 
 
 def _made(runs: SceneRuns, table: Table, chosen: argparse.Namespace) -> Outcome:
+    if chosen.store is None and (chosen.retries or chosen.chunk):
+        raise ModelError("--chunk and --retries are of a store: say --store DIRECTORY too")
     store = store_of(chosen.store, chosen.chunk, chosen.retries, runs, table)
     with Progress(table.runs, chosen.progress) as shown:
         columns, raised, _, _ = run(

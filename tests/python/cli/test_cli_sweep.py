@@ -96,8 +96,8 @@ def test_a_row_that_fails_says_why_and_the_others_go_on(capsys):
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
-        (["--retries", "2"], "retries=2 needs a store"),
-        (["--chunk", "2"], "chunk=2 needs a store"),
+        (["--retries", "2"], "say --store DIRECTORY too"),
+        (["--chunk", "2"], "say --store DIRECTORY too"),
         (["--workers", "0"], "workers: expected 1 or more, found 0"),
         (["--store", MINE], "expected a directory, found the file"),
         (["--record", "speed"], "no output 'speed'"),
