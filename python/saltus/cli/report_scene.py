@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from saltus._status import WELL
 from saltus.cli.files import require_picture, require_suffix
 from saltus.cli.scene_of import Chosen, chosen_scene
 from saltus.cli.settings import add_scene, add_span, settings_of
@@ -64,9 +65,7 @@ def act(chosen: argparse.Namespace) -> int:
     table = _table(scene, how)
     print(table)
     _write(table, chosen)
-    return (
-        0 if any(row["status"] in ("reached_end", "terminal", "zeno_stop") for row in table) else 1
-    )
+    return 0 if any(row["status"] in WELL for row in table) else 1
 
 
 def _check(chosen: argparse.Namespace) -> None:

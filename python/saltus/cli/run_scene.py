@@ -18,6 +18,7 @@ from typing import Any
 import numpy as np
 
 from saltus._signals import port_of
+from saltus._status import WELL
 from saltus.cli.files import require_picture, require_suffix
 from saltus.cli.scene_of import Chosen, chosen_scene
 from saltus.cli.settings import add_options, add_scene, options_of, settings_of
@@ -29,7 +30,6 @@ from saltus.simulation import simulate
 __all__ = ["act", "add_arguments"]
 
 NAME = "run"
-WELL = ("reached_end", "terminal", "zeno_stop")
 INTERRUPTED = 130
 MOST_ROWS = 10_000_000  # even rows, each of which takes some hundred bytes until it is written
 SHOWN = 12  # values at the end that are shown one by one

@@ -12,6 +12,7 @@ import numpy as np
 
 from saltus import __version__
 from saltus._signals import port_of
+from saltus._status import WELL
 from saltus.cli.scene_of import Chosen, chosen_scene
 from saltus.ensemble.columns import STATUS, Columns, empty, failed
 from saltus.ensemble.runs import Outcome, Watch, each, said
@@ -22,9 +23,7 @@ from saltus.simulation import Simulator, simulate
 if TYPE_CHECKING:
     from saltus.scene_files import FileScene
 
-__all__ = ["WELL", "SceneRuns"]
-
-WELL = ("reached_end", "terminal", "zeno_stop")
+__all__ = ["SceneRuns"]
 
 
 @dataclass(frozen=True)

@@ -14,10 +14,11 @@ import math
 from pathlib import Path
 from typing import Any
 
+from saltus._status import WELL
 from saltus.cli.files import require_suffix
 from saltus.cli.scene_of import chosen_scene
 from saltus.cli.settings import add_options, add_scene, options_of, settings_of
-from saltus.cli.sweep_runs import WELL, SceneRuns
+from saltus.cli.sweep_runs import SceneRuns
 from saltus.cli.sweep_values import table_of_runs, varied_of
 from saltus.cli.table import print_table
 from saltus.ensemble.columns import STATUS, Columns

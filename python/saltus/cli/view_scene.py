@@ -13,6 +13,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+from saltus._status import WELL
 from saltus.cli.files import require_suffix
 from saltus.cli.scene_of import Chosen, chosen_scene
 from saltus.cli.settings import add_options, add_scene, options_of, settings_of
@@ -71,7 +72,7 @@ def _written(
     )  # fmt: skip
     if results.status == "interrupted":
         raise KeyboardInterrupt
-    if results.status not in ("reached_end", "terminal", "zeno_stop"):
+    if results.status not in WELL:
         print(f"saltus view: {results.status}: {results.message}", file=sys.stderr)
     draw = _drawing(chosen.draw, scene, settings_of(chosen.set))
     text = made_page(results, scene.system, scene.name, scene.title, draw, chosen.speed)

@@ -8,13 +8,13 @@ from typing import Any
 
 import numpy as np
 
+from saltus._status import WELL
 from saltus.ensemble.columns import STATUS, Columns
 from saltus.ensemble.table import Table
 from saltus.errors import ModelError
 from saltus.results.tables import extra
 
 __all__ = [
-    "WELL",
     "Arrays",
     "arrays_of",
     "refuse_reserved",
@@ -29,8 +29,6 @@ Arrays = dict[str, tuple[tuple[str, ...], np.ndarray]]
 
 RESERVED = {"status", "message", "block", "events", "steps", "end_time", "wall_time",
             "continuous_state", "discrete_state", "modes", "time", "run"}  # fmt: skip
-WELL = ("reached_end", "terminal", "zeno_stop")
-"""the statuses of a run that ended as its user asked"""
 
 
 def xarray() -> Any:

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from saltus._core import known_names
-from saltus.ensemble.dataset import WELL
+from saltus._status import WELL
 from saltus.errors import ModelError
 from saltus.results.charts.chart import checked_backend
 from saltus.results.tables import extra

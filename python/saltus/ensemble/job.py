@@ -12,6 +12,7 @@ import numpy as np
 from saltus import _core
 from saltus._engine import core_context, core_options
 from saltus._signals import port_of
+from saltus._status import WELL
 from saltus.callbacks import Callbacks, planned
 from saltus.ensemble.columns import Columns, failed
 from saltus.ensemble.runs import NoSystem, Outcome, Watch, each, said
@@ -184,7 +185,7 @@ class _Reduced:
         self.errors: dict[int, str] = {}
 
     def __call__(self, run: int, core: _core.Results, raised: BaseException | None) -> None:
-        if core.status not in ("reached_end", "terminal", "zeno_stop") or self.reduce is None:
+        if core.status not in WELL or self.reduce is None:
             return
         try:
             self.values[run] = self.reduce(Results(core, raised))

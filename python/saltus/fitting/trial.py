@@ -9,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from saltus import _core
+from saltus._status import WELL
 from saltus.errors import Error, ModelError
 from saltus.fitting.bound import Bound
 from saltus.fitting.observed import (
@@ -22,7 +23,6 @@ from saltus.fitting.tables import sigma_of
 from saltus.options import SimulatorOptions
 from saltus.results import Results
 from saltus.simulation import Simulator, simulate
-from saltus.simulation.whole import WELL
 from saltus.system import System
 
 __all__ = ["Evaluation", "RunFailed", "Stopped", "Trial"]

@@ -5,6 +5,8 @@ from __future__ import annotations
 import html
 from typing import TYPE_CHECKING
 
+from saltus._status import WELL
+
 if TYPE_CHECKING:
     from saltus.results.outcome import Results
 
@@ -85,7 +87,7 @@ def as_html(results: Results) -> str:
             f"<td style='text-align:left'>{html.escape(text)}</td></tr>"
         )
 
-    good = results.status in ("reached_end", "terminal", "zeno_stop")
+    good = results.status in WELL
     title = (
         f"<b>{type(results).__name__}</b>: "
         f"<span style='color:{'#2a7d2a' if good else '#b3261e'}'>{results.status}</span>, "

@@ -8,6 +8,7 @@ from typing import Any
 
 from saltus import _core
 from saltus._engine import core_context, core_options
+from saltus._status import WELL
 from saltus.callbacks import Callbacks, planned
 from saltus.errors import ModelError
 from saltus.options import SimulatorOptions
@@ -16,7 +17,6 @@ from saltus.results import Results
 from saltus.simulation.failure import raise_for
 from saltus.simulation.turn import Turn
 from saltus.simulation.whole import (
-    WELL,
     advance,
     checked_options,
     functions_of,

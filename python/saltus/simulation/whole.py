@@ -10,6 +10,7 @@ from saltus import _core
 from saltus._engine import core_options
 from saltus._porting import OPTIONS, refuse
 from saltus._signals import signals_of
+from saltus._status import WELL
 from saltus.callbacks import Callbacks, planned
 from saltus.callbacks.plans import Key
 from saltus.errors import ModelError, SimulationError
@@ -21,7 +22,6 @@ from saltus.simulation.plan_key import key_of
 from saltus.system import System
 
 __all__ = [
-    "WELL",
     "Prepared",
     "advance",
     "checked_options",
@@ -31,7 +31,6 @@ __all__ = [
     "run_whole",
 ]
 
-WELL = frozenset({"reached_end", "terminal", "zeno_stop"})
 """the statuses of runs that ended well"""
 
 R = TypeVar("R", bound=Results)
