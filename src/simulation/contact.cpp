@@ -157,16 +157,15 @@ double Contacts::guard(const SurfaceContact& contact, double t, const double* x)
 
 bool Contacts::follows(const SurfaceContact& contact, double t, const double* x) {
   if (contact.opaque) return true;
-  const double later = t + contact.look_ahead;
+  const double later = t + contact.look_ahead, now = guard(contact, t, x);
   machine_->flow(t, x, slow_.data());
   later_ = VectorView(x, slow_.size()) + contact.look_ahead * slow_;
   const double rounding = thresholds::fixed_point_roundings * thresholds::eps *
                           std::sqrt(slope(contact, later, later_.data()));
-  const double seen = std::max(contact.error, rounding);
-  const double left = std::abs(guard(contact, later, later_.data()));
-  return left <= seen || (settle(contact, later, later_.data()) &&
-                          std::abs(guard(contact, later, later_.data())) <=
-                              std::max(seen, thresholds::follows_to * left));
+  const double moved = std::abs(guard(contact, later, later_.data()) - now);
+  return moved <= rounding || (settle(contact, later, later_.data()) &&
+                               std::abs(guard(contact, later, later_.data()) - now) <=
+                                   std::max(rounding, thresholds::follows_to * moved));
 }
 
 double Contacts::lift(const SurfaceContact& contact, double t, const double* x) {
