@@ -164,18 +164,35 @@ class Finder {
 
 Islands find_islands(const Plan& plan) { return Finder(plan).take(); }
 
-std::string Islands::describe() const {
-  constexpr std::size_t most = 8;
-  std::string out = count() == 1 ? "islands: 1" : text("islands: ", count(), ", which step apart");
-  // A chain of blocks is one part by its nature. It is the reason only where nothing else is.
-  const bool chains = count() == 1 && !joins.empty() && joins.front().parts == 1;
+namespace {
+
+constexpr std::size_t most_shown = 8;
+
+/// How many joins are shown. A chain of blocks is one part by its nature: it is the reason only
+/// where nothing else is.
+std::size_t shown_joins(const Islands& islands) {
+  const auto& joins = islands.joins;
+  const bool chains = islands.count() == 1 && !joins.empty() && joins.front().parts == 1;
   std::size_t n = 0;
-  for (; n < joins.size() && n < most && (chains || joins[n].parts > 1); ++n) {
-    out += n > 0 ? ", '" : count() == 1 ? ", because of '" : "; joined by '";
-    out += text(joins[n].reader, "' (reads ", joins[n].parts,
-                joins[n].parts == 1 ? " other part)" : " other parts)");
+  while (n < joins.size() && n < most_shown && (chains || joins[n].parts > 1)) ++n;
+  return n;
+}
+
+std::string text_of(const Islands::Join& join) {
+  return text(join.reader, "' (reads ", join.parts,
+              join.parts == 1 ? " other part)" : " other parts)");
+}
+
+}  // namespace
+
+std::string Islands::describe() const {
+  std::string out = count() == 1 ? "islands: 1" : text("islands: ", count(), ", which step apart");
+  const std::size_t n = shown_joins(*this);
+  for (std::size_t i = 0; i < n; ++i) {
+    out += i > 0 ? ", '" : count() == 1 ? ", because of '" : "; joined by '";
+    out += text_of(joins[i]);
   }
-  return out + (n == most && joins.size() > most ? ", ...\n" : "\n");
+  return out + (n == most_shown && joins.size() > most_shown ? ", ...\n" : "\n");
 }
 
 }  // namespace saltus

@@ -11,7 +11,7 @@ using namespace saltus;
 namespace {
 
 /// A sine with four looks, the last at its angle, and `apart` between each two.
-Variation of_sine(double angle, double apart, double above = 1.0) {
+LookVariation of_sine(double angle, double apart, double above = 1.0) {
   double g[4];
   for (int i = 0; i < 4; ++i) g[i] = above + std::sin(angle - (3 - i) * apart);
   const ThirdDifference bound(0.0, apart, 2.0 * apart, 3.0 * apart);
@@ -42,8 +42,8 @@ TEST_CASE("twelve looks in a period of a sine show it, four do not", "[look_pace
 }
 
 TEST_CASE("a guard that is further from zero than it may have moved hides nothing", "[look_pace]") {
-  const Variation hidden{.error = 1.0, .range = 2.0, .least = 3.9};
-  const Variation far{.error = 1.0, .range = 2.0, .least = 4.1};
+  const LookVariation hidden{.error = 1.0, .range = 2.0, .least = 3.9};
+  const LookVariation far{.error = 1.0, .range = 2.0, .least = 4.1};
   CHECK(hidden.hides());
   CHECK_FALSE(far.hides());
 }

@@ -11,7 +11,7 @@
 namespace saltus {
 
 /// What four looks at a guard in a row say of the piece between the last two.
-struct Variation {
+struct LookVariation {
   double error;  ///< of the parabola through the last three, in the last piece: an estimate
   double range;  ///< between the least and the greatest of the values
   double least;  ///< the distance from zero of the nearer of the last two; 0 if they differ in sign

@@ -129,7 +129,7 @@ class PacedSearch : protected PieceSearch {
       look(last, nullptr, interpolate, high_);
       for (const std::size_t k : located_->slots) guards_->g[k] = middle_[k];  // no others
       const bool hidden =
-          judge_.any(four_looks(third, last), [&](std::size_t k, const Variation& each) {
+          judge_.any(four_looks(third, last), [&](std::size_t k, const LookVariation& each) {
             return each.hides() || is_steep(k, piece, each.range);
           });
       set_looks();

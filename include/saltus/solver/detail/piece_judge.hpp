@@ -17,7 +17,7 @@ struct FourLooks {
   const double *oldest, *earlier, *last, *high;
   ThirdDifference bound;  ///< of the offsets of these looks
 
-  Variation variation(std::size_t k) const {
+  LookVariation variation(std::size_t k) const {
     const double g0 = oldest[k], g1 = earlier[k], g2 = last[k], g3 = high[k];
     const double least = std::min(std::min(g0, g1), std::min(g2, g3));
     const double greatest = std::max(std::max(g0, g1), std::max(g2, g3));
@@ -39,7 +39,7 @@ class PieceJudge {
   /// A step that is looked into begins.
   void begin_step(std::size_t k) { judged_[k].begin_step(); }
 
-  /// Whether some guard that counts is such, by a test of its number and its Variation. The test
+  /// Whether some guard that counts is such, by a test of its number and its LookVariation. The test
   /// comes first, because it excludes most guards.
   template <class Is>
   [[gnu::always_inline]] bool any(const FourLooks& looks, const Is& is) const {
@@ -49,11 +49,11 @@ class PieceJudge {
   }
   /// Whether some guard may have crossed zero where the looks do not show it.
   [[gnu::always_inline]] bool hides(const FourLooks& looks) const {
-    return any(looks, [](std::size_t, const Variation& each) { return each.hides(); });
+    return any(looks, [](std::size_t, const LookVariation& each) { return each.hides(); });
   }
   /// Whether looks at twice the distance would show all guards, too.
   bool is_slow(const FourLooks& looks) const {
-    return !any(looks, [](std::size_t, const Variation& each) { return !each.is_slow(); });
+    return !any(looks, [](std::size_t, const LookVariation& each) { return !each.is_slow(); });
   }
   /// The shortest piece hides something: notes which guards do.
   void note_in_vain(const FourLooks& looks) {
