@@ -55,6 +55,34 @@ TEST_CASE("every crossing of a guard that is faster than the state is found", "[
   }
 }
 
+/// While the state rests, the steps of a method have no limit: a step of 2 000 s has 1 592 periods of
+/// the guard.
+TEST_CASE("the crossings of a guard of time alone are found beside a state at rest",
+          "[laws][guards]") {
+  const auto method = GENERATE(from_range(methods));
+  const double frequency = GENERATE(0.3, 5.0, 50.0);
+  const double last = 2000.0;
+  const auto leaf = make_leaf("leaf", [=](Leaf& l) {
+    l.declare_continuous_state(1, [](const At&, VectorRef xdot) { xdot[0] = 0.0; });
+    l.declare_zero_crossing(
+        {.name = "hit",
+         .guard = [=](const At& at) { return std::sin(frequency * at.time + 0.4) - 0.5; },
+         .direction = Direction::negative_then_non_negative});
+  });
+  const auto results = simulate(*leaf, leaf->create_context(), {0.0, last},
+                                {.ode_solver_method = method, .save_steps = false});
+  std::vector<double> expected;
+  for (double k = 0.0;; k += 1.0) {
+    const double t = (std::asin(0.5) + 2.0 * pi * k - 0.4) / frequency;
+    if (t > last) break;
+    if (t > 0.0) expected.push_back(t);
+  }
+  // as above, with an angle of up to 1e5
+  const double slope = frequency * std::sqrt(0.75);
+  within(text("state at rest ", frequency), method, worst(firing_times(results.events), expected),
+         8.0 * eps * (frequency * last) / slope + 200.0 * eps * last);
+}
+
 TEST_CASE("a guard that no look resolves does not end the looks at the others", "[laws][guards]") {
   // A monitor that is noise, and never zero, beside one with three periods in a second.
   const auto method = GENERATE(from_range(methods));

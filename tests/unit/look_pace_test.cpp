@@ -44,8 +44,10 @@ TEST_CASE("twelve looks in a period of a sine show it, four do not", "[look_pace
 TEST_CASE("a guard that is further from zero than it may have moved hides nothing", "[look_pace]") {
   const LookVariation hidden{.error = 1.0, .range = 2.0, .least = 3.9};
   const LookVariation far{.error = 1.0, .range = 2.0, .least = 4.1};
+  const LookVariation jump{.error = 1.0, .range = 2.0, .least = 1.0, .jumps_once = true};
   CHECK(hidden.hides());
   CHECK_FALSE(far.hides());
+  CHECK_FALSE(jump.hides());
 }
 
 TEST_CASE("where a piece is slow, one of twice the length hides nothing", "[look_pace]") {
@@ -64,10 +66,10 @@ TEST_CASE("a piece that hides something is halved, and grows again where the gua
   LookPace pace;
   CHECK_FALSE(pace.is_finer_than(1.0));
   CHECK(pace.next(1.0) == 1.0);
-  REQUIRE(pace.halve(1.0, 1.0));
+  REQUIRE(pace.halve(1.0, 0.01));
   CHECK(pace.is_finer_than(1.0));
   CHECK(pace.next(1.0) == 0.5);
-  REQUIRE(pace.halve(0.5, 1.0));
+  REQUIRE(pace.halve(0.5, 0.01));
   CHECK(pace.next(1.0) == 0.25);
   pace.accept(0.25, false);
   CHECK(pace.next(1.0) == 0.25);
@@ -80,15 +82,26 @@ TEST_CASE("a piece that hides something is halved, and grows again where the gua
 
 TEST_CASE("a long step after short ones has no more pieces than allowed", "[look_pace]") {
   LookPace pace;
-  REQUIRE(pace.halve(1e-9, 1e-9));
-  CHECK(pace.begin_step(1.0));
-  CHECK(pace.next(1.0) == thresholds::finest_piece);
-  CHECK_FALSE(pace.begin_step(1.0));  // not the first of the run
+  REQUIRE(pace.halve(1e-9, 1e-12));
+  CHECK(pace.begin_step(1.0, 0.125));
+  CHECK(pace.next(1.0) == 0.125);
+  CHECK_FALSE(pace.begin_step(1.0, 0.125));  // not the first of the run
+  CHECK_FALSE(pace.halve(0.2, 0.125));
+}
+
+TEST_CASE("a step is as the first of a run where its looks are much further apart than any before",
+          "[look_pace]") {
+  LookPace pace;
+  CHECK(pace.begin_step(1.0, 0.01));
+  CHECK_FALSE(pace.begin_step(0.1, 0.01));
+  CHECK_FALSE(pace.begin_step(8.0, 0.01));
+  CHECK(pace.begin_step(8.1, 0.01));
+  CHECK_FALSE(pace.begin_step(60.0, 0.01));
 }
 
 TEST_CASE("the pieces of an interval are even, and no rounding adds one", "[look_pace]") {
   LookPace pace;
-  REQUIRE(pace.halve(0.6, 1.0));  // to 0.3
+  REQUIRE(pace.halve(0.6, 0.01));  // to 0.3
   CHECK(pace.next(1.0) == 0.25);
   CHECK(pace.next(0.3 * (1.0 + 1e-15)) == 0.3 * (1.0 + 1e-15));
 }
@@ -104,4 +117,15 @@ TEST_CASE("a guard that no piece shows is left out for some steps", "[look_pace]
   int steps = 0;
   for (; !judged.yes(); ++steps) judged.begin_step();
   CHECK(steps == thresholds::most_patience);
+}
+
+TEST_CASE("a guard that seems to be noise again and again is left out", "[look_pace]") {
+  Judged judged;
+  for (int i = 0; i < thresholds::most_in_vain; ++i) judged.note(true);
+  CHECK(judged.yes());
+  judged.note(false);  // one piece shows the guard: it is smooth
+  for (int i = 0; i < thresholds::most_in_vain; ++i) judged.note(true);
+  CHECK(judged.yes());
+  judged.note(true);
+  CHECK_FALSE(judged.yes());
 }

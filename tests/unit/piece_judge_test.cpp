@@ -47,6 +47,22 @@ TEST_CASE("a guard that zigzags near zero may hide a crossing, one further away 
   CHECK_FALSE(judge.piece.is_slow(hidden));
 }
 
+/// Looks that are near to each other show the only jump of a guard of two values. Any other guard may
+/// do more than they show, however near they are.
+TEST_CASE("near looks show a guard of two values that jumped once", "[piece_judge]") {
+  const auto hides = [](double a, double b, double c, double d, bool near) {
+    const double values[4][2] = {{9.0, a}, {9.0, b}, {9.0, c}, {9.0, d}};
+    const ThirdDifference bound(0.0, 1.0, 2.0, 3.0);
+    return Judge().piece.hides({values[0], values[1], values[2], values[3], bound, near});
+  };
+  for (const bool near : {false, true}) {
+    CHECK(hides(1.0, 1.0, 1.0, -1.0, near) == !near);
+    CHECK(hides(1.0, 1.0, -1.0, -1.0, near) == !near);
+    CHECK(hides(1.0, 1.0, -1.0, 1.0, near));  // it jumped twice
+    CHECK(hides(1.0, 1.0, 0.9, -1.0, near));  // it has three values
+  }
+}
+
 TEST_CASE("a guard that jumps, or rests, does not count for the pieces", "[piece_judge]") {
   CHECK_FALSE(Judge(true).piece.hides(hidden));
   CHECK_FALSE(Judge(false, true).piece.hides(hidden));

@@ -15,10 +15,17 @@ struct LookVariation {
   double error;  ///< of the parabola through the last three, in the last piece: an estimate
   double range;  ///< between the least and the greatest of the values
   double least;  ///< the distance from zero of the nearer of the last two; 0 if they differ in sign
+  bool jumps_once = false;  ///< it has two values, and changed once, in looks near to each other
 
   /// Whether the guard may have crossed zero where the looks do not show it.
   bool hides() const {
-    return thresholds::hidden_room * error > least && error > thresholds::hidden_share * range;
+    return !jumps_once && thresholds::hidden_room * error > least && error > thresholds::hidden_share * range;
+  }
+  /// Whether the looks do not show the guard, which may come to zero. They show a smooth guard where
+  /// they are near enough, because its error falls by eight where the piece is halved.
+  bool is_noise() const {
+    return !jumps_once && thresholds::growth_room * error > least &&
+           error > thresholds::hidden_share * range;
   }
   /// Whether looks at twice the distance would show the guard, too.
   bool is_slow() const {
@@ -42,9 +49,10 @@ class LookPace {
     constexpr double less = 1.0 - 1e-9;  // a piece that a rounding made longer is not divided
     return rest * less <= piece_ ? rest : rest / std::ceil(rest / piece_ * less);
   }
-  /// A piece of this length [s] hides something: whether it may be halved.
-  bool halve(double length, double even) {
-    if (0.5 * length < even * thresholds::finest_piece) return false;
+  /// A piece of this length [s] hides something: whether it may be halved. No piece is shorter than
+  /// `least` [s].
+  bool halve(double length, double least) {
+    if (0.5 * length < least) return false;
     piece_ = 0.5 * length;
     return true;
   }
@@ -52,33 +60,42 @@ class LookPace {
   void accept(double length, bool slow) {
     if (slow && piece_ < all) piece_ = std::max(piece_, 2.0 * length);
   }
-  /// A step that is looked into begins, with evenly spaced looks so far [s] apart. Returns whether
-  /// it is the first of the run.
-  bool begin_step(double even) {
-    piece_ = std::max(piece_, even * thresholds::finest_piece);
-    return std::exchange(is_new_, false);
+  /// A step that is looked into begins, with evenly spaced looks so far [s] apart, and no piece
+  /// shorter than `least` [s]. Returns whether its looks are much further apart than any before: then
+  /// no look has shown yet how fast the guards are for them.
+  bool begin_step(double even, double least) {
+    piece_ = std::max(piece_, least);
+    if (even <= thresholds::known_growth * widest_) return false;
+    widest_ = even;
+    return true;
   }
 
  private:
   static constexpr double all = std::numeric_limits<double>::infinity();
-  double piece_ = all;  // [s]
-  bool is_new_ = true;
+  double piece_ = all;   // [s]
+  double widest_ = 0.0;  // [s] between the looks of a step
 };
 
 /// Whether a guard counts for the distance of the looks. A guard that jumps, or whose values are
-/// rounding, seems to hide something in the shortest pieces, too. If that happens often in a step,
-/// the short pieces are of no use for this guard, so it does not count for some steps.
+/// rounding, seems to hide something in the shortest pieces, too, and noise is shown by no piece. If
+/// that happens often in a step, the short pieces are of no use for this guard, so it does not count
+/// for some steps.
 class Judged {
  public:
   bool yes() const { return rests_ == 0; }
-  void begin_step() { in_vain_ = 0, rests_ = std::max(0, rests_ - 1); }
+  void begin_step() { in_vain_ = noise_ = 0, rests_ = std::max(0, rests_ - 1); }
   /// The shortest piece hid something.
-  void fail() {
-    if (++in_vain_ > thresholds::most_in_vain) rests_ = thresholds::most_patience;
-  }
+  void fail() { rest_after(++in_vain_); }
+  /// A piece of near looks seems to show noise. Noise does so again and again; a smooth guard does so
+  /// until the pieces are short enough.
+  void note(bool noise) { rest_after(noise_ = noise ? noise_ + 1 : 0); }
 
  private:
+  void rest_after(int times) {
+    if (times > thresholds::most_in_vain) rests_ = thresholds::most_patience;
+  }
   int in_vain_ = 0;  // shortest pieces in this step
+  int noise_ = 0;    // pieces in a row that seem to show noise
   int rests_ = 0;    // steps that are looked into, until it counts again
 };
 

@@ -30,18 +30,19 @@ class PacedSearch : protected PieceSearch {
   template <class Interpolate>
   void begin_pieces(double from, double even, const Interpolate& interpolate) {
     const double resolution = thresholds::eps * (std::abs(t0_) + end_at_);
-    refines_ = scans() && even * thresholds::finest_piece > thresholds::look_roundings * resolution;
+    refines_ = scans() && even * thresholds::step_piece > thresholds::look_roundings * resolution;
     even_looks_ = 1;
     if (scans()) {
       for (const std::size_t k : located_->slots) slow_down(k), judge_.begin_step(k), keep_looks(k);
     }
     if (!refines_) return;
     even_ = even, records_may_differ_ = false;
-    const bool first = pace_.begin_step(even);
+    least_ = std::max(even * thresholds::finest_piece, thresholds::look_roundings * resolution);
+    const bool unknown = pace_.begin_step(even, least_);
     const bool judges_all = pace_.is_finer_than(even) && has_four_looks();
     back_to_ = judges_all ? never : from;
     begin_.earlier_at = earlier_at_, begin_.oldest_at = oldest_at_;
-    if (first) choose_pace(from, interpolate);
+    if (unknown) choose_pace(from, interpolate);
   }
 
   /// `find_in_piece` between two evenly spaced looks, in shorter pieces where a guard varies too
@@ -71,7 +72,7 @@ class PacedSearch : protected PieceSearch {
   [[gnu::noinline]] bool find_in_shorter(double from, double to, const double* end,
                                          const Interpolate& interpolate) {
     copy_values(high_, at_end_);
-    if (!pace_.is_finer_than(to - from) && pace_.halve(to - from, even_)) from = back_from(from);
+    if (!pace_.is_finer_than(to - from) && pace_.halve(to - from, least_)) from = back_from(from);
     while (from < to) {
       const double next = std::min(to, from + pace_.next(to - from));
       if (next == to)
@@ -79,7 +80,7 @@ class PacedSearch : protected PieceSearch {
       else
         look(next, nullptr, interpolate, high_);
       const bool hidden = hides(from, next);
-      if (hidden && pace_.halve(next - from, even_)) {
+      if (hidden && pace_.halve(next - from, least_)) {
         from = back_from(from);
         continue;
       }
@@ -94,6 +95,7 @@ class PacedSearch : protected PieceSearch {
   void accept(double from, double to, bool hidden) {
     if (hidden) judge_.note_in_vain(four_looks(from, to));
     if (has_four_looks()) back_to_ = never;
+    if (has_four_looks() && is_near(from, to)) judge_.note_noise(four_looks(from, to));
     if (!hidden) pace_.accept(to - from, has_four_looks() && judge_.is_slow(four_looks(from, to)));
   }
 
@@ -109,18 +111,17 @@ class PacedSearch : protected PieceSearch {
     return back_to_;
   }
 
-  /// In the first step of a run no look says how fast the guards vary. Looks at three points, not
-  /// evenly spaced, and compares them with the derivatives of the guards along the flow where the
+  /// In the first step of a run, and in a much longer step than all before, no look says how fast the
+  /// guards vary. Looks at three points, not evenly spaced, and compares them with the derivatives of the guards along the flow where the
   /// step begins, because a guard may have the period of the looks.
   template <class Interpolate>
   void choose_pace(double from, const Interpolate& interpolate) {
-    const double near = thresholds::near_share * even_;
-    look(from + near, nullptr, interpolate, before_);
-    const auto is_steep = [&](std::size_t k, double piece, double range) {
-      const double rate = (before_[k] - begin_.last[k]) / near;
-      return std::abs(rate) * piece > thresholds::steep_ranges * range;
+    const auto is_steep = [&](std::size_t k, double range) {
+      constexpr double pieces = 1.0 / thresholds::near_share;  // from the difference to a piece
+      return std::abs(before_[k] - begin_.last[k]) * pieces > thresholds::steep_ranges * range;
     };
     for (double piece = std::min(even_, (end_at_ - from) / 3.0);; piece *= 0.5) {
+      look(from + thresholds::near_share * piece, nullptr, interpolate, before_);
       copy_values(begin_.last, oldest_), oldest_at_ = from;
       earlier_at_ = from + piece;
       look(earlier_at_, nullptr, interpolate, earlier_);
@@ -130,10 +131,10 @@ class PacedSearch : protected PieceSearch {
       for (const std::size_t k : located_->slots) guards_->g[k] = middle_[k];  // no others
       const bool hidden =
           judge_.any(four_looks(third, last), [&](std::size_t k, const LookVariation& each) {
-            return each.hides() || is_steep(k, piece, each.range);
+            return each.hides() || is_steep(k, each.range);
           });
       set_looks();
-      if (!hidden || !pace_.halve(piece, even_)) return;
+      if (!hidden || !pace_.halve(piece, least_)) return;
     }
   }
 
@@ -165,8 +166,9 @@ class PacedSearch : protected PieceSearch {
   bool has_four_looks() const { return earlier_at_ != never && oldest_at_ != never; }
   [[gnu::always_inline]] FourLooks four_looks(double from, double to) const {
     return {oldest_.data(), earlier_.data(), guards_->g.data(), high_.data(),
-            ThirdDifference(oldest_at_, earlier_at_, from, to)};
+            ThirdDifference(oldest_at_, earlier_at_, from, to), is_near(from, to)};
   }
+  bool is_near(double from, double to) const { return to - from <= even_ * thresholds::step_piece; }
   [[gnu::always_inline]] bool hides(double from, double to) const {
     return has_four_looks() && judge_.hides(four_looks(from, to));
   }
@@ -178,6 +180,7 @@ class PacedSearch : protected PieceSearch {
   List<double> before_;     // guards where a run begins, a little later
   List<double> at_end_;     // guards at the end of an evenly spaced piece
   double even_ = 0.0;       // [s] between the evenly spaced looks
+  double least_ = 0.0;      // [s] no piece is shorter
   int even_looks_ = 1;      // looks in a row that far apart
   bool refines_ = false;    // there may be looks between these
 };

@@ -16,6 +16,7 @@ namespace saltus {
 struct FourLooks {
   const double *oldest, *earlier, *last, *high;
   ThirdDifference bound;  ///< of the offsets of these looks
+  bool near = false;      ///< whether the last two are so near that they show a guard of two values
 
   LookVariation variation(std::size_t k) const {
     const double g0 = oldest[k], g1 = earlier[k], g2 = last[k], g3 = high[k];
@@ -23,7 +24,8 @@ struct FourLooks {
     const double greatest = std::max(std::max(g0, g1), std::max(g2, g3));
     const bool crosses = (g2 > 0.0) != (g3 > 0.0);
     return {std::abs(bound.of(g0, g1, g2, g3)), greatest - least,
-            crosses ? 0.0 : std::min(std::abs(g2), std::abs(g3))};
+            crosses ? 0.0 : std::min(std::abs(g2), std::abs(g3)),
+            near && (g0 == g1) + (g1 == g2) + (g2 == g3) == 2};
   }
 };
 
@@ -59,6 +61,10 @@ class PieceJudge {
   void note_in_vain(const FourLooks& looks) {
     for (const std::size_t k : located_->slots)
       if (looks.variation(k).hides() && counts(k)) judged_[k].fail();
+  }
+  /// A piece of near looks is not halved: notes which guards seem to be noise.
+  void note_noise(const FourLooks& looks) {
+    for (const std::size_t k : located_->slots) judged_[k].note(looks.variation(k).is_noise());
   }
 
  private:

@@ -82,12 +82,19 @@ inline constexpr double hidden_share = 1.0 / 32.0;
 /// [errors of the parabola] and [of hidden_share] The error grows eight times as the piece grows
 /// twice: both have this room, and a factor of two. tests/unit/look_pace_test.cpp
 inline constexpr double growth_room = 64.0, slow_share = 1.0 / 16.0;
-/// [of an evenly spaced piece] A shorter piece is not halved: of a guard with some hundred periods
-/// in a step each crossing is found. tests/unit/look_pace_test.cpp
-inline constexpr double finest_piece = 1.0 / 256.0;
+/// [of an evenly spaced piece] A shorter piece is not halved: of a guard with a million periods in a
+/// step each crossing is found. tests/unit/look_pace_test.cpp
+inline constexpr double finest_piece = 0x1p-24;
+/// [of an evenly spaced piece] Four looks this near to each other show a guard of two values: shorter
+/// pieces would show its one jump no better. tests/unit/piece_judge_test.cpp
+inline constexpr double step_piece = 1.0 / 256.0;
 /// [eps t] Looks nearer to each other would hardly be at different times.
 /// tests/laws/crossings_test.cpp (as small)
 inline constexpr double look_roundings = 4.0;
+/// [1] How much further apart than before the looks of a step may be, before the guards are looked at
+/// as in the first step. A sine that is slow has 24 looks in a period; three in a period, at eight
+/// times the distance, still show that it is fast. tests/unit/look_pace_test.cpp
+inline constexpr double known_growth = 8.0;
 /// [pieces] The second of the three looks that begin a run: the golden ratio, which is far from
 /// each ratio of small numbers. tests/laws/fast_guards_test.cpp
 inline constexpr double uneven = 1.6180339887498949;
@@ -98,8 +105,8 @@ inline constexpr double near_share = 1e-6;
 /// [ranges of four looks] A guard that would move further in a piece, at its first derivative,
 /// turns between the looks: a parabola moves by at most two ranges. tests/laws/fast_guards_test.cpp
 inline constexpr double steep_ranges = 2.0;
-/// [pieces] in one step that are as short as allowed and do not show a guard: it then counts no
-/// more for 63 steps. tests/unit/look_pace_test.cpp
+/// [pieces] in one step that are as short as allowed and do not show a guard, or that seem to show
+/// noise in a row: it then counts no more for 63 steps. tests/unit/look_pace_test.cpp
 inline constexpr int most_in_vain = 16;
 
 // --- many monitors at once: crowd_locator.hpp, guard_polynomials.hpp
