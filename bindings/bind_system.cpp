@@ -4,6 +4,7 @@
 #include <pybind11/stl.h>
 
 #include "bindings.hpp"
+#include "blocks.hpp"
 #include "made.hpp"
 #include "python_leaf.hpp"
 #include "saltus/model/diagram_builder.hpp"
@@ -49,6 +50,12 @@ void bind_system(py::module_& module) {
            })
       .def("connect", [](DiagramBuilder& builder, const System& from, int output, const System& to,
                          int input) { builder.connect({&from, output}, {&to, input}); })
+      .def("execute",
+           [](DiagramBuilder& builder, const System& block, const System& control, int output,
+              std::string_view kind, bool resets, std::string_view edge) {
+             builder.execute(block, {&control, output},
+                             execution_from(block.name(), kind, resets, edge));
+           })
       .def("export_input",
            [](DiagramBuilder& builder, const System& system, int index, std::string name) {
              return builder.export_input({&system, index}, std::move(name));
@@ -65,6 +72,8 @@ void bind_system(py::module_& module) {
       }))
       .def("require", [](const Diagram& diagram, std::string_view child) { diagram[child]; });
 
+  module.def("fixes_input",
+             [](const System& system, int input) { return system.fixes_input(input); });
   module.def("made", [](const py::handle& system) {
     return py::isinstance<System>(system) && holds_block(system.ptr());
   });

@@ -50,12 +50,24 @@ class Arguments {
 void bind_discrete_linear(py::module_& module);
 void bind_mechanics(py::module_& module);
 void bind_signals(py::module_& module);
+void bind_subsystems(py::module_& module);
 
 /// The edge with this name; a ModelError with the nearest name if there is none.
 inline Edge edge_from(const std::string& block, std::string_view edge) {
   constexpr std::pair<std::string_view, Edge> edges[] = {
       {"rising", Edge::rising}, {"falling", Edge::falling}, {"either", Edge::either}};
   return detail::meaning(block, "edge", edge, edges);
+}
+
+/// The execution of a controlled part; a ModelError with the nearest name for an unknown word.
+inline Execution execution_from(const std::string& block, std::string_view kind, bool resets,
+                                std::string_view edge) {
+  using Kind = Execution::Kind;
+  constexpr std::pair<std::string_view, Kind> kinds[] = {{"enabled", Kind::enabled},
+                                                         {"triggered", Kind::triggered}};
+  return {.kind = detail::meaning(block, "kind", kind, kinds),
+          .resets = resets,
+          .edge = edge_from(block, edge)};
 }
 
 }  // namespace saltus::python

@@ -17,9 +17,10 @@ std::size_t declared_by(const PythonLeaf& leaf) {
 
 void BlockTraces::take_shapes(const Plan& plan, const PlanLeaf& where) {
   inputs.clear(), outputs.clear();
-  for (const int node : where.inputs) inputs.push_back(plan.node(node).shape);
-  const std::size_t own = leaf->declarations().outputs.size();  // before those of fixed inputs
-  for (std::size_t i = 0; i < own; ++i) outputs.push_back(plan.node(where.outputs[i]).shape);
+  const Declarations& own = leaf->declarations();  // without control signals and fixed inputs
+  for (int i = 0; i < count_of(own.inputs); ++i) inputs.push_back(plan.node(where.inputs[i]).shape);
+  for (int i = 0; i < count_of(own.outputs); ++i)
+    outputs.push_back(plan.node(where.outputs[i]).shape);
 }
 
 void BlockTraces::guess_shapes() {

@@ -25,6 +25,7 @@ SECTIONS = {
     "signals": "Sources",
     "sources": "Sources",
     "state": "State",
+    "subsystems": "Subsystems",
 }
 """the group -> its section in docs/blocks.md"""
 

@@ -217,6 +217,63 @@ class DiagramBuilder:
             )
         return self._children[name], port
 
+    def execute(
+        self,
+        block: System,
+        control: OutputPort | str,
+        kind: str = "enabled",
+        *,
+        states: str = "held",
+        edge: str = "rising",
+    ) -> None:
+        """Executes a block only while, or only when, a signal of this diagram says so.
+
+        `EnabledSubsystem` and `TriggeredSubsystem` are made with it; they hold their outputs, too.
+
+        Parameters
+        ----------
+        block
+            A block or a diagram that was added.
+        control
+            An output of another block that was added: one value that is held between instants, such
+            as that of a `Comparator` or a `ControlPort`. It is true if it is not 0.
+        kind
+            "enabled": while the signal is false, dx/dt = 0 for all continuous states of the block,
+            its updates and resets write nothing, and its guards are not seen. "triggered": at each
+            edge of the signal its updates of the inherited period, -1, run once.
+        states
+            "held", or "reset": of kind "enabled", the states return to their declared initial
+            values each time the signal becomes true during a run.
+        edge
+            "rising", "falling" or "either", of kind "triggered".
+
+        Raises
+        ------
+        ModelError
+            If a block was not added, has a control signal already, or would control itself; if a
+            word is unknown. A plan refuses a signal that is not one held value, and a block that
+            cannot be executed in this way.
+
+        Examples
+        --------
+        >>> from saltus.library import Constant, Integrator, Pulse
+        >>> builder = saltus.DiagramBuilder()
+        >>> one, x = builder.add(Constant(1.0, name="one"), Integrator(name="x"))
+        >>> pulse = builder.add(Pulse(period=2.0, name="pulse"))
+        >>> builder.connect(one.output(), x.input())
+        >>> builder.execute(x, pulse.output())
+        >>> diagram = builder.build()
+        >>> saltus.simulate(diagram, time_span=(0.0, 3.0)).context[x].continuous_state.round(9)
+        array([2.])
+        """
+        if states not in ("held", "reset"):
+            near = _core.known_names(str(states), ["held", "reset"])
+            raise ModelError(f"execute: unknown states {states!r}{near}")
+        of, output = _port(self._output("execute", control), OutputPort)
+        if not isinstance(block, System):
+            raise ModelError(f"execute: expected a system, found {block!r}")
+        self._core.execute(block, of, output, kind, states == "reset", edge)
+
     def export_input(self, port: InputPort | str, name: str | None = None) -> int:
         """Makes an input of a block one of the diagram.
 

@@ -10,6 +10,7 @@ DelayN::DelayN(std::string name, double dt, int n, const Options& options)
   const Index width = initial.values.size();
   declare_input_port({.name = "in", .shape = initial.shape()});
   declare_law({.dt = dt,
+               .may_inherit = true,
                .before = initial,
                .state = initial.values.replicate(n, 1),  // u[k-n], ..., u[k-1]
                .output = [=](const At&, const VectorView& s, VectorRef y) { y = s.head(width); },

@@ -23,6 +23,7 @@ EdgeDetection::EdgeDetection(std::string name, double dt, const Options& options
     : SampledSystem(std::move(name)) {
   declare_input_port({.name = "in", .shape = Shape::scalar()});
   declare_law({.dt = dt,
+               .may_inherit = true,
                .state = Eigen::VectorXd::Constant(1, options.initial_state ? 1.0 : 0.0),
                .feedthrough = {0},
                .boolean = true,

@@ -14,6 +14,7 @@ FilterDiscrete::FilterDiscrete(std::string name, double dt, const Eigen::VectorX
   Value before = options.initial_state;
   before.values *= b_coefficients.sum();
   declare_law({.dt = dt,
+               .may_inherit = true,
                .before = before,
                .state = options.initial_state.values.replicate(m, 1),
                .feedthrough = {0},

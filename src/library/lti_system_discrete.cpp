@@ -26,6 +26,7 @@ LTISystemDiscrete::LTISystemDiscrete(std::string name, double dt, const Matrices
   const Eigen::VectorXd initial = options.initial_state.value_or(Eigen::VectorXd::Zero(n));
   const Eigen::VectorXd before = matrices.C * initial;
   declare_law({.dt = dt,
+               .may_inherit = true,
                .before = outputs == 1 ? Value(before[0]) : Value(before),
                .state = initial,
                .feedthrough = k.d ? std::vector{0} : std::vector<int>{},

@@ -8,6 +8,7 @@ namespace saltus::detail {
 /// From the beginning of the instant the output is that of the tick, before the state has changed.
 /// So a block that reads it at this tick gets y[k], not y[k-1].
 void SampledSystem::declare_law(const Law& law) {
+  if (law.dt == inherited_period && law.may_inherit) return declare_inherited_law(law);
   require_period(name(), "dt", law.dt);
   const Index n = law.before.values.size(), states = law.state.size();
   Eigen::VectorXd z(1 + n + states);
@@ -41,6 +42,30 @@ void SampledSystem::declare_law(const Law& law) {
                        .inputs = law.feedthrough,
                        .boolean = law.boolean});
   declare_periodic_update(tick, law.dt, 0.0, "tick");
+}
+
+/// A TriggeredSubsystem reads the output at a trigger, before the states change.
+void SampledSystem::declare_inherited_law(const Law& law) {
+  const Index states = law.state.size();
+  declare_discrete_state(law.state);
+  const auto state = [=](const At& at) { return VectorView(at.z.data(), states); };
+  const auto show = [=, output = law.output](const At& at, VectorRef out) {
+    output(at, state(at), out);
+  };
+  const auto tick = [=, move = law.next](const At& at, Next& next) {
+    Eigen::VectorXd now(states);
+    if (states > 0) move(at, state(at), VectorRef(now.data(), states));
+    next.set_discrete_state(now);
+  };
+  const bool reads_inputs = !law.feedthrough.empty();
+  declare_output_port(
+      {.name = "out",
+       .calc = show,
+       .shape = law.before.shape(),
+       .reads = reads_inputs ? Reads::discrete_state | Reads::inputs : Reads::discrete_state,
+       .inputs = law.feedthrough,
+       .boolean = law.boolean});
+  declare_periodic_update(tick, inherited_period, 0.0, "tick");
 }
 
 }  // namespace saltus::detail

@@ -23,6 +23,7 @@ TransferFunctionDiscrete::TransferFunctionDiscrete(std::string name, double dt,
     return (at.u(0) - at.parameter(a).tail(n).dot(s)) / at.parameter(a)[0];
   };
   declare_law({.dt = dt,
+               .may_inherit = true,
                .state = initial,
                .feedthrough = padding == 0 ? std::vector{0} : std::vector<int>{},
                .output =

@@ -7,7 +7,7 @@ namespace saltus {
 
 UnitDelay::UnitDelay(std::string name, double dt, const Options& options)
     : LeafSystem(std::move(name)), dt_(dt), n_(options.initial_state.values.size()) {
-  detail::require_period(this->name(), "dt", dt);
+  if (dt != inherited_period) detail::require_period(this->name(), "dt", dt);
   const Eigen::VectorXd& initial = options.initial_state.values;
   Eigen::VectorXd z(1 + 2 * n_);
   z << -1.0, initial, initial;
@@ -16,18 +16,20 @@ UnitDelay::UnitDelay(std::string name, double dt, const Options& options)
   declare_output_port({.name = "out",
                        .calc = &UnitDelay::delayed,
                        .shape = options.initial_state.shape(),
-                       .reads = Reads::discrete_state | Reads::schedule});
+                       .reads = dt == inherited_period ? Reads::discrete_state
+                                                       : Reads::discrete_state | Reads::schedule});
   declare_periodic_update(&UnitDelay::sample, dt, 0.0, "tick");
 }
 
 void UnitDelay::delayed(const At& at, VectorRef out) const {
-  const bool moved_on = detail::last_tick(at.time, dt_) != at.z[0];
+  const bool moved_on = dt_ == inherited_period || detail::last_tick(at.time, dt_) != at.z[0];
   out = at.z.segment(moved_on ? 1 + n_ : 1, n_);
 }
 
 void UnitDelay::sample(const At& at, Next& next) const {
   Eigen::VectorXd z(at.z.size());
-  z << detail::last_tick(at.time, dt_), at.z.tail(n_), at.u[0];
+  const double tick = dt_ == inherited_period ? at.z[0] : detail::last_tick(at.time, dt_);
+  z << tick, at.z.tail(n_), at.u[0];
   next.set_discrete_state(z);
 }
 

@@ -38,7 +38,13 @@ void Diagram::collect(Structure& out, const std::string& path) const {
   out.systems.push_back(
       {system_id(), path.empty() ? name() : path, out.leaves.size(), out.leaves.size()});
   for (const Child& child : children_) {
+    const std::size_t first = out.leaves.size();
     child.system->collect(out, path.empty() ? child.name : path + "." + child.name);
+    const auto control = std::ranges::find(controlled_, child.system.get(), &Controlled::child);
+    if (control == controlled_.end()) continue;
+    const OutputPort& port = control->control;
+    out.controlled.push_back(
+        {first, out.leaves.size(), port.system->output_source(port.index), control->execution});
   }
   for (const Wire& wire : wires_) {
     out.wires.push_back({wire.from.system->output_source(wire.from.index),

@@ -2,6 +2,8 @@
 #include "saltus/model/diagram_builder.hpp"
 #include "saltus/base/list.hpp"
 
+#include <algorithm>
+
 #include "saltus/base/model_errors.hpp"
 #include "saltus/model/detail/names.hpp"
 #include "saltus/model/detail/soundness.hpp"
@@ -33,6 +35,19 @@ void DiagramBuilder::connect(OutputPort from, InputPort to) {
   require_free(to);
   sources_.emplace(std::pair(to.system, to.index), diagram_.wires_.size());
   diagram_.wires_.push_back({from, to});
+}
+
+void DiagramBuilder::execute(const System& block, OutputPort control, Execution execution) {
+  require_mine(&block);
+  require_mine(control.system);
+  control = control.system->output(control.index);
+  const std::string name = name_of(&block);
+  if (&block == control.system)
+    throw BuilderError(text("block '", name, "' cannot control its own execution"));
+  if (std::ranges::find(diagram_.controlled_, &block, &Diagram::Controlled::child) !=
+      diagram_.controlled_.end())
+    throw BuilderError(text("block '", name, "' already has a control signal; it takes one"));
+  diagram_.controlled_.push_back({&block, control, execution});
 }
 
 int DiagramBuilder::export_input(InputPort port, std::string name) {
@@ -77,6 +92,7 @@ Diagram DiagramBuilder::build(std::string name) {
   spent_ = true;
   built.children_ = std::move(diagram_.children_);
   built.wires_ = std::move(diagram_.wires_);
+  built.controlled_ = std::move(diagram_.controlled_);
   built.inputs_ = std::move(diagram_.inputs_);
   built.outputs_ = std::move(diagram_.outputs_);
   for (const Diagram::Child& child : built.children_) {

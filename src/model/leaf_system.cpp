@@ -282,6 +282,10 @@ void LeafSystem::declare_periodic_update(ResetMap update, double period, double 
                                          std::string event) {
   require_unused();
   detail::name_it(event, declared_.time_events, "periodic_", name());
+  if (period == inherited_period && offset == 0.0) {
+    return declare_time_event(
+        {.name = std::move(event), .update = std::move(update), .inherited = true});
+  }
   if (!(period > 0.0) || !std::isfinite(offset)) {
     throw ModelError(text("block '", name(), "': periodic update '", event, "': period ", period,
                           " s, offset ", offset, " s; expected period > 0 and a finite offset"));

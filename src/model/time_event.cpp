@@ -44,6 +44,10 @@ std::string TimeEvent::fault() const {
   if (std::isnan(end)) return text("expected a time [s] as its end, found ", end);
   if (count && *count < 1) return text("expected a count of 1 or more, found ", *count);
   if (times) return fault_of_times(*this);
+  if (inherited) {
+    const bool timed = std::isfinite(period) || offset != 0.0 || std::isfinite(end) || count;
+    return timed ? "its ticks are inherited; expected no period, offset, end or count" : "";
+  }
   if (!(period > 0.0) || !std::isfinite(offset)) {
     return text("period ", period, " s, offset ", offset,
                 " s; expected period > 0 and a finite offset");

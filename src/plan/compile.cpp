@@ -2,6 +2,7 @@
 #include "saltus/plan/compile.hpp"
 #include "saltus/base/list.hpp"
 
+#include <algorithm>
 #include <string_view>
 #include <unordered_set>
 
@@ -105,9 +106,18 @@ class StateSearch {
 
 void add_guard(Plan& plan, StateSearch& search, GuardGroup group, const std::vector<int>& reads) {
   group.leaves = search.moving(group.leaf, reads);
+  for (const int control : group.controls) {
+    if (std::ranges::find(plan.controls, control) == plan.controls.end())
+      plan.controls.push_back(control);
+  }
   group.slot = plan.guard_slots;
   plan.guard_slots += group.size;
   plan.guards.push_back(std::move(group));
+}
+
+/// The control signals of a leaf.
+std::vector<int> controls_of(const PlanLeaf& leaf) {
+  return read_inputs(leaf.declared().controls, leaf);
 }
 
 /// A guard whose return cancels its execution is located both ways.
@@ -133,7 +143,8 @@ void add_guards(Plan& plan) {
                  .direction = watched_direction(crossing),
                  .monitor = monitor,
                  .queued = crossing.is_queued(),
-                 .name = text(plan.leaves[l].path, ".", crossing.name)},
+                 .name = text(plan.leaves[l].path, ".", crossing.name),
+                 .controls = controls_of(plan.leaves[l])},
                 read_inputs(crossing.inputs, plan.leaves[l]));
     }
   }
@@ -250,6 +261,7 @@ Roots detail::find_shapes_and_rates(Plan& plan) {
   lay_out(plan);
   find_rates(plan);
   check_edges(plan);
+  check_controls(plan);
   return roots;
 }
 

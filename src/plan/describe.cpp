@@ -43,6 +43,14 @@ void describe_guard(std::string& out, const Plan& plan, const GuardGroup& guard)
   out += "\n";
 }
 
+void describe_controls(std::string& out, const Plan& plan) {
+  for (const PlanLeaf& leaf : plan.leaves) {
+    for (const int control : leaf.declared().controls)
+      out += text("  block '", leaf.path, "' is executed while '",
+                  plan.name_of(plan.node(leaf.inputs[control])), "' is true\n");
+  }
+}
+
 /// The nodes of which `is` holds.
 template <class Is>
 std::vector<int> nodes_that(const Plan& plan, const Is& is) {
@@ -74,6 +82,7 @@ std::string Plan::describe() const {
   describe_list(out, *this, "dropped, nothing reads them", dropped);
   out += guards.empty() ? "no guards: no root-finding\n" : text("guards: ", guard_slots, "\n");
   for (const GuardGroup& guard : guards) describe_guard(out, *this, guard);
+  describe_controls(out, *this);
   if (!edges.empty()) out += text("resets that follow an edge: ", edges.size(), "\n");
   if (!schedule.empty()) out += text("time events: ", schedule.size(), "\n");
   if (odes.empty()) out += "no continuous state: no solver\n";

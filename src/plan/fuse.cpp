@@ -177,7 +177,7 @@ std::vector<Sink> odes_of(const Plan& plan) {
   return sinks;
 }
 
-/// A guard that some modes do not have stays a call, so it is evaluated only if it can fire.
+/// A guard that is not always seen stays a call, so it is evaluated only if it can fire.
 std::vector<Sink> guards_of(const Plan& plan) {
   std::vector<Sink> sinks;
   for (const GuardGroup& group : plan.guards) {
@@ -185,7 +185,8 @@ std::vector<Sink> guards_of(const Plan& plan) {
     Sink sink{group.leaf, nullptr, group.slot, group.size};
     if (group.kind == GuardGroup::Kind::crossing) {
       const auto& crossing = leaf.declared().zero_crossings[group.index];
-      if (!crossing.start_mode) sink.formula = fusible(crossing.formula, group.size);
+      if (!crossing.start_mode && group.controls.empty())
+        sink.formula = fusible(crossing.formula, group.size);
       sink.needs = read_inputs(crossing.inputs, leaf);
       append(sink.needs, leaf.relations);
     } else {

@@ -171,13 +171,24 @@ Context Memory::save(const Context& like, double t,
   return context;
 }
 
+bool Machine::controls_changed() const {
+  for (std::size_t i = 0; i < plan_->controls.size(); ++i)
+    if (truth(plan_->controls[i]) != (controls_[i] != 0)) return true;
+  return false;
+}
+
+bool Machine::is_seen(const GuardGroup& group) const {
+  const std::optional<int> mode = plan_->start_mode_of(group);
+  return (!mode || *mode == modes[group.leaf]) &&
+         std::ranges::all_of(group.controls, [this](int control) { return truth(control); });
+}
+
 void Machine::select_guards() {
-  active_.clear(), called_.clear();
+  controls_.clear(), active_.clear(), called_.clear();
+  for (const int control : plan_->controls) controls_.push_back(truth(control));
   const auto& fused = calls_.fused_guards;
   for (std::size_t i = 0; i < plan_->guards.size(); ++i) {
-    const GuardGroup& group = plan_->guards[i];
-    const std::optional<int> mode = plan_->start_mode_of(group);
-    if (mode && *mode != modes[group.leaf]) continue;
+    if (!is_seen(plan_->guards[i])) continue;
     active_.push_back(static_cast<int>(i));
     if (!fused || !plan_->walks.guards.fused[i]) called_.push_back(static_cast<int>(i));
   }

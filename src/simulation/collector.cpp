@@ -7,15 +7,26 @@ namespace saltus {
 
 namespace {
 
-/// Sorts actions by leaf. Within a leaf updates come first: they read x- z-, and a reset map that
-/// follows sees their results. The order is stable, and the sort allocates nothing.
-void sort(std::vector<Action>& actions) {
-  const auto rank = [](Cause cause) {
-    if (cause == Cause::trigger) return static_cast<int>(Cause::crossing);  // by declaration
-    return cause == Cause::time ? -1 : static_cast<int>(cause);
-  };
+/// The place of an action among those of its leaf. Updates come first: they read x- z-, and a reset
+/// map that follows sees their results. Before them a part that is enabled returns to its start.
+int rank(const Plan& plan, const Action& action) {
+  switch (action.cause) {
+    case Cause::edge:
+      return plan.reset_of(plan.edge(action.index)).before_updates ? -2
+                                                                   : static_cast<int>(Cause::edge);
+    case Cause::time:
+      return -1;
+    case Cause::trigger:
+      return static_cast<int>(Cause::crossing);  // by declaration
+    default:
+      return static_cast<int>(action.cause);
+  }
+}
+
+/// Sorts actions by leaf. The order is stable, and the sort allocates nothing.
+void sort(const Plan& plan, std::vector<Action>& actions) {
   const auto before = [&](const Action& a, const Action& b) {
-    return a.leaf != b.leaf ? a.leaf < b.leaf : rank(a.cause) < rank(b.cause);
+    return a.leaf != b.leaf ? a.leaf < b.leaf : rank(plan, a) < rank(plan, b);
   };
   if (actions.size() < 2) return;
   for (auto a = actions.begin(); a != actions.end(); ++a)
@@ -107,7 +118,7 @@ void Collector::collect_crossings() {
     }
   }
   present_->firings.erase(passive, present_->firings.end());
-  sort(present_->actions);
+  sort(*plan_, present_->actions);
 }
 
 void Collector::note_passive() {

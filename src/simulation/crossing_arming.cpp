@@ -25,17 +25,16 @@ CrossingFacts CrossingArming::facts_of(std::size_t k, bool at_start) const {
   const Guard& guard = (*guards_)[k];
   const GuardGroup& group = group_of(k);
   const ZeroCrossing& crossing = machine_->plan().crossing_of(group);
-  const bool entered = transition_->entered_mode() && !guard.was_active;
   const GuardNow& now = present_->now(k);
   // A trigger that is located both ways begins as its declared direction says.
-  const bool begins = (at_start || entered) && !now.fired && !now.put_at_zero;
+  const bool begins = (at_start || now.entered) && !now.fired && !now.put_at_zero;
   return {.direction = begins ? crossing.direction : guard.direction,
           .phase = guard.phase,
           .side = guard.side,
           .g = present_->g[k],
           .error = guard.error,
           .at_start = at_start,
-          .entered = entered,
+          .entered = now.entered,
           .put_at_zero = now.put_at_zero,
           .fired = now.fired,
           .came_from = guard.came_from,
@@ -77,6 +76,7 @@ struct CrossingArming::Ask {
   /// The execution of a queued guard is not at hand: it may come later, or have come already.
   bool reset_turns() const { return !group->queued && arming->reset_turns(*group, k, from); }
   bool turned_round(int side) const { return arming->turned_round(*group, k, side); }
+  bool stood_still() const { return arming->stood_still(*group, k); }
 };
 
 void CrossingArming::arm(std::size_t k, bool at_start) {
@@ -193,21 +193,35 @@ bool CrossingArming::reset_turns(const GuardGroup& group, std::size_t k, int fro
   return from * flow_->slope_from(trial_, group, static_cast<Index>(k)) > 0.0;
 }
 
-/// Whether the flow of the mode before led a guard at zero to the other side. If so, both flows
-/// lead to the same surface.
-bool CrossingArming::turned_round(const GuardGroup& group, std::size_t k, int side) {
+/// dg/dt along the flow of the present state by the modes and the held signals before the instant.
+/// The guard is that of the present mode: outside of it, it is not called.
+double CrossingArming::slope_before(const GuardGroup& group, std::size_t k) {
+  struct AsBefore {
+    explicit AsBefore(Transition& of) : transition(of) { transition.swap_with_before(); }
+    ~AsBefore() { transition.swap_with_before(); }
+    Transition& transition;
+  };
   flow_before_.resize(machine_->x.size());
-  std::vector<int>& before_entry = transition_->modes_before();
-  std::swap(machine_->modes, before_entry);
-  try {
+  {
+    const AsBefore before(*transition_);
     machine_->derivative(present_->t, machine_->x.data(), flow_before_.data());
-  } catch (...) {
-    std::swap(machine_->modes, before_entry);
-    throw;
   }
-  std::swap(machine_->modes, before_entry);
-  const double before = flow_->slope_along(flow_before_, group, static_cast<Index>(k));
-  return side > 0 ? before < 0.0 : before > 0.0;
+  return flow_->slope_along(flow_before_, group, static_cast<Index>(k));
+}
+
+/// Whether the flow before led a guard at zero to the other side. If so, both flows lead to the same
+/// surface.
+bool CrossingArming::turned_round(const GuardGroup& group, std::size_t k, int side) {
+  return side * slope_before(group, k) < 0.0;
+}
+
+/// Whether nothing that moves a guard moved before.
+bool CrossingArming::stood_still(const GuardGroup& group, std::size_t k) {
+  if (slope_before(group, k) != 0.0) return false;
+  return std::ranges::all_of(group.leaves, [this](int leaf) {
+    const PlanLeaf& of = machine_->plan().leaf(leaf);
+    return (flow_before_.segment(of.x, of.nx).array() == 0.0).all();
+  });
 }
 
 bool CrossingArming::goes_against(const Firing& firing) {

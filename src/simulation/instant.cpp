@@ -86,6 +86,7 @@ bool Instant::collect() {
   const bool flipped = collector_.flip_relations();
   rows_.before(jump_, flipped);
   machine_->evaluate_instant(present_.t);
+  follow_controls();
   if (Tangents* tangents = transition_.tangents()) {
     tangents->look_at_firings(present_);
     tangents->evaluated();
@@ -107,7 +108,8 @@ void Instant::run_pass() {
   for (const Action& action : present_.actions) effects_.run(action);
   present_.actions.clear();
   commit();
-  relations_.read_again();
+  do relations_.read_again();
+  while (follow_controls());
   find_next();
   if (present_.changes) rows_.after(++jump_);
 }
@@ -118,6 +120,15 @@ void Instant::commit() {
   if (entered) select_guards();
   if (entered && holds_.any()) contacts_.release_unseen();
   flow_.forget();
+}
+
+/// Chooses the guards anew if a control signal has changed; returns whether one has. A guard that is
+/// seen again is armed like a guard whose mode is entered.
+bool Instant::follow_controls() {
+  if (!machine_->controls_changed()) return false;
+  select_guards();
+  if (holds_.any()) contacts_.release_unseen();
+  return true;
 }
 
 /// Zero crossings that the commit moved across zero in their direction fire in the next pass.

@@ -42,7 +42,8 @@ void Instant::begin(double t, Recorder* recorder) {
   contacts_.begin();
   guards_->clear();
   select_guards();
-  relations_.begin(t);
+  do relations_.begin(t);
+  while (follow_controls());
   look_at_guards();
   edges_.begin();
 }
@@ -56,6 +57,8 @@ void Instant::look_at_guards() {
 void Instant::select_guards() {
   machine_->select_guards();
   guards_->select(machine_->active_guards(), plan());
+  for (const std::size_t k : guards_->active().all)
+    if (!(*guards_)[k].was_active) present_.note(k).entered = true;
 }
 
 Continuation Instant::save() const {
@@ -82,6 +85,7 @@ void Instant::resume(double t, Recorder* recorder, const Continuation& from, dou
   edges_.load(from);
   journal_.load(from);
   machine_->evaluate_instant(t);
+  follow_controls();
   if (!plan().guards.empty()) machine_->guards(t, machine_->x.data(), present_.g.data());
   load_records(*guards_, from.guards);
   guards_->g = present_.g;

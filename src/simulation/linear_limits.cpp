@@ -63,8 +63,7 @@ void LinearLimits::require_guards_off_zero() const {
   for (const GuardGroup& group : plan().guards) {
     if (!group.is_crossing() || !plan().crossing_of(group).has_effect()) continue;
     if (group.direction == Direction::edge_detection) continue;
-    const std::optional<int> mode = plan().start_mode_of(group);
-    if (mode && *mode != at_.machine().modes[group.leaf]) continue;
+    if (!at_.machine().is_seen(group)) continue;
     require_off_zero(group);
   }
   for (const EdgeWatch& edge : plan().edges) {

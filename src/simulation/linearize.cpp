@@ -204,8 +204,7 @@ class Linearizer::Parts {
     for (const GuardGroup& group : plan().guards) {
       if (!group.is_crossing() || !plan().crossing_of(group).has_effect()) continue;
       if (group.direction == Direction::edge_detection) continue;
-      const std::optional<int> mode = plan().start_mode_of(group);
-      if (mode && *mode != at_.machine().modes[group.leaf]) continue;
+      if (!at_.machine().is_seen(group)) continue;
       const Eigen::VectorXd values = rule_->level(function_of_guard(plan(), group)).value;
       std::vector<std::string> names;
       add_entries(names, group.name, group.size, group.size > 1);

@@ -177,6 +177,11 @@ bool Transition::commit() {
   return entered_ = restarts_ = true;
 }
 
+void Transition::swap_with_before() {
+  if (entered_) std::swap(machine_->modes, modes_before_);
+  std::swap_ranges(y_minus_.begin(), y_minus_.end(), machine_->y.begin());
+}
+
 bool Transition::changed(const Place& place) const {
   if (place.space == Space::p) return false;
   const auto& [before, now] = place.space == Space::x   ? std::tie(x_minus_, machine_->x)

@@ -20,6 +20,7 @@ ELSEWHERE = {
     "model/detail/wiring_errors": "errors/model_errors_test.cpp",
     "plan/detail/arguments": None,
     "plan/detail/calls": None,
+    "plan/detail/controls": "unit/library_subsystems_test.cpp",
     "plan/detail/fixed_inputs": "unit/evaluate_test.cpp",
     "plan/detail/flow_divisors": "laws/poles_test.cpp",
     "plan/detail/flow_graph": "unit/series_kinks_test.cpp",

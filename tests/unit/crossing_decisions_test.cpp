@@ -21,7 +21,7 @@ constexpr double eps = 1e-12;  // an error bound for the rows
 /// What a row says of the flow. Asking for anything else fails the test: it costs right-hand sides.
 struct Answers {
   std::optional<double> slope_ = {};
-  std::optional<bool> low = {}, back = {}, turns = {}, round = {}, stops = {};
+  std::optional<bool> low = {}, back = {}, turns = {}, round = {}, stops = {}, still = {};
 
   template <class T>
   static T said(const std::optional<T>& answer, const char* what) {
@@ -34,6 +34,7 @@ struct Answers {
   bool stops_at_jump() const { return said(stops, "the distance from the jump"); }
   bool reset_turns() const { return said(turns, "another reset"); }
   bool turned_round(int) const { return said(round, "the flow of the mode before"); }
+  bool stood_still() const { return said(still, "the flow before"); }
 };
 
 const Arming waits_at(int side) { return {.phase = Phase::waiting, .side = side}; }
@@ -319,8 +320,13 @@ TEST_CASE("A guard whose mode was entered at its zero") {
       {"only this one does: it waits",
        entered,
        {-1, eps},
-       {.slope_ = -1.0, .round = false},
+       {.slope_ = -1.0, .round = false, .still = false},
        waits_at(-1)},
+      {"nothing moved before: it begins in contact and fires",
+       entered,
+       {-1, eps},
+       {.slope_ = -1.0, .round = false, .still = true},
+       fires_from(1, -1)},
       {"a hop lower than the tolerance: the slope decides",
        entered,
        {-1, eps},

@@ -33,10 +33,18 @@ class Diagram final : public System {
     OutputPort port;
   };
 
+  /// A child that is executed as a signal of this diagram says.
+  struct Controlled {
+    const System* child;
+    OutputPort control;
+    Execution execution;
+  };
+
   /// A direct child by name; the ModelError for an unknown name lists the known names.
   const System& operator[](std::string_view child) const;
   const std::vector<Child>& children() const noexcept { return children_; }
   const std::vector<Wire>& wires() const noexcept { return wires_; }
+  const std::vector<Controlled>& controlled() const noexcept { return controlled_; }
   const std::vector<ExportedInput>& inputs() const noexcept { return inputs_; }
   const std::vector<ExportedOutput>& outputs() const noexcept { return outputs_; }
 
@@ -54,6 +62,7 @@ class Diagram final : public System {
 
   std::vector<Child> children_;
   std::vector<Wire> wires_;
+  std::vector<Controlled> controlled_;
   List<ExportedInput> inputs_;
   List<ExportedOutput> outputs_;
   std::vector<std::shared_ptr<const void>> uses_;  // of its leaves, see Declarations

@@ -38,6 +38,22 @@ class DiagramBuilder {
 
   void connect(OutputPort from, InputPort to);
 
+  /// Executes a block only while, or only when, a signal of this diagram says so: see Execution.
+  ///
+  /// Enabled: while the signal is false, xdot = 0 for all continuous states of the block, its
+  /// updates, resets and edges write nothing, and its guards are not seen. When the signal becomes
+  /// true, its guards are armed as where a mode is entered. Its outputs are computed as before.
+  ///
+  /// Triggered: at each edge of the signal its updates with an inherited period run once, together,
+  /// and read the values before the edge.
+  ///
+  /// Throws ModelError for a block or a port that was not added, for a block that has a control
+  /// signal already, and for a signal of the block itself. `compile` throws ModelError for a signal
+  /// that is not one held value, and for a block that cannot be executed in this way: one with a
+  /// history or a queued zero crossing; if triggered, one with a continuous state, a guard, an edge,
+  /// or an update with a period of its own.
+  void execute(const System& block, OutputPort control, Execution execution);
+
   /// Makes an input of a block an input of the diagram; returns its position there.
   int export_input(InputPort port, std::string name = {});
 

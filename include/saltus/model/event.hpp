@@ -209,6 +209,9 @@ struct Relation {
 
 enum class Edge { rising, falling, either };
 
+/// The period of an update that runs at each trigger of a triggered part of a diagram.
+inline constexpr double inherited_period = -1.0;
+
 /// A reset that follows an edge of a held signal. With `holds`, the leaf has a Zeno monitor, and a
 /// hold ends when the signal falls back.
 struct EdgeReset {
@@ -220,6 +223,7 @@ struct EdgeReset {
   std::optional<double> zeno_tolerance = {};    ///< [s] overrides SimulatorOptions::zeno_tolerance
   std::optional<std::vector<int>> inputs = {};  ///< the inputs the reset map reads; all if not
                                                 ///< given
+  bool before_updates = false;  ///< it comes before the leaf's updates of the same instant
 };
 
 /// An exact stop at `offset + k period`, k = 0, 1, ...; a single stop at `offset` if the period is
@@ -231,6 +235,9 @@ struct TimeEvent {
   double period = std::numeric_limits<double>::infinity();  ///< [s]
   double offset = 0.0;                                      ///< [s]
   std::optional<std::vector<int>> inputs = {};  ///< the inputs the update reads; all if not given
+  /// Whether the edges of a control signal are its ticks, in place of period and offset: see
+  /// DiagramBuilder::execute.
+  bool inherited = false;
   /// [s] Increasing times, in place of period and offset.
   std::optional<std::vector<double>> times = {};
   double end = std::numeric_limits<double>::infinity();  ///< [s] no tick is later

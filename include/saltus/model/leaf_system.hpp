@@ -55,6 +55,9 @@ struct Declarations {
   List<EdgeReset> edge_resets;
   List<TimeEvent> time_events;
   List<History> histories;
+  /// In a plan: the inputs that are control signals. While one of them is false, the leaf is not
+  /// executed: see DiagramBuilder::execute.
+  std::vector<int> controls;
   /// Everything that refers to these declarations or to a copy holds it: the leaf itself, plans,
   /// diagrams. While others hold it, each declare_* throws ModelError and changes nothing.
   std::shared_ptr<const void> use = {};
@@ -124,6 +127,8 @@ class LeafSystem : public System {
   RelationIndex declare_relation(Relation relation);
   void declare_edge_reset(EdgeReset reset);
   /// Calls `update` at offset + k period, k = 0, 1, ...; period and offset in seconds, period > 0.
+  /// With `inherited_period` and no offset: at each trigger of a TriggeredSubsystem, outside of
+  /// which `compile` refuses it.
   void declare_periodic_update(ResetMap update, double period, double offset = 0.0,
                                std::string name = {});
   /// Calls an update at the times of the event: in a period, at a list of times, or once; with an

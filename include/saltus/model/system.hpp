@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "saltus/model/context.hpp"
+#include "saltus/model/execution.hpp"
 #include "saltus/model/port.hpp"
 
 namespace saltus {
@@ -35,9 +36,16 @@ struct Structure {
     Eigen::VectorXd value;
     Shape shape;
   };
+  /// Leaves first to last - 1 are executed as their control signal says.
+  struct Controlled {
+    std::size_t first, last;
+    LeafPort control;
+    Execution execution;
+  };
   std::vector<Leaf> leaves;
   std::vector<Wire> wires;
-  std::vector<FixedInput> fixed;  ///< if one input has two of them, the last one counts
+  std::vector<Controlled> controlled;  ///< inner parts before those that contain them
+  std::vector<FixedInput> fixed;       ///< if one input has two of them, the last one counts
   std::vector<Layout::Range> systems;
 };
 

@@ -64,9 +64,10 @@ struct GuardGroup {
   Index size = 1;
   Direction direction = Direction::crosses_zero;
   bool monitor = false;
-  bool queued = false;    // its firing is a trigger of an execution
-  std::string name = {};  // "block.guard"
-  List<int> leaves = {};  // the blocks whose continuous state changes it
+  bool queued = false;             // its firing is a trigger of an execution
+  std::string name = {};           // "block.guard"
+  List<int> leaves = {};           // the blocks whose continuous state changes it
+  std::vector<int> controls = {};  // nodes: it is seen while all of them are true
 
   bool is_crossing() const { return kind == Kind::crossing; }
   bool is_opaque() const { return kind == Kind::opaque; }
@@ -139,6 +140,7 @@ struct Plan {
   std::vector<Tap> taps;
   std::vector<int> histories;  // leaves that keep a history
   std::vector<int> checked;    // leaves with parameter checks
+  std::vector<int> controls;   // nodes: the control signals of leaves with guards
   struct {
     Walk derivatives, guards;
   } walks;  // derivatives with odes, and what guards need with the guards

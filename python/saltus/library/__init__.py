@@ -61,6 +61,12 @@ from saltus.library.signals import Chirp, DataSource, Sawtooth
 from saltus.library.sources import Clock, Constant, Pulse, Ramp, Sine, Step
 from saltus.library.state import Integrator, SecondOrderIntegrator, SlewRateLimiter
 from saltus.library.state_machine import StateMachine, Transition
+from saltus.library.subsystems import (
+    ControlPort,
+    EnabledSubsystem,
+    SubsystemOutput,
+    TriggeredSubsystem,
+)
 from saltus.library.vectors import (
     CrossProduct,
     Demultiplexer,
@@ -83,6 +89,7 @@ __all__ = [
     "Clock",
     "Comparator",
     "Constant",
+    "ControlPort",
     "Counter",
     "CrossProduct",
     "DataSource",
@@ -94,6 +101,7 @@ __all__ = [
     "DiscreteClock",
     "DotProduct",
     "EdgeDetection",
+    "EnabledSubsystem",
     "Exponent",
     "FeedthroughBlock",
     "FilterDiscrete",
@@ -145,12 +153,14 @@ __all__ = [
     "StateMachine",
     "Step",
     "Stop",
+    "SubsystemOutput",
     "SumOfElements",
     "Switch",
     "TransferFunction",
     "TransferFunctionDiscrete",
     "Transition",
     "TransportDelay",
+    "TriggeredSubsystem",
     "Trigonometric",
     "UnitDelay",
     "WhiteNoise",

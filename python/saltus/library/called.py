@@ -29,6 +29,7 @@ CALLED = {
     "DiscreteTransferFunction": "TransferFunctionDiscrete",
     "Divide": "Product",
     "Fcn": "FunctionBlock",
+    "Enable": "EnabledSubsystem",
     "FixedDelay": "TransportDelay",
     "FromWorkspace": "DataSource",
     "Logic": "LogicalOperator",
@@ -46,6 +47,7 @@ CALLED = {
     "SineWave": "Sine",
     "Subtract": "Adder",
     "Sum": "Adder",
+    "Trigger": "TriggeredSubsystem",
     "UniformRandomNumber": "RandomNumber",
 }
 """names of blocks in Simulink, Modelica and Drake"""

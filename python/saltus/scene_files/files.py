@@ -124,8 +124,9 @@ def _block(name: str) -> dict[str, Any]:
     """A block of the library with the names of its arguments."""
     arguments = arguments_of(name)
     needed = [key for key, each in arguments.items() if each.default is each.empty]
+    more = ["parameters"] if "system" in arguments else []  # those of the system
     return {
-        "properties": {"block": {"const": name}, **{key: {} for key in arguments}},
+        "properties": {"block": {"const": name}, **{key: {} for key in (*arguments, *more)}},
         "required": ["block", *needed],
         "additionalProperties": False,
     }

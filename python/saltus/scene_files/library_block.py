@@ -11,7 +11,7 @@ from saltus._core import known_names
 from saltus.library.called import elsewhere
 from saltus.scene_files.expression import ANY, EITHER, Word, expression
 from saltus.scene_files.functions import function_of, list_of, number_of, value_of
-from saltus.scene_files.wrong import Path, Wrong, found, placed
+from saltus.scene_files.wrong import Path, Wrong, found, placed, table_at
 from saltus.system import System
 
 __all__ = ["arguments_of", "library_block"]
@@ -32,8 +32,17 @@ def arguments_of(block: str) -> dict[str, inspect.Parameter]:
     return {name: each for name, each in found.items() if name != "name"}
 
 
-def library_block(path: Path, table: dict[str, Any], name: str, values: dict[str, Any]) -> System:
-    """The block of a table. Wrong for an unknown block, and for arguments that it does not have."""
+def library_block(
+    path: Path,
+    table: dict[str, Any],
+    name: str,
+    values: dict[str, Any],
+    made: dict[str, System] | None = None,
+) -> System:
+    """The block of a table; `made` has arguments that are systems. Wrong for an unknown block, and
+    for arguments that it does not have.
+    """
+    made = made or {}
     block = _known(path, table["block"])
     known = arguments_of(block)
     given = {key: value for key, value in table.items() if key != "block"}
@@ -41,15 +50,15 @@ def library_block(path: Path, table: dict[str, Any], name: str, values: dict[str
         if key not in known:
             raise Wrong((*path, key), f"{block} has no '{key}'{known_names(key, list(known))}")
     for key, parameter in known.items():
-        if parameter.default is parameter.empty and key not in given:
+        if parameter.default is parameter.empty and key not in given and key not in made:
             raise Wrong(path, f"{block} needs '{key}'")
     arguments = {
         key: _argument((*path, key), block, known[key], value, values)
         for key, value in given.items()
     }
     with placed(path):
-        made: System = getattr(library, block)(**arguments, name=name)
-    return made
+        system: System = getattr(library, block)(**arguments, **made, name=name)
+    return system
 
 
 def _known(path: Path, block: Any) -> str:
@@ -76,6 +85,9 @@ def _argument(
     kind = str(parameter.annotation)
     if "Callable" in kind:
         return _function(path, block, value, values)
+    if "Mapping" in kind and isinstance(value, dict):
+        table = table_at(path, value, "{ out = 1.0 }")
+        return {key: value_of((*path, key), each, values) for key, each in table.items()}
     if isinstance(value, str) and "str" in kind:
         return value
     if isinstance(value, list) and "str" in kind and all(isinstance(v, str) for v in value):

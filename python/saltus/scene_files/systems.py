@@ -24,6 +24,7 @@ SYSTEM_KEYS = tuple(dict.fromkeys((*SHARED_KEYS, *DIAGRAM_KEYS, *LEAF_KEYS)))
 MOST_BLOCKS = 100_000
 MOST_LEVELS = 64
 BLOCK = "{ block = 'Gain', gain = 2.0 }"
+SUBSYSTEMS = ("EnabledSubsystem", "TriggeredSubsystem")
 
 
 @dataclass
@@ -143,6 +144,8 @@ def _named_in(message: str, path: Path, blocks: dict[str, System]) -> Path:
 def _block(
     path: Path, table: dict[str, Any], name: str, values: dict[str, Any], place: Place
 ) -> System:
+    if table.get("block") in SUBSYSTEMS:
+        return _subsystem(path, table, name, values, place)
     if ("block" in table) == ("system" in table):
         raise Wrong(
             path,
@@ -157,6 +160,21 @@ def _block(
         known = known_names(wanted, sorted(place.systems)) if place.systems else "; none is defined"
         raise Wrong((*path, "system"), f"unknown system '{wanted}'{known}")
     return _instance(path, table, name, values, place, wanted)
+
+
+def _subsystem(
+    path: Path, table: dict[str, Any], name: str, values: dict[str, Any], place: Place
+) -> System:
+    """A system of this scene, with parameters of its own, that a control signal executes."""
+    if "system" not in table:
+        raise Wrong(path, f"{table['block']} needs 'system', the name of a system of this scene")
+    at = (*path, "parameters")
+    given = table_at(at, table.get("parameters", {}), "{ g = 9.81 }")
+    inner = {"system": table["system"], **given}
+    part = _block(path, inner, text_at((*path, "system"), table["system"], "wheel"), values, place)
+    own = {key: value for key, value in table.items() if key not in ("system", "parameters")}
+    place.count.one_more(path)
+    return library_block(path, own, name, values, {"system": part})
 
 
 def _instance(

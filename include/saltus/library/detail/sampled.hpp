@@ -17,7 +17,8 @@ class SampledSystem : public LeafSystem {
   using Map = std::function<void(const At& at, const VectorView& s, VectorRef out)>;
 
   struct Law {
-    double dt = 0.0;                    ///< [s]
+    double dt = 0.0;                    ///< [s], or inherited_period
+    bool may_inherit = false;           ///< whether the maps do without dt
     Value before = 0.0;                 ///< y before the first tick; its shape is that of y
     Eigen::VectorXd state = {};         ///< s[0]
     std::vector<int> feedthrough = {};  ///< the inputs that `output` reads
@@ -27,8 +28,12 @@ class SampledSystem : public LeafSystem {
 
   /// Declares the discrete state (number of the last tick; y since then; s), the output "out" and
   /// the time event "tick". The inputs and parameters are declared before. ModelError for a period
-  /// that is not positive.
+  /// that is not positive. With an inherited period the ticks are the triggers of a
+  /// TriggeredSubsystem, which holds the output.
   void declare_law(const Law& law);
+
+ private:
+  void declare_inherited_law(const Law& law);
 };
 
 }  // namespace saltus::detail

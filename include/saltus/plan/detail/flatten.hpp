@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "saltus/base/list.hpp"
-#include "saltus/plan/detail/fixed_inputs.hpp"
+#include "saltus/plan/detail/controls.hpp"
 #include "saltus/plan/detail/lists.hpp"
 #include "saltus/plan/detail/order.hpp"
 
@@ -233,7 +233,9 @@ inline Plan flatten(const System& system, const Replacements& replacements = {})
   Structure structure = structure_of(system);
   Plan plan;
   add_leaves(plan, structure, replacements);
-  add_wires(plan, structure, LeafNumbers(plan));
+  const LeafNumbers numbers(plan);
+  add_wires(plan, structure, numbers);
+  if (!structure.controlled.empty()) add_controls(plan, structure, numbers);
   add_needs(plan);
   return plan;
 }

@@ -142,8 +142,12 @@ class Machine : public Memory {
     if (carrier_ != nullptr) carrier_->carry(t, state);
   }
 
-  /// Chooses the guards that can fire in the present modes.
+  /// Chooses the guards that can fire in the present modes, and by the present control signals.
   void select_guards();
+  /// Whether a group can fire in the present mode of its leaf, and by its control signals.
+  bool is_seen(const GuardGroup& group) const;
+  /// Whether a control signal has changed since the guards were chosen.
+  bool controls_changed() const;
   const std::vector<int>& active_guards() const noexcept { return active_; }
 
   /// The first number that is not finite at (t, x): first among the values that derivatives read,
@@ -183,6 +187,7 @@ class Machine : public Memory {
   const GuardCall* lone_guard_ = nullptr;
   Inlined inlined_;                   // if it has no function, no step may call it directly
   std::vector<int> active_, called_;  // groups that can fire; the part of them that is not fused
+  std::vector<char> controls_;        // the control signals when the groups were chosen
   RestingStates resting_;
   int functions_ = 0;           // how often they were replaced
   Carrier* carrier_ = nullptr;  // while a block rests on a surface that moves

@@ -59,6 +59,7 @@ inline void add_event_roots(const PlanLeaf& leaf, std::vector<int>& roots) {
   }
   for (const EdgeReset& reset : leaf.declared().edge_resets)
     append(roots, read_inputs(std::vector{reset.input}, leaf));
+  append(roots, read_inputs(leaf.declared().controls, leaf));
 }
 
 inline bool is_function(const std::optional<NumberOf>& number) {

@@ -35,7 +35,9 @@ class CrossingArming {
   bool begins_as_wished(const GuardGroup& group, std::size_t k, bool at_start);
   void carry_out(std::size_t k, const Arming& arming, double error);
   bool reset_turns(const GuardGroup& group, std::size_t k, int from);
+  double slope_before(const GuardGroup& group, std::size_t k);
   bool turned_round(const GuardGroup& group, std::size_t k, int side);
+  bool stood_still(const GuardGroup& group, std::size_t k);
 
   Machine* machine_;
   GuardSet* guards_;

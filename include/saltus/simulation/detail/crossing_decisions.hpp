@@ -105,11 +105,12 @@ struct Arming {
   bool operator==(const Arming&) const = default;
 };
 
-/// Whether a run begins in contact with the surface of a guard: see decide_at_zero.
+/// Whether a motion begins in contact with the surface of a guard: see decide_at_zero.
 template <class Ask>
 bool begins_in_contact(const CrossingFacts& guard, int flow_to, const Ask& ask) {
-  return guard.at_start && flow_to == firing_side(guard.direction) &&
-         (!guard.either() || ask.slope() == 0.0);
+  const bool may_begin = guard.at_start || (guard.entered && guard.effect);
+  return may_begin && flow_to == firing_side(guard.direction) &&
+         (!guard.either() || ask.slope() == 0.0) && (guard.at_start || ask.stood_still());
 }
 
 /// Whether a guard leaves zero along the surface: see decide_at_zero.
@@ -119,8 +120,9 @@ bool leaves_along_surface(const CrossingFacts& guard, bool to_armed_side, const 
 }
 
 /// Decides about a guard at zero that has not fired. A guard with an effect is in contact if the
-/// flow takes it to its firing side. It fires at once if the run begins so, or if a reset just
-/// turned the flow round. All other guards wait until they have been clearly off zero (2.3). If the
+/// flow takes it to its firing side. It fires at once if the run begins so, if its mode was just
+/// entered and nothing that moves it moved before, or if a reset just turned the flow round. All
+/// other guards wait until they have been clearly off zero (2.3). If the
 /// flow keeps a guard with an effect at zero, the guard is dormant (2.6): it keeps its armed side.
 ///
 /// A guard that the last commit moved to zero has arrived there: it fires unless the flow takes it

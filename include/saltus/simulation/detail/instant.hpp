@@ -81,6 +81,7 @@ class Instant {
   bool left_zero_beside_root(std::size_t k);
   void arm(bool at_start);
   void select_guards();
+  bool follow_controls();
   void look_at_guards();
 
   const Plan& plan() const { return machine_->plan(); }

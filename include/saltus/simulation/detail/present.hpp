@@ -52,6 +52,7 @@ struct GuardNow {
   int flips = 0;                    ///< flips of a relation in this instant
   double jump = 0.0;                ///< the size of its jump at its root; 0: none
   double before = 0.0;              ///< edge_detection: its value before its root
+  bool entered = false;             ///< it can fire since this instant, and could not before
   bool fired = false;               ///< it fired in this instant
   bool fired_in_pass = false;       ///< it fired in this pass
   bool frozen = false;              ///< a relation: it keeps its side through this instant

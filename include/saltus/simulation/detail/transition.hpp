@@ -68,7 +68,6 @@ class Transition {
   /// about the flow of that guard.
   int effects(const GuardGroup& guard) const;
   bool wrote_x(const GuardGroup& guard) const { return effects(guard) > 0; }
-  bool entered_mode() const noexcept { return entered_; }  ///< in some pass of this instant
 
   /// Whether some derivative reads the discrete state or the mode of a leaf.
   bool derivatives_read(Reads kind, int leaf) const;
@@ -76,8 +75,9 @@ class Transition {
   const Eigen::VectorXd& before() const noexcept { return x_minus_; }
   Eigen::VectorXd& next() noexcept { return x_next_; }
   const Eigen::VectorXd& next() const noexcept { return x_next_; }
-  /// The modes before the last commit that changed any.
-  std::vector<int>& modes_before() noexcept { return modes_before_; }
+  /// Exchanges the present modes with those before the last commit that changed any, and the present
+  /// signals with those before the instant.
+  void swap_with_before();
 
  private:
   struct Wrote {

@@ -72,8 +72,14 @@ class RungeKutta final : public StepSolver<RungeKutta<Method, N>, OneStepSolver>
   VectorView view(const double* x) const { return {x, size()}; }
   double* stage(std::size_t i) { return k_.data() + static_cast<Index>(i) * size(); }
 
+  /// Whether xdot was 0 at the end of the last step. Steps grow without limit then, and say nothing of
+  /// a flow that begins to move.
+  bool was_at_rest() const {
+    return (view(k_.data() + static_cast<Index>(last) * size()).array() == 0.0).all();
+  }
+
   void begin(const Start& start) {
-    if (start.first || start.changed) {
+    if (start.first || start.changed || was_at_rest()) {
       h_ = start.first ? options_.first_step : 0.0;
       controller_ = controller();
     }

@@ -1,0 +1,246 @@
+"""Enabled and triggered subsystems: time stands still in what is not executed."""
+
+import math
+
+import numpy as np
+import pytest
+import saltus
+from saltus.library import (
+    Adder,
+    Clock,
+    Comparator,
+    Constant,
+    ControlPort,
+    EnabledSubsystem,
+    Gain,
+    Integrator,
+    Multiplexer,
+    Pulse,
+    Relay,
+    Sine,
+    TransportDelay,
+    TriggeredSubsystem,
+    UnitDelay,
+)
+
+PRECISE = {"rtol": 1e-10, "atol": 1e-12}
+METHODS = ["auto", "dopri5", "dop853", "radau", "bdf", "adams"]
+
+
+def van_der_pol(called):
+    """x'' = (1 - x^2) x' - x, with a kick at each zero of x that is counted; traced or called."""
+
+    def rates(time, state):
+        x, v = state.continuous_state
+        if called and float(x) > 1e9:  # a number decides: this cannot be traced
+            return np.zeros(2)
+        return np.array([v, (1.0 - x * x) * v - x])
+
+    leaf = saltus.LeafSystem(name="oscillator")
+    leaf.declare_continuous_state(default_value=[2.0, 0.0], ode=rates)
+    leaf.declare_discrete_state(default_value=0.0)
+    leaf.declare_zero_crossing(
+        lambda time, state: state.continuous_state[0],
+        name="zero",
+        reset_map=lambda time, state: state.with_continuous_state(
+            np.array([state.continuous_state[0], 1.1 * state.continuous_state[1]])
+        ).with_discrete_state(state.discrete_state + 1.0),
+    )
+    leaf.declare_continuous_state_output(name="state")
+    leaf.declare_discrete_state_output(name="count")
+    return leaf
+
+
+def driven(part, control):
+    builder = saltus.DiagramBuilder()
+    builder.add(part, control)
+    builder.connect(control.output(), part.input(len(part.input_names) - 1))
+    return builder.build()
+
+
+def enabled_time(t, period):
+    """How long a pulse of width 1/2 was above 0 until t."""
+    cycles, rest = divmod(t, period)
+    return cycles * period / 2 + min(rest, period / 2)
+
+
+@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("called", [False, True])
+def test_a_system_that_is_enabled_now_and_then_is_the_system_in_its_own_time(method, called):
+    oscillator = van_der_pol(called)
+    part = EnabledSubsystem(oscillator, initial_outputs={"state": [2.0, 0.0], "count": [0.0]})
+    scene = driven(part, Pulse(period=1.4))
+    end = 20.3
+    run = saltus.simulate(scene, time_span=(0.0, end), ode_solver_method=method, **PRECISE)
+    alone = van_der_pol(called)
+    own = saltus.simulate(
+        alone, time_span=(0.0, enabled_time(end, 1.4)), ode_solver_method="dop853", rtol=1e-12
+    )
+    # 10 s of an attracting cycle: some hundred times the tolerance of the multistep methods
+    assert run.context[oscillator].continuous_state == pytest.approx(
+        own.context.continuous_state, abs=1e-6
+    )
+    assert run.context[oscillator].discrete_state == own.context.discrete_state
+
+
+def test_the_run_in_pieces_is_the_run_in_one():
+    oscillator = van_der_pol(False)
+    part = EnabledSubsystem(oscillator, initial_outputs={"state": [2.0, 0.0], "count": [0.0]})
+    scene = driven(part, Sine(frequency=3.0))
+    whole = saltus.simulate(scene, time_span=(0.0, 12.0), **PRECISE)
+    context = scene.create_context()
+    for begin in range(12):
+        context = saltus.simulate(scene, context, (begin, begin + 1.0), **PRECISE).context
+    assert context.continuous_state == pytest.approx(whole.context.continuous_state, abs=1e-8)
+    assert list(context.discrete_state) == pytest.approx(
+        list(whole.context.discrete_state), abs=1e-8
+    )
+
+
+def test_the_derivative_by_the_time_at_which_it_is_enabled():
+    """x = t - t_on: dx/dt_on = -1."""
+    builder = saltus.DiagramBuilder()
+    clock, level = builder.add(Clock(name="t"), Constant(1.5, name="on"))
+    later, one = builder.add(Adder("+-", name="later"), Constant(1.0, name="one"))
+    part = builder.add(EnabledSubsystem(Integrator(name="x"), name="sub"))
+    builder.connect(clock.output(), later.input(0))
+    builder.connect(level.output(), later.input(1))
+    builder.connect(later.output(), part.input("enable"))
+    builder.connect(one.output(), part.input(0))
+    scene = builder.build()
+    run = saltus.simulate(scene, time_span=(0.0, 4.0), sensitivity=["on.value"], **PRECISE)
+    assert run.context.continuous_state == pytest.approx([2.5], abs=1e-9)
+    assert run.sensitivities.continuous_state.ravel() == pytest.approx([-1.0], abs=1e-8)
+
+
+def test_islands_of_which_one_is_a_subsystem():
+    def scene():
+        builder = saltus.DiagramBuilder()
+        part, sine = builder.add(
+            EnabledSubsystem(Integrator(name="x"), name="sub"), Sine(frequency=2.0, name="sine")
+        )
+        one, alone = builder.add(Constant(1.0, name="one"), Integrator(name="alone"))
+        builder.connect(one.output(), part.input(0))
+        builder.connect(sine.output(), part.input("enable"))
+        builder.connect(one.output(), alone.input())
+        return builder.build()
+
+    whole, parts = (
+        saltus.simulate(scene(), time_span=(0.0, 9.0), islands=islands, **PRECISE)
+        for islands in (False, True)
+    )
+    assert parts.context.continuous_state == pytest.approx(whole.context.continuous_state, abs=1e-9)
+
+
+def test_a_block_that_adds_up_the_widths_of_its_inputs_is_no_wider_for_its_control():
+    builder = saltus.DiagramBuilder()
+    both = builder.add(Multiplexer(2, name="both"))
+    builder.export_input(both.input(0), "a")
+    builder.export_input(both.input(1), "b")
+    builder.export_output(both.output(), "ab")
+    part = EnabledSubsystem(builder.build("part"), initial_outputs={"ab": [0.0, 0.0]})
+    assert saltus.response(part, Clock(), 3.0, 1.0, t=2.0) == pytest.approx([2.0, 3.0])
+
+
+def test_a_state_that_is_reset_on_a_tick_is_reset_before_its_update():
+    """The delay takes u = 7 at the tick at 2 s, after it returned to its start."""
+    part = EnabledSubsystem(UnitDelay(1.0, initial_state=-1.0, name="delay"), states="reset")
+    y = saltus.response(part, 7.0, Pulse(period=2.0), t=[0.5, 2.5, 4.5])
+    assert list(y) == [-1.0, -1.0, -1.0]
+    held = EnabledSubsystem(UnitDelay(1.0, initial_state=-1.0, name="delay"))
+    assert list(saltus.response(held, 7.0, Pulse(period=2.0), t=[0.5, 2.5, 4.5])) == [
+        -1.0,
+        7.0,
+        7.0,
+    ]
+
+
+def test_a_comparison_decides_what_is_executed_without_a_subsystem():
+    """Two tanks: the second fills while the first is above 1."""
+    builder = saltus.DiagramBuilder()
+    level, _ = builder.add(Constant(1.0, name="level"), Constant(1.0, name="one"))
+    first, second = builder.add(Integrator(name="first"), Integrator(name="second"))
+    above = builder.add(Comparator(">", name="above"))
+    for source, to in [("one.out", "first.in"), ("one.out", "second.in")]:
+        builder.connect(source, to)
+    builder.connect(first.output(), above.input(0))
+    builder.connect(level.output(), above.input(1))
+    builder.execute(second, "above.out")
+    run = saltus.simulate(builder.build(), time_span=(0.0, 3.0), **PRECISE)
+    assert run.context[second].continuous_state == pytest.approx([2.0], abs=1e-9)
+
+
+def test_a_leaf_in_python_takes_the_sample_time_of_the_trigger():
+    leaf = saltus.LeafSystem(name="sum")
+    leaf.declare_discrete_state(default_value=0.0)
+    leaf.declare_input_port(name="u")
+    leaf.declare_periodic_update(
+        lambda time, state, u: state.with_discrete_state(state.discrete_state + u), period=-1.0
+    )
+    leaf.declare_output_port(
+        lambda time, state, u: state.discrete_state + u, name="y", default_value=0.0
+    )
+    part = TriggeredSubsystem(leaf, edge="rising")
+    y = saltus.response(part, 2.0, Pulse(period=1.0, phase_delay=0.5), t=[0.4, 0.6, 1.6, 2.6])
+    assert list(y) == [0.0, 2.0, 4.0, 6.0]
+
+
+def test_mistakes_say_what_to_do():
+    def run(part, *inputs):
+        return saltus.response(part, *inputs, t=1.0)
+
+    with pytest.raises(
+        saltus.ModelError, match=r"continuous state.*EnabledSubsystem takes the block"
+    ):
+        run(TriggeredSubsystem(Integrator(name="x")), 1.0, Sine())
+    with pytest.raises(saltus.ModelError, match=r"delay': .*inherited sample time, -1"):
+        run(TriggeredSubsystem(UnitDelay(0.1, name="delay")), 1.0, Sine())
+    with pytest.raises(saltus.ModelError, match="put it into a TriggeredSubsystem"):
+        run(UnitDelay(-1.0), 1.0)
+    with pytest.raises(saltus.ModelError, match="zero crossing 'turn_on'"):
+        run(TriggeredSubsystem(Relay(1.0)), 1.0, Sine())
+    with pytest.raises(saltus.ModelError, match="history"):
+        run(EnabledSubsystem(TransportDelay(0.1)), 1.0, Sine())
+    with pytest.raises(saltus.ModelError, match=r"unknown states 'rest'; did you mean 'reset'"):
+        EnabledSubsystem(Gain(1.0), states="rest")
+    with pytest.raises(saltus.ModelError, match=r"unknown outputs 'hold'; did you mean 'held'"):
+        EnabledSubsystem(Gain(1.0), outputs="hold")
+    with pytest.raises(saltus.ModelError, match="unknown edge 'rise'"):
+        TriggeredSubsystem(Gain(1.0), edge="rise")
+    with pytest.raises(saltus.ModelError, match=r"unknown output 'y'.*'out'"):
+        TriggeredSubsystem(Gain(1.0), initial_outputs={"y": 1.0})
+    builder = saltus.DiagramBuilder()
+    x, t, port = builder.add(Integrator(name="x"), Clock(name="t"), ControlPort(name="on"))
+    builder.connect(t.output(), x.input())
+    builder.connect(t.output(), port.input())
+    with pytest.raises(saltus.ModelError, match="cannot control its own execution"):
+        builder.execute(x, x.output())
+    builder.execute(x, t.output())
+    with pytest.raises(saltus.ModelError, match="'x' already has a control signal"):
+        builder.execute(x, port.output())
+    with pytest.raises(saltus.ModelError, match=r"expects one held value.*put a Comparator"):
+        saltus.simulate(builder.build(), time_span=(0.0, 1.0))
+
+
+def test_a_ball_at_rest_that_is_not_enabled_goes_on_resting():
+    """It is at rest from 2 s on; the pulse disables it and enables it again and again."""
+    ball = saltus.LeafSystem(name="ball")
+    ball.declare_continuous_state(
+        default_value=[1.0, 0.0], ode=lambda t, s: np.array([s.continuous_state[1], -9.81])
+    )
+    ball.declare_zero_crossing(
+        lambda t, s: s.continuous_state[0],
+        name="bounce",
+        direction="positive_then_non_positive",
+        reset_map=lambda t, s: s.with_continuous_state(
+            np.array([0.0 * s.continuous_state[0], -0.5 * s.continuous_state[1]])
+        ),
+    )
+    ball.declare_continuous_state_output(name="state")
+    part = EnabledSubsystem(ball, initial_outputs={"state": [1.0, 0.0]})
+    run = saltus.simulate(driven(part, Pulse(period=3.0)), time_span=(0.0, 30.0), **PRECISE)
+    zeno = math.sqrt(2.0 / 9.81) * (1.0 + 2.0 * 0.5 / (1.0 - 0.5))  # 1.35 s < 1.5 s
+    assert run.context.continuous_state == pytest.approx([0.0, 0.0], abs=1e-9)
+    assert run.events.times("bounce", "zeno_enter")[0] == pytest.approx(
+        zeno, abs=1e-6
+    )  # the Zeno tolerance
