@@ -25,7 +25,9 @@ from saltus.library import (
     DerivativeDiscrete,
     DiscreteClock,
     EdgeDetection,
+    EnabledSubsystem,
     FilterDiscrete,
+    Gain,
     Integrator,
     IntegratorDiscrete,
     LookupTable1d,
@@ -53,6 +55,7 @@ from saltus.library import (
     TransferFunctionDiscrete,
     Transition,
     TransportDelay,
+    TriggeredSubsystem,
     UnitDelay,
     WhiteNoise,
 )
@@ -153,6 +156,18 @@ STATES = [
         [Constant(np.zeros(3)), Constant(np.zeros(3))],
         3,
     ),
+    ("EnabledSubsystem,\nof a Gain", EnabledSubsystem(Gain(1.0)), [SINE, SECOND]),
+    (
+        "EnabledSubsystem,\nof an Integrator, reset",
+        EnabledSubsystem(Integrator(), states="reset", outputs="reset"),
+        [Constant(1.0), SINE],
+    ),
+    ("TriggeredSubsystem,\nof a Gain, rising", TriggeredSubsystem(Gain(1.0)), [SINE, SECOND]),
+    (
+        "TriggeredSubsystem,\nof a UnitDelay, either",
+        TriggeredSubsystem(UnitDelay(-1), edge="either"),
+        [SINE, SECOND],
+    ),
 ]
 
 
@@ -194,8 +209,8 @@ def more_blocks():
 
 
 def blocks_with_states():
-    """Twelve blocks, most of them with states of their own."""
-    return sheet(STATES, 3)
+    """Sixteen blocks, most of them with states of their own."""
+    return sheet(STATES, 4)
 
 
 def main():
