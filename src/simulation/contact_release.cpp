@@ -93,10 +93,12 @@ void ContactGuards::keep_relations_of(int edge) {
 
 // --- holds that end in a commit
 
-void ContactGuards::release_unseen() {
+void ContactGuards::release_unseen(Unseen why) {
   for (const std::size_t k : scope_->crossings) {
     Holds::Hold& hold = holds_->of_guard(k);
     if (!hold.monitor.holding || present_->now(k).fired_in_pass || (*guards_)[k].active) continue;
+    const bool moves = (*guards_)[k].phase == Phase::carried;
+    if (why == Unseen::by_control && !moves) continue;
     leave(k);
     holds_->release(hold);
   }

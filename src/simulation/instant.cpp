@@ -118,7 +118,7 @@ void Instant::commit() {
   if (holds_.any()) contacts_.release_kicked();
   const bool entered = transition_.commit();
   if (entered) select_guards();
-  if (entered && holds_.any()) contacts_.release_unseen();
+  if (entered && holds_.any()) contacts_.release_unseen(ContactGuards::Unseen::by_mode);
   flow_.forget();
 }
 
@@ -127,7 +127,7 @@ void Instant::commit() {
 bool Instant::follow_controls() {
   if (!machine_->controls_changed()) return false;
   select_guards();
-  if (holds_.any()) contacts_.release_unseen();
+  if (holds_.any()) contacts_.release_unseen(ContactGuards::Unseen::by_control);
   return true;
 }
 

@@ -18,6 +18,7 @@ from saltus.library import (
     Pulse,
     Relay,
     Sine,
+    Step,
     TransportDelay,
     TriggeredSubsystem,
     UnitDelay,
@@ -244,3 +245,54 @@ def test_a_ball_at_rest_that_is_not_enabled_goes_on_resting():
     assert run.events.times("bounce", "zeno_enter")[0] == pytest.approx(
         zeno, abs=1e-6
     )  # the Zeno tolerance
+
+
+def ball_on_a_floor(called):
+    """Its floor is an input; its guard is a truth, which tells nothing of what happens at rest."""
+    ball = saltus.LeafSystem(name="ball")
+    ball.declare_input_port(name="floor")
+
+    def above(time, state, floor):
+        if called and float(time) < 0.0:  # a number decides: this cannot be traced
+            return False
+        return state.continuous_state[0] > floor
+
+    ball.declare_continuous_state(
+        default_value=[1.0, 0.0],
+        ode=lambda t, s, floor: np.array([s.continuous_state[1], -9.81]),
+    )
+    ball.declare_zero_crossing(
+        above,
+        name="bounce",
+        direction="positive_then_non_positive",
+        reset_map=lambda t, s, floor: s.with_continuous_state(
+            np.array([floor + 0.0 * s.continuous_state[0], -0.5 * s.continuous_state[1]])
+        ),
+    )
+    ball.declare_continuous_state_output(name="state")
+    return ball
+
+
+@pytest.mark.parametrize("called", [False, True])
+@pytest.mark.parametrize("method", METHODS)
+def test_a_ball_whose_guard_is_a_truth_rests_through_times_at_which_it_is_not_enabled(
+    called, method
+):
+    part = EnabledSubsystem(ball_on_a_floor(called), initial_outputs={"state": [1.0, 0.0]})
+    y = saltus.response(
+        part, 0.0, Pulse(period=3.0), t=[1.4, 2.9, 10.0, 19.0], ode_solver_method=method
+    )
+    assert np.abs(y).max() < 1e-4  # the height below which the bounces of 1e-6 s do not count
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_a_floor_that_moves_while_the_ball_on_it_is_not_enabled(method):
+    """The floor is at 0 until 2 s and at `level` from then on; the ball may move from 3 s on."""
+    for level, expected in [(0.5, 0.5), (-1.0, -1.0)]:
+        part = EnabledSubsystem(ball_on_a_floor(False), initial_outputs={"state": [1.0, 0.0]})
+        floor = Step(0.0, level, 2.0)
+        y = saltus.response(
+            part, floor, Pulse(period=3.0), t=[2.9, 4.45, 12.0], ode_solver_method=method
+        )
+        assert y[0] == pytest.approx([0.0, 0.0], abs=1e-4)
+        assert y[2] == pytest.approx([expected, 0.0], abs=1e-4)

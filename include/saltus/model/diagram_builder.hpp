@@ -42,7 +42,8 @@ class DiagramBuilder {
   ///
   /// Enabled: while the signal is false, xdot = 0 for all continuous states of the block, its
   /// updates, resets and edges write nothing, and its guards are not seen. When the signal becomes
-  /// true, its guards are armed as where a mode is entered. Its outputs are computed as before.
+  /// true, its guards are armed as where a mode is entered, and what rested at a Zeno point rests on.
+  /// Its outputs are computed as before.
   ///
   /// Triggered: at each edge of the signal its updates with an inherited period run once, together,
   /// and read the values before the edge.

@@ -38,8 +38,10 @@ class ContactGuards {
 
   /// Ends the holds whose states the present pass has written, and arms their guards anew.
   void release_kicked();
-  /// Ends the holds of leaves that have entered a mode in which the guard of the hold is inactive.
-  void release_unseen();
+  enum class Unseen { by_mode, by_control };
+  /// Ends the holds whose guards are not seen any more. A leaf that has entered another mode may move
+  /// there. A leaf that is not executed stays as it is, at rest, but no surface moves it.
+  void release_unseen(Unseen why);
 
   /// Finds the contacts again, after the holds were loaded.
   void load();
