@@ -19,7 +19,8 @@ struct LookVariation {
 
   /// Whether the guard may have crossed zero where the looks do not show it.
   bool hides() const {
-    return !jumps_once && thresholds::hidden_room * error > least && error > thresholds::hidden_share * range;
+    return !jumps_once && thresholds::hidden_room * error > least &&
+           error > thresholds::hidden_share * range;
   }
   /// Whether the looks do not show the guard, which may come to zero. They show a smooth guard where
   /// they are near enough, because its error falls by eight where the piece is halved.

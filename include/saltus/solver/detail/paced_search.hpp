@@ -165,8 +165,12 @@ class PacedSearch : protected PieceSearch {
   /// Whether there are three looks, and the one at high_.
   bool has_four_looks() const { return earlier_at_ != never && oldest_at_ != never; }
   [[gnu::always_inline]] FourLooks four_looks(double from, double to) const {
-    return {oldest_.data(), earlier_.data(), guards_->g.data(), high_.data(),
-            ThirdDifference(oldest_at_, earlier_at_, from, to), is_near(from, to)};
+    return {oldest_.data(),
+            earlier_.data(),
+            guards_->g.data(),
+            high_.data(),
+            ThirdDifference(oldest_at_, earlier_at_, from, to),
+            is_near(from, to)};
   }
   bool is_near(double from, double to) const { return to - from <= even_ * thresholds::step_piece; }
   [[gnu::always_inline]] bool hides(double from, double to) const {
