@@ -16,7 +16,6 @@ namespace saltus::python {
 void bind_logic(py::module_& module) {
   py::class_<Comparator, System>(module, "Comparator")
       .def(py::init<std::string, std::string_view>());
-  bind_subsystems(module);
   py::class_<Counter, System>(module, "Counter")
       .def(py::init(
           [](std::string name, std::string_view edge, std::optional<int> limit, int initial_state) {
@@ -45,6 +44,7 @@ void bind_logic(py::module_& module) {
       .def(py::init([](std::string name, std::optional<double> threshold) {
         return std::make_unique<Switch>(std::move(name), SwitchOptions{threshold});
       }));
+  bind_subsystems(module);
 }
 
 }  // namespace saltus::python

@@ -578,12 +578,6 @@ class Trigonometric(System):
 class Comparator(System):
     def __init__(self, arg0: str, arg1: str, /) -> None: ...
 
-class ControlPort(System):
-    def __init__(self, arg0: str, /) -> None: ...
-
-class SubsystemOutput(System):
-    def __init__(self, arg0: str, arg1: str, arg2: bool, arg3: str, arg4: Any, /) -> None: ...
-
 class Counter(System):
     def __init__(self, arg0: str, arg1: str, arg2: int | None, arg3: int, /) -> None: ...
 
@@ -609,6 +603,12 @@ class Stop(System):
 
 class Switch(System):
     def __init__(self, arg0: str, arg1: float | None, /) -> None: ...
+
+class ControlPort(System):
+    def __init__(self, arg0: str, /) -> None: ...
+
+class SubsystemOutput(System):
+    def __init__(self, arg0: str, arg1: str, arg2: bool, arg3: str, arg4: Any, /) -> None: ...
 
 class Integrator(System):
     def __init__(

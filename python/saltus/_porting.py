@@ -11,9 +11,9 @@ from collections.abc import Callable, Iterable, Mapping
 from typing import Any, ParamSpec, TypeVar
 
 from saltus._core import known_names
-from saltus.errors import ModelError
+from saltus.errors import BlockParameterError, ModelError
 
-__all__ = ["OPTIONS", "refuse", "refusing"]
+__all__ = ["OPTIONS", "is_reset", "refuse", "refusing"]
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -124,3 +124,12 @@ def _wrong_kind(method: Callable[..., Any], arguments: Any, options: Any) -> str
     expected = ", ".join(f"{name}: {signature.parameters[name].annotation}" for name in given)
     found = ", ".join(f"{name} = {value!r}" for name, value in given.items())
     return f"expected {expected}; found {found}"
+
+
+def is_reset(where: str, what: str, word: str) -> bool:
+    """Whether an option is "reset", and not "held"; BlockParameterError for another word."""
+    words = ["held", "reset"]
+    if word not in words:
+        near = known_names(str(word), words)
+        raise BlockParameterError(f"{where}: unknown {what} {word!r}{near}")
+    return word == "reset"

@@ -7,6 +7,7 @@ from typing import overload
 import numpy as np
 
 from saltus import _core
+from saltus._porting import is_reset
 from saltus._signals import block_of
 from saltus.errors import ModelError
 from saltus.ports import core_port
@@ -266,13 +267,11 @@ class DiagramBuilder:
         >>> saltus.simulate(diagram, time_span=(0.0, 3.0)).context[x].continuous_state.round(9)
         array([2.])
         """
-        if states not in ("held", "reset"):
-            near = _core.known_names(str(states), ["held", "reset"])
-            raise ModelError(f"execute: unknown states {states!r}{near}")
+        resets = is_reset("execute", "states", states)
         of, output = _port(self._output("execute", control), OutputPort)
         if not isinstance(block, System):
             raise ModelError(f"execute: expected a system, found {block!r}")
-        self._core.execute(block, of, output, kind, states == "reset", edge)
+        self._core.execute(block, of, output, kind, resets, edge)
 
     def export_input(self, port: InputPort | str, name: str | None = None) -> int:
         """Makes an input of a block one of the diagram.

@@ -115,11 +115,6 @@ void add_guard(Plan& plan, StateSearch& search, GuardGroup group, const std::vec
   plan.guards.push_back(std::move(group));
 }
 
-/// The control signals of a leaf.
-std::vector<int> controls_of(const PlanLeaf& leaf) {
-  return read_inputs(leaf.declared().controls, leaf);
-}
-
 /// A guard whose return cancels its execution is located both ways.
 Direction watched_direction(const ZeroCrossing& crossing) {
   return crossing.is_queued() && crossing.is_cancelled_on_return() ? Direction::crosses_zero
@@ -144,7 +139,7 @@ void add_guards(Plan& plan) {
                  .monitor = monitor,
                  .queued = crossing.is_queued(),
                  .name = text(plan.leaves[l].path, ".", crossing.name),
-                 .controls = controls_of(plan.leaves[l])},
+                 .controls = read_inputs(plan.leaves[l].declared().controls, plan.leaves[l])},
                 read_inputs(crossing.inputs, plan.leaves[l]));
     }
   }
@@ -165,12 +160,9 @@ void add_guards(Plan& plan) {
 void check_edges(const Plan& plan) {
   for (const PlanLeaf& leaf : plan.leaves) {
     for (const EdgeReset& reset : leaf.declared().edge_resets) {
-      const Node& trigger = plan.node(read_inputs(std::vector{reset.input}, leaf).front());
-      if (trigger.rate != Rate::continuous && trigger.shape.size == 1) continue;
-      throw ModelError(text("input '", leaf.declared().inputs[reset.input].name, "' of block '",
-                            leaf.path, "' expects one boolean, found ", trigger.shape.size,
-                            " continuous value(s) from output '", plan.name_of(trigger),
-                            "'; put a Comparator between them"));
+      require_one_held_value(plan, read_inputs(std::vector{reset.input}, leaf).front(),
+                             text("input '", leaf.declared().inputs[reset.input].name,
+                                  "' of block '", leaf.path, "' expects one boolean"));
     }
   }
 }

@@ -119,7 +119,7 @@ void ControlledLeaf::write_while_true() {
 }
 
 /// The start values of a run are those of its context. Later the declared ones count.
-void ControlledLeaf::reset_at_start() {
+void ControlledLeaf::reset_when_enabled() {
   const Eigen::VectorXd x = declared_.continuous.initial, z = declared_.discrete;
   if (x.size() + z.size() == 0 && !declared_.has_modes) return;
   declared_.edge_resets.push_back(
@@ -137,7 +137,7 @@ void ControlledLeaf::reset_at_start() {
        .before_updates = true});
 }
 
-void ControlledLeaf::require_no_history() const {
+void ControlledLeaf::require_interruptible() const {
   if (!declared_.histories.empty())
     refuse(
         "it keeps a history of its input, which a control signal would interrupt; keep it out of "
@@ -158,10 +158,10 @@ void ControlledLeaf::require_no_history() const {
 }
 
 Declarations ControlledLeaf::enabled(bool resets) {
-  require_no_history();
+  require_interruptible();
   rest_while_false();
   write_while_true();
-  if (resets) reset_at_start();
+  if (resets) reset_when_enabled();
   declared_.controls.push_back(control_);
   return std::move(declared_);
 }
@@ -189,7 +189,7 @@ void ControlledLeaf::require_updates_only() const {
 }
 
 Declarations ControlledLeaf::triggered(Edge edge) {
-  require_no_history();
+  require_interruptible();
   require_updates_only();
   for (const TimeEvent& event : declared_.time_events) {
     if (!event.inherited) continue;

@@ -26,8 +26,8 @@ class ControlledLeaf {
   void keep_to_own_widths(OutputDeclaration& output) const;
   void rest_while_false();
   void write_while_true();
-  void reset_at_start();
-  void require_no_history() const;
+  void reset_when_enabled();
+  void require_interruptible() const;
   void require_updates_only() const;
   Named own_or(const Named& named) const { return named ? named : own_; }
   Named with_control(const Named& named) const;

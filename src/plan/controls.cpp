@@ -21,16 +21,20 @@ void add_controls(Plan& plan, const Structure& structure, const LeafNumbers& num
   }
 }
 
+void require_one_held_value(const Plan& plan, int node, const std::string& expected) {
+  const Node& signal = plan.node(node);
+  if (signal.rate != Rate::continuous && signal.shape.size == 1) return;
+  throw ModelError(text(expected, ", found ", signal.shape.size,
+                        " continuous value(s) from output '", plan.name_of(signal),
+                        "'; put a Comparator between them"));
+}
+
 void check_controls(const Plan& plan) {
   for (const PlanLeaf& leaf : plan.leaves) {
-    for (const int control : leaf.declared().controls) {
-      const Node& signal = plan.node(leaf.inputs[control]);
-      if (signal.rate != Rate::continuous && signal.shape.size == 1) continue;
-      throw ModelError(text("block '", leaf.path,
-                            "' expects one held value as its control signal, ", "found ",
-                            signal.shape.size, " continuous value(s) from output '",
-                            plan.name_of(signal), "'; put a Comparator between them"));
-    }
+    for (const int control : leaf.declared().controls)
+      require_one_held_value(
+          plan, leaf.inputs[control],
+          text("block '", leaf.path, "' expects one held value as its control signal"));
     for (const TimeEvent& event : leaf.declared().time_events) {
       if (!event.inherited) continue;
       throw ModelError(

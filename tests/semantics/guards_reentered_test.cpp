@@ -105,7 +105,7 @@ TEST_CASE("3.7 a ball that is let go on the floor, with a speed into it, bounces
     INFO(method);
     CHECK(results.events.times("bounce") == std::vector<double>{1.5});
     const double t = 1.6 - 1.5, v = e * 2.0;
-    // a parabola is exact for every method, but for the first steps of the multistep methods
+    // One-step methods are exact on a parabola. The first steps of the multistep methods are not.
     CHECK(std::abs(results.context.continuous_state()[0] - (v * t - 0.5 * g * t * t)) <= 1e-6);
   }
 }

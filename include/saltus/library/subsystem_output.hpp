@@ -12,8 +12,8 @@
 namespace saltus {
 
 struct SubsystemOutputOptions {
-  Value initial_output = 0.0;  ///< parameter "initial_output"
-  Execution execution = {};    ///< resets: y = initial_output while control is false
+  Value initial_output = 0.0;  ///< y before the control signal is first true, or has its first edge
+  Execution execution = {};    ///< with `resets` y = initial_output while control is false
 };
 
 class SubsystemOutput final : public LeafSystem {

@@ -44,7 +44,7 @@ struct Structure {
   };
   std::vector<Leaf> leaves;
   std::vector<Wire> wires;
-  std::vector<Controlled> controlled;  ///< inner parts before those that contain them
+  std::vector<Controlled> controlled;  ///< a part comes before the part that contains it
   std::vector<FixedInput> fixed;       ///< if one input has two of them, the last one counts
   std::vector<Layout::Range> systems;
 };

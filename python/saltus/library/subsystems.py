@@ -8,7 +8,7 @@ from typing import Any
 from numpy.typing import ArrayLike
 
 from saltus import _core
-from saltus._porting import refusing
+from saltus._porting import is_reset, refusing
 from saltus.diagram import Diagram, DiagramBuilder
 from saltus.errors import BlockParameterError
 from saltus.library.block import Block
@@ -82,15 +82,8 @@ class SubsystemOutput(Block, _core.SubsystemOutput):
         name: str | None = None,
     ):
         called = self._named(name)
-        super().__init__(called, kind, resets(called, "outputs", outputs), edge, initial_output)
-
-
-def resets(block: str, what: str, word: str) -> bool:
-    """Whether an option is "reset", and not "held"."""
-    if word not in ("held", "reset"):
-        near = _core.known_names(str(word), ["held", "reset"])
-        raise BlockParameterError(f"block '{block}': unknown {what} {word!r}{near}")
-    return word == "reset"
+        resets = is_reset(f"block '{called}'", "outputs", outputs)
+        super().__init__(called, kind, resets, edge, initial_output)
 
 
 class _Subsystem(Diagram):

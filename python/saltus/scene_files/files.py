@@ -10,7 +10,7 @@ from typing import Any
 from saltus import library
 from saltus.errors import ModelError
 from saltus.scene_files.includes import with_includes
-from saltus.scene_files.library_block import arguments_of
+from saltus.scene_files.library_block import SUBSYSTEMS, arguments_of
 from saltus.scene_files.reading import read_file
 from saltus.scene_files.scene import FileScene
 from saltus.scene_files.source import Source, error_of
@@ -124,7 +124,7 @@ def _block(name: str) -> dict[str, Any]:
     """A block of the library with the names of its arguments."""
     arguments = arguments_of(name)
     needed = [key for key, each in arguments.items() if each.default is each.empty]
-    more = ["parameters"] if "system" in arguments else []  # those of the system
+    more = ["parameters"] if name in SUBSYSTEMS else []
     return {
         "properties": {"block": {"const": name}, **{key: {} for key in (*arguments, *more)}},
         "required": ["block", *needed],

@@ -14,7 +14,10 @@ from saltus.scene_files.functions import function_of, list_of, number_of, value_
 from saltus.scene_files.wrong import Path, Wrong, found, placed, table_at
 from saltus.system import System
 
-__all__ = ["arguments_of", "library_block"]
+__all__ = ["SUBSYSTEMS", "arguments_of", "library_block"]
+
+SUBSYSTEMS = ("EnabledSubsystem", "TriggeredSubsystem")
+"""the blocks that are made of a system of the scene, which takes the key `parameters`"""
 
 FUNCTION_OF = {
     "ReduceBlock": {"u": Word("u", ANY)},

@@ -10,7 +10,7 @@ from saltus.diagram import DiagramBuilder
 from saltus.errors import ModelError
 from saltus.scene_files.functions import value_of
 from saltus.scene_files.leaf import LEAF_KEYS, leaf_of
-from saltus.scene_files.library_block import library_block
+from saltus.scene_files.library_block import SUBSYSTEMS, library_block
 from saltus.scene_files.names import named_path, require_part_name, require_word, text_at
 from saltus.scene_files.wires import wires_of
 from saltus.scene_files.wrong import Path, Wrong, found, placed, require_keys, table_at
@@ -24,7 +24,6 @@ SYSTEM_KEYS = tuple(dict.fromkeys((*SHARED_KEYS, *DIAGRAM_KEYS, *LEAF_KEYS)))
 MOST_BLOCKS = 100_000
 MOST_LEVELS = 64
 BLOCK = "{ block = 'Gain', gain = 2.0 }"
-SUBSYSTEMS = ("EnabledSubsystem", "TriggeredSubsystem")
 
 
 @dataclass

@@ -19,19 +19,23 @@ struct LookVariation {
 
   /// Whether the guard may have crossed zero where the looks do not show it.
   bool hides() const {
-    return !jumps_once && thresholds::hidden_room * error > least &&
-           error > thresholds::hidden_share * range;
+    return !jumps_once && varies(thresholds::hidden_room, thresholds::hidden_share);
   }
   /// Whether the looks do not show the guard, which may come to zero. They show a smooth guard where
   /// they are near enough, because its error falls by eight where the piece is halved.
   bool is_noise() const {
-    return !jumps_once && thresholds::growth_room * error > least &&
-           error > thresholds::hidden_share * range;
+    return !jumps_once && varies(thresholds::growth_room, thresholds::hidden_share);
   }
   /// Whether looks at twice the distance would show the guard, too.
   bool is_slow() const {
-    return !(thresholds::growth_room * error > least &&
-             error > thresholds::slow_share * thresholds::hidden_share * range);
+    return !varies(thresholds::growth_room, thresholds::slow_share * thresholds::hidden_share);
+  }
+
+ private:
+  /// Whether the guard is nearer to zero than `room` errors, and its error is more than `share` of its
+  /// range.
+  bool varies(double room, double share) const {
+    return room * error > least && error > share * range;
   }
 };
 

@@ -93,10 +93,14 @@ class PacedSearch : protected PieceSearch {
 
   /// A piece that is not halved: the looks grow apart after it where they may.
   void accept(double from, double to, bool hidden) {
-    if (hidden) judge_.note_in_vain(four_looks(from, to));
-    if (has_four_looks()) back_to_ = never;
-    if (has_four_looks() && is_near(from, to)) judge_.note_noise(four_looks(from, to));
-    if (!hidden) pace_.accept(to - from, has_four_looks() && judge_.is_slow(four_looks(from, to)));
+    if (!has_four_looks()) return;
+    const FourLooks looks = four_looks(from, to);
+    back_to_ = never;
+    if (looks.near) judge_.note_noise(looks);
+    if (hidden)
+      judge_.note_in_vain(looks);
+    else
+      pace_.accept(to - from, judge_.is_slow(looks));
   }
 
   /// A piece that begins at `from` hides something. The pieces before it in this step were as long,
@@ -112,8 +116,9 @@ class PacedSearch : protected PieceSearch {
   }
 
   /// In the first step of a run, and in a much longer step than all before, no look says how fast the
-  /// guards vary. Looks at three points, not evenly spaced, and compares them with the derivatives of the guards along the flow where the
-  /// step begins, because a guard may have the period of the looks.
+  /// guards vary. Looks at three points, not evenly spaced, and compares them with the derivatives of
+  /// the guards along the flow where the step begins, because a guard may have the period of the
+  /// looks.
   template <class Interpolate>
   void choose_pace(double from, const Interpolate& interpolate) {
     const auto is_steep = [&](std::size_t k, double range) {

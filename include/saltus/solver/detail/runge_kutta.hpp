@@ -74,9 +74,7 @@ class RungeKutta final : public StepSolver<RungeKutta<Method, N>, OneStepSolver>
 
   /// Whether xdot was 0 at the end of the last step. Steps grow without limit then, and say nothing of
   /// a flow that begins to move.
-  bool was_at_rest() const {
-    return (view(k_.data() + static_cast<Index>(last) * size()).array() == 0.0).all();
-  }
+  bool was_at_rest() { return (view(stage(last)).array() == 0.0).all(); }
 
   void begin(const Start& start) {
     if (start.first || start.changed || was_at_rest()) {
