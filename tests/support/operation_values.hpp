@@ -13,7 +13,7 @@ struct OperationValue {
   double slopes[3];  ///< by each operand; NaN where none is stored
 };
 
-namespace values {
+namespace operation_values {
 
 using saltus::tape::Op;
 inline constexpr double none = std::numeric_limits<double>::quiet_NaN();
@@ -259,6 +259,6 @@ inline constexpr OperationValue all[] = {
 };
 // clang-format on
 
-}  // namespace values
+}  // namespace operation_values
 
 }  // namespace support

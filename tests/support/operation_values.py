@@ -126,7 +126,7 @@ struct OperationValue {
   double slopes[3];  ///< by each operand; NaN where none is stored
 };
 
-namespace values {
+namespace operation_values {
 
 using saltus::tape::Op;
 inline constexpr double none = std::numeric_limits<double>::quiet_NaN();
@@ -139,7 +139,7 @@ FOOT = """\
 };
 // clang-format on
 
-}  // namespace values
+}  // namespace operation_values
 
 }  // namespace support
 """

@@ -37,7 +37,7 @@ std::vector<double> operands(const OperationValue& row) {
 
 template <class Act>
 void for_each_row(Act act) {
-  for (const OperationValue& row : values::all) {
+  for (const OperationValue& row : operation_values::all) {
     INFO(name(row.op) << " of " << row.operands[0] << ", " << row.operands[1] << ", "
                       << row.operands[2]);
     act(row);
@@ -50,7 +50,7 @@ TEST_CASE("every operation has stored values", "[tape]") {
   for (int i = static_cast<int>(Op::neg); i < operation_count; ++i) {
     const auto op = static_cast<Op>(i);
     INFO(name(op));
-    CHECK(std::ranges::count(values::all, op, &OperationValue::op) >= 2);
+    CHECK(std::ranges::count(operation_values::all, op, &OperationValue::op) >= 2);
   }
 }
 
