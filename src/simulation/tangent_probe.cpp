@@ -138,7 +138,7 @@ Machine& TangentProbe::at(const double* x, const TangentDirection& along, double
   move(machine_->y.data(), along.y, probe_.y);
   move(machine_->p.data(), nullptr, probe_.p);
   if (along.parameter >= 0) probe_.p[along.parameter] += shift;
-  if (probe_.modes != machine_->modes || probe_.controls_changed()) {
+  if (probe_.modes != machine_->modes || probe_.seen_guards().outdated()) {
     probe_.modes = machine_->modes;
     probe_.select_guards();
   }

@@ -4,62 +4,16 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
+
+#include "sensitivity_entries.hpp"
 
 namespace saltus {
 
 namespace {
 
-/// One step solves a full system of five times as many unknowns.
-constexpr Index most_states = 200;
 /// [eps t] Shorter steps say nothing about the scale of time: a thousandth of a step is then a rounding.
 constexpr double least_step = 1e6;
-
-/// The first part of a plan of which no derivative is known, in words; empty if there is none.
-std::string obstacle_of(const Plan& plan) {
-  if (plan.nx > most_states)
-    return text("the system has ", plan.nx, " continuous states, and at most ", most_states,
-                " are supported");
-  if (!plan.histories.empty())
-    return text("block '", plan.leaf(plan.histories.front()).path,
-                "' keeps a history of its input, which has no derivative here");
-  for (const GuardGroup& group : plan.guards) {
-    if (!group.queued) continue;
-    const ZeroCrossing& crossing = plan.crossing_of(group);
-    if (crossing.delay || crossing.use_values_from_trigger_time.value_or(false))
-      return text("the queued zero crossing '", group.name,
-                  "' has a delay, or values from its trigger time");
-  }
-  return {};
-}
-
-/// A parameter or a start value by which the run is differentiated.
-struct Found {
-  std::string name;
-  ContextEntry entry;
-};
-
-/// The entries of the option `sensitivity`, a vector entry by entry.
-std::vector<Found> chosen_entries(const std::vector<std::string>& names, const Layout& layout) {
-  std::vector<Found> all;
-  for (const std::string& name : names) {
-    const ContextEntry entry = find_entry(layout, name);
-    if (entry.kind == ContextEntry::Kind::mode)
-      throw ModelError(text("option sensitivity: '", name,
-                            "' is a mode, an integer, so nothing has a derivative with respect to "
-                            "it; expected a parameter or a start value"));
-    for (Index i = 0; i < entry.size; ++i)
-      all.push_back(
-          {entry.size == 1 ? name : text(name, "[", i, "]"), {entry.kind, entry.first + i, 1}});
-  }
-  for (auto one = all.begin(); one != all.end(); ++one) {
-    const auto same = [&](const Found& other) {
-      return other.entry.kind == one->entry.kind && other.entry.first == one->entry.first;
-    };
-    if (std::any_of(all.begin(), one, same))
-      throw ModelError(text("option sensitivity: '", one->name, "' is named twice"));
-  }
-  return all;
-}
 
 }  // namespace
 
@@ -72,31 +26,23 @@ Tangents::Tangents(const Machine& machine, const GuardSet& guards, const Simulat
       probe_(machine),
       flow_(machine, probe_),
       jumps_(flow_, probe_),
-      times_(machine, guards, options, flow_, probe_) {
-  const std::string obstacle = obstacle_of(machine.plan());
-  if (!obstacle.empty())
-    throw ModelError(text("option sensitivity: ", obstacle,
-                          "; take differences of two runs for this system instead"));
+      times_(machine, guards, options, flow_, probe_),
+      gaps_(columns_, results),
+      events_(columns_, gaps_, results),
+      rows_(machine, options, probe_, gaps_, results) {
+  require_sensitivities(machine.plan());
 }
 
 void Tangents::require_fits(const Context& start) const {
   chosen_entries(options_->sensitivity, start.layout());
 }
 
-void Tangents::renew() {
-  Sensitivities& out = results_->sensitivities;
-  const std::vector<std::string> names = std::move(out.parameters);
-  out = {};
-  out.parameters = names;
-  out.signals.resize(machine_->plan().taps.size());
-}
-
 void Tangents::begin(const Context& start) {
   using Kind = ContextEntry::Kind;
-  const std::vector<Found> all = chosen_entries(options_->sensitivity, start.layout());
+  const std::vector<SensitivityEntry> all = chosen_entries(options_->sensitivity, start.layout());
   const auto m = static_cast<Index>(all.size());
   const Plan& plan = machine_->plan();
-  results_->sensitivities.parameters.clear();
+  std::vector<std::string> names;
   columns_.x.setZero(plan.nx, m), columns_.z.setZero(plan.nz, m), columns_.y.setZero(plan.ny, m);
   columns_.parameters.assign(all.size(), -1);
   Eigen::MatrixXd atol(plan.nx, m);
@@ -105,7 +51,7 @@ void Tangents::begin(const Context& start) {
     if (kind == Kind::parameter) nth(columns_.parameters, k) = i;
     if (kind == Kind::continuous_state) columns_.x(i, k) = 1.0;
     if (kind == Kind::discrete_state) columns_.z(i, k) = 1.0;
-    results_->sensitivities.parameters.push_back(nth(all, k).name);
+    names.push_back(nth(all, k).name);
     // As in CVODES: the tolerance of a state, in units of the parameter.
     const double value = kind == Kind::parameter          ? start.parameters()[i]
                          : kind == Kind::continuous_state ? start.continuous_state()[i]
@@ -113,13 +59,11 @@ void Tangents::begin(const Context& start) {
     for (Index j = 0; j < plan.nx; ++j)
       atol(j, k) = options_->atol[j] / (value == 0.0 ? 1.0 : std::abs(value));
   }
-  renew();
+  rows_.begin(std::move(names));
   variation_.emplace(Variation::Tolerances{options_->rtol.smallest(), std::move(atol)});
-  columns_.t.setZero(m), lost_.assign(all.size(), 0);
-  jumps_.begin(plan.nx);
-  monitors_.clear(), predicted_.clear();
-  one_sided_.begin();
-  t_ = start.time(), in_instant_ = false;
+  columns_.t.setZero(m);
+  jumps_.begin(plan.nx), gaps_.begin(), events_.begin(), one_sided_.begin();
+  t_ = start.time(), phase_ = Phase::between;
   probe_.begin(), probe_.note(machine_->x.data(), 0.0);
   begin_signals(start);
 }
@@ -153,7 +97,7 @@ void Tangents::clear_truths() {
 
 void Tangents::step(double from, double to, Integration& integration) {
   variation_->forget();
-  forget_end();
+  gaps_.forget_end();
   t_ = to;
   if (!integration.started() || machine_->plan().nx == 0) return;
   // A step of some roundings of the time was cut by an event, and says nothing about the scale of it.
@@ -172,7 +116,7 @@ void Tangents::step(double from, double to, Integration& integration) {
   const double middle = from < joint && joint < to ? joint : from;
   variation_->advance(from, middle, equation, columns_.x);
   variation_->advance(middle, to, equation, columns_.x);
-  lose_not_finite("");
+  gaps_.lose_not_finite(t_, probe_.obstacle());
   look_for_jump(from, to, [&](double t) {
     if (t < to)
       integration.interpolate(t, x.data());
@@ -180,6 +124,62 @@ void Tangents::step(double from, double to, Integration& integration) {
       x = integration.state();
     return x;
   });
+}
+
+/// f may jump where the state is, without an event: a branch that no guard announces. The jump would
+/// go through all columns, and the linear equation does not have it.
+void Tangents::look_for_jump(double from, double to, const FlowJumps::StateAt& state) {
+  if (!jumps_.within(from, to, state, columns_)) return;
+  for (Index k = 0; k < size(); ++k) {
+    if (columns_.matters(k))
+      lose(k, "",
+           "the flow jumps without an event; write the branch as a relation, or as modes with a "
+           "guard");
+  }
+}
+
+void Tangents::monitor(const MonitorHit& hit, const double* x) {
+  const GuardGroup& group = machine_->plan().guard((*guards_)[hit.firing.guard()].group);
+  TangentColumns at = columns_;
+  if (hit.t < t_) variation_->at(hit.t, at.x);
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  const MovedTime moved = group.is_opaque()
+                              ? MovedTime{.by = Eigen::RowVectorXd::Constant(size(), none)}
+                              : times_.of_crossing(hit.firing.slot, group.name, hit.t, x, at);
+  for (Index k = 0; k < size(); ++k) {
+    if (std::isnan(moved.by[k]) && !gaps_.lost(k))
+      gaps_.note(hit.t, k, group.name, "the monitor only grazes zero, or shows a sign only");
+  }
+  events_.add(t_, moved.by, cause_.has_value());
+}
+
+/// Turns derivatives at a moving time into those at a fixed time.
+void Tangents::fix_time(double t, const double* x, TangentColumns& at) {
+  if (at.t.isZero(0.0)) return;
+  at.x -= probe_.flow(t, x) * at.t;
+  at.t.setZero();
+}
+
+void Tangents::record(double t, const double* x) {
+  if (phase_ == Phase::opened) return rows_.add(t, x, before_, one_sided_);
+  TangentColumns at = columns_;
+  if (!in_instant() && t < t_) variation_->at(t, at.x);
+  fix_time(t, x, at);
+  if (in_instant()) one_sided_.judge(t, *machine_, columns_, at, cause());  // up to this pass
+  rows_.add(t, x, at, one_sided_);
+}
+
+void Tangents::finish() {
+  events_.finish();
+  TangentColumns at = columns_;
+  fix_time(t_, machine_->x.data(), at);
+  gaps_.forget_end();
+  if (results_->status == Status::reached_end) gaps_.end(one_sided_, t_, at.x, at.z);
+  rows_.finish(at);
+}
+
+std::string Tangents::describe() const {
+  return text("sensitivities: ", options_->sensitivity.size(), " names, ", flow_.describe(), "\n");
 }
 
 }  // namespace saltus

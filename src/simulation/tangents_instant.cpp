@@ -1,5 +1,7 @@
 // Tangents: across an instant.
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <new>
 
 #include "saltus/simulation/detail/tangents.hpp"
@@ -12,12 +14,17 @@ namespace {
 /// this part. The differences of called functions have errors of 1e-10 (see TangentProbe), which a
 /// slow crossing amplifies.
 constexpr double same_time = 1e-6;
+/// A column of a guard that is smaller than this part of its terms is zero: the columns of guards that
+/// fire together vanish up to the errors of differences (see TangentProbe).
+constexpr double column_rounding = 1e-6;
+/// The rounding of a guard's value, in parts of its terms and of their movement in a rounding of time.
+constexpr double guard_rounding = 1e3 * thresholds::eps;
 
 }  // namespace
 
 /// Opens an instant, whose time moves as its causes do.
 void Tangents::open(const Present& present, const std::vector<int>& due) {
-  t_ = present.t, in_instant_ = true, committed_ = false;
+  t_ = present.t, phase_ = Phase::opened;
   const double* x = machine_->x.data();
   before_ = columns_;
   fix_time(t_, x, before_);
@@ -34,8 +41,7 @@ void Tangents::open(const Present& present, const std::vector<int>& due) {
     merge(times_.of(machine_->plan().scheduled(event), until), first);
     first = false;
   }
-  has_cause_ = !first;
-  if (first) cause_.clear();
+  if (first) cause_.reset();
   if (first) columns_.t.setZero();
   columns_.x += f * (columns_.t - until.t);
 }
@@ -57,8 +63,6 @@ void Tangents::merge(const MovedTime& moved, bool first) {
 }
 
 // --- the passes
-
-void Tangents::begin_pass() { next_x_ = columns_.x, next_z_ = columns_.z; }
 
 /// The derivative of what a reset map or an update writes.
 void Tangents::call(const Transition::Call& call, const double* x_next, const double* z_next,
@@ -89,8 +93,8 @@ void Tangents::call(const Transition::Call& call, const double* x_next, const do
 
 void Tangents::commit() {
   columns_.x = next_x_, columns_.z = next_z_;
-  committed_ = true;
-  lose_not_finite("");
+  phase_ = Phase::committed;
+  gaps_.lose_not_finite(t_, probe_.obstacle());
 }
 
 /// The held signals, and the moving ones that reset maps read, follow all that they read.
@@ -106,19 +110,53 @@ void Tangents::evaluated() {
   }
   columns_.y = std::move(y);
   clear_truths();
-  lose_not_finite("");
+  gaps_.lose_not_finite(t_, probe_.obstacle());
 }
 
 void Tangents::close() {
-  instant_time_ = columns_.t;
+  events_.close(columns_.t);
   if (machine_->carries())
     for (Index k = 0; k < size(); ++k) lose(k, "", "a block is carried by a moving surface");
   TangentColumns fixed = columns_;
   fix_time(t_, machine_->x.data(), fixed);
-  one_sided_.judge(t_, *machine_, columns_, fixed, cause_);
+  one_sided_.judge(t_, *machine_, columns_, fixed, cause());
   if (!flow_.autonomous()) columns_ = std::move(fixed);
-  in_instant_ = false;
+  phase_ = Phase::between;
   variation_->forget();
+}
+
+/// A guard that fires without a root was at zero already, where the run began or where an effect put
+/// it. For a parameter that moves it off zero there is an event on one side only.
+void Tangents::look_at_firings(const Present& present) {
+  if (present.pass == 0) return;  // these are roots
+  for (const Firing& firing : present.firings) {
+    const std::size_t number = firing.guard();
+    const GuardGroup& group = machine_->plan().guard((*guards_)[number].group);
+    if (!group.is_crossing()) continue;
+    const GuardTangent guard =
+        flow_.guard(t_, machine_->x.data(), static_cast<Index>(number), columns_);
+    const double rounding =
+        guard_rounding *
+        guard.by_state.cwiseAbs().dot(
+            machine_->x.cwiseAbs() + std::abs(t_) * probe_.flow(t_, machine_->x.data()).cwiseAbs());
+    if (std::abs(present.g[number]) > std::max((*guards_)[number].error, rounding)) continue;
+    for (Index k = 0; k < size(); ++k) {
+      const double terms = guard.by_state.cwiseAbs().dot(columns_.x.col(k).cwiseAbs());
+      if (std::abs(guard.columns[k]) > column_rounding * terms)
+        lose(k, group.name, "the guard was at zero already");
+    }
+  }
+}
+
+void Tangents::accumulate(const void* monitor, std::span<const Index> states,
+                          const Eigen::VectorXd& next) {
+  if (events_.accumulate(monitor, states, next, next_x_)) return;
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  for (Index k = 0; k < size(); ++k) {
+    if (!columns_.matters(k)) continue;
+    next_x_.col(k).setConstant(none), next_z_.col(k).setConstant(none);
+    lose(k, cause(), "the run began between the last events before the rest; begin it earlier");
+  }
 }
 
 }  // namespace saltus

@@ -1,7 +1,6 @@
 // Tangents: the derivatives of a run, carried along beside it.
 #pragma once
 
-#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -10,12 +9,12 @@
 #include "saltus/model/context_entry.hpp"
 #include "saltus/simulation/detail/flow_jumps.hpp"
 #include "saltus/simulation/detail/integration.hpp"
-#include "saltus/simulation/detail/one_sided.hpp"
 #include "saltus/simulation/detail/present.hpp"
+#include "saltus/simulation/detail/tangent_events.hpp"
+#include "saltus/simulation/detail/tangent_rows.hpp"
 #include "saltus/simulation/detail/tangent_times.hpp"
 #include "saltus/simulation/detail/transition.hpp"
 #include "saltus/simulation/detail/variation.hpp"
-#include "saltus/simulation/detail/zeno_tangent.hpp"
 
 namespace saltus {
 
@@ -40,7 +39,7 @@ class Tangents {
   /// A run begins at these values; the machine has them, and its held signals, already.
   void begin(const Context& start);
   /// The results were moved out: the rows to come are of new ones.
-  void renew();
+  void renew() { rows_.renew(); }
 
   /// A step was accepted.
   void step(double from, double to, Integration& integration);
@@ -49,7 +48,7 @@ class Tangents {
 
   // --- an instant
   void open(const Present& present, const std::vector<int>& due);
-  void begin_pass();
+  void begin_pass() { next_x_ = columns_.x, next_z_ = columns_.z; }
   /// A reset map or an update is about to be called at these values of its leaf.
   void call(const Transition::Call& call, const double* x_next, const double* z_next, int mode);
   void commit();
@@ -59,41 +58,42 @@ class Tangents {
   void evaluated();
   void close();
   /// The events of the instant are in the log.
-  void log();
+  void log() { events_.log(t_, cause_.has_value()); }
 
   // --- a Zeno monitor, by any pointer that belongs to it alone
-  void fired(const void* monitor);
-  void remember(const void* monitor, std::span<const Index> states, const Eigen::VectorXd& next);
+  void fired(const void* monitor) { events_.fired(monitor, t_); }
+  void remember(const void* monitor, std::span<const Index> states, const Eigen::VectorXd& next) {
+    events_.remember(monitor, states, next, next_x_);
+  }
   void accumulate(const void* monitor, std::span<const Index> states, const Eigen::VectorXd& next);
 
   // --- rows
   void record(double t, const double* x);
-  void drop();
+  void drop() { rows_.drop(); }
 
   /// The run ends at t.
   void finish();
   std::string describe() const;
 
  private:
+  enum class Phase { between, opened, committed };  // of the present instant, if there is one
+
   Index size() const { return columns_.size(); }
+  bool in_instant() const { return phase_ != Phase::between; }
+  std::string cause() const { return cause_.value_or(""); }
   void begin_signals(const Context& start);
   void clear_truths();
   void merge(const MovedTime& moved, bool first);
-  void lose(Index k, const std::string& event, const std::string& reason);
-  void note_gap(double t, Index k, const std::string& event, const std::string& reason);
-  void lose_accumulation();
-  void forget_end();
-  void lose_not_finite(const std::string& event);
+  void lose(Index k, const std::string& event, const std::string& reason) {
+    gaps_.lose(t_, k, event, reason);
+  }
   void look_for_jump(double from, double to, const FlowJumps::StateAt& state);
-  void add_event(const Eigen::RowVectorXd& by);
   void fix_time(double t, const double* x, TangentColumns& at);
-  void add_row(double t, const double* x, const TangentColumns& at);
-  void clear_one_sided(double t, const std::string& reason, Eigen::MatrixXd& x, Eigen::MatrixXd& z);
 
   const Machine* machine_;
   const GuardSet* guards_;
   const SimulatorOptions* options_;
-  Results* results_;
+  const Results* results_;
   TangentProbe probe_;
   TangentFlow flow_;
   FlowJumps jumps_;
@@ -102,14 +102,13 @@ class Tangents {
   TangentColumns columns_;  // of the state between instants, then of the instant
   TangentColumns before_;   // at a fixed time before the instant
   OneSided one_sided_;
-  std::string cause_;  // of the instant: the name of an event
+  TangentGaps gaps_;
+  TangentEvents events_;
+  TangentRows rows_;
+  std::optional<std::string> cause_;  // of the last instant: the name of an event
   Eigen::MatrixXd next_x_, next_z_;
-  Eigen::RowVectorXd instant_time_;  // the derivatives of the time of the last instant
-  double t_ = 0.0;                   // [s] of S, or of the instant
-  bool in_instant_ = false, committed_ = false, has_cause_ = false, ends_at_instant_ = false;
-  std::vector<char> lost_;
-  std::map<const void*, ZenoTangent> monitors_;
-  std::map<std::size_t, Eigen::RowVectorXd> predicted_;  // of the events with these numbers
+  double t_ = 0.0;  // [s] of S, or of the instant
+  Phase phase_ = Phase::between;
 };
 
 }  // namespace saltus
