@@ -17,19 +17,19 @@ void IslandRuns::initialize(const Context& context) {
   require_context_of(*plan_, context);
   require_fits(context);
   begin_ = {};  // no run, if an island refuses its values
+  std::vector<int> jumps;
   for (std::size_t k = 0; k < all_.size(); ++k) {
     Island& island = all_[k];
-    Context begin = part_of(context, k);
-    island.run->initialize(begin);
-    island.rows = island.events = 0;
-    island.jump = begin.continuation() ? begin.continuation()->jump : 0;
-    island.begin = std::move(begin);
+    island.begin = part_of(context, k);
+    island.run->initialize(island.begin);
+    const Continuation* continuation = island.begin.continuation();
+    jumps.push_back(continuation != nullptr ? continuation->jump : 0);
   }
   begin_ = context;
-  time_ = context.time(), wall_time_ = 0.0;
+  time_ = context.time();
   ends_.clear();
-  over_ = stopped_ = false, ender_.reset(), raised_ = nullptr, merged_ = true;
-  renew();
+  over_ = stopped_ = false, ender_.reset(), raised_ = nullptr;
+  merger_.begin(jumps);
   results_.status = Status::reached_end, results_.message.clear(), results_.block.clear();
   results_.cause = nullptr;
 }
@@ -59,8 +59,7 @@ Status IslandRuns::advance_to(double t_end) {
   asked_ = start, under_way_ = true;
   run_all(t_end);
   under_way_ = false;
-  wall_time_ += std::chrono::duration<double>(Clock::now() - start).count();
-  merged_ = false;
+  merger_.ran(std::chrono::duration<double>(Clock::now() - start).count());
   results_.context = context();
   return leave();
 }
@@ -68,7 +67,7 @@ Status IslandRuns::advance_to(double t_end) {
 /// Returns the status, or throws if the run has not ended well.
 Status IslandRuns::leave() {
   if (ended_well(results_.status) || !options_.throw_errors) return results_.status;
-  merge();
+  merger_.merge();
   const auto partial = std::make_shared<Results>(results_);
   partial->cause = nullptr;  // otherwise the error would own itself
   try {
@@ -83,7 +82,7 @@ Status IslandRuns::leave() {
 /// Runs all islands to t_end, or to the earliest end that one of them has.
 void IslandRuns::run_all(double t_end) {
   const double begin = time_;
-  finished_ = {}, finished_time_ = 0.0;
+  progress_.begin();
   for (const std::size_t k : order_) {
     if (!stopped_) run_one(k, t_end);
   }
@@ -98,7 +97,7 @@ void IslandRuns::run_all(double t_end) {
       if (all_[k].run->time() < t_end) t_end = all_[k].run->time(), ender_ = k, cut = true;
     }
   }
-  running_ = nullptr, finished_time_ = 0.0;
+  progress_.end();
   ends_.push_back(t_end);
   time_ = std::max(begin, t_end);
   if (ender_) end_with(*ender_);
@@ -107,11 +106,10 @@ void IslandRuns::run_all(double t_end) {
 /// Runs one island to t_end; if it ends earlier, that is the new end of all.
 void IslandRuns::run_one(std::size_t k, double& t_end) {
   Run& run = *all_[k].run;
-  running_ = &run;
+  progress_.start(run);
   const Status status = run.advance_to(t_end);
-  count_running();
-  finished_ = results_.statistics, finished_time_ += run.time() - time_;
-  running_ = nullptr;
+  progress_.finish(time_);
+  results_.statistics = progress_.counts();
   if (status == Status::reached_end) {
     stopped_ = interrupted_between();
     if (stopped_) ender_ = k;
@@ -139,7 +137,7 @@ bool IslandRuns::interrupted() {
   const auto now = Clock::now();
   if (now - asked_ < std::chrono::milliseconds(20)) return false;
   asked_ = now;
-  count_running();
+  results_.statistics = progress_.counts();
   return options_.interrupt();
 }
 
@@ -155,8 +153,7 @@ bool IslandRuns::interrupted_between() {
 }
 
 double IslandRuns::time() const noexcept {
-  const double now = running_ ? running_->time() - time_ : 0.0;
-  return time_ + (finished_time_ + now) / static_cast<double>(all_.size());
+  return time_ + progress_.time(time_) / static_cast<double>(all_.size());
 }
 
 void IslandRuns::end_with(std::size_t k) {
@@ -170,6 +167,21 @@ void IslandRuns::end_with(std::size_t k) {
   }
   results_.status = last.status, results_.message = last.message;
   results_.block = last.block, results_.cause = last.cause;
+}
+
+const Results& IslandRuns::results() const noexcept {
+  if (!under_way_) merger_.merge();
+  return results_;
+}
+
+Results IslandRuns::take_results() {
+  merger_.merge();
+  Results taken = std::move(results_);
+  results_ = {};
+  merger_.renew();
+  results_.status = taken.status, results_.message = taken.message, results_.block = taken.block;
+  results_.cause = taken.cause, results_.context = taken.context;
+  return taken;
 }
 
 }  // namespace saltus

@@ -52,19 +52,17 @@ IslandRuns::IslandRuns(std::shared_ptr<const Plan> plan, Islands islands, Simula
     : plan_(std::move(plan)),
       islands_(std::move(islands)),
       options_(std::move(options)),
-      names_(event_names(*plan_)),
-      table_(!options_.save_at.empty() && !options_.event_rows) {
+      merger_(*plan_, islands_, !options_.save_at.empty() && !options_.event_rows, results_) {
   detail::check(options_);
   require_widths(options_, *plan_);
   require_supported(options_, islands_);
-  const auto sources = numbered(names_);
+  const auto sources = numbered(merger_.names());
   all_.reserve(islands_.count());
   for (std::size_t k = 0; k < islands_.count(); ++k) add_island(k, options_, sources);
   order_.resize(all_.size());
   std::iota(order_.begin(), order_.end(), std::size_t{0});
   std::ranges::stable_sort(order_, std::greater<>(),
                            [&](std::size_t k) { return all_[k].terminal; });
-  renew();
 }
 
 SimulatorOptions IslandRuns::options_for(const std::vector<int>& leaves,
@@ -87,11 +85,13 @@ void IslandRuns::add_island(std::size_t k, const SimulatorOptions& options,
     layout->leaves.push_back(
         {leaf.path, leaf.x, leaf.nx, leaf.z, leaf.nz, leaf.p, leaf.np, leaf.declared().parameters});
   island.layout = std::move(layout);
+  std::vector<int> numbers;
   for (const EventName& name : event_names(*part))
-    island.sources.push_back(
+    numbers.push_back(
         std::ranges::lower_bound(sources, name.full(), {}, &std::pair<std::string, int>::first)
             ->second);
-  island.signals = islands_.taps[k];
+  merger_.add(
+      {.run = island.run.get(), .sources = std::move(numbers), .signals = islands_.taps[k]});
   for (const PlanLeaf& leaf : part->leaves) {
     if (std::ranges::any_of(leaf.declared().zero_crossings, &ZeroCrossing::is_queued))
       queue_ = static_cast<int>(k);

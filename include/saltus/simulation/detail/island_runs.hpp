@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "saltus/plan/islands.hpp"
+#include "saltus/simulation/detail/island_merger.hpp"
+#include "saltus/simulation/detail/island_progress.hpp"
 #include "saltus/simulation/detail/run.hpp"
 
 namespace saltus {
@@ -41,11 +43,7 @@ class IslandRuns {
     std::unique_ptr<Run> run;
     std::shared_ptr<const Layout> layout = {};
     Context begin = {};
-    std::vector<int> sources = {};     ///< the number in the whole plan of each source of events
-    std::vector<int> signals = {};     ///< the number in the whole plan of each recorded signal
-    bool terminal = false;             ///< it has a guard that ends the run
-    std::size_t rows = 0, events = 0;  ///< the number that the results have already
-    int jump = 0;                      ///< j of the last event that the results have
+    bool terminal = false;  ///< it has a guard that ends the run
   };
 
   SimulatorOptions options_for(const std::vector<int>& leaves, const SimulatorOptions& options);
@@ -58,36 +56,25 @@ class IslandRuns {
   void run_one(std::size_t k, double& t_end);
   void run_again(std::size_t k, double t_end);
   bool interrupted();
-  void count_running() const;
   bool interrupted_between();
   void end_with(std::size_t k);
   Status leave();
-  void merge() const;
-  void merge_rows(std::size_t k) const;
-  void merge_table() const;
-  void merge_events() const;
-  void merge_statistics() const;
-  void renew() const;
 
   std::shared_ptr<const Plan> plan_;
   Islands islands_;
   SimulatorOptions options_;
   std::vector<std::size_t> order_;  ///< islands that can end the run come first
-  mutable std::vector<Island> all_;
+  std::vector<Island> all_;
   mutable Results results_;
-  mutable bool merged_ = true;
-  std::vector<EventName> names_;
-  int queue_ = -1;      ///< the island that has the queue of executions
-  bool table_ = false;  ///< all signals have one table
+  mutable IslandMerger merger_;  ///< writes the columns of results_ where they are asked for
+  int queue_ = -1;               ///< the island that has the queue of executions
   Context begin_;
   std::vector<double> ends_;  ///< [s] of the pieces of the run
-  double time_ = 0.0, wall_time_ = 0.0;
+  double time_ = 0.0;         ///< [s]
   bool over_ = false, under_way_ = false, again_ = false, stopped_ = false;
   std::optional<std::size_t> ender_;  ///< the island that ended the run
   std::exception_ptr raised_;         ///< by `interrupt`, between two islands
-  const Run* running_ = nullptr;
-  Statistics finished_;  ///< counts of the islands that have run, for the progress of the run
-  double finished_time_ = 0.0;  ///< [s] the sum of the times that they have run
+  IslandProgress progress_;
   std::chrono::steady_clock::time_point asked_{};
   mutable Caller caller_{};
 };

@@ -1,0 +1,60 @@
+// IslandMerger: one event log, one set of rows, and one sum of counts, of all islands.
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "saltus/plan/islands.hpp"
+#include "saltus/simulation/detail/run.hpp"
+
+namespace saltus {
+
+/// Writes the rows, the events and the statistics of the results of a run by islands. It appends what
+/// the runs of the islands have made since the last call, because it is called between pieces of a
+/// run too.
+class IslandMerger {
+ public:
+  /// The results of one island.
+  struct Part {
+    const Run* run;
+    std::vector<int> sources;          ///< the number in the whole plan of each source of events
+    std::vector<int> signals;          ///< the number in the whole plan of each recorded signal
+    std::size_t rows = 0, events = 0;  ///< the number that the results have already
+    int jump = 0;                      ///< j of the last event that the results have
+  };
+
+  /// `table`: all signals have one table. An island is added by `add`, in the order of the islands.
+  IslandMerger(const Plan& plan, const Islands& islands, bool table, Results& results);
+
+  void add(Part part) { parts_.push_back(std::move(part)); }
+  /// All sources of events.
+  const std::vector<EventName>& names() const noexcept { return names_; }
+
+  /// A run begins; the jump of island k does at jumps[k].
+  void begin(const std::vector<int>& jumps);
+  /// Results of empty columns.
+  void renew();
+  /// The islands have run on, for so many seconds of wall time.
+  void ran(double wall_time) { wall_time_ += wall_time, merged_ = false; }
+  void merge();
+
+ private:
+  void merge_rows(std::size_t k);
+  void merge_table();
+  void merge_events();
+  void merge_statistics();
+
+  const Plan* plan_;
+  const Islands* islands_;
+  std::vector<EventName> names_;
+  bool table_;
+  Results* results_;
+  std::vector<Part> parts_;
+  double wall_time_ = 0.0;  // [s]
+  bool merged_ = true;      // since the last piece of the run
+};
+
+/// Adds the counts of one run to a sum.
+void add_counts(Statistics& sum, const Statistics& one);
+
+}  // namespace saltus
