@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "saltus/base/list.hpp"
-#include "saltus/plan/detail/machine.hpp"
+#include "saltus/simulation/detail/guard_looks.hpp"
 #include "saltus/simulation/detail/thresholds.hpp"
 #include "saltus/simulation/options.hpp"
 
@@ -26,9 +26,9 @@ class FlowProbe {
 
   /// From now on the values of one guard count from `zero`, in place of its own zero; -1: of none.
   void count_from(Index slot, double zero) {
-    if (shifted_ >= 0) looked_at_[group_of_[shifted_]] = 0;
-    shifted_ = slot, zero_ = zero;
-    if (shifted_ >= 0) looked_at_[group_of_[shifted_]] = 0;
+    if (looks_.shifted() >= 0) looked_at_[looks_.group(looks_.shifted())] = 0;
+    looks_.count_from(slot, zero);
+    if (slot >= 0) looked_at_[looks_.group(slot)] = 0;
     forget_looks();
   }
 
@@ -44,17 +44,12 @@ class FlowProbe {
   static constexpr double unknown = -1.0;
 
   FlowProbe(Machine& machine, const SimulatorOptions& options)
-      : machine_(&machine), rtol_(options.rtol), atol_(options.atol) {
+      : machine_(&machine), rtol_(options.rtol), atol_(options.atol), looks_(machine) {
     const Index n = machine.plan().nx;
     for (auto* v : {&f_, &f_disturbed_, &f1_, &x1_, &move_, &trial_}) v->setZero(n);
     const Index slots = machine.plan().guard_slots;
     for (auto* v : {&g_, &g0_, &g_disturbed_}) v->setOnes(slots);
-    const std::size_t groups = machine.plan().guards.size();
-    looked_at_.assign(groups, 0);
-    for (std::size_t i = 0; i < groups; ++i) {
-      for (Index k = 0; k < machine.plan().guards[i].size; ++k)
-        group_of_.push_back(static_cast<int>(i));
-    }
+    looked_at_.assign(machine.plan().guards.size(), 0);
   }
 
   /// Sets the point to depart from.
@@ -71,7 +66,7 @@ class FlowProbe {
   /// together: n balls that land together take one of each.
   double guard_after(double d, Index slot) {
     if (flight_.departure != departures_ || flight_.d != d || flight_.fine != fine_) fly(d);
-    const int group = group_of_[slot];
+    const int group = looks_.group(slot);
     if (flight_.group != group) look(t_ + d, x1_, slot, g_);
     flight_.group = group;
     return g_[slot];
@@ -122,15 +117,13 @@ class FlowProbe {
            0.25 * std::abs(g_disturbed_[slot] - g);
   }
 
-  /// Evaluates the group of one guard. All guards would cost n squared where n of them depart.
   void look(double t, const Eigen::VectorXd& x, Index slot, Eigen::VectorXd& g) {
-    machine_->guards_of({&group_of_[slot], 1}, t, x.data(), g.data());
-    if (shifted_ >= 0 && group_of_[shifted_] == group_of_[slot]) g[shifted_] -= zero_;
+    looks_.look(t, x, slot, g);
   }
 
   /// The guard at the point of departure, computed at the first call.
   double g0(Index slot) {
-    std::int64_t& looked_at = looked_at_[group_of_[slot]];
+    std::int64_t& looked_at = looked_at_[looks_.group(slot)];
     if (looked_at != departures_) look(t_, *x_, slot, g0_);
     looked_at = departures_;
     return g0_[slot];
@@ -185,12 +178,10 @@ class FlowProbe {
     double largest_move = unknown;
   };
 
+  GuardLooks looks_;
   bool disturbed_ = false;        // f_disturbed_ belongs to x_
-  List<int> group_of_;            // of each slot
   List<std::int64_t> looked_at_;  // of each group: the departure that g0_ belongs to
   std::int64_t departures_ = 0;
-  Index shifted_ = -1;  // the slot whose values count from zero_
-  double zero_ = 0.0;
   Flight flight_;
   Eigen::VectorXd f_disturbed_, trial_, g0_, g_disturbed_;
 };
