@@ -28,6 +28,7 @@ Machine::Machine(std::shared_ptr<const Plan> plan)
     : Memory(std::move(plan)),
       arguments_(*this),
       calls_(*plan_, arguments_.views()),
+      seen_(*this),
       resting_(*plan_) {
   if (calls_.odes.size() == 1 && calls_.derivatives.empty() && plan_->nx == calls_.odes[0].size)
     lone_ode_ = &calls_.odes.front();
@@ -102,6 +103,27 @@ void Machine::carried_guards(double t, const double* state, double* g) {
   if (carrier_ != nullptr) carrier_->lift(t, x_now, g);
 }
 
+namespace {
+
+void ode_of(const Call& ode, Arguments::OfState seen, double t, double* xdot) {
+  const VectorRef out(xdot + ode.x, ode.size);
+  (*ode.function)(*ode.system, seen.at(ode, t), out);
+}
+
+}  // namespace
+
+void Machine::ode_with_rest(const Call& ode, Seen seen, double t, double* xdot) const {
+  VectorRef out(xdot + ode.x, ode.size);
+  if (resting_.of_leaf(ode.leaf) == ode.size) {
+    out.setZero();
+    return;
+  }
+  ode_of(ode, seen, t, xdot);
+  for (Index i = 0; i < ode.size; ++i) {
+    if (resting_.rests(ode.x + i)) out[i] = 0.0;
+  }
+}
+
 void Machine::flow(double t, const double* state, double* xdot) {
   ++rhs_calls;
   const Seen seen = run(calls_.derivatives, t, state);
@@ -128,7 +150,7 @@ void Machine::guards_at(double t, const double* state, double* g) {
   ++guard_calls;
   const Seen seen = run(calls_.guard_needs, t, state);
   if (calls_.fused_guards) compute(*calls_.fused_guards, seen, t, g);
-  for (int i : called_) compute(calls_.guards[i], seen, t, g);
+  for (const int i : seen_.single()) compute(calls_.guards[i], seen, t, g);
 }
 
 void Machine::guards_of(std::span<const int> groups, double t, const double* state, double* g) {
@@ -145,18 +167,6 @@ void Machine::guards_of(std::span<const int> groups, double t, const double* sta
   if (fused) compute(*calls_.fused_guards, seen, t, g);
 }
 
-void Machine::ode_with_rest(const Call& ode, Seen seen, double t, double* xdot) const {
-  VectorRef out(xdot + ode.x, ode.size);
-  if (resting_.of_leaf(ode.leaf) == ode.size) {
-    out.setZero();
-    return;
-  }
-  ode_of(ode, seen, t, xdot);
-  for (Index i = 0; i < ode.size; ++i) {
-    if (resting_.rests(ode.x + i)) out[i] = 0.0;
-  }
-}
-
 Context Memory::save(const Context& like, double t,
                      std::shared_ptr<const Continuation> continuation, bool settled,
                      std::shared_ptr<const PendingExecutions> pending) const {
@@ -171,30 +181,13 @@ Context Memory::save(const Context& like, double t,
   return context;
 }
 
-bool Machine::controls_changed() const {
-  for (std::size_t i = 0; i < plan_->controls.size(); ++i)
-    if (truth(plan_->controls[i]) != (controls_[i] != 0)) return true;
-  return false;
-}
-
-bool Machine::is_seen(const GuardGroup& group) const {
-  const std::optional<int> mode = plan_->start_mode_of(group);
-  return (!mode || *mode == modes[group.leaf]) &&
-         std::ranges::all_of(group.controls, [this](int control) { return truth(control); });
-}
-
 void Machine::select_guards() {
-  controls_.clear(), active_.clear(), called_.clear();
-  for (const int control : plan_->controls) controls_.push_back(truth(control));
   const auto& fused = calls_.fused_guards;
-  for (std::size_t i = 0; i < plan_->guards.size(); ++i) {
-    if (!is_seen(plan_->guards[i])) continue;
-    active_.push_back(static_cast<int>(i));
-    if (!fused || !plan_->walks.guards.fused[i]) called_.push_back(static_cast<int>(i));
-  }
-  const GuardCall* first = fused ? &*fused : called_.empty() ? nullptr : &calls_.guards[called_[0]];
+  seen_.select(fused.has_value());
+  const std::vector<int>& single = seen_.single();
+  const GuardCall* first = fused ? &*fused : single.empty() ? nullptr : &calls_.guards[single[0]];
   const bool lone =
-      called_.size() + (fused ? 1 : 0) == 1 && calls_.guard_needs.empty() && !first->opaque;
+      single.size() + (fused ? 1 : 0) == 1 && calls_.guard_needs.empty() && !first->opaque;
   lone_guard_ = lone ? first : nullptr;
 }
 

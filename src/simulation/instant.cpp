@@ -125,7 +125,7 @@ void Instant::commit() {
 /// Chooses the guards anew if a control signal has changed; returns whether one has. A guard that is
 /// seen again is armed like a guard whose mode is entered.
 bool Instant::follow_controls() {
-  if (!machine_->controls_changed()) return false;
+  if (!machine_->seen_guards().outdated()) return false;
   select_guards();
   if (holds_.any()) contacts_.release_unseen(ContactGuards::Unseen::by_control);
   return true;

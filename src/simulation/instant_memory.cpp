@@ -56,7 +56,7 @@ void Instant::look_at_guards() {
 
 void Instant::select_guards() {
   machine_->select_guards();
-  guards_->select(machine_->active_guards(), plan());
+  guards_->select(machine_->seen_guards().groups(), plan());
   for (const std::size_t k : guards_->active().all)
     if (!(*guards_)[k].was_active) present_.note(k).entered = true;
 }

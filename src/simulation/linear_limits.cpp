@@ -63,7 +63,7 @@ void LinearLimits::require_guards_off_zero() const {
   for (const GuardGroup& group : plan().guards) {
     if (!group.is_crossing() || !plan().crossing_of(group).has_effect()) continue;
     if (group.direction == Direction::edge_detection) continue;
-    if (!at_.machine().is_seen(group)) continue;
+    if (!is_seen(group, at_.machine())) continue;
     require_off_zero(group);
   }
   for (const EdgeWatch& edge : plan().edges) {

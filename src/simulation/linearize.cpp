@@ -204,7 +204,7 @@ class Linearizer::Parts {
     for (const GuardGroup& group : plan().guards) {
       if (!group.is_crossing() || !plan().crossing_of(group).has_effect()) continue;
       if (group.direction == Direction::edge_detection) continue;
-      if (!at_.machine().is_seen(group)) continue;
+      if (!is_seen(group, at_.machine())) continue;
       const Eigen::VectorXd values = rule_->level(function_of_guard(plan(), group)).value;
       std::vector<std::string> names;
       add_entries(names, group.name, group.size, group.size > 1);

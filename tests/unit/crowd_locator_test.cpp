@@ -182,7 +182,7 @@ class Crowded : private CrowdLocator {
   struct Parts {
     explicit Parts(const Function& g) : leaf(monitors(std::vector<Function>(10, g))) {
       machine.load(leaf->create_context());
-      guards.select(machine.active_guards(), machine.plan());
+      guards.select(machine.seen_guards().groups(), machine.plan());
     }
     std::shared_ptr<Leaf> leaf;
     Machine machine{compile(*leaf)};

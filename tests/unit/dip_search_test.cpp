@@ -23,7 +23,7 @@ Leaf watched(const Function& g) {
 struct Parts {
   explicit Parts(const Function& g) : leaf(watched(g)) {
     machine.load(leaf.create_context());
-    guards.select(machine.active_guards(), machine.plan());
+    guards.select(machine.seen_guards().groups(), machine.plan());
   }
   Leaf leaf;
   Machine machine{compile(leaf)};

@@ -29,7 +29,7 @@ Leaf leaf_of(const std::vector<Function>& functions) {
 struct Parts {
   explicit Parts(const std::vector<Function>& functions) : leaf(leaf_of(functions)) {
     machine.load(leaf.create_context());
-    guards.select(machine.active_guards(), machine.plan());
+    guards.select(machine.seen_guards().groups(), machine.plan());
   }
   Leaf leaf;
   Machine machine{compile(leaf)};

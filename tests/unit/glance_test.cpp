@@ -11,7 +11,7 @@ namespace {
 struct Parts {
   Parts() {
     machine.load(leaf.create_context());
-    guards.select(machine.active_guards(), machine.plan());
+    guards.select(machine.seen_guards().groups(), machine.plan());
   }
   Leaf leaf{"leaf", [](Leaf& l) {
               declare_ramp(l);

@@ -28,7 +28,7 @@ class Crossings : private Narrower {
     explicit Parts(const std::vector<Function>& functions)
         : declared(leaf(functions)), machine(compile(declared)), guards(machine.plan()) {
       machine.load(declared.create_context());
-      guards.select(machine.active_guards(), machine.plan());
+      guards.select(machine.seen_guards().groups(), machine.plan());
     }
     Leaf declared;
     Machine machine;

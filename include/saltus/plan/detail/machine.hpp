@@ -12,6 +12,7 @@
 
 #include "saltus/plan/detail/arguments.hpp"
 #include "saltus/plan/detail/resting_states.hpp"
+#include "saltus/plan/detail/seen_guards.hpp"
 
 namespace saltus {
 
@@ -144,11 +145,7 @@ class Machine : public Memory {
 
   /// Chooses the guards that can fire in the present modes, and by the present control signals.
   void select_guards();
-  /// Whether a group can fire in the present mode of its leaf, and by its control signals.
-  bool is_seen(const GuardGroup& group) const;
-  /// Whether a control signal has changed since the guards were chosen.
-  bool controls_changed() const;
-  const std::vector<int>& active_guards() const noexcept { return active_; }
+  const SeenGuards& seen_guards() const noexcept { return seen_; }
 
   /// The first number that is not finite at (t, x): first among the values that derivatives read,
   /// then among the derivatives.
@@ -161,6 +158,7 @@ class Machine : public Memory {
 
   void carried_derivative(double t, const double* state, double* xdot);
   void carried_guards(double t, const double* state, double* g);
+  void ode_with_rest(const Call& ode, Seen seen, double t, double* xdot) const;
 
   /// Makes calls at a state, and returns the arguments at this state for further calls.
   Seen run(const std::vector<OutputCall>& calls, double t, const double* state) {
@@ -174,20 +172,14 @@ class Machine : public Memory {
     }
     return seen;
   }
-  static void ode_of(const Call& ode, Seen seen, double t, double* xdot) {
-    const VectorRef out(xdot + ode.x, ode.size);
-    (*ode.function)(*ode.system, seen.at(ode, t), out);
-  }
-  void ode_with_rest(const Call& ode, Seen seen, double t, double* xdot) const;
 
   Arguments arguments_;
   Calls calls_;
   /// If this is the only ode, and it needs no computed values, it is called without a walk.
   const Call* lone_ode_ = nullptr;
   const GuardCall* lone_guard_ = nullptr;
-  Inlined inlined_;                   // if it has no function, no step may call it directly
-  std::vector<int> active_, called_;  // groups that can fire; the part of them that is not fused
-  std::vector<char> controls_;        // the control signals when the groups were chosen
+  Inlined inlined_;  // if it has no function, no step may call it directly
+  SeenGuards seen_;
   RestingStates resting_;
   int functions_ = 0;           // how often they were replaced
   Carrier* carrier_ = nullptr;  // while a block rests on a surface that moves

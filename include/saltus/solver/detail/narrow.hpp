@@ -54,7 +54,7 @@ class Narrower {
 
   /// Sets the values at which the active guards fire, from their present records.
   void set_limits() {
-    no_others_ = located_->groups.size() == machine_->active_guards().size();
+    no_others_ = located_->groups.size() == machine_->seen_guards().groups().size();
     limits_.clear();
     for (const std::size_t k : located_->slots) limits_.push_back((*guards_)[k].limits());
   }
