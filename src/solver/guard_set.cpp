@@ -65,7 +65,7 @@ void GuardSet::leave_rest(std::size_t k) {
 void GuardSet::arm_again(const std::vector<Firing>& fired) {
   for (const Firing& firing : fired) {
     const std::size_t k = firing.guard();
-    set(k, Phase::armed, firing.from, 0.0);
+    arm(k, firing.from);
     if (k < kept_.size()) guards_[k].base = kept_[k].base;  // the value before the root
   }
 }

@@ -109,6 +109,9 @@ struct Guard : GuardTraits {
     return {falls ? -reach : -never, rises ? reach : never};
   }
 
+  void set(Phase now, int on, double within) {
+    phase = now, side = static_cast<signed char>(on), error = within;
+  }
   /// Sets the side; 0 for none. The phase changes only if the guard did not wait.
   void turn(int to) {
     side = static_cast<signed char>(to);

@@ -64,13 +64,17 @@ class GuardSet {
   /// Chooses the guards that can fire now; a guard whose mode was just entered is unseen.
   void select(const std::vector<int>& groups, const Plan& plan);
   /// The guard is armed on `side`, without an error.
-  void arm(std::size_t k, int side) { set(k, Phase::armed, side, 0.0); }
+  void arm(std::size_t k, int side) { ++version_, guards_[k].set(Phase::armed, side, 0.0); }
   /// The guard waits at zero within `error`: it fires only after it has been clearly on `side`.
-  void wait(std::size_t k, int side, double error) { set(k, Phase::waiting, side, error); }
+  void wait(std::size_t k, int side, double error) {
+    ++version_, guards_[k].set(Phase::waiting, side, error);
+  }
   /// The guard rests with its block; the flow presses it to `side`.
-  void rest(std::size_t k, int side, double error) { set(k, Phase::resting, side, error); }
+  void rest(std::size_t k, int side, double error) {
+    ++version_, guards_[k].set(Phase::resting, side, error);
+  }
   /// The guard is carried with its block.
-  void carry(std::size_t k) { set(k, Phase::carried, -1, 0.0); }
+  void carry(std::size_t k) { ++version_, guards_[k].set(Phase::carried, -1, 0.0); }
   /// Its block is not at rest any more; side and error do not change.
   void leave_rest(std::size_t k);
   /// Sets the side; 0 for none. The phase changes only if the guard did not wait.
@@ -131,10 +135,7 @@ class GuardSet {
   /// A guard that waits was clearly on its side at a look: it becomes armed.
   void leave_zero(std::size_t k) { guards_[k].settle(guards_[k].side); }
   /// A monitor that crossed is at zero on its new side.
-  void pass(std::size_t k, int side, double error) {
-    Guard& guard = guards_[k];
-    guard.side = static_cast<signed char>(side), guard.phase = Phase::waiting, guard.error = error;
-  }
+  void pass(std::size_t k, int side, double error) { guards_[k].set(Phase::waiting, side, error); }
   /// Sets the side to which a guard leaves zero; 0: it is exactly on zero.
   void leave_to(std::size_t k, int side) { guards_[k].turn(side); }
 
@@ -146,12 +147,6 @@ class GuardSet {
   std::optional<int> scan_points = {};
 
  private:
-  void set(std::size_t k, Phase phase, int side, double error) {
-    ++version_;
-    Guard& guard = guards_[k];
-    guard.phase = phase, guard.side = static_cast<signed char>(side), guard.error = error;
-  }
-
   List<Guard> guards_, kept_;
   bool keeps_ = false;  // kept_ is of the present search
   ActiveGuards active_;

@@ -182,6 +182,11 @@ class RungeKutta final : public StepSolver<RungeKutta<Method, N>, OneStepSolver>
   /// Root mean square of value(i), which is one lane, in tolerances.
   template <class Value>
   double in_tolerances(Value value) const {
+    const auto tolerance = [this](Index i, const Lane& size) -> Lane {
+      if (options_.rtols.empty()) return options_.atol + options_.rtol * size;
+      return detail::load<W>(options_.each_atol() + i) +
+             detail::load<W>(options_.each_rtol() + i) * size;
+    };
     double sum = 0.0;
     detail::for_lanes<W, N>(size(), [&](Index i) {
       const Lane largest =
@@ -189,12 +194,6 @@ class RungeKutta final : public StepSolver<RungeKutta<Method, N>, OneStepSolver>
       sum += detail::sum_of_squares(Lane(value(i) / tolerance(i, largest)));
     });
     return std::sqrt(sum / static_cast<double>(size()));
-  }
-  /// The tolerance of a lane of states of this size.
-  Lane tolerance(Index i, const Lane& size) const {
-    if (options_.rtols.empty()) return options_.atol + options_.rtol * size;
-    return detail::load<W>(options_.each_atol() + i) +
-           detail::load<W>(options_.each_rtol() + i) * size;
   }
 
   /// Whether the error of the dense output is above the allowed one. It is not if its last term
