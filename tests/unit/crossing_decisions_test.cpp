@@ -302,6 +302,11 @@ TEST_CASE("A guard that fired: off, back, at rest, or passed through") {
        waits_at(1)},
       {"without a reset map it follows the flow", plain, {-1, eps}, {}, waits_at(-1)},
       {"without a reset map it never rests", plain, {0, eps}, {}, waits_at(0)},
+      {"without a reset map, clearly above: it waits on the flow's side too",
+       with([](auto& f) { f.reset = f.effect = false, f.resets = 0, f.g = 1.0; }),
+       {1, eps},
+       {},
+       waits_at(1)},
   });
 }
 
