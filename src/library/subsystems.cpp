@@ -26,21 +26,21 @@ Diagram controlled(std::string name, std::shared_ptr<const System> part, const s
   DiagramBuilder builder;
   const System& inner = *part;
   builder.add(std::move(part));
-  const auto& control = builder.add<ControlPort>(port);
-  builder.execute(inner, control.output(), execution);
+  const auto& source = builder.add<ControlPort>(port);
+  builder.execute(inner, source.output(), execution);
   const auto inputs = inner.input_names(), outputs = inner.output_names();
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     const int k = static_cast<int>(i);
     if (!inner.fixes_input(k)) builder.export_input(inner.input(k), inputs[i]);
   }
-  builder.export_input(control.input(), port);
+  builder.export_input(source.input(), port);
   for (const std::string& output : outputs) {
     const auto value = initial.find(output);
     const auto& held = builder.add<SubsystemOutput>(
         text("held_", output),
         SubsystemOutputOptions{value == initial.end() ? Value(0.0) : value->second, of_outputs});
     builder.connect(inner.output(output), held.input("in"));
-    builder.connect(control.output(), held.input("control"));
+    builder.connect(source.output(), held.input("control"));
     builder.export_output(held.output(), output);
   }
   return builder.build(std::move(name));

@@ -11,7 +11,7 @@ namespace saltus {
 Eigen::VectorXcd Linearization::poles() const {
   if (A.rows() == 0) return {};
   Eigen::VectorXcd poles = A.eigenvalues();
-  std::ranges::sort(poles, [](const auto& a, const auto& b) {
+  std::sort(poles.begin(), poles.end(), [](const auto& a, const auto& b) {
     return std::pair(a.real(), a.imag()) < std::pair(b.real(), b.imag());
   });
   return poles;

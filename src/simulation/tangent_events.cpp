@@ -1,13 +1,10 @@
 #include "saltus/simulation/detail/tangent_events.hpp"
 
-#include <limits>
 #include <string>
 
 namespace saltus {
 
 namespace {
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 Eigen::MatrixXd rows_of(std::span<const Index> states, const Eigen::MatrixXd& columns) {
   Eigen::MatrixXd rows(static_cast<Index>(states.size()), columns.cols());
@@ -35,7 +32,7 @@ void TangentEvents::add(double t, const Eigen::RowVectorXd& by, bool has_cause) 
                   "the block was at rest already");
     out.event_times.push_back(by[k]);
     const double predicted = found == predicted_.end() ? by[k] : found->second[k];
-    out.predicted.push_back(enters ? predicted : none);
+    out.predicted.push_back(enters ? predicted : TangentGaps::none);
   }
 }
 
@@ -74,7 +71,7 @@ bool TangentEvents::accumulate(const void* monitor, std::span<const Index> state
 Eigen::RowVectorXd TangentEvents::unknown_time() const {
   Eigen::RowVectorXd time = Eigen::RowVectorXd::Zero(columns_->size());
   for (Index k = 0; k < columns_->size(); ++k)
-    if (columns_->matters(k)) time[k] = none;
+    if (columns_->matters(k)) time[k] = TangentGaps::none;
   return time;
 }
 

@@ -1,14 +1,12 @@
 #include "saltus/simulation/detail/tangent_gaps.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 namespace saltus {
 
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 const char* const end_at_event = "the run ends at the time of the event, which moves";
 
 }  // namespace

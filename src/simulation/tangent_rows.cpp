@@ -1,7 +1,6 @@
 #include "saltus/simulation/detail/tangent_rows.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 namespace saltus {
@@ -51,7 +50,7 @@ void TangentRows::add(double t, const double* x, const TangentColumns& at,
   if (!options_->event_rows) {
     gaps_->clear(one_sided, t, row_at_event, by_x, by_z);
     for (Index k = 0; k < at.size(); ++k)
-      if (one_sided.holds(t, k)) all.col(k).setConstant(std::numeric_limits<double>::quiet_NaN());
+      if (one_sided.holds(t, k)) all.col(k).setConstant(TangentGaps::none);
   }
   Index first = 0;
   for (std::size_t i = 0; i < plan.taps.size(); ++i) {

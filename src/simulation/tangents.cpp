@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "sensitivity_entries.hpp"
@@ -142,10 +141,9 @@ void Tangents::monitor(const MonitorHit& hit, const double* x) {
   const GuardGroup& group = machine_->plan().guard((*guards_)[hit.firing.guard()].group);
   TangentColumns at = columns_;
   if (hit.t < t_) variation_->at(hit.t, at.x);
-  const double none = std::numeric_limits<double>::quiet_NaN();
-  const MovedTime moved = group.is_opaque()
-                              ? MovedTime{.by = Eigen::RowVectorXd::Constant(size(), none)}
-                              : times_.of_crossing(hit.firing.slot, group.name, hit.t, x, at);
+  const MovedTime moved =
+      group.is_opaque() ? MovedTime{.by = Eigen::RowVectorXd::Constant(size(), TangentGaps::none)}
+                        : times_.of_crossing(hit.firing.slot, group.name, hit.t, x, at);
   for (Index k = 0; k < size(); ++k) {
     if (std::isnan(moved.by[k]) && !gaps_.lost(k))
       gaps_.note(hit.t, k, group.name, "the monitor only grazes zero, or shows a sign only");

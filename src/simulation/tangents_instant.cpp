@@ -1,7 +1,6 @@
 // Tangents: across an instant.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <new>
 
 #include "saltus/simulation/detail/tangents.hpp"
@@ -151,10 +150,10 @@ void Tangents::look_at_firings(const Present& present) {
 void Tangents::accumulate(const void* monitor, std::span<const Index> states,
                           const Eigen::VectorXd& next) {
   if (events_.accumulate(monitor, states, next, next_x_)) return;
-  const double none = std::numeric_limits<double>::quiet_NaN();
   for (Index k = 0; k < size(); ++k) {
     if (!columns_.matters(k)) continue;
-    next_x_.col(k).setConstant(none), next_z_.col(k).setConstant(none);
+    next_x_.col(k).setConstant(TangentGaps::none);
+    next_z_.col(k).setConstant(TangentGaps::none);
     lose(k, cause(), "the run began between the last events before the rest; begin it earlier");
   }
 }

@@ -9,11 +9,11 @@ namespace {
 std::string words_of_states(const Plan& plan) {
   constexpr int most = 8;
   std::string out;
-  int listed = 0;
+  int count = 0;
   for (const PlanLeaf& leaf : plan.leaves) {
     if (leaf.nx == 0) continue;
-    if (listed++ == most) return out + ", ...";
-    out += text(listed == 1 ? "" : ", ", "'", leaf.path, "' ", leaf.nx);
+    if (count++ == most) return out + ", ...";
+    out += text(count == 1 ? "" : ", ", "'", leaf.path, "' ", leaf.nx);
   }
   return out.empty() ? "there is none" : out;
 }

@@ -1,6 +1,7 @@
 // TangentGaps: the derivatives that do not exist, and the reasons.
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,9 @@ namespace saltus {
 /// Sets columns to NaN and writes `Sensitivities::gaps`. All times are in s.
 class TangentGaps {
  public:
+  /// In place of a derivative that does not exist.
+  static constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
   TangentGaps(TangentColumns& columns, Results& results) : columns_(&columns), results_(&results) {}
 
   /// A run with the parameters of the results begins.
