@@ -79,3 +79,62 @@ TEST_CASE("names cannot break out of a label", "[picture]") {
   CHECK(to_dot(diagram).starts_with("digraph \"\\\"]; evil\" {"));
   CHECK(to_mermaid(diagram).find("a#34;#60;b#62;<br/>#96;#35;#59;") != std::string::npos);
 }
+
+namespace {
+
+using Control = Picture::Control;
+
+/// A signal that executes an integrator within an inner diagram.
+Diagram executed(const Execution& execution) {
+  DiagramBuilder inner;
+  const auto& x = inner.add<Integrator>("x");
+  inner.connect(inner.add<Constant>("one", 1.0).output(), x.input());
+  inner.export_output(x.output(), "x");
+  DiagramBuilder builder;
+  const auto part = std::make_shared<Diagram>(inner.build("part"));
+  builder.add(part);
+  const auto& pulse = builder.add<Pulse>("pulse", PulseOptions{.period = 2.0});
+  builder.execute(*part, pulse.output(), execution);
+  return builder.build("whole");
+}
+
+}  // namespace
+
+TEST_CASE("a control signal leads to the part that it executes", "[picture]") {
+  const Diagram diagram = executed({});
+  const Control inside = picture(diagram).controls.at(0);
+  CHECK(inside.frame == 0);
+  CHECK(inside.block == -1);
+  CHECK(inside.words == "enables");
+  CHECK(inside.flow == Flow::held);
+
+  const Picture shallow = picture(diagram, {.max_depth = 1});
+  const Control folded = shallow.controls.at(0);
+  CHECK(folded.frame == -1);
+  CHECK(nth(shallow.blocks, folded.block).name == "part");
+  CHECK(nth(shallow.blocks, folded.from).name == "pulse");
+}
+
+TEST_CASE("a control signal says how it executes", "[picture]") {
+  using enum Execution::Kind;
+  const auto words = [](const Execution& execution) {
+    return picture(executed(execution)).controls.at(0).words;
+  };
+  CHECK(words({.resets = true}) == "enables, resets");
+  CHECK(words({.kind = triggered}) == "triggers ↑");
+  CHECK(words({.kind = triggered, .edge = Edge::falling}) == "triggers ↓");
+  CHECK(words({.kind = triggered, .edge = Edge::either}) == "triggers ↕");
+}
+
+TEST_CASE("the edge of a control signal ends at the frame in each language", "[picture]") {
+  const Diagram diagram = executed({});
+  CHECK(to_dot(diagram).find("label=\"enables\" lhead=cluster_0];") != std::string::npos);
+  CHECK(to_mermaid(diagram).find("-.->|\"enables\"| f0\n") != std::string::npos);
+  const std::string style = text("linkStyle ", picture(diagram).wires.size(), " stroke:#D55E00");
+  CHECK(to_mermaid(diagram).find(style) != std::string::npos);
+  CHECK(to_dot(diagram, {.max_depth = 1}).find("label=\"enables\"];") != std::string::npos);
+}
+
+TEST_CASE("a diagram that nothing executes has no control signals", "[picture]") {
+  CHECK(picture(reset_by_a_step()).controls.empty());
+}

@@ -13,8 +13,10 @@ namespace {
 
 /// Two states, a discrete state and a signal, with derivatives of 1 by the parameters g and e.
 struct TwoColumns {
-  TangentColumns columns{Eigen::MatrixXd::Ones(2, 2), Eigen::MatrixXd::Ones(1, 2),
-                         Eigen::MatrixXd::Ones(1, 2), Eigen::RowVectorXd::Ones(2),
+  TangentColumns columns{Eigen::MatrixXd::Ones(2, 2),
+                         Eigen::MatrixXd::Ones(1, 2),
+                         Eigen::MatrixXd::Ones(1, 2),
+                         Eigen::RowVectorXd::Ones(2),
                          {0, 1}};
   Results results;
   TangentGaps gaps{columns, results};
@@ -28,7 +30,7 @@ struct TwoColumns {
   std::vector<std::string> written() const {
     std::vector<std::string> lines;
     for (const SensitivityGap& gap : results.sensitivities.gaps)
-      lines.push_back(text(gap.time, ' ', gap.parameter, ": ", gap.reason));
+      lines.push_back(text(gap.time, " ", gap.parameter, ": ", gap.reason));
     return lines;
   }
 };
@@ -89,9 +91,8 @@ TEST_CASE("no column stops being finite without a reason") {
 
 TEST_CASE("a state that jumps has no derivative at a time of the jump that moves") {
   const Leaf leaf("leaf", [](Leaf& l) {
-    l.declare_continuous_state({.initial = vec({1.0, 2.0}), .ode = [](const At&, VectorRef xdot) {
-                                  xdot.setZero();
-                                }});
+    l.declare_continuous_state(
+        {.initial = vec({1.0, 2.0}), .ode = [](const At&, VectorRef xdot) { xdot.setZero(); }});
   });
   Machine machine(compile(leaf));
   machine.load(leaf.create_context());

@@ -1,5 +1,5 @@
 // Pictures of a system as Graphviz DOT or as Mermaid text: its blocks, frames around inner
-// diagrams, the wires, and the use that a plan makes of each block.
+// diagrams, the wires, the control signals, and the use that a plan makes of each block.
 #pragma once
 
 #include <limits>
@@ -45,10 +45,19 @@ struct Picture {
     bool event = false;  ///< read by guards, resets and updates only
   };
 
+  /// A control signal, and the block or the inner diagram that it executes.
+  struct Control {
+    int from = 0, output = 0;
+    int block = -1, frame = -1;  ///< one of them is -1
+    std::string words = {};      ///< "enables", "triggers ↑"
+    Flow flow = Flow::unknown;
+  };
+
   std::string name = {};
   std::vector<Frame> frames = {};  ///< each after the frame around it
   std::vector<Block> blocks = {};
   std::vector<Wire> wires = {};
+  std::vector<Control> controls = {};
   std::string trouble = {};  ///< the reason why there is no plan; every flow is then unknown
 };
 
@@ -62,7 +71,8 @@ Picture picture(const System& system, const PictureOptions& options = {});
 bool obvious(const std::vector<std::string>& ports, std::string_view usual);
 
 /// The picture in the language of Graphviz: `dot -Tsvg`. Inner diagrams are clusters. Wires that
-/// are read at events only are dashed; folded and dropped blocks are grey; a legend says so.
+/// are read at events only are dashed; folded and dropped blocks are grey; a legend says so. A
+/// dotted edge leads from a control signal to the block or the cluster that it executes.
 std::string to_dot(const System& system, const PictureOptions& options = {});
 
 /// The same picture as a Mermaid flowchart, which GitHub, GitLab, JupyterLab and MkDocs-Material

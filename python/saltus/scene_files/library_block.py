@@ -11,6 +11,7 @@ from saltus._core import known_names
 from saltus.library.called import elsewhere
 from saltus.scene_files.expression import ANY, EITHER, Word, expression
 from saltus.scene_files.functions import function_of, list_of, number_of, value_of
+from saltus.scene_files.state_machine import state_machine
 from saltus.scene_files.wrong import Path, Wrong, found, placed, table_at
 from saltus.system import System
 
@@ -55,6 +56,8 @@ def library_block(
     for key, parameter in known.items():
         if parameter.default is parameter.empty and key not in given and key not in made:
             raise Wrong(path, f"{block} needs '{key}'")
+    if block == "StateMachine":
+        return state_machine(path, table, name, values)
     arguments = {
         key: _argument((*path, key), block, known[key], value, values)
         for key, value in given.items()

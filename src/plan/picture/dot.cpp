@@ -159,6 +159,28 @@ std::string wire_line(const Picture& picture, const Wire& wire) {
          text(" edgetooltip=", quoted(text(from.name, " → ", to.name, ".", target, says)), "];\n");
 }
 
+/// A block within a frame, or within the frames in it: an edge to a cluster ends at a block of it.
+int block_in(const Picture& picture, int frame) {
+  for (std::size_t i = 0; i < picture.blocks.size(); ++i)
+    if (picture.blocks[i].frame == frame) return static_cast<int>(i);
+  for (std::size_t i = 0; i < picture.frames.size(); ++i) {
+    if (picture.frames[i].parent != frame) continue;
+    if (const int block = block_in(picture, static_cast<int>(i)); block >= 0) return block;
+  }
+  return -1;
+}
+
+std::string control_line(const Picture& picture, const Picture::Control& control) {
+  const Style style = style_of(control.flow);
+  const bool cluster = control.frame >= 0;
+  const int to = cluster ? block_in(picture, control.frame) : control.block;
+  if (to < 0) return "";
+  return text("  ", end_of(nth(picture.blocks, control.from), control.from, 'o', control.output),
+              " -> b", to, " [style=dotted penwidth=1.5 arrowhead=empty color=\"", style.line,
+              "\" fontcolor=\"", style.line, "\" label=", quoted(control.words),
+              cluster ? text(" lhead=cluster_", control.frame) : std::string(), "];\n");
+}
+
 /// Writes the blocks of a frame and the frames in it.
 void write_frame(std::string& out, const Picture& picture, int frame, const std::string& indent) {
   for (std::size_t i = 0; i < picture.blocks.size(); ++i) {
@@ -209,14 +231,16 @@ std::string to_dot(const System& system, const PictureOptions& options) {
   const Picture drawn = picture(system, options);
   const char* font = "fontname=\"Helvetica,Arial,sans-serif\"";
   std::string out = text("digraph ", quoted(drawn.name), " {\n");
-  out += text("  graph [rankdir=LR nodesep=0.3 ranksep=0.45 labelloc=b style=rounded ",
-              "color=\"#B0B0B0\" fontsize=9 ", font, "];\n");
+  out +=
+      text("  graph [rankdir=LR compound=true nodesep=0.3 ranksep=0.45 labelloc=b style=rounded ",
+           "color=\"#B0B0B0\" fontsize=9 ", font, "];\n");
   out +=
       text("  node [shape=box style=\"rounded,filled\" margin=\"0,0.05\" height=0.45 fontsize=11 ",
            font, "];\n");
   out += text("  edge [arrowsize=0.6 fontsize=8 ", font, "];\n");
   write_frame(out, drawn, -1, "  ");
   for (const Wire& wire : drawn.wires) out += wire_line(drawn, wire);
+  for (const Picture::Control& control : drawn.controls) out += control_line(drawn, control);
   if (const std::string legend = legend_of(drawn); !legend.empty())
     out += text("  label=", legend, ";\n");
   return out + "}\n";

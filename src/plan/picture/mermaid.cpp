@@ -110,6 +110,11 @@ std::string wire_line(const Picture& picture, const Wire& wire) {
   return text("  b", wire.from, wire.event ? " -.->" : " -->", label, " b", wire.to, "\n");
 }
 
+std::string control_line(const Picture::Control& control) {
+  const std::string to = control.frame >= 0 ? text("f", control.frame) : text("b", control.block);
+  return text("  b", control.from, " -.->|\"", escaped(control.words), "\"| ", to, "\n");
+}
+
 void write_frame(std::string& out, const Picture& picture, int frame, const std::string& indent) {
   for (std::size_t i = 0; i < picture.blocks.size(); ++i) {
     if (picture.blocks[i].frame == frame) out += indent + block_line(picture.blocks[i], i);
@@ -130,6 +135,10 @@ std::string link_styles(const Picture& picture) {
     std::string numbers;
     for (std::size_t i = 0; i < picture.wires.size(); ++i) {
       if (picture.wires[i].flow == flow) numbers += text(numbers.empty() ? "" : ",", i);
+    }
+    for (std::size_t i = 0; i < picture.controls.size(); ++i) {
+      if (picture.controls[i].flow == flow)
+        numbers += text(numbers.empty() ? "" : ",", picture.wires.size() + i);
     }
     if (!numbers.empty()) out += text("  linkStyle ", numbers, " stroke:", colour_of(flow), "\n");
   }
@@ -209,6 +218,7 @@ std::string to_mermaid(const System& system, const PictureOptions& options) {
   std::string out = "flowchart LR\n";
   write_frame(out, drawn, -1, "  ");
   for (const Wire& wire : drawn.wires) out += wire_line(drawn, wire);
+  for (const Picture::Control& control : drawn.controls) out += control_line(control);
   const std::string legend = legend_of(drawn);
   return out + legend + classes + frames_of(drawn, !legend.empty()) + link_styles(drawn);
 }

@@ -24,6 +24,10 @@ const char* arrow(Direction direction) {
   return "";
 }
 
+const char* arrow(Edge edge) {
+  return edge == Edge::rising ? "↑" : edge == Edge::falling ? "↓" : "↕";
+}
+
 std::string counted(Index n, const char* what) { return text(n, " ", what, n == 1 ? "" : "s"); }
 
 std::string words_of_times(const std::vector<double>& times) {
@@ -51,6 +55,12 @@ std::string words_of(const TimeEvent& event) {
 }
 
 }  // namespace
+
+std::string words_of(const Execution& execution) {
+  if (execution.kind == Execution::Kind::enabled)
+    return execution.resets ? "enables, resets" : "enables";
+  return text("triggers ", arrow(execution.edge));
+}
 
 std::string words_of(const ZeroCrossing& crossing) {
   std::string out = text(crossing.name, " ", arrow(crossing.direction));

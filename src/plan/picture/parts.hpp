@@ -23,6 +23,8 @@ Picture::Flow flow_of(const Node& node);
 /// Lines below the name of a leaf: its states, modes, zero crossings and time events. Without a
 /// plan it is not known how its booleans are located.
 std::vector<std::string> notes_of(const LeafSystem& leaf, const Plan* plan, int number);
+/// An execution in few words: "triggers ↑".
+std::string words_of(const Execution& execution);
 /// A zero crossing in few words: "bounce ↓ reset".
 std::string words_of(const ZeroCrossing& crossing);
 

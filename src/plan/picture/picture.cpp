@@ -57,7 +57,7 @@ class Drawing {
  private:
   struct Ends {  // the ends of a system's wires: the block, or one block for each port
     std::vector<int> inputs, outputs;
-    int block = -1;
+    int block = -1, frame = -1;
   };
 
   static const Diagram* as_diagram(const System& system) {
@@ -93,12 +93,15 @@ class Drawing {
         add_block(*child.system, child.name, frame);
         continue;
       }
+      const int inside = static_cast<int>(picture_.frames.size());
       picture_.frames.push_back({frame, child.name});
-      draw_inside(*child.system, *inner, static_cast<int>(picture_.frames.size()) - 1, depth + 1);
+      draw_inside(*child.system, *inner, inside, depth + 1);
+      ends_[child.system.get()].frame = inside;
     }
     Ends& ends = ends_[&system];
     add_ports(diagram, ends, frame);
     add_wires(diagram, ends);
+    add_controls(diagram);
   }
 
   void add_block(const System& system, const std::string& name, int frame) {
@@ -179,6 +182,20 @@ class Drawing {
     }
     show(wire.from, wire.flow), show(wire.to, wire.flow);
     picture_.wires.push_back(wire);
+  }
+
+  void add_controls(const Diagram& diagram) {
+    for (const Diagram::Controlled& part : diagram.controlled()) {
+      const OutputPort control = part.control;
+      const auto [from, output] = end_of(control);
+      const Ends& to = ends_[part.child];
+      const LeafPort source = control.system->output_source(control.index);
+      const Picture::Flow flow =
+          plan_ ? flow_of(plan_->node(plan_->leaves[number_.at(source.leaf)].outputs[source.index]))
+                : Picture::Flow::unknown;
+      picture_.controls.push_back(
+          {from, output, to.block, to.frame, words_of(part.execution), flow});
+    }
   }
 
   /// A port at a border has the colour of the signal through it.
