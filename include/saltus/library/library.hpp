@@ -68,6 +68,7 @@
 #include "saltus/library/slew_rate_limiter.hpp"
 #include "saltus/library/slice.hpp"
 #include "saltus/library/square_root.hpp"
+#include "saltus/library/state_machine.hpp"
 #include "saltus/library/step.hpp"
 #include "saltus/library/stop.hpp"
 #include "saltus/library/subsystem_output.hpp"

@@ -1,0 +1,69 @@
+// When a transition of a state machine is taken, and what it writes.
+#include "saltus/library/detail/state_machine_step.hpp"
+
+#include <algorithm>
+
+namespace saltus::detail {
+
+StateMachineValues StateMachineLayout::values(const At& at, const double* variables) const {
+  return {.time = at.time,
+          .since = at.time - at.z[entered_at],
+          .state = at.mode < states ? at.mode : first,
+          .inputs = at.u,
+          .variables = {variables, at.z.size() - first_variable},
+          .parameters = at.p};
+}
+
+void StateMachineLayout::enter(int target, const std::vector<StateMachineAction>& leave,
+                               const StateMachineAction& entry, const At& at, Next& next) const {
+  Eigen::VectorXd z = at.z;
+  const VectorRef variables(z.data() + first_variable, z.size() - first_variable);
+  StateMachineValues now = values(at, variables.data());
+  for (const StateMachineAction& act : leave)
+    if (act) act(now, variables);
+  now.since = 0.0;
+  now.state = target;
+  if (entry) entry(now, variables);
+  z[entered_at] = at.time;
+  next.set_discrete_state(z);
+  next.set_mode(target);
+}
+
+double StateMachineDue::residual(const StateMachineValues& now) const {
+  const double late = after ? now.since - *after : 1.0;
+  return guard ? std::min(late, guard.residual(now)) : late;
+}
+
+double StateMachineStep::residual(const At& at) const {
+  if (at.mode != source) return -1.0;
+  const StateMachineValues now = layout.values(at);
+  const auto is_due = [&now](const StateMachineDue& other) { return other.residual(now) >= 0.0; };
+  return std::any_of(before.begin(), before.end(), is_due) ? -1.0 : due.residual(now);
+}
+
+/// A transition of a higher priority may have left the source at the same time.
+void StateMachineStep::take(const At& at, Next& next) const {
+  if (at.mode != source) return;
+  if (trigger && due.guard && !due.guard.holds(layout.values(at))) return;
+  layout.enter(target, leave, entry, at, next);
+}
+
+ZeroCrossing StateMachineStep::crossing(const std::string& event) const {
+  ZeroCrossing found{.name = event,
+                     .reset_map = [step = *this](const At& at, Next& next) { step.take(at, next); },
+                     .direction = Direction::negative_then_non_negative,
+                     .at_start = AtStart::fire,
+                     .zeno_tolerance = 0.0};
+  if (trigger) {
+    found.guard = [step = *this](const At& at) {
+      return step.trigger.residual(step.layout.values(at));
+    };
+    found.start_mode = source;
+    found.at_start = AtStart::ignore;
+  } else {
+    found.guard = [step = *this](const At& at) { return step.residual(at); };
+  }
+  return found;
+}
+
+}  // namespace saltus::detail
