@@ -1,6 +1,8 @@
 // Pictures: which blocks and wires there are, and what becomes of them in a plan.
 #include "saltus/plan/picture.hpp"
 
+#include <algorithm>
+
 #include "saltus/library/library.hpp"
 #include "support/leaves.hpp"
 
@@ -124,6 +126,18 @@ TEST_CASE("a control signal says how it executes", "[picture]") {
   CHECK(words({.kind = triggered}) == "triggers ↑");
   CHECK(words({.kind = triggered, .edge = Edge::falling}) == "triggers ↓");
   CHECK(words({.kind = triggered, .edge = Edge::either}) == "triggers ↕");
+}
+
+TEST_CASE("an update with an inherited sample time runs at each trigger", "[picture]") {
+  DiagramBuilder builder;
+  const auto& delay = builder.add<UnitDelay>("z", inherited_period);
+  const auto& pulse = builder.add<Pulse>("pulse");
+  builder.connect(pulse.output(), delay.input());
+  builder.execute(delay, pulse.output(), {.kind = Execution::Kind::triggered});
+  const Picture drawn = picture(builder.build());
+  const auto z = std::ranges::find(drawn.blocks, "z", &Picture::Block::name);
+  REQUIRE(z != drawn.blocks.end());
+  CHECK(std::ranges::count(z->notes, "tick at each trigger") == 1);
 }
 
 TEST_CASE("the edge of a control signal ends at the frame in each language", "[picture]") {

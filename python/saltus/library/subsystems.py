@@ -132,10 +132,10 @@ class EnabledSubsystem(_Subsystem):
     """Executes a system while its last input, `enable`, is above 0.
 
     While it is not enabled, dx/dt = 0 for all continuous states of its blocks, its guards are not
-    seen, and its resets and updates write nothing: time stands still in it. When it is enabled
-    again, its guards are armed as where a mode is entered. Its other inputs and its outputs are
-    those of the system; use them, not those of the system itself, whose outputs are computed from
-    its inputs all the time.
+    seen, and its resets and updates write nothing. The time that its blocks read, as a `Clock`
+    does, goes on. When it is enabled again, its guards are armed as where a mode is entered. Its
+    other inputs and its outputs are those of the system; use them, not those of the system itself,
+    whose outputs are computed from its inputs all the time.
 
     Parameters
     ----------

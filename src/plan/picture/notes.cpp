@@ -48,6 +48,7 @@ std::string words_of(const TimeEvent& event) {
   const std::string name = event.name.empty() ? std::string() : event.name + " ";
   if (event.times) return text(name, words_of_times(*event.times), words_of_end(event));
   if (event.next) return name + "at times that follow from its discrete state";
+  if (event.inherited) return name + "at each trigger";
   if (std::isinf(event.period)) return text(name, "at t = ", event.offset, " s");
   const std::string from =
       event.offset != 0.0 ? text(" from t = ", event.offset, " s") : std::string();
