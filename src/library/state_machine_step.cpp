@@ -2,8 +2,23 @@
 #include "saltus/library/detail/state_machine_step.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace saltus::detail {
+
+namespace {
+
+/// Half of the jump of a guard over zero, in the size of what it may read: above the rounding of
+/// these values. It moves no root.
+double half_jump(const StateMachineValues& now) {
+  constexpr double share = 1e-9, least = 1e-100;
+  double size = std::abs(now.time) + now.variables.cwiseAbs().sum();
+  size += now.parameters.cwiseAbs().sum();
+  for (int k = 0; k < now.inputs.size(); ++k) size += std::abs(now.inputs(k));
+  return share * size + least;
+}
+
+}  // namespace
 
 StateMachineValues StateMachineLayout::values(const At& at, const double* variables) const {
   return {.time = at.time,
@@ -38,7 +53,9 @@ double StateMachineStep::residual(const At& at) const {
   if (at.mode != source) return -1.0;
   const StateMachineValues now = layout.values(at);
   const auto is_due = [&now](const StateMachineDue& other) { return other.residual(now) >= 0.0; };
-  return std::any_of(before.begin(), before.end(), is_due) ? -1.0 : due.residual(now);
+  if (std::any_of(before.begin(), before.end(), is_due)) return -1.0;
+  const double own = due.residual(now);
+  return own < 0.0 ? own - half_jump(now) : own + half_jump(now);
 }
 
 /// A transition of a higher priority may have left the source at the same time.

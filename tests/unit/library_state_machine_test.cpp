@@ -10,6 +10,8 @@ namespace {
 
 using Now = StateMachineValues;
 using Action = StateMachineAction;
+using Condition = StateMachineCondition;
+using Wire = std::function<void(DiagramBuilder&, StateMachine&)>;
 using Vector = std::vector<double>;
 
 constexpr double pi = 3.14159265358979323846;
@@ -97,25 +99,37 @@ TEST_CASE("the actions of a state machine run in their order, and that of the st
 }
 
 TEST_CASE("a chain of transitions at one time goes on until it ends, or is an error") {
-  const auto step = fed_by<Step>(StepOptions{.step_time = 1.0});
-  const auto fewer_than_three = [](const Now& now) {
-    return now.variables[0] < 3.0 && now.inputs(0) > 0.5;
-  };
   const Action count = [](const Now&, VectorRef n) { n[0] += 1.0; };
-  const BlockRun<StateMachine> ends(
-      step, StateMachineOptions{
-                .states = {"a", "b"},
-                .transitions = {{"a", "b", fewer_than_three},
-                                {.source = "b", .target = "a", .guard = always, .action = count}},
-                .inputs = {"u"},
-                .variables = {{"n", 0.0}}});
-  const Results results = ends.run(2.0);
-  CHECK(results.events.times("block.b_to_a") == Vector{1.0, 1.0, 1.0});
-  const BlockRun<StateMachine> loops(
-      step, StateMachineOptions{.states = {"a", "b"},
-                                .transitions = {{"a", "b", above(0.5)}, {"b", "a", above(0.25)}},
-                                .inputs = {"u"}});
-  CHECK_THROWS_WITH(loops.run(2.0), Contains("'block.a_to_b' -> 'block.b_to_a'"));
+  const auto fewer = [](const Now& now) { return now.variables[0] < 3.0 && now.inputs(0) > 0.5; };
+  const auto fewer_as_number = [](const Now& now) {
+    return std::min(2.5 - now.variables[0], now.inputs(0) - 0.5);
+  };
+  // a jump, and a slope whose crossing is located within rounding
+  for (const auto& source :
+       {Wire(fed_by<Step>(StepOptions{.step_time = 0.5})), Wire(fed_by<Clock>())}) {
+    for (const Condition& first : {Condition(fewer), Condition(fewer_as_number)}) {
+      const BlockRun<StateMachine> ends(
+          source,
+          StateMachineOptions{
+              .states = {"a", "b"},
+              .transitions = {{"a", "b", first},
+                              {.source = "b", .target = "a", .guard = always, .action = count}},
+              .inputs = {"u"},
+              .variables = {{"n", 0.0}}});
+      const Vector found = ends.run(2.0).events.times("block.b_to_a");
+      REQUIRE(found.size() == 3);
+      CHECK_THAT(found[0], WithinAbs(0.5, 1e-12));
+      CHECK(found[2] == found[0]);
+    }
+    for (const auto& [up, back] : {std::pair<Condition, Condition>(above(0.5), above(0.25)),
+                                   std::pair<Condition, Condition>(beyond(0.5), beyond(0.25))}) {
+      const BlockRun<StateMachine> loops(
+          source, StateMachineOptions{.states = {"a", "b"},
+                                      .transitions = {{"a", "b", up}, {"b", "a", back}},
+                                      .inputs = {"u"}});
+      CHECK_THROWS_WITH(loops.run(2.0), Contains("'block.a_to_b' -> 'block.b_to_a'"));
+    }
+  }
 }
 
 TEST_CASE("of the transitions that could be taken at one time one is taken, by priority") {
@@ -123,13 +137,12 @@ TEST_CASE("of the transitions that could be taken at one time one is taken, by p
     double b, c;
     double expected;
   };
-  const std::vector<std::function<void(DiagramBuilder&, StateMachine&)>> sources{
-      fed_by<Step>(StepOptions{.step_time = 1.0}), fed_by<Clock>()};
+  const std::vector<Wire> sources{fed_by<Step>(StepOptions{.step_time = 1.0}), fed_by<Clock>()};
   const auto taken = [](const Now&, VectorRef n) { n[0] += 1.0; };
   for (const Row& row : {Row{0, 0, 1}, Row{0, 1, 2}, Row{2, 1, 1}}) {
     for (const auto& source : sources) {
       for (const StateMachineCondition& both :
-           {StateMachineCondition(above(0.5)), StateMachineCondition(beyond(0.5))}) {
+           {StateMachineCondition(above(0.5)), Condition(beyond(0.5))}) {
         for (const bool by_trigger : {false, true}) {
           StateMachineTransition b{"a", "b"}, c{"a", "c"};
           b.priority = row.b;

@@ -29,7 +29,9 @@ def outcome_of(block: Block, function: Block, trace: Callable[[Any], Any]) -> An
     if isinstance(function["function"], tracing.Known):
         return function["function"].outcome()
     outcome = trace(_signature(block, function))
-    return tracing.as_guard(outcome) if function["role"] in GUARDS else outcome
+    if function["role"] not in GUARDS:
+        return outcome
+    return tracing.as_guard(outcome, getattr(function["function"], "jumps", False))
 
 
 def _signature(block: Block, function: Block) -> Any:

@@ -38,9 +38,9 @@ class StateMachine(LeafSystem):
 
     A state that is entered may be left at once: the next transition is then taken at the same time.
     If this comes to no end, the run ends with the error of `max_passes`, which names the
-    transitions. The times of guards are located by bisection, where the truth changes; a truth that
-    is true for less than the distance of two looks at a step may be missed. A trigger that is one
-    comparison, and a time `after`, are located as smoothly as any guard. The event log has a
+    transitions. Guards and triggers that are made of comparisons, and a time `after`, are located
+    as smoothly as any guard. Those that cannot be traced are located by bisection, and missed
+    where they are true for less than the distance of two looks at a step. The event log has a
     trigger also where a transition of a higher priority was taken, or the `guard` beside it was
     false. Before the first state is entered, the mode of the block is the number of states.
 
@@ -256,6 +256,8 @@ class StateMachine(LeafSystem):
                 return trigger(now)
             return due(values[1].mode == source, condition, first, now)
 
+        # Within rounding of a zero, a truth would be lost where a chain comes back to it at once.
+        fires.__dict__["jumps"] = trigger is None and guard is not None
         edge = {"start_mode": source, "at_start": "ignore"}
         self.declare_zero_crossing(
             fires,

@@ -97,18 +97,18 @@ def reader(
 
 
 def due(active: Any, condition: Condition, first: Sequence[Condition], now: dict[str, Any]) -> Any:
-    """The guard of a transition that is taken where a condition holds: above zero where it does.
+    """The guard of a transition that is taken where a condition holds: true where it does.
 
-    It is below zero in all other states, so that the pass that enters the state carries it across
+    It is false in all other states, so that the pass that enters the state carries it across
     zero if the condition holds. A guard of that mode alone would wait then, if it has fired at the
-    same time before, and the transition would be lost. It is below zero, too, where a transition
-    that comes first is taken.
+    same time before, and the transition would be lost. It is false, too, where a transition that
+    comes first is taken.
     """
     for other in first:
         active = np.logical_and(active, np.logical_not(other.holds(now)))
     if condition.guard is None:
         return np.where(active, now["since"] - condition.after, -1.0)
-    return np.where(np.logical_and(active, condition.holds(now)), 1.0, -1.0)
+    return np.logical_and(active, condition.holds(now))
 
 
 def after_actions(

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import Any
 
-from saltus.tracing.signature import Refused, Relations, Traced
+from saltus.tracing.signature import Relations
 
-__all__ = ["as_guard", "find", "single"]
+__all__ = ["LOGIC", "SIDES", "find"]
 
 SIDES = {"gt": (True, False), "ge": (True, True), "lt": (False, False), "le": (False, True)}
 """comparison a ? b -> (whether it is true where a - b is positive, true where it is zero)"""
@@ -70,43 +69,3 @@ def find(new_graph: Any, graph: Any, outputs: list[int]) -> Relations | None:
         return None
     differences = graph.tape(list(found.differences))
     return Relations(differences, tuple(found.true_at_zero), found.truths.tape(truths))
-
-
-def single(graph: Any, outputs: list[int]) -> tuple[Any, bool] | None:
-    """(tape of the differences, true_at_zero) where every output is one comparison, or none."""
-    sides = [_side(graph, node) for node in outputs]
-    differences = [side[0] for side in sides if side is not None]
-    at_zero = {side[1] for side in sides if side is not None}
-    if not outputs or len(differences) != len(outputs) or len(at_zero) != 1:
-        return None
-    return graph.tape(differences), at_zero.pop()
-
-
-def as_guard(outcome: Traced | Refused) -> Traced | Refused:
-    """The function as a guard: a truth that is one comparison becomes the difference of its sides.
-
-    The difference is positive where the comparison is true. Another truth has no smooth form: its
-    function is called, and its value is 1 or -1.
-    """
-    if isinstance(outcome, Refused) or not outcome.boolean:
-        return outcome
-    if outcome.comparison is None:
-        return Refused(
-            "returns a truth that is no single comparison <, <=, >, >=, so it jumps; "
-            "return a number that crosses zero, or declare a guard for each comparison",
-            outcome.dependencies,
-        )
-    return replace(outcome, tape=outcome.comparison[0], boolean=False)
-
-
-def _side(graph: Any, node: int) -> tuple[int, bool] | None:
-    if graph.value(node) is not None:
-        return None
-    name, operands = graph.operation(node)
-    if name == "logical_not":
-        inner = _side(graph, operands[0])
-        return None if inner is None else (graph.apply("neg", inner[0]), not inner[1])
-    if name not in SIDES:
-        return None
-    forward, at_zero = SIDES[name]
-    return graph.apply("sub", *(operands if forward else operands[::-1])), at_zero

@@ -105,10 +105,12 @@ class Traced:
     shape: Shape
     """the shape of the result"""
     boolean: bool
-    comparison: tuple[Any, bool] | None
-    """(tape of the difference, true_at_zero) where every entry of the result is one comparison, as
-    in `Relations`, entry for entry
+    residual: Any | None
+    """tape of numbers that are positive where the truths of the result are true, and negative where
+    they are not
     """
+    jump: Any | None
+    """tape of numbers that jump over zero where the truths of the result change"""
     relations: Relations | None
     """the relations of a result made of comparisons by and, or, not, ==, != and np.where alone"""
     wrote_x: bool

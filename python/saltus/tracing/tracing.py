@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from saltus import _core
-from saltus.tracing import kept, relations
+from saltus.tracing import kept, relations, residuals
 from saltus.tracing.arguments import Result, Symbols, call, result_of
 from saltus.tracing.check import Check
 from saltus.tracing.numbers import Symbol, array
@@ -135,7 +135,8 @@ def _outcome(graph: Any, tape: Any, result: Result, sandbox: Sandbox, compared: 
         tape=tape,
         shape=result.shape,
         boolean=result.boolean,
-        comparison=relations.single(graph, result.numbers) if truths else None,
+        residual=residuals.residual(graph, result.numbers) if truths else None,
+        jump=residuals.jump(graph, result.numbers) if truths else None,
         relations=relations.find(_core.Graph, graph, result.numbers) if truths else None,
         wrote_x="x" in result.written,
         wrote_z="z" in result.written,

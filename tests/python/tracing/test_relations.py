@@ -15,42 +15,38 @@ def of_inputs(function, shapes=SCALAR):
 
 
 @pytest.mark.parametrize(
-    ("function", "sign", "at_zero"),
+    ("function", "sign"),
     [
-        (lambda x: x[0] < x[1], -1.0, False),
-        (lambda x: x[0] <= x[1], -1.0, True),
-        (lambda x: x[0] > x[1], 1.0, False),
-        (lambda x: x[0] >= x[1], 1.0, True),
-        (lambda x: np.less(x[0], x[1]), -1.0, False),
-        (lambda x: np.logical_not(x[0] < x[1]), 1.0, True),
-        (lambda x: bool(x[0] > x[1]), 1.0, False),
+        (lambda x: x[0] < x[1], -1.0),
+        (lambda x: x[0] <= x[1], -1.0),
+        (lambda x: x[0] > x[1], 1.0),
+        (lambda x: x[0] >= x[1], 1.0),
+        (lambda x: np.less(x[0], x[1]), -1.0),
+        (lambda x: np.logical_not(x[0] < x[1]), 1.0),
+        (lambda x: bool(x[0] > x[1]), 1.0),
     ],
 )
-def test_one_comparison(function, sign, at_zero):
+def test_one_comparison(function, sign):
     outcome = of_inputs(function)
     assert outcome.boolean
     assert outcome.shape == ()
-    difference, true_at_zero = outcome.comparison
-    assert true_at_zero is at_zero
     for a, b in POINTS:
-        (g,) = difference(0.0, [], [], 0, 0, [], [[a], [b]])
+        (g,) = outcome.residual(0.0, [], [], 0, 0, [], [[a], [b]])
         assert g == sign * (a - b)
-        assert function((a, b)) == (g > 0 or (g == 0 and at_zero))
+        assert g == 0 or function((a, b)) == (g > 0)
         assert evaluate(outcome, [], u=[[a], [b]]) == function((a, b))
 
 
 def test_entry_by_entry():
     outcome = of_inputs(lambda x: x[0] > x[1], [(3,), ()])
-    difference, true_at_zero = outcome.comparison
-    found = difference(0.0, [], [], 0, 0, [], [[1.0, 2.0, 3.0], [2.0]])
+    found = outcome.residual(0.0, [], [], 0, 0, [], [[1.0, 2.0, 3.0], [2.0]])
     np.testing.assert_array_equal(found, [-1.0, 0.0, 1.0])
     assert outcome.shape == (3,)
-    assert not true_at_zero
 
 
 def test_of_a_state():
     outcome = traced(lambda t, s: s.continuous_state[0] ** 2 > np.sin(t))
-    (g,) = outcome.comparison[0](1.0, [0.5, 0.0], [], 0, 0, [], [])
+    (g,) = outcome.residual(1.0, [0.5, 0.0], [], 0, 0, [], [])
     assert g == pytest.approx(0.25 - np.sin(1.0), rel=1e-15)
 
 
@@ -78,6 +74,42 @@ def test_made_of_several(function):
         truths = np.where(g == 0.0, at_zero, g > 0.0).astype(float)
         found = relations.truth(0.0, [], truths, 0, 0, [], [])
         np.testing.assert_array_equal(found, np.ravel(function((a, b))).astype(float))
+        true = np.ravel(function((a, b)))
+        g = outcome.residual(0.0, [], [], 0, 0, [], [[a], [b]])
+        assert np.all(np.where(true, g >= 0.0, g <= 0.0))  # zero is the side of neither
+        g = outcome.jump(0.0, [], [], 0, 0, [], [[a], [b]])
+        assert np.all(np.where(true, g > 0.0, g < 0.0))
+
+
+def test_a_residual_is_continuous_and_a_jump_is_small():
+    """Along x = u, -1 to 1, in steps of h: no change by more than h, but for jumps of 2e-9."""
+    h = 1e-3
+    for function in COMPOUND:
+        outcome = of_inputs(function)
+        values = np.array(
+            [
+                [
+                    tape(0.0, [], [], 0, 0, [], [[u], [0.4]])
+                    for tape in (outcome.residual, outcome.jump)
+                ]
+                for u in np.arange(-1.0, 1.0, h)
+            ]
+        )
+        assert np.abs(np.diff(values[:, 0], axis=0)).max() <= h * (1 + 1e-9)
+        assert np.abs(np.diff(values[:, 1], axis=0)).max() <= h + 1e-8
+
+
+def test_a_comparison_with_nan_in_a_truth_is_false():
+    outcome = of_inputs(lambda x: (x[0] > 0.0) | np.logical_not(np.sqrt(x[1]) > 2.0))
+    for tape in (outcome.residual, outcome.jump):
+        assert tape(0.0, [], [], 0, 0, [], [[-1.0], [-1.0]])[0] > 0.0  # the not of a false one
+
+
+@pytest.mark.parametrize("mode", [0, 1])
+def test_a_held_truth_chooses(mode):
+    outcome = traced(lambda t, s: np.logical_and(s.mode == 1, s.continuous_state[0] > 0.25))
+    (g,) = outcome.residual(0.0, [2.0, 0.0], [], mode, 0, [], [])
+    assert g == (1.75 if mode == 1 else -1.0)
 
 
 @pytest.mark.parametrize(
@@ -91,18 +123,17 @@ def test_made_of_several(function):
 )
 def test_no_relation(function):
     outcome = of_inputs(function)
-    assert outcome.comparison is None
+    assert outcome.residual is None
     assert outcome.relations is None
 
 
 def test_a_known_truth_is_no_relation():
     outcome = of_inputs(lambda x: np.array([True, False]))
     assert outcome.boolean
-    assert outcome.comparison is None
+    np.testing.assert_array_equal(outcome.residual(0.0, [], [], 0, 0, [], [[0.0], [0.0]]), [1, -1])
     assert outcome.relations is None
 
 
-def test_mixed_senses_are_relations_but_no_single_comparison():
+def test_mixed_senses_are_relations():
     outcome = of_inputs(lambda x: [x[0] < x[1], x[0] >= 0.0])
-    assert outcome.comparison is None
     assert outcome.relations.true_at_zero == (False, True)

@@ -46,7 +46,8 @@ struct StateMachineStep {
   /// The guard of a transition without a trigger: not below zero where that is due. It is below
   /// zero in all other states, so that the pass that enters the state carries it across zero if it
   /// is due then. A guard of that mode alone would wait if it has fired at the same time before, and
-  /// the transition would be lost. It is below zero, too, where one of `before` is due.
+  /// the transition would be lost. It is below zero, too, where one of `before` is due. It jumps
+  /// over zero: within rounding of zero, a chain that comes back to the source would be lost.
   double residual(const At& at) const;
   void take(const At& at, Next& next) const;
   ZeroCrossing crossing(const std::string& event) const;
