@@ -17,6 +17,7 @@ import subprocess
 import sys
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
+from functools import cache
 from pathlib import Path
 
 INCLUDE = Path(__file__).parents[1] / "include"
@@ -31,20 +32,17 @@ BASES = [
 END = "the header ends here"
 
 
-def included(name: str, found: set[str]) -> set[str]:
-    """FOUND, with all headers that a header includes, directly or through others."""
+@cache
+def included(name: str) -> frozenset[str]:
+    """All headers that a header includes, directly or through others."""
     path = INCLUDE / name
-    for other in LINE.findall(path.read_text()) if path.exists() else ():
-        if other not in found:
-            found.add(other)
-            included(other, found)
-    return found
+    direct = LINE.findall(path.read_text()) if path.exists() else []
+    return frozenset(direct).union(*map(included, direct))
 
 
 def base_of(name: str) -> str | None:
     """The last of the bases that a header includes."""
-    found = included(name, set())
-    return next((base for base in reversed(BASES) if base in found), None)
+    return next((base for base in reversed(BASES) if base in included(name)), None)
 
 
 def options(build: Path) -> list[str]:

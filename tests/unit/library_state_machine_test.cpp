@@ -141,8 +141,7 @@ TEST_CASE("of the transitions that could be taken at one time one is taken, by p
   const auto taken = [](const Now&, VectorRef n) { n[0] += 1.0; };
   for (const Row& row : {Row{0, 0, 1}, Row{0, 1, 2}, Row{2, 1, 1}}) {
     for (const auto& source : sources) {
-      for (const StateMachineCondition& both :
-           {StateMachineCondition(above(0.5)), Condition(beyond(0.5))}) {
+      for (const Condition& both : {Condition(above(0.5)), Condition(beyond(0.5))}) {
         for (const bool by_trigger : {false, true}) {
           StateMachineTransition b{"a", "b"}, c{"a", "c"};
           b.priority = row.b;

@@ -29,9 +29,7 @@ def outcome_of(block: Block, function: Block, trace: Callable[[Any], Any]) -> An
     if isinstance(function["function"], tracing.Known):
         return function["function"].outcome()
     outcome = trace(_signature(block, function))
-    if function["role"] not in GUARDS:
-        return outcome
-    return tracing.as_guard(outcome, getattr(function["function"], "jumps", False))
+    return tracing.as_guard(outcome) if function["role"] in GUARDS else outcome
 
 
 def _signature(block: Block, function: Block) -> Any:

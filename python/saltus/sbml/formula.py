@@ -50,7 +50,6 @@ class Formula(Known):
             shape=() if self.scalar else (self.tape.size,),
             boolean=False,
             residual=None,
-            jump=None,
             relations=None,
             wrote_x=self.wrote_x,
             wrote_z=self.wrote_z,

@@ -186,15 +186,13 @@ def jump(graph: Any, outputs: list[int]) -> Any:
     return graph.tape([residuals.jump(node) for node in outputs])
 
 
-def as_guard(outcome: Traced | Refused, jumps: bool = False) -> Traced | Refused:
-    """The function as a guard: a truth becomes its residual, or a number that jumps.
+def as_guard(outcome: Traced | Refused) -> Traced | Refused:
+    """The function as a guard: a truth becomes its residual.
 
     A truth that has no residual jumps: its function is called, and its value is 1 or -1.
     """
     if isinstance(outcome, Refused) or not outcome.boolean:
         return outcome
-    if jumps:
-        return replace(outcome, tape=outcome.jump, boolean=False)
     if outcome.residual is None:
         return Refused(
             "returns a truth that is not made of comparisons <, <=, >, >=, so it jumps; "

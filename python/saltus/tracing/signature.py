@@ -107,10 +107,8 @@ class Traced:
     boolean: bool
     residual: Any | None
     """tape of numbers that are positive where the truths of the result are true, and negative where
-    they are not
+    they are not; they jump over zero if the function has the attribute `jumps`
     """
-    jump: Any | None
-    """tape of numbers that jump over zero where the truths of the result change"""
     relations: Relations | None
     """the relations of a result made of comparisons by and, or, not, ==, != and np.where alone"""
     wrote_x: bool

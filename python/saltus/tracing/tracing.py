@@ -102,7 +102,8 @@ def _traced(signature: Signature, sandbox: Sandbox, few: bool) -> tuple[Traced, 
     tape = graph.tape(result.numbers)
     check = Check(tape, result, functools.partial(Bounds, graph, symbols.variables))
     compared = _compared(check, signature, few)
-    return _outcome(graph, tape, result, sandbox, compared), check
+    guard = residuals.jump if getattr(signature.function, "jumps", False) else residuals.residual
+    return _outcome(graph, tape, result, sandbox, compared, guard), check
 
 
 def _compared(check: Check, signature: Signature, few: bool) -> int:
@@ -129,14 +130,20 @@ def _to_nodes(graph: Any, result: Result) -> None:
     ]
 
 
-def _outcome(graph: Any, tape: Any, result: Result, sandbox: Sandbox, compared: int) -> Traced:
+def _outcome(
+    graph: Any,
+    tape: Any,
+    result: Result,
+    sandbox: Sandbox,
+    compared: int,
+    guard: Callable[[Any, list[int]], Any],
+) -> Traced:
     truths = result.boolean and not result.written
     return Traced(
         tape=tape,
         shape=result.shape,
         boolean=result.boolean,
-        residual=residuals.residual(graph, result.numbers) if truths else None,
-        jump=residuals.jump(graph, result.numbers) if truths else None,
+        residual=guard(graph, result.numbers) if truths else None,
         relations=relations.find(_core.Graph, graph, result.numbers) if truths else None,
         wrote_x="x" in result.written,
         wrote_z="z" in result.written,
