@@ -16,14 +16,7 @@ check() { if step "$@"; then count 1 0; else count 0 1; fi; }  # one thing that 
 
 count_junit() {  # STATUS FILE: the tests in a JUnit file
   local sums
-  sums=$("$python" - "$2" <<'EOF'
-import sys, xml.etree.ElementTree as tree
-suites = list(tree.parse(sys.argv[1]).iter("testsuite"))
-tests, failures, errors, skipped, disabled = (
-    sum(int(suite.get(name, 0)) for suite in suites) for name in ("tests", "failures", "errors", "skipped", "disabled"))
-print(tests - failures - errors - skipped - disabled, failures + errors)
-EOF
-  ) 2>/dev/null || sums="0 0"
+  sums=$("$python" tools/count.py "$2" 2>/dev/null) || sums="0 0"
   count_run "$1" $sums
   junits+=("$2")
 }
@@ -43,7 +36,7 @@ catch_tests() {  # PRESET [CMAKE OPTION...]
   build "$@" || { count 0 1; return; }
   rm -f "$junit"
   step "ctest-$1" "running the tests" ctest --preset "$1" --parallel "$jobs" --no-tests=error \
-    --output-junit "$junit" || status=$?
+    --test-output-size-passed 100000 --output-junit "$junit" || status=$?
   count_junit $status "$junit"
 }
 
@@ -51,7 +44,8 @@ pytest_tests() {  # NAME PYTEST-ARGUMENT...
   local status=0 junit=build/log/$1.xml
   module all || { count 0 1; return; }
   rm -f "$junit"
-  step "pytest-$1" "running pytest" env PYTHONPYCACHEPREFIX="$root/build/pycache" "$python" -m pytest -q --junitxml="$junit" "${@:2}" || status=$?
+  step "pytest-$1" "running pytest" env PYTHONPYCACHEPREFIX="$root/build/pycache" "$python" -m pytest -q \
+    --numprocesses="$jobs" --dist=worksteal --junitxml="$junit" "${@:2}" || status=$?
   count_junit $status "$junit"
 }
 

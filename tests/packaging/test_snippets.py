@@ -54,22 +54,24 @@ def stem(fence):
 
 
 @pytest.fixture(scope="session")
-def programs(tmp_path_factory):
+def programs(once):
     """All C++ fences, built at once; those that do not compile are missing."""
     prefix = os.environ.get("SALTUS_PREFIX")
     if not prefix:
         pytest.skip("SALTUS_PREFIX is not set")
-    source = tmp_path_factory.mktemp("snippets")
+    return once("snippets", lambda source: build(prefix, source)) / "build"
+
+
+def build(prefix, source):
     (source / "CMakeLists.txt").write_text(CMAKE)
     for fence in fences("cpp"):
         (source / f"{stem(fence)}.cpp").write_text(program(fence.program))
-    build = source / "build"
-    configure = ["cmake", "-G", "Ninja", "-S", source, "-B", build, f"-DCMAKE_PREFIX_PATH={prefix}"]
+    out = source / "build"
+    configure = ["cmake", "-G", "Ninja", "-S", source, "-B", out, f"-DCMAKE_PREFIX_PATH={prefix}"]
     subprocess.run(configure, check=True, stdout=subprocess.DEVNULL)
     subprocess.run(
-        ["cmake", "--build", build, "--", "-k", "0"], check=False
+        ["cmake", "--build", out, "--", "-k", "0"], check=False
     )  # the log says what did not compile
-    return build
 
 
 def run(fence, command, directory):

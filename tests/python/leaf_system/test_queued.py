@@ -32,7 +32,9 @@ def kinds(results):
 
 @pytest.mark.parametrize("python", TWO)
 @pytest.mark.parametrize(
-    "delay", [0.5, np.float64(0.5), lambda t, s: 0.5 * s.continuous_state[0]], ids=str
+    "delay",
+    [0.5, np.float64(0.5), lambda t, s: 0.5 * s.continuous_state[0]],
+    ids=["number", "numpy", "function"],
 )
 def test_an_execution_follows_its_trigger_by_the_delay(python, delay):
     results = run(ramp(delay=delay), 3.5, python=python)
