@@ -1,14 +1,30 @@
-# saltus_unity(TARGET GROUP FILE...): with SALTUS_UNITY these files are compiled as one, so headers are read once and each
-# template is instantiated once, which is most of the work. Without it each file is compiled alone, so a change costs less.
+# saltus_unity(TARGET GROUP FILE...): up to SALTUS_UNITY of these files are compiled as one, so headers are read once and each
+# template is instantiated once, which is most of the work. A change to one file then compiles its neighbours again.
 function(saltus_unity target group)
   foreach(source IN LISTS ARGN)
     if(NOT EXISTS ${CMAKE_CURRENT_SOURCE_DIR}/${source} AND NOT EXISTS ${source})
       message(FATAL_ERROR "saltus_unity(${target} ${group}): there is no file ${source}")
     endif()
   endforeach()
-  if(SALTUS_UNITY)
+  if(NOT SALTUS_UNITY MATCHES "^[0-9]+$")
+    message(FATAL_ERROR "SALTUS_UNITY: expected a number of files, found '${SALTUS_UNITY}'")
+  endif()
+  if(SALTUS_UNITY GREATER 1)
     string(REPLACE / _ group ${group})
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
-    set_source_files_properties(${ARGN} PROPERTIES UNITY_GROUP ${group})
+    saltus_units(${group} ${ARGN})
   endif()
+endfunction()
+
+# Units of one size, near SALTUS_UNITY: the last is as large as the others.
+function(saltus_units group)
+  list(LENGTH ARGN count)
+  math(EXPR units "(${count} + ${SALTUS_UNITY} - 1) / ${SALTUS_UNITY}")
+  math(EXPR size "(${count} + ${units} - 1) / ${units}")
+  set(first 0)
+  while(first LESS count)
+    list(SUBLIST ARGN ${first} ${size} files)
+    set_source_files_properties(${files} PROPERTIES UNITY_GROUP ${group}_${first})
+    math(EXPR first "${first} + ${size}")
+  endwhile()
 endfunction()

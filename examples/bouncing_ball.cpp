@@ -2,18 +2,17 @@
 // method.
 #include <saltus/models/bouncing_ball.hpp>
 
-#include "runner.hpp"
-
-using saltus::models::BouncingBallParameters;
+#include "runner/runner.hpp"
 
 int main(int argc, char** argv) {
-  const auto add = [](CLI::App& app, BouncingBallParameters& with) {
-    app.add_option("--g", with.g, "gravity [m/s^2]")->capture_default_str();
-    app.add_option("--e", with.e, "coefficient of restitution, 0 to 1")->capture_default_str();
-    app.add_option("--y0", with.y0, "height at the start [m]")->capture_default_str();
-    app.add_option("--v0", with.v0, "velocity at the start, upward [m/s]")->capture_default_str();
+  saltus::models::BouncingBallParameters with;
+  const std::vector<examples::Option> options{
+      {"--g", with.g, "gravity [m/s^2]"},
+      {"--e", with.e, "coefficient of restitution, 0 to 1"},
+      {"--y0", with.y0, "height at the start [m]"},
+      {"--v0", with.v0, "velocity at the start, upward [m/s]"},
   };
-  return examples::run(argc, argv, "bouncing_ball",
-                       "A bouncing ball as one leaf, against the closed form.", add,
-                       &saltus::models::bouncing_ball);
+  return examples::run(argc, argv,
+                       {"bouncing_ball", "A bouncing ball as one leaf, against the closed form."},
+                       options, with.t_end, [&] { return saltus::models::bouncing_ball(with); });
 }

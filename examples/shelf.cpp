@@ -1,7 +1,7 @@
 // The shelf: every ready scene by name, run once or as a report of error against run time.
 #include <saltus/models/shelf.hpp>
 
-#include "runner.hpp"
+#include "runner/command_line.hpp"
 
 namespace {
 

@@ -1,8 +1,9 @@
 // The four scenes of the tutorial "Bouncing Ball": first with the tutorial's own tolerances and
 // step bounds, then as error against run time without the bounds.
 #include <saltus/models/tutorial.hpp>
+#include <saltus/report/table.hpp>
 
-#include "runner.hpp"
+#include "runner/command_line.hpp"
 
 namespace {
 
