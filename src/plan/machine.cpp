@@ -146,11 +146,17 @@ void compute(const GuardCall& call, Arguments::OfState seen, double t, double* g
 
 }  // namespace
 
+void Machine::single_guard(int group, Seen seen, double t, double* g) const {
+  compute(calls_.guards[group], seen, t, g);
+  const Values values = seen.values();
+  for (const auto& [slot, place] : plan_->guards[group].reads) g[slot] = *values(place);
+}
+
 void Machine::guards_at(double t, const double* state, double* g) {
   ++guard_calls;
   const Seen seen = run(calls_.guard_needs, t, state);
   if (calls_.fused_guards) compute(*calls_.fused_guards, seen, t, g);
-  for (const int i : seen_.single()) compute(calls_.guards[i], seen, t, g);
+  for (const int i : seen_.single()) single_guard(i, seen, t, g);
 }
 
 void Machine::guards_of(std::span<const int> groups, double t, const double* state, double* g) {
@@ -162,7 +168,7 @@ void Machine::guards_of(std::span<const int> groups, double t, const double* sta
     if (calls_.fused_guards && plan_->walks.guards.fused[i])
       fused = true;
     else
-      compute(calls_.guards[i], seen, t, g);
+      single_guard(i, seen, t, g);
   }
   if (fused) compute(*calls_.fused_guards, seen, t, g);
 }

@@ -15,8 +15,8 @@ Contacts::Contacts(Machine& machine, const SimulatorOptions& options)
                   &later_, &slope_})
     v->setZero(machine.plan().nx);
   z_.setZero(machine.plan().nz);
-  g_.setOnes(machine.plan().guard_slots);
-  of_slot_.resize(machine.plan().guard_slots);
+  g_.setOnes(machine.plan().look_slots);
+  of_slot_.resize(machine.plan().look_slots);
   present_.reserve(of_slot_.size());
 }
 

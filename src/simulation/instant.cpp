@@ -178,6 +178,7 @@ void Instant::look_at_crossing(std::size_t k) {
 /// Arms all active guards for the solver. A guard at zero, or a guard that just fired, gets its
 /// side from the flow.
 void Instant::arm(bool at_start) {
+  guards_->see_reads(present_.g);
   for (const std::size_t k : guards_->active().all) {
     const Guard& guard = (*guards_)[k];
     guards_->g[k] = present_.g[k];

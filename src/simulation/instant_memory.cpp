@@ -12,7 +12,7 @@ Instant::Instant(Machine& machine, GuardSet& guards, const SimulatorOptions& opt
       guards_(&guards),
       options_(&options),
       scope_(machine.plan()),
-      present_(guards.all().size()),
+      present_(guards.g.size()),
       rows_(scope_, machine, guards, present_),
       transition_(machine),
       journal_(machine, transition_, options, results),

@@ -127,7 +127,7 @@ GuardTangent TangentFlow::guard(double t, const double* x, Index slot,
   const Index row = nth(row_of_slot_, slot), n = machine_->plan().nx;
   if (row >= 0) return exact_guard(t, x, row, columns);
   GuardTangent found{Eigen::VectorXd::Zero(n), 0.0, Eigen::RowVectorXd::Zero(columns.size())};
-  Eigen::VectorXd g(machine_->plan().guard_slots);
+  Eigen::VectorXd g(machine_->plan().look_slots);
   const auto along = [&](const TangentDirection& direction) {
     const auto read = [&](Machine& probe, double shift, double* out) {
       probe.guards_at(t + shift * direction.t, probe.x.data(), g.data());

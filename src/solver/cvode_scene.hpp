@@ -71,7 +71,7 @@ class CvodeScene {
   /// shown().
   void watch_guards(void* cvode) {
     if (std::ranges::all_of(guards_->all(), &Guard::monitor)) return;
-    directions_.resize(guards_->all().size()), asked_.resize(guards_->all().size());
+    directions_.resize(guards_->all().size()), asked_.resize(guards_->g.size());
     CVodeRootInit(cvode, static_cast<int>(directions_.size()), root_functions);
     CVodeSetNoInactiveRootWarn(cvode);
   }
@@ -135,10 +135,11 @@ class CvodeScene {
   static int root_functions(double t, N_Vector x, double* g, void* user) {
     auto* self = static_cast<CvodeScene*>(user);
     return self->guarded([&] {
-      self->machine_->guards(t, N_VGetArrayPointer(x), g);
-      std::copy_n(g, self->asked_.size(), self->asked_.data());
+      const double* asked = self->asked_.data();
+      self->machine_->guards(t, N_VGetArrayPointer(x), self->asked_.data());
       self->asked_at_ = t;
-      for (std::size_t k = 0; k < self->guards_->all().size(); ++k) g[k] = self->shown(k, t, g[k]);
+      for (std::size_t k = 0; k < self->guards_->all().size(); ++k)
+        g[k] = self->shown(k, t, asked[k]);
       return 0;
     });
   }

@@ -13,7 +13,7 @@ GuardSet::GuardSet(std::initializer_list<GuardTraits> guards) : g(guards.size(),
   }
 }
 
-GuardSet::GuardSet(const Plan& plan) : g(plan.guard_slots, 1.0) {
+GuardSet::GuardSet(const Plan& plan) : g(plan.look_slots, 1.0) {
   for (std::size_t i = 0; i < plan.guards.size(); ++i) {
     const GuardGroup& group = plan.guards[i];
     for (int entry = 0; entry < group.size; ++entry) {
@@ -44,6 +44,7 @@ void GuardSet::select(const std::vector<int>& groups, const Plan& plan) {
     const GuardGroup& group = plan.guards[i];
     for (Index s = group.slot; s < group.slot + group.size; ++s)
       active_.add(static_cast<std::size_t>(s), guards_[s]);
+    active_.add_reads(group);
   }
   for (Guard& guard : guards_) guard.was_active = std::exchange(guard.active, false);
   for (const std::size_t k : active_.all) {

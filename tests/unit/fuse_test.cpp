@@ -195,7 +195,7 @@ TEST_CASE("fused formulas give the bits of single calls, whatever they are put t
   const Context context = diagram.create_context();
   fused.load(context), single.load(context);
   std::mt19937 random(seed);
-  Eigen::VectorXd f(plan->nx), f1(plan->nx), g(plan->guard_slots), g1(plan->guard_slots);
+  Eigen::VectorXd f(plan->nx), f1(plan->nx), g(plan->look_slots), g1(plan->look_slots);
   g.setZero(), g1.setZero();
   for (int i = 0; i < 20; ++i) {
     const Eigen::VectorXd x = some(plan->nx, random);

@@ -82,3 +82,57 @@ TEST_CASE("only the guard that hides something in vain is left out", "[piece_jud
   for (int i = 0; i < thresholds::most_patience; ++i) judge.piece.begin_step(1);
   CHECK(judge.piece.hides(hidden));
 }
+
+/// One guard and, behind it, a value that it reads, which zigzags far from zero. The third difference
+/// is 4 times `size`, and as large a part of the range as it can be.
+struct SilentJudge {
+  explicit SilentJudge(bool rests = false) : guards{{.jumps = true}} {
+    located.add(0, 0);
+    GuardGroup group;
+    group.reads = {{.slot = 1}};
+    located.add_reads(group);
+    guards.arm(0, 1);
+    if (rests) guards.rest(0, 1, 0.0);
+  }
+  GuardSet guards;
+  LocatedGuards located;
+  PieceJudge piece{guards, located, 2};
+};
+
+TEST_CASE("what a guard reads counts while the guard is the same at two looks in a row",
+          "[piece_judge]") {
+  const Values constant{{1.0, 101.0}, {1.0, 102.0}, {1.0, 101.0}, {1.0, 102.0}};
+  const Values changed{{1.0, 101.0}, {1.0, 102.0}, {1.0, 101.0}, {-1.0, 102.0}};
+  const Values moves{{1.0, 101.0}, {2.0, 102.0}, {3.0, 101.0}, {4.0, 102.0}};
+  const Values known{{1.0, 109.0}, {1.0, 104.0}, {1.0, 101.0}, {1.0, 100.0}};  // a parabola
+  CHECK(SilentJudge().piece.hides(constant));
+  CHECK(SilentJudge().piece.hides(changed));
+  CHECK_FALSE(SilentJudge().piece.hides(moves));
+  CHECK_FALSE(SilentJudge().piece.hides(known));
+  CHECK_FALSE(SilentJudge(true).piece.hides(constant));
+}
+
+TEST_CASE("a sine that a silent guard reads is shown by thirty looks in a period",
+          "[piece_judge]") {
+  const auto hides = [](double looks) {
+    bool any = false;
+    for (double phase = 0.0; phase < 6.3; phase += 0.01) {
+      double values[4][2];
+      for (int i = 0; i < 4; ++i) {
+        values[i][0] = 1.0, values[i][1] = std::sin(phase + i * 2.0 * std::acos(-1.0) / looks);
+      }
+      const ThirdDifference bound(0.0, 1.0, 2.0, 3.0);
+      any = any || SilentJudge().piece.hides({values[0], values[1], values[2], values[3], bound});
+    }
+    return any;
+  };
+  CHECK(hides(15.0));
+  CHECK_FALSE(hides(60.0));
+}
+
+TEST_CASE("a value that is noise counts no more after a while", "[piece_judge]") {
+  const Values noise{{1.0, 101.0}, {1.0, 102.0}, {1.0, 101.0}, {1.0, 102.0}};
+  SilentJudge judge;
+  for (int i = 0; i <= thresholds::most_in_vain; ++i) judge.piece.note_in_vain(noise);
+  CHECK_FALSE(judge.piece.hides(noise));
+}

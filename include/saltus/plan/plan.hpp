@@ -55,6 +55,12 @@ struct PlanLeaf {
 };
 
 /// A vector of guards that one call computes.
+/// A value that a guard reads, beside the guards in the vector of looks.
+struct ReadSlot {
+  Index slot = 0;
+  Place place = {};  // one entry of a continuous signal
+};
+
 struct GuardGroup {
   enum class Kind { crossing, relation, opaque };
   Kind kind = Kind::crossing;
@@ -68,6 +74,7 @@ struct GuardGroup {
   std::string name = {};           // "block.guard"
   List<int> leaves = {};           // the blocks whose continuous state changes it
   std::vector<int> controls = {};  // nodes: it is seen while all of them are true
+  List<ReadSlot> reads = {};       // of a called guard: what it says nothing of while it is constant
 
   bool is_crossing() const { return kind == Kind::crossing; }
   bool is_opaque() const { return kind == Kind::opaque; }
@@ -146,6 +153,7 @@ struct Plan {
   } walks;  // derivatives with odes, and what guards need with the guards
 
   Index nx = 0, nz = 0, np = 0, ny = 0, guard_slots = 0;
+  Index look_slots = 0;  // the guards, and behind them the values that called guards read
 
   // These are made later than the plan, when somebody first needs them.
   std::shared_ptr<Kept<FlowSeries>> series;      ///< for the method `taylor`

@@ -97,7 +97,7 @@ def reader(
 
 
 def due(active: Any, condition: Condition, first: Sequence[Condition], now: dict[str, Any]) -> Any:
-    """The guard of a transition that is taken where a condition holds: true where it does.
+    """The guard of a transition that is taken where a condition holds: true, or not below zero.
 
     It is false in all other states, so that the pass that enters the state carries it across
     zero if the condition holds. A guard of that mode alone would wait then, if it has fired at the
@@ -106,8 +106,13 @@ def due(active: Any, condition: Condition, first: Sequence[Condition], now: dict
     """
     for other in first:
         active = np.logical_and(active, np.logical_not(other.holds(now)))
+    if condition.after is None:
+        return np.logical_and(active, condition.holds(now))
+    late = now["since"] - condition.after
     if condition.guard is None:
-        return np.where(active, now["since"] - condition.after, -1.0)
+        return np.where(active, late, -1.0)
+    if isinstance(late, float):  # called: the time in place of a truth says how near that is
+        return np.where(np.logical_and(active, condition.guard(now)), late, -1.0)
     return np.logical_and(active, condition.holds(now))
 
 

@@ -54,7 +54,7 @@ class Machine : public Memory {
     const VectorRef out(xdot, lone_ode_->size);
     (*lone_ode_->function)(*lone_ode_->system, arguments_.of(state).at(*lone_ode_, t), out);
   }
-  /// Evaluates all guards that can fire now, into their slots of g.
+  /// Evaluates all guards that can fire now, into their slots of g, which has Plan::look_slots.
   [[gnu::always_inline]] void guards(double t, const double* state, double* g) {
     if (lone_guard_ == nullptr || carrier_ != nullptr) return carried_guards(t, state, g);
     ++guard_calls;
@@ -159,6 +159,8 @@ class Machine : public Memory {
   void carried_derivative(double t, const double* state, double* xdot);
   void carried_guards(double t, const double* state, double* g);
   void ode_with_rest(const Call& ode, Seen seen, double t, double* xdot) const;
+  /// A group of guards that is not computed with others, and what it reads.
+  void single_guard(int group, Seen seen, double t, double* g) const;
 
   /// Makes calls at a state, and returns the arguments at this state for further calls.
   Seen run(const std::vector<OutputCall>& calls, double t, const double* state) {

@@ -47,7 +47,7 @@ class FlowProbe {
       : machine_(&machine), rtol_(options.rtol), atol_(options.atol), looks_(machine) {
     const Index n = machine.plan().nx;
     for (auto* v : {&f_, &f_disturbed_, &f1_, &x1_, &move_, &trial_}) v->setZero(n);
-    const Index slots = machine.plan().guard_slots;
+    const Index slots = machine.plan().look_slots;
     for (auto* v : {&g_, &g0_, &g_disturbed_}) v->setOnes(slots);
     looked_at_.assign(machine.plan().guards.size(), 0);
   }

@@ -16,7 +16,7 @@ class DipSearch : protected CrowdLocator {
  protected:
   DipSearch(Machine& machine, GuardSet& guards, const LocatedGuards& located)
       : CrowdLocator(machine, guards, located) {
-    beside_.assign(machine.plan().guard_slots, 1.0);
+    beside_.assign(machine.plan().look_slots, 1.0);
   }
 
   /// No guard fired at `to`: the offset of a dip at which a guard fires. If there is none, returns
@@ -51,7 +51,7 @@ class DipSearch : protected CrowdLocator {
   /// A guard dips between the last two looks, which only the look after them showed: the first of
   /// them is the last look again.
   void go_back(double& from) {
-    for (const std::size_t k : located_->slots) guards_->g[k] = earlier_[k];
+    for (const std::size_t k : located_->looked) guards_->g[k] = earlier_[k];
     from = std::exchange(earlier_at_, never), oldest_at_ = never;
   }
 

@@ -22,7 +22,7 @@ class Glance : protected Narrower {
 
   Glance(Machine& machine, GuardSet& guards, const LocatedGuards& located)
       : Narrower(machine, guards, located) {
-    const Index slots = machine.plan().guard_slots;
+    const Index slots = machine.plan().look_slots;
     for (auto* values : {&oldest_, &earlier_, &speed_}) values->assign(slots, 1.0);
     plain_.reserve(earlier_.size());
   }
@@ -61,7 +61,7 @@ class Glance : protected Narrower {
             sum > thresholds::speed_margin * (speed[k] * length)))
         return false;
     }
-    return true;
+    return !some_silent();
   }
 
   /// Whether no guard can have fired between the look at `from` and high_, at `to`: each guard is
@@ -99,7 +99,7 @@ class Glance : protected Narrower {
     const double* high = high_.data();
     double *last = guards_->g.data(), *speed = speed_.data(), *earlier = earlier_.data(),
            *oldest = oldest_.data();
-    for (const std::size_t k : located_->slots) {
+    for (const std::size_t k : located_->looked) {
       speed[k] = std::max(memory * speed[k], std::abs(high[k] - last[k]) / (to - from));
       oldest[k] = earlier[k], earlier[k] = last[k], last[k] = high[k];
     }
@@ -134,6 +134,20 @@ class Glance : protected Narrower {
       limits_[i] = guard.limits();
       plain_[i] = guard.plain_side();
     }
+    follow_reads();
+  }
+  void follow_reads() {
+    for (const LookedRead& read : located_->reads) guards_->g[read.slot] = high_[read.slot];
+  }
+
+  /// Whether a guard whose reads are looked at has not changed since the last look: how fast it
+  /// moved says nothing.
+  bool some_silent() const {
+    return std::ranges::any_of(located_->reads, [&](const LookedRead& read) {
+      for (std::size_t k = read.first_guard; k <= read.last_guard; ++k)
+        if (high_[k] == guards_->g[k]) return true;
+      return false;
+    });
   }
 
   List<double> earlier_, oldest_;  // guards at the look before the last, and at the one before

@@ -16,16 +16,31 @@
 
 namespace saltus {
 
+/// A value that some guards read, and the first and the last of these guards.
+struct LookedRead {
+  std::size_t slot, first_guard, last_guard;
+};
+
 /// Guards that are located together.
 struct LocatedGuards {
   std::vector<std::size_t> slots;
-  std::vector<int> groups;  ///< the groups of these slots, in the order of the plan
+  std::vector<int> groups;          ///< the groups of these slots, in the order of the plan
+  std::vector<LookedRead> reads;    ///< what called guards among them read
+  std::vector<std::size_t> looked;  ///< the slots of these guards and of what they read
 
   void add(std::size_t slot, int group) {
-    slots.push_back(slot);
+    slots.push_back(slot), looked.push_back(slot);
     if (groups.empty() || groups.back() != group) groups.push_back(group);
   }
-  void clear() { slots.clear(), groups.clear(); }
+  void add_reads(const GuardGroup& group) {
+    const auto first = static_cast<std::size_t>(group.slot);
+    for (const ReadSlot& read : group.reads) {
+      const auto slot = static_cast<std::size_t>(read.slot);
+      reads.push_back({slot, first, first + static_cast<std::size_t>(group.size) - 1});
+      looked.push_back(slot);
+    }
+  }
+  void clear() { slots.clear(), groups.clear(), reads.clear(), looked.clear(); }
 };
 
 /// The guards that can fire in the present modes: all, the guards that stop the solver, and the
@@ -38,6 +53,9 @@ struct ActiveGuards {
   void add(std::size_t slot, const GuardTraits& guard) {
     all.push_back(slot);
     (guard.monitor ? monitors : stopping).add(slot, guard.group);
+  }
+  void add_reads(const GuardGroup& group) {
+    (group.monitor ? monitors : stopping).add_reads(group);
   }
   void clear() { all.clear(), stopping.clear(), monitors.clear(); }
 };
@@ -95,6 +113,11 @@ class GuardSet {
     ++version_;
     g[k] = value;
     follow(k, value);
+  }
+  /// Notes the values that guards read.
+  void see_reads(const std::vector<double>& values) {
+    for (const LocatedGuards* located : {&active_.stopping, &active_.monitors})
+      for (const LookedRead& read : located->reads) g[read.slot] = values[read.slot];
   }
   void fired(std::size_t k, int from) { guards_[k].came_from = static_cast<signed char>(from); }
   /// Whether a relation keeps its truth from now on.

@@ -29,7 +29,7 @@ class Narrower {
  protected:
   Narrower(Machine& machine, GuardSet& guards, const LocatedGuards& located)
       : machine_(&machine), guards_(&guards), located_(&located), x_(machine.plan().nx) {
-    const Index slots = machine.plan().guard_slots;
+    const Index slots = machine.plan().look_slots;
     for (auto* values : {&low_, &high_, &middle_, &third_, &noise_, &jump_, &begun_})
       values->assign(slots, 1.0);
     crossed_.reserve(low_.size()), limits_.reserve(low_.size()), few_.reserve(low_.size());

@@ -19,9 +19,9 @@ namespace saltus {
 class PacedSearch : protected PieceSearch {
  protected:
   PacedSearch(Machine& machine, GuardSet& guards, const LocatedGuards& located)
-      : PieceSearch(machine, guards, located), judge_(guards, located, machine.plan().guard_slots) {
+      : PieceSearch(machine, guards, located), judge_(guards, located, machine.plan().look_slots) {
     for (auto* values : {&before_, &at_end_, &begin_.last, &begin_.earlier, &begin_.oldest})
-      values->assign(machine.plan().guard_slots, 1.0);
+      values->assign(machine.plan().look_slots, 1.0);
   }
 
   void begin_run() { pace_.begin_run(); }
@@ -33,7 +33,8 @@ class PacedSearch : protected PieceSearch {
     refines_ = scans() && even * thresholds::step_piece > thresholds::look_roundings * resolution;
     even_looks_ = 1;
     if (scans()) {
-      for (const std::size_t k : located_->slots) slow_down(k), judge_.begin_step(k), keep_looks(k);
+      for (const std::size_t k : located_->looked)
+        slow_down(k), judge_.begin_step(k), keep_looks(k);
     }
     if (!refines_) return;
     even_ = even, records_may_differ_ = false;
@@ -50,7 +51,7 @@ class PacedSearch : protected PieceSearch {
   template <class Interpolate>
   [[gnu::always_inline]] bool find_in_even(double from, double to, const double* end,
                                            const Interpolate& interpolate) {
-    if (is_clear(from, to)) {
+    if (is_clear(from, to) && !reads_hide(from, to)) {
       ++even_looks_;
       shift_all(from, to, 1.0);
       return false;
@@ -133,7 +134,7 @@ class PacedSearch : protected PieceSearch {
       const double third = from + thresholds::uneven * piece, last = from + 3.0 * piece;
       look(third, nullptr, interpolate, middle_);
       look(last, nullptr, interpolate, high_);
-      for (const std::size_t k : located_->slots) guards_->g[k] = middle_[k];  // no others
+      for (const std::size_t k : located_->looked) guards_->g[k] = middle_[k];  // no others
       const bool hidden =
           judge_.any(four_looks(third, last), [&](std::size_t k, const LookVariation& each) {
             return each.hides() || is_steep(k, each.range);
@@ -147,7 +148,7 @@ class PacedSearch : protected PieceSearch {
     begin_.last[k] = guards_->g[k], begin_.earlier[k] = earlier_[k], begin_.oldest[k] = oldest_[k];
   }
   void set_looks() {
-    for (const std::size_t k : located_->slots) {
+    for (const std::size_t k : located_->looked) {
       guards_->g[k] = begin_.last[k], earlier_[k] = begin_.earlier[k];
       oldest_[k] = begin_.oldest[k];
     }
@@ -180,6 +181,10 @@ class PacedSearch : protected PieceSearch {
   bool is_near(double from, double to) const { return to - from <= even_ * thresholds::step_piece; }
   [[gnu::always_inline]] bool hides(double from, double to) const {
     return has_four_looks() && judge_.hides(four_looks(from, to));
+  }
+  /// Whether guards that look clear are constant only, and what they read hides something.
+  [[gnu::always_inline]] bool reads_hide(double from, double to) const {
+    return !located_->reads.empty() && hides(from, to);
   }
 
   PieceJudge judge_;

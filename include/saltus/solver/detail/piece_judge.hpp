@@ -27,10 +27,22 @@ struct FourLooks {
             crosses ? 0.0 : std::min(std::abs(g2), std::abs(g3)),
             near && (g0 == g1) + (g1 == g2) + (g2 == g3) == 2};
   }
+  /// The same of a value that guards read. No place of it is known where they change, so it may do so
+  /// anywhere, and it has to be shown better than a guard.
+  LookVariation variation_of_read(std::size_t k) const {
+    LookVariation of = variation(k);
+    of.error *= thresholds::read_room, of.least = 0.0;
+    return of;
+  }
+  /// Whether a guard has not changed from one look to the next: it shows less than what it reads.
+  bool is_silent(std::size_t k) const {
+    return oldest[k] == earlier[k] || earlier[k] == last[k] || last[k] == high[k];
+  }
 };
 
 /// Judges a piece by the guards that are located together. A guard that jumps, or whose block is at
-/// rest, does not count: no distance of the looks shows more of it.
+/// rest, does not count: no distance of the looks shows more of it. What a guard reads counts in its
+/// place while it is silent.
 class PieceJudge {
  public:
   PieceJudge(const GuardSet& guards, const LocatedGuards& located, Index slots)
@@ -47,6 +59,8 @@ class PieceJudge {
   [[gnu::always_inline]] bool any(const FourLooks& looks, const Is& is) const {
     for (const std::size_t k : located_->slots)
       if (is(k, looks.variation(k)) && counts(k)) return true;
+    for (const LookedRead& read : located_->reads)
+      if (is(read.slot, looks.variation_of_read(read.slot)) && counts(read, looks)) return true;
     return false;
   }
   /// Whether some guard may have crossed zero where the looks do not show it.
@@ -61,16 +75,28 @@ class PieceJudge {
   void note_in_vain(const FourLooks& looks) {
     for (const std::size_t k : located_->slots)
       if (looks.variation(k).hides() && counts(k)) judged_[k].fail();
+    for (const LookedRead& read : located_->reads)
+      if (looks.variation_of_read(read.slot).hides() && counts(read, looks))
+        judged_[read.slot].fail();
   }
   /// A piece of near looks is not halved: notes which guards seem to be noise.
   void note_noise(const FourLooks& looks) {
     for (const std::size_t k : located_->slots) judged_[k].note(looks.variation(k).is_noise());
+    for (const LookedRead& read : located_->reads)
+      judged_[read.slot].note(looks.variation_of_read(read.slot).is_noise());
   }
 
  private:
   bool counts(std::size_t k) const {
     const Guard& guard = (*guards_)[k];
     return judged_[k].yes() && !guard.jumps && guard.phase != Phase::resting;
+  }
+  /// What guards read counts while one of them is silent, and its block not at rest.
+  bool counts(const LookedRead& read, const FourLooks& looks) const {
+    if (!judged_[read.slot].yes()) return false;
+    for (std::size_t k = read.first_guard; k <= read.last_guard; ++k)
+      if (looks.is_silent(k) && (*guards_)[k].phase != Phase::resting) return true;
+    return false;
   }
 
   const GuardSet* guards_;

@@ -18,7 +18,7 @@ class PieceSearch : protected FoundRoot {
  protected:
   PieceSearch(Machine& machine, GuardSet& guards, const LocatedGuards& located)
       : FoundRoot(machine, guards, located) {
-    for (auto* values : {&at_root_, &end_}) values->assign(machine.plan().guard_slots, 1.0);
+    for (auto* values : {&at_root_, &end_}) values->assign(machine.plan().look_slots, 1.0);
   }
 
   /// `find_in`, unless the looks at both ends show that nothing happens in between.

@@ -1,0 +1,91 @@
+// Guards that say only on which side they are: the looks at them follow what they read.
+#include "support/cases.hpp"
+#include "support/oscillator.hpp"
+
+using namespace saltus;
+using namespace support;
+
+namespace {
+
+const double pi = std::acos(-1.0);
+constexpr double end = 100.0;
+
+/// A guard of two values: +1 while the input is above the level.
+std::shared_ptr<Leaf> truth(double level, bool counts) {
+  return make_leaf("truth", [=](Leaf& l) {
+    const int in = l.declare_input_port({.name = "u", .shape = Shape::scalar()});
+    l.declare_discrete_state(vec({0.0}));
+    l.declare_zero_crossing(
+        {.name = "hit",
+         .guard = [=](const At& at) { return at.u[in][0] > level ? 1.0 : -1.0; },
+         .reset_map = counts ? ResetMap(count_up) : ResetMap()});
+  });
+}
+
+/// sin(w t + 0.4) without a state, or beside one whose steps are about a second.
+Diagram scene(double frequency, const std::shared_ptr<Leaf>& of, bool moves) {
+  DiagramBuilder builder;
+  auto& sine = builder.add<Sine>("sine", SineOptions{.frequency = frequency, .phase = 0.4});
+  builder.add(of);
+  builder.connect(sine.output(), of->input("u"));
+  if (moves) builder.add(make_leaf("beside", [](Leaf& l) { declare_oscillator(l); }));
+  return builder.build();
+}
+
+/// The times at which sin(w t + 0.4) is the level.
+std::vector<double> crossings(double frequency, double level) {
+  std::vector<double> times;
+  for (int k = -1; k < 300; ++k) {
+    for (const double angle : {std::asin(level), pi - std::asin(level)}) {
+      const double t = (angle + 2.0 * pi * k - 0.4) / frequency;
+      if (t > 0.0 && t <= end) times.push_back(t);
+    }
+  }
+  return times;
+}
+
+}  // namespace
+
+TEST_CASE("every change of a truth is found where the signal that it reads varies",
+          "[laws][guards]") {
+  const auto method = GENERATE(from_range(methods));
+  const double frequency = GENERATE(0.05, 1.0, 7.0), level = GENERATE(0.3, -0.9);
+  const bool counts = GENERATE(true, false), moves = GENERATE(false, true);
+  const Diagram diagram = scene(frequency, truth(level, counts), moves);
+  const auto results = simulate(diagram, diagram.create_context(), {0.0, end},
+                                {.ode_solver_method = method, .save_steps = false});
+  // The slope at a crossing is w sqrt(1 - level^2); the angle has some roundings of w t.
+  const double slope = frequency * std::sqrt(1.0 - level * level);
+  within(text("silent guard ", frequency, " ", level, moves ? "" : ", no state"), method,
+         worst(firing_times(results.events), crossings(frequency, level)),
+         8.0 * eps * (frequency * end) / slope + 200.0 * eps * end);
+}
+
+TEST_CASE("the time during which a function of a signal is true is the sum of its pieces",
+          "[laws][guards]") {
+  const auto method = GENERATE(from_range(methods));
+  const double frequency = GENERATE(0.05, 1.0, 7.0), level = GENERATE(0.3, -0.9);
+  DiagramBuilder builder;
+  auto& sine = builder.add<Sine>("sine", SineOptions{.frequency = frequency, .phase = 0.4});
+  auto& above = builder.add<FunctionBlock>("above", [=](double u) { return u > level; });
+  auto& rate = builder.add<FunctionBlock>("rate", [](double truth) { return truth; });
+  auto& x = builder.add<Integrator>("x", Integrator::Options{});
+  builder.connect(sine.output(), above.input());
+  builder.connect(above.output(), rate.input());
+  builder.connect(rate.output(), x.input());
+  const Diagram diagram = builder.build();
+  const auto results =
+      simulate(diagram, diagram.create_context(), {0.0, end}, {.ode_solver_method = method});
+  double true_for = 0.0, since = std::sin(0.4) > level ? 0.0 : end;
+  const std::vector<double> times = crossings(frequency, level);
+  for (const double t : times) {
+    const bool begins = std::cos(frequency * t + 0.4) > 0.0;
+    if (!begins) true_for += t - since;
+    since = begins ? t : end;
+  }
+  true_for += end - since;
+  // Each piece begins and ends within some roundings of the time, and the sum is rounded.
+  within(text("function of a sine ", frequency, " ", level), method,
+         std::abs(results.context.continuous_state()[0] - true_for),
+         static_cast<double>(times.size() + 1) * 200.0 * eps * end);
+}

@@ -1,0 +1,71 @@
+"""Called truths: the looks at them follow the signals that they read."""
+
+import numpy as np
+import pytest
+import saltus
+from saltus.library import FunctionBlock, Integrator, Sine, StateMachine, Transition
+
+END = 100.0
+
+
+def crossings(level, frequency=1.0):
+    """The times until END at which sin(w t) is the level."""
+    first = np.arcsin(level)
+    turns = 2.0 * np.pi * np.arange(-1, 1 + END * frequency / 6.0)
+    times = np.sort(np.concatenate([turns + first, turns + np.pi - first])) / frequency
+    return times[(times > 0.0) & (times < END)]
+
+
+class Truth(saltus.LeafSystem):
+    """Logs when its input crosses a level, by a function that returns a truth."""
+
+    def __init__(self, level, counts):
+        super().__init__(name="truth")
+        self.declare_input_port("u")
+        self.declare_discrete_state([0.0])
+        self.declare_zero_crossing(
+            lambda t, s, u: u > level,
+            reset_map=(lambda t, s, u: s.with_discrete_state(s.discrete_state + 1.0))
+            if counts
+            else None,
+            name="hit",
+        )
+
+
+def diagram(*blocks):
+    builder = saltus.DiagramBuilder()
+    builder.add(*blocks)
+    for source, target in zip(blocks, blocks[1:], strict=False):
+        builder.connect(source.output(), target.input())
+    return builder.build()
+
+
+@pytest.mark.parametrize("counts", [True, False])
+@pytest.mark.parametrize("level", [0.3, -0.9])
+def test_every_change_of_a_called_truth_is_found(level, counts):
+    results = saltus.simulate(diagram(Sine(), Truth(level, counts)), (0.0, END), python="called")
+    times = crossings(level)
+    # The angle has some roundings of t, and the slope is sqrt(1 - level^2).
+    assert results.events.times("truth.hit") == pytest.approx(times, abs=1e-12)
+
+
+def test_a_machine_whose_conditions_are_called():
+    ways = [
+        Transition("low", "high", guard=lambda u: u > 0.3),
+        Transition("high", "low", guard=lambda u: u < 0.3),
+    ]
+    machine = StateMachine(["low", "high"], ways, inputs=["u"])
+    results = saltus.simulate(diagram(Sine(), machine), (0.0, END), python="called")
+    found = [event.time for event in results.events if event.name != "start"]
+    assert found == pytest.approx(crossings(0.3), abs=1e-12)
+
+
+def test_the_time_during_which_a_called_function_is_true():
+    above = FunctionBlock(lambda u: u > 0.3, name="above")
+    rate = FunctionBlock(lambda truth: float(truth), name="rate")
+    results = saltus.simulate(
+        diagram(Sine(), above, rate, Integrator(0.0)), (0.0, END), python="called"
+    )
+    times = crossings(0.3)  # true from an even one to the next
+    expected = np.sum(times[1::2] - times[::2])
+    assert results.context.continuous_state[0] == pytest.approx(expected, abs=1e-11)
