@@ -10,7 +10,6 @@
 #include "saltus/plan/detail/flow_series.hpp"
 #include "saltus/plan/detail/fuse.hpp"
 #include "saltus/plan/detail/kept.hpp"
-#include "saltus/plan/detail/leaf_function.hpp"
 #include "saltus/plan/detail/needs.hpp"
 #include "saltus/plan/detail/order.hpp"
 #include "saltus/plan/detail/passes.hpp"
@@ -154,26 +153,6 @@ void add_guards(Plan& plan) {
                .size = node.shape.size,
                .name = plan.name_of(node)},
               node.needs);
-  }
-}
-
-/// The entries of a continuous signal that is computed. A view of a state has none: the steps show it.
-void add_entries(List<ReadSlot>& reads, const Node& node, Index& slot) {
-  if (node.rate != Rate::continuous || node.view || node.located) return;
-  for (Index k = 0; k < node.place.size; ++k)
-    reads.push_back({slot++, {node.place.space, node.place.offset + k, 1}});
-}
-
-/// A formula says how it varies; what a called guard reads is looked at with it.
-void add_reads_of_guards(Plan& plan) {
-  const List<char>& fused = plan.walks.guards.fused;
-  plan.look_slots = plan.guard_slots;
-  for (std::size_t i = 0; i < plan.guards.size(); ++i) {
-    GuardGroup& group = plan.guards[i];
-    if (!fused.empty() && fused[i]) continue;
-    const std::vector<int> nodes =
-        group.is_crossing() ? nodes_of_guard(plan, group) : plan.node(group.index).needs;
-    for (const int node : nodes) add_entries(group.reads, plan.node(node), plan.look_slots);
   }
 }
 

@@ -10,6 +10,10 @@ namespace saltus::detail {
 /// The passes that may refuse a plan. They find the shape and the rate of every signal.
 Roots find_shapes_and_rates(Plan& plan);
 
+/// Gives each guard that is called the continuous signals that it reads: while it is constant, they
+/// choose the distance of the looks. A formula says by itself how it varies.
+void add_reads_of_guards(Plan& plan);
+
 /// The other passes: needs, guards, edges, schedule, fused formulas.
 std::shared_ptr<const Plan> completed(Plan plan, const Roots& roots);
 
