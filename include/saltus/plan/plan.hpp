@@ -74,7 +74,7 @@ struct GuardGroup {
   std::string name = {};           // "block.guard"
   List<int> leaves = {};           // the blocks whose continuous state changes it
   std::vector<int> controls = {};  // nodes: it is seen while all of them are true
-  List<ReadSlot> reads = {};       // of a called guard: what it says nothing of while it is constant
+  List<ReadSlot> reads = {};  // of a called guard: what it says nothing of while it is constant
 
   bool is_crossing() const { return kind == Kind::crossing; }
   bool is_opaque() const { return kind == Kind::opaque; }
