@@ -17,12 +17,9 @@ SOME = re.compile(r"^test cases: *(\d+) \|(?: *(\d+) passed \|)? *(\d+) failed",
 def cases(test: tree.Element) -> tuple[int, int]:
     """Passed and failed cases of one test; a test that printed no number of cases is one case."""
     said = test.findtext("system-out") or ""
-    failed = test.get("status") == "fail" or any(
-        test.find(end) is not None for end in ("failure", "error")
-    )
     if test.find("skipped") is not None:
         return 0, 0
-    if not failed:
+    if test.find("failure") is None and test.find("error") is None:
         every = ALL.search(said)
         return (int(every[1]) if every else 1), 0
     some = SOME.search(said)

@@ -2,6 +2,7 @@
 // each pair of crossings is found.
 #include "support/cases.hpp"
 #include "support/oscillator.hpp"
+#include "support/sine.hpp"
 
 using namespace saltus;
 using namespace support;
@@ -24,19 +25,6 @@ std::shared_ptr<Leaf> oscillator(double frequency, double level, bool counts) {
   });
 }
 
-/// The times at which sin(w t + 0.4) is the level.
-std::vector<double> crossings(double frequency, double level) {
-  const double first = std::asin(level);
-  std::vector<double> times;
-  for (int k = -1; k < 300; ++k) {
-    for (const double angle : {first, pi - first}) {
-      const double t = (angle + 2.0 * pi * k - 0.4) / frequency;
-      if (t > 0.0 && t <= end) times.push_back(t);
-    }
-  }
-  return times;
-}
-
 }  // namespace
 
 TEST_CASE("every crossing of a guard that is faster than the state is found", "[laws][guards]") {
@@ -50,7 +38,7 @@ TEST_CASE("every crossing of a guard that is faster than the state is found", "[
     // The slope at a crossing is w sqrt(1 - level^2); the angle has some roundings of 720.
     const double slope = frequency * std::sqrt(1.0 - level * level);
     within(text("fast guard ", frequency, " ", level, " ", rtol, counts ? "" : ", monitor"), method,
-           worst(firing_times(results.events), crossings(frequency, level)),
+           worst(firing_times(results.events), sine_crossings(frequency, level, end)),
            8.0 * eps * (frequency * end) / slope + 200.0 * eps * end);
   }
 }
@@ -99,7 +87,7 @@ TEST_CASE("a guard that no look resolves does not end the looks at the others", 
                                 {.rtol = 1e-6, .atol = 1e-8, .ode_solver_method = method});
   const double slope = 17.0 * std::sqrt(0.75);
   within("fast guard beside noise", method,
-         worst(firing_times(results.events), crossings(17.0, 0.5)),
+         worst(firing_times(results.events), sine_crossings(17.0, 0.5, end)),
          8.0 * eps * (17.0 * end) / slope + 200.0 * eps * end);
 }
 
@@ -118,6 +106,6 @@ TEST_CASE("a first step of many periods shows all crossings", "[laws][guards]") 
   const auto results = simulate(*leaf, leaf->create_context(), {0.0, end}, options);
   const double slope = frequency * std::sqrt(1.0 - level * level);
   within(text("long first step ", frequency, " ", level), method,
-         worst(firing_times(results.events), crossings(frequency, level)),
+         worst(firing_times(results.events), sine_crossings(frequency, level, end)),
          8.0 * eps * (frequency * end) / slope + 200.0 * eps * end);
 }

@@ -1,13 +1,13 @@
 // Guards that say only on which side they are: the looks at them follow what they read.
 #include "support/cases.hpp"
 #include "support/oscillator.hpp"
+#include "support/sine.hpp"
 
 using namespace saltus;
 using namespace support;
 
 namespace {
 
-const double pi = std::acos(-1.0);
 constexpr double end = 100.0;
 
 /// A guard of two values: +1 while the input is above the level.
@@ -32,18 +32,6 @@ Diagram scene(double frequency, const std::shared_ptr<Leaf>& of, bool moves) {
   return builder.build();
 }
 
-/// The times at which sin(w t + 0.4) is the level.
-std::vector<double> crossings(double frequency, double level) {
-  std::vector<double> times;
-  for (int k = -1; k < 300; ++k) {
-    for (const double angle : {std::asin(level), pi - std::asin(level)}) {
-      const double t = (angle + 2.0 * pi * k - 0.4) / frequency;
-      if (t > 0.0 && t <= end) times.push_back(t);
-    }
-  }
-  return times;
-}
-
 }  // namespace
 
 TEST_CASE("every change of a truth is found where the signal that it reads varies",
@@ -57,7 +45,7 @@ TEST_CASE("every change of a truth is found where the signal that it reads varie
   // The slope at a crossing is w sqrt(1 - level^2); the angle has some roundings of w t.
   const double slope = frequency * std::sqrt(1.0 - level * level);
   within(text("silent guard ", frequency, " ", level, moves ? "" : ", no state"), method,
-         worst(firing_times(results.events), crossings(frequency, level)),
+         worst(firing_times(results.events), sine_crossings(frequency, level, end)),
          8.0 * eps * (frequency * end) / slope + 200.0 * eps * end);
 }
 
@@ -77,7 +65,7 @@ TEST_CASE("the time during which a function of a signal is true is the sum of it
   const auto results =
       simulate(diagram, diagram.create_context(), {0.0, end}, {.ode_solver_method = method});
   double true_for = 0.0, since = std::sin(0.4) > level ? 0.0 : end;
-  const std::vector<double> times = crossings(frequency, level);
+  const std::vector<double> times = sine_crossings(frequency, level, end);
   for (const double t : times) {
     const bool begins = std::cos(frequency * t + 0.4) > 0.0;
     if (!begins) true_for += t - since;

@@ -83,8 +83,7 @@ TEST_CASE("only the guard that hides something in vain is left out", "[piece_jud
   CHECK(judge.piece.hides(hidden));
 }
 
-/// One guard and, behind it, a value that it reads, which zigzags far from zero. The third difference
-/// is 4 times `size`, and as large a part of the range as it can be.
+/// A guard and, behind it, a value that it reads.
 struct SilentJudge {
   explicit SilentJudge(bool rests = false) : guards{{.jumps = true}} {
     located.add(0, 0);

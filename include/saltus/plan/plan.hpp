@@ -54,13 +54,13 @@ struct PlanLeaf {
   const Declarations& declared() const { return *declarations; }
 };
 
-/// A vector of guards that one call computes.
 /// A value that a guard reads, beside the guards in the vector of looks.
 struct ReadSlot {
   Index slot = 0;
   Place place = {};  // one entry of a continuous signal
 };
 
+/// A vector of guards that one call computes.
 struct GuardGroup {
   enum class Kind { crossing, relation, opaque };
   Kind kind = Kind::crossing;

@@ -37,7 +37,7 @@ class FoundRoot : protected DipSearch {
       // A guard exactly on zero takes the side to which it leaves.
       if (guard.phase != Phase::resting && guard.crossed(high_[k])) guards_->leave_to(k, 0);
     }
-    for (const LookedRead& read : located_->reads) guards_->g[read.slot] = high_[read.slot];
+    follow_reads();
     stops ? forget_guards() : look_up_guards();
     return stops;
   }

@@ -136,6 +136,7 @@ class Glance : protected Narrower {
     }
     follow_reads();
   }
+  /// What guards read at high_ is what they read at the last look.
   void follow_reads() {
     for (const LookedRead& read : located_->reads) guards_->g[read.slot] = high_[read.slot];
   }

@@ -83,7 +83,7 @@ inline constexpr double hidden_share = 1.0 / 32.0;
 /// twice: both have this room, and a factor of two. tests/unit/look_pace_test.cpp
 inline constexpr double growth_room = 64.0, slow_share = 1.0 / 16.0;
 /// [1] How much better than a guard a value has to be shown that a silent guard reads: there are 30
-/// looks in a period of a sine. tests/laws/silent_guards_test.cpp
+/// looks in a period of a sine. tests/unit/piece_judge_test.cpp
 inline constexpr double read_room = 16.0;
 /// [of an evenly spaced piece] A shorter piece is not halved: of a guard with a million periods in a
 /// step each crossing is found. tests/unit/look_pace_test.cpp
