@@ -5,6 +5,7 @@
 
 #include "expressions.hpp"
 #include "saltus/plan/detail/needs.hpp"
+#include "saltus/plan/detail/passes.hpp"
 #include "saltus/tape/tape.hpp"
 
 namespace saltus::detail {
@@ -194,6 +195,7 @@ std::vector<Sink> guards_of(const Plan& plan) {
       if (node.relation) sink.formula = fusible(plan.relation_of(node).formula, group.size);
       sink.needs = node.needs;
     }
+    if (sink.formula == nullptr) append(sink.needs, signals_behind(plan, sink.needs));  // stored
     sinks.push_back(std::move(sink));
   }
   return sinks;

@@ -49,6 +49,15 @@ def test_every_change_of_a_called_truth_is_found(level, counts):
     assert results.events.times("truth.hit") == pytest.approx(times, abs=1e-12)
 
 
+@pytest.mark.parametrize("python", ["called", "traced"])
+def test_a_truth_of_a_signal_that_is_constant_in_pieces(python):
+    """floor(5 u) > 0.3 where u >= 0.2."""
+    stairs = FunctionBlock(lambda u: np.floor(5.0 * u), name="stairs")
+    levels = Truth(0.3, False)
+    results = saltus.simulate(diagram(Sine(), stairs, levels), (0.0, END), python=python)
+    assert results.events.times("truth.hit") == pytest.approx(crossings(0.2), abs=1e-12)
+
+
 def test_a_machine_whose_conditions_are_called():
     ways = [
         Transition("low", "high", guard=lambda u: u > 0.3),
