@@ -262,8 +262,8 @@ std::shared_ptr<const Plan> detail::completed(Plan plan, const Roots& roots) {
   add_guards(plan);
   add_edges(plan);
   add_schedule(plan);
-  fuse(plan);
   add_reads_of_guards(plan);
+  fuse(plan);
   plan.series = std::make_shared<Kept<FlowSeries>>();
   plan.divisors = std::make_shared<Kept<FlowDivisors>>();
   return std::make_shared<const Plan>(std::move(plan));

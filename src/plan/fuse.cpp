@@ -4,22 +4,13 @@
 #include <utility>
 
 #include "expressions.hpp"
+#include "fusible.hpp"
 #include "saltus/plan/detail/needs.hpp"
-#include "saltus/plan/detail/passes.hpp"
 #include "saltus/tape/tape.hpp"
 
 namespace saltus::detail {
 
 namespace {
-
-/// A wider signal is not fused, because its numbers cost more than the call, and a call computes
-/// them side by side.
-constexpr Index widest = 16;
-
-/// The formula, if it may be joined with others and is narrow enough; otherwise null.
-const Formula* fusible(const Formula& formula, Index size) {
-  return formula && formula.joins() && size <= widest ? &formula : nullptr;
-}
 
 /// A consumer at the end of a list: an ode or a group of guards.
 struct Sink {
@@ -27,6 +18,7 @@ struct Sink {
   const Formula* formula = nullptr;  // null: the sink stays a call
   Index to = 0, size = 0;            // in xdot, or in the vector of guards
   std::vector<int> needs = {};
+  std::vector<int> stored = {};  // nodes that are looked at with it
 };
 
 /// The values of a stage and their places. `first` has an entry for each node; the writers of all
@@ -81,6 +73,7 @@ class Stages {
     }
     for (const Sink& sink : sinks_) {
       if (sink.formula == nullptr) settle(sink.needs, stages_ - 1);
+      settle(sink.stored, stages_ - 1);
     }
     for (auto i = list_.rbegin(); i != list_.rend(); ++i) settle(plan_.node(*i).needs, stage(*i));
   }
@@ -153,7 +146,10 @@ class Stages {
         if (stage(need) != reader) kept[need] = 1;
     };
     for (const int i : list_) keep(plan_.node(i).needs, fuses(i) ? stage(i) : absent);
-    for (const Sink& sink : sinks_) keep(sink.needs, sink.formula != nullptr ? stages_ : absent);
+    for (const Sink& sink : sinks_) {
+      keep(sink.needs, sink.formula != nullptr ? stages_ : absent);
+      for (const int i : sink.stored) kept[i] = 1;
+    }
     return kept;
   }
 
@@ -195,7 +191,7 @@ std::vector<Sink> guards_of(const Plan& plan) {
       if (node.relation) sink.formula = fusible(plan.relation_of(node).formula, group.size);
       sink.needs = node.needs;
     }
-    if (sink.formula == nullptr) append(sink.needs, signals_behind(plan, sink.needs));  // stored
+    for (const ReadSlot& read : group.reads) sink.stored.push_back(read.node);
     sinks.push_back(std::move(sink));
   }
   return sinks;

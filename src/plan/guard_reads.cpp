@@ -1,36 +1,29 @@
-// The signals behind called guards, which are looked at with them.
+// The signals behind guards that may be constant, which are looked at with them.
 #include <algorithm>
 #include <vector>
 
 #include "saltus/plan/detail/leaf_function.hpp"
+#include "saltus/plan/detail/needs.hpp"
 #include "saltus/plan/detail/passes.hpp"
+#include "stepwise.hpp"
 
 namespace saltus {
 
 namespace {
 
+using detail::Stepwise, detail::append;
+
 /// [values] Of more than the nearest of them, many guards of one large diagram would take the product of
 /// both numbers.
 constexpr std::size_t most_reads = 32;
-
-/// The nearest entries of some signals. A view of a state has none: the steps show it.
-std::vector<Place> entries_of(const Plan& plan, const std::vector<int>& nodes) {
-  std::vector<Place> places;
-  for (const int i : nodes) {
-    const Place& all = plan.node(i).place;
-    for (Index k = 0; !plan.node(i).view && k < all.size && places.size() < most_reads; ++k)
-      places.push_back({all.space, all.offset + k, 1});
-  }
-  return places;
-}
 
 std::vector<int> nodes_read(const Plan& plan, const GuardGroup& group) {
   return group.is_crossing() ? nodes_of_guard(plan, group) : plan.node(group.index).needs;
 }
 
-}  // namespace
-
-std::vector<int> detail::signals_behind(const Plan& plan, const std::vector<int>& nodes) {
+/// The continuous signals among these nodes, and those from which they are computed, the nearest
+/// first.
+std::vector<int> signals_behind(const Plan& plan, const std::vector<int>& nodes) {
   std::vector<int> found;
   const auto add = [&](const std::vector<int>& more) {
     for (const int i : more) {
@@ -44,15 +37,34 @@ std::vector<int> detail::signals_behind(const Plan& plan, const std::vector<int>
   return found;
 }
 
-void detail::add_reads_of_guards(Plan& plan) {
-  const List<char>& fused = plan.walks.guards.fused;
-  plan.look_slots = plan.guard_slots;
-  for (std::size_t i = 0; i < plan.guards.size(); ++i) {
-    GuardGroup& group = plan.guards[i];
-    if (!fused.empty() && fused[i]) continue;
-    for (const Place& place : entries_of(plan, signals_behind(plan, nodes_read(plan, group))))
-      group.reads.push_back({plan.look_slots++, place});
+/// The signals that may vary while the guard is constant: those behind a function that is constant in
+/// pieces, be it the guard or a function that it reads.
+std::vector<int> hidden_behind(const Plan& plan, Stepwise& stepwise, const GuardGroup& group) {
+  const std::vector<int> nodes = nodes_read(plan, group);
+  if (stepwise.is_guard(group)) return signals_behind(plan, nodes);
+  std::vector<int> hidden;
+  for (const int i : signals_behind(plan, nodes))
+    if (stepwise.is_node(i)) append(hidden, plan.node(i).needs);
+  return signals_behind(plan, hidden);
+}
+
+/// Adds the nearest entries of some signals. A view of a state has none: the steps show it.
+void add_reads(const Plan& plan, const std::vector<int>& signals, List<ReadSlot>& reads,
+               Index& slot) {
+  for (const int i : signals) {
+    const Place& all = plan.node(i).place;
+    for (Index k = 0; !plan.node(i).view && k < all.size && reads.size() < most_reads; ++k)
+      reads.push_back({slot++, {all.space, all.offset + k, 1}, i});
   }
+}
+
+}  // namespace
+
+void detail::add_reads_of_guards(Plan& plan) {
+  Stepwise stepwise(plan);
+  plan.look_slots = plan.guard_slots;
+  for (GuardGroup& group : plan.guards)
+    add_reads(plan, hidden_behind(plan, stepwise, group), group.reads, plan.look_slots);
 }
 
 }  // namespace saltus

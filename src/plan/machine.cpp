@@ -146,17 +146,18 @@ void compute(const GuardCall& call, Arguments::OfState seen, double t, double* g
 
 }  // namespace
 
-void Machine::single_guard(int group, Seen seen, double t, double* g) const {
-  compute(calls_.guards[group], seen, t, g);
+/// Copies the values that are looked at with a group of guards.
+void Machine::copy_reads(int group, Seen seen, double* g) const {
   const Values values = seen.values();
-  for (const auto& [slot, place] : plan_->guards[group].reads) g[slot] = *values(place);
+  for (const ReadSlot& read : plan_->guards[group].reads) g[read.slot] = *values(read.place);
 }
 
 void Machine::guards_at(double t, const double* state, double* g) {
   ++guard_calls;
   const Seen seen = run(calls_.guard_needs, t, state);
   if (calls_.fused_guards) compute(*calls_.fused_guards, seen, t, g);
-  for (const int i : seen_.single()) single_guard(i, seen, t, g);
+  for (const int i : seen_.single()) compute(calls_.guards[i], seen, t, g);
+  for (const int i : seen_.looked()) copy_reads(i, seen, g);
 }
 
 void Machine::guards_of(std::span<const int> groups, double t, const double* state, double* g) {
@@ -168,9 +169,10 @@ void Machine::guards_of(std::span<const int> groups, double t, const double* sta
     if (calls_.fused_guards && plan_->walks.guards.fused[i])
       fused = true;
     else
-      single_guard(i, seen, t, g);
+      compute(calls_.guards[i], seen, t, g);
   }
   if (fused) compute(*calls_.fused_guards, seen, t, g);
+  for (const int i : groups) copy_reads(i, seen, g);
 }
 
 Context Memory::save(const Context& like, double t,

@@ -4,12 +4,13 @@ namespace saltus {
 
 void SeenGuards::select(bool fuses) {
   const Plan& plan = memory_->plan();
-  controls_.clear(), groups_.clear(), single_.clear();
+  controls_.clear(), groups_.clear(), single_.clear(), looked_.clear();
   for (const int control : plan.controls) controls_.push_back(memory_->truth(control));
   for (std::size_t i = 0; i < plan.guards.size(); ++i) {
     if (!is_seen(plan.guards[i], *memory_)) continue;
     groups_.push_back(static_cast<int>(i));
     if (!fuses || !plan.walks.guards.fused[i]) single_.push_back(static_cast<int>(i));
+    if (!plan.guards[i].reads.empty()) looked_.push_back(static_cast<int>(i));
   }
 }
 

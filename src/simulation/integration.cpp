@@ -34,14 +34,14 @@ void Integration::make() {
 }
 
 void Integration::begin() {
-  started_ = false;
+  started_ = behind_ = false;
   inside_ = machine_->x;
 }
 
 void Integration::start(double t) {
   if (!solver_) make();
   solver_->restart(t, machine_->x, {.first = true});
-  started_ = true;
+  started_ = true, behind_ = false;
 }
 
 void Integration::take_state(double t) {

@@ -49,6 +49,31 @@ TEST_CASE("every change of a truth is found where the signal that it reads varie
          8.0 * eps * (frequency * end) / slope + 200.0 * eps * end);
 }
 
+TEST_CASE("every change of a formula is found where it reads a function that is constant in pieces",
+          "[laws][guards]") {
+  const auto method = GENERATE(from_range(methods));
+  const double level = GENERATE(0.3, -0.9);
+  const bool formula = GENERATE(false, true);
+  DiagramBuilder builder;
+  auto& sine = builder.add<Sine>("sine", SineOptions{.phase = 0.4});
+  auto& sign =
+      formula
+          ? builder.add<FunctionBlock>(
+                "sign", Formula([=](const auto& at) { return 2.0 * (at.u(0) > level) - 1.0; }))
+          : builder.add<FunctionBlock>("sign", [=](double u) { return u > level ? 1.0 : -1.0; });
+  auto& port = builder.add<ControlPort>("port");
+  auto& x = builder.add<Integrator>("x", Integrator::Options{});
+  builder.connect(sine.output(), sign.input());
+  builder.connect(sign.output(), port.input());
+  builder.connect(port.output(), x.input());
+  const Diagram diagram = builder.build();
+  const auto results = simulate(diagram, diagram.create_context(), {0.0, end},
+                                {.ode_solver_method = method, .save_steps = false});
+  within(text("formula behind a sign ", level, formula ? ", formula" : ""), method,
+         worst(firing_times(results.events), sine_crossings(1.0, level, end)),
+         8.0 * eps * end / std::sqrt(1.0 - level * level) + 200.0 * eps * end);
+}
+
 TEST_CASE("the time during which a function of a signal is true is the sum of its pieces",
           "[laws][guards]") {
   const auto method = GENERATE(from_range(methods));

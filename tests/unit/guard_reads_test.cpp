@@ -24,6 +24,36 @@ Index reads(const std::shared_ptr<Source>& source, Index size = 1) {
   return plan->look_slots - plan->guard_slots;
 }
 
+std::shared_ptr<LeafSystem> called_reader() {
+  return make_leaf("reader", [](Leaf& l) {
+    const int in = l.declare_input_port({.name = "u", .shape = Shape::scalar()});
+    l.declare_zero_crossing({.name = "hit", .guard = [=](const At& at) { return at.u[in][0]; }});
+  });
+}
+
+std::shared_ptr<LeafSystem> called_stairs() {
+  return std::make_shared<FunctionBlock>("stairs", [](double u) { return std::floor(5.0 * u); });
+}
+
+/// The slots behind the guard of a reader that reads a function of a sine.
+Index reads_behind(const std::shared_ptr<LeafSystem>& function,
+                   const std::shared_ptr<LeafSystem>& reader) {
+  DiagramBuilder builder;
+  auto& sine = builder.add<Sine>("sine", SineOptions{});
+  // Its derivative has the guard of a control port located.
+  auto& x = builder.add<Integrator>("x", Integrator::Options{});
+  builder.add(function), builder.add(reader);
+  builder.connect(sine.output(), function->input());
+  builder.connect(function->output(), reader->input());
+  if (!reader->output_names().empty())
+    builder.connect(reader->output(), x.input());
+  else
+    builder.connect(sine.output(), x.input());
+  const Diagram diagram = builder.build();
+  const auto plan = compile(diagram);
+  return plan->look_slots - plan->guard_slots;
+}
+
 /// A continuous vector.
 std::shared_ptr<Leaf> waves(Index size) {
   return make_leaf("waves", [=](Leaf& l) {
@@ -41,19 +71,17 @@ TEST_CASE("a called guard has the values that vary by themselves", "[plan]") {
 }
 
 TEST_CASE("it has what these are computed from, too", "[plan]") {
-  DiagramBuilder builder;
-  auto& sine = builder.add<Sine>("sine", SineOptions{});
-  auto& stairs = builder.add<FunctionBlock>("stairs", [](double u) { return std::floor(5.0 * u); });
-  const auto guard = make_leaf("reader", [](Leaf& l) {
-    const int in = l.declare_input_port({.name = "u", .shape = Shape::scalar()});
-    l.declare_zero_crossing({.name = "hit", .guard = [=](const At& at) { return at.u[in][0]; }});
-  });
-  builder.add(guard);
-  builder.connect(sine.output(), stairs.input());
-  builder.connect(stairs.output(), guard->input());
-  const Diagram diagram = builder.build();
-  const auto plan = compile(diagram);
-  CHECK(plan->look_slots - plan->guard_slots == 2);
+  CHECK(reads_behind(called_stairs(), called_reader()) == 2);
+}
+
+TEST_CASE("a formula has what is behind a function that may be constant", "[plan]") {
+  const auto formula = std::make_shared<ControlPort>("port");
+  const auto smooth = std::make_shared<Gain>("gain", 2.0);
+  const auto sign = std::make_shared<FunctionBlock>(
+      "sign", Formula([](const auto& at) { return 2.0 * (at.u(0) > 0.0) - 1.0; }));
+  CHECK(reads_behind(called_stairs(), formula) == 1);
+  CHECK(reads_behind(sign, formula) == 1);
+  CHECK(reads_behind(smooth, formula) == 0);
 }
 
 TEST_CASE("it has no states, no held signals, and 32 values at most", "[plan]") {

@@ -3,6 +3,7 @@
 #include "library_runs.hpp"
 #include "saltus/simulation/evaluate.hpp"
 #include "support/balls.hpp"
+#include "support/leaves.hpp"
 
 using namespace saltus;
 using namespace library_test;
@@ -126,6 +127,35 @@ TEST_CASE("a guard is not seen while its subsystem is not enabled", "[library]")
       CHECK(off.cwiseAbs().maxCoeff() < 100.0 * solver_tolerance);
     }
   }
+}
+
+/// Without a state no solver is at work while no guard is seen, so the search begins anew after that.
+TEST_CASE("guards of a subsystem without states fire at their times", "[library]") {
+  const auto crossing = std::make_shared<support::Leaf>("crossing", [](support::Leaf& l) {
+    const int in = l.declare_input_port({.name = "in", .shape = Shape::scalar()});
+    l.declare_zero_crossing({.name = "hit", .guard = [=](const At& at) { return at.u[in][0]; }});
+    l.declare_output_port({.name = "out",
+                           .calc = [](const At&, VectorRef y) { y.setZero(); },
+                           .shape = Shape::scalar(),
+                           .reads = Reads::time});
+  });
+  DiagramBuilder inner;
+  inner.add(crossing);
+  inner.export_input(crossing->input(), "in");
+  inner.export_output(crossing->output(), "out");
+  const auto pulse = [](DiagramBuilder& b) -> System& {
+    return b.add<Pulse>("pulse", PulseOptions{.period = 20.0});
+  };
+  const Driven scene(enabled_subsystem("sub", shared(inner.build("part"))), pulse, sine);
+  const auto results = simulate(*scene.diagram, scene.diagram->create_context(), {0.0, 100.0}, {});
+  Numbers expected;
+  for (int k = 1; k < 32; ++k)
+    if (std::fmod(k * pi, 20.0) < 10.0) expected.push_back(k * pi);
+  const auto times = results.events.times("sub.crossing.hit");
+  REQUIRE(times.size() == expected.size());
+  // The error of a root is some roundings of a time of 100 s.
+  for (std::size_t i = 0; i < times.size(); ++i)
+    CHECK_THAT(times[i], WithinAbs(expected[i], 10.0 * rounding));
 }
 
 /// Ticks at 0, 1, 2, ...; sin > 0 at the ticks 1, 2, 3, 7, 8, 9. The delay counts these only.

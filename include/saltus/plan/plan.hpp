@@ -58,6 +58,7 @@ struct PlanLeaf {
 struct ReadSlot {
   Index slot = 0;
   Place place = {};  // one entry of a continuous signal
+  int node = -1;     // the signal
 };
 
 /// A vector of guards that one call computes.
@@ -74,7 +75,7 @@ struct GuardGroup {
   std::string name = {};           // "block.guard"
   List<int> leaves = {};           // the blocks whose continuous state changes it
   std::vector<int> controls = {};  // nodes: it is seen while all of them are true
-  List<ReadSlot> reads = {};  // of a called guard: what it says nothing of while it is constant
+  List<ReadSlot> reads = {};       // values that may vary while it is constant
 
   bool is_crossing() const { return kind == Kind::crossing; }
   bool is_opaque() const { return kind == Kind::opaque; }
@@ -153,7 +154,7 @@ struct Plan {
   } walks;  // derivatives with odes, and what guards need with the guards
 
   Index nx = 0, nz = 0, np = 0, ny = 0, guard_slots = 0;
-  Index look_slots = 0;  // the guards, and behind them the values that called guards read
+  Index look_slots = 0;  // the guards, and behind them the values of their ReadSlots
 
   // These are made later than the plan, when somebody first needs them.
   std::shared_ptr<Kept<FlowSeries>> series;      ///< for the method `taylor`

@@ -3,7 +3,15 @@
 import numpy as np
 import pytest
 import saltus
-from saltus.library import FunctionBlock, Integrator, Sine, StateMachine, Transition
+from saltus.library import (
+    Clock,
+    FunctionBlock,
+    Integrator,
+    Sine,
+    StateMachine,
+    Transition,
+    TriggeredSubsystem,
+)
 
 END = 100.0
 
@@ -78,3 +86,23 @@ def test_the_time_during_which_a_called_function_is_true():
     times = crossings(0.3)  # true from an even one to the next
     expected = np.sum(times[1::2] - times[::2])
     assert results.context.continuous_state[0] == pytest.approx(expected, abs=1e-11)
+
+
+STEPPED = {
+    "branch": lambda u: 1.0 if u > 0.3 else -1.0,
+    "where": lambda u: np.where(u > 0.3, 1.0, -1.0),
+    "sign": lambda u: np.sign(u - 0.3),
+    "floor": lambda u: np.floor(u + 0.7) - 0.5,
+    "clip": lambda u: np.clip(u - 0.3, -1e-3, 1e-3),
+}
+
+
+@pytest.mark.parametrize("python", ["called", "traced"])
+@pytest.mark.parametrize("name", STEPPED)
+def test_a_block_whose_input_is_constant_in_pieces(name, python):
+    """The guard of a trigger is a formula, so it is the input that says nothing."""
+    stepped = FunctionBlock(STEPPED[name], name="stepped")
+    trigger = TriggeredSubsystem(Clock(), name="triggered")
+    results = saltus.simulate(diagram(Sine(), stepped, trigger), (0.0, END), python=python)
+    times = results.events.times("triggered.trigger.positive")
+    assert times == pytest.approx(crossings(0.3), abs=1e-12)

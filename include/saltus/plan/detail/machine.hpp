@@ -160,7 +160,7 @@ class Machine : public Memory {
   void carried_guards(double t, const double* state, double* g);
   void ode_with_rest(const Call& ode, Seen seen, double t, double* xdot) const;
   /// A group of guards that is not computed with others, and what it reads.
-  void single_guard(int group, Seen seen, double t, double* g) const;
+  void copy_reads(int group, Seen seen, double* g) const;
 
   /// Makes calls at a state, and returns the arguments at this state for further calls.
   Seen run(const std::vector<OutputCall>& calls, double t, const double* state) {

@@ -30,10 +30,12 @@ class SeenGuards {
   const std::vector<int>& groups() const noexcept { return groups_; }
   /// The part of them that is not computed together.
   const std::vector<int>& single() const noexcept { return single_; }
+  /// The part of them with which other values are looked at.
+  const std::vector<int>& looked() const noexcept { return looked_; }
 
  private:
   const Memory* memory_;
-  std::vector<int> groups_, single_;
+  std::vector<int> groups_, single_, looked_;
   std::vector<char> controls_;  // the control signals when the groups were chosen
 };
 

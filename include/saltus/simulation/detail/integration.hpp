@@ -25,10 +25,11 @@ class Integration {
   StopReason advance(double& t, double t_stop) {
     guards_->monitors.clear();
     if (still() && guards_->active().all.empty()) {
-      t = t_stop;
+      t = t_stop, behind_ = true;
       return StopReason::stop_time;
     }
     if (!started_) start(t);
+    if (behind_) restart(t, {});
     const StopReason reason = solver_->advance(t_stop);
     t = solver_->time();
     return reason;
@@ -36,6 +37,7 @@ class Integration {
   /// After an instant that changed f or x: begins anew from the machine's state, if at work.
   void restart(double t, const Start& start) {
     if (started_) solver_->restart(t, machine_->x, start);
+    behind_ = false;
   }
 
   /// Whether the solver has stepped beyond the present time, to a root of the step.
@@ -72,6 +74,7 @@ class Integration {
   const SimulatorOptions* options_;
   std::unique_ptr<Solver> solver_;
   bool started_ = false;
+  bool behind_ = false;     // the solver is not at the present time: no guard could fire since
   Eigen::VectorXd inside_;  // a state inside the last step
 };
 

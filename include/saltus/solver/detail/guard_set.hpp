@@ -25,7 +25,7 @@ struct LookedRead {
 struct LocatedGuards {
   std::vector<std::size_t> slots;
   std::vector<int> groups;          ///< the groups of these slots, in the order of the plan
-  std::vector<LookedRead> reads;    ///< what called guards among them read
+  std::vector<LookedRead> reads;    ///< what may vary while some of them are constant
   std::vector<std::size_t> looked;  ///< the slots of these guards and of what they read
 
   void add(std::size_t slot, int group) {

@@ -1,0 +1,28 @@
+// Stepwise: which functions of a plan may be constant while the values that they read vary.
+#pragma once
+
+#include "saltus/base/list.hpp"
+#include "saltus/plan/plan.hpp"
+
+namespace saltus::detail {
+
+/// A called function may be constant in pieces, as floor(u) is, and so may a formula with a step. Any
+/// other formula varies as the values that it reads.
+class Stepwise {
+ public:
+  explicit Stepwise(const Plan& plan);
+
+  bool is_node(int i);
+  bool is_guard(const GuardGroup& group) const;
+
+ private:
+  enum Answer : char { unknown, no, yes };
+
+  bool is_formula(const Formula& formula, int leaf, Index size) const;
+
+  const Plan& plan_;
+  List<char> nodes_;             // an Answer for each
+  mutable List<int> no_values_;  // all values are variables of a formula
+};
+
+}  // namespace saltus::detail
