@@ -151,7 +151,7 @@ TEST_CASE("guards of a subsystem without states fire at their times", "[library]
   Numbers expected;
   for (int k = 1; k < 32; ++k)
     if (std::fmod(k * pi, 20.0) < 10.0) expected.push_back(k * pi);
-  const auto times = results.events.times("sub.crossing.hit");
+  const auto times = results.events.times("sub.part.crossing.hit");
   REQUIRE(times.size() == expected.size());
   // The error of a root is some roundings of a time of 100 s.
   for (std::size_t i = 0; i < times.size(); ++i)
