@@ -12,12 +12,24 @@ namespace {
 
 using tape::Op;
 
-/// The operations whose value may be constant where no operand is. No comparison is among them.
-constexpr Op stepped[] = {Op::floor,        Op::ceil,    Op::trunc,   Op::rint,  Op::sign,
-                          Op::floor_divide, Op::minimum, Op::maximum, Op::select};
+enum Answer : char { unknown, no, yes };
+
+/// The operations whose value may be constant where that of an operand varies. No comparison is
+/// among them.
+constexpr Op stepped[] = {Op::floor, Op::ceil,         Op::trunc,   Op::rint,
+                          Op::sign,  Op::floor_divide, Op::minimum, Op::maximum};
 
 bool is_stepped(Op op) {
   return tape::is_truth(op) || std::ranges::find(stepped, op) != std::end(stepped);
+}
+
+List<char> varying_entries(const Plan& plan) {
+  List<char> varies(plan.ny, no);
+  for (const Node& node : plan.nodes) {
+    if (node.rate != Rate::continuous || node.place.space != Space::y) continue;
+    for (Index k = 0; k < node.place.size; ++k) varies[node.place.offset + k] = yes;
+  }
+  return varies;
 }
 
 }  // namespace
@@ -25,6 +37,7 @@ bool is_stepped(Op op) {
 Stepwise::Stepwise(const Plan& plan)
     : plan_(plan),
       nodes_(plan.nodes.size(), unknown),
+      varies_(varying_entries(plan)),
       no_values_(plan.nodes.size(), Expressions::variable) {}
 
 bool Stepwise::is_node(int i) {
@@ -46,10 +59,29 @@ bool Stepwise::is_formula(const Formula& formula, int leaf, Index size) const {
   if (known == nullptr) return true;
   Expressions values(plan_, no_values_);
   values.add(*known, leaf, size);
-  const tape::Graph& graph = values.graph();
-  for (int id = 0; id < graph.size(); ++id)
-    if (is_stepped(graph[{id}].op)) return true;
+  return has_step(values.graph());
+}
+
+/// A choice by a held value, as a mode, is none: nothing changes it between instants.
+bool Stepwise::has_step(const tape::Graph& graph) const {
+  List<char> varies;
+  for (int id = 0; id < graph.size(); ++id) {
+    const tape::Expression& e = graph[{id}];
+    const auto operand = [&](int k) {
+      return varies[e.operands[static_cast<std::size_t>(k)].id] != no;
+    };
+    bool any = varies_by_itself(e);
+    for (int k = 0; k < operand_count(e.op); ++k) any = any || operand(k);
+    if (e.op == Op::select ? operand(0) : any && is_stepped(e.op)) return true;
+    varies.push_back(any ? yes : no);
+  }
   return false;
+}
+
+/// The signals of the plan are the discrete state of its graphs, see Expressions.
+bool Stepwise::varies_by_itself(const tape::Expression& e) const {
+  if (e.op == Op::discrete_state) return varies_[e.index] == yes;
+  return e.op == Op::time || e.op == Op::continuous_state;
 }
 
 }  // namespace saltus::detail

@@ -3,6 +3,7 @@
 
 #include "saltus/base/list.hpp"
 #include "saltus/plan/plan.hpp"
+#include "saltus/tape/graph.hpp"
 
 namespace saltus::detail {
 
@@ -16,12 +17,13 @@ class Stepwise {
   bool is_guard(const GuardGroup& group) const;
 
  private:
-  enum Answer : char { unknown, no, yes };
-
   bool is_formula(const Formula& formula, int leaf, Index size) const;
+  bool has_step(const tape::Graph& graph) const;
+  bool varies_by_itself(const tape::Expression& expression) const;
 
   const Plan& plan_;
-  List<char> nodes_;             // an Answer for each
+  List<char> nodes_;             // an answer for each
+  List<char> varies_;            // whether an entry of y varies between instants
   mutable List<int> no_values_;  // all values are variables of a formula
 };
 
