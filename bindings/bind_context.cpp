@@ -30,17 +30,12 @@ SystemId id_of(py::handle system) {
   }
 }
 
-std::string full_name(const Layout& layout, const Layout::Leaf& leaf,
-                      const Layout::Parameter& parameter) {
-  return layout.leaves.size() == 1 ? parameter.name : leaf.path + "." + parameter.name;
-}
-
 py::dict parameters(const Context& context) {
   py::dict all;
   for (const auto& leaf : context.layout().leaves) {
     for (const auto& parameter : leaf.parameters) {
       const auto values = context.parameters().segment(leaf.p + parameter.offset, parameter.size);
-      const auto name = full_name(context.layout(), leaf, parameter);
+      const auto name = context.layout().name_of(leaf, parameter.name);
       if (parameter.size == 1)
         all[name.c_str()] = values[0];
       else
@@ -76,7 +71,7 @@ std::string repr(const Context& context) {
   if (context.discrete_state().size() > 0)
     out += text(", discrete_state=", listed(context.discrete_state()));
   if (context.modes().size() == 1) out += text(", mode=", context.mode());
-  const std::size_t blocks = context.layout().leaves.size();
+  const auto blocks = std::ranges::count(context.layout().leaves, false, &Layout::Leaf::of_diagram);
   return out + (blocks == 1 ? ")" : text(", ", blocks, " blocks)"));
 }
 

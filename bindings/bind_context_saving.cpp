@@ -68,13 +68,21 @@ py::tuple layout_data(const Layout& layout) {
   for (const Layout::Leaf& leaf : layout.leaves) {
     py::list parameters;
     for (const auto& p : leaf.parameters)
-      parameters.append(py::make_tuple(p.name, p.offset, p.size));
-    leaves.append(
-        py::make_tuple(leaf.path, leaf.x, leaf.nx, leaf.z, leaf.nz, leaf.p, leaf.np, parameters));
+      parameters.append(py::make_tuple(p.name, p.offset, p.size, static_cast<int>(p.role)));
+    leaves.append(py::make_tuple(leaf.path, leaf.x, leaf.nx, leaf.z, leaf.nz, leaf.p, leaf.np,
+                                 parameters, leaf.states, leaf.of_diagram));
   }
   for (const Layout::Range& r : layout.systems)
     systems.append(py::make_tuple(r.id.value, r.path, r.first, r.last));
   return py::make_tuple(leaves, systems);
+}
+
+/// Data of earlier versions have no roles.
+Layout::Role role_of(const py::tuple& parameter) {
+  const int role = parameter.size() > 3 ? parameter[3].cast<int>() : 0;
+  if (role < 0 || role > static_cast<int>(Layout::Role::computed))
+    throw ModelError(text("a context is damaged: a parameter has the role ", role));
+  return static_cast<Layout::Role>(role);
 }
 
 std::shared_ptr<const Layout> layout_from(const py::tuple& data) {
@@ -92,8 +100,10 @@ std::shared_ptr<const Layout> layout_from(const py::tuple& data) {
     for (const py::handle p : l[7]) {
       const auto parameter = p.cast<py::tuple>();
       leaf.parameters.push_back({parameter[0].cast<std::string>(), parameter[1].cast<Index>(),
-                                 parameter[2].cast<Index>()});
+                                 parameter[2].cast<Index>(), role_of(parameter)});
     }
+    if (l.size() > 8) leaf.states = l[8].cast<std::vector<std::string>>();
+    if (l.size() > 9) leaf.of_diagram = l[9].cast<bool>();
     layout->leaves.push_back(std::move(leaf));
   }
   for (const py::handle item : data[1]) {

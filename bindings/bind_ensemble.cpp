@@ -169,7 +169,8 @@ std::vector<std::string> state_names(const Ensemble& ensemble, std::string_view 
   std::vector<std::string> names;
   for (const Layout::Leaf& leaf : ensemble.base().layout().leaves) {
     const std::string path = ensemble.plan().leaves.size() == 1 ? "" : leaf.path + ".";
-    if (kind == "mode") names.push_back(leaf.path);
+    if (kind == "mode")
+      names.push_back(leaf.of_diagram ? joined_name(leaf.path, "parameters") : leaf.path);
     for (Index i = 0; kind == "x" && i < leaf.nx; ++i) names.push_back(text(path, "x[", i, "]"));
     for (Index i = 0; kind == "z" && i < leaf.nz; ++i) names.push_back(text(path, "z[", i, "]"));
   }

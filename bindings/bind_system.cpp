@@ -6,6 +6,7 @@
 #include "bindings.hpp"
 #include "blocks.hpp"
 #include "made.hpp"
+#include "numbers.hpp"
 #include "python_leaf.hpp"
 #include "saltus/model/diagram_builder.hpp"
 
@@ -63,13 +64,26 @@ void bind_system(py::module_& module) {
       .def("export_output",
            [](DiagramBuilder& builder, const System& system, int index, std::string name) {
              return builder.export_output({&system, index}, std::move(name));
-           });
+           })
+      .def("declare_parameter",
+           [](DiagramBuilder& builder, std::string name, py::handle value) {
+             const Eigen::VectorXd values = to_vector(value, text("parameter '", name, "'"));
+             return builder.declare_parameter(std::move(name), values).offset;
+           })
+      .def("compute_parameter",
+           [](DiagramBuilder& builder, const System& block, std::string_view parameter,
+              const tape::Tape& values) { builder.compute_parameter(block, parameter, values); });
 
   py::class_<Diagram, System>(module, "Diagram")
       .def(py::init([](DiagramBuilder& builder, std::string name) {
         const ShapesAsDeclared declared;
         return builder.build(std::move(name));
       }))
+      .def_property_readonly("num_parameters",
+                             [](const Diagram& diagram) {
+                               const LeafSystem* own = diagram.parameters();
+                               return own == nullptr ? 0 : own->declarations().parameters.size();
+                             })
       .def("require", [](const Diagram& diagram, std::string_view child) { diagram[child]; });
 
   module.def("fixes_input",

@@ -10,8 +10,9 @@ import re
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any, ParamSpec, TypeVar
 
-from saltus._core import known_names
+from saltus._core import Diagram, known_names
 from saltus.errors import BlockParameterError, ModelError
+from saltus.parameters import given, note, plain
 
 __all__ = ["OPTIONS", "is_reset", "refuse", "refusing"]
 
@@ -81,6 +82,7 @@ def refusing(method: Callable[P, R]) -> Callable[P, R]:
 
     declares = method.__name__.startswith("declare_")
     hints = _hints(method.__name__, known)
+    positional = known[: code.co_argcount - 1] if method.__name__ == "__init__" else ()
 
     @functools.wraps(method)
     def checked(*arguments: P.args, **options: P.kwargs) -> R:
@@ -90,6 +92,8 @@ def refusing(method: Callable[P, R]) -> Callable[P, R]:
             _let_go(arguments[0])
         refuse(where, options, known, hints)
         try:
+            if positional and _has_expressions(arguments, options):
+                return _constructed(method, positional, arguments, options)
             return method(*arguments, **options)
         except TypeError as error:
             if not WRONG_KIND.search(str(error)):
@@ -97,6 +101,22 @@ def refusing(method: Callable[P, R]) -> Callable[P, R]:
         raise ModelError(f"{where}: {_wrong_kind(method, arguments, options)}")
 
     return checked
+
+
+def _has_expressions(arguments: Any, options: Any) -> bool:
+    """Whether a block, and no diagram, is given a `Parameter`: a diagram passes it on."""
+    values = (*arguments[1:], *options.values())
+    return not isinstance(arguments[0], Diagram) and any(given(one) is not None for one in values)
+
+
+def _constructed(
+    method: Callable[..., R], names: tuple[str, ...], arguments: Any, options: Any
+) -> R:
+    block, *values = arguments
+    numbers, expressions = plain({**dict(zip(names, values, strict=False)), **options})
+    made = method(block, **numbers)
+    note(block, expressions)
+    return made
 
 
 def _let_go(block: Any) -> None:

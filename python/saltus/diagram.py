@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import overload
 
 import numpy as np
@@ -10,6 +11,7 @@ from saltus import _core
 from saltus._porting import is_reset
 from saltus._signals import block_of
 from saltus.errors import ModelError
+from saltus.parameters import Parameter, Shared
 from saltus.ports import core_port
 from saltus.system import InputPort, OutputPort, System, remember
 
@@ -47,9 +49,16 @@ class Diagram(System, _core.Diagram):
     array([6.])
     """
 
-    def __init__(self, builder: _core.DiagramBuilder, name: str, children: dict[str, System]):
+    def __init__(
+        self,
+        builder: _core.DiagramBuilder,
+        name: str,
+        children: dict[str, System],
+        parameters: Mapping[str, Parameter] = {},
+    ):
         super().__init__(builder, name)
         self._children = children
+        self._expressions = dict(parameters)
         remember(self)
 
     def __getitem__(self, name: str) -> System:
@@ -93,7 +102,9 @@ class Diagram(System, _core.Diagram):
 
     @property
     def parameters(self) -> dict[str, float | np.ndarray]:
-        """The default value of each parameter of its blocks, by path, such as 'gain.gain'."""
+        """The default value of each parameter: of its blocks by path, such as 'gain.gain', and its
+        own by name.
+        """
         return self.create_context().parameters
 
 
@@ -329,18 +340,25 @@ class DiagramBuilder:
         own = self._output("export_output", port)
         return self._core.export_output(*_port(own, OutputPort), name or "")
 
-    def build(self, name: str = "root") -> Diagram:
+    def build(
+        self, name: str = "root", parameters: Mapping[str, Parameter] | None = None
+    ) -> Diagram:
         """The diagram of the blocks and wires so far.
 
         Parameters
         ----------
         name
             The name in messages, and in a diagram to which this one is added.
+        parameters
+            Parameters of the diagram, by their names in a context: each a `Parameter`, which blocks
+            of this diagram and of diagrams in it were given. The parameters of these blocks follow,
+            and cannot be set by themselves any more.
 
         Raises
         ------
         ModelError
-            If an input of a block has no source, or nothing was added.
+            If an input of a block has no source, or nothing was added; if a value of `parameters` is
+            no `Parameter`.
 
         Examples
         --------
@@ -352,4 +370,6 @@ class DiagramBuilder:
             ...
         saltus.errors.InputNotConnectedError: input 'in' of block 'gain' is not connected; ...
         """
-        return Diagram(self._core, name, self._children)
+        shared = Shared(parameters or {}, self._children)
+        shared.add_to(self._core)
+        return Diagram(self._core, name, self._children, shared.parameters)

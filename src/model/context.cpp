@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "saltus/model/computed_parameter.hpp"
 #include "saltus/model/detail/sound.hpp"
 
 namespace saltus {
@@ -18,6 +19,26 @@ void require_finite(const Eigen::VectorXd& values, std::string_view what) {
 }
 
 }  // namespace detail
+
+void detail::require_settable(Layout::Role role, std::string_view name) {
+  if (role != Layout::Role::computed) return;
+  throw ModelError(
+      text("parameter '", name, "' is computed from the parameters of a diagram; set those"));
+}
+
+Context Context::with_computed(std::shared_ptr<const ComputedParameters> computed) const {
+  if (layout().computed) return *this;
+  Context next = *this;
+  Layout known = layout();
+  known.computed = std::move(computed);
+  next.layout_ = std::make_shared<const Layout>(std::move(known));
+  next.compute_parameters();
+  return next;
+}
+
+void Context::compute_parameters() {
+  if (layout_ && layout_->computed) layout_->computed->compute(p_);
+}
 
 void Context::replace(Eigen::VectorXd& values, const Eigen::VectorXd& with, std::string_view what) {
   if (values.size() != with.size()) {
@@ -99,8 +120,7 @@ std::pair<const Layout::Leaf*, const Layout::Parameter*> Context::find_parameter
   std::vector<std::string> known;
   for (const auto& leaf : layout().leaves) {
     for (const auto& parameter : leaf.parameters) {
-      const std::string full =
-          layout().leaves.size() == 1 ? parameter.name : leaf.path + "." + parameter.name;
+      const std::string full = layout().name_of(leaf, parameter.name);
       if (full == name) return {&leaf, &parameter};
       known.push_back(full);
     }
@@ -110,6 +130,7 @@ std::pair<const Layout::Leaf*, const Layout::Parameter*> Context::find_parameter
 
 Context Context::with_parameter(std::string_view name, const Eigen::VectorXd& value) const {
   const auto [leaf, parameter] = find_parameter(name);
+  detail::require_settable(parameter->role, name);
   detail::require_finite(value, text("parameter '", name, "'"));
   if (value.size() != 1 && value.size() != parameter->size) {
     throw ModelError(text("parameter '", name, "': expected ", parameter->size, " values, found ",
@@ -119,6 +140,7 @@ Context Context::with_parameter(std::string_view name, const Eigen::VectorXd& va
   for (Index i = 0; i < parameter->size; ++i) {
     next.p_[leaf->p + parameter->offset + i] = value[value.size() == 1 ? 0 : i];
   }
+  next.compute_parameters();
   return next;
 }
 

@@ -30,12 +30,13 @@ std::vector<std::pair<std::string, ContextEntry>> entries_of(const Layout::Leaf&
   using Kind = ContextEntry::Kind;
   std::vector<std::pair<std::string, ContextEntry>> all;
   for (const auto& parameter : leaf.parameters)
-    all.push_back({parameter.name, {Kind::parameter, leaf.p + parameter.offset, parameter.size}});
+    all.push_back({parameter.name,
+                   {Kind::parameter, leaf.p + parameter.offset, parameter.size, parameter.role}});
   if (leaf.nx > 0) all.push_back({"x", {Kind::continuous_state, leaf.x, leaf.nx}});
   for (Index i = 0; i < std::ssize(leaf.states); ++i)
     all.push_back({nth(leaf.states, i), {Kind::continuous_state, leaf.x + i, 1}});
   if (leaf.nz > 0) all.push_back({"z", {Kind::discrete_state, leaf.z, leaf.nz}});
-  all.push_back({"mode", {Kind::mode, number, 1}});
+  if (!leaf.of_diagram) all.push_back({"mode", {Kind::mode, number, 1}});
   return all;
 }
 
@@ -75,9 +76,11 @@ std::vector<std::string> entry_names(const Layout& layout) {
   std::vector<std::string> names;
   for (std::size_t l = 0; l < layout.leaves.size(); ++l) {
     const Layout::Leaf& leaf = layout.leaves[l];
-    const std::string prefix = layout.leaves.size() == 1 ? "" : leaf.path + ".";
-    for (const auto& [name, entry] : entries_of(leaf, static_cast<Index>(l)))
-      if (name != "x" || leaf.states.empty()) add_names(names, prefix, name, entry);
+    const std::string prefix = layout.name_of(leaf, "");
+    for (const auto& [name, entry] : entries_of(leaf, static_cast<Index>(l))) {
+      const bool named = name == "x" && !leaf.states.empty();
+      if (!named && entry.role != Layout::Role::computed) add_names(names, prefix, name, entry);
+    }
   }
   return names;
 }
@@ -88,10 +91,10 @@ ContextEntry find_entry(const Layout& layout, std::string_view name) {
     const Layout::Leaf& leaf = layout.leaves[l];
     for (auto& [local, entry] : entries_of(leaf, static_cast<Index>(l))) {
       const bool alone = layout.leaves.size() == 1 && local == whole;
-      if (!alone && whole != text(leaf.path, ".", local)) continue;
+      if (!alone && whole != joined_name(leaf.path, local)) continue;
       require_single(leaf, local, name);
       if (!index) return entry;
-      if (*index < entry.size) return {entry.kind, entry.first + *index, 1};
+      if (*index < entry.size) return {entry.kind, entry.first + *index, 1, entry.role};
       throw ModelError(text("'", name, "': '", whole, "' has ", entry.size,
                             " entries, the first is ", whole, "[0]"));
     }
@@ -100,9 +103,17 @@ ContextEntry find_entry(const Layout& layout, std::string_view name) {
       text("unknown parameter or state '", name, "'", known_names(name, entry_names(layout))));
 }
 
+void require_differentiable(const ContextEntry& entry, std::string_view what) {
+  if (entry.role != Layout::Role::of_diagram) return;
+  throw ModelError(text(what,
+                        " is a parameter of a diagram; derivatives are known by the "
+                        "parameters of blocks that are computed from it, so name these"));
+}
+
 void write_entry(Context& context, const ContextEntry& entry, std::span<const double> values,
                  std::string_view name) {
   using Kind = ContextEntry::Kind;
+  detail::require_settable(entry.role, name);
   const auto given = static_cast<Index>(values.size());
   if (given != 1 && given != entry.size)
     throw ModelError(text("'", name, "': expected ", entry.size, " values, found ", given));
@@ -124,6 +135,7 @@ void write_entry(Context& context, const ContextEntry& entry, std::span<const do
         context.modes_[at] = static_cast<int>(value);
     }
   }
+  if (entry.kind == Kind::parameter) context.compute_parameters();
   context.continuation_.reset();  // the continuation belongs to the old values
 }
 

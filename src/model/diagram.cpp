@@ -37,6 +37,8 @@ void Diagram::collect(Structure& out, const std::string& path) const {
   const std::size_t mine = out.systems.size();
   out.systems.push_back(
       {system_id(), path.empty() ? name() : path, out.leaves.size(), out.leaves.size()});
+  for (const Computed& one : computed_)
+    out.computed.push_back({one.leaf, one.parameter, parameters_.get(), one.values});
   for (const Child& child : children_) {
     const std::size_t first = out.leaves.size();
     child.system->collect(out, path.empty() ? child.name : path + "." + child.name);
@@ -50,6 +52,7 @@ void Diagram::collect(Structure& out, const std::string& path) const {
     out.wires.push_back({wire.from.system->output_source(wire.from.index),
                          wire.to.system->input_target(wire.to.index)});
   }
+  if (parameters_ != nullptr) out.leaves.push_back({parameters_.get(), path});
   out.systems[mine].last = out.leaves.size();
   collect_fixed(out);
 }

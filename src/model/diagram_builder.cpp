@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "saltus/base/model_errors.hpp"
+#include "saltus/model/detail/diagram_parameters.hpp"
 #include "saltus/model/detail/names.hpp"
 #include "saltus/model/detail/soundness.hpp"
 #include "saltus/model/leaf_system.hpp"
@@ -88,6 +89,7 @@ Diagram DiagramBuilder::build(std::string name) {
     if (input.first->fixes_input(input.second)) throw_two_sources({input.first, input.second});
   }
   detail::require_sound(diagram_);
+  require_computed_once();
   Diagram built(detail::without_dot(std::move(name), "diagram"));
   spent_ = true;
   built.children_ = std::move(diagram_.children_);
@@ -95,6 +97,8 @@ Diagram DiagramBuilder::build(std::string name) {
   built.controlled_ = std::move(diagram_.controlled_);
   built.inputs_ = std::move(diagram_.inputs_);
   built.outputs_ = std::move(diagram_.outputs_);
+  built.parameters_ = std::move(parameters_);
+  built.computed_ = std::move(diagram_.computed_);
   for (const Diagram::Child& child : built.children_) {
     const auto* leaf = dynamic_cast<const LeafSystem*>(&child.system->itself());
     if (leaf != nullptr) built.uses_.push_back(leaf->declarations().use);

@@ -80,6 +80,9 @@ void require_sound(const Layout& layout) {
     require_place(leaf.x, leaf.nx, x, of);
     require_place(leaf.z, leaf.nz, z, of);
     require_place(leaf.p, leaf.np, p, of);
+    if (!leaf.states.empty() && std::ssize(leaf.states) != leaf.nx)
+      throw ModelError(text("the layout of a context is damaged: ", of, " has ", leaf.nx,
+                            " continuous states, and names of ", leaf.states.size()));
     Index within = 0;
     for (const Layout::Parameter& parameter : leaf.parameters)
       require_place(parameter.offset, parameter.size, within,

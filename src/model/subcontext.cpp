@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "saltus/model/computed_parameter.hpp"
 #include "saltus/model/detail/sound.hpp"
 
 namespace saltus {
@@ -17,17 +18,43 @@ std::pair<Index, Index> extent(const Layout& layout, const Layout::Range& range,
   return {layout.leaves[range.first].*offset, count};
 }
 
+namespace {
+
+/// Those that are computed within a part, whose parameters are p[first .. last).
+std::shared_ptr<const ComputedParameters> part_of(
+    const std::shared_ptr<const ComputedParameters>& whole, Index first, Index last) {
+  if (!whole) return {};
+  auto part = std::make_shared<ComputedParameters>();
+  const auto inside = [&](Index at) { return first <= at && at < last; };
+  for (ComputedParameter one : whole->all) {
+    if (!inside(one.to) || !inside(one.from)) continue;
+    one.to -= first, one.from -= first;
+    part->all.push_back(std::move(one));
+  }
+  return part;
+}
+
+Index last_parameter(const Layout& whole, const Layout::Range& range) {
+  const auto [first, count] = extent(whole, range, &Layout::Leaf::p, &Layout::Leaf::np);
+  return first + count;
+}
+
+}  // namespace
+
 std::shared_ptr<const Layout> part_layout(const Layout& whole, const Layout::Range& range) {
   auto part = std::make_shared<Layout>();
   const Layout::Leaf origin = range.first < range.last ? whole.leaves[range.first] : Layout::Leaf{};
-  const std::string prefix =
-      range.last - range.first == 1 && origin.path == range.path ? "" : range.path + ".";
+  const bool whole_or_leaf = whole.systems.front().id == range.id ||
+                             (range.last - range.first == 1 && origin.path == range.path);
+  const std::string prefix = whole_or_leaf ? "" : range.path + ".";
   for (std::size_t i = range.first; i < range.last; ++i) {
     Layout::Leaf leaf = whole.leaves[i];
     leaf.x -= origin.x, leaf.z -= origin.z, leaf.p -= origin.p;
     if (!prefix.empty() && leaf.path.starts_with(prefix)) leaf.path.erase(0, prefix.size());
+    if (leaf.of_diagram && leaf.path + "." == prefix) leaf.path.clear();
     part->leaves.push_back(std::move(leaf));
   }
+  part->computed = part_of(whole.computed, origin.p, last_parameter(whole, range));
   bool inside = false;  // a system comes before the systems in it
   for (Layout::Range inner : whole.systems) {
     inside = inside || inner.id == range.id;
@@ -84,6 +111,7 @@ Context Context::with_subcontext(SystemId id, const Context& part) const {
   next.p_.segment(p, np) = part.p_;
   std::copy(part.modes_.begin(), part.modes_.end(),
             next.modes_.begin() + static_cast<std::ptrdiff_t>(where.first));
+  next.compute_parameters();
   return next;
 }
 

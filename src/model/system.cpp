@@ -11,6 +11,8 @@
 #include <cxxabi.h>
 #endif
 
+#include "saltus/model/computed_parameter.hpp"
+#include "saltus/model/detail/diagram_parameters.hpp"
 #include "saltus/model/leaf_system.hpp"
 
 namespace saltus {
@@ -122,6 +124,25 @@ Structure structure_of(const System& root) {
   return structure;
 }
 
+namespace {
+
+/// Notes in the layout which parameters are of diagrams, and which are computed from them.
+void add_roles(const Structure& structure, Layout& layout) {
+  const auto parameters_of = [&](const LeafSystem* system) -> std::vector<Layout::Parameter>& {
+    const auto leaf = std::ranges::find(structure.leaves, system, &Structure::Leaf::system);
+    return nth(layout.leaves, leaf - structure.leaves.begin()).parameters;
+  };
+  for (const Structure::Computed& one : structure.computed) {
+    for (Layout::Parameter& of : parameters_of(one.from))
+      if (of.role == Layout::Role::own) of.role = Layout::Role::of_diagram;
+  }
+  for (const Structure::Computed& one : structure.computed)
+    std::ranges::find(parameters_of(one.leaf), one.parameter, &Layout::Parameter::name)->role =
+        Layout::Role::computed;
+}
+
+}  // namespace
+
 Context System::create_context(double t) const {
   const Structure structure = structure_of(*this);
   auto layout = std::make_shared<Layout>();
@@ -130,9 +151,12 @@ Context System::create_context(double t) const {
   for (const auto& [leaf, path] : structure.leaves) {
     const Declarations& d = leaf->declarations();
     layout->leaves.push_back({path, nx, d.continuous.initial.size(), nz, d.discrete.size(), np,
-                              d.parameter_values.size(), d.parameters, d.continuous.names});
+                              d.parameter_values.size(), d.parameters, d.continuous.names,
+                              dynamic_cast<const DiagramParameters*>(leaf) != nullptr});
     nx += d.continuous.initial.size(), nz += d.discrete.size(), np += d.parameter_values.size();
   }
+  layout->computed = computed_parameters(structure);
+  add_roles(structure, *layout);
   Context context(layout);
   context.x_.resize(nx), context.z_.resize(nz), context.p_.resize(np);
   for (std::size_t i = 0; i < structure.leaves.size(); ++i) {
@@ -143,6 +167,7 @@ Context System::create_context(double t) const {
     context.p_.segment(where.p, where.np) = d.parameter_values;
     context.modes_.push_back(d.mode);
   }
+  context.compute_parameters();
   return context.with_time(t);
 }
 

@@ -1,4 +1,6 @@
 // Plan::describe(): says what was kept, folded and dropped, and why.
+#include "saltus/model/computed_parameter.hpp"
+#include "saltus/model/detail/diagram_parameters.hpp"
 #include "saltus/plan/plan.hpp"
 
 namespace saltus {
@@ -60,11 +62,18 @@ std::vector<int> nodes_that(const Plan& plan, const Is& is) {
   return found;
 }
 
+/// The parameters of a diagram are no block.
+bool is_block(const PlanLeaf& leaf) {
+  return dynamic_cast<const DiagramParameters*>(leaf.system) == nullptr;
+}
+
 }  // namespace
 
 std::string Plan::describe() const {
-  std::string out = text("plan: ", leaves.size(), leaves.size() == 1 ? " block, " : " blocks, ", nx,
+  const auto blocks = std::ranges::count_if(leaves, is_block);
+  std::string out = text("plan: ", blocks, blocks == 1 ? " block, " : " blocks, ", nx,
                          " continuous and ", nz, " discrete states\n");
+  if (computed) out += text("parameters that diagrams compute: ", computed->all.size(), "\n");
   const auto views = nodes_that(*this, [](const Node& n) { return n.view; });
   const auto dropped =
       nodes_that(*this, [](const Node& n) { return !n.view && !n.used && !n.relation; });

@@ -65,18 +65,19 @@ void require_context_of(const Plan& plan, const Context& context) {
 void Memory::take(const Context& context) {
   if (known_ == nullptr || known_ != context.layout_) require_context_of(*plan_, context);
   known_ = context.layout_;
-  check_parameters(context);
+  p = context.parameters();
+  if (plan_->computed && !context.layout().computed) plan_->computed->compute(p);
+  check_parameters();
   x = context.continuous_state();
   z = context.discrete_state();
-  p = context.parameters();
   modes = context.modes();
   y.setZero();
 }
 
-void Memory::check_parameters(const Context& context) const {
+void Memory::check_parameters() const {
   for (const int number : plan_->checked) {
     const PlanLeaf& leaf = plan_->leaf(number);
-    const ParameterValues values({context.parameters().data() + leaf.p, leaf.np});
+    const ParameterValues values({p.data() + leaf.p, leaf.np});
     for (const ParameterCheck& check : leaf.declared().parameter_checks) check(leaf.path, values);
   }
 }

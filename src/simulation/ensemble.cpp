@@ -155,6 +155,7 @@ void Ensemble::require_new(std::string_view name, const ContextEntry& entry) con
 
 void Ensemble::vary(std::string_view name, std::vector<double> values, Index width) {
   const ContextEntry entry = find_entry(base_.layout(), name);
+  detail::require_settable(entry.role, name);
   require_new(name, entry);
   if (width != 1 && width != entry.size)
     throw ModelError(text("'", name, "': expected ", entry.size, " values, found ", width));

@@ -112,6 +112,7 @@ class Linearizer::Parts {
       throw ModelError(text("linearize: '", input.name,
                             "' is a state or a mode; expected an open input of the system or a "
                             "parameter; A has the derivatives by the continuous states"));
+    require_differentiable(entry, text("linearize: ", input.name));
     if (input.value)
       write_entry(layout_, entry, {input.value->data(), size_of(*input.value)}, input.name);
     add_columns(input.name, columns_.of_parameter, entry.first, entry.size, entry.size > 1);

@@ -71,6 +71,7 @@ void Run::initialize(const Context& context) {
   Context last = std::exchange(begin_, {});  // no run, if a function of the model throws now
   machine_.load(context);
   last = context;  // in the memory of the last run's
+  if (plan().computed) last = last.with_computed(plan().computed);
   begin_ = std::move(last);
   time_ = context.time();
   results_.time.clear(), results_.jump.clear();

@@ -46,7 +46,8 @@ void Tangents::begin(const Context& start) {
   columns_.parameters.assign(all.size(), -1);
   Eigen::MatrixXd atol(plan.nx, m);
   for (Index k = 0; k < m; ++k) {
-    const auto& [kind, i, one] = nth(all, k).entry;
+    const Kind kind = nth(all, k).entry.kind;
+    const Index i = nth(all, k).entry.first;
     if (kind == Kind::parameter) nth(columns_.parameters, k) = i;
     if (kind == Kind::continuous_state) columns_.x(i, k) = 1.0;
     if (kind == Kind::discrete_state) columns_.z(i, k) = 1.0;

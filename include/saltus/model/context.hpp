@@ -18,20 +18,30 @@
 
 namespace saltus {
 
-struct ContextEntry;  // context_entry.hpp
+struct ContextEntry;        // context_entry.hpp
+struct ComputedParameters;  // computed_parameter.hpp
+
+/// "block.name"; the parameters of the system itself, whose path is empty, have no block.
+inline std::string joined_name(std::string_view path, std::string_view name) {
+  return path.empty() ? std::string(name) : text(path, ".", name);
+}
 
 /// The places of each leaf's values in a context. All contexts of one system share it.
 struct Layout {
+  /// A block's own; of a diagram, from which others are computed; computed, so it cannot be set.
+  enum class Role { own, of_diagram, computed };
   struct Parameter {
     std::string name;
     Index offset = 0;  // within the leaf
     Index size = 1;
+    Role role = Role::own;
   };
   struct Leaf {
     std::string path;
     Index x = 0, nx = 0, z = 0, nz = 0, p = 0, np = 0;
     std::vector<Parameter> parameters;
     std::vector<std::string> states = {};  ///< names of the continuous states, or none
+    bool of_diagram = false;               ///< the parameters of a diagram, which is no block
   };
   struct Range {  // the leaves of one system: [first, last)
     SystemId id;
@@ -40,6 +50,12 @@ struct Layout {
   };
   std::vector<Leaf> leaves;
   std::vector<Range> systems;
+  std::shared_ptr<const ComputedParameters> computed = {};  ///< null: none, or not known here
+
+  /// The name of a value of a leaf; without its path where there is one leaf only.
+  std::string name_of(const Leaf& leaf, std::string_view value) const {
+    return leaves.size() == 1 ? std::string(value) : joined_name(leaf.path, value);
+  }
 };
 
 /// All values of a context without their layout, to be written to a file and read again.
@@ -103,6 +119,10 @@ class Context {
   Context with_parameter(std::string_view name, double value) const;
   Eigen::VectorXd parameter(std::string_view name) const;
 
+  /// This context for functions that compute parameters, where it does not know any: a context that
+  /// was pickled has values alone.
+  Context with_computed(std::shared_ptr<const ComputedParameters> computed) const;
+
   /// The context of one system inside this one, leaf or diagram.
   Context operator[](SystemId id) const;
   /// This context with the values of one system replaced.
@@ -127,6 +147,7 @@ class Context {
     next.continuation_.reset();
     return next;
   }
+  void compute_parameters();
   static void replace(Eigen::VectorXd& values, const Eigen::VectorXd& with, std::string_view what);
 
   std::shared_ptr<const Layout> layout_;
@@ -141,6 +162,8 @@ class Context {
 namespace detail {
 
 void require_finite(const Eigen::VectorXd& values, std::string_view what);
+/// Throws ModelError for a parameter that is computed.
+void require_settable(Layout::Role role, std::string_view name);
 
 }  // namespace detail
 

@@ -19,17 +19,23 @@ struct ContextEntry {
   Kind kind = Kind::parameter;
   Index first = 0;  ///< in the vector of all values of its kind
   Index size = 1;
+  Layout::Role role = Layout::Role::own;  ///< of a parameter
 };
 
-/// The names that `find_entry` accepts, in the order of the blocks; a long vector has one name.
+/// The names of the entries that can be written, in the order of the blocks; a long vector has one
+/// name.
 std::vector<std::string> entry_names(const Layout& layout);
 
 /// Throws ModelError for an unknown name, with the nearest one, and for an index out of range.
 ContextEntry find_entry(const Layout& layout, std::string_view name);
 
+/// Throws ModelError for a parameter of a diagram: nothing is differentiated by it, but by the
+/// parameters that are computed from it.
+void require_differentiable(const ContextEntry& entry, std::string_view what);
+
 /// Writes `values` in place: as many as the entry has, or a single value that fills it. Throws
-/// ModelError for a wrong number of values, a value that is not finite, and a mode that is not an
-/// integer.
+/// ModelError for a wrong number of values, a value that is not finite, a mode that is not an
+/// integer, and a parameter that is computed from those of a diagram.
 void write_entry(Context& context, const ContextEntry& entry, std::span<const double> values,
                  std::string_view name);
 

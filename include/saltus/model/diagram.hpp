@@ -40,11 +40,20 @@ class Diagram final : public System {
     Execution execution;
   };
 
+  /// A parameter of a block as a function of the parameters of this diagram.
+  struct Computed {
+    const LeafSystem* leaf;
+    std::string parameter;
+    std::shared_ptr<const tape::Tape> values;
+  };
+
   /// A direct child by name; the ModelError for an unknown name lists the known names.
   const System& operator[](std::string_view child) const;
   const std::vector<Child>& children() const noexcept { return children_; }
   const std::vector<Wire>& wires() const noexcept { return wires_; }
   const std::vector<Controlled>& controlled() const noexcept { return controlled_; }
+  /// The block that holds the parameters of this diagram; null if it has none.
+  const LeafSystem* parameters() const noexcept { return parameters_.get(); }
   const std::vector<ExportedInput>& inputs() const noexcept { return inputs_; }
   const std::vector<ExportedOutput>& outputs() const noexcept { return outputs_; }
 
@@ -65,6 +74,8 @@ class Diagram final : public System {
   std::vector<Controlled> controlled_;
   List<ExportedInput> inputs_;
   List<ExportedOutput> outputs_;
+  std::shared_ptr<const LeafSystem> parameters_;
+  std::vector<Computed> computed_;
   std::vector<std::shared_ptr<const void>> uses_;  // of its leaves, see Declarations
 };
 

@@ -10,8 +10,24 @@
 #include <utility>
 
 #include "saltus/model/diagram.hpp"
+#include "saltus/tape/symbol.hpp"
+#include "saltus/tape/tape.hpp"
 
 namespace saltus {
+
+class DiagramParameters;
+
+/// The parameters of a diagram as symbols, for DiagramBuilder::compute_parameter.
+class ParameterSymbols {
+ public:
+  explicit ParameterSymbols(tape::Graph& graph) : graph_(&graph) {}
+  tape::Symbol operator()(ParameterIndex parameter, Index entry = 0) const {
+    return {*graph_, graph_->parameter(parameter.offset + entry)};
+  }
+
+ private:
+  tape::Graph* graph_;
+};
 
 /// Collects blocks and wires; `build` uses it up. Throws ModelError for a name used twice, a port
 /// of a block that was not added, an input with two sources, and, in `build`, for an input without
@@ -55,6 +71,32 @@ class DiagramBuilder {
   /// or an update with a period of its own.
   void execute(const System& block, OutputPort control, Execution execution);
 
+  /// Declares a parameter of the diagram: `context.with_parameter(name, value)`, in a diagram that
+  /// contains this one by its path, "car.mass". Throws ModelError for a name that is taken.
+  ParameterIndex declare_parameter(std::string name, double value);
+  ParameterIndex declare_parameter(std::string name, const Eigen::VectorXd& value);
+
+  /// Computes a parameter of a block, or of a diagram in this one, from the parameters of this
+  /// diagram: `function(p)` returns a number, or a vector of numbers, where p(m) is the parameter m
+  /// and p(k, i) entry i of the vector k. It is called once, with symbols for the numbers. From then
+  /// on the parameter follows, and it cannot be set any more.
+  ///
+  ///     const ParameterIndex m = builder.declare_parameter("mass", 2.0);
+  ///     builder.compute_parameter(weight, "gain", [=](const auto& p) { return -9.81 * p(m); });
+  ///
+  /// Throws ModelError for a parameter that the block does not have, for another number of values
+  /// than it has, and, in `build`, for a block that is not in the diagram and for a parameter that
+  /// is computed twice.
+  template <std::invocable<const ParameterSymbols&> Function>
+  void compute_parameter(const System& block, std::string_view parameter,
+                         const Function& function) {
+    tape::Graph graph;
+    compute_parameter(block, parameter, tape_of(graph, function(ParameterSymbols(graph))));
+  }
+  /// The same by a tape that reads the parameters of the diagram, in the order of their
+  /// declaration, and nothing else.
+  void compute_parameter(const System& block, std::string_view parameter, tape::Tape values);
+
   /// Makes an input of a block an input of the diagram; returns its position there.
   int export_input(InputPort port, std::string name = {});
 
@@ -64,6 +106,10 @@ class DiagramBuilder {
   Diagram build(std::string name = "root");
 
  private:
+  static tape::Tape tape_of(tape::Graph& graph, const tape::Symbol& value);
+  static tape::Tape tape_of(tape::Graph& graph, const std::vector<tape::Symbol>& values);
+  DiagramParameters& parameters();
+  void require_computed_once() const;
   void require_unspent() const;
   void require_mine(const System* system) const;
   void require_free(InputPort to) const;
@@ -75,6 +121,7 @@ class DiagramBuilder {
   static std::string port_name(InputPort port);
 
   Diagram diagram_{""};
+  std::shared_ptr<DiagramParameters> parameters_;  // null until one is declared
   bool spent_ = false;
   // Look-up tables: with ten thousand blocks a search of the lists would be slow.
   std::unordered_map<const System*, std::size_t> mine_;           // place in children_

@@ -15,6 +15,10 @@
 
 namespace saltus {
 
+namespace tape {
+class Tape;
+}
+
 /// A port of a leaf, after all nesting is resolved.
 struct LeafPort {
   const LeafSystem* leaf = nullptr;
@@ -42,10 +46,18 @@ struct Structure {
     LeafPort control;
     Execution execution;
   };
+  /// A parameter of a leaf as a function of those of a diagram, which are the parameters of `from`.
+  struct Computed {
+    const LeafSystem* leaf;
+    std::string parameter;
+    const LeafSystem* from;
+    std::shared_ptr<const tape::Tape> values;
+  };
   std::vector<Leaf> leaves;
   std::vector<Wire> wires;
   std::vector<Controlled> controlled;  ///< a part comes before the part that contains it
   std::vector<FixedInput> fixed;       ///< if one input has two of them, the last one counts
+  std::vector<Computed> computed;      ///< those of a diagram come before those of a diagram in it
   std::vector<Layout::Range> systems;
 };
 

@@ -154,6 +154,7 @@ struct Plan {
   } walks;  // derivatives with odes, and what guards need with the guards
 
   Index nx = 0, nz = 0, np = 0, ny = 0, guard_slots = 0;
+  std::shared_ptr<const ComputedParameters> computed = {};  ///< null if there are none
   Index look_slots = 0;  // the guards, and behind them the values of their ReadSlots
 
   // These are made later than the plan, when somebody first needs them.

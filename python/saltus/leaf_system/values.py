@@ -11,6 +11,7 @@ from saltus import _core
 from saltus._declarations import RequiresInputs, callback_of, initial_of, inputs_of, places_of
 from saltus._porting import refusing
 from saltus.errors import ModelError
+from saltus.parameters import Parameter, given, note
 
 __all__ = ["DeclaresValues"]
 
@@ -97,8 +98,13 @@ class DeclaresValues(_core.LeafSystem):
         super().declare_default_mode(mode)
 
     @refusing
-    def declare_dynamic_parameter(self, name: str, default_value: ArrayLike) -> None:
+    def declare_dynamic_parameter(self, name: str, default_value: ArrayLike | Parameter) -> None:
         """Declares a parameter: a number or an array that is a value of the context,
-        `context.with_parameter(name, value)`, and that every callback gets by keyword.
+        `context.with_parameter(name, value)`, and that every callback gets by keyword. A
+        `Parameter`, or an expression of such, gives the number; see there.
         """
-        super().declare_dynamic_parameter(name, default_value)
+        expression = given(default_value)
+        value = default_value if expression is None else expression.value
+        super().declare_dynamic_parameter(name, value)
+        if expression is not None:
+            note(self, {name: expression})

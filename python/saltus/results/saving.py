@@ -170,7 +170,7 @@ def _kept(header: dict[str, Any], arrays: dict[str, np.ndarray]) -> KeptRun:
 def _context(data: dict[str, Any]) -> _core.Context:
     leaves, systems = data["layout"]
     layout = (
-        [(*leaf[:-1], [tuple(p) for p in leaf[-1]]) for leaf in map(tuple, leaves)],
+        [(*leaf[:7], [tuple(p) for p in leaf[7]], *leaf[8:]) for leaf in map(tuple, leaves)],
         [tuple(system) for system in systems],
     )
     context = _core.Context.__new__(_core.Context)

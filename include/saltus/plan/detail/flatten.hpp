@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "saltus/base/list.hpp"
+#include "saltus/model/computed_parameter.hpp"
 #include "saltus/plan/detail/controls.hpp"
 #include "saltus/plan/detail/lists.hpp"
 #include "saltus/plan/detail/order.hpp"
@@ -237,6 +238,7 @@ inline Plan flatten(const System& system, const Replacements& replacements = {})
   add_wires(plan, structure, numbers);
   if (!structure.controlled.empty()) add_controls(plan, structure, numbers);
   add_needs(plan);
+  plan.computed = computed_parameters(structure);
   return plan;
 }
 

@@ -61,7 +61,7 @@ class Memory {
   std::shared_ptr<const Plan> plan_;
 
  private:
-  void check_parameters(const Context& context) const;
+  void check_parameters() const;
 
   std::shared_ptr<const Layout> known_;  // a layout that is known to fit the plan
 };
