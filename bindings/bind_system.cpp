@@ -79,11 +79,6 @@ void bind_system(py::module_& module) {
         const ShapesAsDeclared declared;
         return builder.build(std::move(name));
       }))
-      .def_property_readonly("num_parameters",
-                             [](const Diagram& diagram) {
-                               const LeafSystem* own = diagram.parameters();
-                               return own == nullptr ? 0 : own->declarations().parameters.size();
-                             })
       .def("require", [](const Diagram& diagram, std::string_view child) { diagram[child]; });
 
   module.def("fixes_input",

@@ -8,6 +8,7 @@ PYBIND11_MODULE(_core, module) {
   bind_errors(module);
   bind_numbers(module);
   bind_context(module);
+  bind_tape(module);
   bind_system(module);
   bind_context_reading(module);
   bind_picture(module);
@@ -25,6 +26,5 @@ PYBIND11_MODULE(_core, module) {
   bind_ensemble(module);
   bind_shelf(module);
   bind_report(module);
-  bind_tape(module);
   bind_traces(module);
 }

@@ -15,7 +15,7 @@ from saltus.ensemble import sweep
 from saltus.errors import Error, ModelError, SimulationError
 from saltus.leaf_system import LeafSystem
 from saltus.linearization import Linearization, linearize
-from saltus.parameters import Parameter
+from saltus.parameter import Parameter
 from saltus.progress import Progress
 from saltus.report import WorkPrecision, work_precision
 from saltus.response import response

@@ -12,7 +12,7 @@ from typing import Any, ParamSpec, TypeVar
 
 from saltus._core import Diagram, known_names
 from saltus.errors import BlockParameterError, ModelError
-from saltus.parameters import given, note, plain
+from saltus.parameter import given
 
 __all__ = ["OPTIONS", "is_reset", "refuse", "refusing"]
 
@@ -112,6 +112,8 @@ def _has_expressions(arguments: Any, options: Any) -> bool:
 def _constructed(
     method: Callable[..., R], names: tuple[str, ...], arguments: Any, options: Any
 ) -> R:
+    from saltus.parameters.noted import note, plain
+
     block, *values = arguments
     numbers, expressions = plain({**dict(zip(names, values, strict=False)), **options})
     made = method(block, **numbers)

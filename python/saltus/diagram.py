@@ -11,7 +11,7 @@ from saltus import _core
 from saltus._porting import is_reset
 from saltus._signals import block_of
 from saltus.errors import ModelError
-from saltus.parameters import Parameter, Shared
+from saltus.parameter import Parameter
 from saltus.ports import core_port
 from saltus.system import InputPort, OutputPort, System, remember
 
@@ -370,6 +370,10 @@ class DiagramBuilder:
             ...
         saltus.errors.InputNotConnectedError: input 'in' of block 'gain' is not connected; ...
         """
-        shared = Shared(parameters or {}, self._children)
+        if not parameters:
+            return Diagram(self._core, name, self._children)
+        from saltus.parameters.shared import Shared
+
+        shared = Shared(parameters, self._children)
         shared.add_to(self._core)
         return Diagram(self._core, name, self._children, shared.parameters)

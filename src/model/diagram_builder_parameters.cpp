@@ -74,10 +74,11 @@ void DiagramBuilder::compute_parameter(const System& block, std::string_view par
 void DiagramBuilder::require_computed_once() const {
   if (diagram_.computed_.empty()) return;
   const Structure structure = structure_of(diagram_);
+  std::set<const LeafSystem*> known;
+  for (const Structure::Leaf& leaf : structure.leaves) known.insert(leaf.system);
   std::set<std::pair<const LeafSystem*, std::string_view>> seen;
   for (const Structure::Computed& one : structure.computed) {
-    if (std::ranges::find(structure.leaves, one.leaf, &Structure::Leaf::system) ==
-        structure.leaves.end())
+    if (!known.contains(one.leaf))
       throw BuilderError(text("build: parameter '", one.parameter, "' of block '", one.leaf->name(),
                               "' is computed, but the block is not in this diagram"));
     if (!seen.emplace(one.leaf, one.parameter).second)

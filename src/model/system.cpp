@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <memory>
 #include <typeinfo>
+#include <unordered_map>
 
 #if __has_include(<cxxabi.h>)
 #include <cxxabi.h>
@@ -128,17 +129,17 @@ namespace {
 
 /// Notes in the layout which parameters are of diagrams, and which are computed from them.
 void add_roles(const Structure& structure, Layout& layout) {
-  const auto parameters_of = [&](const LeafSystem* system) -> std::vector<Layout::Parameter>& {
-    const auto leaf = std::ranges::find(structure.leaves, system, &Structure::Leaf::system);
-    return nth(layout.leaves, leaf - structure.leaves.begin()).parameters;
-  };
-  for (const Structure::Computed& one : structure.computed) {
-    for (Layout::Parameter& of : parameters_of(one.from))
-      if (of.role == Layout::Role::own) of.role = Layout::Role::of_diagram;
+  using Role = Layout::Role;
+  std::unordered_map<const LeafSystem*, Layout::Leaf*> known;
+  for (std::size_t i = 0; i < structure.leaves.size(); ++i) {
+    Layout::Leaf& leaf = layout.leaves[i];
+    known.emplace(structure.leaves[i].system, &leaf);
+    for (Layout::Parameter& one : leaf.parameters)
+      one.role = leaf.of_diagram ? Role::of_diagram : Role::own;
   }
   for (const Structure::Computed& one : structure.computed)
-    std::ranges::find(parameters_of(one.leaf), one.parameter, &Layout::Parameter::name)->role =
-        Layout::Role::computed;
+    std::ranges::find(known.at(one.leaf)->parameters, one.parameter, &Layout::Parameter::name)
+        ->role = Role::computed;
 }
 
 }  // namespace
@@ -156,7 +157,7 @@ Context System::create_context(double t) const {
     nx += d.continuous.initial.size(), nz += d.discrete.size(), np += d.parameter_values.size();
   }
   layout->computed = computed_parameters(structure);
-  add_roles(structure, *layout);
+  if (!structure.computed.empty()) add_roles(structure, *layout);
   Context context(layout);
   context.x_.resize(nx), context.z_.resize(nz), context.p_.resize(np);
   for (std::size_t i = 0; i < structure.leaves.size(); ++i) {

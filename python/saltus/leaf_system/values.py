@@ -11,7 +11,7 @@ from saltus import _core
 from saltus._declarations import RequiresInputs, callback_of, initial_of, inputs_of, places_of
 from saltus._porting import refusing
 from saltus.errors import ModelError
-from saltus.parameters import Parameter, given, note
+from saltus.parameter import Parameter, given
 
 __all__ = ["DeclaresValues"]
 
@@ -107,4 +107,6 @@ class DeclaresValues(_core.LeafSystem):
         value = default_value if expression is None else expression.value
         super().declare_dynamic_parameter(name, value)
         if expression is not None:
+            from saltus.parameters.noted import note
+
             note(self, {name: expression})

@@ -1,7 +1,1 @@
-"""Parameters that several blocks of a diagram share, and expressions of them."""
-
-from saltus.parameters.given import given, note, plain
-from saltus.parameters.parameter import Parameter
-from saltus.parameters.shared import Shared
-
-__all__ = ["Parameter", "Shared", "given", "note", "plain"]
+"""What a diagram computes from its parameters. Nothing of it is loaded before it is used."""

@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 
 from saltus.errors import BuilderError, ModelError
-from saltus.parameters.parameter import Parameter
+from saltus.parameter import Parameter, roots_of
+from saltus.parameters.tape import tape_of
 
 __all__ = ["Shared"]
 
@@ -54,12 +55,12 @@ class Shared:
         """The blocks, and the names of their parameters, that follow a declared one."""
         for path, block, inner in _holders(self._blocks):
             for name, one in getattr(block, "_expressions", {}).items():
-                if self._declared.keys().isdisjoint(one.roots(self._declared)):
+                if self._declared.keys().isdisjoint(roots_of(one, self._declared)):
                     continue
                 done = next((i for i in inner if _reads(i, one)), None)
                 if done is None:
                     yield path, block, name
-                elif not self._declared.keys().isdisjoint(one.roots(done) - done.keys()):
+                elif not self._declared.keys().isdisjoint(roots_of(one, done) - done.keys()):
                     raise BuilderError(
                         f"build: parameter '{path}.{name}' is computed in an inner diagram "
                         f"already, from parameters that this one does not declare; declare those "
@@ -67,15 +68,13 @@ class Shared:
                     )
 
     def _tape(self, path: str, block: Any, name: str) -> Any:
-        from saltus.parameters.tape import tape_of
-
         expression = block._expressions[name]
         size = np.size(block.create_context().parameters[name])
         return tape_of(f"parameter '{path}.{name}'", expression, self._declared, size)
 
 
 def _reads(inner: Mapping[int, Any], expression: Parameter) -> bool:
-    return not inner.keys().isdisjoint(expression.roots(inner))
+    return not inner.keys().isdisjoint(roots_of(expression, inner))
 
 
 def _holders(

@@ -9,7 +9,7 @@ import numpy as np
 
 from saltus import _core
 from saltus.errors import ModelError
-from saltus.parameters.parameter import Parameter
+from saltus.parameter import Parameter, value_of
 from saltus.tracing import refusal
 from saltus.tracing.numbers import Symbol, array, as_array
 
@@ -32,7 +32,7 @@ def tape_of(
 
     known = {key: symbol(first, value) for key, (first, value) in declared.items()}
     try:
-        result = as_array(expression.evaluate(known))
+        result = as_array(value_of(expression, known))
     except refusal.Refusal as reason:
         raise ModelError(f"{what}: its expression {reason}") from None
     numbers = list(result.data.flat)

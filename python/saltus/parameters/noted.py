@@ -7,24 +7,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-import numpy as np
-
 from saltus.errors import BlockParameterError
-from saltus.parameters.parameter import Parameter
+from saltus.parameter import Parameter, given
 
-__all__ = ["given", "note", "plain"]
+__all__ = ["note", "plain"]
 
 STARTS = {"initial_state"}
 """parameters of the context with which a state starts: a context has the state itself"""
-
-
-def given(value: Any) -> Parameter | None:
-    """The expression of an argument that is a `Parameter`, or a list with some; otherwise None."""
-    if isinstance(value, Parameter):
-        return value
-    if isinstance(value, (list, tuple)) and any(isinstance(one, Parameter) for one in value):
-        return Parameter.of(_vector, *value)
-    return None
 
 
 def plain(arguments: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, Parameter]]:
@@ -46,11 +35,3 @@ def note(block: Any, expressions: Mapping[str, Parameter]) -> None:
                 f"that can: {', '.join(known) or 'none'}); give a number, such as its .value"
             )
     block._expressions = {**getattr(block, "_expressions", {}), **expressions}
-
-
-def _vector(*entries: Any) -> Any:
-    if all(isinstance(one, (int, float, np.number)) for one in entries):
-        return np.array(entries, dtype=float)
-    from saltus.tracing.numbers import array
-
-    return array(list(entries))

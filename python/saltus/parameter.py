@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import operator
 from collections.abc import Callable, Mapping
-from typing import Any, NoReturn
+from typing import TYPE_CHECKING, Any, NoReturn
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from saltus.errors import ModelError
 
-__all__ = ["Parameter"]
+__all__ = ["Parameter", "expression_of", "given", "roots_of", "value_of"]
 
 
 class Parameter:
@@ -66,44 +66,45 @@ class Parameter:
         self.function = _same
         self.operands = (value if isinstance(value, Parameter) else _number(self.name, value),)
 
-    @classmethod
-    def of(cls, function: Callable[..., Any], *operands: Any) -> Parameter:
-        """The expression function(*operands)."""
-        made = cls.__new__(cls)
-        made.name, made.function, made.operands = "an expression", function, operands
-        return made
-
     @property
     def value(self) -> Any:
         """The value, or that of the expression, from the values that parameters were made with."""
-        return self.evaluate({})
-
-    def evaluate(self, known: Mapping[int, Any]) -> Any:
-        """The expression, where `known` has other values for some parameters, by their `id`."""
-        if id(self) in known:
-            return known[id(self)]
-        return self.function(
-            *(one.evaluate(known) if isinstance(one, Parameter) else one for one in self.operands)
-        )
-
-    def roots(self, until: Mapping[int, Any]) -> set[int]:
-        """The `id` of each parameter that it reads; it looks at none behind those in `until`."""
-        found = {id(self)}
-        if id(self) not in until:
-            for one in self.operands:
-                found |= one.roots(until) if isinstance(one, Parameter) else set()
-        return found
+        return value_of(self, {})
 
     def __repr__(self) -> str:
         return f"<Parameter {self.name}: {self.value}>"
 
+    if TYPE_CHECKING:  # defined at the end of the module
+
+        def __add__(self, other: Any) -> Parameter: ...
+        def __radd__(self, other: Any) -> Parameter: ...
+        def __sub__(self, other: Any) -> Parameter: ...
+        def __rsub__(self, other: Any) -> Parameter: ...
+        def __mul__(self, other: Any) -> Parameter: ...
+        def __rmul__(self, other: Any) -> Parameter: ...
+        def __truediv__(self, other: Any) -> Parameter: ...
+        def __rtruediv__(self, other: Any) -> Parameter: ...
+        def __floordiv__(self, other: Any) -> Parameter: ...
+        def __rfloordiv__(self, other: Any) -> Parameter: ...
+        def __mod__(self, other: Any) -> Parameter: ...
+        def __rmod__(self, other: Any) -> Parameter: ...
+        def __pow__(self, other: Any) -> Parameter: ...
+        def __rpow__(self, other: Any) -> Parameter: ...
+        def __neg__(self) -> Parameter: ...
+        def __pos__(self) -> Parameter: ...
+        def __abs__(self) -> Parameter: ...
+        def __lt__(self, other: Any) -> Parameter: ...
+        def __le__(self, other: Any) -> Parameter: ...
+        def __gt__(self, other: Any) -> Parameter: ...
+        def __ge__(self, other: Any) -> Parameter: ...
+
     def __getitem__(self, index: Any) -> Parameter:
-        return Parameter.of(operator.getitem, self, index)
+        return expression_of(operator.getitem, self, index)
 
     def __array_ufunc__(self, ufunc: np.ufunc, method: str, *inputs: Any, **options: Any) -> Any:
         if method != "__call__" or options:
             raise ModelError(f"Parameter: {ufunc.__name__}.{method} with options is no expression")
-        return Parameter.of(ufunc, *inputs)
+        return expression_of(ufunc, *inputs)
 
     def __array_function__(self, function: Any, _: Any, operands: Any, options: Any) -> Any:
         if options or any(isinstance(one, (list, tuple)) and _hides(one) for one in operands):
@@ -111,7 +112,7 @@ class Parameter:
                 f"Parameter: {function.__name__} with options, or of a list, is no expression; "
                 f"compute it entry by entry"
             )
-        return Parameter.of(function, *operands)
+        return expression_of(function, *operands)
 
     def _no_number(self, *_: Any, **__: Any) -> NoReturn:
         raise ModelError(
@@ -120,6 +121,48 @@ class Parameter:
         )
 
     __float__ = __int__ = __bool__ = __index__ = __iter__ = __len__ = __array__ = _no_number
+
+
+def expression_of(function: Callable[..., Any], *operands: Any) -> Parameter:
+    """The expression function(*operands)."""
+    made = Parameter.__new__(Parameter)
+    made.name, made.function, made.operands = "an expression", function, operands
+    return made
+
+
+def value_of(one: Any, known: Mapping[int, Any]) -> Any:
+    """The value of an operand. `known` has other values for some parameters, by their `id`."""
+    if not isinstance(one, Parameter):
+        return one
+    if id(one) in known:
+        return known[id(one)]
+    return one.function(*(value_of(operand, known) for operand in one.operands))
+
+
+def roots_of(one: Any, until: Mapping[int, Any]) -> set[int]:
+    """The `id` of each parameter that an operand reads, but of none behind those in `until`."""
+    if not isinstance(one, Parameter):
+        return set()
+    if id(one) in until:
+        return {id(one)}
+    return {id(one)}.union(*(roots_of(operand, until) for operand in one.operands))
+
+
+def given(value: Any) -> Parameter | None:
+    """The expression of an argument that is a `Parameter`, or a list with some; otherwise None."""
+    if isinstance(value, Parameter):
+        return value
+    if isinstance(value, (list, tuple)) and any(isinstance(one, Parameter) for one in value):
+        return expression_of(_vector, *value)
+    return None
+
+
+def _vector(*entries: Any) -> Any:
+    if all(isinstance(one, (int, float, np.number)) for one in entries):
+        return np.array(entries, dtype=float)
+    from saltus.tracing.numbers import array
+
+    return array(list(entries))
 
 
 def _hides(entries: Any) -> bool:
@@ -143,11 +186,11 @@ def _number(name: str, value: ArrayLike) -> Any:
 
 
 def _forward(function: Callable[..., Any]) -> Callable[..., Parameter]:
-    return lambda self, *others: Parameter.of(function, self, *others)
+    return lambda self, *others: expression_of(function, self, *others)
 
 
 def _backward(function: Callable[..., Any]) -> Callable[..., Parameter]:
-    return lambda self, other: Parameter.of(function, other, self)
+    return lambda self, other: expression_of(function, other, self)
 
 
 for _name in ("add", "sub", "mul", "truediv", "floordiv", "mod", "pow"):
