@@ -107,7 +107,7 @@ class Parameter:
         return expression_of(ufunc, *inputs)
 
     def __array_function__(self, function: Any, _: Any, operands: Any, options: Any) -> Any:
-        if options or any(isinstance(one, (list, tuple)) and _hides(one) for one in operands):
+        if options or any(map(_is_list_of, operands)):
             raise ModelError(
                 f"Parameter: {function.__name__} with options, or of a list, is no expression; "
                 f"compute it entry by entry"
@@ -132,29 +132,42 @@ def expression_of(function: Callable[..., Any], *operands: Any) -> Parameter:
 
 def value_of(one: Any, known: Mapping[int, Any]) -> Any:
     """The value of an operand. `known` has other values for some parameters, by their `id`."""
-    if not isinstance(one, Parameter):
-        return one
-    if id(one) in known:
-        return known[id(one)]
-    return one.function(*(value_of(operand, known) for operand in one.operands))
+    values = dict(known)  # an expression that several others read is computed once
+
+    def value(operand: Any) -> Any:
+        if not isinstance(operand, Parameter):
+            return operand
+        if id(operand) not in values:
+            values[id(operand)] = operand.function(*map(value, operand.operands))
+        return values[id(operand)]
+
+    return value(one)
 
 
 def roots_of(one: Any, until: Mapping[int, Any]) -> set[int]:
     """The `id` of each parameter that an operand reads, but of none behind those in `until`."""
-    if not isinstance(one, Parameter):
-        return set()
-    if id(one) in until:
-        return {id(one)}
-    return {id(one)}.union(*(roots_of(operand, until) for operand in one.operands))
+    found: set[int] = set()
+    waiting = [one]
+    while waiting:
+        operand = waiting.pop()
+        if not isinstance(operand, Parameter) or id(operand) in found:
+            continue
+        found.add(id(operand))
+        if id(operand) not in until:
+            waiting.extend(operand.operands)
+    return found
 
 
 def given(value: Any) -> Parameter | None:
     """The expression of an argument that is a `Parameter`, or a list with some; otherwise None."""
     if isinstance(value, Parameter):
         return value
-    if isinstance(value, (list, tuple)) and any(isinstance(one, Parameter) for one in value):
-        return expression_of(_vector, *value)
-    return None
+    return expression_of(_vector, *value) if _is_list_of(value) else None
+
+
+def _is_list_of(value: Any) -> bool:
+    """Whether it is a list with a `Parameter` in it."""
+    return isinstance(value, (list, tuple)) and any(isinstance(one, Parameter) for one in value)
 
 
 def _vector(*entries: Any) -> Any:
@@ -163,10 +176,6 @@ def _vector(*entries: Any) -> Any:
     from saltus.tracing.numbers import array
 
     return array(list(entries))
-
-
-def _hides(entries: Any) -> bool:
-    return any(isinstance(one, Parameter) for one in entries)
 
 
 def _same(value: Any) -> Any:

@@ -20,7 +20,7 @@ std::pair<Index, Index> extent(const Layout& layout, const Layout::Range& range,
 
 namespace {
 
-/// Those that are computed within a part, whose parameters are p[first .. last).
+/// The parameters that a part computes from its own. The part has p[first .. last) of the whole.
 std::shared_ptr<const ComputedParameters> part_of(
     const std::shared_ptr<const ComputedParameters>& whole, Index first, Index last) {
   if (!whole) return {};

@@ -80,6 +80,14 @@ def test_an_expression_has_the_value_that_numpy_gives(expression, expected):
     )
 
 
+def test_an_expression_that_many_read_is_computed_once():
+    """Without that, 2^100 calls."""
+    expression = m
+    for _ in range(100):
+        expression = expression + expression
+    assert rate_of(chain(expression, {"m": m}), m=3.0) == 3.0 * 2.0**100
+
+
 def test_one_parameter_sets_blocks_in_any_depth():
     stiffness = Parameter("stiffness", 4.0)
     inner = saltus.DiagramBuilder()
