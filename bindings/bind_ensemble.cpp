@@ -167,12 +167,16 @@ void vary(Ensemble& ensemble, const std::string& name, py::handle values) {
 
 std::vector<std::string> state_names(const Ensemble& ensemble, std::string_view kind) {
   std::vector<std::string> names;
-  for (const Layout::Leaf& leaf : ensemble.base().layout().leaves) {
-    const std::string path = ensemble.plan().leaves.size() == 1 ? "" : leaf.path + ".";
+  const Layout& layout = ensemble.base().layout();
+  const auto add = [&](const Layout::Leaf& leaf, const char* state, Index size) {
+    for (Index i = 0; i < size; ++i)
+      names.push_back(layout.name_of(leaf, text(state, "[", i, "]")));
+  };
+  for (const Layout::Leaf& leaf : layout.leaves) {
     if (kind == "mode")
       names.push_back(leaf.of_diagram ? joined_name(leaf.path, "parameters") : leaf.path);
-    for (Index i = 0; kind == "x" && i < leaf.nx; ++i) names.push_back(text(path, "x[", i, "]"));
-    for (Index i = 0; kind == "z" && i < leaf.nz; ++i) names.push_back(text(path, "z[", i, "]"));
+    if (kind == "x") add(leaf, "x", leaf.nx);
+    if (kind == "z") add(leaf, "z", leaf.nz);
   }
   return names;
 }

@@ -27,7 +27,7 @@ void detail::require_settable(Layout::Role role, std::string_view name) {
 }
 
 Context Context::with_computed(std::shared_ptr<const ComputedParameters> computed) const {
-  if (layout().computed) return *this;
+  if (!computed || layout().computed) return *this;
   Context next = *this;
   Layout known = layout();
   known.computed = std::move(computed);

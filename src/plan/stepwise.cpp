@@ -47,14 +47,14 @@ bool Stepwise::is_node(int i) {
   return nodes_[i] == yes;
 }
 
-bool Stepwise::is_guard(const GuardGroup& group) const {
+bool Stepwise::is_guard(const GuardGroup& group) {
   if (group.is_opaque()) return true;
   const Formula& formula = group.is_crossing() ? plan_.crossing_of(group).formula
                                                : plan_.relation_of(plan_.node(group.index)).formula;
   return is_formula(formula, group.leaf, group.size);
 }
 
-bool Stepwise::is_formula(const Formula& formula, int leaf, Index size) const {
+bool Stepwise::is_formula(const Formula& formula, int leaf, Index size) {
   const Formula* known = fusible(formula, size);
   if (known == nullptr) return true;
   Expressions values(plan_, no_values_);

@@ -14,17 +14,17 @@ class Stepwise {
   explicit Stepwise(const Plan& plan);
 
   bool is_node(int i);
-  bool is_guard(const GuardGroup& group) const;
+  bool is_guard(const GuardGroup& group);
 
  private:
-  bool is_formula(const Formula& formula, int leaf, Index size) const;
+  bool is_formula(const Formula& formula, int leaf, Index size);
   bool has_step(const tape::Graph& graph) const;
   bool varies_by_itself(const tape::Expression& expression) const;
 
   const Plan& plan_;
-  List<char> nodes_;             // an answer for each
-  List<char> varies_;            // whether an entry of y varies between instants
-  mutable List<int> no_values_;  // all values are variables of a formula
+  List<char> nodes_;     // an answer for each
+  List<char> varies_;    // whether an entry of y varies between instants
+  List<int> no_values_;  // all values are variables of a formula
 };
 
 }  // namespace saltus::detail

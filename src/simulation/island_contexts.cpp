@@ -10,15 +10,13 @@ Context IslandRuns::part_of(const Context& whole, std::size_t k) const {
   const Island& island = all_[k];
   const Context blank = Context::zero(island.layout);
   ContextValues v = blank.values();
-  Eigen::VectorXd p = whole.parameters();
-  if (plan_->computed && !whole.layout().computed) plan_->computed->compute(p);
   v.time = whole.time(), v.settled = whole.settled();
   for (std::size_t i = 0; i < islands_.leaves[k].size(); ++i) {
     const Layout::Leaf& to = island.layout->leaves[i];
     const PlanLeaf& from = plan_->leaf(islands_.leaves[k][i]);
     v.continuous_state.segment(to.x, to.nx) = whole.continuous_state().segment(from.x, from.nx);
     v.discrete_state.segment(to.z, to.nz) = whole.discrete_state().segment(from.z, from.nz);
-    v.parameters.segment(to.p, to.np) = p.segment(from.p, from.np);
+    v.parameters.segment(to.p, to.np) = whole.parameters().segment(from.p, from.np);
     v.modes[i] = nth(whole.modes(), islands_.leaves[k][i]);
   }
   if (const Continuation* all = whole.continuation()) {

@@ -17,10 +17,11 @@ void IslandRuns::initialize(const Context& context) {
   require_context_of(*plan_, context);
   require_fits(context);
   begin_ = {};  // no run, if an island refuses its values
+  const Context known = context.with_computed(plan_->computed);
   std::vector<int> jumps;
   for (std::size_t k = 0; k < all_.size(); ++k) {
     Island& island = all_[k];
-    island.begin = part_of(context, k);
+    island.begin = part_of(known, k);
     island.run->initialize(island.begin);
     const Continuation* continuation = island.begin.continuation();
     jumps.push_back(continuation != nullptr ? continuation->jump : 0);
