@@ -1,13 +1,18 @@
 # saltus_unity_tests(RESULT FILE...): RESULT is a list of written files, each of which includes ten of these tests. Each template is
-# then instantiated once for ten tests, which halves the work. Names that two tests have stay apart, because each test is in a
-# namespace of its own; what a test includes is included before, outside of it.
+# then instantiated once for ten tests, which halves the work. Forty, where nothing is compiled again (SALTUS_UNITY), save another
+# fifth. Names that two tests have stay apart, because each test is in a namespace of its own; what a test includes is included
+# before, outside of it.
 function(saltus_unity_tests result)
   set(files "")
   set(number 0)
   list(LENGTH ARGN count)
   math(EXPR last "${count} - 1")
-  foreach(first RANGE 0 ${last} 10)
-    list(SUBLIST ARGN ${first} 10 some)
+  set(size 10)
+  if(SALTUS_UNITY GREATER 40)
+    set(size 40)
+  endif()
+  foreach(first RANGE 0 ${last} ${size})
+    list(SUBLIST ARGN ${first} ${size} some)
     math(EXPR number "${number} + 1")
     set(file ${CMAKE_CURRENT_BINARY_DIR}/unity/tests_${number}.cpp)
     saltus_write_unity(${file} ${some})
