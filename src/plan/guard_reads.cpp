@@ -48,13 +48,13 @@ std::vector<int> hidden_behind(const Plan& plan, Stepwise& stepwise, const Guard
   return signals_behind(plan, hidden);
 }
 
-/// Adds the nearest entries of some signals. A view of a state has none: the steps show it.
-void add_reads(const Plan& plan, const std::vector<int>& signals, List<ReadSlot>& reads,
-               Index& slot) {
+/// Adds the nearest entries of some signals. A state is none: the steps show it.
+void add_reads(const Plan& plan, const Stepwise& stepwise, const std::vector<int>& signals,
+               List<ReadSlot>& reads, Index& slot) {
   for (const int i : signals) {
     const Place& all = plan.node(i).place;
-    for (Index k = 0; !plan.node(i).view && k < all.size && reads.size() < most_reads; ++k)
-      reads.push_back({slot++, {all.space, all.offset + k, 1}, i});
+    for (Index k = 0; k < all.size && reads.size() < most_reads; ++k)
+      if (!stepwise.is_state(i, k)) reads.push_back({slot++, {all.space, all.offset + k, 1}, i});
   }
 }
 
@@ -64,7 +64,7 @@ void detail::add_reads_of_guards(Plan& plan) {
   Stepwise stepwise(plan);
   plan.look_slots = plan.guard_slots;
   for (GuardGroup& group : plan.guards)
-    add_reads(plan, hidden_behind(plan, stepwise, group), group.reads, plan.look_slots);
+    add_reads(plan, stepwise, hidden_behind(plan, stepwise, group), group.reads, plan.look_slots);
 }
 
 }  // namespace saltus

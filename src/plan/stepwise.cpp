@@ -54,11 +54,26 @@ bool Stepwise::is_guard(const GuardGroup& group) {
   return is_formula(formula, group.leaf, group.size);
 }
 
+/// A formula that is called by itself is known as well. To look into a wide one costs too much.
+bool Stepwise::is_known(const Formula& formula, Index size) const {
+  return formula && size <= widest_fused;
+}
+
+bool Stepwise::is_state(int i, Index k) const {
+  const Node& node = plan_.node(i);
+  const Formula& formula = plan_.output_of(node).formula;
+  if (node.view || !is_known(formula, node.place.size)) return node.view;
+  List<int> no_values = no_values_;
+  Expressions values(plan_, no_values);
+  const tape::Node entry =
+      values.add(formula, node.leaf, node.place.size)[static_cast<std::size_t>(k)];
+  return values.graph()[entry].op == Op::continuous_state;
+}
+
 bool Stepwise::is_formula(const Formula& formula, int leaf, Index size) {
-  const Formula* known = fusible(formula, size);
-  if (known == nullptr) return true;
+  if (!is_known(formula, size)) return true;
   Expressions values(plan_, no_values_);
-  values.add(*known, leaf, size);
+  values.add(formula, leaf, size);
   return has_step(values.graph());
 }
 

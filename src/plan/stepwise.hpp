@@ -15,8 +15,11 @@ class Stepwise {
 
   bool is_node(int i);
   bool is_guard(const GuardGroup& group);
+  /// Whether entry k of a node is an entry of a state: a view, or a formula that says no more.
+  bool is_state(int i, Index k) const;
 
  private:
+  bool is_known(const Formula& formula, Index size) const;
   bool is_formula(const Formula& formula, int leaf, Index size);
   bool has_step(const tape::Graph& graph) const;
   bool varies_by_itself(const tape::Expression& expression) const;

@@ -84,6 +84,21 @@ TEST_CASE("a formula has what is behind a function that may be constant", "[plan
   CHECK(reads_behind(smooth, formula) == 0);
 }
 
+/// Python's blocks have no other outputs of states.
+TEST_CASE("it has no formulas that only copy a state", "[plan]") {
+  const auto times = [](double factor) {
+    return make_leaf("state", [=](Leaf& l) {
+      declare_oscillator(l);
+      const auto formula = [=](const auto& at, Index i) {
+        return factor == 1.0 ? at.x(i) : at.x(i) * factor;
+      };
+      l.declare_output_port({.name = "out", .shape = Shape::of(2), .formula = formula});
+    });
+  };
+  CHECK(reads(times(1.0), 2) == 0);
+  CHECK(reads(times(2.0), 2) == 2);
+}
+
 TEST_CASE("it has no states, no held signals, and 32 values at most", "[plan]") {
   const auto state = make_leaf("state", [](Leaf& l) {
     declare_oscillator(l);

@@ -212,6 +212,23 @@ TEST_CASE("the noise of a smooth guard is some times its movement in a rounding 
   CHECK(step.noise(0) < slope * 16.0 * eps * root);
 }
 
+/// A guard that jumps has no noise. In an interval that is 1e9 to 1e5 times as long as the last bracket, a
+/// jump is steeper there by this factor, a cube root by its power 2/3, a line by 1.
+TEST_CASE("a jump is known in a short interval, too, and a steep root is none", "[narrow]") {
+  const double length = GENERATE(1e-7, 1e-9, 1e-11), root = 0.5;
+  INFO("length " << length);
+  const auto noise = [&](const Function& g) {
+    Crossings::Parts parts({g});
+    Crossings step(parts);
+    step.find(root - 0.6 * length, root + 0.4 * length);
+    return step.noise(0);
+  };
+  CHECK(noise([=](double u) { return u < root ? 0.5 : -0.2; }) == 0.0);
+  CHECK(noise([=](double u) { return u < root ? 0.5 - u : -0.2 - u; }) == 0.0);
+  CHECK(noise([=](double u) { return 1e9 * (root + 1e-17 - u); }) > 0.0);
+  CHECK(noise([=](double u) { return std::cbrt(root - u + 1e-17) + 1e-7; }) > 0.0);
+}
+
 TEST_CASE("where few of many guards cross, the looks on the way are at these", "[narrow]") {
   // Twenty guards, of which the last `count` cross at 0.84.
   const auto calls_a_look = [](int count) {

@@ -84,8 +84,8 @@ TEST_CASE("only the guard that hides something in vain is left out", "[piece_jud
 }
 
 /// A guard and, behind it, a value that it reads.
-struct SilentJudge {
-  explicit SilentJudge(bool rests = false) : guards{{.jumps = true}} {
+struct ReadJudge {
+  explicit ReadJudge(bool rests = false) : guards{{.jumps = true}} {
     located.add(0, 0);
     GuardGroup group;
     group.reads = {{.slot = 1}};
@@ -98,21 +98,44 @@ struct SilentJudge {
   PieceJudge piece{guards, located, 2};
 };
 
-TEST_CASE("what a guard reads counts while the guard is the same at two looks in a row",
-          "[piece_judge]") {
+/// A function with a step and a slope shows the slope only: between two looks it may have been beyond the
+/// step and come back. So it makes no difference whether the guard moves.
+TEST_CASE("what a guard reads counts, whether the guard moves or not", "[piece_judge]") {
   const Values constant{{1.0, 101.0}, {1.0, 102.0}, {1.0, 101.0}, {1.0, 102.0}};
   const Values changed{{1.0, 101.0}, {1.0, 102.0}, {1.0, 101.0}, {-1.0, 102.0}};
   const Values moves{{1.0, 101.0}, {2.0, 102.0}, {3.0, 101.0}, {4.0, 102.0}};
   const Values known{{1.0, 109.0}, {1.0, 104.0}, {1.0, 101.0}, {1.0, 100.0}};  // a parabola
-  CHECK(SilentJudge().piece.hides(constant));
-  CHECK(SilentJudge().piece.hides(changed));
-  CHECK_FALSE(SilentJudge().piece.hides(moves));
-  CHECK_FALSE(SilentJudge().piece.hides(known));
-  CHECK_FALSE(SilentJudge(true).piece.hides(constant));
+  CHECK(ReadJudge().piece.hides(constant));
+  CHECK(ReadJudge().piece.hides(changed));
+  CHECK(ReadJudge().piece.hides(moves));
+  CHECK_FALSE(ReadJudge().piece.hides(known));
+  CHECK_FALSE(ReadJudge(true).piece.hides(constant));
 }
 
-TEST_CASE("a sine that a silent guard reads is shown by thirty looks in a period",
-          "[piece_judge]") {
+/// The third difference of equal values is a rounding, if the looks are not evenly spaced, and their range
+/// is 0. In pieces of 1e3 roundings of the time, the values of a slope are off by 1e-3 of their range.
+TEST_CASE("what is rounding of a value that a guard reads hides nothing", "[piece_judge]") {
+  const auto hides = [](double slope, double piece, double resolution, double off) {
+    const double at[4] = {0.0, 1.3 * piece, 2.0 * piece, 3.0 * piece};
+    double values[4][2];
+    for (int i = 0; i < 4; ++i) {
+      values[i][0] = 1.0;
+      values[i][1] = 0.3 + slope * (at[i] + (i % 2 == 0 ? off : -off));
+    }
+    const FourLooks looks{
+        values[0], values[1],         values[2], values[3], {at[0], at[1], at[2], at[3]},
+        false,     resolution / piece};
+    const ReadJudge judge;
+    CHECK(judge.piece.hides(looks) == !judge.piece.is_slow(looks));
+    return judge.piece.hides(looks);
+  };
+  CHECK_FALSE(hides(0.0, 1.0, 0.0, 0.0));
+  CHECK_FALSE(hides(1e-15, 1.0, 0.0, 0.5));        // roundings of 0.3
+  CHECK_FALSE(hides(1.0, 1e-12, 1e-14, 0.5e-14));  // roundings of the time
+  CHECK(hides(1.0, 1e-12, 1e-18, 0.5e-12));
+}
+
+TEST_CASE("a sine that a guard reads is shown by thirty looks in a period", "[piece_judge]") {
   const auto hides = [](double looks) {
     bool any = false;
     for (double phase = 0.0; phase < 6.3; phase += 0.01) {
@@ -121,7 +144,7 @@ TEST_CASE("a sine that a silent guard reads is shown by thirty looks in a period
         values[i][0] = 1.0, values[i][1] = std::sin(phase + i * 2.0 * std::acos(-1.0) / looks);
       }
       const ThirdDifference bound(0.0, 1.0, 2.0, 3.0);
-      any = any || SilentJudge().piece.hides({values[0], values[1], values[2], values[3], bound});
+      any = any || ReadJudge().piece.hides({values[0], values[1], values[2], values[3], bound});
     }
     return any;
   };
@@ -131,7 +154,7 @@ TEST_CASE("a sine that a silent guard reads is shown by thirty looks in a period
 
 TEST_CASE("a value that is noise counts no more after a while", "[piece_judge]") {
   const Values noise{{1.0, 101.0}, {1.0, 102.0}, {1.0, 101.0}, {1.0, 102.0}};
-  SilentJudge judge;
+  ReadJudge judge;
   for (int i = 0; i <= thresholds::most_in_vain; ++i) judge.piece.note_in_vain(noise);
   CHECK_FALSE(judge.piece.hides(noise));
 }

@@ -50,7 +50,8 @@ class Glance : protected Narrower {
   /// Whether a step needs no look inside; high_ has the guards at its end. No guard could reach
   /// zero and come back, even if it moved eight times as fast as it recently did (the bound of B.
   /// O. Shubert, "A sequential method seeking the global maximum of a function", SIAM J. Numer.
-  /// Anal. 9 (1972) 379). The locator still looks into such a step from time to time.
+  /// Anal. 9 (1972) 379). The locator still looks into such a step from time to time. How fast a
+  /// guard moved says nothing of a function whose reads are looked at, because it may have steps.
   [[gnu::always_inline]] bool out_of_reach(double length) const {
     if (jumps_) return false;
     const double *high = high_.data(), *last = guards_->g.data(), *speed = speed_.data();
@@ -61,7 +62,7 @@ class Glance : protected Narrower {
             sum > thresholds::speed_margin * (speed[k] * length)))
         return false;
     }
-    return !some_silent();
+    return located_->reads.empty();
   }
 
   /// Whether no guard can have fired between the look at `from` and high_, at `to`: each guard is
@@ -139,16 +140,6 @@ class Glance : protected Narrower {
   /// What guards read at high_ is what they read at the last look.
   void follow_reads() {
     for (const LookedRead& read : located_->reads) guards_->g[read.slot] = high_[read.slot];
-  }
-
-  /// Whether a guard whose reads are looked at has not changed since the last look: how fast it
-  /// moved says nothing.
-  bool some_silent() const {
-    return std::ranges::any_of(located_->reads, [&](const LookedRead& read) {
-      for (std::size_t k = read.first_guard; k <= read.last_guard; ++k)
-        if (high_[k] == guards_->g[k]) return true;
-      return false;
-    });
   }
 
   List<double> earlier_, oldest_;  // guards at the look before the last, and at the one before

@@ -193,13 +193,21 @@ class Narrower {
   static double next_weight(double weight, int kept) {
     return kept > 1 ? weight * 0.5 : kept < -1 ? weight * 2.0 : 1.0;
   }
+  /// How much steeper than in the whole interval a guard is at a jump, where the interval is so many
+  /// times as long as the last bracket. A jump is steeper by that whole factor, a smooth guard not at
+  /// all, and a root as that of a cube root by its power 2/3.
+  static double steepness_of_jump(double narrowed) {
+    if (narrowed < thresholds::jump_narrowing) return std::numeric_limits<double>::infinity();
+    return std::min(thresholds::jump_steepness, std::pow(narrowed, thresholds::jump_power));
+  }
   /// The values at the ends of the last bracket are the noise of a smooth guard. A guard that jumps
-  /// has no noise: it is `jump_steepness` times as steep there as in the whole interval.
+  /// has no noise.
   void note_ends(double last, double begun) {
+    const double steepness = steepness_of_jump(begun / last);
     for (const std::size_t k : crossed_) {
       const double jump = std::abs(high_[k] - low_[k]);
       const double change = std::abs(begun_[k] - guards_->g[k]);
-      const bool jumps = jump * begun > thresholds::jump_steepness * last * std::max(change, jump);
+      const bool jumps = jump * begun > steepness * last * std::max(change, jump);
       jump_[k] = jumps ? jump : 0.0;
       noise_[k] =
           jumps ? 0.0 : thresholds::root_noise * std::max(std::abs(low_[k]), std::abs(high_[k]));

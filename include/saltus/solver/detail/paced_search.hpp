@@ -29,8 +29,8 @@ class PacedSearch : protected PieceSearch {
   /// The pieces of a step begin at `from`; `even` [s] is the distance of evenly spaced looks.
   template <class Interpolate>
   void begin_pieces(double from, double even, const Interpolate& interpolate) {
-    const double resolution = thresholds::eps * (std::abs(t0_) + end_at_);
-    refines_ = scans() && even * thresholds::step_piece > thresholds::look_roundings * resolution;
+    resolution_ = thresholds::eps * (std::abs(t0_) + end_at_);
+    refines_ = scans() && even * thresholds::step_piece > thresholds::look_roundings * resolution_;
     even_looks_ = 1;
     if (scans()) {
       for (const std::size_t k : located_->looked)
@@ -38,7 +38,7 @@ class PacedSearch : protected PieceSearch {
     }
     if (!refines_) return;
     even_ = even, records_may_differ_ = false;
-    least_ = std::max(even * thresholds::finest_piece, thresholds::look_roundings * resolution);
+    least_ = std::max(even * thresholds::finest_piece, thresholds::look_roundings * resolution_);
     const bool unknown = pace_.begin_step(even, least_);
     const bool judges_all = pace_.is_finer_than(even) && has_four_looks();
     back_to_ = judges_all ? never : from;
@@ -176,27 +176,29 @@ class PacedSearch : protected PieceSearch {
             guards_->g.data(),
             high_.data(),
             ThirdDifference(oldest_at_, earlier_at_, from, to),
-            is_near(from, to)};
+            is_near(from, to),
+            resolution_ / (to - from)};
   }
   bool is_near(double from, double to) const { return to - from <= even_ * thresholds::step_piece; }
   [[gnu::always_inline]] bool hides(double from, double to) const {
     return has_four_looks() && judge_.hides(four_looks(from, to));
   }
-  /// Whether guards that look clear are constant only, and what they read hides something.
+  /// Whether guards look clear only, because what they read hides something.
   [[gnu::always_inline]] bool reads_hide(double from, double to) const {
     return !located_->reads.empty() && hides(from, to);
   }
 
   PieceJudge judge_;
   LookPace pace_;
-  Looks begin_;             // those where the pieces of the step began
-  double back_to_ = never;  // where that was, until shorter pieces are judged by four looks
-  List<double> before_;     // guards where a run begins, a little later
-  List<double> at_end_;     // guards at the end of an evenly spaced piece
-  double even_ = 0.0;       // [s] between the evenly spaced looks
-  double least_ = 0.0;      // [s] no piece is shorter
-  int even_looks_ = 1;      // looks in a row that far apart
-  bool refines_ = false;    // there may be looks between these
+  Looks begin_;              // those where the pieces of the step began
+  double back_to_ = never;   // where that was, until shorter pieces are judged by four looks
+  List<double> before_;      // guards where a run begins, a little later
+  List<double> at_end_;      // guards at the end of an evenly spaced piece
+  double even_ = 0.0;        // [s] between the evenly spaced looks
+  double least_ = 0.0;       // [s] no piece is shorter
+  double resolution_ = 0.0;  // [s] a rounding of the time at the end of the step
+  int even_looks_ = 1;       // looks in a row that far apart
+  bool refines_ = false;     // there may be looks between these
 };
 
 }  // namespace saltus

@@ -7,7 +7,9 @@
 #include "saltus/base/list.hpp"
 #include "saltus/solver/detail/guard_set.hpp"
 #include "saltus/solver/detail/look_pace.hpp"
+#include "saltus/solver/detail/search_thresholds.hpp"
 #include "saltus/solver/detail/third_difference.hpp"
+#include "saltus/solver/detail/thresholds.hpp"
 
 namespace saltus {
 
@@ -17,6 +19,7 @@ struct FourLooks {
   const double *oldest, *earlier, *last, *high;
   ThirdDifference bound;  ///< of the offsets of these looks
   bool near = false;      ///< whether the last two are so near that they show a guard of two values
+  double time_rounding = 0.0;  ///< [of the piece] how far their offsets may be off
 
   LookVariation variation(std::size_t k) const {
     const double g0 = oldest[k], g1 = earlier[k], g2 = last[k], g3 = high[k];
@@ -28,21 +31,24 @@ struct FourLooks {
             near && (g0 == g1) + (g1 == g2) + (g2 == g3) == 2};
   }
   /// The same of a value that guards read. No place of it is known where they change, so it may do so
-  /// anywhere, and it has to be shown better than a guard.
+  /// anywhere, and it has to be shown better than a guard. What the roundings of the value and of the
+  /// times explain is no error: a guard does not come near to zero by them, but such a value would hide
+  /// something in all pieces that are short enough.
   LookVariation variation_of_read(std::size_t k) const {
     LookVariation of = variation(k);
-    of.error *= thresholds::read_room, of.least = 0.0;
+    const double size = std::max(std::max(std::abs(oldest[k]), std::abs(earlier[k])),
+                                 std::max(std::abs(last[k]), std::abs(high[k])));
+    const double each =
+        thresholds::read_roundings * thresholds::eps * size + time_rounding * of.range;
+    of.error = thresholds::read_room * std::max(0.0, of.error - bound.rounding(each));
+    of.least = 0.0;
     return of;
-  }
-  /// Whether a guard has not changed from one look to the next: it shows less than what it reads.
-  bool is_silent(std::size_t k) const {
-    return oldest[k] == earlier[k] || earlier[k] == last[k] || last[k] == high[k];
   }
 };
 
 /// Judges a piece by the guards that are located together. A guard that jumps, or whose block is at
-/// rest, does not count: no distance of the looks shows more of it. What a guard reads counts in its
-/// place while it is silent.
+/// rest, does not count: no distance of the looks shows more of it. What guards read counts beside
+/// them, because a function that is not known to be smooth shows less than what it reads.
 class PieceJudge {
  public:
   PieceJudge(const GuardSet& guards, const LocatedGuards& located, Index slots)
@@ -60,7 +66,7 @@ class PieceJudge {
     for (const std::size_t k : located_->slots)
       if (is(k, looks.variation(k)) && counts(k)) return true;
     for (const LookedRead& read : located_->reads)
-      if (is(read.slot, looks.variation_of_read(read.slot)) && counts(read, looks)) return true;
+      if (is(read.slot, looks.variation_of_read(read.slot)) && counts(read)) return true;
     return false;
   }
   /// Whether some guard may have crossed zero where the looks do not show it.
@@ -76,8 +82,7 @@ class PieceJudge {
     for (const std::size_t k : located_->slots)
       if (looks.variation(k).hides() && counts(k)) judged_[k].fail();
     for (const LookedRead& read : located_->reads)
-      if (looks.variation_of_read(read.slot).hides() && counts(read, looks))
-        judged_[read.slot].fail();
+      if (looks.variation_of_read(read.slot).hides() && counts(read)) judged_[read.slot].fail();
   }
   /// A piece of near looks is not halved: notes which guards seem to be noise.
   void note_noise(const FourLooks& looks) {
@@ -91,11 +96,11 @@ class PieceJudge {
     const Guard& guard = (*guards_)[k];
     return judged_[k].yes() && !guard.jumps && guard.phase != Phase::resting;
   }
-  /// What guards read counts while one of them is silent, and its block not at rest.
-  bool counts(const LookedRead& read, const FourLooks& looks) const {
+  /// What guards read counts while one of their blocks is not at rest.
+  bool counts(const LookedRead& read) const {
     if (!judged_[read.slot].yes()) return false;
     for (std::size_t k = read.first_guard; k <= read.last_guard; ++k)
-      if (looks.is_silent(k) && (*guards_)[k].phase != Phase::resting) return true;
+      if ((*guards_)[k].phase != Phase::resting) return true;
     return false;
   }
 

@@ -29,10 +29,14 @@ inline constexpr std::size_t few_guards = 8;
 /// by as much as they differ, twice. tests/unit/narrow_test.cpp, tests/unit/found_root_test.cpp
 inline constexpr double root_noise = 4.0;
 /// [1] How much steeper than in the whole interval a guard has to be in its last bracket to be a
-/// jump. A bracket is narrowed by 1e12 and more: a jump is steeper by the whole factor, a smooth
+/// jump. Most brackets are narrowed by 1e12 and more: a jump is steeper by the whole factor, a smooth
 /// guard hardly. This lies between, in decades. tests/semantics/guards_jump_test.cpp fails where it
 /// is so large that nothing is a jump.
 inline constexpr double jump_steepness = 1e6;
+/// [1] The same where an interval is narrowed less: this power of the factor, between that of a cube
+/// root, 2/3, and that of a jump, 1. An interval that is narrowed by less than a thousand says nothing.
+/// tests/unit/narrow_test.cpp
+inline constexpr double jump_power = 0.75, jump_narrowing = 1e3;
 /// [points] in a step of an interpolant of lower degree.
 /// tests/semantics/zeno_moving_frame_test.cpp
 inline constexpr int least_scan_points = 3;
@@ -82,9 +86,12 @@ inline constexpr double hidden_share = 1.0 / 32.0;
 /// [errors of the parabola] and [of hidden_share] The error grows eight times as the piece grows
 /// twice: both have this room, and a factor of two. tests/unit/look_pace_test.cpp
 inline constexpr double growth_room = 64.0, slow_share = 1.0 / 16.0;
-/// [1] How much better than a guard a value has to be shown that a silent guard reads: there are 30
-/// looks in a period of a sine. tests/unit/piece_judge_test.cpp
+/// [1] How much better than a guard a value has to be shown that guards read: there are 30 looks in a
+/// period of a sine. tests/unit/piece_judge_test.cpp
 inline constexpr double read_room = 16.0;
+/// [eps of a value] that guards read: what a formula of some operations is off by.
+/// tests/unit/piece_judge_test.cpp (as small)
+inline constexpr double read_roundings = 8.0;
 /// [of an evenly spaced piece] A shorter piece is not halved: of a guard with a million periods in a
 /// step each crossing is found. tests/unit/look_pace_test.cpp
 inline constexpr double finest_piece = 0x1p-24;

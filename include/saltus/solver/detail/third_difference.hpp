@@ -1,6 +1,8 @@
 // ThirdDifference: how far a guard may be from the parabola through three looks at it.
 #pragma once
 
+#include <cmath>
+
 namespace saltus {
 
 /// The offsets of four looks. The parabola through the last three of them differs from the guard
@@ -25,6 +27,10 @@ class ThirdDifference {
   /// The bound with its sign, for the values at the four looks.
   constexpr double of(double g0, double g1, double g2, double g3) const {
     return w0_ * g0 + w1_ * g1 + w2_ * g2 + w3_ * g3;
+  }
+  /// How much of the bound may be rounding, where each value is off by at most `each`.
+  double rounding(double each) const {
+    return (std::abs(w0_) + std::abs(w1_) + std::abs(w2_) + std::abs(w3_)) * each;
   }
 
  private:
