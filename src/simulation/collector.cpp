@@ -47,6 +47,14 @@ bool Collector::take_contacts() {
   return let_go;
 }
 
+bool Collector::is_crossing(const Firing& firing) const {
+  return plan_->guard((*guards_)[firing.guard()].group).is_crossing();
+}
+
+bool Collector::has_jumped(const Firing& firing) const {
+  return is_crossing(firing) && present_->now(firing.guard()).jumped();
+}
+
 bool Collector::flip_relations() {
   bool flipped = false;
   present_->open_pass();
@@ -54,11 +62,26 @@ bool Collector::flip_relations() {
     const std::size_t k = firing.guard();
     present_->fires_in_pass(k);
     guards_->fired(k, firing.from);
-    if (plan_->guard((*guards_)[k].group).is_crossing()) continue;
+    if (is_crossing(firing)) continue;
     relations_->flip(firing);
     flipped = true;
   }
   return flipped;
+}
+
+bool Collector::some_jumped() const {
+  return std::ranges::any_of(present_->firings,
+                             [this](const Firing& firing) { return has_jumped(firing); });
+}
+
+void Collector::take_back_jumps() {
+  std::erase_if(present_->firings, [this](const Firing& firing) {
+    const std::size_t k = firing.guard();
+    if (!has_jumped(firing) || !came_back(firing.from, present_->g[k])) return false;
+    guards_->turn(k, firing.from);
+    present_->take_back(k);
+    return true;
+  });
 }
 
 bool Collector::collect_edges() {

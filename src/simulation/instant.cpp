@@ -87,6 +87,7 @@ bool Instant::collect() {
   rows_.before(jump_, flipped);
   machine_->evaluate_instant(present_.t);
   follow_controls();
+  judge_jumps(flipped);
   if (Tangents* tangents = transition_.tangents()) {
     tangents->look_at_firings(present_);
     tangents->evaluated();
@@ -101,6 +102,32 @@ bool Instant::collect() {
   if (!present_.changes) journal_.at_jump(jump_);
   collector_.note_passive();
   return present_.changes || !present_.actions.empty();
+}
+
+/// Looks again at the guards that jumped at the root: at first, the relations of the root had not flipped.
+void Instant::judge_jumps(bool flipped) {
+  const auto judged = [this](const MonitorHit& hit) {
+    return judges(hit, present_.t, before_.roots);
+  };
+  const bool monitors = present_.pass == 0 && std::ranges::any_of(guards_->monitors, judged);
+  if (flipped && (monitors || collector_.some_jumped())) {
+    machine_->guards_at(present_.t, machine_->x.data(), present_.g.data());
+    collector_.take_back_jumps();
+  }
+  if (monitors) log_judged_monitors(flipped);
+}
+
+void Instant::log_judged_monitors(bool flipped) {
+  for (const MonitorHit& hit : guards_->monitors) {
+    if (!judges(hit, present_.t, before_.roots)) continue;
+    if (const std::size_t k = hit.firing.guard();
+        flipped && came_back(hit.firing.from, present_.g[k])) {
+      guards_->see(k, present_.g[k]);
+      continue;
+    }
+    log_monitor(hit, machine_->x.data());
+    if (Tangents* tangents = transition_.tangents()) tangents->monitor(hit, machine_->x.data());
+  }
 }
 
 void Instant::run_pass() {
@@ -165,7 +192,7 @@ bool Instant::left_zero_beside_root(std::size_t k) {
 void Instant::look_at_crossing(std::size_t k) {
   const Guard& guard = (*guards_)[k];
   const double g = present_.g[k];
-  if (guard.monitor || !guard.crossed(g)) return guards_->see(k, g);
+  if (!guard.crossed(g)) return guards_->see(k, g);
   if (present_.now(k).turned_beside_root && !left_zero_beside_root(k)) {
     guards_->turn(k, firing_side(guard.direction));
     return guards_->see(k, g);

@@ -113,6 +113,13 @@ bool Instant::finds_roots() {
   return !guards_->fired_at_root.empty();
 }
 
+bool Instant::judges(const MonitorHit& hit, double t, const std::vector<Firing>& roots) const {
+  const auto is_relation = [this](const Firing& firing) {
+    return !plan().guard((*guards_)[firing.guard()].group).is_crossing();
+  };
+  return hit.t == t && hit.firing.jump > 0.0 && std::ranges::any_of(roots, is_relation);
+}
+
 void Instant::log_monitor(const MonitorHit& hit, const double* x) {
   journal_.note_monitor(hit, (*guards_)[hit.firing.slot], jump_, x);
 }

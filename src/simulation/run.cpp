@@ -191,6 +191,7 @@ void Run::keep_histories(double from) {
 /// Logs the monitors that crossed inside the last step.
 void Run::log_monitors() {
   for (const MonitorHit& hit : guards_.monitors) {
+    if (instant_.judges(hit, time_, guards_.fired_at_root)) continue;
     Eigen::VectorXd& x = integration_.at(hit.t);
     machine_.put_carried(hit.t, x.data());
     instant_.log_monitor(hit, x.data());

@@ -24,6 +24,18 @@ TEST_CASE("a guard beside the root of another one has crossed only where the flo
     CHECK_FALSE(crossed_beside_root(direction, phase, unasked));
 }
 
+TEST_CASE("a guard that jumped at a root came back only if it is off zero, on its side before") {
+  for (const double size : {1.0, 1e-300, 1e300}) {
+    CHECK(came_back(1, size));
+    CHECK(came_back(-1, -size));
+    CHECK_FALSE(came_back(1, -size));
+    CHECK_FALSE(came_back(-1, size));
+  }
+  CHECK_FALSE(came_back(1, 0.0));
+  CHECK_FALSE(came_back(-1, 0.0));
+  CHECK_FALSE(came_back(1, std::numeric_limits<double>::quiet_NaN()));
+}
+
 TEST_CASE("after a pass a guard is looked at, seen, or left to its hold") {
   const bool queued = GENERATE(false, true);
   CHECK(decide_after_pass(true, true, queued) == AfterPass::nothing);

@@ -30,6 +30,10 @@ class Collector {
   bool take_contacts();
   /// Flips the relations that fired. True if there is one.
   bool flip_relations();
+  /// Whether a zero crossing that fired jumped at its root.
+  bool some_jumped() const;
+  /// Removes those of them that came back when the relations of the same root flipped.
+  void take_back_jumps();
   /// Collects the edges of watched signals. True if a falling edge ended a hold.
   bool collect_edges();
   /// Collects the zero crossings that act in this pass, and sorts all actions.
@@ -41,6 +45,8 @@ class Collector {
 
  private:
   bool acts(const Action& action) const;
+  bool is_crossing(const Firing& firing) const;
+  bool has_jumped(const Firing& firing) const;
   void collect_carried(std::size_t e);
 
   const Scope* scope_;

@@ -54,6 +54,9 @@ class Instant {
   /// the guards that fired at the root. False if there are none.
   bool finds_roots();
 
+  /// Whether `run` at t has to log this crossing of a monitor: it jumped at the root there, at which
+  /// relations are among the guards that fired, `roots`. So it may come back when they flip.
+  bool judges(const MonitorHit& hit, double t, const std::vector<Firing>& roots) const;
   /// Logs the crossing of a monitor, which changes nothing, at the state x.
   void log_monitor(const MonitorHit& hit, const double* x);
 
@@ -74,6 +77,8 @@ class Instant {
   void open(double t, const std::vector<int>& due, double longest);
   void turn_beside_root();
   bool collect();
+  void judge_jumps(bool flipped);
+  void log_judged_monitors(bool flipped);
   void run_pass();
   void commit();
   void find_next();

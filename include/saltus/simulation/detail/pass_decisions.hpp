@@ -23,6 +23,16 @@ bool crossed_beside_root(Direction direction, Phase phase, const FlowTo& flow_to
   return phase == Phase::armed && flow_to() == -firing_side(direction);
 }
 
+/// Whether a guard that jumped from one side at a root is back on it after the relations of the same root
+/// have flipped. The look at a root holds the relations before it. Beyond a jump they do not fit what they
+/// read, so what follows from them is wrong: a saturated output is beyond its limit.
+///
+///     value after the flips   came back
+///     on its side before      yes: it has never crossed
+///     at zero                 no: it is there now
+///     beyond zero             no
+constexpr bool came_back(int from, double value) { return from * value > 0.0; }
+
 /// A zero crossing after a pass: whether it fires in the next one, or where it is seen from now on.
 ///
 ///     holds its block   fired in this pass   queued   then

@@ -98,6 +98,12 @@ class Present {
     now.fired = now.fired_in_pass = true;
     fired_in_pass_.push_back(k);
   }
+  /// Guard k did not fire: it only seemed to.
+  void take_back(std::size_t k) {
+    GuardNow& now = note(k);
+    now.fired = now.fired_in_pass = false;
+    now.jump = 0.0;
+  }
 
   double t = 0.0;        ///< [s]
   double longest = 0.0;  ///< [s] from here to the end of the run
