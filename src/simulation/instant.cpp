@@ -104,12 +104,13 @@ bool Instant::collect() {
   return present_.changes || !present_.actions.empty();
 }
 
-/// Looks again at the guards that jumped at the root: at first, the relations of the root had not flipped.
+/// Looks again at the guards that jumped at the root, where the relations of the root had not flipped yet.
 void Instant::judge_jumps(bool flipped) {
+  if (present_.pass > 0) return;
   const auto judged = [this](const MonitorHit& hit) {
     return judges(hit, present_.t, before_.roots);
   };
-  const bool monitors = present_.pass == 0 && std::ranges::any_of(guards_->monitors, judged);
+  const bool monitors = std::ranges::any_of(guards_->monitors, judged);
   if (flipped && (monitors || collector_.some_jumped())) {
     machine_->guards_at(present_.t, machine_->x.data(), present_.g.data());
     collector_.take_back_jumps();

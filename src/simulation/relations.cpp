@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "saltus/simulation/detail/relation_decisions.hpp"
-
 namespace saltus {
 
 Relations::Relations(const Scope& scope, Machine& machine, GuardSet& guards,
@@ -92,7 +90,8 @@ bool Relations::read(const GuardGroup& group, std::size_t k) {
                             .turned = now.turned,
                             .wrote = transition_->wrote_x(group)};
   const std::optional<int> by_value = decide_relation(facts);
-  const int side = by_value ? *by_value : side_by_flow(group, k, facts.crossed_to());
+  const int side = by_value ? side_at_zero(group, k, facts, *by_value)
+                            : side_by_flow(group, k, facts.crossed_to());
   if (side == 0) return false;
   guards_->turn(k, side);
   if ((side > 0) == was) return false;
@@ -102,6 +101,17 @@ bool Relations::read(const GuardGroup& group, std::size_t k) {
   truth(k) = side > 0 ? 1.0 : 0.0;
   if (!machine_->plan().needs.restarting.empty()) flow_->forget();
   return true;
+}
+
+/// The side by the value of a relation, which may be exactly at zero.
+int Relations::side_at_zero(const GuardGroup& group, std::size_t k, const RelationFacts& facts,
+                            int side) {
+  const Plan& plan = machine_->plan();
+  const Node& node = plan.node(group.index);
+  const bool true_at_zero = node.relation && plan.relation_of(node).true_at_zero;
+  return decide_at_zero(facts, side, true_at_zero, [&] {
+    return flow_->side(group, static_cast<Index>(k), 0.0, Departure::either_side).side == 0;
+  });
 }
 
 /// The side to which the flow takes a relation; the side of its crossing if the flow leads to no

@@ -46,6 +46,22 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("A relation that others put at zero, and that stays there, is what it says at zero") {
+  const auto unasked = []() -> bool { throw std::logic_error("asked for the flow"); };
+  const auto yes = [] { return true; };
+  const auto no = [] { return false; };
+  const bool at_zero = GENERATE(false, true);
+  const int side = at_zero ? 1 : -1;
+  const RelationFacts other{.truth = !at_zero, .g = 0.0};
+  CHECK(decide_at_zero(other, 0, at_zero, yes) == side);
+  CHECK(decide_at_zero(other, 0, at_zero, no) == 0);
+  CHECK(decide_at_zero({.truth = at_zero, .g = 0.0}, 0, at_zero, unasked) == 0);
+  CHECK(decide_at_zero({.truth = !at_zero, .g = 1e-300}, 1, at_zero, unasked) == 1);
+  CHECK(decide_at_zero({.opaque = true, .truth = !at_zero}, 0, at_zero, unasked) == 0);
+  CHECK(decide_at_zero({.truth = !at_zero, .fired = true}, -side, at_zero, unasked) == -side);
+  CHECK(decide_at_zero({.truth = !at_zero, .wrote = true}, 0, at_zero, unasked) == 0);
+}
+
 TEST_CASE("How a relation goes on") {
   using enum RelationArming;
   CHECK(decide_relation_arming(true, 1, -1, true, true) == by_truth);

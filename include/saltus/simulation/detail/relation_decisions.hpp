@@ -40,6 +40,26 @@ constexpr std::optional<int> decide_relation(const RelationFacts& relation) {
   return side;
 }
 
+/// The side of a relation that was read again, `side` by its value, where the flips of other relations
+/// may have put it at exactly zero, to stay there. An input on a flat piece at zero, as behind a
+/// DeadZone, gives no side for the whole piece: `u > 0` is false there, and `u >= 0` is true. At its own
+/// root a relation has the side of its crossing, and a write leaves it its truth. `stays()` is whether
+/// the flow leads it to no side.
+///
+///     value      fired, or states written   truth            stays   then
+///     not zero   -                          -                -       side
+///     opaque     -                          -                -       side
+///     zero       yes                        -                -       side
+///     zero       no                         that at zero     -       side
+///     zero       no                         the other one    no      side
+///     zero       no                         the other one    yes     that at zero
+template <class Stays>
+int decide_at_zero(const RelationFacts& relation, int side, bool true_at_zero, const Stays& stays) {
+  if (relation.g != 0.0 || relation.opaque || relation.fired || relation.wrote) return side;
+  if (relation.truth == true_at_zero || !stays()) return side;
+  return true_at_zero ? 1 : -1;
+}
+
 /// The side of a relation at its zero that the flow decides, and whether its blocks come to rest.
 ///
 ///     flow to                          set off a reset    leads straight back    side           rests

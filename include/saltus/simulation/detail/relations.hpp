@@ -2,6 +2,7 @@
 #pragma once
 
 #include "saltus/simulation/detail/contact_guards.hpp"
+#include "saltus/simulation/detail/relation_decisions.hpp"
 
 namespace saltus {
 
@@ -28,6 +29,7 @@ class Relations {
 
  private:
   bool read(const GuardGroup& group, std::size_t k);
+  int side_at_zero(const GuardGroup& group, std::size_t k, const RelationFacts& facts, int side);
   int side_by_flow(const GuardGroup& group, std::size_t k, int crossed_to);
   bool reads_changed(int node) const;
   double& truth(std::size_t k) const;
