@@ -9,9 +9,14 @@ namespace saltus::detail {
 /// them side by side.
 inline constexpr Index widest_fused = 16;
 
+/// Whether there is a formula that is narrow enough to be looked into.
+inline bool is_narrow(const Formula& formula, Index size) {
+  return formula && size <= widest_fused;
+}
+
 /// The formula, if it may be joined with others and is narrow enough; otherwise null.
 inline const Formula* fusible(const Formula& formula, Index size) {
-  return formula && formula.joins() && size <= widest_fused ? &formula : nullptr;
+  return is_narrow(formula, size) && formula.joins() ? &formula : nullptr;
 }
 
 }  // namespace saltus::detail

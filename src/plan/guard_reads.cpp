@@ -49,7 +49,7 @@ std::vector<int> hidden_behind(const Plan& plan, Stepwise& stepwise, const Guard
 }
 
 /// Adds the nearest entries of some signals. A state is none: the steps show it.
-void add_reads(const Plan& plan, const Stepwise& stepwise, const std::vector<int>& signals,
+void add_reads(const Plan& plan, Stepwise& stepwise, const std::vector<int>& signals,
                List<ReadSlot>& reads, Index& slot) {
   for (const int i : signals) {
     const Place& all = plan.node(i).place;

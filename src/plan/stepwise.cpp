@@ -38,6 +38,7 @@ Stepwise::Stepwise(const Plan& plan)
     : plan_(plan),
       nodes_(plan.nodes.size(), unknown),
       varies_(varying_entries(plan)),
+      states_(plan.ny, unknown),
       no_values_(plan.nodes.size(), Expressions::variable) {}
 
 bool Stepwise::is_node(int i) {
@@ -54,24 +55,28 @@ bool Stepwise::is_guard(const GuardGroup& group) {
   return is_formula(formula, group.leaf, group.size);
 }
 
-/// A formula that is called by itself is known as well. To look into a wide one costs too much.
-bool Stepwise::is_known(const Formula& formula, Index size) const {
-  return formula && size <= widest_fused;
-}
-
-bool Stepwise::is_state(int i, Index k) const {
+bool Stepwise::is_state(int i, Index k) {
   const Node& node = plan_.node(i);
-  const Formula& formula = plan_.output_of(node).formula;
-  if (node.view || !is_known(formula, node.place.size)) return node.view;
-  List<int> no_values = no_values_;
-  Expressions values(plan_, no_values);
-  const tape::Node entry =
-      values.add(formula, node.leaf, node.place.size)[static_cast<std::size_t>(k)];
-  return values.graph()[entry].op == Op::continuous_state;
+  if (node.view) return true;
+  if (states_[node.place.offset] == unknown) find_states(node);
+  return states_[node.place.offset + k] == yes;
 }
 
+void Stepwise::find_states(const Node& node) {
+  for (Index k = 0; k < node.place.size; ++k) states_[node.place.offset + k] = no;
+  const Formula& formula = plan_.output_of(node).formula;
+  if (!is_narrow(formula, node.place.size)) return;
+  Expressions values(plan_, no_values_);
+  Index at = node.place.offset;
+  for (const tape::Node entry : values.add(formula, node.leaf, node.place.size)) {
+    if (values.graph()[entry].op == Op::continuous_state) states_[at] = yes;
+    ++at;
+  }
+}
+
+/// A formula that is called by itself is known as well.
 bool Stepwise::is_formula(const Formula& formula, int leaf, Index size) {
-  if (!is_known(formula, size)) return true;
+  if (!is_narrow(formula, size)) return true;
   Expressions values(plan_, no_values_);
   values.add(formula, leaf, size);
   return has_step(values.graph());

@@ -16,10 +16,10 @@ class Stepwise {
   bool is_node(int i);
   bool is_guard(const GuardGroup& group);
   /// Whether entry k of a node is an entry of a state: a view, or a formula that says no more.
-  bool is_state(int i, Index k) const;
+  bool is_state(int i, Index k);
 
  private:
-  bool is_known(const Formula& formula, Index size) const;
+  void find_states(const Node& node);
   bool is_formula(const Formula& formula, int leaf, Index size);
   bool has_step(const tape::Graph& graph) const;
   bool varies_by_itself(const tape::Expression& expression) const;
@@ -27,6 +27,7 @@ class Stepwise {
   const Plan& plan_;
   List<char> nodes_;     // an answer for each
   List<char> varies_;    // whether an entry of y varies between instants
+  List<char> states_;    // an answer for each entry of y
   List<int> no_values_;  // all values are variables of a formula
 };
 

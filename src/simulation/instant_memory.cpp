@@ -114,9 +114,7 @@ bool Instant::finds_roots() {
 }
 
 bool Instant::judges(const MonitorHit& hit, double t, const std::vector<Firing>& roots) const {
-  const auto is_relation = [this](const Firing& firing) {
-    return !plan().guard((*guards_)[firing.guard()].group).is_crossing();
-  };
+  const auto is_relation = [this](const Firing& firing) { return !collector_.is_crossing(firing); };
   return hit.t == t && hit.firing.jump > 0.0 && std::ranges::any_of(roots, is_relation);
 }
 

@@ -27,6 +27,11 @@ double& Relations::truth(std::size_t k) const {
   return machine_->truth_at(machine_->plan().guard(guard.group).index, guard.entry);
 }
 
+bool Relations::true_at_zero(const GuardGroup& group) const {
+  const Node& node = machine_->plan().node(group.index);
+  return node.relation && machine_->plan().relation_of(node).true_at_zero;
+}
+
 /// One round for each relation is enough, unless the relations have no consistent truths.
 void Relations::begin(double t) {
   const Plan& plan = machine_->plan();
@@ -35,8 +40,7 @@ void Relations::begin(double t) {
     machine_->evaluate_instant(t);
     if (!plan.guards.empty()) machine_->guards(t, machine_->x.data(), present_->g.data());
     for (const std::size_t k : scope_->relations) {
-      const Node& node = plan.node(plan.guard((*guards_)[k].group).index);
-      const bool at_zero = node.relation && plan.relation_of(node).true_at_zero;
+      const bool at_zero = true_at_zero(plan.guard((*guards_)[k].group));
       const double g = present_->g[k];
       const bool now = g > 0.0 || (g == 0.0 && at_zero);
       changed = changed || (truth(k) != 0.0) != now;
@@ -106,10 +110,7 @@ bool Relations::read(const GuardGroup& group, std::size_t k) {
 /// The side by the value of a relation, which may be exactly at zero.
 int Relations::side_at_zero(const GuardGroup& group, std::size_t k, const RelationFacts& facts,
                             int side) {
-  const Plan& plan = machine_->plan();
-  const Node& node = plan.node(group.index);
-  const bool true_at_zero = node.relation && plan.relation_of(node).true_at_zero;
-  return decide_at_zero(facts, side, true_at_zero, [&] {
+  return decide_at_zero(facts, side, true_at_zero(group), [&] {
     return flow_->side(group, static_cast<Index>(k), 0.0, Departure::either_side).side == 0;
   });
 }

@@ -1,5 +1,7 @@
 // Guards of signals that jump at an instant: at a kink of a block, at a time event, at a reset.
+#include "support/bouncing.hpp"
 #include "support/cases.hpp"
+#include "support/input_watcher.hpp"
 #include "support/sine.hpp"
 
 using namespace saltus;
@@ -9,21 +11,10 @@ namespace {
 
 constexpr double end = 20.0;
 
-/// Fires where its input passes the level; `counts`: with a reset map, otherwise it is a monitor.
-std::shared_ptr<Leaf> guard_of(double level, bool counts) {
-  return make_leaf("guard", [=](Leaf& l) {
-    const int in = l.declare_input_port({.name = "u", .shape = Shape::scalar()});
-    l.declare_discrete_state(vec({0.0}));
-    l.declare_zero_crossing({.name = "hit",
-                             .guard = [=](const At& at) { return at.u[in][0] - level; },
-                             .reset_map = counts ? ResetMap(count_up) : ResetMap()});
-  });
-}
-
 /// The times [s] at which the guard fires, where its input is this signal.
 std::vector<double> firings(DiagramBuilder& builder, OutputPort signal, double level, bool counts,
                             Method method) {
-  const auto guard = guard_of(level, counts);
+  const auto guard = input_watcher("guard", [=](double u) { return u - level; }, counts);
   builder.add(guard);
   builder.connect(signal, guard->input("u"));
   const Diagram diagram = builder.build();
@@ -102,15 +93,7 @@ TEST_CASE("a monitor logs where a reset map takes its value across zero", "[laws
   const auto method = GENERATE(from_range(methods));
   const auto run = [&](bool monitored) {
     const Leaf ball("ball", [&](Leaf& l) {
-      l.declare_continuous_state(
-          {.initial = vec({1.0, 0.0}),
-           .ode = [](const At& at, VectorRef xdot) { xdot << at.x[1], -10.0; }});
-      l.declare_zero_crossing(
-          {.name = "bounce",
-           .guard = [](const At& at) { return at.x[0]; },
-           .reset_map = [](const At& at,
-                           Next& next) { next.set_continuous_state({0.0, -0.8 * at.x[1]}); },
-           .direction = Direction::positive_then_non_positive});
+      declare_bouncing(l, 1.0, 10.0);
       if (!monitored) return;
       l.declare_zero_crossing({.name = "turn", .guard = [](const At& at) { return at.x[1]; }});
       l.declare_zero_crossing({.name = "rises",

@@ -1,5 +1,6 @@
 // A monitor is located and logged and changes no bit of the trajectory.
 #include "support/balls.hpp"
+#include "support/bouncing.hpp"
 #include "support/cases.hpp"
 #include "support/leaves.hpp"
 
@@ -49,17 +50,9 @@ TEST_CASE("a monitor beside a bouncing ball changes no bit of it", "[laws][monit
   INFO("method " << method);
   const auto ball = [](bool watched) {
     return Leaf("ball", [=](Leaf& l) {
-      l.declare_continuous_state(
-          {.initial = vec({5.0, 0.0}),
-           .ode = [](const At& at, VectorRef xdot) { xdot << at.x[1], -9.81; }});
       if (watched)
         l.declare_zero_crossing({.name = "top", .guard = [](const At& at) { return at.x[1]; }});
-      l.declare_zero_crossing(
-          {.name = "bounce",
-           .guard = [](const At& at) { return at.x[0]; },
-           .reset_map = [](const At& at,
-                           Next& next) { next.set_continuous_state({0.0, -0.8 * at.x[1]}); },
-           .direction = Direction::positive_then_non_positive});
+      declare_bouncing(l, 5.0, 9.81);
     });
   };
   const Leaf watched = ball(true), plain = ball(false);

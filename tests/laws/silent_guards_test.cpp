@@ -1,5 +1,6 @@
 // Guards that say only on which side they are: the looks at them follow what they read.
 #include "support/cases.hpp"
+#include "support/input_watcher.hpp"
 #include "support/oscillator.hpp"
 #include "support/sine.hpp"
 
@@ -12,14 +13,7 @@ constexpr double end = 100.0;
 
 /// A guard of two values: +1 while the input is above the level.
 std::shared_ptr<Leaf> truth(double level, bool counts) {
-  return make_leaf("truth", [=](Leaf& l) {
-    const int in = l.declare_input_port({.name = "u", .shape = Shape::scalar()});
-    l.declare_discrete_state(vec({0.0}));
-    l.declare_zero_crossing(
-        {.name = "hit",
-         .guard = [=](const At& at) { return at.u[in][0] > level ? 1.0 : -1.0; },
-         .reset_map = counts ? ResetMap(count_up) : ResetMap()});
-  });
+  return input_watcher("truth", [=](double u) { return u > level ? 1.0 : -1.0; }, counts);
 }
 
 /// sin(w t + 0.4) without a state, or beside one whose steps are about a second.

@@ -1,6 +1,7 @@
 // CrowdLocator: monitors that are located together fire as they would alone.
 #include "saltus/solver/detail/crowd_locator.hpp"
 
+#include "support/bouncing.hpp"
 #include "support/leaves.hpp"
 
 using namespace saltus;
@@ -147,15 +148,7 @@ TEST_CASE("a crowd changes no bit of a trajectory with resets", "[crowd_locator]
   INFO("method " << method);
   const auto ball = [](bool watched) {
     return Leaf("ball", [watched](Leaf& l) {
-      l.declare_continuous_state(
-          {.initial = vec({1.0, 0.0}),
-           .ode = [](const At& at, VectorRef xdot) { xdot << at.x[1], -10.0; }});
-      l.declare_zero_crossing(
-          {.name = "bounce",
-           .guard = [](const At& at) { return at.x[0]; },
-           .reset_map = [](const At& at,
-                           Next& next) { next.set_continuous_state({0.0, -0.8 * at.x[1]}); },
-           .direction = Direction::positive_then_non_positive});
+      declare_bouncing(l, 1.0, 10.0);
       if (!watched) return;
       l.declare_zero_crossing({.name = "level",
                                .guard =

@@ -32,6 +32,7 @@ class Relations {
   int side_at_zero(const GuardGroup& group, std::size_t k, const RelationFacts& facts, int side);
   int side_by_flow(const GuardGroup& group, std::size_t k, int crossed_to);
   bool reads_changed(int node) const;
+  bool true_at_zero(const GuardGroup& group) const;
   double& truth(std::size_t k) const;
 
   const Scope* scope_;

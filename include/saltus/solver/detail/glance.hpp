@@ -53,7 +53,7 @@ class Glance : protected Narrower {
   /// Anal. 9 (1972) 379). The locator still looks into such a step from time to time. How fast a
   /// guard moved says nothing of a function whose reads are looked at, because it may have steps.
   [[gnu::always_inline]] bool out_of_reach(double length) const {
-    if (jumps_) return false;
+    if (jumps_ || !located_->reads.empty()) return false;
     const double *high = high_.data(), *last = guards_->g.data(), *speed = speed_.data();
     const double* plain = plain_.data();
     for (const std::size_t k : located_->slots) {
@@ -62,7 +62,7 @@ class Glance : protected Narrower {
             sum > thresholds::speed_margin * (speed[k] * length)))
         return false;
     }
-    return located_->reads.empty();
+    return true;
   }
 
   /// Whether no guard can have fired between the look at `from` and high_, at `to`: each guard is
