@@ -36,9 +36,10 @@ void bind_discrete(py::module_& module) {
                 .initial_state = Arguments(name).value(initial_state, "initial_state")});
       }));
   py::class_<RateTransition, System>(module, "RateTransition")
-      .def(py::init([](const std::string& name, double dt, Handle initial_state) {
+      .def(py::init([](const std::string& name, double dt, Handle initial_state, double offset) {
         return std::make_unique<RateTransition>(
-            name, dt, RateTransitionOptions{Arguments(name).value(initial_state, "initial_state")});
+            name, dt,
+            RateTransitionOptions{Arguments(name).value(initial_state, "initial_state"), offset});
       }));
   py::class_<TransportDelay, System>(module, "TransportDelay")
       .def(py::init([](const std::string& name, double delay, Handle initial_output, int capacity) {

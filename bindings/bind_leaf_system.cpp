@@ -2,6 +2,8 @@
 #include <pybind11/stl.h>
 
 #include "made.hpp"
+#include "numbers.hpp"
+#include "saltus/library/rate_transition.hpp"
 #include "zero_crossing.hpp"
 
 namespace saltus::python {
@@ -117,14 +119,27 @@ int declare_relation(py::handle self, py::object guard, std::string name, bool t
   return leaf.declare_relation(std::move(relation)).value;
 }
 
+/// The period and the offset of the ticks of a sampled output, and its value before the first one.
+using Ticks = std::tuple<double, double, py::object>;
+
+std::shared_ptr<const LeafSystem> sampler_of(const std::string& output,
+                                             const std::optional<Ticks>& ticks) {
+  if (!ticks) return {};
+  const auto& [period, offset, before] = *ticks;
+  return std::make_shared<RateTransition>(
+      output, period,
+      RateTransitionOptions{.initial_state = to_value(before, "default_value"), .offset = offset});
+}
+
 int declare_output_port(py::handle self, py::object function, std::string name,
                         const InputList& inputs, const std::optional<Dimensions>& shape,
                         std::optional<bool> boolean, const std::vector<std::string>& reads,
-                        Convention convention, bool formula) {
+                        Convention convention, bool formula, const std::optional<Ticks>& ticks) {
   PythonLeaf& leaf = leaf_of(self);
-  const std::string what =
-      text("output '", name.empty() ? text("out_", leaf.output_names().size()) : name, "'");
+  if (name.empty()) name = text("out_", leaf.output_names().size());
+  const std::string what = text("output '", name, "'");
   const Reads all = reads_of(leaf, what, reads);
+  const auto sampler = sampler_of(name, ticks);
   return leaf.add_output(std::move(name),
                          leaf.add(self, std::move(function),
                                   {.convention = convention,
@@ -133,7 +148,7 @@ int declare_output_port(py::handle self, py::object function, std::string name,
                                    .role = Role::output,
                                    .formula = formula,
                                    .index = count_of(leaf.declarations().outputs)}),
-                         shape_from(shape), boolean, all);
+                         shape_from(shape), boolean, all, sampler);
 }
 
 /// A state without a copy and without a call.

@@ -59,7 +59,8 @@ class PythonLeaf final : public LeafSystem {
   /// An output whose shape, or boolean type, was not given. It is found by one call with the
   /// initial values of the block and inputs at zero.
   int add_output(std::string name, int function, std::optional<Shape> shape,
-                 std::optional<bool> boolean, Reads reads);
+                 std::optional<bool> boolean, Reads reads,
+                 std::shared_ptr<const LeafSystem> sampler);
 
   /// Adds a function of `self`, the Python object of this block, or a compiled one. Returns its
   /// number.

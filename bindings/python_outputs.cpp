@@ -8,7 +8,8 @@
 namespace saltus::python {
 
 int PythonLeaf::add_output(std::string port, int function, std::optional<Shape> shape,
-                           std::optional<bool> boolean, Reads reads) {
+                           std::optional<bool> boolean, Reads reads,
+                           std::shared_ptr<const LeafSystem> sampler) {
   const InputList& inputs = this->function(function).inputs;
   require_shape(function, shape);
   const int output = declare_output_port(
@@ -19,7 +20,8 @@ int PythonLeaf::add_output(std::string port, int function, std::optional<Shape> 
            [this, function](std::span<const Shape> shapes) { return shape_of(function, shapes); },
        .reads = reads,
        .inputs = inputs,
-       .boolean = boolean.value_or(false)});
+       .boolean = boolean.value_or(false),
+       .sampler = std::move(sampler)});
   const bool callable = !this->function(function).compiled && !this->function(function).in_place;
   if (callable && (!shape || !boolean))
     unfinished_.push_back({output, function, shape.has_value(), boolean.has_value()});

@@ -45,10 +45,6 @@ DECLARATIONS = {
     "prerequisites_of_calc": "say which inputs are read with requires_inputs",
     "grad_guard": "Saltus computes no gradients; leave it out",
 }
-OUTPUTS = DECLARATIONS | {
-    "period": "put a RateTransition behind the output",
-    "offset": "put a RateTransition behind the output",
-}
 CALLED = {
     "period": "dt",
     "sample_time": "dt",
@@ -132,7 +128,7 @@ def _let_go(block: Any) -> None:
 def _hints(method: str, known: tuple[str, ...]) -> dict[str, str]:
     """The advice for arguments that a declaration, or the constructor of a block, does not have."""
     if method.startswith("declare_"):
-        return OUTPUTS if "output" in method else DECLARATIONS
+        return DECLARATIONS
     return {other: f"it is called {name} here" for other, name in CALLED.items() if name in known}
 
 

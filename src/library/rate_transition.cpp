@@ -1,4 +1,4 @@
-// y[k] = u[k]: the input at tick k, at t = k dt, held to the next tick.
+// y[k] = u[k]: the input at tick k, at t = offset + k dt, held to the next tick.
 #include "saltus/library/rate_transition.hpp"
 
 namespace saltus {
@@ -9,7 +9,8 @@ RateTransition::RateTransition(std::string name, double dt, const Options& optio
   declare_law({.dt = dt,
                .before = options.initial_state,
                .feedthrough = {0},
-               .output = [](const At& at, const VectorView&, VectorRef y) { y = at.u[0]; }});
+               .output = [](const At& at, const VectorView&, VectorRef y) { y = at.u[0]; },
+               .offset = options.offset});
 }
 
 }  // namespace saltus

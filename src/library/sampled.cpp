@@ -15,17 +15,20 @@ void SampledSystem::declare_law(const Law& law) {
   z << -1.0, law.before.values, law.state;
   declare_discrete_state(z);
   const auto state = [=](const At& at) { return VectorView(at.z.data() + 1 + n, states); };
-  const auto show = [=, output = law.output, dt = law.dt](const At& at, VectorRef out) {
-    const bool due = is_tick(at.time, dt) && last_tick(at.time, dt) != at.z[0];
+  const auto last = [dt = law.dt, offset = law.offset](double t) {
+    return last_tick(t, dt, offset);
+  };
+  const auto show = [=, output = law.output, dt = law.dt, offset = law.offset](const At& at,
+                                                                               VectorRef out) {
+    const bool due = is_tick(at.time, dt, offset) && last(at.time) != at.z[0];
     if (due)
       output(at, state(at), out);
     else
       out = at.z.segment(1, n);
   };
-  const auto tick = [=, output = law.output, move = law.next, dt = law.dt](const At& at,
-                                                                           Next& next) {
+  const auto tick = [=, output = law.output, move = law.next](const At& at, Next& next) {
     Eigen::VectorXd now(1 + n + states);
-    now[0] = last_tick(at.time, dt);
+    now[0] = last(at.time);
     // A run that begins at a tick of an earlier run, with a state changed by hand, has had this
     // tick.
     if (now[0] == at.z[0]) return;
@@ -41,7 +44,7 @@ void SampledSystem::declare_law(const Law& law) {
                        .reads = reads,
                        .inputs = law.feedthrough,
                        .boolean = law.boolean});
-  declare_periodic_update(tick, law.dt, 0.0, "tick");
+  declare_periodic_update(tick, law.dt, law.offset, "tick");
 }
 
 /// A TriggeredSubsystem reads the output at a trigger, before the states change.

@@ -63,8 +63,14 @@ const Layout& Context::layout() const {
   return layout_ ? *layout_ : none;
 }
 
+/// A context that was made from saved values may not know its leaves.
+bool Context::has_one_mode() const {
+  const auto& leaves = layout().leaves;
+  return modes_.size() == 1 || (!leaves.empty() && layout().is_alone(leaves.front()));
+}
+
 int Context::mode() const {
-  if (modes_.size() != 1)
+  if (!has_one_mode())
     throw ModelError("mode(): this is the context of several blocks; take context[id] first");
   return modes_.front();
 }
@@ -108,7 +114,7 @@ Context Context::with_discrete_state(const Eigen::VectorXd& z) const {
 }
 
 Context Context::with_mode(int mode) const {
-  if (modes_.size() != 1)
+  if (!has_one_mode())
     throw ModelError("with_mode: this is the context of several blocks; take context[id] first");
   Context next = changed();
   next.modes_.front() = mode;

@@ -90,7 +90,7 @@ ContextEntry find_entry(const Layout& layout, std::string_view name) {
   for (std::size_t l = 0; l < layout.leaves.size(); ++l) {
     const Layout::Leaf& leaf = layout.leaves[l];
     for (auto& [local, entry] : entries_of(leaf, static_cast<Index>(l))) {
-      const bool alone = layout.leaves.size() == 1 && local == whole;
+      const bool alone = local == whole && layout.is_alone(leaf);
       if (!alone && whole != joined_name(leaf.path, local)) continue;
       require_single(leaf, local, name);
       if (!index) return entry;

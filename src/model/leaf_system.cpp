@@ -85,7 +85,10 @@ ParameterIndex LeafSystem::declare_dynamic_parameter(std::string name, double va
   return declare_dynamic_parameter(std::move(name), Eigen::VectorXd::Constant(1, value));
 }
 
-LeafPort LeafSystem::output_source(int index) const { return {this, index}; }
+LeafPort LeafSystem::output_source(int index) const {
+  const auto& sampler = declared_.outputs[index].sampler;
+  return sampler ? LeafPort{sampler.get(), 0} : LeafPort{this, index};
+}
 
 LeafPort LeafSystem::input_target(int index) const { return {this, index}; }
 
@@ -100,7 +103,18 @@ void LeafSystem::collect(Structure& out, const std::string& path) const {
   std::string known_as = path.empty() ? name() : path;
   out.systems.push_back({system_id(), known_as, out.leaves.size(), out.leaves.size() + 1});
   out.leaves.push_back({this, std::move(known_as)});
+  collect_samplers(out);
   collect_fixed(out);
+}
+
+void LeafSystem::collect_samplers(Structure& out) const {
+  const std::string path = out.leaves.back().path;
+  for (std::size_t i = 0; i < declared_.outputs.size(); ++i) {
+    const OutputDeclaration& output = nth(declared_.outputs, i);
+    if (!output.sampler) continue;
+    output.sampler->collect(out, path + "." + output.name);
+    out.wires.push_back({{this, static_cast<int>(i)}, output.sampler->input_target(0)});
+  }
 }
 
 /// Checks that all states have names or none has, and that each name is one word that nothing else
@@ -221,6 +235,13 @@ int LeafSystem::declare_output_port(OutputDeclaration output) {
   if (!output.calc && !output.view) {
     throw ModelError(
         text("block '", name(), "': output '", output.name, "' has no function that computes it"));
+  }
+  if (output.sampler) {
+    const Declarations& behind = output.sampler->declarations();
+    if (behind.inputs.size() != 1 || behind.outputs.size() != 1)
+      throw ModelError(text("block '", name(), "': output '", output.name, "': its sampler '",
+                            output.sampler->name(), "' has ", behind.inputs.size(), " inputs and ",
+                            behind.outputs.size(), " outputs; expected one of each"));
   }
   declared_.outputs.push_back(std::move(output));
   return static_cast<int>(declared_.outputs.size()) - 1;

@@ -73,6 +73,18 @@ class Wiring {
       leaves_.push_back(
           {leaf, path, outputs_, std::vector(leaf->declarations().inputs.size(), -1)});
       outputs_ += leaf->declarations().outputs.size();
+      add_samplers(*leaf, path);
+    }
+  }
+
+  void add_samplers(const LeafSystem& leaf, const std::string& path) {
+    const std::size_t first = leaves_.back().first;
+    const auto& outputs = leaf.declarations().outputs;
+    for (std::size_t i = 0; i < outputs.size(); ++i) {
+      const OutputDeclaration& output = nth(outputs, i);
+      if (!output.sampler) continue;
+      add(*output.sampler, path + "." + output.name);
+      leaves_[numbers_.at(output.sampler.get())].sources[0] = static_cast<int>(first + i);
     }
   }
 

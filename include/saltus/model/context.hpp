@@ -52,9 +52,14 @@ struct Layout {
   std::vector<Range> systems;
   std::shared_ptr<const ComputedParameters> computed = {};  ///< null: none, or not known here
 
-  /// The name of a value of a leaf; without its path where there is one leaf only.
+  /// Whether this is the only block. The samplers of its outputs do not count.
+  bool is_alone(const Leaf& leaf) const {
+    const bool one = leaves.size() == 1 || (!systems.empty() && systems.front().last == 1);
+    return one && &leaf == leaves.data();
+  }
+  /// The name of a value of a leaf; without its path if the leaf is alone.
   std::string name_of(const Leaf& leaf, std::string_view value) const {
-    return leaves.size() == 1 ? std::string(value) : joined_name(leaf.path, value);
+    return is_alone(leaf) ? std::string(value) : joined_name(leaf.path, value);
   }
 };
 
@@ -138,6 +143,7 @@ class Context {
   static Eigen::VectorXd vector_of(std::initializer_list<double> values) {
     return Eigen::Map<const Eigen::VectorXd>(values.begin(), static_cast<Index>(values.size()));
   }
+  bool has_one_mode() const;
   const Layout::Range& range(SystemId id) const;
   std::pair<const Layout::Leaf*, const Layout::Parameter*> find_parameter(
       std::string_view name) const;

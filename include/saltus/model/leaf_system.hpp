@@ -144,6 +144,7 @@ class LeafSystem : public System {
 
  private:
   void require_state_names(const ContinuousState& state) const;
+  void collect_samplers(Structure& out) const;
   Declarations declared_;
 };
 

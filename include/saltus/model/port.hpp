@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -15,6 +16,7 @@
 
 namespace saltus {
 
+class LeafSystem;
 class System;
 
 /// Size of a signal. A scalar remains a scalar in the results, a vector of one entry remains a
@@ -73,6 +75,10 @@ struct OutputDeclaration {
   std::optional<Place> view = {};  ///< a state or parameter shown directly, never copied
   EntryRule entries = {};          ///< the entries of the inputs that each of its entries reads
   Formula formula = {};            ///< in place of calc: a plan may fuse it
+  /// A block behind the output, such as a RateTransition: what reads or records the output reads
+  /// that of this block. It has one input and one output, of this output's shape, and is known as
+  /// "block.output".
+  std::shared_ptr<const LeafSystem> sampler = {};
 };
 
 /// An output port of a system, to connect or to record.

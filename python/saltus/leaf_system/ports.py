@@ -2,15 +2,44 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable
+from typing import Any
 
+import numpy as np
 from numpy.typing import ArrayLike
 
 from saltus import _core
 from saltus._declarations import EVERYTHING, RequiresInputs, callback_of, inputs_of, shape_of
 from saltus._porting import refusing
+from saltus.errors import ModelError
 
 __all__ = ["DeclaresPorts"]
+
+
+def _ticks(block: str, period: Any, offset: Any) -> tuple[float, float]:
+    """[s] The period and the offset of a sampled output as numbers."""
+    try:
+        if 0.0 < float(period) < math.inf and math.isfinite(float(offset)):
+            return float(period), float(offset)
+    except (TypeError, ValueError):
+        pass
+    raise ModelError(
+        f"block '{block}': output: expected a period above 0 s and a finite offset, found "
+        f"period = {period!r}, offset = {offset!r}"
+    )
+
+
+def _before(block: str, default_value: Any, sizes: list[int]) -> Any:
+    """The value of a sampled output before its first tick."""
+    if default_value is None:
+        return np.zeros(sizes)
+    if list(np.shape(default_value)) == sizes:
+        return default_value
+    raise ModelError(
+        f"block '{block}': output: expected a default_value of shape {tuple(sizes)}, found one of "
+        f"shape {np.shape(default_value)}"
+    )
 
 
 class DeclaresPorts(_core.LeafSystem):
@@ -40,6 +69,8 @@ class DeclaresPorts(_core.LeafSystem):
         boolean: bool | None = None,
         reads: Iterable[str] = EVERYTHING,
         formula: bool = False,
+        period: float | None = None,
+        offset: float = 0.0,
     ) -> int:
         """Declares an output, y = callback(time, state, *inputs, **parameters), by default called
         out_0, out_1, ...; returns its position.
@@ -57,17 +88,42 @@ class DeclaresPorts(_core.LeafSystem):
         that of the whole run: if an attribute that it reads changes between two pieces, the next
         piece is a `ModelError`. A callback that is not traced, that reads a discrete state or the
         mode, or that returns more than 16 numbers remains a call.
+
+        With `period` [s] the output is sampled: y[k] = callback(...) at t = offset + k period, held
+        to the next tick, with the state and the mode as they are before the updates of that tick.
+        Before the first tick it is `default_value`, or 0; its shape is a number unless `shape` or
+        `default_value` says otherwise. A `RateTransition` behind the output does it, which is
+        called "block.output" in contexts and orders the outputs of one tick.
+
+        Raises ModelError for a name declared twice, an unknown value in `reads`, a period that is
+        not above 0, an offset that is not finite, and an offset without a period.
+
+        Examples
+        --------
+        >>> clock = saltus.LeafSystem(name="clock")
+        >>> clock.declare_output_port(lambda t, s: t, name="sampled", period=0.5, offset=0.25)
+        0
+        >>> saltus.response(clock, t=[0.0, 0.3, 0.7, 0.8])
+        array([0.  , 0.25, 0.25, 0.75])
         """
         inputs = inputs_of(requires_inputs)
+        sizes = shape_of(shape, default_value)
+        ticks = None
+        if period is not None:
+            sizes = sizes or []
+            ticks = (*_ticks(self.name, period, offset), _before(self.name, default_value, sizes))
+        elif offset != 0.0:
+            raise ModelError(f"block '{self.name}': output: an offset without a period; give both")
         return super().declare_output_port(
             callback_of(callback),
             name or "",
             inputs,
-            shape_of(shape, default_value),
+            sizes,
             boolean,
             list(reads),
             _core.Convention.state,
             bool(formula),
+            ticks,
         )
 
     @refusing

@@ -171,16 +171,18 @@ class RateTransition(Block, _core.RateTransition):
     Parameters
     ----------
     dt
-        [s] The time from one tick to the next; ticks are at 0, dt, 2 dt, ..., counted by integers.
+        [s] The time from one tick to the next; ticks are at offset + k dt, counted by integers.
     initial_state
         A number or a vector: y before the first tick, and the shape of the signal.
+    offset
+        [s] The time of the first tick.
     name
         The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
     Raises
     ------
     ModelError
-        If dt is not above 0.
+        If dt is not above 0, or offset is not finite.
 
     Examples
     --------
@@ -189,8 +191,15 @@ class RateTransition(Block, _core.RateTransition):
     array([0., 1., 1.])
     """
 
-    def __init__(self, dt: float, initial_state: ArrayLike = 0.0, *, name: str | None = None):
-        super().__init__(self._named(name), dt, initial_state)
+    def __init__(
+        self,
+        dt: float,
+        initial_state: ArrayLike = 0.0,
+        offset: float = 0.0,
+        *,
+        name: str | None = None,
+    ):
+        super().__init__(self._named(name), dt, initial_state, offset)
 
 
 class TransportDelay(Block, _core.TransportDelay):

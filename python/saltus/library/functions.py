@@ -35,6 +35,7 @@ def _declare_function(
         ["inputs"],
         convention,
         bool(formula),
+        None,
     )
 
 

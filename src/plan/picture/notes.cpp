@@ -97,6 +97,11 @@ std::vector<std::string> notes_of(const LeafSystem& leaf, const Plan* plan, int 
     notes.push_back(seen + words_of(crossing) + goes);
   }
   for (const TimeEvent& event : d.time_events) notes.push_back(words_of(event));
+  for (const OutputDeclaration& output : d.outputs) {
+    if (!output.sampler) continue;
+    for (const TimeEvent& event : output.sampler->declarations().time_events)
+      notes.push_back(text(output.name, ".", words_of(event)));
+  }
   if (plan == nullptr) return notes;
   for (const GuardGroup& guard : plan->guards) {
     if (guard.leaf == number && guard.is_opaque()) notes.emplace_back("located by bisection");

@@ -46,8 +46,8 @@ def test_default_name_is_class_and_id():
             "'positive_then_non_positive', 'negative_then_non_negative', 'edge_detection'",
         ),
         (
-            lambda s: s.declare_output_port(len, period=0.1),
-            "declare_output_port: no option 'period': put a RateTransition behind the output",
+            lambda s: s.declare_output_port(len, offset=0.1),
+            "block 'block': output: an offset without a period; give both",
         ),
         (
             lambda s: s.declare_output_port(len, reads=["mood"]),

@@ -1,5 +1,5 @@
-// The base of blocks that read their inputs at ticks, at 0, dt, 2 dt, ..., and hold their output in
-// between: y[k] = output(s[k], u[k]), s[k+1] = next(s[k], u[k]).
+// The base of blocks that read their inputs at ticks, at 0, dt, 2 dt, ... after an offset, and hold
+// their output in between: y[k] = output(s[k], u[k]), s[k+1] = next(s[k], u[k]).
 #pragma once
 
 #include <functional>
@@ -24,6 +24,7 @@ class SampledSystem : public LeafSystem {
     std::vector<int> feedthrough = {};  ///< the inputs that `output` reads
     bool boolean = false;               ///< y is 0 or 1
     Map output = {}, next = {};
+    double offset = 0.0;  ///< [s] the time of tick 0
   };
 
   /// Declares the discrete state (number of the last tick; y since then; s), the output "out" and
