@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <numeric>
+#include <optional>
 
 namespace saltus::python {
 
@@ -136,6 +137,25 @@ bool read_items(PyObject** items, py::ssize_t count, VectorRef out) {
   return true;
 }
 
+/// The two truths of NumPy, each of which is one object; never freed.
+py::handle numpy_true, numpy_false;
+
+/// A single truth, of Python or of NumPy; nothing for any other object.
+std::optional<bool> truth_of(py::handle result) {
+  if (result.ptr() == Py_True || result.is(numpy_true)) return true;
+  if (result.ptr() == Py_False || result.is(numpy_false)) return false;
+  return std::nullopt;
+}
+
+/// Reads an int that a double can hold.
+bool read_integer(PyObject* object, VectorRef out) {
+  if (out.size() != 1) return false;
+  out[0] = PyLong_AsDouble(object);
+  const bool held = PyErr_Occurred() == nullptr;
+  if (!held) PyErr_Clear();
+  return held;
+}
+
 }  // namespace
 
 bool read_plain_numbers(py::handle result, VectorRef out) {
@@ -145,6 +165,7 @@ bool read_plain_numbers(py::handle result, VectorRef out) {
     return out.size() == 1;
   }
   if (py::isinstance<py::array>(result)) return read_array(result, out);
+  if (PyLong_CheckExact(object)) return read_integer(object, out);  // no bool
   if (PyList_CheckExact(object) || PyTuple_CheckExact(object)) {
     return read_items(PySequence_Fast_ITEMS(object), PySequence_Fast_GET_SIZE(object), out);
   }
@@ -155,6 +176,10 @@ void read_any_numbers(py::handle result, VectorRef out, const std::string& what)
   if (result.is_none())
     throw ModelError(
         text(what, " returned None, expected ", out.size(), " numbers; is a `return` missing?"));
+  if (const auto truth = truth_of(result); truth && out.size() == 1) {
+    out[0] = *truth ? 1.0 : 0.0;
+    return;
+  }
   const Array array = numbers_in(result);
   if (!array) {
     throw ModelError(
@@ -167,6 +192,10 @@ void read_any_numbers(py::handle result, VectorRef out, const std::string& what)
 }
 
 bool read_truths(py::handle result, VectorRef out) {
+  if (const auto truth = truth_of(result); truth && out.size() == 1) {
+    out[0] = *truth ? 1.0 : -1.0;
+    return true;
+  }
   const py::array array = py::array::ensure(result);
   if (!array) PyErr_Clear();
   if (!array || array.dtype().kind() != 'b' || array.size() != out.size()) return false;
@@ -175,6 +204,9 @@ bool read_truths(py::handle result, VectorRef out) {
 }
 
 void bind_numbers(py::module_& module) {
+  const auto numpy = py::module_::import("numpy");
+  numpy_true = py::object(numpy.attr("True_")).release();
+  numpy_false = py::object(numpy.attr("False_")).release();
   module.def(
       "numbers", &to_array, py::arg("numbers"), py::arg("what"),
       "Numbers as an array of doubles. ModelError that begins with `what` for what is none.");

@@ -25,8 +25,8 @@ Value to_value(py::handle numbers, const std::string& what);
 /// The value of numbers; empty for None.
 std::optional<Value> to_optional_value(py::handle numbers, const std::string& what);
 
-/// Reads numbers in the form in which most functions return them: a float, an array of doubles, a
-/// list or tuple of floats. False for anything else, and for a wrong number of entries.
+/// Reads numbers in the form in which most functions return them: a float, an int, an array of
+/// doubles, a list or tuple of floats. False for anything else, and for a wrong number of entries.
 bool read_plain_numbers(py::handle result, VectorRef out);
 /// Reads numbers in any form. Throws ModelError if the object is not made of numbers, or has a
 /// wrong number of entries.
