@@ -149,7 +149,7 @@ py::object sensitivities(const SharedRecord& results) {
   py::dict outputs;
   for (std::size_t i = 0; i < all.signals.size(); ++i) {
     const RecordedSignal& signal = results->signals[i];
-    std::vector<py::ssize_t> dimensions{rows(results)};
+    std::vector<py::ssize_t> dimensions{rows(results, signal)};
     if (signal.shape.vector) dimensions.push_back(signal.shape.size);
     dimensions.push_back(m);
     outputs[py::str(signal.name)] =

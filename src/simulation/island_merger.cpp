@@ -25,12 +25,14 @@ void add_counts(Statistics& sum, const Statistics& one) {
   sum.events += one.events, sum.instants += one.instants;
 }
 
-IslandMerger::IslandMerger(const Plan& plan, const Islands& islands, bool table, Results& results)
+IslandMerger::IslandMerger(const Plan& plan, const Islands& islands, bool table,
+                           const std::vector<std::string>& sensitivity, Results& results)
     : plan_(&plan),
       islands_(&islands),
       names_(event_names(plan)),
       table_(table),
-      results_(&results) {
+      results_(&results),
+      tangents_(plan, islands, sensitivity, results) {
   renew();
 }
 
@@ -41,7 +43,7 @@ void IslandMerger::begin(const std::vector<int>& jumps) {
   renew();
 }
 
-void IslandMerger::renew() {
+void IslandMerger::renew(double since) {
   results_->time.clear(), results_->jump.clear();
   results_->signals.clear(), results_->islands.clear();
   results_->events.begin(names_);
@@ -54,6 +56,7 @@ void IslandMerger::renew() {
     IslandResults& island = results_->islands.emplace_back();
     island.name = plan_->leaf(leaves.front()).path, island.blocks = leaves.size();
   }
+  tangents_.renew(since);
 }
 
 void IslandMerger::merge() {
@@ -64,6 +67,13 @@ void IslandMerger::merge() {
     for (std::size_t k = 0; k < parts_.size(); ++k) merge_rows(k);
   merge_events();
   merge_statistics();
+  merge_tangents();
+}
+
+/// The final state, and what has no derivative; rows and events were appended with theirs.
+void IslandMerger::merge_tangents() {
+  tangents_.begin_end();
+  for (std::size_t k = 0; k < parts_.size(); ++k) tangents_.finish(k, parts_[k].run->results());
 }
 
 void IslandMerger::merge_rows(std::size_t k) {
@@ -78,6 +88,7 @@ void IslandMerger::merge_rows(std::size_t k) {
     std::vector<double>& values = nth(results_->signals, island.signals[i]).values;
     values.insert(values.end(), signal.values.begin() + first * signal.shape.size,
                   signal.values.end());
+    tangents_.add_rows(k, from, {i, island.signals[i], island.rows, from.time.size()});
   }
   island.rows = from.time.size();
 }
@@ -96,7 +107,8 @@ void IslandMerger::merge_table() {
   if (first == nullptr) return;
   for (std::size_t r = seen; r < rows; ++r)
     results_->time.push_back(first->time[r]), results_->jump.push_back(0);
-  for (Part& island : parts_) {
+  for (std::size_t k = 0; k < parts_.size(); ++k) {
+    Part& island = parts_[k];
     const Results& from = island.run->results();
     for (std::size_t i = 0; i < island.signals.size(); ++i) {
       const RecordedSignal& signal = from.signals[i];
@@ -104,6 +116,7 @@ void IslandMerger::merge_table() {
       std::vector<double>& values = nth(results_->signals, island.signals[i]).values;
       values.insert(values.end(), signal.values.begin() + static_cast<std::ptrdiff_t>(seen) * width,
                     signal.values.begin() + static_cast<std::ptrdiff_t>(rows) * width);
+      tangents_.add_rows(k, from, {i, island.signals[i], seen, rows});
     }
     if (island.signals.empty()) continue;
     for (std::size_t r = seen; r < rows; ++r)
@@ -135,6 +148,7 @@ void IslandMerger::merge_events() {
     const EventLog::Row& row = log.row(place.event);
     jump += row.jump - std::exchange(island.jump, row.jump);
     results_->events.append(log, place.event, nth(island.sources, row.source), jump);
+    tangents_.add_event(place.island, island.run->results(), place.event);
   }
 }
 

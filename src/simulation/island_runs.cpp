@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "saltus/base/detail/forced_unwind.hpp"
+#include "sensitivity_entries.hpp"
 
 namespace saltus {
 
@@ -16,6 +17,7 @@ using Clock = std::chrono::steady_clock;
 void IslandRuns::initialize(const Context& context) {
   require_context_of(*plan_, context);
   require_fits(context);
+  chosen_entries(options_.sensitivity, context.layout());  // throws for a parameter of a diagram
   begin_ = {};  // no run, if an island refuses its values
   const Context known = context.with_computed(plan_->computed);
   std::vector<int> jumps;
@@ -179,7 +181,7 @@ Results IslandRuns::take_results() {
   merger_.merge();
   Results taken = std::move(results_);
   results_ = {};
-  merger_.renew();
+  merger_.renew(time_);
   results_.status = taken.status, results_.message = taken.message, results_.block = taken.block;
   results_.cause = taken.cause, results_.context = taken.context;
   return taken;

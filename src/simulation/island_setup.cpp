@@ -12,13 +12,10 @@ namespace {
 
 /// Throws ModelError for an option that islands do not have yet.
 void require_supported(const SimulatorOptions& options, const Islands& islands) {
-  const auto refuse = [&](std::string_view option, std::string_view instead) {
-    throw ModelError(text("option ", option, ": not supported with islands = true in a system of ",
-                          islands.count(), " islands; ", instead));
-  };
-  if (options.dense_output)
-    refuse("dense_output", "name the times in save_at, or run it with islands = false");
-  if (!options.sensitivity.empty()) refuse("sensitivity", "run it with islands = false");
+  if (!options.dense_output) return;
+  throw ModelError(text("option dense_output: not supported with islands = true in a system of ",
+                        islands.count(),
+                        " islands; name the times in save_at, or run it with islands = false"));
 }
 
 Tolerance tolerance_of(const Tolerance& tolerance, const Plan& plan,
@@ -52,7 +49,8 @@ IslandRuns::IslandRuns(std::shared_ptr<const Plan> plan, Islands islands, Simula
     : plan_(std::move(plan)),
       islands_(std::move(islands)),
       options_(std::move(options)),
-      merger_(*plan_, islands_, !options_.save_at.empty() && !options_.event_rows, results_) {
+      merger_(*plan_, islands_, !options_.save_at.empty() && !options_.event_rows,
+              options_.sensitivity, results_) {
   detail::check(options_);
   require_widths(options_, *plan_);
   require_supported(options_, islands_);
@@ -65,9 +63,10 @@ IslandRuns::IslandRuns(std::shared_ptr<const Plan> plan, Islands islands, Simula
                            [&](std::size_t k) { return all_[k].terminal; });
 }
 
-SimulatorOptions IslandRuns::options_for(const std::vector<int>& leaves,
-                                         const SimulatorOptions& options) {
+SimulatorOptions IslandRuns::options_for(std::size_t k, const SimulatorOptions& options) {
+  const std::vector<int>& leaves = islands_.leaves[k];
   SimulatorOptions own = options;
+  own.sensitivity = merger_.sensitivity_of(k);
   own.rtol = tolerance_of(options.rtol, *plan_, leaves);
   own.atol = tolerance_of(options.atol, *plan_, leaves);
   own.islands = false, own.throw_errors = false;
@@ -78,13 +77,9 @@ SimulatorOptions IslandRuns::options_for(const std::vector<int>& leaves,
 void IslandRuns::add_island(std::size_t k, const SimulatorOptions& options,
                             const std::vector<std::pair<std::string, int>>& sources) {
   const std::shared_ptr<const Plan> part = plan_of_island(*plan_, islands_, k);
-  Island island{.run = std::make_unique<Run>(part, options_for(islands_.leaves[k], options)),
+  Island island{.run = std::make_unique<Run>(part, options_for(k, options)),
                 .terminal = has_terminal_guard(*part)};
-  auto layout = std::make_shared<Layout>();
-  for (const PlanLeaf& leaf : part->leaves)
-    layout->leaves.push_back(
-        {leaf.path, leaf.x, leaf.nx, leaf.z, leaf.nz, leaf.p, leaf.np, leaf.declared().parameters});
-  island.layout = std::move(layout);
+  island.layout = std::make_shared<const Layout>(IslandTangents::layout_of(*part));
   std::vector<int> numbers;
   for (const EventName& name : event_names(*part))
     numbers.push_back(

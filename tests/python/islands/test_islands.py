@@ -132,7 +132,6 @@ def test_describe_says_what_joins():
     "options, message",
     [
         ({"dense_output": True}, "option dense_output: .* 2 islands; name the times in save_at"),
-        ({"sensitivity": ["one.x[0]"]}, "option sensitivity: .* 2 islands"),
     ],
 )
 def test_options_that_islands_do_not_have(options, message):

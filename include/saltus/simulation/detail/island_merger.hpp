@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "saltus/plan/islands.hpp"
+#include "saltus/simulation/detail/island_tangents.hpp"
 #include "saltus/simulation/detail/run.hpp"
 
 namespace saltus {
@@ -23,17 +24,21 @@ class IslandMerger {
     int jump = 0;                      ///< j of the last event that the results have
   };
 
-  /// `table`: all signals have one table. An island is added by `add`, in the order of the islands.
-  IslandMerger(const Plan& plan, const Islands& islands, bool table, Results& results);
+  /// `table`: all signals have one table. `sensitivity` is the option of the whole run. An island is
+  /// added by `add`, in the order of the islands.
+  IslandMerger(const Plan& plan, const Islands& islands, bool table,
+               const std::vector<std::string>& sensitivity, Results& results);
 
   void add(Part part) { parts_.push_back(std::move(part)); }
+  /// The names of the option `sensitivity` that belong to island k.
+  std::vector<std::string> sensitivity_of(std::size_t k) const { return tangents_.names_of(k); }
   /// All sources of events.
   const std::vector<EventName>& names() const noexcept { return names_; }
 
   /// A run begins; the jump of island k does at jumps[k].
   void begin(const std::vector<int>& jumps);
-  /// Results of empty columns.
-  void renew();
+  /// Results of empty columns, from `since` [s] on.
+  void renew(double since = -std::numeric_limits<double>::infinity());
   /// The islands have run on, for so many seconds of wall time.
   void ran(double wall_time) { wall_time_ += wall_time, merged_ = false; }
   void merge();
@@ -43,12 +48,14 @@ class IslandMerger {
   void merge_table();
   void merge_events();
   void merge_statistics();
+  void merge_tangents();
 
   const Plan* plan_;
   const Islands* islands_;
   std::vector<EventName> names_;
   bool table_;
   Results* results_;
+  IslandTangents tangents_;
   std::vector<Part> parts_;
   double wall_time_ = 0.0;  // [s]
   bool merged_ = true;      // since the last piece of the run

@@ -46,7 +46,7 @@ class IslandRuns {
     bool terminal = false;  ///< it has a guard that ends the run
   };
 
-  SimulatorOptions options_for(const std::vector<int>& leaves, const SimulatorOptions& options);
+  SimulatorOptions options_for(std::size_t k, const SimulatorOptions& options);
   void add_island(std::size_t k, const SimulatorOptions& options,
                   const std::vector<std::pair<std::string, int>>& sources);
   void require_fits(const Context& context) const;
