@@ -125,7 +125,7 @@ class SimulatorOptions:
     """True lets islands step apart: parts of the scene that read nothing of each other have steps,
     events and rows of their own, so that n balls cost as much as n runs of one ball. Each island
     runs as if it were alone, to the bit; see `Results.islands`. A later version may change the
-    default. Not with dense_output, if there are several islands
+    default
     """
     python: str = "traced"
     """'traced' makes expressions of the Python callbacks that allow it, which run without the

@@ -25,14 +25,14 @@ void add_counts(Statistics& sum, const Statistics& one) {
   sum.events += one.events, sum.instants += one.instants;
 }
 
-IslandMerger::IslandMerger(const Plan& plan, const Islands& islands, bool table,
+IslandMerger::IslandMerger(std::shared_ptr<const Plan> plan, const Islands& islands, bool table,
                            const std::vector<std::string>& sensitivity, Results& results)
-    : plan_(&plan),
+    : plan_(std::move(plan)),
       islands_(&islands),
-      names_(event_names(plan)),
+      names_(event_names(*plan_)),
       table_(table),
       results_(&results),
-      tangents_(plan, islands, sensitivity, results) {
+      tangents_(*plan_, islands, sensitivity, results) {
   renew();
 }
 
@@ -57,6 +57,8 @@ void IslandMerger::renew(double since) {
     island.name = plan_->leaf(leaves.front()).path, island.blocks = leaves.size();
   }
   tangents_.renew(since);
+  results_->trajectory = {};
+  since_ = since;
 }
 
 void IslandMerger::merge() {
@@ -68,6 +70,27 @@ void IslandMerger::merge() {
   merge_events();
   merge_statistics();
   merge_tangents();
+  merge_trajectories();
+}
+
+/// Copies those of all islands, which have grown since the last time.
+void IslandMerger::merge_trajectories() {
+  std::vector<Trajectory::Part> parts;
+  double begin = results_->trajectory.empty() ? since_ : results_->trajectory.begin();
+  for (std::size_t k = 0; k < parts_.size(); ++k) {
+    const Run& run = *parts_[k].run;
+    const Trajectory& own = run.results().trajectory;
+    if (own.empty()) return;
+    begin = std::max(begin, own.begin());
+    Trajectory::Part& part = parts.emplace_back();
+    part.of = std::make_shared<const Trajectory>(own), part.signals = parts_[k].signals;
+    const std::vector<int>& leaves = islands_->leaves[k];
+    for (std::size_t i = 0; i < leaves.size(); ++i) {
+      const PlanLeaf &from = run.plan().leaf(static_cast<int>(i)), &to = plan_->leaf(leaves[i]);
+      if (from.nx > 0) part.states.push_back({from.x, to.x, from.nx});
+    }
+  }
+  results_->trajectory = Trajectory::of_parts(plan_, begin, std::move(parts));
 }
 
 /// The final state, and what has no derivative; rows and events were appended with theirs.

@@ -10,14 +10,6 @@ namespace saltus {
 
 namespace {
 
-/// Throws ModelError for an option that islands do not have yet.
-void require_supported(const SimulatorOptions& options, const Islands& islands) {
-  if (!options.dense_output) return;
-  throw ModelError(text("option dense_output: not supported with islands = true in a system of ",
-                        islands.count(),
-                        " islands; name the times in save_at, or run it with islands = false"));
-}
-
 Tolerance tolerance_of(const Tolerance& tolerance, const Plan& plan,
                        const std::vector<int>& leaves) {
   if (!tolerance.by_state()) return tolerance;
@@ -49,11 +41,10 @@ IslandRuns::IslandRuns(std::shared_ptr<const Plan> plan, Islands islands, Simula
     : plan_(std::move(plan)),
       islands_(std::move(islands)),
       options_(std::move(options)),
-      merger_(*plan_, islands_, !options_.save_at.empty() && !options_.event_rows,
+      merger_(plan_, islands_, !options_.save_at.empty() && !options_.event_rows,
               options_.sensitivity, results_) {
   detail::check(options_);
   require_widths(options_, *plan_);
-  require_supported(options_, islands_);
   const auto sources = numbered(merger_.names());
   all_.reserve(islands_.count());
   for (std::size_t k = 0; k < islands_.count(); ++k) add_island(k, options_, sources);

@@ -106,7 +106,7 @@ void IslandTangents::begin_end() {
     return std::vector<double>(static_cast<std::size_t>(entries) * parameters_.size(), 0.0);
   };
   out.continuous_state = zeros(plan_->nx), out.discrete_state = zeros(plan_->nz);
-  out.gaps.clear();
+  std::erase_if(out.gaps, [&](const SensitivityGap& gap) { return gap.time > since_; });
 }
 
 void IslandTangents::finish(std::size_t k, const Results& from) {

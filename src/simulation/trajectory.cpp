@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <utility>
 
@@ -120,18 +121,43 @@ void Trajectory::end_piece(const Eigen::VectorXd& x_end) {
     piece.first = put(departed_);
 }
 
+Trajectory Trajectory::of_parts(std::shared_ptr<const Plan> plan, double begin,
+                                std::vector<Part> parts) {
+  Trajectory all;
+  all.plan_ = std::move(plan), all.parts_ = std::move(parts);
+  all.first_.begin = begin, all.last_.begin = all.parts_.front().of->end();
+  for (const Part& part : all.parts_) all.last_.begin = std::min(all.end(), part.of->end());
+  return all;
+}
+
+std::size_t Trajectory::memory() const noexcept {
+  std::size_t bytes = values_.size() * sizeof(double) + pieces_.size() * sizeof(Piece);
+  for (const Part& part : parts_) bytes += part.of->memory();
+  return bytes;
+}
+
 std::vector<double> Trajectory::joints() const {
   std::vector<double> times;
+  for (const Part& part : parts_) {
+    const std::vector<double> own = part.of->joints();
+    std::ranges::copy_if(own, std::back_inserter(times),
+                         [&](double t) { return t >= begin() && t < end(); });
+  }
+  std::ranges::sort(times);
+  times.erase(std::unique(times.begin(), times.end()), times.end());
   for (const Piece& piece : pieces_) times.push_back(piece.begin);
   times.push_back(end());
   return times;
 }
 
+void Trajectory::require_inside(double t) const {
+  if (t >= begin() && t <= end()) return;
+  throw ModelError(text("t = ", t, " s is outside the run, which went from ", begin(), " s to ",
+                        end(), " s; dense output does not extrapolate"));
+}
+
 Trajectory::Spot Trajectory::spot(double t, Side side) const {
-  if (!(t >= begin() && t <= end())) {
-    throw ModelError(text("t = ", t, " s is outside the run, which went from ", begin(), " s to ",
-                          end(), " s; dense output does not extrapolate"));
-  }
+  require_inside(t);
   if (side == Side::right && t == end()) return last_;
   if (side == Side::left && t == begin()) return first_;
   const auto found = side == Side::right

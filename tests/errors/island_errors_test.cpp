@@ -23,23 +23,10 @@ Context ended(const Diagram& scene, bool islands) {
 
 }  // namespace
 
-TEST_CASE("dense output of several islands is refused", "[errors][islands]") {
-  CHECK(refused({.dense_output = true, .islands = true}) ==
-        "option dense_output: not supported with islands = true in a system of 2 islands; name the "
-        "times in save_at, or run it with islands = false");
-}
-
 TEST_CASE("a name of the option sensitivity that is unknown is refused", "[errors][islands]") {
   SimulatorOptions sensitive{.islands = true};
   sensitive.sensitivity = {"first.h"};
   CHECK(contains(refused(sensitive), "unknown parameter or state 'first.h'"));
-}
-
-TEST_CASE("one island has dense output", "[errors][islands]") {
-  const Diagram scene = scene_of({0});
-  const Results results =
-      simulate(scene, start_of(scene, {0}), {0.0, 1.0}, {.dense_output = true, .islands = true});
-  CHECK(!results.trajectory.empty());
 }
 
 TEST_CASE("an ensemble with islands is refused", "[errors][islands]") {

@@ -84,7 +84,7 @@ struct SimulatorOptions {
   /// Islands step apart: the parts of the system that read nothing of each other have steps,
   /// events and rows of their own, see Islands and Results::islands. Each island runs as if it were
   /// alone, to the bit. False: all states have one common step. A later version may change the
-  /// default. Refused with dense_output, if there are several islands.
+  /// default.
   bool islands = false;
 
   /// May give leaves other functions while their plan is made.

@@ -128,15 +128,31 @@ def test_describe_says_what_joins():
     assert "islands: 2, which step apart" in apart
 
 
-@pytest.mark.parametrize(
-    "options, message",
-    [
-        ({"dense_output": True}, "option dense_output: .* 2 islands; name the times in save_at"),
-    ],
-)
-def test_options_that_islands_do_not_have(options, message):
-    with pytest.raises(saltus.ModelError, match=message):
-        run("one", "two", **options)
+@pytest.mark.parametrize("side", ["left", "right"])
+def test_dense_output_is_that_of_each_part_alone(side):
+    """Also at the events of either island, where the other one has no step."""
+    results = run("one", "two", dense_output=True)
+    alone = {name: run(name, dense_output=True) for name in ("one", "two")}
+    times = [0.0, *results.events.times(), 0.123, 1.234, 2.0]
+    both = results(times, side=side)
+    for i, (name, part) in enumerate(alone.items()):
+        own = part(times, side=side)
+        assert np.array_equal(both[name], own[name])
+        states = both.continuous_state[:, 2 * i : 2 * i + 2]
+        assert np.array_equal(states, own.continuous_state)
+    assert results.span == (0.0, 2.0)
+    with pytest.raises(saltus.ModelError, match="outside the run"):
+        results(2.5)
+
+
+def test_dense_output_of_pieces():
+    system = scene("one", "two")
+    simulator = saltus.Simulator(system, islands=True, dense_output=True)
+    simulator.initialize(system.create_context())
+    for end in (0.7, 1.5):
+        simulator.advance_to(end)
+        assert simulator.results.span == (0.0, end)
+    assert np.isfinite(simulator.results([0.3, 1.1])["two"]).all()
 
 
 def test_a_sweep_with_islands_is_refused():

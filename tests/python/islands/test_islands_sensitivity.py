@@ -146,6 +146,17 @@ def test_pieces_and_a_table(cut):
     )
 
 
+def test_a_gap_of_an_earlier_piece_stays():
+    system = balls(one=0.0, two=2.0)  # the first begins at zero, where its guard has one side
+    simulator = saltus.Simulator(system, islands=True, sensitivity=["one.y", "two.y"])
+    simulator.initialize(system.create_context())
+    gaps = []
+    for end in (0.1, 0.2):
+        simulator.advance_to(end)
+        gaps.append([(gap.time, gap.parameter) for gap in simulator.results.sensitivities.gaps])
+    assert gaps[0] == gaps[1] == [(0.0, "one.y")]
+
+
 def test_more_states_than_one_island_may_have():
     count = 150  # with one common step 200 states are the most
     system = balls(**{f"ball{i}": 1.0 + 0.01 * i for i in range(count)})

@@ -1,6 +1,7 @@
 // IslandMerger: one event log, one set of rows, and one sum of counts, of all islands.
 #pragma once
 
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -26,7 +27,7 @@ class IslandMerger {
 
   /// `table`: all signals have one table. `sensitivity` is the option of the whole run. An island is
   /// added by `add`, in the order of the islands.
-  IslandMerger(const Plan& plan, const Islands& islands, bool table,
+  IslandMerger(std::shared_ptr<const Plan> plan, const Islands& islands, bool table,
                const std::vector<std::string>& sensitivity, Results& results);
 
   void add(Part part) { parts_.push_back(std::move(part)); }
@@ -49,8 +50,9 @@ class IslandMerger {
   void merge_events();
   void merge_statistics();
   void merge_tangents();
+  void merge_trajectories();
 
-  const Plan* plan_;
+  std::shared_ptr<const Plan> plan_;
   const Islands* islands_;
   std::vector<EventName> names_;
   bool table_;
@@ -58,6 +60,7 @@ class IslandMerger {
   IslandTangents tangents_;
   std::vector<Part> parts_;
   double wall_time_ = 0.0;  // [s]
+  double since_ = 0.0;      // [s] where the results begin
   bool merged_ = true;      // since the last piece of the run
 };
 

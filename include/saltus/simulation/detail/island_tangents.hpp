@@ -26,7 +26,7 @@ class IslandTangents {
   /// The names that belong to blocks of island k, or to its copies of sources.
   std::vector<std::string> names_of(std::size_t k) const;
 
-  /// The results have no rows, no events, and no gaps up to `since` [s].
+  /// The results have no rows and no events. Gaps up to `since` [s] were in earlier results.
   void renew(double since = -std::numeric_limits<double>::infinity());
   /// Rows of a signal: first to last - 1 of signal `from` of an island, which is `to` of the whole.
   struct Rows {

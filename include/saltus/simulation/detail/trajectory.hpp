@@ -26,6 +26,8 @@ enum class Side { left, right };
 /// The trajectory also keeps the values that change only at instants and that outputs read:
 /// discrete state, modes, held signals, blocks that a surface carries. It is empty, and uses no
 /// memory, unless the user asked for it.
+///
+/// That of a run by islands has parts, one for each island, and no polynomials of its own.
 class Trajectory {
  public:
   Trajectory();
@@ -49,17 +51,30 @@ class Trajectory {
     double begin = 0.0, end = 0.0;
   };
 
-  bool empty() const noexcept { return held_.empty(); }
+  /// The trajectory of an island, and where its values are among those of all.
+  struct Part {
+    struct States {
+      Index from, to, size;  ///< offsets in the state of the island, and in that of all
+    };
+    std::shared_ptr<const Trajectory> of;
+    std::vector<States> states;
+    std::vector<int> signals;  ///< the number in all of each of its recorded signals
+  };
+  /// The trajectory of a run by islands, from `begin` [s] to the end that all parts have.
+  static Trajectory of_parts(std::shared_ptr<const Plan> plan, double begin,
+                             std::vector<Part> parts);
+  const std::vector<Part>& parts() const noexcept { return parts_; }
+
+  bool empty() const noexcept { return held_.empty() && parts_.empty(); }
   double begin() const noexcept { return first_.begin; }  ///< [s]
   double end() const noexcept { return last_.begin; }     ///< [s]
   /// [s] The times at which its polynomials begin, and the end of the last one.
   std::vector<double> joints() const;
   /// Bytes of the values it keeps.
-  std::size_t memory() const noexcept {
-    return values_.size() * sizeof(double) + pieces_.size() * sizeof(Piece);
-  }
+  std::size_t memory() const noexcept;
 
   /// Throws ModelError for a time outside the run: nothing is extrapolated.
+  void require_inside(double t) const;
   Spot spot(double t, Side side) const;
   /// x(t), t within the spot.
   void state(const Spot& spot, double t, double* x) const;
@@ -115,6 +130,7 @@ class Trajectory {
   std::vector<Piece> pieces_;
   List<double> values_;
   std::vector<Held> held_;
+  std::vector<Part> parts_;
   Spot first_, last_;
   Eigen::VectorXd departed_;
   bool stale_ = true;
