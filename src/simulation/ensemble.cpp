@@ -131,11 +131,6 @@ Ensemble::Ensemble(const System& system, Context base, TimeSpan span, SimulatorO
     throw ModelError(text("ensemble: expected a span with begin <= end, found ", span.begin,
                           " s to ", span.end, " s"));
   }
-  if (options_.islands) {
-    throw ModelError(
-        "ensemble: the option islands is not supported; use one Simulator for each run, or leave "
-        "the option away, so that all states have one common step");
-  }
   options_.recorded_signals.clear();  // the plan has them
   options_.refinement.reset();
   options_.throw_errors = false;

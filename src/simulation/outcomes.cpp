@@ -57,9 +57,11 @@ void Outcomes::take(Index number, const Results& results) {
       results.context.modes(),
       modes.begin() + static_cast<std::ptrdiff_t>(run * results.context.modes().size()));
   // a run that failed has rows, but none of its end
-  if (results.time.empty() || (times.empty() && results.status == Status::failed)) return;
-  for (std::size_t i = 0; i < signals.size(); ++i)
-    take_signal(signals[i], results.signals[i], run, results.time);
+  if (times.empty() && results.status == Status::failed) return;
+  for (std::size_t i = 0; i < signals.size(); ++i) {
+    const std::vector<double>& rows = results.time_of(signals[i].name);
+    if (!rows.empty()) take_signal(signals[i], results.signals[i], run, rows);
+  }
 }
 
 void Outcomes::take_signal(Signal& signal, const RecordedSignal& from, std::size_t run,

@@ -29,14 +29,6 @@ TEST_CASE("a name of the option sensitivity that is unknown is refused", "[error
   CHECK(contains(refused(sensitive), "unknown parameter or state 'first.h'"));
 }
 
-TEST_CASE("an ensemble with islands is refused", "[errors][islands]") {
-  const Diagram scene = scene_of(parts);
-  CHECK(contains(message<ModelError>([&] {
-                   Ensemble(scene, start_of(scene, parts), {0.0, 1.0}, {.islands = true});
-                 }),
-                 "ensemble: the option islands is not supported"));
-}
-
 TEST_CASE("a context fits the way of its run", "[errors][islands]") {
   const Diagram scene = scene_of(parts);
   for (const bool islands : {true, false}) {

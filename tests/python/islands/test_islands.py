@@ -155,9 +155,31 @@ def test_dense_output_of_pieces():
     assert np.isfinite(simulator.results([0.3, 1.1])["two"]).all()
 
 
-def test_a_sweep_with_islands_is_refused():
-    with pytest.raises(saltus.ModelError, match="islands"):
-        saltus.sweep(scene("one", "two"), {"one.x[0]": [1.0, 2.0]}, (0.0, 1.0), islands=True)
+@pytest.mark.parametrize("at", [[], [0.25, 1.0]])
+@pytest.mark.parametrize("workers", [1, 2])
+def test_a_sweep_has_the_runs_that_one_would_make_alone(at, workers):
+    system, heights = scene("one", "two"), [1.0, 1.5, 4.0]
+    found = saltus.sweep(
+        system,
+        {"one.x[0]": heights},
+        (0.0, 1.0),
+        save_at=at,
+        workers=workers,
+        islands=True,
+        recorded_signals=["one", "two"],
+    )
+    for i, height in enumerate(heights):
+        context = system.create_context()
+        one = system["one"]
+        start = context[one].with_continuous_state([height, 0.0])
+        rows = {"save_at": at, "event_rows": False} if at else {}
+        alone = saltus.simulate(
+            system, context.with_subcontext(one, start), (0.0, 1.0), islands=True, **rows
+        )
+        for name in ("one", "two"):
+            expected = alone[name] if at else alone[name][-1]
+            assert np.array_equal(np.asarray(found[name][i]), expected)
+        assert found["events"][i] == alone.statistics.events
 
 
 def test_an_exception_of_one_island_ends_all():
