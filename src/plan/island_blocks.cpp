@@ -15,6 +15,13 @@ bool has_state_or_event(const PlanLeaf& leaf) {
          !d.relations.empty();
 }
 
+/// A source whose events are time events: equal in each copy, because it reads nothing.
+bool is_scheduled(const PlanLeaf& leaf) {
+  const Declarations& d = leaf.declared();
+  return leaf.inputs.empty() && leaf.nx == 0 && d.zero_crossings.empty() && d.edge_resets.empty() &&
+         d.histories.empty();
+}
+
 /// The nodes that are read or recorded.
 List<char> read_nodes(const Plan& plan) {
   List<char> read(plan.nodes.size(), 0);
@@ -29,6 +36,17 @@ List<char> live_leaves(const Plan& plan) {
   for (const Node& node : plan.nodes)
     if (node.located) live[node.leaf] = 1;
   return live;
+}
+
+/// The live leaves that join their readers: a located relation is found by each solver in its own
+/// steps.
+List<char> joining_leaves(const Plan& plan, const List<char>& live) {
+  List<char> joining = live;
+  for (std::size_t i = 0; i < plan.leaves.size(); ++i)
+    if (is_scheduled(plan.leaf(i))) joining[i] = 0;
+  for (const Node& node : plan.nodes)
+    if (node.located) joining[node.leaf] = 1;
+  return joining;
 }
 
 /// The leaves that are live, that have a read output, or that feed an input of such a leaf.
@@ -53,8 +71,11 @@ List<char> active_leaves(const Plan& plan, const List<char>& read, const List<ch
 /// A loop is not copied.
 class Copies {
  public:
-  Copies(const Plan& plan, const List<char>& live)
-      : plan_(plan), live_(live), copied_(plan.leaves.size(), 0), state_(plan.leaves.size(), 0) {
+  Copies(const Plan& plan, List<char> joining)
+      : plan_(plan),
+        joining_(std::move(joining)),
+        copied_(plan.leaves.size(), 0),
+        state_(plan.leaves.size(), 0) {
     for (int first = 0; first < std::ssize(plan.leaves); ++first) visit(first);
   }
 
@@ -65,7 +86,7 @@ class Copies {
     std::vector<int> open{first};
     while (!open.empty()) {
       const int i = open.back();
-      if (state_[i] == 2 || live_[i]) {
+      if (state_[i] == 2 || joining_[i]) {
         state_[i] = 2, open.pop_back();
         continue;
       }
@@ -81,7 +102,7 @@ class Copies {
   }
 
   const Plan& plan_;
-  const List<char>& live_;
+  List<char> joining_;
   List<char> copied_;
   List<int> state_;  // 0: not seen, 1: under way, 2: known
 };
@@ -92,7 +113,7 @@ IslandBlocks::IslandBlocks(const Plan& plan)
     : read(read_nodes(plan)),
       live(live_leaves(plan)),
       active(active_leaves(plan, read, live)),
-      copied(Copies(plan, live).take()) {}
+      copied(Copies(plan, joining_leaves(plan, live)).take()) {}
 
 std::vector<int> sources_of(const Plan& plan, int leaf) {
   std::vector<int> leaves;

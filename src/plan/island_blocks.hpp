@@ -14,7 +14,9 @@ struct IslandBlocks {
   List<char> read;    ///< of each node: whether it is read or recorded
   List<char> live;    ///< of each leaf: it has a state or an event; a located boolean has events
   List<char> active;  ///< of each leaf: it is live, or is read or recorded, or feeds such a leaf
-  List<char> copied;  ///< of each leaf: neither it nor any block that it reads is live
+  /// Of each leaf: neither it nor any block that it reads is live, but for sources whose events are
+  /// time events.
+  List<char> copied;
 };
 
 /// The other leaves that a leaf reads, in order.

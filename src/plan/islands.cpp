@@ -110,6 +110,8 @@ class Finder {
     }
     reader_.assign(plan_.leaves.size(), -1);
     for (std::size_t k = 0; k < found_.count(); ++k) add_copies(k);
+    for (int i = 0; i < n_; ++i)
+      if (blocks_.live[i] && blocks_.copied[i]) place_copied(i);
     for (std::size_t i = 0; i < plan_.taps.size(); ++i) place_tapped(static_cast<int>(i));
     found_.taps.resize(found_.count());
     std::ranges::stable_sort(found_.joins, std::greater<>(), &Islands::Join::parts);
@@ -118,7 +120,7 @@ class Finder {
   void place(int i, int& island) {
     if (island < 0) {
       island = static_cast<int>(found_.count());
-      found_.leaves.emplace_back();
+      found_.leaves.emplace_back(), found_.first.push_back(i);
     }
     found_.of_leaf[i] = island;
     nth(found_.leaves, island).push_back(i);
@@ -142,12 +144,16 @@ class Finder {
       if (reader_[i] < 0) reader_[i] = static_cast<int>(k);
   }
 
-  /// A recorded source has its rows in the first island that reads it, or is an island of its own.
-  void place_tapped(int tap) {
-    const int i = plan_.node(nth(plan_.taps, tap).node).leaf;
+  /// A source with copies belongs to the first island that reads it, or is an island of its own.
+  int place_copied(int i) {
     int& island = found_.of_leaf[i];
     if (island < 0) island = reader_[i];
     if (island < 0) place(i, island), add_copies(found_.count() - 1);
+    return island;
+  }
+
+  void place_tapped(int tap) {
+    const int island = place_copied(plan_.node(nth(plan_.taps, tap).node).leaf);
     found_.taps.resize(found_.count());
     nth(found_.taps, island).push_back(tap);
   }

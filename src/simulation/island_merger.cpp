@@ -1,6 +1,8 @@
 #include "saltus/simulation/detail/island_merger.hpp"
 
 #include <algorithm>
+#include <string_view>
+#include <unordered_map>
 
 namespace saltus {
 
@@ -33,6 +35,10 @@ IslandMerger::IslandMerger(std::shared_ptr<const Plan> plan, const Islands& isla
       table_(table),
       results_(&results),
       tangents_(*plan_, islands, sensitivity, results) {
+  std::unordered_map<std::string_view, int> island;
+  for (std::size_t i = 0; i < plan_->leaves.size(); ++i)
+    island.emplace(plan_->leaf(i).path, islands.of_leaf[i]);
+  for (const EventName& name : names_) owners_.push_back(island.at(name.block));
   renew();
 }
 
@@ -52,9 +58,9 @@ void IslandMerger::renew(double since) {
     const int island = islands_->of_leaf[plan_->node(tap.node).leaf];
     results_->signals.push_back({tap.name, plan_->node(tap.node).shape, {}, table_ ? -1 : island});
   }
-  for (const std::vector<int>& leaves : islands_->leaves) {
+  for (std::size_t k = 0; k < islands_->count(); ++k) {
     IslandResults& island = results_->islands.emplace_back();
-    island.name = plan_->leaf(leaves.front()).path, island.blocks = leaves.size();
+    island.name = plan_->leaf(islands_->first[k]).path, island.blocks = islands_->leaves[k].size();
   }
   tangents_.renew(since);
   results_->trajectory = {};
@@ -148,8 +154,8 @@ void IslandMerger::merge_table() {
   }
 }
 
-/// The events by time, then by island, then as their island logged them. The global jump is the sum
-/// of the jumps of all islands.
+/// The events by time, then by island, then as their island logged them; those of a copied source are
+/// logged by its first island. The global jump is the sum of the jumps of all islands.
 void IslandMerger::merge_events() {
   struct Logged {
     double time;
@@ -170,6 +176,7 @@ void IslandMerger::merge_events() {
     const EventLog& log = island.run->results().events;
     const EventLog::Row& row = log.row(place.event);
     jump += row.jump - std::exchange(island.jump, row.jump);
+    if (!owns(place.island, nth(island.sources, row.source))) continue;
     results_->events.append(log, place.event, nth(island.sources, row.source), jump);
     tangents_.add_event(place.island, island.run->results(), place.event);
   }

@@ -88,8 +88,8 @@ void IslandRuns::add_island(std::size_t k, const SimulatorOptions& options,
 std::string IslandRuns::describe() const {
   std::string out = plan_->describe() + islands_.describe();
   for (std::size_t k = 0; k < std::min<std::size_t>(all_.size(), 3); ++k)
-    out += text("  island of '", plan_->leaf(islands_.leaves[k].front()).path,
-                "': ", islands_.leaves[k].size(), " of the blocks; ", all_[k].run->describe());
+    out += text("  island of '", results_.islands[k].name, "': ", islands_.leaves[k].size(),
+                " of the blocks; ", all_[k].run->describe());
   return out + (all_.size() > 3 ? "  ...\n" : "");
 }
 

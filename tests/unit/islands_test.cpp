@@ -34,14 +34,30 @@ TEST_CASE("a constant source joins nothing: each reader has a copy", "[unit][isl
   CHECK(islands_in(builder.build()).leaves == Parts{{0, 1}, {0, 2}});
 }
 
-TEST_CASE("a source whose value jumps at a located time joins its readers", "[unit][islands]") {
+TEST_CASE("a source with time events is copied; it belongs to its first reader",
+          "[unit][islands]") {
   DiagramBuilder builder;
   auto& kick = builder.add<Step>("kick", Step::Options{.step_time = 0.5});
+  auto& twice = builder.add<Gain>("twice", 2.0);
   auto& one = builder.add<Integrator>("one");
   auto& two = builder.add<Integrator>("two");
-  builder.connect(kick.output(), one.input()), builder.connect(kick.output(), two.input());
+  builder.add<Step>("unread", Step::Options{.step_time = 0.5});
+  builder.connect(kick.output(), one.input()), builder.connect(kick.output(), twice.input());
+  builder.connect(twice.output(), two.input());
   const Islands found = islands_in(builder.build());
-  CHECK(found.count() == 1);
+  CHECK(found.leaves == Parts{{0, 2}, {0, 1, 3}, {4}});
+  CHECK(found.of_leaf[0] == 0);
+}
+
+TEST_CASE("a source with a state that moves joins its readers", "[unit][islands]") {
+  DiagramBuilder builder;
+  auto& rate = builder.add<Constant>("rate", 1.0);
+  auto& ramp = builder.add<Integrator>("ramp");
+  auto& one = builder.add<Integrator>("one");
+  auto& two = builder.add<Integrator>("two");
+  builder.connect(rate.output(), ramp.input());
+  builder.connect(ramp.output(), one.input()), builder.connect(ramp.output(), two.input());
+  CHECK(islands_in(builder.build()).count() == 1);
 }
 
 TEST_CASE("a guard on a sum joins, and its block is named", "[unit][islands]") {

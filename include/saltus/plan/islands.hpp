@@ -10,9 +10,9 @@
 namespace saltus {
 
 /// The islands of a plan: two blocks are in one island if a wire leads from one to the other, or if
-/// both have a queued zero crossing, because all of these share one queue. A source with neither
-/// state nor event, for example a Constant or a Sine, joins nothing: each island that reads it has a
-/// copy of it. A block without state and event, whose outputs nobody reads or records, is in no
+/// both have a queued zero crossing, because all of these share one queue. A source that only the
+/// time moves, for example a Constant, a Sine or a Step, joins nothing: each island that reads it has
+/// a copy of it, with the time events of the source. A block without state and event, whose outputs nobody reads or records, is in no
 /// island.
 struct Islands {
   /// A block that joins parts, which without it would be islands.
@@ -23,8 +23,11 @@ struct Islands {
   };
 
   std::vector<std::vector<int>> leaves;  ///< of each island, in the order of their declaration
+  List<int> first;                       ///< of each island: its first block, copies left out
   std::vector<std::vector<int>> taps;    ///< of each island: its recorded signals
-  List<int> of_leaf;        ///< the island of each leaf; -1: copied into its readers, or in none
+  /// The island of each leaf; of a copied source the first of its islands, if it has events or is
+  /// recorded, otherwise -1; -1 also for a leaf in no island.
+  List<int> of_leaf;
   std::vector<Join> joins;  ///< the block that joins most parts first
 
   std::size_t count() const { return leaves.size(); }

@@ -48,6 +48,7 @@ class IslandMerger {
   void merge_rows(std::size_t k);
   void merge_table();
   void merge_events();
+  bool owns(std::size_t k, int source) const { return owners_[source] == static_cast<int>(k); }
   void merge_statistics();
   void merge_tangents();
   void merge_trajectories();
@@ -55,6 +56,7 @@ class IslandMerger {
   std::shared_ptr<const Plan> plan_;
   const Islands* islands_;
   std::vector<EventName> names_;
+  List<int> owners_;  // the island of each source of events; its other islands have copies of it
   bool table_;
   Results* results_;
   IslandTangents tangents_;
